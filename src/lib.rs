@@ -1,0 +1,3 @@
+//! shelter
+pub mod plan;
+pub mod ropes;

@@ -1,0 +1,239 @@
+//! What the user wrote: a validated blast plan, in the units of its keys.
+//!
+//! [`Plan::load`] reads TOML and reports every mistake at once, each with file, line, column and
+//! remedy ([`Diagnostics`]). A `Plan` that exists is valid: later stages never re-check it.
+//! This module knows no physics and no units but those of the plan's own keys.
+
+mod diagnostic;
+mod read;
+mod validate;
+
+pub use diagnostic::Diagnostics;
+
+/// A blast row, the shelter over it, and the delay options to choose from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Where the plan came from, as the user named it (`-` for standard input).
+    pub path: String,
+    /// Free text shown above every view; the file name when the plan has none.
+    pub title: String,
+    /// Tires and the ties between them.
+    pub layout: Layout,
+    /// The tire every place of the layout gets.
+    pub tire: TireSpec,
+    /// The rope every tie is made of.
+    pub cable: CableSpec,
+    /// Coefficient of friction between tire and ground.
+    pub friction: f64,
+    /// Blast rows in the order listed.
+    pub blast_rows: Vec<BlastRow>,
+    /// What an option must keep to pass.
+    pub limits: Limits,
+    /// Delay options in the order listed; never empty.
+    pub delays: Vec<DelayOption>,
+    /// How to simulate.
+    pub simulation: SimulationSpec,
+}
+
+/// How the tires lie and which neighbours are tied.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Layout {
+    /// `rows` × `columns` tires.
+    Grid(Mesh),
+    /// `rows` × `columns` corner tires and one more at the centre of every cell.
+    Quincunx(Mesh),
+    /// Tires and cables one by one.
+    List {
+        /// Tires in the order listed.
+        tires: Vec<ListedTire>,
+        /// Pairs of tire indices, from 0.
+        cables: Vec<(usize, usize)>,
+    },
+}
+
+/// A regular layout.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// Tires along y.
+    pub rows: usize,
+    /// Tires along x.
+    pub columns: usize,
+    /// Distance between rows [m].
+    pub row_spacing_m: f64,
+    /// Distance between columns [m].
+    pub column_spacing_m: f64,
+    /// Which neighbours are tied.
+    pub links: Links,
+}
+
+/// Which neighbours of a regular layout are tied.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Links {
+    /// Neighbours within a row (along x).
+    pub row: bool,
+    /// Neighbours within a column (along y).
+    pub column: bool,
+    /// Diagonal neighbours; from centre to corner in a quincunx.
+    pub diagonal: bool,
+}
+
+/// One tire of a `list` layout.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ListedTire {
+    /// Along the rows [m].
+    pub x_m: f64,
+    /// Across the rows [m].
+    pub y_m: f64,
+    /// Its own mass, where it differs from `[tire]` [kg].
+    pub mass_kg: Option<f64>,
+}
+
+/// A tire.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TireSpec {
+    /// Mass [kg].
+    pub mass_kg: f64,
+    /// 0: cables run from centre to centre; otherwise from rim to rim [m].
+    pub outer_diameter_m: f64,
+}
+
+/// The cable between two tires, with the catalogue already looked up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CableSpec {
+    /// Name in the rope catalogue, if the plan gave one.
+    pub rope: Option<String>,
+    /// Axial stiffness EA [kN].
+    pub axial_stiffness_kn: f64,
+    /// Breaking force in use: that of the rope × the termination's efficiency [kN].
+    pub breaking_force_kn: f64,
+    /// Unstretched length over distance at rest, less one [%].
+    pub slack_percent: f64,
+    /// Efficiency of the termination [%], 100 when the plan has none.
+    pub termination_percent: f64,
+}
+
+/// Holes that fire together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BlastRow {
+    /// How delay options address it.
+    pub name: String,
+    /// What it launches.
+    pub charge: Charge,
+}
+
+/// What a blast row launches.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Charge {
+    /// Every tire of one shelter row; half numbers address the centres of a quincunx.
+    UnderRow {
+        /// Row number, from 1, in steps of one half.
+        row: f64,
+        /// Launch velocity [m/s].
+        launch_m_s: f64,
+    },
+    /// Tires of a list layout.
+    UnderTires {
+        /// Tire indices, from 0.
+        tires: Vec<usize>,
+        /// Launch velocity [m/s].
+        launch_m_s: f64,
+    },
+    /// Holes, each launching the nearest tire.
+    Holes(Vec<Hole>),
+}
+
+/// One hole; tire (1,1) of a mesh is at the origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hole {
+    /// Along the rows [m].
+    pub x_m: f64,
+    /// Across the rows [m].
+    pub y_m: f64,
+    /// Launch velocity [m/s].
+    pub launch_m_s: f64,
+}
+
+/// Limits of a passing option.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Greatest flight height of any tire [m].
+    pub flight_height_m: f64,
+    /// Least breaking force over greatest force.
+    pub cable_safety_factor: f64,
+    /// Greatest horizontal shift of any tire at the end [m].
+    pub drift_m: Option<f64>,
+}
+
+/// One delay option.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DelayOption {
+    /// Its name in every view; unique.
+    pub name: String,
+    /// When the rows fire.
+    pub timing: Timing,
+}
+
+/// When the blast rows fire.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Timing {
+    /// One after another.
+    Interval {
+        /// Indices of the blast rows in firing order.
+        order: Vec<usize>,
+        /// Between successive rows [ms].
+        interval_ms: f64,
+    },
+    /// Each at its own time, in the order of the blast rows [ms].
+    At(Vec<f64>),
+}
+
+impl Timing {
+    /// Firing time of each blast row [ms] (`n_blast_rows`).
+    pub fn fire_at_ms(&self) -> Vec<f64> {
+        match self {
+            Timing::At(times) => times.clone(),
+            Timing::Interval { order, interval_ms } => {
+                let mut at = vec![0.0; order.len()];
+                for (turn, &row) in order.iter().enumerate() {
+                    at[row] = turn as f64 * interval_ms;
+                }
+                at
+            }
+        }
+    }
+}
+
+/// How to simulate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SimulationSpec {
+    /// End of the run [s]; `None`: until every tire is at rest.
+    pub duration_s: Option<f64>,
+    /// How fine.
+    pub accuracy: Accuracy,
+    /// Which method.
+    pub method: Method,
+    /// Gravity [m/s²].
+    pub gravity_m_s2: f64,
+}
+
+/// How fine a verdict starts and ends; what each level costs is measured by `shelter accuracy`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Accuracy {
+    /// For a first look.
+    Draft,
+    /// For the decision.
+    #[default]
+    Field,
+    /// For the record.
+    Reference,
+}
+
+/// Time integration method.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// Explicit, contact in closed form.
+    #[default]
+    Verlet,
+    /// Implicit, the source paper's.
+    Newmark,
+}
