@@ -1,0 +1,116 @@
+//! From a plan's layout to tires and cables: the one place where plan units become SI.
+
+use nalgebra::Vector3;
+
+use super::{Cable, Scene, TireId};
+use crate::plan::{Layout, Links, Mesh, Plan};
+
+/// Two tied tires and the vector between their centres [m].
+struct Tie {
+    ends: [usize; 2],
+    between: Vector3<f64>,
+}
+
+impl Scene {
+    /// The scene of a valid plan.
+    pub fn build(plan: &Plan) -> Self {
+        let mut scene = Scene {
+            position: Vec::new(),
+            mass: Vec::new(),
+            tire: Vec::new(),
+            cables: Vec::new(),
+            friction: plan.friction,
+            gravity: plan.simulation.gravity_m_s2,
+        };
+        let ties = match &plan.layout {
+            Layout::Grid(mesh) => scene.lay_grid(mesh),
+            Layout::Quincunx(mesh) => scene.lay_quincunx(mesh),
+            Layout::List { tires, cables } => {
+                for (n, tire) in tires.iter().enumerate() {
+                    scene.place(TireId::Listed(n + 1), tire.x_m, tire.y_m);
+                }
+                let between = |a: usize, b: usize| scene.position[b] - scene.position[a];
+                cables.iter().map(|&(a, b)| Tie { ends: [a, b], between: between(a, b) }).collect()
+            }
+        };
+        scene.mass = vec![plan.tire.mass_kg; scene.position.len()];
+        if let Layout::List { tires, .. } = &plan.layout {
+            for (mass, tire) in scene.mass.iter_mut().zip(tires) {
+                *mass = tire.mass_kg.unwrap_or(*mass);
+            }
+        }
+        let axial_stiffness = plan.cable.axial_stiffness_kn * 1e3;
+        let slack = 1.0 + plan.cable.slack_percent * 1e-2;
+        scene.cables = ties
+            .into_iter()
+            .map(|Tie { ends, between }| {
+                let span = between - between.normalize() * plan.tire.outer_diameter_m;
+                let rest_length = slack * span.norm();
+                Cable { ends, rest_length, stiffness: axial_stiffness / rest_length, span }
+            })
+            .collect();
+        scene
+    }
+
+    fn place(&mut self, id: TireId, x: f64, y: f64) {
+        self.position.push(Vector3::new(x, y, 0.0));
+        self.tire.push(id);
+    }
+
+    fn lay_corners(&mut self, mesh: &Mesh) {
+        for r in 0..mesh.rows {
+            for c in 0..mesh.columns {
+                let id = TireId::Cell { row: (r + 1) as f64, column: (c + 1) as f64 };
+                self.place(id, c as f64 * mesh.column_spacing_m, r as f64 * mesh.row_spacing_m);
+            }
+        }
+    }
+
+    /// Returns the ties, as the other layouts do.
+    fn lay_grid(&mut self, mesh: &Mesh) -> Vec<Tie> {
+        self.lay_corners(mesh);
+        let Links { row, column, diagonal } = mesh.links;
+        let (dx, dy) = (mesh.column_spacing_m, mesh.row_spacing_m);
+        let at = |r: usize, c: usize| r * mesh.columns + c;
+        let mut ties = Vec::new();
+        for r in 0..mesh.rows {
+            for c in 0..mesh.columns {
+                let (left, right, up) = (c > 0, c + 1 < mesh.columns, r + 1 < mesh.rows);
+                let mut tie = |tied: bool, r2: usize, c2: usize, x: f64, y: f64| {
+                    if tied {
+                        ties.push(Tie { ends: [at(r, c), at(r2, c2)], between: Vector3::new(x, y, 0.0) });
+                    }
+                };
+                tie(row && right, r, c + 1, dx, 0.0);
+                tie(diagonal && up && left, r + 1, c.wrapping_sub(1), -dx, dy);
+                tie(column && up, r + 1, c, 0.0, dy);
+                tie(diagonal && up && right, r + 1, c + 1, dx, dy);
+            }
+        }
+        ties
+    }
+
+    fn lay_quincunx(&mut self, mesh: &Mesh) -> Vec<Tie> {
+        let diagonal = mesh.links.diagonal;
+        let corners = Mesh { links: Links { diagonal: false, ..mesh.links }, ..mesh.clone() };
+        let mut ties = self.lay_grid(&corners);
+        let (dx, dy) = (0.5 * mesh.column_spacing_m, 0.5 * mesh.row_spacing_m);
+        for r in 0..mesh.rows - 1 {
+            for c in 0..mesh.columns - 1 {
+                let centre = self.position.len();
+                let (x, y) = (c as f64 + 0.5, r as f64 + 0.5);
+                let id = TireId::Cell { row: y + 1.0, column: x + 1.0 };
+                self.place(id, x * mesh.column_spacing_m, y * mesh.row_spacing_m);
+                if diagonal {
+                    let corner = r * mesh.columns + c;
+                    let spokes = [(0, dx, dy), (1, -dx, dy), (mesh.columns, dx, -dy), (mesh.columns + 1, -dx, -dy)];
+                    ties.extend(spokes.map(|(step, x, y)| Tie {
+                        ends: [corner + step, centre],
+                        between: Vector3::new(x, y, 0.0),
+                    }));
+                }
+            }
+        }
+        ties
+    }
+}

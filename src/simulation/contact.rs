@@ -1,0 +1,137 @@
+//! A tire on the ground: unilateral support and Coulomb friction in closed form.
+//!
+//! A point mass on a plane with a diagonal mass matrix decouples. With the free velocity v* after all other forces, a tire
+//! on the ground with v*₃ < 0 receives the normal impulse p = −m v*₃ and then stops sideways if |v*ₜ| ≤ μp/m, else loses
+//! μp/m of its sideways speed. That is the exact solution at the tire; nothing iterates and no penalty enters.
+//!
+//! [`Flight::through`] carries one tire through a step in which it lands or is fired at: forces are constant over the step,
+//! so every phase (flight, slide, stick) is a parabola and every event has its own time.
+
+use nalgebra::{Vector2, Vector3};
+
+/// What the ground leaves of a free velocity at one tire on it, `(velocity, normal impulse per mass)` [m/s].
+pub fn support(free: Vector3<f64>, friction: f64) -> (Vector3<f64>, f64) {
+    if free.z >= 0.0 {
+        return (free, 0.0);
+    }
+    let sideways = rub(free.xy(), -friction * free.z);
+    (Vector3::new(sideways.x, sideways.y, 0.0), -free.z)
+}
+
+/// Sideways velocity after friction has taken up to `loss` [m/s] of it.
+fn rub(velocity: Vector2<f64>, loss: f64) -> Vector2<f64> {
+    let speed = velocity.norm();
+    if speed <= loss { Vector2::zeros() } else { velocity * (1.0 - loss / speed) }
+}
+
+/// One tire under a constant force for one step.
+#[derive(Clone, Copy, Debug)]
+pub struct Flight {
+    /// Displacement [m]; on the ground when the third component is 0.
+    pub displacement: Vector3<f64>,
+    /// Velocity [m/s].
+    pub velocity: Vector3<f64>,
+    /// Acceleration by cables and gravity, without the ground [m/s²].
+    pub free: Vector3<f64>,
+    /// Coefficient of friction.
+    pub friction: f64,
+    /// Energy lost per mass so far [J/kg].
+    pub lost: f64,
+    /// Energy put in per mass so far [J/kg].
+    pub put_in: f64,
+}
+
+impl Flight {
+    /// Moves over a step of length `h` [s] through landings and `launches` (time within the step [s], velocity [m/s]).
+    ///
+    /// Returns the acceleration of the last phase, so that velocity − acceleration·h/2 is the velocity central differences
+    /// carry at mid-step.
+    pub fn through(&mut self, h: f64, launches: impl Iterator<Item = (f64, f64)>) -> Vector3<f64> {
+        let mut now = 0.0;
+        for (at, launch) in launches {
+            self.advance(at - now);
+            now = at;
+            self.put_in += launch * (self.velocity.z + 0.5 * launch);
+            self.velocity.z += launch;
+        }
+        self.advance(h - now)
+    }
+
+    fn on_ground(&self) -> bool {
+        self.displacement.z <= 0.0 && self.velocity.z <= 0.0
+    }
+
+    /// Moves for `left` seconds without a launch; returns the acceleration at its end.
+    fn advance(&mut self, mut left: f64) -> Vector3<f64> {
+        if !(self.on_ground() && self.free.z <= 0.0) {
+            match self.landing().filter(|&landing| landing <= left) {
+                None => {
+                    self.fly(left);
+                    return self.free;
+                }
+                Some(landing) => {
+                    self.fly(landing);
+                    self.land();
+                    left -= landing;
+                }
+            }
+            if self.free.z > 0.0 {
+                self.fly(left);
+                return self.free;
+            }
+        }
+        self.slide(left)
+    }
+
+    /// Time until a tire off the ground, or leaving it, comes down [s].
+    fn landing(&self) -> Option<f64> {
+        let (z, v, a) = (self.displacement.z, self.velocity.z, self.free.z);
+        let discriminant = v * v - 2.0 * a * z;
+        if discriminant < 0.0 {
+            return None;
+        }
+        let root = discriminant.sqrt();
+        // Of z + v t + a t²/2 = 0, the root at which the tire moves down; each form where it does not cancel.
+        let time = if v > 0.0 { -(v + root) / a } else { 2.0 * z / (root - v) };
+        (time.is_finite() && time >= 0.0).then_some(time)
+    }
+
+    fn fly(&mut self, time: f64) {
+        self.displacement += self.velocity * time + self.free * (0.5 * time * time);
+        self.velocity += self.free * time;
+    }
+
+    fn land(&mut self) {
+        let before = self.velocity;
+        self.displacement.z = 0.0;
+        let (after, _) = support(before, self.friction);
+        self.velocity = after;
+        self.lost += 0.5 * (before.norm_squared() - after.norm_squared());
+    }
+
+    /// On the ground for `time` seconds: slides until friction stops it, then sticks if the pull stays in the cone.
+    fn slide(&mut self, time: f64) -> Vector3<f64> {
+        self.displacement.z = 0.0;
+        self.velocity.z = 0.0;
+        let limit = -self.friction * self.free.z;
+        let pull = self.free.xy();
+        let speed = self.velocity.xy().norm();
+        let direction = if speed > 0.0 {
+            self.velocity.xy() / speed
+        } else if pull.norm() > limit {
+            pull.normalize()
+        } else {
+            return Vector3::zeros();
+        };
+        let acceleration = pull - direction * limit;
+        let braking = -acceleration.dot(&direction);
+        let stops = braking * time >= speed && pull.norm() <= limit;
+        let moving = if stops { speed / braking } else { time };
+        let way = self.velocity.xy() * moving + acceleration * (0.5 * moving * moving);
+        let velocity = if stops { Vector2::zeros() } else { self.velocity.xy() + acceleration * moving };
+        self.lost += limit * way.norm();
+        self.displacement += way.push(0.0);
+        self.velocity = velocity.push(0.0);
+        if stops { Vector3::zeros() } else { acceleration.push(0.0) }
+    }
+}

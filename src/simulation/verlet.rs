@@ -1,0 +1,529 @@
+//! Explicit central differences with contact in closed form.
+//!
+//! Velocities live at mid-step. A step of length h at time tₙ:
+//!
+//! 1. forces: f = Σ N over the taut cables at uₙ;
+//! 2. kick: v* = v + h (f/m − g), then on the ground p = −m v*₃ ≥ 0 and friction up to μp ([`super::contact`]);
+//! 3. drift: uₙ₊₁ = uₙ + h v.
+//!
+//! A tire that lands or is fired at inside the step is carried through it phase by phase instead
+//! ([`Flight::through`](super::contact::Flight::through)), so both happen at their own time. The method is of second
+//! order, symplectic between events, and stable for h < 2/ω; ω² ≤ max (2/m) Σ k
+//! ([`Scene::frequency_bound`](crate::scene::Scene::frequency_bound)). It ignores damping in the cables.
+//!
+//! `W` runs of one scene advance together, one per lane: element `tire × W + lane` of every array. `W` is 1 or
+//! [`LANES`]; what a run computes does not depend on it.
+
+use nalgebra::Vector3;
+
+use super::cable::{Blocks, Field, LANES, Pack, Tension, load, store};
+use super::contact::{Flight, support};
+use super::kick::{Kicked, Lanes, Tires};
+use super::record::{Clock, Record};
+use super::wake::Wake;
+use super::{Failure, Motion, Settings, Watcher, time_limit};
+use crate::outcome::{End, Outcome, Peak};
+use crate::plan::Method;
+use crate::scene::{Scene, Shot};
+
+/// One run asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Job<'a> {
+    /// What fires when.
+    pub shot: &'a Shot,
+    /// Coefficient of friction.
+    pub friction: f64,
+    /// Step and duration.
+    pub settings: Settings,
+}
+
+/// Runs one shot; see [`super::simulate`].
+pub fn run(
+    scene: &Scene,
+    shot: &Shot,
+    settings: &Settings,
+    watch: &mut Watcher<'_>,
+) -> Result<Outcome, Failure> {
+    let job = Job { shot, friction: scene.friction, settings: *settings };
+    let mut results = Stepper::<1>::new(scene, std::slice::from_ref(&job)).run(watch);
+    results.pop().unwrap_or(Err(Failure::Stopped { at: 0.0 }))
+}
+
+/// Runs many shots of one scene, [`LANES`] at a time; results in the order of `jobs`.
+///
+/// `watch` sees the first lane at every step and may stop all runs.
+pub fn run_all(scene: &Scene, jobs: &[Job<'_>], watch: &mut Watcher<'_>) -> Vec<Result<Outcome, Failure>> {
+    Stepper::<LANES>::new(scene, jobs).run(watch)
+}
+
+/// A hole that fires within the present step.
+#[derive(Clone, Copy, Debug)]
+struct Due {
+    element: usize,
+    /// After the start of the step [s].
+    after: f64,
+    launch: f64,
+}
+
+/// One run in progress.
+struct Run<'a> {
+    job: usize,
+    shot: &'a Shot,
+    step: f64,
+    time_limit: f64,
+    clock: Clock,
+    moving: bool,
+    record: Record,
+    /// The cable of the greatest force, if sampled in the step before.
+    sampled: Option<Sample>,
+}
+
+/// Where the greatest force was sampled.
+#[derive(Clone, Copy, Debug)]
+struct Sample {
+    block: usize,
+    element: usize,
+    /// k (L − L0) a step earlier [N].
+    before: f64,
+}
+
+/// Energies and heights of one pass, per lane.
+#[derive(Clone, Copy, Debug)]
+struct Pass {
+    energy: Pack,
+    dissipated: Pack,
+    /// Dissipated through events, whole and not by halves.
+    lost: Pack,
+    put_in: Pack,
+    height: Pack,
+    force: Pack,
+    motion: [u64; LANES],
+}
+
+/// The arrays of `W` runs and what drives them.
+struct Stepper<'a, const W: usize> {
+    scene: &'a Scene,
+    jobs: &'a [Job<'a>],
+    next_job: usize,
+    results: Vec<Result<Outcome, Failure>>,
+    runs: [Option<Run<'a>>; W],
+    blocks: Blocks,
+    wake: Wake,
+    tension: Tension,
+    lanes: Lanes,
+    /// Greatest height and force so far, per lane.
+    best: [Pack; 2],
+    u: Field,
+    v: Field,
+    /// Cable forces on the tires [N]; zero between steps.
+    f: Field,
+    mass: Vec<f64>,
+    inverse: Vec<f64>,
+    due: Vec<Due>,
+}
+
+impl<'a, const W: usize> Stepper<'a, W> {
+    fn new(scene: &'a Scene, jobs: &'a [Job<'a>]) -> Self {
+        let n = scene.mass.len() * W;
+        let spread = |value: fn(f64) -> f64| -> Vec<f64> {
+            let each = scene.mass.iter().flat_map(|&m| std::iter::repeat_n(value(m), W));
+            each.chain(std::iter::repeat_n(1.0, LANES)).collect()
+        };
+        let blocks = Blocks::new(scene, W);
+        Self {
+            scene,
+            jobs,
+            next_job: 0,
+            results: vec![Err(Failure::Stopped { at: 0.0 }); jobs.len()],
+            runs: [const { None }; W],
+            wake: Wake::new(&blocks, n),
+            blocks,
+            tension: Tension::zero(),
+            lanes: Lanes { step: [0.0; LANES], friction: [0.0; LANES], gravity: scene.gravity },
+            best: [[0.0; LANES]; 2],
+            u: Field::zeros(n),
+            v: Field::zeros(n),
+            f: Field::zeros(n),
+            mass: spread(|m| m),
+            inverse: spread(|m| 1.0 / m),
+            due: Vec::with_capacity(W * jobs.iter().map(|job| job.shot.firings.len()).max().unwrap_or(0)),
+        }
+    }
+
+    fn run(mut self, watch: &mut Watcher<'_>) -> Vec<Result<Outcome, Failure>> {
+        loop {
+            self.due.clear();
+            for lane in 0..W {
+                self.ready(lane);
+            }
+            if self.runs.iter().all(Option::is_none) {
+                return self.results;
+            }
+            self.due.sort_by_key(|due| due.element);
+            self.wake.refresh();
+            let mut pass = self.pull();
+            if watch(&Snapshot { stepper: &self }).is_break() {
+                self.stop();
+                return self.results;
+            }
+            self.advance(&mut pass);
+            for lane in 0..W {
+                self.book(lane, &pass);
+            }
+        }
+    }
+
+    /// Brings a lane to the start of a step: finishes its run, takes the next, jumps over time at rest.
+    fn ready(&mut self, lane: usize) {
+        loop {
+            if self.runs[lane].is_none() && !self.take_job(lane) {
+                return;
+            }
+            let Some(run) = &mut self.runs[lane] else { return };
+            if run.clock.now(run.step) > run.time_limit * (1.0 + 1e-12) {
+                self.finish(lane, End::TimeLimit);
+                continue;
+            }
+            if !run.moving {
+                match run.shot.firings.get(run.clock.fired) {
+                    Some(next) if next.at <= run.time_limit => run.clock.jump(next.at),
+                    _ => {
+                        self.finish(lane, End::AtRest);
+                        continue;
+                    }
+                }
+            }
+            self.collect_due(lane);
+            return;
+        }
+    }
+
+    /// Starts the next job in a lane; false when none is left.
+    fn take_job(&mut self, lane: usize) -> bool {
+        let limit = self.scene.critical_step();
+        while let Some(job) = self.jobs.get(self.next_job) {
+            let (n, step) = (self.next_job, job.settings.step);
+            self.next_job += 1;
+            if !(step > 0.0 && step < limit) {
+                self.results[n] = Err(Failure::Step { step, limit, method: Method::Verlet });
+                continue;
+            }
+            for j in (lane..LANES).step_by(W) {
+                self.lanes.step[j] = step;
+                self.lanes.friction[j] = job.friction;
+                self.best[0][j] = 0.0;
+                self.best[1][j] = 0.0;
+            }
+            self.runs[lane] = Some(Run {
+                job: n,
+                shot: job.shot,
+                step,
+                time_limit: time_limit(job.shot, &job.settings),
+                clock: Clock::new(job.shot),
+                moving: false,
+                record: Record::new(step),
+                sampled: None,
+            });
+            return true;
+        }
+        false
+    }
+
+    /// Hands in a lane's outcome and lays its tires back.
+    fn finish(&mut self, lane: usize, end: End) {
+        let Some(run) = self.runs[lane].take() else { return };
+        let mut drift = Peak { at: run.clock.now(run.step), ..Peak::default() };
+        for tire in 0..self.scene.mass.len() {
+            let element = tire * W + lane;
+            let shift = self.u.part[0][element].hypot(self.u.part[1][element]);
+            if shift > drift.value {
+                (drift.value, drift.place) = (shift, tire);
+            }
+        }
+        self.results[run.job] = Ok(run.record.finish(drift, run.clock.steps, end));
+        self.clear(lane);
+    }
+
+    fn fail(&mut self, lane: usize, failure: Failure) {
+        if let Some(run) = self.runs[lane].take() {
+            self.results[run.job] = Err(failure);
+        }
+        self.clear(lane);
+    }
+
+    fn clear(&mut self, lane: usize) {
+        for field in [&mut self.u, &mut self.v, &mut self.f] {
+            for part in &mut field.part {
+                part.iter_mut().skip(lane).step_by(W).for_each(|value| *value = 0.0);
+            }
+        }
+    }
+
+    fn stop(&mut self) {
+        for run in self.runs.iter().flatten() {
+            self.results[run.job] = Err(Failure::Stopped { at: run.clock.now(run.step) });
+        }
+    }
+
+    /// Gathers the holes that fire before the step ends and wakes their tires.
+    fn collect_due(&mut self, lane: usize) {
+        let Some(run) = &mut self.runs[lane] else { return };
+        let start = run.clock.since(run.step);
+        let end = start + run.step;
+        while let Some(firing) = run.shot.firings.get(run.clock.fired) {
+            let at = firing.at - run.clock.base;
+            if at >= end {
+                break;
+            }
+            let element = firing.tire * W + lane;
+            self.due.push(Due { element, after: (at - start).clamp(0.0, run.step), launch: firing.launch });
+            self.wake.set_moving(element / LANES, true);
+            run.clock.fired += 1;
+        }
+    }
+
+    /// Evaluates the cables that need it.
+    #[inline(always)]
+    fn pull(&mut self) -> Pass {
+        let mut pass = Pass {
+            energy: [0.0; LANES],
+            dissipated: [0.0; LANES],
+            lost: [0.0; LANES],
+            put_in: [0.0; LANES],
+            height: [0.0; LANES],
+            force: [0.0; LANES],
+            motion: [0; LANES],
+        };
+        for lane in 0..W {
+            self.interpolate_peak(lane);
+        }
+        for n in 0..self.wake.blocks.len() {
+            let n = self.wake.blocks[n];
+            let block = self.blocks.blocks[n];
+            self.tension.evaluate(&block, &self.u);
+            self.tension.apply(&block, &mut self.f);
+            let compliance = 0.5 / block.stiffness;
+            for at in (0..block.len).step_by(LANES) {
+                if !self.tension.taut[at / LANES] {
+                    continue;
+                }
+                let force = load(&self.tension.force, at);
+                let mut exceeds = false;
+                for j in 0..LANES {
+                    pass.energy[j] += compliance * force[j] * force[j];
+                    pass.force[j] = pass.force[j].max(force[j]);
+                    exceeds |= force[j] > self.best[1][j];
+                }
+                if exceeds {
+                    for (j, &force) in force.iter().enumerate() {
+                        if force > self.best[1][j] {
+                            self.note_force(n, at + j, force);
+                        }
+                    }
+                }
+            }
+        }
+        pass
+    }
+
+    /// A cable pulls harder than any before it.
+    fn note_force(&mut self, block: usize, element: usize, force: f64) {
+        let lane = element % W;
+        for j in (lane..LANES).step_by(W) {
+            self.best[1][j] = force;
+        }
+        let Some(run) = &mut self.runs[lane] else { return };
+        let place = self.blocks.cable[self.blocks.blocks[block].cable + element / W];
+        run.record.force = Peak { value: force, at: run.clock.now(run.step), place };
+        let step = run.step;
+        let before = self.signed_force(block, element, -step);
+        if let Some(run) = &mut self.runs[lane] {
+            run.sampled = Some(Sample { block, element, before });
+        }
+    }
+
+    /// Finds the top of the greatest force between the samples around it.
+    fn interpolate_peak(&mut self, lane: usize) {
+        let Some(Sample { block, element, before }) = self.runs[lane].as_mut().and_then(|run| run.sampled.take())
+        else {
+            return;
+        };
+        let after = self.signed_force(block, element, 0.0);
+        let Some(run) = &mut self.runs[lane] else { return };
+        run.record.vertex(before, after);
+        for j in (lane..LANES).step_by(W) {
+            self.best[1][j] = run.record.force.value;
+        }
+    }
+
+    /// k (L − L0) of one cable, its tires moved on by `ahead` [s] at their present velocity [N].
+    fn signed_force(&self, block: usize, element: usize, ahead: f64) -> f64 {
+        let block = &self.blocks.blocks[block];
+        let mut length2 = 0.0;
+        for c in 0..3 {
+            let place = |end: usize| self.u.part[c][end + element] + ahead * self.v.part[c][end + element];
+            length2 += (place(block.second) - place(block.first) + block.span[c]).powi(2);
+        }
+        block.stiffness * (length2.sqrt() - block.rest_length)
+    }
+
+    /// Kick and drift of the awake tires.
+    #[inline(always)]
+    fn advance(&mut self, pass: &mut Pass) {
+        let mut due = 0;
+        for n in 0..self.wake.awake.len() {
+            let pack = self.wake.awake[n];
+            let at = pack * LANES;
+            let tires = Tires {
+                u: std::array::from_fn(|c| load(&self.u.part[c], at)),
+                v: std::array::from_fn(|c| load(&self.v.part[c], at)),
+                f: std::array::from_fn(|c| load(&self.f.part[c], at)),
+                mass: load(&self.mass, at),
+                inverse: load(&self.inverse, at),
+            };
+            let mut kicked = tires.kick(&self.lanes);
+            let mut event = self.due.get(due).is_some_and(|d| d.element < at + LANES);
+            let mut higher = false;
+            for j in 0..LANES {
+                event |= kicked.u[2][j] < 0.0;
+                higher |= tires.u[2][j] > self.best[0][j];
+                pass.energy[j] += kicked.kinetic[j] + kicked.potential[j];
+                pass.dissipated[j] += kicked.dissipated[j];
+                pass.height[j] = pass.height[j].max(tires.u[2][j]);
+            }
+            if higher {
+                self.note_heights(at, &tires, &kicked);
+            }
+            if event {
+                due = self.through_events(at, due, &tires, &mut kicked, pass);
+            }
+            let mut moving = 0;
+            for j in 0..LANES {
+                pass.motion[j] |= kicked.motion[j];
+                moving |= kicked.motion[j];
+            }
+            for c in 0..3 {
+                store(&mut self.u.part[c], at, &kicked.u[c]);
+                store(&mut self.v.part[c], at, &kicked.v[c]);
+                store(&mut self.f.part[c], at, &[0.0; LANES]);
+            }
+            self.wake.set_moving(pack, moving != 0);
+        }
+        for &pack in &self.wake.touched {
+            for part in &mut self.f.part {
+                store(part, pack * LANES, &[0.0; LANES]);
+            }
+        }
+    }
+
+    /// Some tires of a pack are higher than any before them.
+    fn note_heights(&mut self, at: usize, tires: &Tires, kicked: &Kicked) {
+        for j in 0..LANES {
+            let lane = j % W;
+            let Some(run) = self.runs[lane].as_mut().filter(|_| tires.u[2][j] > self.best[0][j]) else {
+                continue;
+            };
+            let sample =
+                Peak { value: tires.u[2][j], at: run.clock.now(run.step), place: (at + j) / W };
+            let velocity = 0.5 * (tires.v[2][j] + kicked.v[2][j]);
+            run.record.higher(sample, velocity, tires.f[2][j] * tires.inverse[j] - self.lanes.gravity);
+            for k in (lane..LANES).step_by(W) {
+                self.best[0][k] = run.record.height.value;
+            }
+        }
+    }
+
+    /// Carries the tires of a pack that land or are fired at through the step; returns the next hole due.
+    fn through_events(
+        &self,
+        at: usize,
+        mut due: usize,
+        tires: &Tires,
+        kicked: &mut Kicked,
+        pass: &mut Pass,
+    ) -> usize {
+        for j in 0..LANES {
+            let first = due;
+            while self.due.get(due).is_some_and(|d| d.element == at + j) {
+                due += 1;
+            }
+            if first == due && kicked.u[2][j] >= 0.0 {
+                continue;
+            }
+            let vector = |of: &[Pack; 3]| Vector3::new(of[0][j], of[1][j], of[2][j]);
+            let (h, mass) = (self.lanes.step[j], tires.mass[j]);
+            let mut flight = Flight {
+                displacement: vector(&tires.u),
+                velocity: 0.5 * (vector(&tires.v) + vector(&kicked.v)),
+                free: vector(&tires.f) * tires.inverse[j] - Vector3::z() * self.lanes.gravity,
+                friction: self.lanes.friction[j],
+                lost: 0.0,
+                put_in: 0.0,
+            };
+            let last = flight.through(h, self.due[first..due].iter().map(|due| (due.after, due.launch)));
+            let mid = flight.velocity - last * (0.5 * h);
+            for c in 0..3 {
+                kicked.u[c][j] = flight.displacement[c];
+                kicked.v[c][j] = mid[c];
+                kicked.motion[j] |= mid[c].to_bits() << 1;
+            }
+            kicked.motion[j] |= flight.displacement.z.to_bits() << 1;
+            // The kicks before and after count half a step of friction each; here the whole step is counted at once.
+            pass.lost[j] += mass * flight.lost - 0.5 * kicked.dissipated[j];
+            pass.put_in[j] += mass * flight.put_in;
+        }
+        due
+    }
+
+    /// Closes a lane's books for the step and ticks its clock.
+    fn book(&mut self, lane: usize, pass: &Pass) {
+        let Some(run) = &mut self.runs[lane] else { return };
+        let now = run.clock.now(run.step);
+        let mine = || (lane..LANES).step_by(W);
+        let sum = |of: &Pack| mine().map(|j| of[j]).sum::<f64>();
+        let top = |of: &Pack| mine().map(|j| of[j]).fold(0.0, f64::max);
+        let (energy, dissipated) = (sum(&pass.energy), sum(&pass.dissipated));
+        if !(energy + dissipated).is_finite() {
+            return self.fail(lane, Failure::Diverged { at: now });
+        }
+        run.record.balance(energy, 0.5 * dissipated);
+        run.record.ledger.dissipated += dissipated + sum(&pass.lost);
+        run.record.ledger.put_in += sum(&pass.put_in);
+        run.record.history.note(now, top(&pass.height), top(&pass.force));
+        run.moving = mine().any(|j| pass.motion[j] != 0);
+        run.clock.tick();
+    }
+}
+
+/// The first lane, between forces and kick.
+struct Snapshot<'s, 'a, const W: usize> {
+    stepper: &'s Stepper<'a, W>,
+}
+
+impl<const W: usize> Snapshot<'_, '_, W> {
+    fn vector(&self, of: &Field, tire: usize) -> Vector3<f64> {
+        Vector3::from_fn(|c, _| of.part[c][tire * W])
+    }
+}
+
+impl<const W: usize> Motion for Snapshot<'_, '_, W> {
+    fn time(&self) -> f64 {
+        self.stepper.runs[0].as_ref().map_or(0.0, |run| run.clock.now(run.step))
+    }
+
+    fn displacement(&self, tire: usize) -> Vector3<f64> {
+        self.vector(&self.stepper.u, tire)
+    }
+
+    fn friction(&self, tire: usize) -> (f64, f64) {
+        if self.displacement(tire).z > 0.0 {
+            return (0.0, 0.0);
+        }
+        let Stepper { scene, lanes, .. } = self.stepper;
+        let (h, mass, friction) = (lanes.step[0], scene.mass[tire], lanes.friction[0]);
+        let acceleration = self.vector(&self.stepper.f, tire) / mass - Vector3::z() * lanes.gravity;
+        let free = self.vector(&self.stepper.v, tire) + acceleration * h;
+        let (after, normal) = support(free, friction);
+        ((free - after).xy().norm() * mass / h, friction * normal * mass / h)
+    }
+}

@@ -1,0 +1,127 @@
+//! Which tires and cables need work: the wake front.
+//!
+//! Tires are kept in packs of eight elements, cables in blocks. A pack *moves* while any of its tires has speed or height;
+//! it is *awake* (its tires are kicked) while it or a pack tied to it moves, since only then can its forces differ from
+//! those under which it was last found at rest; a block is evaluated while any pack it touches is awake. Everything else
+//! lies exactly as it did, so nothing is approximated.
+
+use super::cable::{Blocks, LANES};
+
+/// The packs and blocks that need work in a step, each list in ascending order.
+#[derive(Clone, Debug)]
+pub struct Wake {
+    /// Packs whose tires are kicked.
+    pub awake: Vec<usize>,
+    /// Blocks to evaluate.
+    pub blocks: Vec<usize>,
+    /// Packs that receive forces without being awake.
+    pub touched: Vec<usize>,
+    moving: Vec<bool>,
+    movers: Vec<usize>,
+    changed: bool,
+    pack_mark: Vec<bool>,
+    block_mark: Vec<bool>,
+    blocks_at: Lists,
+    packs_of: Lists,
+}
+
+impl Wake {
+    /// Everything asleep.
+    pub fn new(blocks: &Blocks, elements: usize) -> Self {
+        let n_packs = elements.div_ceil(LANES);
+        let n_blocks = blocks.blocks.len();
+        let mut touches: Vec<(usize, usize)> = Vec::new();
+        for (n, block) in blocks.blocks.iter().enumerate() {
+            for end in [block.first, block.second] {
+                let packs = end / LANES..=(end + block.len - 1) / LANES;
+                touches.extend(packs.map(|pack| (n, pack)));
+            }
+        }
+        touches.sort_unstable();
+        touches.dedup();
+        let packs_of = Lists::new(n_blocks, &touches);
+        let mut touched_by: Vec<_> = touches.into_iter().map(|(block, pack)| (pack, block)).collect();
+        touched_by.sort_unstable();
+        Self {
+            awake: Vec::with_capacity(n_packs),
+            blocks: Vec::with_capacity(n_blocks),
+            touched: Vec::with_capacity(n_packs),
+            moving: vec![false; n_packs],
+            movers: Vec::with_capacity(2 * n_packs),
+            changed: false,
+            pack_mark: vec![false; n_packs],
+            block_mark: vec![false; n_blocks],
+            blocks_at: Lists::new(n_packs, &touched_by),
+            packs_of,
+        }
+    }
+
+    /// Notes whether a pack moves.
+    #[inline(always)]
+    pub fn set_moving(&mut self, pack: usize, moving: bool) {
+        if self.moving[pack] != moving {
+            self.moving[pack] = moving;
+            self.changed = true;
+            if moving {
+                self.movers.push(pack);
+            }
+        }
+    }
+
+    /// Brings the lists up to date.
+    pub fn refresh(&mut self) {
+        if !self.changed {
+            return;
+        }
+        self.changed = false;
+        let Self { awake, blocks, touched, moving, movers, pack_mark, block_mark, blocks_at, packs_of, .. } = self;
+        movers.retain(|&pack| moving[pack]);
+        movers.sort_unstable();
+        movers.dedup();
+        unite(blocks, block_mark, movers.iter().flat_map(|&pack| blocks_at.of(pack)).copied());
+        let neighbours = blocks.iter().flat_map(|&block| packs_of.of(block));
+        unite(awake, pack_mark, movers.iter().chain(neighbours).copied());
+        unite(blocks, block_mark, awake.iter().flat_map(|&pack| blocks_at.of(pack)).copied());
+        awake.iter().for_each(|&pack| pack_mark[pack] = true);
+        touched.clear();
+        for &pack in blocks.iter().flat_map(|&block| packs_of.of(block)) {
+            if !std::mem::replace(&mut pack_mark[pack], true) {
+                touched.push(pack);
+            }
+        }
+        awake.iter().chain(touched.iter()).for_each(|&pack| pack_mark[pack] = false);
+    }
+}
+
+/// `into` becomes the sorted set of `items`; `mark` is all false before and after.
+fn unite(into: &mut Vec<usize>, mark: &mut [bool], items: impl Iterator<Item = usize>) {
+    into.clear();
+    into.extend(items.filter(|&item| !std::mem::replace(&mut mark[item], true)));
+    into.iter().for_each(|&item| mark[item] = false);
+    into.sort_unstable();
+}
+
+/// A list of indices for each of many keys, in one allocation.
+#[derive(Clone, Debug)]
+struct Lists {
+    start: Vec<usize>,
+    items: Vec<usize>,
+}
+
+impl Lists {
+    /// From `(key, item)` pairs sorted by key.
+    fn new(keys: usize, pairs: &[(usize, usize)]) -> Self {
+        let mut start = vec![0; keys + 1];
+        for &(key, _) in pairs {
+            start[key + 1] += 1;
+        }
+        for key in 0..keys {
+            start[key + 1] += start[key];
+        }
+        Self { start, items: pairs.iter().map(|&(_, item)| item).collect() }
+    }
+
+    fn of(&self, key: usize) -> &[usize] {
+        &self.items[self.start[key]..self.start[key + 1]]
+    }
+}

@@ -1,0 +1,184 @@
+//! Pass or fail of one delay option, refined until it is sure.
+//!
+//! Runs climb a ladder of steps, each rung [`error::RATIO`] finer than the last. The finest run gives the values, the
+//! rungs before it their errors. While the verdict is open, another rung is added.
+
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use super::{Case, Effort, error};
+use crate::outcome::{History, Outcome, Peak};
+use crate::plan::{Accuracy, Method};
+use crate::simulation::{Failure, Settings, simulate};
+use crate::verdict::{Estimate, Verdict};
+
+/// A judged delay option.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// Pass, fail, or undecided at the finest step allowed.
+    pub verdict: Verdict,
+    /// The limits that were not passed.
+    pub reasons: Vec<Reason>,
+    /// Greatest flight height [m]; `place` is a tire.
+    pub height: Estimate,
+    /// Greatest cable force [N]; `place` is a cable.
+    pub force: Estimate,
+    /// Greatest drift at the end [m]; `place` is a tire.
+    pub drift: Estimate,
+    /// Breaking force over greatest force; infinite when no cable pulls.
+    pub safety_factor: f64,
+    /// Height and force over time.
+    pub history: History,
+    /// Method that gave the values.
+    pub method: Method,
+    /// Step that gave the values [s].
+    pub step: f64,
+    /// Steps of that run.
+    pub steps: usize,
+    /// Ledger residual over the energy put in.
+    pub energy_residual: f64,
+    /// End of the motion [s].
+    pub end: f64,
+    /// Time the run that gave the values took.
+    pub wall: Duration,
+    /// Time all runs took.
+    pub total_wall: Duration,
+    /// Runs behind the verdict.
+    pub runs: usize,
+}
+
+/// A limit that was not passed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reason {
+    /// Of which quantity.
+    pub quantity: Quantity,
+    /// Fail or undecided.
+    pub verdict: Verdict,
+    /// What was computed.
+    pub estimate: Estimate,
+    /// The limit [unit of the quantity].
+    pub limit: f64,
+}
+
+/// What a limit is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Flight height [m].
+    Height,
+    /// Cable force [N].
+    Force,
+    /// Drift at the end [m].
+    Drift,
+}
+
+/// How far along a check is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Runs finished.
+    pub runs: usize,
+    /// Time the present run has reached [s].
+    pub time: f64,
+}
+
+/// Step the refinement starts at [s]: a fraction of the explicit stability limit, and never longer than what resolves a
+/// landing.
+pub fn start_step(case: &Case, method: Method, accuracy: Accuracy) -> f64 {
+    let (fraction, longest) = match accuracy {
+        Accuracy::Draft => (0.3, 4e-3),
+        Accuracy::Field => (0.1, 1e-3),
+        Accuracy::Reference => (0.025, 2.5e-4),
+    };
+    let implicit = if method == Method::Newmark { 0.25 } else { 1.0 };
+    implicit * longest.min(fraction * case.scene.critical_step())
+}
+
+/// Rungs a verdict may climb beyond the first that has an error: 64 times finer.
+const FINEST: usize = 12;
+
+/// Judges one delay option. `watch` sees the progress and may stop.
+pub fn check(
+    case: &Case,
+    option: usize,
+    effort: &Effort,
+    watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+) -> Result<Checked, Failure> {
+    let begun = Instant::now();
+    let mut runs: Vec<(Outcome, Duration)> = Vec::new();
+    let first = effort.step.unwrap_or_else(|| start_step(case, effort.method, effort.accuracy));
+    let rung = |n: i32| first * error::RATIO.powi(n);
+    let mut add = |runs: &mut Vec<(Outcome, Duration)>, step: f64| -> Result<(), Failure> {
+        let settings =
+            Settings { method: effort.method, step, duration: case.plan.simulation.duration_s };
+        let (done, start) = (runs.len(), Instant::now());
+        let outcome = simulate(&case.scene, &case.shots[option], &settings, &mut |motion| {
+            watch(Progress { runs: done, time: motion.time() })
+        })?;
+        runs.push((outcome, start.elapsed()));
+        Ok(())
+    };
+    for n in (1..=error::NEIGHBOURS as i32).rev() {
+        match add(&mut runs, rung(n)) {
+            Err(Failure::Step { .. } | Failure::Diverged { .. } | Failure::Unsettled { .. }) | Ok(()) => {}
+            Err(stopped) => return Err(stopped),
+        }
+    }
+    let mut finer = 0;
+    loop {
+        add(&mut runs, rung(-finer))?;
+        if runs.len() < 2 {
+            // No coarser run can be had: a finer one tells the error, the values stay at the step asked for.
+            add(&mut runs, rung(-finer - 1))?;
+            runs.swap(0, 1);
+        }
+        let checked = judge(case, effort.method, &runs, begun.elapsed());
+        if checked.verdict != Verdict::Undecided || effort.step.is_some() || finer as usize == FINEST {
+            return Ok(checked);
+        }
+        finer += 1;
+    }
+}
+
+/// The verdict of a ladder of runs; the last gives the values.
+fn judge(case: &Case, method: Method, runs: &[(Outcome, Duration)], total_wall: Duration) -> Checked {
+    let count = runs.len();
+    let (last, before) = (&runs[count - 1], &runs[count.saturating_sub(1 + error::NEIGHBOURS)..count - 1]);
+    let estimate = |of: fn(&Outcome) -> Peak| {
+        let Peak { value, at, place } = of(&last.0);
+        let near = before.iter().map(|(outcome, _)| (outcome.step, of(outcome).value));
+        Estimate { value, error: error::estimate(last.0.step, value, near), at, place }
+    };
+    let height = estimate(|outcome| outcome.height);
+    let force = estimate(|outcome| outcome.force);
+    let drift = estimate(|outcome| outcome.drift);
+    let limits = &case.limits;
+    let mut judged =
+        vec![(Quantity::Height, height, limits.height), (Quantity::Force, force, limits.force)];
+    judged.extend(limits.drift.map(|limit| (Quantity::Drift, drift, limit)));
+    let reasons: Vec<Reason> = judged
+        .into_iter()
+        .map(|(quantity, estimate, limit)| Reason {
+            quantity,
+            verdict: estimate.against(limit),
+            estimate,
+            limit,
+        })
+        .filter(|reason| reason.verdict != Verdict::Pass)
+        .collect();
+    Checked {
+        verdict: Verdict::worst(reasons.iter().map(|reason| reason.verdict)),
+        reasons,
+        height,
+        force,
+        drift,
+        safety_factor: limits.breaking_force / force.value,
+        history: last.0.history.clone(),
+        method,
+        step: last.0.step,
+        steps: last.0.steps,
+        energy_residual: last.0.ledger.residual(),
+        end: last.0.drift.at,
+        wall: last.1,
+        total_wall,
+        runs: count,
+    }
+}

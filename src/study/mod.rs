@@ -1,0 +1,59 @@
+//! Judgement: what is run, how often and how finely, to answer a user's question about a plan.
+//!
+//! A [`Case`] is a plan made ready to run; each study takes one and returns a plain result that every view draws.
+//! Nothing here prints, parses or computes physics.
+
+pub mod check;
+pub mod error;
+
+use crate::plan::{Accuracy, Method, Plan};
+use crate::scene::{Scene, Shot};
+use crate::verdict::Limits;
+
+/// A plan made ready to run.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// As loaded.
+    pub plan: Plan,
+    /// Its shelter.
+    pub scene: Scene,
+    /// What fires when, per delay option (`n_options`).
+    pub shots: Vec<Shot>,
+    /// Its limits, SI.
+    pub limits: Limits,
+}
+
+impl Case {
+    /// Builds scene, shots and limits of a plan.
+    pub fn new(plan: Plan) -> Self {
+        let scene = Scene::build(&plan);
+        let shots =
+            plan.delays.iter().map(|delay| Shot::new(&scene, &plan.blast_rows, &delay.timing)).collect();
+        let breaking_force = plan.cable.breaking_force_kn * 1e3;
+        let limits = Limits {
+            height: plan.limits.flight_height_m,
+            force: breaking_force / plan.limits.cable_safety_factor,
+            drift: plan.limits.drift_m,
+            breaking_force,
+        };
+        Self { plan, scene, shots, limits }
+    }
+}
+
+/// How finely to compute; from the plan, with what the command line overrides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Effort {
+    /// Which method.
+    pub method: Method,
+    /// Where refinement starts.
+    pub accuracy: Accuracy,
+    /// Exactly this step, never refined [s].
+    pub step: Option<f64>,
+}
+
+impl Effort {
+    /// As the plan asks.
+    pub fn of(plan: &Plan) -> Self {
+        Self { method: plan.simulation.method, accuracy: plan.simulation.accuracy, step: None }
+    }
+}

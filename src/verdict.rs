@@ -1,0 +1,92 @@
+//! What a value with its error says about a limit.
+//!
+//! Numbers with one-sided errors and limits come in, a [`Verdict`] goes out; where they come from is not known here.
+
+/// Whether a delay option keeps its limits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Verdict {
+    /// Value + error is within every limit.
+    Pass,
+    /// Neither, at the finest step allowed.
+    Undecided,
+    /// Value − error is past some limit.
+    Fail,
+}
+
+impl Verdict {
+    /// The verdict of several together: the worst.
+    pub fn worst(verdicts: impl IntoIterator<Item = Verdict>) -> Verdict {
+        verdicts.into_iter().max().unwrap_or(Verdict::Pass)
+    }
+
+    /// As JSON and scripts spell it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Verdict::Pass => "pass",
+            Verdict::Undecided => "undecided",
+            Verdict::Fail => "fail",
+        }
+    }
+}
+
+/// A computed value with its estimated discretisation error, where and when it was reached.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Estimate {
+    /// The value [unit of the quantity].
+    pub value: f64,
+    /// Estimated error, one-sided [same unit].
+    pub error: f64,
+    /// When [s].
+    pub at: f64,
+    /// Index of the tire or cable.
+    pub place: usize,
+}
+
+impl Estimate {
+    /// What this estimate says of an upper limit.
+    pub fn against(&self, limit: f64) -> Verdict {
+        if self.value + self.error <= limit {
+            Verdict::Pass
+        } else if self.value - self.error > limit {
+            Verdict::Fail
+        } else {
+            Verdict::Undecided
+        }
+    }
+}
+
+/// Limits of a passing option, SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Greatest flight height [m].
+    pub height: f64,
+    /// Greatest cable force: breaking force in use / safety factor [N].
+    pub force: f64,
+    /// Greatest drift at the end [m].
+    pub drift: Option<f64>,
+    /// Breaking force in use [N].
+    pub breaking_force: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_that_reaches_over_the_limit_leaves_the_verdict_open() {
+        let at = |value, error| Estimate { value, error, ..Estimate::default() }.against(1.0);
+        assert_eq!(at(0.9, 0.1), Verdict::Pass);
+        assert_eq!(at(0.95, 0.1), Verdict::Undecided);
+        assert_eq!(at(1.05, 0.1), Verdict::Undecided);
+        assert_eq!(at(1.2, 0.1), Verdict::Fail);
+        assert_eq!(at(f64::NAN, 0.1), Verdict::Undecided);
+    }
+
+    #[test]
+    fn the_worst_of_several_decides() {
+        use Verdict::{Fail, Pass, Undecided};
+        assert_eq!(Verdict::worst([Pass, Undecided]), Undecided);
+        assert_eq!(Verdict::worst([Fail, Undecided, Pass]), Fail);
+        assert_eq!(Verdict::worst([]), Pass);
+    }
+}
