@@ -83,7 +83,7 @@ pub struct Progress {
 /// Step the refinement starts at [s]: a fraction of the explicit stability limit, and never longer than what resolves a
 /// landing.
 pub fn start_step(case: &Case, method: Method, accuracy: Accuracy) -> f64 {
-    let (fraction, longest) = match accuracy {
+    let (fraction, longest): (f64, f64) = match accuracy {
         Accuracy::Draft => (0.3, 4e-3),
         Accuracy::Field => (0.1, 1e-3),
         Accuracy::Reference => (0.025, 2.5e-4),
