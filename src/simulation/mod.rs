@@ -13,7 +13,7 @@
 mod cable;
 mod contact;
 mod kick;
-//pub mod newmark;
+pub mod newmark;
 mod record;
 pub mod verlet;
 mod wake;
@@ -97,7 +97,7 @@ pub fn simulate(
 ) -> Result<Outcome, Failure> {
     match settings.method {
         Method::Verlet => verlet::run(scene, shot, settings, watch),
-        Method::Newmark => Err(Failure::Stopped{at:0.0}),
+        Method::Newmark => newmark::run(scene, shot, settings, watch),
     }
 }
 
