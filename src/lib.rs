@@ -1,8 +1,11 @@
 //! shelter
+pub mod cli;
 pub mod outcome;
 pub mod plan;
+pub mod report;
 pub mod ropes;
 pub mod scene;
 pub mod simulation;
 pub mod study;
+pub mod units;
 pub mod verdict;

@@ -1,1 +1,5 @@
-fn main() {}
+//! The `shelter` program; see the library for everything it does.
+
+fn main() -> std::process::ExitCode {
+    shelter::cli::run()
+}

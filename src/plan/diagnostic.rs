@@ -1,1 +1,99 @@
-#[derive(Debug)] pub struct Diagnostics;
+//! Mistakes in a plan, each with its place and its remedy, drawn the way compilers do.
+
+use std::fmt;
+use std::ops::Range;
+
+use annotate_snippets::renderer::DecorStyle;
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+
+/// One mistake.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mistake {
+    /// Bytes of the source it is about.
+    pub span: Range<usize>,
+    /// What is wrong.
+    pub message: String,
+    /// What would be right; empty where the message says it.
+    pub remedy: String,
+}
+
+/// Everything wrong with one plan, in the order of its lines.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostics {
+    path: String,
+    source: String,
+    mistakes: Vec<Mistake>,
+}
+
+impl Diagnostics {
+    /// Mistakes in the text of a plan.
+    pub(super) fn new(path: &str, source: &str, mut mistakes: Vec<Mistake>) -> Self {
+        mistakes.sort_by_key(|mistake| (mistake.span.start, mistake.span.end));
+        Self { path: path.to_owned(), source: source.to_owned(), mistakes }
+    }
+
+    /// A plan that could not be read at all.
+    pub(super) fn unreadable(path: &str, message: String, remedy: &str) -> Self {
+        Self::new(path, "", vec![Mistake { span: 0..0, message, remedy: remedy.to_owned() }])
+    }
+
+    /// How many there are; never 0.
+    pub fn len(&self) -> usize {
+        self.mistakes.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.mistakes.is_empty()
+    }
+
+    /// Line and column, from 1, message and remedy of each.
+    pub fn iter(&self) -> impl Iterator<Item = (usize, usize, &str, &str)> {
+        self.mistakes.iter().map(|mistake| {
+            let before = self.source.get(..mistake.span.start).unwrap_or("");
+            let line = before.matches('\n').count() + 1;
+            let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
+            (line, column, mistake.message.as_str(), mistake.remedy.as_str())
+        })
+    }
+
+    /// All of them with file, line, column, the line itself and the remedy.
+    pub fn render(&self, color: bool) -> String {
+        let renderer = if color { Renderer::styled() } else { Renderer::plain() };
+        let renderer = renderer.decor_style(DecorStyle::Ascii);
+        let mut text = String::new();
+        for mistake in &self.mistakes {
+            let snippet = (!self.source.is_empty()).then(|| {
+                let annotation = AnnotationKind::Primary.span(self.visible(&mistake.span));
+                Snippet::source(self.source.as_str()).path(self.path.as_str()).annotation(annotation)
+            });
+            let title = match snippet {
+                Some(_) => mistake.message.clone(),
+                None => format!("{}: {}", self.path, mistake.message),
+            };
+            let mut group = Level::ERROR.primary_title(title).elements(snippet);
+            if !mistake.remedy.is_empty() {
+                group = group.element(Level::HELP.message(mistake.remedy.as_str()));
+            }
+            text += &renderer.render(&[group]);
+            text += "\n\n";
+        }
+        text
+    }
+
+    /// The part of a span on its first line, never empty inside the source.
+    fn visible(&self, span: &Range<usize>) -> Range<usize> {
+        let start = span.start.min(self.source.len());
+        let rest = self.source.get(start..).unwrap_or("");
+        let line_end = start + rest.find('\n').unwrap_or(rest.len());
+        start..span.end.clamp(start, line_end)
+    }
+}
+
+impl fmt::Display for Diagnostics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.render(false))
+    }
+}
+
+impl std::error::Error for Diagnostics {}

@@ -8,7 +8,13 @@ mod diagnostic;
 mod read;
 mod validate;
 
+use std::io::Read;
+use std::path::Path;
+
 pub use diagnostic::Diagnostics;
+
+/// Largest plan file read [bytes].
+const MOST_BYTES: u64 = 64 << 20;
 
 /// A blast row, the shelter over it, and the delay options to choose from.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +39,54 @@ pub struct Plan {
     pub delays: Vec<DelayOption>,
     /// How to simulate.
     pub simulation: SimulationSpec,
+}
+
+impl Plan {
+    /// Reads and validates a plan file; `-` is standard input.
+    pub fn load(path: &Path) -> Result<Self, Diagnostics> {
+        let name = path.display().to_string();
+        let text =
+            read_text(path).map_err(|(message, remedy)| Diagnostics::unreadable(&name, message, remedy))?;
+        Self::parse(&name, &text)
+    }
+
+    /// Validates the text of a plan; `name` stands for the file in messages.
+    pub fn parse(name: &str, text: &str) -> Result<Self, Diagnostics> {
+        validate::parse(name, text)
+    }
+}
+
+/// The text of a file, or what is wrong with it and the remedy.
+fn read_text(path: &Path) -> Result<String, (String, &'static str)> {
+    let cannot = |error: std::io::Error| {
+        let remedy = match error.kind() {
+            std::io::ErrorKind::NotFound => {
+                "check the path, or write a starter plan with `shelter init FILE`"
+            }
+            std::io::ErrorKind::IsADirectory => "name a plan file inside it",
+            _ => "check the path and its permissions",
+        };
+        (format!("cannot read the plan: {error}"), remedy)
+    };
+    let mut bytes = Vec::new();
+    let read = if path.as_os_str() == "-" {
+        std::io::stdin().lock().take(MOST_BYTES + 1).read_to_end(&mut bytes)
+    } else {
+        std::fs::File::open(path).and_then(|file| file.take(MOST_BYTES + 1).read_to_end(&mut bytes))
+    };
+    read.map_err(cannot)?;
+    if bytes.len() as u64 > MOST_BYTES {
+        return Err((
+            format!("the file is larger than {} MB", MOST_BYTES >> 20),
+            "a plan is a short text: check the path",
+        ));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        (
+            format!("the file is not UTF-8 text from byte {} on", error.utf8_error().valid_up_to()),
+            "save it as UTF-8",
+        )
+    })
 }
 
 /// How the tires lie and which neighbours are tied.

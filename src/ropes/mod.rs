@@ -1,0 +1,181 @@
+//! The rope catalogue: diameters, masses, stiffness and breaking forces with their standard and source.
+//!
+//! The figures are data in `ropes.toml`, compiled in. A bare name such as `GOST 2688-80 6.2` means the lowest grade of
+//! wire listed, because overstating strength is the dangerous direction; `GOST 2688-80 6.2 1770` names a grade.
+
+use std::sync::LazyLock;
+
+use serde::{Deserialize, Serialize};
+
+/// All ropes and terminations.
+#[derive(Clone, Debug, Default)]
+pub struct Catalogue {
+    /// By family, diameter and grade; the lowest grade of a diameter first.
+    pub ropes: Vec<Rope>,
+    /// What fastenings leave of a rope's strength.
+    pub terminations: Vec<Termination>,
+}
+
+/// A rope or chain of one diameter and grade.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Rope {
+    /// As plans name it.
+    pub name: String,
+    /// Family it belongs to.
+    pub family: String,
+    /// Standard.
+    pub standard: String,
+    /// Construction.
+    pub construction: String,
+    /// Grade of wire [N/mm²]; 0 where there is none.
+    pub grade: u32,
+    /// Diameter [mm].
+    pub diameter_mm: f64,
+    /// Metallic area [mm²].
+    pub metallic_area_mm2: Option<f64>,
+    /// Mass per metre [kg/m].
+    pub mass_kg_per_m: f64,
+    /// Axial stiffness EA [kN].
+    pub axial_stiffness_kn: f64,
+    /// Breaking force [kN].
+    pub breaking_force_kn: f64,
+    /// Where the figures come from.
+    pub source: String,
+    /// Whether they are typical values, not read in the standard's own text.
+    pub typical: bool,
+}
+
+/// A way to fasten a rope's end.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Termination {
+    /// As plans name it.
+    pub name: String,
+    /// Part of the rope's breaking force it holds [%].
+    pub efficiency_percent: f64,
+    /// Where the figure comes from.
+    pub source: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    family: Vec<Family>,
+    termination: Vec<Termination>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Family {
+    name: String,
+    standard: String,
+    construction: String,
+    stiffness_per_d2: f64,
+    source: String,
+    typical: bool,
+    grades: Vec<u32>,
+    ropes: Vec<Entry>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Entry {
+    diameter_mm: f64,
+    metallic_area_mm2: Option<f64>,
+    mass_kg_per_m: f64,
+    breaking_force_kn: Vec<f64>,
+}
+
+/// The catalogue compiled into the program.
+pub fn catalogue() -> &'static Catalogue {
+    static CATALOGUE: LazyLock<Catalogue> =
+        LazyLock::new(|| parse(include_str!("ropes.toml")).unwrap_or_default());
+    &CATALOGUE
+}
+
+fn parse(text: &str) -> Result<Catalogue, toml::de::Error> {
+    let file: File = toml::from_str(text)?;
+    let ropes = file.family.iter().flat_map(Family::ropes).collect();
+    Ok(Catalogue { ropes, terminations: file.termination })
+}
+
+impl Family {
+    fn ropes(&self) -> impl Iterator<Item = Rope> {
+        let rope = |entry: &Entry, grade: u32, breaking_force_kn: f64, lowest: bool| {
+            let base = format!("{} {}", self.name, entry.diameter_mm);
+            Rope {
+                name: if lowest { base } else { format!("{base} {grade}") },
+                family: self.name.clone(),
+                standard: self.standard.clone(),
+                construction: self.construction.clone(),
+                grade,
+                diameter_mm: entry.diameter_mm,
+                metallic_area_mm2: entry.metallic_area_mm2,
+                mass_kg_per_m: entry.mass_kg_per_m,
+                axial_stiffness_kn: self.stiffness_per_d2 * (entry.diameter_mm * 1e-3).powi(2) * 1e-3,
+                breaking_force_kn,
+                source: self.source.clone(),
+                typical: self.typical,
+            }
+        };
+        self.ropes.iter().flat_map(move |entry| {
+            let grades = self.grades.iter().zip(&entry.breaking_force_kn).enumerate();
+            grades.map(move |(n, (&grade, &force))| rope(entry, grade, force, n == 0))
+        })
+    }
+}
+
+impl Catalogue {
+    /// The rope of this name; the lowest grade may be named too.
+    pub fn find(&self, name: &str) -> Option<&Rope> {
+        let named = |rope: &&Rope| rope.name == name || format!("{} {}", rope.name, rope.grade) == name;
+        self.ropes.iter().find(named)
+    }
+
+    /// The name most like `name`.
+    pub fn suggest(&self, name: &str) -> Option<&str> {
+        let likeness = |rope: &&Rope| strsim::jaro_winkler(&rope.name, name);
+        let near = self.ropes.iter().filter(|rope| likeness(rope) > 0.7);
+        near.max_by(|a, b| likeness(a).total_cmp(&likeness(b))).map(|rope| rope.name.as_str())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_compiled_catalogue_parses_and_names_are_unique() {
+        let catalogue = parse(include_str!("ropes.toml")).expect("the data file is valid");
+        let mut names: Vec<_> = catalogue.ropes.iter().map(|rope| &rope.name).collect();
+        names.sort();
+        names.dedup();
+        assert_eq!(names.len(), catalogue.ropes.len());
+        assert!(catalogue.ropes.iter().all(|rope| rope.breaking_force_kn > 0.0));
+    }
+
+    #[test]
+    fn a_bare_name_is_the_lowest_grade() {
+        let rope = catalogue().find("GOST 2688-80 6.2").expect("in the catalogue");
+        assert_eq!((rope.grade, rope.breaking_force_kn), (1570, 19.25));
+        let strong = catalogue().find("GOST 2688-80 6.2 1770").expect("in the catalogue");
+        assert_eq!(strong.breaking_force_kn, 21.1);
+        assert_eq!(catalogue().find("GOST 2688-80 6.2 1570"), Some(rope));
+    }
+
+    /// Breaking force over area and grade is 0.80 to 0.85 for every GOST rope: a slip of a digit would show.
+    #[test]
+    fn breaking_forces_fit_area_and_grade() {
+        for rope in catalogue().ropes.iter().filter(|rope| rope.family == "GOST 2688-80") {
+            let area = rope.metallic_area_mm2.expect("GOST ropes list it");
+            let ratio = rope.breaking_force_kn * 1e3 / (area * f64::from(rope.grade));
+            assert!((0.80..0.85).contains(&ratio), "{}: {ratio}", rope.name);
+            let density = rope.mass_kg_per_m * 1e3 / area;
+            assert!((9.75..9.85).contains(&density), "{}: {density}", rope.name);
+        }
+    }
+
+    #[test]
+    fn a_misspelt_rope_finds_its_neighbour() {
+        assert_eq!(catalogue().suggest("GOST 2688-80 6,2"), Some("GOST 2688-80 6.2"));
+    }
+}

@@ -103,7 +103,8 @@ impl Scene {
                 self.place(id, x * mesh.column_spacing_m, y * mesh.row_spacing_m);
                 if diagonal {
                     let corner = r * mesh.columns + c;
-                    let spokes = [(0, dx, dy), (1, -dx, dy), (mesh.columns, dx, -dy), (mesh.columns + 1, -dx, -dy)];
+                    let spokes =
+                        [(0, dx, dy), (1, -dx, dy), (mesh.columns, dx, -dy), (mesh.columns + 1, -dx, -dy)];
                     ties.extend(spokes.map(|(step, x, y)| Tie {
                         ends: [corner + step, centre],
                         between: Vector3::new(x, y, 0.0),

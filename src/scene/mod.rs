@@ -87,6 +87,14 @@ impl Cable {
 }
 
 impl Scene {
+    /// How views address a cable: its two tires; empty for a scene without cables.
+    pub fn cable_name(&self, cable: usize) -> String {
+        self.cables.get(cable).map_or_else(String::new, |cable| {
+            let [a, b] = cable.ends.map(|end| self.tire[end]);
+            format!("{a}-{b}")
+        })
+    }
+
     /// Greatest natural frequency bound of any tire: ω² ≤ (2/m) Σ k over its cables [rad/s].
     ///
     /// Gershgorin's bound on M⁻¹K with every cable taut and in line (quality P12).

@@ -49,7 +49,8 @@ impl Scene {
     pub fn targets(&self, charge: &Charge) -> Vec<(usize, f64)> {
         match charge {
             Charge::UnderRow { row, launch_m_s } => {
-                let on_row = |id: &super::TireId| matches!(id, super::TireId::Cell { row: r, .. } if r == row);
+                let on_row =
+                    |id: &super::TireId| matches!(id, super::TireId::Cell { row: r, .. } if r == row);
                 let tires = self.tire.iter().enumerate().filter(|(_, id)| on_row(id));
                 tires.map(|(tire, _)| (tire, *launch_m_s)).collect()
             }

@@ -44,7 +44,9 @@ pub struct Settings {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Failure {
     /// The step is beyond what the method can follow, or none at all.
-    #[error("the step of {step:e} s is outside what {method:?} can follow here, 0 to {limit:e} s: choose a smaller --dt")]
+    #[error(
+        "the step of {step:e} s is outside what {method:?} can follow here, 0 to {limit:e} s: choose a smaller --dt"
+    )]
     Step {
         /// Asked for [s].
         step: f64,

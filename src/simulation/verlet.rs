@@ -344,7 +344,8 @@ impl<'a, const W: usize> Stepper<'a, W> {
 
     /// Finds the top of the greatest force between the samples around it.
     fn interpolate_peak(&mut self, lane: usize) {
-        let Some(Sample { block, element, before }) = self.runs[lane].as_mut().and_then(|run| run.sampled.take())
+        let Some(Sample { block, element, before }) =
+            self.runs[lane].as_mut().and_then(|run| run.sampled.take())
         else {
             return;
         };
@@ -423,8 +424,7 @@ impl<'a, const W: usize> Stepper<'a, W> {
             let Some(run) = self.runs[lane].as_mut().filter(|_| tires.u[2][j] > self.best[0][j]) else {
                 continue;
             };
-            let sample =
-                Peak { value: tires.u[2][j], at: run.clock.now(run.step), place: (at + j) / W };
+            let sample = Peak { value: tires.u[2][j], at: run.clock.now(run.step), place: (at + j) / W };
             let velocity = 0.5 * (tires.v[2][j] + kicked.v[2][j]);
             run.record.higher(sample, velocity, tires.f[2][j] * tires.inverse[j] - self.lanes.gravity);
             for k in (lane..LANES).step_by(W) {
@@ -469,7 +469,8 @@ impl<'a, const W: usize> Stepper<'a, W> {
             }
             kicked.motion[j] |= flight.displacement.z.to_bits() << 1;
             // The kicks before and after count half a step of friction each; here the whole step is counted at once.
-            pass.lost[j] += mass * flight.lost - 0.5 * kicked.dissipated[j];
+            let next_half = 0.5 * h * (flight.free - last).xy().dot(&flight.velocity.xy());
+            pass.lost[j] += mass * (flight.lost - next_half) - 0.5 * kicked.dissipated[j];
             pass.put_in[j] += mass * flight.put_in;
         }
         due

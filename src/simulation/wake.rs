@@ -74,7 +74,9 @@ impl Wake {
             return;
         }
         self.changed = false;
-        let Self { awake, blocks, touched, moving, movers, pack_mark, block_mark, blocks_at, packs_of, .. } = self;
+        let Self {
+            awake, blocks, touched, moving, movers, pack_mark, block_mark, blocks_at, packs_of, ..
+        } = self;
         movers.retain(|&pack| moving[pack]);
         movers.sort_unstable();
         movers.dedup();

@@ -107,8 +107,7 @@ pub fn check(
     let first = effort.step.unwrap_or_else(|| start_step(case, effort.method, effort.accuracy));
     let rung = |n: i32| first * error::RATIO.powi(n);
     let mut add = |runs: &mut Vec<(Outcome, Duration)>, step: f64| -> Result<(), Failure> {
-        let settings =
-            Settings { method: effort.method, step, duration: case.plan.simulation.duration_s };
+        let settings = Settings { method: effort.method, step, duration: case.plan.simulation.duration_s };
         let (done, start) = (runs.len(), Instant::now());
         let outcome = simulate(&case.scene, &case.shots[option], &settings, &mut |motion| {
             watch(Progress { runs: done, time: motion.time() })
@@ -151,8 +150,7 @@ fn judge(case: &Case, method: Method, runs: &[(Outcome, Duration)], total_wall: 
     let force = estimate(|outcome| outcome.force);
     let drift = estimate(|outcome| outcome.drift);
     let limits = &case.limits;
-    let mut judged =
-        vec![(Quantity::Height, height, limits.height), (Quantity::Force, force, limits.force)];
+    let mut judged = vec![(Quantity::Height, height, limits.height), (Quantity::Force, force, limits.force)];
     judged.extend(limits.drift.map(|limit| (Quantity::Drift, drift, limit)));
     let reasons: Vec<Reason> = judged
         .into_iter()

@@ -5,6 +5,7 @@
 
 pub mod check;
 pub mod error;
+pub mod trace;
 
 use crate::plan::{Accuracy, Method, Plan};
 use crate::scene::{Scene, Shot};

@@ -93,10 +93,8 @@ struct Stepper<'a> {
 impl<'a> Stepper<'a> {
     fn new(scene: &'a Scene, shot: &'a Shot, step: f64) -> Self {
         let zeros = || vec![Vector3::zeros(); scene.mass.len()];
-        let region = Region {
-            taut: vec![false; scene.cables.len()],
-            ground: vec![Ground::Stick; scene.mass.len()],
-        };
+        let region =
+            Region { taut: vec![false; scene.cables.len()], ground: vec![Ground::Stick; scene.mass.len()] };
         Self {
             scene,
             shot,
@@ -198,9 +196,7 @@ impl<'a> Stepper<'a> {
             let (du, open) = match self.region.ground[tire] {
                 Ground::Free => (Vector3::zeros(), Vector3::repeat(1.0)),
                 Ground::Slip => (Vector3::z() * -self.u[tire].z, Vector3::new(1.0, 1.0, 0.0)),
-                Ground::Stick => {
-                    ((self.v[tire].xy() * (0.5 * h)).push(-self.u[tire].z), Vector3::zeros())
-                }
+                Ground::Stick => ((self.v[tire].xy() * (0.5 * h)).push(-self.u[tire].z), Vector3::zeros()),
             };
             self.du[tire] = du;
             self.system.open[tire] = open;
@@ -282,8 +278,7 @@ impl<'a> Stepper<'a> {
         if free.z > 0.0 && !lands {
             return Ground::Free;
         }
-        let within_cone =
-            self.sliding(tire, h).norm() <= self.scene.friction * (-free.z).max(0.0) * h;
+        let within_cone = self.sliding(tire, h).norm() <= self.scene.friction * (-free.z).max(0.0) * h;
         match assumed {
             Ground::Stick if !within_cone => Ground::Slip,
             Ground::Slip if !lands && within_cone => Ground::Stick,
@@ -312,9 +307,8 @@ impl<'a> Stepper<'a> {
                     velocity = self.land(tire, h, velocity);
                 }
             }
-            self.moving |= velocity != Vector3::zeros()
-                || self.du[tire] != Vector3::zeros()
-                || self.end[tire].z > 0.0;
+            self.moving |=
+                velocity != Vector3::zeros() || self.du[tire] != Vector3::zeros() || self.end[tire].z > 0.0;
             self.v[tire] = velocity;
         }
         std::mem::swap(&mut self.u, &mut self.end);

@@ -1,0 +1,108 @@
+//! `shelter check`: pass or fail of every delay option.
+
+use std::io::{self, IsTerminal, Write};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use clap::Args;
+use rayon::prelude::*;
+
+use super::{Compute, FormatArg, Look, Status, load};
+use crate::report;
+use crate::study::Case;
+use crate::study::check::check;
+use crate::verdict::Verdict;
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Plans to check; `-` reads standard input
+    #[arg(value_name = "PLAN", required = true)]
+    plans: Vec<PathBuf>,
+    #[command(flatten)]
+    compute: Compute,
+    #[command(flatten)]
+    output: Output,
+}
+
+/// What to print.
+#[derive(Args, Clone, Default)]
+pub struct Output {
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    format: FormatArg,
+    /// One passing option is enough
+    #[arg(long)]
+    any: bool,
+}
+
+pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
+    match load::cases(&arguments.plans, look) {
+        None => Ok(Status::Wrong),
+        Some(cases) => print(cases, &arguments.compute, look, &arguments.output),
+    }
+}
+
+/// Checks every option of every case and prints the results.
+pub fn print(cases: Vec<Case>, compute: &Compute, look: &Look, output: &Output) -> io::Result<Status> {
+    let judged = compute.on_threads(|| check_all(&cases, compute));
+    let mut out = io::stdout().lock();
+    let pairs = || cases.iter().zip(&judged);
+    match output.format {
+        FormatArg::Text => {
+            let style = report::table::Style { ascii: look.ascii, color: look.colored(out.is_terminal()) };
+            for (case, results) in pairs() {
+                write!(out, "{}", report::table::check(case, results, output.any, style))?;
+            }
+        }
+        FormatArg::Json => {
+            let mut documents: Vec<_> = pairs()
+                .map(|(case, results)| report::check::Document::new(case, results, output.any))
+                .collect();
+            let text = match documents.len() {
+                1 => report::json(&documents.remove(0)),
+                _ => report::json(&documents),
+            };
+            write!(out, "{text}")?;
+        }
+        FormatArg::Csv => {
+            let rows = pairs().flat_map(|(case, results)| report::check::Row::of(case, results));
+            write!(out, "{}", report::csv(rows))?;
+        }
+    }
+    out.flush()?;
+    let verdicts = judged.iter().map(|results| report::check::verdict(results, output.any));
+    let passed = Verdict::worst(verdicts) == Verdict::Pass;
+    Ok(if passed { Status::Pass } else { Status::Fail })
+}
+
+/// All options of all cases in parallel; results in the order of plans and options.
+fn check_all(cases: &[Case], compute: &Compute) -> Vec<report::check::Results> {
+    let jobs: Vec<(usize, usize)> = cases
+        .iter()
+        .enumerate()
+        .flat_map(|(n, case)| (0..case.shots.len()).map(move |option| (n, option)))
+        .collect();
+    let (done, show) = (AtomicUsize::new(0), io::stderr().is_terminal());
+    let mut results: Vec<_> = jobs
+        .par_iter()
+        .map(|&(n, option)| {
+            let case = &cases[n];
+            let effort = compute.effort(&case.plan);
+            let checked = check(case, option, &effort, &mut |_| ControlFlow::Continue(()));
+            if show {
+                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+                eprint!("\r{done} of {} options", jobs.len());
+            }
+            (n, checked)
+        })
+        .collect();
+    if show {
+        eprint!("\r\x1b[K");
+    }
+    let mut judged: Vec<report::check::Results> = cases.iter().map(|_| Vec::new()).collect();
+    for (n, checked) in results.drain(..) {
+        judged[n].push(checked);
+    }
+    judged
+}

@@ -1,0 +1,218 @@
+//! Commands: what users type, turned into studies, reports and an exit status. clap stops here.
+
+mod check;
+mod init;
+mod load;
+mod packaging;
+mod ropes;
+mod trace;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::plan::{Accuracy, Method, Plan};
+use crate::report::Format;
+use crate::study::Effort;
+
+/// Which blasting delay is safe under a shelter of tires and cables.
+///
+/// Opens a plan in the terminal: `shelter plans/amur-three-rows.toml`. Scripts use `shelter check`.
+#[derive(Parser)]
+#[command(
+    version,
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true,
+    arg_required_else_help = true
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    /// Plan to open
+    #[arg(value_name = "PLAN", required = true)]
+    plan: Option<PathBuf>,
+    #[command(flatten)]
+    compute: Compute,
+    #[command(flatten)]
+    look: Look,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Pass or fail of every delay option, for scripts
+    Check(check::Arguments),
+    /// Time histories of one option as CSV
+    Trace(trace::Arguments),
+    /// The rope catalogue
+    Ropes(ropes::Arguments),
+    /// A commented starter plan
+    Init(init::Arguments),
+    /// Shell completions
+    Completions(packaging::Completions),
+    /// The manual page
+    Man,
+}
+
+/// How to compute; shared by every command that does.
+#[derive(Args, Clone)]
+struct Compute {
+    /// How finely the refinement starts
+    #[arg(long, value_enum)]
+    accuracy: Option<AccuracyArg>,
+    /// Time integration method
+    #[arg(long, value_enum)]
+    method: Option<MethodArg>,
+    /// Exactly this step, never refined
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    dt: Option<f64>,
+    /// Worker threads; default: one per core
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+}
+
+impl Compute {
+    /// As the plan asks, with what the command line overrides.
+    fn effort(&self, plan: &Plan) -> Effort {
+        let asked = Effort::of(plan);
+        Effort {
+            method: self.method.map_or(asked.method, Into::into),
+            accuracy: self.accuracy.map_or(asked.accuracy, Into::into),
+            step: self.dt,
+        }
+    }
+
+    /// Runs `work` on the threads asked for.
+    fn on_threads<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        match rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0).into()).build() {
+            Ok(pool) => pool.install(work),
+            Err(_) => work(),
+        }
+    }
+}
+
+/// How output looks.
+#[derive(Args, Clone)]
+struct Look {
+    /// Plain characters only, for poor fonts
+    #[arg(long, global = true)]
+    ascii: bool,
+    /// Colour; `auto` obeys NO_COLOR
+    #[arg(long, value_enum, default_value = "auto", global = true)]
+    color: ColorArg,
+}
+
+impl Look {
+    /// Whether to colour what goes to a stream that is or is not a terminal.
+    fn colored(&self, terminal: bool) -> bool {
+        match self.color {
+            ColorArg::Always => true,
+            ColorArg::Never => false,
+            ColorArg::Auto => terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
+        }
+    }
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum ColorArg {
+    Auto,
+    Always,
+    Never,
+}
+
+#[derive(Clone, Copy, Default, ValueEnum)]
+enum FormatArg {
+    #[default]
+    Text,
+    Json,
+    Csv,
+}
+
+impl From<FormatArg> for Format {
+    fn from(arg: FormatArg) -> Self {
+        match arg {
+            FormatArg::Text => Format::Text,
+            FormatArg::Json => Format::Json,
+            FormatArg::Csv => Format::Csv,
+        }
+    }
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum AccuracyArg {
+    Draft,
+    Field,
+    Reference,
+}
+
+impl From<AccuracyArg> for Accuracy {
+    fn from(arg: AccuracyArg) -> Self {
+        match arg {
+            AccuracyArg::Draft => Accuracy::Draft,
+            AccuracyArg::Field => Accuracy::Field,
+            AccuracyArg::Reference => Accuracy::Reference,
+        }
+    }
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum MethodArg {
+    Verlet,
+    Newmark,
+}
+
+impl From<MethodArg> for Method {
+    fn from(arg: MethodArg) -> Self {
+        match arg {
+            MethodArg::Verlet => Method::Verlet,
+            MethodArg::Newmark => Method::Newmark,
+        }
+    }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err("must be a positive number".to_owned()) }
+}
+
+/// What a command that ran to its end says to the shell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Status {
+    /// Every option passes.
+    Pass = 0,
+    /// Some option fails or stays undecided.
+    Fail = 1,
+    /// The plan or the arguments are wrong.
+    Wrong = 2,
+    /// Interrupted by a signal.
+    Interrupted = 130,
+}
+
+impl From<Status> for ExitCode {
+    fn from(status: Status) -> Self {
+        ExitCode::from(status as u8)
+    }
+}
+
+/// Runs the command line.
+pub fn run() -> ExitCode {
+    let cli = Cli::parse();
+    let done = match (cli.command, cli.plan) {
+        (Some(Command::Check(arguments)), _) => check::run(&arguments, &cli.look),
+        (Some(Command::Trace(arguments)), _) => trace::run(&arguments, &cli.look),
+        (Some(Command::Ropes(arguments)), _) => ropes::run(&arguments),
+        (Some(Command::Init(arguments)), _) => init::run(&arguments),
+        (Some(Command::Completions(arguments)), _) => packaging::completions(&arguments),
+        (Some(Command::Man), _) => packaging::man(),
+        (None, Some(plan)) => load::open(&plan, &cli.compute, &cli.look),
+        (None, None) => Ok(Status::Wrong),
+    };
+    match done {
+        Ok(status) => status.into(),
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Status::Pass.into(),
+        Err(error) => {
+            eprintln!("error: {error}");
+            Status::Wrong.into()
+        }
+    }
+}

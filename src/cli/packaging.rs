@@ -1,0 +1,28 @@
+//! `shelter completions` and `shelter man`, for packagers.
+
+use std::io::{self, Write};
+
+use clap::{Args, CommandFactory};
+use clap_complete::Shell;
+
+use super::{Cli, Status};
+
+#[derive(Args)]
+pub struct Completions {
+    /// Which shell
+    shell: Shell,
+}
+
+pub fn completions(arguments: &Completions) -> io::Result<Status> {
+    let mut text = Vec::new();
+    clap_complete::generate(arguments.shell, &mut Cli::command(), "shelter", &mut text);
+    io::stdout().write_all(&text)?;
+    Ok(Status::Pass)
+}
+
+pub fn man() -> io::Result<Status> {
+    let mut text = Vec::new();
+    clap_mangen::Man::new(Cli::command()).render(&mut text)?;
+    io::stdout().write_all(&text)?;
+    Ok(Status::Pass)
+}

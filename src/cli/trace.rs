@@ -1,0 +1,149 @@
+//! `shelter trace`: time histories of one option.
+
+use std::io::{self, BufWriter, Write};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::{Compute, FormatArg, Look, Status, load};
+use crate::report;
+use crate::scene::{Scene, TireId};
+use crate::simulation::{Settings, simulate};
+use crate::study::Case;
+use crate::study::check::start_step;
+use crate::study::trace::{Chosen, trace};
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Plan to trace
+    plan: PathBuf,
+    /// Name of the delay option; default: the first
+    #[arg(long, value_name = "NAME")]
+    option: Option<String>,
+    /// Tire to follow, `ROW,COLUMN` or `N` in a list layout; default: the highest
+    #[arg(long, value_name = "ROW,COLUMN")]
+    tire: Vec<String>,
+    /// Cable to follow, by its two tires; default: the most loaded
+    #[arg(long, value_name = "ROW,COLUMN-ROW,COLUMN")]
+    cable: Vec<String>,
+    /// Milliseconds between rows; default: every step
+    #[arg(long, value_name = "MS", value_parser = super::positive)]
+    every: Option<f64>,
+    /// Output format; `text` is CSV as well
+    #[arg(long, value_enum, default_value = "csv")]
+    format: FormatArg,
+    #[command(flatten)]
+    compute: Compute,
+}
+
+pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
+    let Some(case) = load::cases([&arguments.plan], look).and_then(|mut cases| cases.pop()) else {
+        return Ok(Status::Wrong);
+    };
+    let wrong = |message: String| {
+        eprintln!("error: {message}");
+        Ok(Status::Wrong)
+    };
+    let option = match find_option(&case, arguments.option.as_deref()) {
+        Ok(option) => option,
+        Err(message) => return wrong(message),
+    };
+    let mut chosen = match chosen(&case.scene, arguments) {
+        Ok(chosen) => chosen,
+        Err(message) => return wrong(message),
+    };
+    let effort = arguments.compute.effort(&case.plan);
+    let settings = Settings {
+        method: effort.method,
+        step: effort.step.unwrap_or_else(|| start_step(&case, effort.method, effort.accuracy)),
+        duration: case.plan.simulation.duration_s,
+    };
+    if chosen == Chosen::default() {
+        match simulate(&case.scene, &case.shots[option], &settings, &mut |_| ControlFlow::Continue(())) {
+            Ok(outcome) => chosen = Chosen::of(&outcome),
+            Err(failure) => return wrong(failure.to_string()),
+        }
+    }
+    let mut rows = Rows::begin(arguments.format, report::trace::header(&case.scene, &chosen))?;
+    let every = arguments.every.map_or(settings.step, |ms| ms * 1e-3);
+    let mut written = Ok(());
+    let done = trace(&case, option, &settings, &chosen, every, &mut |row| {
+        written = rows.row(row);
+        if written.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    });
+    written?;
+    rows.end()?;
+    done.map_or_else(|failure| wrong(failure.to_string()), |_| Ok(Status::Pass))
+}
+
+/// Writes rows as they come.
+struct Rows {
+    out: BufWriter<io::StdoutLock<'static>>,
+    json: bool,
+    first: bool,
+}
+
+impl Rows {
+    fn begin(format: FormatArg, header: Vec<String>) -> io::Result<Self> {
+        let mut out = BufWriter::new(io::stdout().lock());
+        let json = matches!(format, FormatArg::Json);
+        if json {
+            let columns = serde_json::to_string(&header)?;
+            write!(out, "{{ \"schema\": \"shelter.trace/1\", \"columns\": {columns}, \"rows\": [")?;
+        } else {
+            writeln!(out, "{}", header.join(","))?;
+        }
+        Ok(Self { out, json, first: true })
+    }
+
+    fn row(&mut self, row: &[f64]) -> io::Result<()> {
+        let cells: Vec<String> = row.iter().map(f64::to_string).collect();
+        if self.json {
+            let comma = if self.first { "" } else { "," };
+            write!(self.out, "{comma}\n  [{}]", cells.join(", "))?;
+        } else {
+            writeln!(self.out, "{}", cells.join(","))?;
+        }
+        self.first = false;
+        Ok(())
+    }
+
+    fn end(mut self) -> io::Result<()> {
+        if self.json {
+            writeln!(self.out, "\n] }}")?;
+        }
+        self.out.flush()
+    }
+}
+
+fn find_option(case: &Case, name: Option<&str>) -> Result<usize, String> {
+    let names: Vec<&str> = case.plan.delays.iter().map(|delay| delay.name.as_str()).collect();
+    let Some(name) = name else { return Ok(0) };
+    names.iter().position(|&known| known == name).ok_or_else(|| {
+        format!("no delay option '{name}' in {}; it has: {}", case.plan.path, names.join(", "))
+    })
+}
+
+fn chosen(scene: &Scene, arguments: &Arguments) -> Result<Chosen, String> {
+    let tires = arguments.tire.iter().map(|text| find_tire(scene, text)).collect::<Result<_, _>>()?;
+    let cables = arguments.cable.iter().map(|text| find_cable(scene, text)).collect::<Result<_, _>>()?;
+    Ok(Chosen { tires, cables })
+}
+
+fn find_tire(scene: &Scene, text: &str) -> Result<usize, String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    let numbers = numbers.map_err(|_| format!("'{text}' is no tire: write ROW,COLUMN such as 2,3"))?;
+    let found = scene.tire.iter().position(|id: &TireId| id.numbers() == numbers);
+    found.ok_or_else(|| format!("no tire {text} in this shelter"))
+}
+
+fn find_cable(scene: &Scene, text: &str) -> Result<usize, String> {
+    let (from, to) = text
+        .split_once('-')
+        .ok_or_else(|| format!("'{text}' is no cable: write its two tires, such as 1,1-1,2"))?;
+    let ends = [find_tire(scene, from)?, find_tire(scene, to)?];
+    let joins = |cable: &[usize; 2]| *cable == ends || *cable == [ends[1], ends[0]];
+    let found = scene.cables.iter().position(|cable| joins(&cable.ends));
+    found.ok_or_else(|| format!("no cable between tires {from} and {to}"))
+}

@@ -1,0 +1,241 @@
+//! The results of `check` as JSON and CSV; schema `shelter.check/1`.
+
+use serde::Serialize;
+
+use crate::plan::Method;
+use crate::scene::{Scene, TireId};
+use crate::simulation::Failure;
+use crate::study::Case;
+use crate::study::check::{Checked, Quantity, Reason};
+use crate::units::{self, Unit, value_and_error};
+use crate::verdict::{Estimate, Verdict};
+
+/// One plan's results, in the order of its options.
+pub type Results = Vec<Result<Checked, Failure>>;
+
+/// The verdict on a plan: the worst of its options, or the best where one passing option is enough.
+pub fn verdict(results: &Results, any: bool) -> Verdict {
+    let each = results.iter().map(|result| result.as_ref().map_or(Verdict::Undecided, |c| c.verdict));
+    if any { each.min().unwrap_or(Verdict::Pass) } else { Verdict::worst(each) }
+}
+
+/// Why an option did not pass, in words.
+pub fn explain(reason: &Reason) -> String {
+    let (name, unit) = match reason.quantity {
+        Quantity::Height => ("flight height", Unit::Metre),
+        Quantity::Force => ("cable force", Unit::Kilonewton),
+        Quantity::Drift => ("drift", Unit::Metre),
+    };
+    let value = value_and_error(reason.estimate.value, reason.estimate.error, unit);
+    let (limit, symbol) = (units::value(reason.limit, unit), unit.symbol());
+    match reason.verdict {
+        Verdict::Fail => format!("{name} {value} {symbol} is over the limit of {limit} {symbol}"),
+        _ => format!("{name} {value} {symbol} is too near the limit of {limit} {symbol} to tell"),
+    }
+}
+
+/// As plans and scripts spell a method.
+pub fn method_name(method: Method) -> &'static str {
+    match method {
+        Method::Verlet => "verlet",
+        Method::Newmark => "newmark",
+    }
+}
+
+/// The document of one plan.
+#[derive(Serialize)]
+pub struct Document {
+    schema: &'static str,
+    plan: String,
+    title: String,
+    verdict: &'static str,
+    scene: SceneSize,
+    limits: Limits,
+    options: Vec<OptionResult>,
+}
+
+#[derive(Serialize)]
+struct SceneSize {
+    tires: usize,
+    cables: usize,
+    modelled_tires: usize,
+}
+
+#[derive(Serialize)]
+struct Limits {
+    flight_height_m: f64,
+    cable_force_n: f64,
+    cable_safety_factor: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drift_m: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct OptionResult {
+    name: String,
+    fire_at_s: Vec<f64>,
+    verdict: &'static str,
+    reasons: Vec<String>,
+    #[serde(flatten)]
+    values: Option<Values>,
+}
+
+#[derive(Serialize)]
+struct Values {
+    flight_height_m: AtTire,
+    cable_force_n: AtCable,
+    cable_safety_factor: Option<f64>,
+    drift_m: AtTire,
+    method: &'static str,
+    dt_s: f64,
+    steps: usize,
+    energy_residual: f64,
+    wall_s: f64,
+    total_wall_s: f64,
+    runs: usize,
+}
+
+#[derive(Serialize)]
+struct AtTire {
+    value: f64,
+    error: f64,
+    at_s: f64,
+    tire: Vec<f64>,
+}
+
+#[derive(Serialize)]
+struct AtCable {
+    value: f64,
+    error: f64,
+    at_s: f64,
+    cable: Option<[Vec<f64>; 2]>,
+}
+
+impl AtTire {
+    fn new(scene: &Scene, estimate: &Estimate) -> Self {
+        let Estimate { value, error, at, place } = *estimate;
+        Self { value, error, at_s: at, tire: scene.tire.get(place).map(TireId::numbers).unwrap_or_default() }
+    }
+}
+
+impl AtCable {
+    fn new(scene: &Scene, estimate: &Estimate) -> Self {
+        let Estimate { value, error, at, place } = *estimate;
+        let ends = |cable: &crate::scene::Cable| cable.ends.map(|end| scene.tire[end].numbers());
+        Self { value, error, at_s: at, cable: scene.cables.get(place).map(ends) }
+    }
+}
+
+impl Values {
+    fn new(scene: &Scene, checked: &Checked) -> Self {
+        Self {
+            flight_height_m: AtTire::new(scene, &checked.height),
+            cable_force_n: AtCable::new(scene, &checked.force),
+            cable_safety_factor: Some(checked.safety_factor).filter(|factor| factor.is_finite()),
+            drift_m: AtTire::new(scene, &checked.drift),
+            method: method_name(checked.method),
+            dt_s: checked.step,
+            steps: checked.steps,
+            energy_residual: checked.energy_residual,
+            wall_s: checked.wall.as_secs_f64(),
+            total_wall_s: checked.total_wall.as_secs_f64(),
+            runs: checked.runs,
+        }
+    }
+}
+
+impl Document {
+    /// The results of one plan.
+    pub fn new(case: &Case, results: &Results, any: bool) -> Self {
+        let Case { plan, scene, limits, .. } = case;
+        let options = plan.delays.iter().zip(results).map(|(delay, result)| OptionResult {
+            name: delay.name.clone(),
+            fire_at_s: delay.timing.fire_at_ms().iter().map(|ms| ms * 1e-3).collect(),
+            verdict: result.as_ref().map_or(Verdict::Undecided, |c| c.verdict).word(),
+            reasons: match result {
+                Ok(checked) => checked.reasons.iter().map(explain).collect(),
+                Err(failure) => vec![failure.to_string()],
+            },
+            values: result.as_ref().ok().map(|checked| Values::new(scene, checked)),
+        });
+        Self {
+            schema: "shelter.check/1",
+            plan: plan.path.clone(),
+            title: plan.title.clone(),
+            verdict: verdict(results, any).word(),
+            scene: SceneSize {
+                tires: scene.mass.len(),
+                cables: scene.cables.len(),
+                modelled_tires: scene.mass.len(),
+            },
+            limits: Limits {
+                flight_height_m: limits.height,
+                cable_force_n: limits.force,
+                cable_safety_factor: plan.limits.cable_safety_factor,
+                drift_m: limits.drift,
+            },
+            options: options.collect(),
+        }
+    }
+}
+
+/// One option of one plan as a CSV row; empty cells where it has no result.
+#[derive(Default, Serialize)]
+pub struct Row {
+    plan: String,
+    option: String,
+    verdict: &'static str,
+    flight_height_m: Option<f64>,
+    flight_height_error_m: Option<f64>,
+    flight_height_at_s: Option<f64>,
+    flight_height_tire: String,
+    cable_force_n: Option<f64>,
+    cable_force_error_n: Option<f64>,
+    cable_force_at_s: Option<f64>,
+    cable_force_cable: String,
+    cable_safety_factor: Option<f64>,
+    drift_m: Option<f64>,
+    drift_error_m: Option<f64>,
+    dt_s: Option<f64>,
+    energy_residual: Option<f64>,
+    reasons: String,
+}
+
+impl Row {
+    /// The rows of one plan.
+    pub fn of(case: &Case, results: &Results) -> Vec<Self> {
+        let scene = &case.scene;
+        let row = |(delay, result): (&crate::plan::DelayOption, &Result<Checked, Failure>)| {
+            let (plan, option) = (case.plan.path.clone(), delay.name.clone());
+            match result {
+                Err(failure) => Self {
+                    plan,
+                    option,
+                    verdict: Verdict::Undecided.word(),
+                    reasons: failure.to_string(),
+                    ..Self::default()
+                },
+                Ok(checked) => Self {
+                    plan,
+                    option,
+                    verdict: checked.verdict.word(),
+                    flight_height_m: Some(checked.height.value),
+                    flight_height_error_m: Some(checked.height.error),
+                    flight_height_at_s: Some(checked.height.at),
+                    flight_height_tire: scene.tire[checked.height.place].to_string(),
+                    cable_force_n: Some(checked.force.value),
+                    cable_force_error_n: Some(checked.force.error),
+                    cable_force_at_s: Some(checked.force.at),
+                    cable_force_cable: scene.cable_name(checked.force.place),
+                    cable_safety_factor: Some(checked.safety_factor).filter(|factor| factor.is_finite()),
+                    drift_m: Some(checked.drift.value),
+                    drift_error_m: Some(checked.drift.error),
+                    dt_s: Some(checked.step),
+                    energy_residual: Some(checked.energy_residual),
+                    reasons: checked.reasons.iter().map(explain).collect::<Vec<_>>().join("; "),
+                },
+            }
+        };
+        case.plan.delays.iter().zip(results).map(row).collect()
+    }
+}

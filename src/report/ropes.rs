@@ -1,0 +1,1 @@
+//! The rope catalogue as text.

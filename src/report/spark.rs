@@ -1,0 +1,45 @@
+//! Sparklines: a series as one line of bars, the tallest of each stretch kept.
+
+const UNICODE: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
+const ASCII: [char; 8] = ['_', '.', ':', '-', '=', '+', '*', '#'];
+
+/// `width` bars for `series`, scaled so that `top` (or the greatest value, if that is more) is a full bar.
+pub fn sparkline(series: &[f64], width: usize, top: f64, ascii: bool) -> String {
+    let bars = if ascii { ASCII } else { UNICODE };
+    let full = series.iter().copied().fold(top, f64::max);
+    let bar = |value: f64| {
+        let level = if full > 0.0 { value / full * bars.len() as f64 } else { 0.0 };
+        bars[(level as usize).min(bars.len() - 1)]
+    };
+    resample(series, width).into_iter().map(bar).collect()
+}
+
+/// The greatest of each of `width` stretches of `series`.
+pub fn resample(series: &[f64], width: usize) -> Vec<f64> {
+    if series.is_empty() {
+        return vec![0.0; width];
+    }
+    let edge = |n: usize| n * series.len() / width;
+    let stretch = |n: usize| edge(n)..edge(n + 1).max(edge(n) + 1).min(series.len());
+    (0..width).map(|n| series[stretch(n)].iter().copied().fold(0.0, f64::max)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_narrow_sparkline_keeps_the_peak() {
+        let mut series = vec![0.0; 1000];
+        series[613] = 1.0;
+        assert_eq!(sparkline(&series, 10, 0.0, false), "▁▁▁▁▁▁█▁▁▁");
+        assert_eq!(sparkline(&series, 10, 2.0, true), "______=___");
+    }
+
+    #[test]
+    fn short_empty_and_zero_series_have_bars_too() {
+        assert_eq!(sparkline(&[0.0, 1.0], 4, 0.0, false), "▁▁██");
+        assert_eq!(sparkline(&[], 3, 0.0, false), "▁▁▁");
+        assert_eq!(sparkline(&[0.0], 0, 0.0, false), "");
+    }
+}

@@ -1,0 +1,102 @@
+//! The results of `check` as a table for reading.
+
+use super::check::{Results, explain, method_name, verdict};
+use super::spark::sparkline;
+use crate::plan::Accuracy;
+use crate::study::Case;
+use crate::study::check::Checked;
+use crate::units::{self, Unit, value_and_error};
+use crate::verdict::Verdict;
+
+/// How a table looks.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Style {
+    /// Plain characters only.
+    pub ascii: bool,
+    /// With colours; the words stand either way.
+    pub color: bool,
+}
+
+impl Style {
+    fn word(self, verdict: Verdict) -> String {
+        let (word, code) = match verdict {
+            Verdict::Pass => ("PASS", 32),
+            Verdict::Undecided => ("OPEN", 33),
+            Verdict::Fail => ("FAIL", 31),
+        };
+        if self.color { format!("\x1b[1;{code}m{word}\x1b[0m") } else { word.to_owned() }
+    }
+
+    fn plain(self, text: String) -> String {
+        if self.ascii { text.replace(" ± ", " +- ").replace('·', "|") } else { text }
+    }
+}
+
+/// As plans and scripts spell an accuracy.
+pub fn accuracy_name(accuracy: Accuracy) -> &'static str {
+    match accuracy {
+        Accuracy::Draft => "draft",
+        Accuracy::Field => "field",
+        Accuracy::Reference => "reference",
+    }
+}
+
+/// Width of a sparkline.
+const SPARK: usize = 16;
+
+/// One plan's results.
+pub fn check(case: &Case, results: &Results, any: bool, style: Style) -> String {
+    let plan = &case.plan;
+    let (tires, cables) = (case.scene.mass.len(), case.scene.cables.len());
+    let mut limits = format!(
+        "height {} m, cable force {} kN (breaking force {} kN / {})",
+        units::value(case.limits.height, Unit::Metre),
+        units::value(case.limits.force, Unit::Kilonewton),
+        units::value(case.limits.breaking_force, Unit::Kilonewton),
+        plan.limits.cable_safety_factor,
+    );
+    if let Some(drift) = case.limits.drift {
+        limits += &format!(", drift {} m", units::value(drift, Unit::Metre));
+    }
+    let mut text =
+        format!("{} · {}\n{tires} tires, {cables} cables · limits: {limits}\n\n", plan.title, plan.path);
+    let name_width = plan.delays.iter().map(|delay| delay.name.chars().count()).max().unwrap_or(0).max(6);
+    text += &format!(
+        "{:name_width$}  {:4}  {:>17}  {:>17}  {:>6}  {:SPARK$}  {:SPARK$}\n",
+        "option", "", "height, m", "force, kN", "factor", "height over time", "force over time"
+    );
+    for (delay, result) in plan.delays.iter().zip(results) {
+        let verdict = result.as_ref().map_or(Verdict::Undecided, |checked| checked.verdict);
+        text += &format!("{:name_width$}  {}", delay.name, style.word(verdict));
+        match result {
+            Err(failure) => text += &format!("  {failure}\n"),
+            Ok(checked) => text += &row(case, checked, style),
+        }
+    }
+    let passed = results.iter().flatten().filter(|checked| checked.verdict == Verdict::Pass).count();
+    let verdict = style.word(verdict(results, any));
+    text += &format!("\n{verdict}: {passed} of {} options pass", results.len());
+    if let Some(checked) = results.iter().flatten().next() {
+        let method = method_name(checked.method);
+        text += &format!(" · {method}, {}", accuracy_name(plan.simulation.accuracy));
+    }
+    text.push('\n');
+    style.plain(text)
+}
+
+/// Values, sparklines and reasons of one option.
+fn row(case: &Case, checked: &Checked, style: Style) -> String {
+    let Checked { height, force, history, .. } = checked;
+    let mut text = format!(
+        "  {:>17}  {:>17}  {:>6}  {}  {}\n",
+        value_and_error(height.value, height.error, Unit::Metre),
+        value_and_error(force.value, force.error, Unit::Kilonewton),
+        units::factor(checked.safety_factor),
+        sparkline(&history.height, SPARK, case.limits.height, style.ascii),
+        sparkline(&history.force, SPARK, case.limits.force, style.ascii),
+    );
+    for reason in &checked.reasons {
+        text += &format!("    {}\n", explain(reason));
+    }
+    text
+}

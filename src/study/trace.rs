@@ -1,0 +1,65 @@
+//! Time histories of chosen tires and cables of one option.
+
+use std::ops::ControlFlow;
+
+use super::Case;
+use crate::outcome::Outcome;
+use crate::simulation::{Failure, Motion, Settings, simulate};
+
+/// What to record.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Chosen {
+    /// Indices of tires.
+    pub tires: Vec<usize>,
+    /// Indices of cables.
+    pub cables: Vec<usize>,
+}
+
+impl Chosen {
+    /// The highest tire and the most loaded cable of a run.
+    pub fn of(outcome: &Outcome) -> Self {
+        let cables = if outcome.force.value > 0.0 { vec![outcome.force.place] } else { Vec::new() };
+        Self { tires: vec![outcome.height.place], cables }
+    }
+}
+
+/// Runs one option and hands rows to `emit`, `every` so many seconds.
+///
+/// A row is the time [s], then per tire x, y, height [m], friction and its limit μR [N], then per cable its force [N].
+pub fn trace(
+    case: &Case,
+    option: usize,
+    settings: &Settings,
+    chosen: &Chosen,
+    every: f64,
+    emit: &mut dyn FnMut(&[f64]) -> ControlFlow<()>,
+) -> Result<Outcome, Failure> {
+    let mut row = Vec::with_capacity(1 + 5 * chosen.tires.len() + chosen.cables.len());
+    let mut next = 0.0;
+    simulate(&case.scene, &case.shots[option], settings, &mut |motion| {
+        let now = motion.time();
+        // Half a step early is nearer than a whole step late.
+        if now + 0.5 * settings.step < next {
+            return ControlFlow::Continue(());
+        }
+        next = ((now + 0.5 * settings.step) / every).floor() * every + every;
+        fill(&mut row, case, chosen, motion);
+        emit(&row)
+    })
+}
+
+fn fill(row: &mut Vec<f64>, case: &Case, chosen: &Chosen, motion: &dyn Motion) {
+    row.clear();
+    row.push(motion.time());
+    for &tire in &chosen.tires {
+        let u = motion.displacement(tire);
+        let place = case.scene.position[tire] + u;
+        let (friction, limit) = motion.friction(tire);
+        row.extend([place.x, place.y, u.z, friction, limit]);
+    }
+    for &cable in &chosen.cables {
+        let cable = &case.scene.cables[cable];
+        let [a, b] = cable.ends.map(|end| motion.displacement(end));
+        row.push(cable.force((cable.span + (b - a)).norm()));
+    }
+}

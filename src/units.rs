@@ -1,0 +1,108 @@
+//! How quantities are worded: digits that follow the error, units at the edge.
+//!
+//! SI numbers come in, text goes out. Every rounding that a reader sees happens here.
+
+/// A quantity as views show it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unit {
+    /// From metres.
+    Metre,
+    /// From newtons.
+    Kilonewton,
+}
+
+impl Unit {
+    /// Its symbol.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Unit::Metre => "m",
+            Unit::Kilonewton => "kN",
+        }
+    }
+
+    /// How many SI units it holds.
+    pub fn size(self) -> f64 {
+        match self {
+            Unit::Metre => 1.0,
+            Unit::Kilonewton => 1e3,
+        }
+    }
+
+    /// Most decimals worth reading: a tenth of a millimetre, a newton.
+    fn most_decimals(self) -> usize {
+        match self {
+            Unit::Metre => 4,
+            Unit::Kilonewton => 3,
+        }
+    }
+}
+
+/// A value and its error, both SI, with one digit of error, rounded up: `1.7655 ± 0.0002`.
+pub fn value_and_error(value: f64, error: f64, unit: Unit) -> String {
+    let (value, error) = (value / unit.size(), error / unit.size());
+    if !(value.is_finite() && error.is_finite()) {
+        return format!("{value} ± {error}");
+    }
+    let most = unit.most_decimals();
+    let leading = if error > 0.0 { -error.log10().floor() } else { most as f64 };
+    let decimals = leading.clamp(0.0, most as f64) as usize;
+    let last = 10_f64.powi(-(decimals as i32));
+    let shown = (error / last - 1e-9).ceil().max(if error > 0.0 { 1.0 } else { 0.0 }) * last;
+    format!("{value:.decimals$} ± {shown:.decimals$}")
+}
+
+/// A value without an error: `1.500`.
+pub fn value(value: f64, unit: Unit) -> String {
+    format!("{:.3}", value / unit.size())
+}
+
+/// Seconds at a resolution of a millisecond: `0.602 s`.
+pub fn seconds(time: f64) -> String {
+    format!("{time:.3} s")
+}
+
+/// Seconds as milliseconds without needless decimals: `20 ms`, `0.2 ms`.
+pub fn milliseconds(time: f64) -> String {
+    let ms = time * 1e3;
+    let digits = if ms == 0.0 { 0.0 } else { 3.0 - ms.abs().log10().floor() - 1.0 };
+    let scale = 10_f64.powf(digits.clamp(0.0, 12.0));
+    format!("{} ms", (ms * scale).round() / scale)
+}
+
+/// A ratio of breaking force to force: `2.11`, or `none` where no cable pulls.
+pub fn factor(factor: f64) -> String {
+    if factor.is_finite() { format!("{factor:.2}") } else { "none".to_owned() }
+}
+
+/// How much of a limit is left [%]; negative past it.
+pub fn margin_percent(value: f64, limit: f64) -> f64 {
+    100.0 * (1.0 - value / limit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_follow_the_error() {
+        assert_eq!(value_and_error(1.76549, 0.00019, Unit::Metre), "1.7655 ± 0.0002");
+        assert_eq!(value_and_error(1.76549, 0.03, Unit::Metre), "1.77 ± 0.03");
+        assert_eq!(value_and_error(9926.5, 4.0, Unit::Kilonewton), "9.927 ± 0.004");
+        assert_eq!(value_and_error(26750.4, 1200.0, Unit::Kilonewton), "27 ± 2");
+        assert_eq!(value_and_error(0.0, 0.0, Unit::Metre), "0.0000 ± 0.0000");
+    }
+
+    #[test]
+    fn an_error_is_never_shown_smaller_than_it_is() {
+        assert_eq!(value_and_error(1.0, 1e-9, Unit::Metre), "1.0000 ± 0.0001");
+        assert_eq!(value_and_error(1.0, 0.000_11, Unit::Metre), "1.0000 ± 0.0002");
+    }
+
+    #[test]
+    fn milliseconds_keep_three_digits() {
+        assert_eq!(milliseconds(0.02), "20 ms");
+        assert_eq!(milliseconds(0.0002), "0.2 ms");
+        assert_eq!(milliseconds(0.0), "0 ms");
+        assert_eq!(milliseconds(1.2), "1200 ms");
+    }
+}
