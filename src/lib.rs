@@ -7,5 +7,7 @@ pub mod ropes;
 pub mod scene;
 pub mod simulation;
 pub mod study;
+pub mod tui;
 pub mod units;
 pub mod verdict;
+pub mod worker;

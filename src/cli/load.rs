@@ -2,10 +2,13 @@
 
 use std::io::{self, IsTerminal};
 use std::path::Path;
+use std::sync::Arc;
 
 use super::{Compute, Look, Status};
 use crate::plan::Plan;
 use crate::study::Case;
+use crate::tui::{self, app::App};
+use crate::worker::Worker;
 
 /// Loads plans; prints every mistake of every plan and returns `None` when there is one.
 pub fn cases<'a>(paths: impl IntoIterator<Item = &'a std::path::PathBuf>, look: &Look) -> Option<Vec<Case>> {
@@ -26,10 +29,24 @@ pub fn cases<'a>(paths: impl IntoIterator<Item = &'a std::path::PathBuf>, look: 
     cases
 }
 
-/// Opens a plan in the terminal; without one, says the same as `check`.
+/// Opens a plan in the terminal; where output is no terminal, says the same as `check`.
 pub fn open(plan: &Path, compute: &Compute, look: &Look) -> io::Result<Status> {
     let Some(case) = cases(&[plan.to_path_buf()], look).and_then(|mut cases| cases.pop()) else {
         return Ok(Status::Wrong);
     };
-    super::check::print(vec![case], compute, look, &super::check::Output::default())
+    if !io::stdout().is_terminal() {
+        return super::check::print(vec![case], compute, look, &super::check::Output::default());
+    }
+    if !io::stdin().is_terminal() {
+        return Err(io::Error::other(
+            "the terminal UI needs a keyboard on standard input; scripts use `shelter check`",
+        ));
+    }
+    let effort = compute.effort(&case.plan);
+    let worker = Worker::new(compute.threads.unwrap_or(0).into());
+    let screen = tui::Look { ascii: look.ascii, color: look.colored(true) };
+    match tui::run(App::new(Arc::new(case), effort), worker, screen)? {
+        tui::Left::Quit => Ok(Status::Pass),
+        tui::Left::Signal => Ok(Status::Interrupted),
+    }
 }

@@ -1,0 +1,190 @@
+//! The one table of keys: dispatch, footer and help all read it.
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
+/// What a key asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    /// Select the option above.
+    Up,
+    /// Select the option below.
+    Down,
+    /// Select an option a page up.
+    PageUp,
+    /// Select an option a page down.
+    PageDown,
+    /// Select the first option.
+    First,
+    /// Select the last option.
+    Last,
+    /// Show the selected option large, or all again.
+    Zoom,
+    /// Compute everything again.
+    Rerun,
+    /// Next finer accuracy.
+    Finer,
+    /// Next coarser accuracy.
+    Coarser,
+    /// Next theme.
+    Theme,
+    /// Show or hide the help.
+    Help,
+    /// Leave.
+    Quit,
+    /// Stop and give the shell back until resumed.
+    Suspend,
+}
+
+/// Keys that ask for one action.
+pub struct Binding {
+    /// Any of these.
+    pub keys: &'static [(KeyCode, KeyModifiers)],
+    /// What they ask for.
+    pub action: Action,
+    /// The keys in words.
+    pub label: &'static str,
+    /// The action in words.
+    pub text: &'static str,
+    /// The action in one word for the footer; empty to leave it out.
+    pub short: &'static str,
+}
+
+const NONE: KeyModifiers = KeyModifiers::NONE;
+const CONTROL: KeyModifiers = KeyModifiers::CONTROL;
+
+const fn key(letter: char) -> (KeyCode, KeyModifiers) {
+    (KeyCode::Char(letter), NONE)
+}
+
+/// Every key there is.
+pub const KEYS: &[Binding] = &[
+    Binding {
+        keys: &[(KeyCode::Down, NONE), key('j')],
+        action: Action::Down,
+        label: "Down j",
+        text: "select the next option",
+        short: "select",
+    },
+    Binding {
+        keys: &[(KeyCode::Up, NONE), key('k')],
+        action: Action::Up,
+        label: "Up k",
+        text: "select the option before",
+        short: "",
+    },
+    Binding {
+        keys: &[(KeyCode::PageDown, NONE)],
+        action: Action::PageDown,
+        label: "PgDn",
+        text: "select ten options further",
+        short: "",
+    },
+    Binding {
+        keys: &[(KeyCode::PageUp, NONE)],
+        action: Action::PageUp,
+        label: "PgUp",
+        text: "select ten options back",
+        short: "",
+    },
+    Binding {
+        keys: &[(KeyCode::Home, NONE), key('g')],
+        action: Action::First,
+        label: "Home g",
+        text: "select the first option",
+        short: "",
+    },
+    Binding {
+        keys: &[(KeyCode::End, NONE), key('G')],
+        action: Action::Last,
+        label: "End G",
+        text: "select the last option",
+        short: "",
+    },
+    Binding {
+        keys: &[(KeyCode::Enter, NONE)],
+        action: Action::Zoom,
+        label: "Enter",
+        text: "show the selected option large, and back",
+        short: "enlarge",
+    },
+    Binding {
+        keys: &[key('r')],
+        action: Action::Rerun,
+        label: "r",
+        text: "compute all options again",
+        short: "run",
+    },
+    Binding {
+        keys: &[key('+'), key('=')],
+        action: Action::Finer,
+        label: "+",
+        text: "finer accuracy: draft, field, reference",
+        short: "finer",
+    },
+    Binding {
+        keys: &[key('-')],
+        action: Action::Coarser,
+        label: "-",
+        text: "coarser accuracy",
+        short: "coarser",
+    },
+    Binding {
+        keys: &[key('t')],
+        action: Action::Theme,
+        label: "t",
+        text: "next theme: dark, light, sunlight",
+        short: "theme",
+    },
+    Binding {
+        keys: &[key('?'), (KeyCode::F(1), NONE)],
+        action: Action::Help,
+        label: "? F1",
+        text: "show or hide this help",
+        short: "help",
+    },
+    Binding {
+        keys: &[(KeyCode::Char('z'), CONTROL)],
+        action: Action::Suspend,
+        label: "Ctrl-z",
+        text: "back to the shell until `fg`",
+        short: "",
+    },
+    Binding {
+        keys: &[key('q'), (KeyCode::Esc, NONE), (KeyCode::Char('c'), CONTROL)],
+        action: Action::Quit,
+        label: "q Esc Ctrl-c",
+        text: "leave (Esc closes what is open first)",
+        short: "quit",
+    },
+];
+
+/// The action a key asks for.
+pub fn action(event: &KeyEvent) -> Option<Action> {
+    // Shift is part of the letter itself; terminals differ in whether they report it as well.
+    let modifiers = event.modifiers - KeyModifiers::SHIFT;
+    let asked = |binding: &&Binding| binding.keys.contains(&(event.code, modifiers));
+    KEYS.iter().find(asked).map(|binding| binding.action)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_key_asks_for_two_things_and_every_binding_is_described() {
+        let mut seen = Vec::new();
+        for binding in KEYS {
+            assert!(!binding.keys.is_empty() && !binding.label.is_empty() && !binding.text.is_empty());
+            for key in binding.keys {
+                assert!(!seen.contains(key), "{key:?} is bound twice");
+                seen.push(*key);
+            }
+        }
+    }
+
+    #[test]
+    fn letters_with_a_reported_shift_are_found() {
+        let event = KeyEvent::new(KeyCode::Char('G'), KeyModifiers::SHIFT);
+        assert_eq!(action(&event), Some(Action::Last));
+    }
+}

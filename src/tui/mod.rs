@@ -1,0 +1,190 @@
+//! The terminal: set up, kept drawn, given back whole. ratatui and crossterm stop here.
+//!
+//! The loop waits for a key or news, updates the [`App`] and draws only when something changed. The terminal comes back on
+//! every way out: quitting, an error, a panic, a signal.
+
+pub mod app;
+pub mod keymap;
+pub mod theme;
+pub mod view;
+
+use std::io::{self, Stdout, Write};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
+
+use crossterm::cursor::Show;
+use crossterm::event::{self, Event, KeyCode, KeyEvent, KeyEventKind};
+use crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode};
+use crossterm::{ExecutableCommand, QueueableCommand};
+use ratatui::Terminal;
+use ratatui::backend::CrosstermBackend;
+
+use self::app::{App, Request};
+use crate::worker::Worker;
+
+/// How the screen is drawn.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Look {
+    /// Plain characters only.
+    pub ascii: bool,
+    /// With colours.
+    pub color: bool,
+}
+
+/// How the user left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Left {
+    /// By a key.
+    Quit,
+    /// By a signal.
+    Signal,
+}
+
+/// Wait for a key while something computes: a frame.
+const FRAME: Duration = Duration::from_millis(16);
+/// Wait for a key while nothing does.
+const IDLE: Duration = Duration::from_millis(250);
+
+/// Shows the app until the user leaves.
+pub fn run(mut app: App, mut worker: Worker, look: Look) -> io::Result<Left> {
+    // Without this, crossterm under NO_COLOR resets bold and reverse as well; colours are taken out in `draw`.
+    crossterm::style::force_color_output(true);
+    let signals = Signals::register()?;
+    restore_on_panic();
+    let mut screen = Screen::open()?;
+    worker.start(&app.case, app.effort);
+    let mut dirty = true;
+    loop {
+        for news in worker.news() {
+            app.hear(news);
+            dirty = true;
+        }
+        if dirty {
+            screen.draw(&app, look)?;
+            dirty = false;
+        }
+        if signals.end.load(Ordering::Relaxed) {
+            return Ok(Left::Signal);
+        }
+        let request = if signals.stop.swap(false, Ordering::Relaxed) {
+            Request::Suspend
+        } else if event::poll(if app.busy() { FRAME } else { IDLE })? {
+            dirty = true;
+            update(&mut app, &event::read()?)
+        } else {
+            Request::None
+        };
+        match request {
+            Request::None => {}
+            Request::Run => worker.start(&app.case, app.effort),
+            Request::Quit => return Ok(Left::Quit),
+            Request::Suspend => {
+                screen.suspend()?;
+                dirty = true;
+            }
+        }
+    }
+}
+
+/// What a terminal event does to the app.
+pub fn update(app: &mut App, event: &Event) -> Request {
+    match event {
+        Event::Key(KeyEvent { code: KeyCode::Esc, kind: KeyEventKind::Press, .. }) => app.escape(),
+        Event::Key(key) if key.kind != KeyEventKind::Release => {
+            keymap::action(key).map_or(Request::None, |action| app.act(action))
+        }
+        _ => Request::None,
+    }
+}
+
+/// The terminal while it is ours.
+struct Screen {
+    terminal: Terminal<CrosstermBackend<Stdout>>,
+}
+
+impl Screen {
+    fn open() -> io::Result<Self> {
+        enter()?;
+        // From here on dropping gives the terminal back.
+        Terminal::new(CrosstermBackend::new(io::stdout()))
+            .map(|terminal| Self { terminal })
+            .inspect_err(|_| leave())
+    }
+
+    fn draw(&mut self, app: &App, look: Look) -> io::Result<()> {
+        self.terminal.draw(|frame| {
+            view::draw(app, frame);
+            let buffer = frame.buffer_mut();
+            if look.ascii {
+                theme::to_ascii(buffer);
+            }
+            if !look.color {
+                theme::without_color(buffer);
+            }
+        })?;
+        Ok(())
+    }
+
+    fn suspend(&mut self) -> io::Result<()> {
+        leave();
+        #[cfg(unix)]
+        signal_hook::low_level::raise(signal_hook::consts::SIGSTOP)?;
+        enter()?;
+        self.terminal.clear()
+    }
+}
+
+impl Drop for Screen {
+    fn drop(&mut self) {
+        leave();
+    }
+}
+
+fn enter() -> io::Result<()> {
+    enable_raw_mode()?;
+    io::stdout().execute(EnterAlternateScreen).map(|_| ()).inspect_err(|_| leave())
+}
+
+/// Gives the terminal back. Nothing can be done about a terminal that is gone.
+fn leave() {
+    let mut out = io::stdout();
+    let _ = out.queue(LeaveAlternateScreen).and_then(|out| out.queue(Show)).map(Write::flush);
+    let _ = disable_raw_mode();
+}
+
+/// A panic on this thread gives the terminal back before it is reported; one in a worker is that option's failure and is
+/// reported on the screen.
+fn restore_on_panic() {
+    let (ours, report) = (thread::current().id(), std::panic::take_hook());
+    std::panic::set_hook(Box::new(move |panic| {
+        if thread::current().id() == ours {
+            leave();
+            report(panic);
+        }
+    }));
+}
+
+/// Signals as flags.
+struct Signals {
+    /// Terminate, interrupt or hang up.
+    end: Arc<AtomicBool>,
+    /// Stop.
+    stop: Arc<AtomicBool>,
+}
+
+impl Signals {
+    fn register() -> io::Result<Self> {
+        let signals = Self { end: Arc::default(), stop: Arc::default() };
+        #[cfg(unix)]
+        {
+            use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGTSTP};
+            for signal in [SIGHUP, SIGINT, SIGTERM] {
+                signal_hook::flag::register(signal, Arc::clone(&signals.end))?;
+            }
+            signal_hook::flag::register(SIGTSTP, Arc::clone(&signals.stop))?;
+        }
+        Ok(signals)
+    }
+}

@@ -1,0 +1,134 @@
+//! Colours by role. Meaning never rests on colour alone: words and signs carry it too.
+
+use ratatui::buffer::Buffer;
+use ratatui::style::{Color, Modifier, Style};
+
+use crate::verdict::Verdict;
+
+/// A set of colours.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Theme {
+    /// For dark rooms.
+    #[default]
+    Dark,
+    /// For bright rooms.
+    Light,
+    /// Black on white, bold, for direct sun.
+    Sunlight,
+}
+
+impl Theme {
+    /// The next one.
+    pub fn next(self) -> Self {
+        match self {
+            Theme::Dark => Theme::Light,
+            Theme::Light => Theme::Sunlight,
+            Theme::Sunlight => Theme::Dark,
+        }
+    }
+
+    /// Plain text and background.
+    pub fn base(self) -> Style {
+        match self {
+            Theme::Dark => Style::new().fg(Color::Reset).bg(Color::Reset),
+            Theme::Light => Style::new().fg(Color::Rgb(30, 30, 30)).bg(Color::Rgb(250, 250, 246)),
+            Theme::Sunlight => Style::new()
+                .fg(Color::Rgb(0, 0, 0))
+                .bg(Color::Rgb(255, 255, 255))
+                .add_modifier(Modifier::BOLD),
+        }
+    }
+
+    /// Titles.
+    pub fn title(self) -> Style {
+        self.base().add_modifier(Modifier::BOLD)
+    }
+
+    /// What may be overlooked.
+    pub fn quiet(self) -> Style {
+        match self {
+            Theme::Dark => Style::new().fg(Color::Gray),
+            Theme::Light => Style::new().fg(Color::Rgb(80, 80, 80)),
+            Theme::Sunlight => self.base(),
+        }
+    }
+
+    /// The selected row.
+    pub fn selected(self) -> Style {
+        Style::new().add_modifier(Modifier::REVERSED)
+    }
+
+    /// A verdict; blue and orange, which the colour-blind tell apart.
+    pub fn verdict(self, verdict: Verdict) -> Style {
+        let color = match (self, verdict) {
+            (Theme::Dark, Verdict::Pass) => Color::Rgb(86, 180, 233),
+            (Theme::Dark, Verdict::Undecided) => Color::Rgb(240, 228, 66),
+            (Theme::Dark, Verdict::Fail) => Color::Rgb(255, 140, 60),
+            (_, Verdict::Pass) => Color::Rgb(0, 70, 150),
+            (_, Verdict::Undecided) => Color::Rgb(110, 80, 0),
+            (_, Verdict::Fail) => Color::Rgb(170, 50, 0),
+        };
+        Style::new().fg(color).add_modifier(Modifier::BOLD)
+    }
+
+    /// The course of a quantity.
+    pub fn curve(self) -> Style {
+        self.verdict(Verdict::Pass)
+    }
+
+    /// A limit.
+    pub fn limit(self) -> Style {
+        self.verdict(Verdict::Fail)
+    }
+
+    /// A firing.
+    pub fn firing(self) -> Style {
+        self.verdict(Verdict::Undecided)
+    }
+}
+
+/// Word and sign of a verdict.
+pub fn word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Pass => "✓ PASS",
+        Verdict::Undecided => "? OPEN",
+        Verdict::Fail => "✗ FAIL",
+    }
+}
+
+/// Takes all colour out of a drawn screen; bold and reverse stay.
+pub fn without_color(buffer: &mut Buffer) {
+    for cell in &mut buffer.content {
+        cell.fg = Color::Reset;
+        cell.bg = Color::Reset;
+    }
+}
+
+/// Replaces everything on a drawn screen that poor fonts lack.
+pub fn to_ascii(buffer: &mut Buffer) {
+    for cell in &mut buffer.content {
+        let Some(symbol) = cell.symbol().chars().next().filter(|symbol| !symbol.is_ascii()) else { continue };
+        let plain = match symbol {
+            '▁' => "_",
+            '▂' => ".",
+            '▃' => ":",
+            '▄' => "-",
+            '▅' => "=",
+            '▆' => "+",
+            '▇' => "*",
+            '█' => "#",
+            '│' => "|",
+            '─' => "-",
+            '✓' => "+",
+            '✗' => "x",
+            '±' => "~",
+            '·' => "|",
+            '²' => "2",
+            'μ' => "u",
+            '─'..='╿' => "+",
+            '\u{2800}'..='\u{28ff}' => "*",
+            _ => "?",
+        };
+        cell.set_symbol(plain);
+    }
+}

@@ -1,0 +1,98 @@
+//! The selected option: where and when its peaks are, why it does not pass, and both histories.
+//!
+//! ```text
+//! ── 20 ms ───────────────────────────────────────
+//! height 1.741 ± 0.001 m at tire 3:1, 0.602 s …
+//! ✗ cable force … is over the limit of …
+//!  flight height, m        │ cable force, kN
+//! ```
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::text::Line;
+use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
+
+use super::chart;
+use crate::report::check::explain;
+use crate::study::check::Checked;
+use crate::tui::app::{App, Row};
+use crate::units::{self, Unit, value_and_error};
+
+/// Draws the detail of the selected option.
+pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
+    let Some(delay) = app.case.plan.delays.get(app.selected) else { return };
+    let rule = Block::new()
+        .borders(Borders::TOP)
+        .border_style(app.theme.quiet())
+        .title(Line::styled(format!(" {} ", delay.name), app.theme.title()));
+    let inside = rule.inner(area);
+    frame.render_widget(rule, area);
+    let checked = match &app.rows[app.selected] {
+        Row::Done(checked) => checked,
+        Row::Failed(message) => {
+            let text = format!("No result: {message}");
+            return frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inside);
+        }
+        Row::Waiting | Row::Running { .. } => {
+            let fires: Vec<_> =
+                delay.timing.fire_at_ms().iter().map(|ms| units::milliseconds(ms * 1e-3)).collect();
+            let text = format!("Rows fire at {}. Computing…", fires.join(", "));
+            return frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inside);
+        }
+    };
+    let facts = facts(app, checked);
+    let lines: u16 =
+        facts.iter().map(|line| (line.width() as u16).div_ceil(inside.width.max(1)).max(1)).sum();
+    let [text, charts] =
+        Layout::vertical([Constraint::Length(lines.min(inside.height / 2)), Constraint::Min(0)])
+            .areas(inside);
+    frame.render_widget(Paragraph::new(facts).wrap(Wrap { trim: true }), text);
+    let [left, right] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(charts);
+    let fires: Vec<f64> = delay.timing.fire_at_ms().iter().map(|ms| ms * 1e-3).collect();
+    let (limits, history) = (&app.case.limits, &checked.history);
+    let height = chart::Curve {
+        name: "flight height",
+        unit: Unit::Metre,
+        values: &history.height,
+        width: history.width,
+        limit: limits.height,
+        fires: &fires,
+    };
+    let force = chart::Curve {
+        name: "cable force",
+        unit: Unit::Kilonewton,
+        values: &history.force,
+        limit: limits.force,
+        ..height
+    };
+    height.draw(app, frame, left);
+    force.draw(app, frame, right);
+}
+
+fn facts<'a>(app: &App, checked: &Checked) -> Vec<Line<'a>> {
+    let scene = &app.case.scene;
+    let peak = format!(
+        "height {} m at tire {}, {} · force {} kN in cable {}, {} · drift {} m",
+        value_and_error(checked.height.value, checked.height.error, Unit::Metre),
+        scene.tire[checked.height.place],
+        units::seconds(checked.height.at),
+        value_and_error(checked.force.value, checked.force.error, Unit::Kilonewton),
+        scene.cable_name(checked.force.place),
+        units::seconds(checked.force.at),
+        value_and_error(checked.drift.value, checked.drift.error, Unit::Metre),
+    );
+    let how = format!(
+        "step {} · {} runs in {} · energy residual {:.0e} · at rest after {}",
+        units::milliseconds(checked.step),
+        checked.runs,
+        units::milliseconds(checked.total_wall.as_secs_f64()),
+        checked.energy_residual,
+        units::seconds(checked.end),
+    );
+    let mut lines = vec![Line::from(peak), Line::styled(how, app.theme.quiet())];
+    for reason in &checked.reasons {
+        let sign = crate::tui::theme::word(reason.verdict).chars().next().unwrap_or(' ');
+        lines.push(Line::styled(format!("{sign} {}", explain(reason)), app.theme.verdict(reason.verdict)));
+    }
+    lines
+}

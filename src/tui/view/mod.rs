@@ -1,0 +1,112 @@
+//! What is drawn where. Every part is a function of the app and an area; none changes anything.
+//!
+//! ```text
+//! title · plan                                  header
+//! limits · method · accuracy
+//! option  verdict  height  force  factor  …     table
+//! ──────────────────────────────────────────
+//! selected option: facts, two charts            detail
+//! keys                                          footer
+//! ```
+
+mod chart;
+mod detail;
+mod help;
+mod table;
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, Paragraph, Wrap};
+
+use super::app::{App, Row};
+use super::keymap::KEYS;
+use crate::report::check::method_name;
+use crate::report::table::accuracy_name;
+use crate::units::{self, Unit};
+use crate::verdict::Verdict;
+
+/// Smallest screen that holds everything.
+pub const LEAST: (u16, u16) = (60, 18);
+
+/// Draws the whole screen.
+pub fn draw(app: &App, frame: &mut Frame) {
+    let area = frame.area();
+    frame.render_widget(Block::new().style(app.theme.base()), area);
+    if area.width < LEAST.0 || area.height < LEAST.1 {
+        let text = format!("shelter needs {}x{}, has {}x{}", LEAST.0, LEAST.1, area.width, area.height);
+        return frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), area);
+    }
+    let rows = app.rows.len() as u16 + 1;
+    let table = if app.zoom { 0 } else { rows.min((area.height - 3) / 2) };
+    let [header, list, rest, footer] = Layout::vertical([
+        Constraint::Length(2),
+        Constraint::Length(table),
+        Constraint::Min(0),
+        Constraint::Length(1),
+    ])
+    .areas(area);
+    draw_header(app, frame, header);
+    if !app.zoom {
+        table::draw(app, frame, list);
+    }
+    detail::draw(app, frame, rest);
+    draw_footer(app, frame, footer);
+    if app.help {
+        help::draw(app, frame, area);
+    }
+}
+
+fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
+    let (case, theme) = (&app.case, app.theme);
+    let mut limits = format!(
+        "limits: height {} m, force {} kN (factor {})",
+        units::value(case.limits.height, Unit::Metre),
+        units::value(case.limits.force, Unit::Kilonewton),
+        case.plan.limits.cable_safety_factor,
+    );
+    if let Some(drift) = case.limits.drift {
+        limits += &format!(", drift {} m", units::value(drift, Unit::Metre));
+    }
+    let about = format!(
+        "{limits} · {} tires, {} cables · {}, {}",
+        case.scene.mass.len(),
+        case.scene.cables.len(),
+        method_name(app.effort.method),
+        app.effort.step.map_or_else(
+            || accuracy_name(app.effort.accuracy).to_owned(),
+            |step| format!("step {}", units::milliseconds(step))
+        ),
+    );
+    let title = Line::from(vec![
+        Span::styled(case.plan.title.as_str(), theme.title()),
+        Span::styled(format!("  {}", case.plan.path), theme.quiet()),
+    ]);
+    let state = Line::from(summary(app)).right_aligned().style(theme.title());
+    let [left, right] =
+        Layout::horizontal([Constraint::Min(0), Constraint::Length(state.width() as u16 + 1)]).areas(area);
+    frame.render_widget(Paragraph::new(vec![title, Line::styled(about, theme.quiet())]), left);
+    frame.render_widget(Paragraph::new(state), Rect { height: 1, ..right });
+}
+
+/// How the whole plan stands.
+fn summary(app: &App) -> String {
+    let done = app.rows.iter().filter(|row| matches!(row, Row::Done(_) | Row::Failed(_))).count();
+    let passed = |row: &&Row| matches!(row, Row::Done(checked) if checked.verdict == Verdict::Pass);
+    let passed = app.rows.iter().filter(passed).count();
+    if app.busy() {
+        format!("computing {done}/{}", app.rows.len())
+    } else {
+        format!("{passed} of {} pass", app.rows.len())
+    }
+}
+
+fn draw_footer(app: &App, frame: &mut Frame, area: Rect) {
+    let mut spans = Vec::new();
+    for binding in KEYS.iter().filter(|binding| !binding.short.is_empty()) {
+        let label = binding.label.split(' ').next().unwrap_or_default();
+        spans.push(Span::styled(format!(" {label} "), app.theme.title()));
+        spans.push(Span::styled(format!("{} ", binding.short), app.theme.quiet()));
+    }
+    frame.render_widget(Line::from(spans), area);
+}
