@@ -200,16 +200,10 @@ enum Kind {
 }
 
 fn read_layout(table: Table<'_>, mistakes: &Mistakes) -> Option<Layout> {
-    if !table.has("layout") {
-        table.text("layout", "\"grid\"");
-        return None;
-    }
     let before = mistakes.count();
+    table.text("layout", "\"grid\"");
     let kinds = [("grid", Kind::Grid), ("quincunx", Kind::Quincunx), ("list", Kind::List)];
     let kind = table.word("layout", &kinds);
-    if mistakes.count() > before {
-        return None;
-    }
     let layout = match kind {
         Kind::List => read_list(&table, mistakes),
         Kind::Grid => Layout::Grid(read_mesh(&table, 1, mistakes)),

@@ -1,7 +1,8 @@
 //! Sparklines: a series as one line of bars, the tallest of each stretch kept.
 
-const UNICODE: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
-const ASCII: [char; 8] = ['_', '.', ':', '-', '=', '+', '*', '#'];
+// No full block: rows of sparklines would run into one another.
+const UNICODE: [char; 7] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇'];
+const ASCII: [char; 7] = ['_', '.', ':', '-', '=', '+', '*'];
 
 /// `width` bars for `series`, scaled so that `top` (or the greatest value, if that is more) is a full bar.
 pub fn sparkline(series: &[f64], width: usize, top: f64, ascii: bool) -> String {
@@ -32,13 +33,13 @@ mod tests {
     fn a_narrow_sparkline_keeps_the_peak() {
         let mut series = vec![0.0; 1000];
         series[613] = 1.0;
-        assert_eq!(sparkline(&series, 10, 0.0, false), "▁▁▁▁▁▁█▁▁▁");
-        assert_eq!(sparkline(&series, 10, 2.0, true), "______=___");
+        assert_eq!(sparkline(&series, 10, 0.0, false), "▁▁▁▁▁▁▇▁▁▁");
+        assert_eq!(sparkline(&series, 10, 2.0, true), "______-___");
     }
 
     #[test]
     fn short_empty_and_zero_series_have_bars_too() {
-        assert_eq!(sparkline(&[0.0, 1.0], 4, 0.0, false), "▁▁██");
+        assert_eq!(sparkline(&[0.0, 1.0], 4, 0.0, false), "▁▁▇▇");
         assert_eq!(sparkline(&[], 3, 0.0, false), "▁▁▁");
         assert_eq!(sparkline(&[0.0], 0, 0.0, false), "");
     }

@@ -83,10 +83,12 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
         Span::styled(format!("  {}", case.plan.path), theme.quiet()),
     ]);
     let state = Line::from(summary(app)).right_aligned().style(theme.title());
+    let [first, second] = Layout::vertical([Constraint::Length(1); 2]).areas(area);
     let [left, right] =
-        Layout::horizontal([Constraint::Min(0), Constraint::Length(state.width() as u16 + 1)]).areas(area);
-    frame.render_widget(Paragraph::new(vec![title, Line::styled(about, theme.quiet())]), left);
-    frame.render_widget(Paragraph::new(state), Rect { height: 1, ..right });
+        Layout::horizontal([Constraint::Min(0), Constraint::Length(state.width() as u16 + 1)]).areas(first);
+    frame.render_widget(title, left);
+    frame.render_widget(state, right);
+    frame.render_widget(Line::styled(about, theme.quiet()), second);
 }
 
 /// How the whole plan stands.

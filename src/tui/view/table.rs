@@ -77,8 +77,11 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         head.extend(["height over time", "force over time"].map(Line::from));
         widths.extend([Constraint::Length(spark); 2]);
     }
-    let rows = app.case.plan.delays.iter().zip(&app.rows).map(|(delay, row)| {
-        let mut cells = vec![Line::from(delay.name.as_str())];
+    let options = app.case.plan.delays.iter().zip(&app.rows).enumerate();
+    let rows = options.map(|(n, (delay, row))| {
+        let style = if n == app.selected { app.theme.selected() } else { app.theme.base() };
+        let name = format!("{:1$}", delay.name, usize::from(name));
+        let mut cells = vec![Line::styled(name, style)];
         match row {
             Row::Done(checked) => {
                 cells.push(verdict(app, checked.verdict));
@@ -89,8 +92,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
                 );
                 let width = usize::from(spark);
                 let (history, limits) = (&checked.history, &app.case.limits);
-                cells.push(Line::from(sparkline(&history.height, width, limits.height, false)));
-                cells.push(Line::from(sparkline(&history.force, width, limits.force, false)));
+                let spark = |series, limit| Line::styled(sparkline(series, width, limit, false), app.theme.curve());
+                cells.push(spark(&history.height, limits.height));
+                cells.push(spark(&history.force, limits.force));
             }
             Row::Failed(message) => {
                 cells.push(verdict(app, Verdict::Undecided));
@@ -105,9 +109,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         }
         Cells::new(cells)
     });
-    let table = Table::new(rows, widths)
-        .header(Cells::new(head).style(app.theme.quiet()))
-        .row_highlight_style(app.theme.selected());
+    let table = Table::new(rows, widths).header(Cells::new(head).style(app.theme.quiet()));
     let mut state = TableState::new().with_selected(app.selected);
     frame.render_stateful_widget(table, area, &mut state);
 }
