@@ -1,0 +1,159 @@
+//! Both methods against closed forms. Tolerances follow from the step h: second order in h times the natural scale of the
+//! quantity, or rounding where the method is exact.
+
+use nalgebra::Vector3;
+use shelter::plan::Method;
+
+use crate::scenes::{GRAVITY, METHODS, close, fire, quincunx, run, settings, tie, tires, watch};
+
+const LAUNCH: f64 = 6.0;
+
+#[test]
+fn validates_free_flight_reaches_v2_over_2g_and_lands_after_2v_over_g() {
+    let scene = tires(&[(0.0, 0.0)], 280.0);
+    for method in METHODS {
+        for h in [1e-2, 1e-3, 7e-4] {
+            let out = run(&scene, &fire(&[0], LAUNCH), settings(method, h, None));
+            // A parabola is followed exactly, and its top is taken between samples.
+            close(out.height.value, LAUNCH * LAUNCH / (2.0 * GRAVITY), 1e-9, "height");
+            close(out.height.at, LAUNCH / GRAVITY, 1e-9, "time of the top");
+            // At rest in the step after the landing.
+            close(out.drift.at, 2.0 * LAUNCH / GRAVITY, 3.0 * h, "landing");
+            assert!(out.ledger.residual() < 1e-9, "{method:?} {:e}", out.ledger.residual());
+        }
+    }
+}
+
+/// A tire is pulled by a cable stretched by s beforehand, leaves it at L₀ and slides on: work k s²/2 = μ m g × way.
+#[test]
+fn validates_sliding_tire_stops_where_friction_has_used_up_its_energy() {
+    for method in METHODS {
+        for h in [1e-3, 1e-4] {
+            let mut scene = tires(&[(0.0, 0.0), (1.0, 0.0)], 280.0);
+            scene.mass[0] = 1e9;
+            tie(&mut scene, 0, 1, 1e5, 1.0);
+            let (stretch, stiffness) = (0.1, 1e5 / 0.9);
+            scene.cables[0].rest_length = 1.0 - stretch;
+            scene.cables[0].stiffness = stiffness;
+            // A launch of 0 wakes the tire.
+            let out = run(&scene, &fire(&[1], 0.0), settings(method, h, None));
+            let limit = 0.5 * 280.0 * GRAVITY;
+            let way = 0.5 * stiffness * stretch * stretch / limit;
+            let omega = (stiffness / 280.0_f64).sqrt();
+            close(out.drift.value, way, (omega * h).powi(2) * way + GRAVITY * h * h, "way");
+            // A quarter swing about the point where cable and friction balance, then braking at μ g.
+            let amplitude = stretch - limit / stiffness;
+            let swing = (std::f64::consts::PI - (limit / (stiffness * amplitude)).acos()) / omega;
+            let speed = (2.0 * 0.5 * GRAVITY * (way - stretch)).sqrt();
+            close(out.drift.at, swing + speed / (0.5 * GRAVITY), 5.0 * h, "time");
+        }
+    }
+}
+
+#[test]
+fn validates_two_free_masses_exchange_velocity_at_v_sqrt_k_mu() {
+    let (speed, stiffness, length) = (LAUNCH, 1.4e6, 1.5);
+    for (method, factor) in [(Method::Verlet, 0.25), (Method::Newmark, 1.0)] {
+        for h in [1e-3, 2e-4] {
+            // Without gravity; both tires lie on the ground, so the pair is stood on end: one above the other.
+            let mut scene = tires(&[(0.0, 0.0), (0.0, 0.0)], 280.0);
+            scene.gravity = 0.0;
+            scene.mass = vec![280.0, 140.0];
+            scene.position[1].z = length;
+            tie(&mut scene, 0, 1, stiffness, 1.0);
+            let out = run(&scene, &fire(&[1], speed), settings(method, h, Some(0.2)));
+            let (k, reduced) = (stiffness / length, 280.0 * 140.0 / 420.0);
+            let exact = speed * (k * reduced).sqrt();
+            let omega = (k / reduced).sqrt();
+            // Second order: (ωh)² times a constant of the method.
+            close(out.force.value, exact, factor * (omega * h).powi(2) * exact, "force");
+            close(out.force.at, 0.5 * std::f64::consts::PI / omega, h, "time of the peak");
+        }
+    }
+}
+
+/// P2: launched at v with the cable just taut, tied to a mass so heavy that it does not move.
+#[test]
+fn validates_vertical_cable_to_the_ground_pulls_with_sqrt_mg2_kmv2_minus_mg() {
+    let (mass, stiffness) = (280.0_f64, 1.41e6_f64);
+    for method in METHODS {
+        for h in [5e-4, 1e-4] {
+            let mut scene = tires(&[(0.0, 0.0), (0.0, 0.0)], mass);
+            scene.mass[0] = 1e7;
+            scene.position[1].z = 1.0;
+            tie(&mut scene, 0, 1, stiffness, 1.0);
+            let out = run(&scene, &fire(&[1], LAUNCH), settings(method, h, Some(0.1)));
+            let weight = mass * GRAVITY;
+            let exact = (weight * weight + stiffness * mass * LAUNCH * LAUNCH).sqrt() - weight;
+            let omega = (stiffness / mass).sqrt();
+            close(out.force.value, exact, (0.5 * (omega * h).powi(2) + 1e-4) * exact, "force");
+        }
+    }
+}
+
+/// P3: the source paper's cross with corners held by weight and friction.
+#[test]
+fn validates_pinned_cross() {
+    for (diagonal, slack, height, force) in
+        [(2.65, 1.0, 0.554_923_923, 30_582.972), (1.65, 1.0, 0.400_906_031, 41_023.629), (2.65, 1.02, 0.757_897_991, 27_777.025)]
+    {
+        for method in METHODS {
+            let mut scene = quincunx(diagonal, 1.41e6);
+            for cable in &mut scene.cables {
+                cable.rest_length *= slack;
+                cable.stiffness /= slack;
+            }
+            scene.friction = 1e9;
+            scene.mass[..4].fill(1e9);
+            let h = 2e-4;
+            let out = run(&scene, &fire(&[4], LAUNCH), settings(method, h, Some(0.3)));
+            let omega2 = 4.0 * 1.41e6 / (diagonal * 280.0);
+            let relative = omega2 * h * h + 1e-5;
+            close(out.height.value, height, relative * height, "height");
+            close(out.force.value, force, relative * force, "force");
+        }
+    }
+}
+
+/// P9: a resting tire does not move while the pull stays inside the cone, and moves when it does not. The pull comes from a
+/// weight hung over it: a cable stretched beforehand between a pinned tire and the one that is tested.
+#[test]
+fn validates_static_pull_sticks_below_mu_r_and_slips_above() {
+    for method in METHODS {
+        for (part, moves) in [(1.0 - 1e-6, false), (1.0 + 1e-3, true)] {
+            let mut scene = tires(&[(0.0, 0.0), (1.0, 0.0), (50.0, 0.0)], 280.0);
+            scene.mass[0] = 1e9;
+            tie(&mut scene, 0, 1, 1e5, 1.0);
+            let pull = part * 0.5 * 280.0 * GRAVITY;
+            let cable = &mut scene.cables[0];
+            // N = EA (L − L0)/L0 at rest.
+            cable.rest_length = 1.0 / (1.0 + pull / 1e5);
+            cable.stiffness = 1e5 / cable.rest_length;
+            // A launch of 0 wakes the tire without moving it.
+            let wake = shelter::scene::Shot::from_firings(vec![
+                shelter::scene::Firing { at: 0.0, tire: 1, launch: 0.0 },
+                shelter::scene::Firing { at: 0.0, tire: 2, launch: LAUNCH },
+            ]);
+            let mut greatest = 0.0_f64;
+            watch(&scene, &wake, settings(method, 1e-3, Some(1.0)), |motion| {
+                greatest = greatest.max(motion.displacement(1).norm());
+            });
+            assert_eq!(greatest > 0.0, moves, "{method:?} pull {part} of the limit: moved {greatest:e}");
+        }
+    }
+}
+
+#[test]
+fn validates_flight_without_cables_changes_momentum_by_gravity_only() {
+    let scene = tires(&[(0.0, 0.0)], 280.0);
+    for method in METHODS {
+        let mut heights: Vec<(f64, Vector3<f64>)> = Vec::new();
+        watch(&scene, &fire(&[0], LAUNCH), settings(method, 1e-3, Some(1.0)), |motion| {
+            heights.push((motion.time(), motion.displacement(0)));
+        });
+        for (time, place) in heights {
+            close(place.z, LAUNCH * time - 0.5 * GRAVITY * time * time, 1e-12, "height");
+            assert_eq!((place.x, place.y), (0.0, 0.0));
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Imports point one way: a file may use only layers below its own, or its own.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Modules from the lowest layer to the highest; those on a line do not know each other.
+const LAYERS: &[&[&str]] = &[
+    &["units", "ropes"],
+    &["plan"],
+    &["scene"],
+    &["outcome"],
+    &["simulation"],
+    &["verdict"],
+    &["study"],
+    &["report", "worker"],
+    &["tui"],
+    &["cli"],
+];
+
+#[test]
+fn imports_point_one_way() {
+    let mut files = Vec::new();
+    collect(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/src")), &mut files);
+    assert!(files.len() > 20);
+    for file in files {
+        let Some(own) = module(&file) else { continue };
+        let text = fs::read_to_string(&file).expect("source is readable");
+        for used in text.split("crate::").skip(1) {
+            let name: String = used.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+            let (own_layer, layer) = (layer(&own), layer(&name));
+            assert!(name == own || layer < own_layer, "{} uses {name}, which is not below {own}", file.display());
+        }
+    }
+}
+
+fn layer(module: &str) -> usize {
+    let found = LAYERS.iter().position(|layer| layer.contains(&module));
+    found.unwrap_or_else(|| panic!("module {module} has no layer"))
+}
+
+/// The top module a file belongs to; none for lib.rs and main.rs.
+fn module(file: &Path) -> Option<String> {
+    let inside = file.strip_prefix(concat!(env!("CARGO_MANIFEST_DIR"), "/src")).expect("inside src");
+    let first = inside.components().next()?.as_os_str().to_str()?;
+    let name = first.trim_end_matches(".rs");
+    (!matches!(name, "lib" | "main")).then(|| name.to_owned())
+}
+
+fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("src is readable") {
+        let path = entry.expect("entry is readable").path();
+        if path.is_dir() {
+            collect(&path, files);
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            files.push(path);
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! All integration tests, in one binary so that they link once.
+
+mod bad_plans;
+mod check;
+mod closed_forms;
+mod layers;
+mod plans;
+mod properties;
+mod reference;
+mod scenes;
+mod screens;
+#[cfg(unix)]
+mod terminal;

@@ -1,0 +1,85 @@
+//! Both methods against the event-driven reference answers, and against each other.
+
+use shelter::plan::Method;
+
+use crate::scenes::{close, fire, fire_rows, grid, quincunx, run, settings};
+
+/// Four reference scenes: height [m], force [N]; the digits given end at 5e-6 m and 0.05 N.
+#[test]
+fn validates_the_reference_answers() {
+    // Measured at these steps: verlet within 0.001 % and 0.001 %, newmark within 0.004 % and 0.03 %.
+    for (method, step, height_tolerance, force_tolerance) in
+        [(Method::Verlet, 2e-4, 3e-5, 5e-5), (Method::Newmark, 2e-4, 1e-4, 1e-3)]
+    {
+        let check = |scene, shot, height: f64, force: f64, name: &str| {
+            let out = run(&scene, &shot, settings(method, step, Some(1.0)));
+            close(out.height.value, height, height_tolerance * height + 5e-6, name);
+            close(out.force.value, force, force_tolerance * force + 0.05, name);
+        };
+        check(quincunx(2.0, 1.4e6), fire(&[4], 6.0), 1.08394, 10015.6, "2 m diagonal");
+        check(quincunx(1.0, 1.519e6), fire(&[4], 6.0), 0.75741, 17735.7, "1 m diagonal");
+        let rows = fire_rows(&[1, 2, 3], 10, 0.02);
+        check(grid(5, 10, 1.5, 1.4e6), rows, 1.76711, 10016.8, "5 x 10");
+        if method == Method::Verlet {
+            let rows = fire_rows(&(5..15).collect::<Vec<_>>(), 20, 0.02);
+            check(grid(20, 20, 1.5, 1.4e6), rows, 1.82570, 26750.4, "20 x 20");
+        }
+    }
+}
+
+/// The source paper's scene at its own step: figures of the converged solution, the perimeter never pulls.
+#[test]
+fn validates_the_paper_scene_at_its_step() {
+    let scene = quincunx(1.0, 1.519e6);
+    for (method, height, force, at_160_ms) in
+        [(Method::Verlet, 1e-4, 1e-4, 2e-3), (Method::Newmark, 5e-3, 5e-3, 2e-2)]
+    {
+        let (mut diagonal, mut perimeter) = (f64::NAN, 0.0_f64);
+        let settings = settings(method, 2e-4, Some(1.0));
+        let out = crate::scenes::watch(&scene, &fire(&[4], 6.0), settings, |motion| {
+            let force = |n: usize| {
+                let cable = &scene.cables[n];
+                let [a, b] = cable.ends.map(|end| motion.displacement(end));
+                cable.force((cable.span + (b - a)).norm())
+            };
+            perimeter = (0..4).map(force).fold(perimeter, f64::max);
+            if (motion.time() - 0.16).abs() < 1e-9 {
+                diagonal = force(4);
+            }
+        });
+        close(out.height.value, 0.75741, height * 0.75741, "height");
+        close(out.force.value, 17735.7, force * 17735.7, "force");
+        close(diagonal, 7114.2, at_160_ms * 7114.2, "force at 0.16 s");
+        assert_eq!(perimeter, 0.0, "perimeter cables never pull");
+    }
+}
+
+#[test]
+fn both_methods_converge_to_one_answer() {
+    let (scene, shot) = (grid(5, 10, 1.5, 1.519e6), fire_rows(&[1, 2, 3], 10, 0.02));
+    let verlet = run(&scene, &shot, settings(Method::Verlet, 1e-4, Some(1.0)));
+    let newmark = run(&scene, &shot, settings(Method::Newmark, 1e-4, Some(1.0)));
+    close(newmark.height.value, verlet.height.value, 5e-4 * verlet.height.value, "height");
+    close(newmark.force.value, verlet.force.value, 5e-4 * verlet.force.value, "force");
+    close(verlet.height.value, 1.7655, 5e-4 * 1.7655, "height of an earlier prototype");
+    close(verlet.force.value, 9926.0, 5e-4 * 9926.0, "force of an earlier prototype");
+}
+
+/// Halving the step divides the error by four where the motion is smooth: the pinned cross of the closed forms.
+#[test]
+fn both_methods_are_of_second_order() {
+    let mut scene = quincunx(2.65, 1.41e6);
+    scene.friction = 1e9;
+    scene.mass[..4].fill(1e9);
+    let exact = 0.554_923_923;
+    for method in crate::scenes::METHODS {
+        let error = |h: f64| {
+            let out = run(&scene, &fire(&[4], 6.0), settings(method, h, Some(0.2)));
+            (out.height.value - exact).abs()
+        };
+        // Averaged over neighbouring steps, so that where the step falls against the top does not matter.
+        let mean = |h: f64| [0.9, 0.97, 1.0, 1.06, 1.11].map(|part| error(part * h)).iter().sum::<f64>();
+        let order = (mean(2e-3) / mean(1e-3)).log2();
+        assert!((1.7..2.4).contains(&order), "{method:?}: order {order}");
+    }
+}
