@@ -153,17 +153,19 @@ impl<'s> Table<'s> {
     /// A text, if the key is there.
     pub fn text_if(&self, key: &'static str, example: &str) -> Option<At<&'s str>> {
         let value = self.get(key)?;
-        let text = value.get_ref().as_str();
-        if text.is_none() {
+        let Some(text) = value.get_ref().as_str() else {
             self.mistyped(key, value, "a text in quotes", example);
-        }
-        Some(At { value: text.unwrap_or(""), span: value.span() })
+            return None;
+        };
+        Some(At { value: text, span: value.span() })
     }
 
     /// A text; its absence is a mistake.
     pub fn text(&self, key: &'static str, example: &str) -> At<&'s str> {
         self.text_if(key, example).unwrap_or_else(|| {
-            self.missing(key, example);
+            if !self.entries.contains_key(key) {
+                self.missing(key, example);
+            }
             At { value: "", span: self.span.clone() }
         })
     }
@@ -209,7 +211,11 @@ impl<'s> Table<'s> {
         let value = self.get(key)?;
         let name = self.path_to(key);
         let Some(entries) = value.get_ref().as_table() else {
-            self.mistyped(key, value, "a table", &format!("… in a section [{name}]"));
+            self.mistakes.add(
+                value.span(),
+                format!("`{key}` must be one table"),
+                format!("write one section [{name}]"),
+            );
             return None;
         };
         Some(Table::new(&format!("[{name}]"), value.span(), entries, self.mistakes))

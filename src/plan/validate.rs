@@ -201,7 +201,9 @@ enum Kind {
 
 fn read_layout(table: Table<'_>, mistakes: &Mistakes) -> Option<Layout> {
     let before = mistakes.count();
-    table.text("layout", "\"grid\"");
+    if !table.has("layout") {
+        table.text("layout", "\"grid\"");
+    }
     let kinds = [("grid", Kind::Grid), ("quincunx", Kind::Quincunx), ("list", Kind::List)];
     let kind = table.word("layout", &kinds);
     let layout = match kind {

@@ -1,1 +1,222 @@
+//! Plans that are wrong: each mistake with its line, column, message and remedy.
 
+use std::fmt::Write;
+
+use shelter::plan::Plan;
+
+const GOOD: &str = r#"title = "T"
+[shelter]
+layout = "grid"
+rows = 3
+columns = 4
+spacing_m = 1.5
+[tire]
+mass_kg = 280
+[cable]
+rope = "GOST 2688-80 6.2"
+[ground]
+friction = 0.5
+[[blast_row]]
+name = "1"
+under_row = 1
+launch_m_s = 6.0
+[[blast_row]]
+name = "2"
+under_row = 2
+launch_m_s = 6.0
+[limits]
+flight_height_m = 1.5
+cable_safety_factor = 2.0
+[[delay]]
+name = "20 ms"
+interval_ms = 20
+"#;
+
+/// What is replaced in the good plan, and by what.
+const BAD: &[(&str, &str)] = &[
+    ("rows = 3", "rows = 0"),
+    ("rows = 3", "rows = -3"),
+    ("rows = 3", "rows = 1000000000"),
+    ("rows = 3", "rows = 99999999999999999999999999999999999999999"),
+    ("rows = 3", "rows = 3.0"),
+    ("rows = 3", "rows = \"3\""),
+    ("rows = 3", "rows = 3000\ncolumns = 3000"),
+    ("rows = 3\ncolumns = 4", "rows = 3000\ncolumns = 3000"),
+    ("rows = 3\n", ""),
+    ("columns = 4", "colums = 4"),
+    ("spacing_m = 1.5", "spacing_m = 0"),
+    ("spacing_m = 1.5", "spacing_m = -1.5"),
+    ("spacing_m = 1.5", "spacing_m = nan"),
+    ("spacing_m = 1.5", "spacing_m = inf"),
+    ("spacing_m = 1.5", "spacing_m = 1e400"),
+    ("spacing_m = 1.5", "spacing_m = 1e-320"),
+    ("spacing_m = 1.5", "spacing_m = { row = 1.5 }"),
+    ("spacing_m = 1.5", "spacing_m = { row = 1.5, column = 1, diagonal = 2 }"),
+    ("spacing_m = 1.5", "spacing_m = [1.5]"),
+    ("spacing_m = 1.5", "spacing_m = 1.5\nlinks = [\"row\", \"diag\"]"),
+    ("spacing_m = 1.5", "spacing_m = 1.5\nlinks = \"row\""),
+    ("layout = \"grid\"", "layout = \"gird\""),
+    ("layout = \"grid\"", "layout = 3"),
+    ("layout = \"grid\"\n", ""),
+    ("layout = \"grid\"\nrows = 3", "layout = \"quincunx\"\nrows = 1"),
+    ("layout = \"grid\"", "layout = \"list\""),
+    ("mass_kg = 280", "mass_kg = 0"),
+    ("mass_kg = 280", "mass_kg = -280"),
+    ("mass_kg = 280", "mass = 280"),
+    ("mass_kg = 280", "mass_kg = 280\nouter_diameter_m = 1.5"),
+    ("mass_kg = 280", "mass_kg = \"280 kg\""),
+    ("mass_kg = 280", "mass_kg = 1979-05-27"),
+    ("[tire]\nmass_kg = 280\n", ""),
+    ("[tire]", "[tyre]"),
+    ("[tire]", "[[tire]]"),
+    ("rope = \"GOST 2688-80 6.2\"", "rope = \"GOST 2688-80 6,2\""),
+    ("rope = \"GOST 2688-80 6.2\"", "rope = \"hemp\""),
+    ("rope = \"GOST 2688-80 6.2\"", "axial_stiffness_kn = 1519"),
+    ("rope = \"GOST 2688-80 6.2\"", "breaking_force_kn = 20"),
+    ("rope = \"GOST 2688-80 6.2\"", ""),
+    ("rope = \"GOST 2688-80 6.2\"", "rope = \"GOST 2688-80 6.2\"\nbreaking_force_kn = 20"),
+    ("rope = \"GOST 2688-80 6.2\"", "axial_stiffness_kn = -1\nbreaking_force_kn = 0"),
+    ("rope = \"GOST 2688-80 6.2\"", "rope = \"GOST 2688-80 6.2\"\ntermination = \"glue\""),
+    ("rope = \"GOST 2688-80 6.2\"", "rope = \"GOST 2688-80 6.2\"\ntermination = \"clips\"\ntermination_percent = 80"),
+    ("rope = \"GOST 2688-80 6.2\"", "rope = \"GOST 2688-80 6.2\"\ntermination_percent = 101"),
+    ("rope = \"GOST 2688-80 6.2\"", "rope = \"GOST 2688-80 6.2\"\nslack_percent = -2"),
+    ("friction = 0.5", "friction = -0.1"),
+    ("friction = 0.5", "friction = +nan"),
+    ("friction = 0.5", "friction = true"),
+    ("friction = 0.5", "friction = 0.5\nfriction = 0.6"),
+    ("friction = 0.5", "friction 0.5"),
+    ("friction = 0.5", "friction = "),
+    ("under_row = 1\n", "under_row = 4\n"),
+    ("under_row = 1\n", "under_row = 1.5\n"),
+    ("under_row = 1\n", "under_row = 0\n"),
+    ("under_row = 1\n", ""),
+    ("under_row = 1\n", "under_tires = [1]\n"),
+    ("under_row = 1\nlaunch_m_s = 6.0", "holes = []"),
+    ("under_row = 1\nlaunch_m_s = 6.0", "holes = [{ x_m = 1, y_m = nan, launch_m_s = 6 }]"),
+    ("under_row = 1\nlaunch_m_s = 6.0", "holes = [{ x_m = 1, y_m = 2 }, 7]"),
+    ("under_row = 1\n", "under_row = 1\nholes = [{ x_m = 1, y_m = 1, launch_m_s = 6 }]\n"),
+    ("launch_m_s = 6.0\n[[blast_row]]", "launch_m_s = -6.0\n[[blast_row]]"),
+    ("launch_m_s = 6.0\n[[blast_row]]", "launch_m_s = 1e9\n[[blast_row]]"),
+    ("launch_m_s = 6.0\n[[blast_row]]", "[[blast_row]]"),
+    ("launch_m_s = 6.0\n[[blast_row]]", "launch_m_s = 6\nfree_flight_height_m = 1.8\n[[blast_row]]"),
+    ("name = \"2\"", "name = \"1\""),
+    ("name = \"2\"", "name = 2"),
+    ("name = \"2\"\n", ""),
+    ("[[blast_row]]\nname = \"2\"\nunder_row = 2\nlaunch_m_s = 6.0\n", "blast_row = 3\n"),
+    ("flight_height_m = 1.5", "flight_height_m = 0"),
+    ("flight_height_m = 1.5", "flight_heigth_m = 1.5"),
+    ("cable_safety_factor = 2.0", "cable_safety_factor = -2.0"),
+    ("[limits]\nflight_height_m = 1.5\ncable_safety_factor = 2.0\n", ""),
+    ("[[delay]]\nname = \"20 ms\"\ninterval_ms = 20\n", ""),
+    ("interval_ms = 20", "interval_ms = -20"),
+    ("interval_ms = 20", "interval_s = 0.02"),
+    ("interval_ms = 20", "interval_ms = 20\norder = [\"2\"]"),
+    ("interval_ms = 20", "interval_ms = 20\norder = [\"2\", \"2\"]"),
+    ("interval_ms = 20", "interval_ms = 20\norder = [\"2\", \"3\"]"),
+    ("interval_ms = 20", "order = [\"2\", \"1\"]"),
+    ("interval_ms = 20", "at_ms = [0]"),
+    ("interval_ms = 20", "at_ms = [0, -5]"),
+    ("interval_ms = 20", "at_ms = [0, inf]"),
+    ("interval_ms = 20", "at_ms = [0, 20]\ninterval_ms = 20"),
+    ("interval_ms = 20", "at_ms = 20"),
+    ("interval_ms = 20", "interval_ms = 20\n[[delay]]\nname = \"20 ms\"\ninterval_ms = 25"),
+    ("interval_ms = 20", "interval_ms = 20\n[simulation]\naccuracy = \"fine\""),
+    ("interval_ms = 20", "interval_ms = 20\n[simulation]\nmethod = \"euler\""),
+    ("interval_ms = 20", "interval_ms = 20\n[simulation]\nduration_s = 0"),
+    ("interval_ms = 20", "interval_ms = 20\n[simulation]\ngravity = 9.81"),
+    ("interval_ms = 20", "interval_ms = 20\n[weather]\nrain = true"),
+    ("title = \"T\"", "title = 5"),
+    ("title = \"T\"", "title = \"T"),
+];
+
+#[test]
+fn every_mistake_has_its_place_and_remedy() {
+    let mut all = String::new();
+    for (good, bad) in BAD {
+        assert!(GOOD.contains(good), "{good:?} is in the good plan");
+        let text = GOOD.replacen(good, bad, 1);
+        let mistakes = Plan::parse("plan.toml", &text).expect_err(bad);
+        let _ = writeln!(all, "## {}", bad.replace('\n', " / "));
+        for (line, column, message, remedy) in mistakes.iter() {
+            let _ = writeln!(all, "{line}:{column} {message}\n    {remedy}");
+        }
+    }
+    insta::assert_snapshot!(all);
+}
+
+const LIST: &str = r#"[shelter]
+layout = "list"
+[[shelter.tire]]
+x_m = 0
+y_m = 0
+[[shelter.tire]]
+x_m = -0.0
+y_m = 0
+[[shelter.tire]]
+x_m = 2
+y_m = 0
+colour = "black"
+[[shelter.cable]]
+from = 1
+to = 1
+[[shelter.cable]]
+from = 1
+to = 9
+[[shelter.cable]]
+from = 1
+to = 3
+[[shelter.cable]]
+from = 3
+to = 1
+[tire]
+mass_kg = 280
+outer_diameter_m = 2.0
+[cable]
+rope = "EN 818-2 6"
+[ground]
+friction = 0.5
+[[blast_row]]
+name = "1"
+under_row = 1
+launch_m_s = 6
+[[blast_row]]
+name = "2"
+under_tires = [1, 9]
+launch_m_s = 6
+[limits]
+flight_height_m = 1
+cable_safety_factor = 2
+[[delay]]
+name = "a"
+interval_ms = 20
+"#;
+
+#[test]
+fn all_mistakes_of_a_plan_are_told_at_once() {
+    let mistakes = Plan::parse("list.toml", LIST).expect_err("full of mistakes");
+    insta::assert_snapshot!(mistakes.render(false));
+}
+
+#[test]
+fn what_is_no_plan_at_all_says_so() {
+    let first = |text: &str| {
+        let mistakes = Plan::parse("plan.toml", text).expect_err("no plan");
+        let (line, column, message, _) = mistakes.iter().next().expect("has a mistake");
+        format!("{line}:{column} {message}")
+    };
+    let deep = "a = ".to_owned() + &"[".repeat(500);
+    let texts = ["", "\u{feff}", "\0", "%PDF-1.4", "{\"rows\": 5}", "= = =", deep.as_str()];
+    insta::assert_snapshot!(texts.map(first).join("\n"));
+}
+
+#[test]
+fn files_that_cannot_be_read_name_the_path_and_the_remedy() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plan.toml");
+    let told = |path: &std::path::Path| Plan::load(path).expect_err("unreadable").render(false);
+    assert!(told(&path).contains("cannot read the plan"), "missing");
+    assert!(told(&path).contains("shelter init"), "missing: the remedy");
+    assert!(told(folder.path()).contains("directory"), "a directory");
+    std::fs::write(&path, b"title = \"\xff\"").expect("written");
+    assert!(told(&path).contains("not UTF-8"), "not UTF-8");
+}

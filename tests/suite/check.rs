@@ -1,1 +1,193 @@
+//! `shelter check`, `trace`, `init`, `ropes` as scripts use them: exit status, streams, JSON, CSV.
 
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+fn plan(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("plans").join(name)
+}
+
+fn shelter(arguments: &[&str]) -> Output {
+    Command::cargo_bin("shelter").expect("the binary is built").args(arguments).output().expect("it runs")
+}
+
+fn on(name: &str, arguments: &[&str]) -> Output {
+    let path = plan(name);
+    let mut all = vec![arguments[0], path.to_str().expect("UTF-8")];
+    all.extend(&arguments[1..]);
+    shelter(&all)
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).expect("UTF-8")
+}
+
+fn json(output: &Output) -> Value {
+    serde_json::from_slice(&output.stdout).expect("one JSON document")
+}
+
+#[test]
+fn the_exit_status_tells_the_verdict() {
+    assert_eq!(on("paper-5-tire.toml", &["check"]).status.code(), Some(0));
+    assert_eq!(on("amur-three-rows.toml", &["check"]).status.code(), Some(1));
+    assert_eq!(on("amur-three-rows.toml", &["check", "--any"]).status.code(), Some(0));
+    assert_eq!(shelter(&["check", "no-such-plan.toml"]).status.code(), Some(2));
+    assert_eq!(on("paper-5-tire.toml", &["check", "--dt", "-1"]).status.code(), Some(2));
+    assert_eq!(on("paper-5-tire.toml", &["check", "--accurracy", "field"]).status.code(), Some(2));
+}
+
+#[test]
+fn an_error_leaves_standard_output_empty() {
+    let output = shelter(&["check", "no-such-plan.toml", "--format", "json"]);
+    assert!(output.stdout.is_empty());
+    assert!(text(&output.stderr).contains("no-such-plan.toml"));
+}
+
+#[test]
+fn json_has_the_fields_scripts_read() {
+    let output = on("paper-5-tire.toml", &["check", "--format", "json", "--dt", "2e-4"]);
+    let document = json(&output);
+    assert!(output.stderr.is_empty());
+    assert_eq!(document["schema"], "shelter.check/1");
+    assert_eq!(document["verdict"], "pass");
+    assert_eq!(document["scene"]["tires"], 5);
+    assert_eq!(document["scene"]["cables"], 8);
+    let option = &document["options"][0];
+    assert_eq!(option["name"], "single hole");
+    assert_eq!(option["fire_at_s"][0], 0.0);
+    assert_eq!(option["dt_s"], 2e-4);
+    assert_eq!(option["method"], "verlet");
+    assert_eq!(option["flight_height_m"]["tire"], serde_json::json!([1.5, 1.5]));
+    // Of four mirror images, which holds the maximum is decided by rounding.
+    assert_eq!(option["cable_force_n"]["cable"].as_array().map(Vec::len), Some(2));
+    for field in ["value", "error", "at_s"] {
+        assert!(option["flight_height_m"][field].is_f64() && option["cable_force_n"][field].is_f64());
+    }
+    for field in ["cable_safety_factor", "energy_residual", "wall_s", "total_wall_s"] {
+        assert!(option[field].is_f64(), "{field}");
+    }
+    assert!(option["steps"].is_u64() && option["runs"].is_u64());
+}
+
+#[test]
+fn several_plans_are_one_document_and_one_verdict() {
+    let paths = ["paper-5-tire.toml", "amur-three-rows.toml"].map(plan);
+    let [first, second] = paths.each_ref().map(|path| path.to_str().expect("UTF-8"));
+    let output = shelter(&["check", first, second, "--format", "json"]);
+    assert_eq!(json(&output).as_array().map(Vec::len), Some(2));
+    assert_eq!(output.status.code(), Some(1));
+}
+
+#[test]
+fn threads_change_nothing_but_the_time() {
+    let values = |threads: &str| {
+        let document = json(&on("amur-three-rows.toml", &["check", "--format", "json", "--threads", threads]));
+        let options = document["options"].as_array().expect("options").clone();
+        options.iter().map(|o| (o["flight_height_m"].clone(), o["cable_force_n"].clone())).collect::<Vec<_>>()
+    };
+    assert_eq!(values("1"), values("2"));
+}
+
+#[test]
+fn text_is_plain_without_a_terminal_and_ascii_on_request() {
+    let output = on("amur-three-rows.toml", &["check"]);
+    assert!(!text(&output.stdout).contains('\x1b'));
+    assert!(text(&output.stdout).contains("1 of 7 options pass"));
+    let output = on("amur-three-rows.toml", &["check", "--ascii"]);
+    assert!(text(&output.stdout).is_ascii());
+    let output = on("paper-5-tire.toml", &["check", "--color", "always"]);
+    assert!(text(&output.stdout).contains('\x1b'));
+}
+
+#[test]
+fn csv_has_a_row_per_option() {
+    let output = on("amur-three-rows.toml", &["check", "--format", "csv"]);
+    let lines: Vec<&str> = text(&output.stdout).lines().collect();
+    assert_eq!(lines.len(), 8);
+    assert!(lines[0].starts_with("plan,option,verdict,flight_height_m,"));
+    assert!(lines[4].contains("\"25 ms, middle first\""));
+}
+
+#[test]
+fn a_step_past_the_stability_limit_is_refused_by_name() {
+    let output = on("paper-5-tire.toml", &["check", "--dt", "0.1"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stdout).contains("--dt"));
+}
+
+#[test]
+fn a_plan_opened_without_a_terminal_is_checked() {
+    let path = plan("paper-5-tire.toml");
+    let output = shelter(&[path.to_str().expect("UTF-8")]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(text(&output.stdout).contains("PASS"));
+}
+
+/// Figures 5 and 6 of the source paper: the columns to draw them, and what they show.
+#[test]
+fn trace_gives_the_columns_of_the_paper_figures() {
+    let arguments = ["trace", "--tire", "1.5,1.5", "--tire", "1,1", "--cable", "1,1-1.5,1.5", "--every", "1"];
+    let output = on("paper-5-tire.toml", &arguments);
+    let mut reader = csv::Reader::from_reader(output.stdout.as_slice());
+    let header = reader.headers().expect("a header").clone();
+    let expected = "t_s,x_m[1.5:1.5],y_m[1.5:1.5],height_m[1.5:1.5],friction_n[1.5:1.5],friction_limit_n[1.5:1.5],\
+                    x_m[1:1],y_m[1:1],height_m[1:1],friction_n[1:1],friction_limit_n[1:1],force_n[1:1-1.5:1.5]";
+    assert_eq!(header.iter().collect::<Vec<_>>().join(","), expected);
+    let rows: Vec<Vec<f64>> = reader.deserialize().map(|row| row.expect("numbers")).collect();
+    // At rest after 0.708 s.
+    assert!((700..=720).contains(&rows.len()), "{}", rows.len());
+    let greatest = |column: usize| rows.iter().map(|row| row[column]).fold(0.0, f64::max);
+    assert!((greatest(3) - 0.7574).abs() < 1e-3);
+    assert!((greatest(11) - 17_736.0).abs() < 20.0);
+    assert!(rows.iter().all(|row| row[9] <= row[10] * (1.0 + 1e-9)), "friction is inside its cone");
+    assert!(rows.iter().any(|row| row[10] > 0.0 && row[9] == row[10]), "the corner slides at times");
+}
+
+#[test]
+fn trace_refuses_what_is_not_there() {
+    for bad in [["--option", "x"], ["--tire", "9,9"], ["--tire", "a"], ["--cable", "1,1"], ["--every", "0"]] {
+        let output = on("paper-5-tire.toml", &["trace", bad[0], bad[1]]);
+        assert_eq!(output.status.code(), Some(2), "{bad:?}");
+        assert!(output.stdout.is_empty());
+    }
+}
+
+#[test]
+fn a_reader_that_goes_away_ends_trace_quietly() {
+    let path = plan("paper-5-tire.toml");
+    let command = format!("{} trace {} | head -1", env!("CARGO_BIN_EXE_shelter"), path.display());
+    let output = std::process::Command::new("sh").args(["-c", &command]).output().expect("sh runs");
+    assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
+}
+
+#[test]
+fn init_writes_a_plan_that_loads_and_overwrites_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("new.toml");
+    let name = path.to_str().expect("UTF-8");
+    assert_eq!(shelter(&["init", name]).status.code(), Some(0));
+    assert!(shelter::plan::Plan::load(&path).is_ok());
+    std::fs::write(&path, "mine").expect("written");
+    assert_eq!(shelter(&["init", name]).status.code(), Some(2));
+    assert_eq!(std::fs::read_to_string(&path).expect("read"), "mine");
+}
+
+#[test]
+fn ropes_lists_the_catalogue_in_every_format() {
+    let output = shelter(&["ropes"]);
+    assert!(text(&output.stdout).contains("GOST 2688-80 6.2"));
+    let document = json(&shelter(&["ropes", "--format", "json"]));
+    assert!(document["ropes"].as_array().expect("ropes").len() > 60);
+    assert!(text(&shelter(&["ropes", "--terminations"]).stdout).contains("clips"));
+}
+
+#[test]
+fn packagers_get_completions_and_a_manual_page() {
+    for shell in ["bash", "zsh", "fish", "powershell"] {
+        assert!(text(&shelter(&["completions", shell]).stdout).contains("shelter"));
+    }
+    assert!(text(&shelter(&["man"]).stdout).contains(".TH"));
+}

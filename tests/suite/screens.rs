@@ -1,1 +1,158 @@
+//! The screens, drawn without a terminal.
 
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Duration;
+
+use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
+use ratatui::Terminal;
+use ratatui::backend::TestBackend;
+use ratatui::buffer::Buffer;
+use shelter::outcome::History;
+use shelter::plan::{Method, Plan};
+use shelter::study::check::{Checked, Quantity, Reason};
+use shelter::study::{Case, Effort};
+use shelter::tui::app::{App, Request, Row};
+use shelter::tui::{theme, update, view};
+use shelter::verdict::{Estimate, Verdict};
+
+fn app() -> App {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("plans/amur-three-rows.toml");
+    let mut plan = Plan::load(&path).expect("a shipped plan");
+    plan.path = "plans/amur-three-rows.toml".to_owned();
+    let effort = Effort::of(&plan);
+    App::new(Arc::new(Case::new(plan)), effort)
+}
+
+/// A result with round numbers, so that a snapshot changes with the screen and not with the physics.
+fn checked(verdict: Verdict) -> Checked {
+    let wave = |n: usize| (n as f64 * 0.05).sin().abs();
+    let estimate = |value, error, at, place| Estimate { value, error, at, place };
+    let force = estimate(61_234.0, 45.0, 0.123, 3);
+    let limit = Reason { quantity: Quantity::Force, verdict, estimate: force, limit: 61_019.0 };
+    Checked {
+        verdict,
+        reasons: if verdict == Verdict::Pass { Vec::new() } else { vec![limit] },
+        height: estimate(1.2345, 0.0012, 0.456, 7),
+        force,
+        drift: estimate(0.321, 0.01, 1.3, 9),
+        safety_factor: 1.49,
+        history: History {
+            width: 0.005,
+            height: (0..200).map(wave).collect(),
+            force: (0..200).map(|n| 61_234.0 * wave(3 * n)).collect(),
+        },
+        method: Method::Verlet,
+        step: 5e-4,
+        steps: 2000,
+        energy_residual: 3e-5,
+        end: 1.3,
+        wall: Duration::from_millis(2),
+        total_wall: Duration::from_millis(6),
+        runs: 4,
+    }
+}
+
+fn finished() -> App {
+    let mut app = app();
+    let verdicts = [Verdict::Fail, Verdict::Pass, Verdict::Undecided];
+    for (n, row) in app.rows.iter_mut().enumerate() {
+        *row = Row::Done(Box::new(checked(verdicts[n % 3])));
+    }
+    app
+}
+
+fn draw(app: &App, width: u16, height: u16) -> Buffer {
+    let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("a test terminal");
+    terminal.draw(|frame| view::draw(app, frame)).expect("drawn");
+    terminal.backend().buffer().clone()
+}
+
+fn text(buffer: &Buffer) -> String {
+    let lines = buffer.content.chunks(usize::from(buffer.area.width));
+    let line = |cells: &[ratatui::buffer::Cell]| {
+        let line: String = cells.iter().map(ratatui::buffer::Cell::symbol).collect();
+        line.trim_end().to_owned()
+    };
+    lines.map(line).collect::<Vec<_>>().join("\n")
+}
+
+fn key(app: &mut App, code: KeyCode) -> Request {
+    update(app, &Event::Key(KeyEvent::new(code, KeyModifiers::NONE)))
+}
+
+#[test]
+fn compare_at_three_sizes() {
+    for (width, height) in [(80, 24), (120, 36), (200, 60)] {
+        insta::assert_snapshot!(format!("compare_{width}x{height}"), text(&draw(&finished(), width, height)));
+    }
+}
+
+#[test]
+fn computing_failed_and_enlarged() {
+    let mut app = app();
+    app.rows[0] = Row::Done(Box::new(checked(Verdict::Pass)));
+    app.rows[1] = Row::Running { runs: 2, done: 0.45 };
+    app.rows[2] = Row::Failed("the motion is no longer finite at 0.3 s: choose a smaller --dt".to_owned());
+    app.selected = 1;
+    insta::assert_snapshot!("computing", text(&draw(&app, 100, 30)));
+    app.selected = 2;
+    insta::assert_snapshot!("failed", text(&draw(&app, 100, 30)));
+    app.selected = 0;
+    key(&mut app, KeyCode::Enter);
+    insta::assert_snapshot!("enlarged", text(&draw(&app, 100, 30)));
+}
+
+#[test]
+fn help_and_a_screen_that_is_too_small() {
+    let mut app = finished();
+    key(&mut app, KeyCode::Char('?'));
+    insta::assert_snapshot!("help", text(&draw(&app, 100, 36)));
+    insta::assert_snapshot!("too_small", text(&draw(&app, 50, 10)));
+}
+
+#[test]
+fn ascii_and_colourless_screens_say_the_same() {
+    let mut buffer = draw(&finished(), 120, 36);
+    theme::to_ascii(&mut buffer);
+    theme::without_color(&mut buffer);
+    let screen = text(&buffer);
+    assert!(screen.is_ascii());
+    assert!(buffer.content.iter().all(|cell| cell.fg == ratatui::style::Color::Reset));
+    insta::assert_snapshot!("ascii", screen);
+}
+
+#[test]
+fn every_size_draws() {
+    let mut app = finished();
+    for zoom in [false, true] {
+        app.zoom = zoom;
+        app.help = zoom;
+        for width in (1..=200).step_by(7) {
+            for height in (1..=60).step_by(3) {
+                draw(&app, width, height);
+            }
+        }
+    }
+}
+
+#[test]
+fn keys_move_and_escape_closes_before_it_quits() {
+    let mut app = finished();
+    key(&mut app, KeyCode::Char('j'));
+    key(&mut app, KeyCode::Down);
+    assert_eq!(app.selected, 2);
+    key(&mut app, KeyCode::End);
+    key(&mut app, KeyCode::Down);
+    assert_eq!(app.selected, app.rows.len() - 1);
+    key(&mut app, KeyCode::Home);
+    key(&mut app, KeyCode::Char('k'));
+    assert_eq!(app.selected, 0);
+    key(&mut app, KeyCode::Char('?'));
+    assert_eq!(key(&mut app, KeyCode::Esc), Request::None);
+    assert!(!app.help);
+    assert_eq!(key(&mut app, KeyCode::Esc), Request::Quit);
+    assert_eq!(key(&mut app, KeyCode::Char('q')), Request::Quit);
+    assert_eq!(key(&mut app, KeyCode::Char('+')), Request::Run);
+    assert!(app.rows.iter().all(|row| matches!(row, Row::Waiting)));
+}

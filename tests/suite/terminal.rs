@@ -1,1 +1,143 @@
+//! The real binary on a pseudo-terminal: what a person sees, and what the shell gets back.
 
+use std::io::{Read, Write};
+use std::path::Path;
+use std::sync::{Arc, Mutex};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
+
+/// A shelter running in a terminal that is watched.
+struct Session {
+    screen: Arc<Mutex<vt100::Parser>>,
+    keyboard: Box<dyn Write + Send>,
+    master: Box<dyn MasterPty + Send>,
+    child: Box<dyn Child + Send + Sync>,
+}
+
+/// Generous: machines under load are slow, and nothing here measures speed.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+impl Session {
+    fn open(plan: &str, arguments: &[&str], columns: u16, rows: u16) -> Self {
+        let size = PtySize { rows, cols: columns, pixel_width: 0, pixel_height: 0 };
+        let pair = native_pty_system().openpty(size).expect("a pty");
+        let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_shelter"));
+        command.arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("plans").join(plan));
+        command.args(arguments);
+        command.env("TERM", "xterm-256color");
+        let child = pair.slave.spawn_command(command).expect("it starts");
+        let screen = Arc::new(Mutex::new(vt100::Parser::new(rows, columns, 0)));
+        let mut output = pair.master.try_clone_reader().expect("a reader");
+        let seen = Arc::clone(&screen);
+        thread::spawn(move || {
+            let mut bytes = [0; 4096];
+            while let Ok(count @ 1..) = output.read(&mut bytes) {
+                seen.lock().expect("the parser lives").process(&bytes[..count]);
+            }
+        });
+        let keyboard = pair.master.take_writer().expect("a writer");
+        Self { screen, keyboard, master: pair.master, child }
+    }
+
+    fn contents(&self) -> String {
+        self.screen.lock().expect("the parser lives").screen().contents()
+    }
+
+    fn until(&self, what: &str) {
+        let start = Instant::now();
+        while !self.contents().contains(what) {
+            assert!(start.elapsed() < PATIENCE, "no {what:?} on the screen:\n{}", self.contents());
+            thread::sleep(Duration::from_millis(10));
+        }
+    }
+
+    fn press(&mut self, keys: &str) {
+        self.keyboard.write_all(keys.as_bytes()).expect("typed");
+    }
+
+    fn resize(&mut self, columns: u16, rows: u16) {
+        let size = PtySize { rows, cols: columns, pixel_width: 0, pixel_height: 0 };
+        self.screen.lock().expect("the parser lives").screen_mut().set_size(rows, columns);
+        self.master.resize(size).expect("resized");
+    }
+
+    /// Waits for the end; the terminal must be as it was.
+    fn ends(mut self) -> u32 {
+        let start = Instant::now();
+        let status = loop {
+            if let Some(status) = self.child.try_wait().expect("a child") {
+                break status;
+            }
+            assert!(start.elapsed() < PATIENCE, "still running:\n{}", self.contents());
+            thread::sleep(Duration::from_millis(10));
+        };
+        thread::sleep(Duration::from_millis(100));
+        let parser = self.screen.lock().expect("the parser lives");
+        assert!(!parser.screen().alternate_screen(), "the alternate screen is left");
+        assert!(!parser.screen().hide_cursor(), "the cursor is back");
+        status.exit_code()
+    }
+
+    fn signal(&self, name: &str) {
+        let id = self.child.process_id().expect("a process").to_string();
+        let status = std::process::Command::new("kill").args(["-s", name, &id]).status().expect("kill runs");
+        assert!(status.success());
+    }
+}
+
+#[test]
+fn the_table_appears_keys_and_resizing_work_and_q_restores() {
+    let mut session = Session::open("amur-three-rows.toml", &[], 120, 36);
+    session.until("1 of 7 pass");
+    session.press("jjjj");
+    session.until("42 ms ─");
+    session.press("?");
+    session.until("select the next option");
+    session.press("?");
+    session.resize(80, 24);
+    session.until("cable force, kN");
+    session.resize(40, 10);
+    session.until("shelter needs 60x18, has 40x10");
+    session.resize(120, 36);
+    session.until("left kN");
+    session.press("-");
+    session.until("draft");
+    session.press("q");
+    assert_eq!(session.ends(), 0);
+}
+
+#[test]
+fn quitting_in_the_middle_of_a_run_is_immediate() {
+    let mut session = Session::open("large-50x50.toml", &["--dt", "1e-6"], 100, 30);
+    session.until("computing 0/10");
+    let start = Instant::now();
+    session.press("q");
+    assert_eq!(session.ends(), 0);
+    // All options together would take minutes.
+    assert!(start.elapsed() < Duration::from_secs(10));
+}
+
+#[test]
+fn signals_and_control_c_restore_the_terminal() {
+    for signal in ["TERM", "HUP", "INT"] {
+        let session = Session::open("large-50x50.toml", &["--dt", "1e-5"], 100, 30);
+        session.until("computing");
+        session.signal(signal);
+        assert_eq!(session.ends(), 130, "{signal}");
+    }
+    let mut session = Session::open("paper-5-tire.toml", &[], 100, 30);
+    session.until("1 of 1 pass");
+    session.press("\x03");
+    assert_eq!(session.ends(), 0);
+}
+
+#[test]
+fn ascii_screens_are_ascii() {
+    let mut session = Session::open("paper-5-tire.toml", &["--ascii"], 100, 30);
+    session.until("+ PASS");
+    assert!(session.contents().is_ascii(), "{}", session.contents());
+    session.press("q");
+    session.ends();
+}
