@@ -1,4 +1,45 @@
-//! shelter
+//! Which blasting delay is safe under a shelter of tires and cables: simulated, with its numerical error.
+//!
+//! # The house
+//!
+//! One way in, one way through:
+//!
+//! ```text
+//! TOML ─▶ Plan ─▶ Scene, Shot ─▶ simulate ─▶ Outcome ─▶ Verdict ─▶ text / JSON / CSV / terminal UI
+//!         plan     scene          simulation   outcome     study      report, tui
+//! ```
+//!
+//! | module | what comes in | what goes out | what it must not know |
+//! |---|---|---|---|
+//! | [`units`] | SI numbers | words | anything else |
+//! | [`ropes`] | a data file | the rope catalogue | plans |
+//! | [`plan`] | TOML | a valid [`Plan`](plan::Plan), or every mistake with its remedy | physics |
+//! | [`scene`] | a plan | masses, cables, firings as flat SI arrays | how motion is computed |
+//! | [`outcome`] | | peaks, ledger, histories of a run | who filled them |
+//! | [`simulation`] | scene, shot, step | an [`Outcome`](outcome::Outcome) or a [`Failure`](simulation::Failure) | options, limits, screens |
+//! | [`verdict`] | value, error, limit | pass, fail, undecided | where they come from |
+//! | [`study`] | a plan made ready | verdicts refined until sure, accuracy tables, traces | formats |
+//! | [`report`] | study results | text, JSON, CSV | terminals |
+//! | [`worker`] | a request | small events, the newest request wins | screens |
+//! | [`tui`] | keys and events | a screen | physics |
+//! | [`cli`] | the command line | an exit status | physics |
+//!
+//! Imports point upwards in this table only; the test `layers` holds that. The command line and the terminal UI are two
+//! faces of the same studies: `worker` calls the very function that `shelter check` calls.
+//!
+//! # Rules
+//!
+//! - A [`Scene`](scene::Scene) is never changed once built; everything that moves lives in a stepper.
+//! - Plan units become SI in `scene`, and SI becomes words in `units`. Nothing between converts.
+//! - What goes wrong in a run is a value, never a panic and never a pass.
+//! - The same plan gives the same bytes for any number of threads and lanes.
+//!
+//! # Words
+//!
+//! A *hole* fires under a tire and launches it; holes that fire together are a *blast row*; the *interval* between rows, or
+//! their *order*, makes a *delay option*. A *shelter* is tires (point masses) tied by *cables* that only pull. A cable is
+//! *taut* or *slack*; a tire on the ground *sticks* or *slips*. Everything else is the vocabulary of contact dynamics.
+
 pub mod cli;
 pub mod outcome;
 pub mod plan;

@@ -77,7 +77,10 @@ const BAD: &[(&str, &str)] = &[
     ("rope = \"GOST 2688-80 6.2\"", "rope = \"GOST 2688-80 6.2\"\nbreaking_force_kn = 20"),
     ("rope = \"GOST 2688-80 6.2\"", "axial_stiffness_kn = -1\nbreaking_force_kn = 0"),
     ("rope = \"GOST 2688-80 6.2\"", "rope = \"GOST 2688-80 6.2\"\ntermination = \"glue\""),
-    ("rope = \"GOST 2688-80 6.2\"", "rope = \"GOST 2688-80 6.2\"\ntermination = \"clips\"\ntermination_percent = 80"),
+    (
+        "rope = \"GOST 2688-80 6.2\"",
+        "rope = \"GOST 2688-80 6.2\"\ntermination = \"clips\"\ntermination_percent = 80",
+    ),
     ("rope = \"GOST 2688-80 6.2\"", "rope = \"GOST 2688-80 6.2\"\ntermination_percent = 101"),
     ("rope = \"GOST 2688-80 6.2\"", "rope = \"GOST 2688-80 6.2\"\nslack_percent = -2"),
     ("friction = 0.5", "friction = -0.1"),

@@ -84,7 +84,8 @@ fn several_plans_are_one_document_and_one_verdict() {
 #[test]
 fn threads_change_nothing_but_the_time() {
     let values = |threads: &str| {
-        let document = json(&on("amur-three-rows.toml", &["check", "--format", "json", "--threads", threads]));
+        let document =
+            json(&on("amur-three-rows.toml", &["check", "--format", "json", "--threads", threads]));
         let options = document["options"].as_array().expect("options").clone();
         options.iter().map(|o| (o["flight_height_m"].clone(), o["cable_force_n"].clone())).collect::<Vec<_>>()
     };

@@ -94,9 +94,11 @@ fn validates_vertical_cable_to_the_ground_pulls_with_sqrt_mg2_kmv2_minus_mg() {
 /// P3: the source paper's cross with corners held by weight and friction.
 #[test]
 fn validates_pinned_cross() {
-    for (diagonal, slack, height, force) in
-        [(2.65, 1.0, 0.554_923_923, 30_582.972), (1.65, 1.0, 0.400_906_031, 41_023.629), (2.65, 1.02, 0.757_897_991, 27_777.025)]
-    {
+    for (diagonal, slack, height, force) in [
+        (2.65, 1.0, 0.554_923_923, 30_582.972),
+        (1.65, 1.0, 0.400_906_031, 41_023.629),
+        (2.65, 1.02, 0.757_897_991, 27_777.025),
+    ] {
         for method in METHODS {
             let mut scene = quincunx(diagonal, 1.41e6);
             for cable in &mut scene.cables {

@@ -28,7 +28,11 @@ fn imports_point_one_way() {
         for used in text.split("crate::").skip(1) {
             let name: String = used.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
             let (own_layer, layer) = (layer(&own), layer(&name));
-            assert!(name == own || layer < own_layer, "{} uses {name}, which is not below {own}", file.display());
+            assert!(
+                name == own || layer < own_layer,
+                "{} uses {name}, which is not below {own}",
+                file.display()
+            );
         }
     }
 }

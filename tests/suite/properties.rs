@@ -11,19 +11,22 @@ use crate::scenes::{METHODS, grid, run, settings, watch};
 /// A random grid with random friction, slack, launches and firing times.
 fn shelter() -> impl Strategy<Value = (Scene, Shot)> {
     let size = (1..4_usize, 2..5_usize);
-    (size, 0.5..4.0, 5.0..7.0, 0.0..0.9, 1.0..1.06).prop_flat_map(|((rows, columns), spacing, ea, mu, slack)| {
-        let tires = rows * columns;
-        let firing = (0..tires, 0.0..0.3, 0.5..8.0).prop_map(|(tire, at, launch)| Firing { at, tire, launch });
-        proptest::collection::vec(firing, 1..4).prop_map(move |firings| {
-            let mut scene = grid(rows, columns, spacing, 10_f64.powf(ea));
-            scene.friction = mu;
-            for cable in &mut scene.cables {
-                cable.rest_length *= slack;
-                cable.stiffness /= slack;
-            }
-            (scene, Shot::from_firings(firings))
-        })
-    })
+    (size, 0.5..4.0, 5.0..7.0, 0.0..0.9, 1.0..1.06).prop_flat_map(
+        |((rows, columns), spacing, ea, mu, slack)| {
+            let tires = rows * columns;
+            let firing =
+                (0..tires, 0.0..0.3, 0.5..8.0).prop_map(|(tire, at, launch)| Firing { at, tire, launch });
+            proptest::collection::vec(firing, 1..4).prop_map(move |firings| {
+                let mut scene = grid(rows, columns, spacing, 10_f64.powf(ea));
+                scene.friction = mu;
+                for cable in &mut scene.cables {
+                    cable.rest_length *= slack;
+                    cable.stiffness /= slack;
+                }
+                (scene, Shot::from_firings(firings))
+            })
+        },
+    )
 }
 
 fn step(scene: &Scene) -> f64 {
@@ -31,7 +34,12 @@ fn step(scene: &Scene) -> f64 {
 }
 
 /// The same shelter with every place mapped and every tire renumbered.
-fn mapped(scene: &Scene, shot: &Shot, order: &[usize], map: impl Fn(nalgebra::Vector3<f64>) -> nalgebra::Vector3<f64>) -> (Scene, Shot) {
+fn mapped(
+    scene: &Scene,
+    shot: &Shot,
+    order: &[usize],
+    map: impl Fn(nalgebra::Vector3<f64>) -> nalgebra::Vector3<f64>,
+) -> (Scene, Shot) {
     let mut new = scene.clone();
     for (old, &place) in order.iter().enumerate() {
         new.position[place] = map(scene.position[old]);

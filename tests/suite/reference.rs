@@ -83,3 +83,13 @@ fn both_methods_are_of_second_order() {
         assert!((1.7..2.4).contains(&order), "{method:?}: order {order}");
     }
 }
+
+/// Fifty by fifty tires: counts work, not time. A step may touch every cable once and nothing else.
+#[test]
+fn a_large_shelter_stops_by_itself_and_stays_bounded() {
+    let scene = grid(50, 50, 1.5, 1.519e6);
+    let out = run(&scene, &fire_rows(&[23, 24, 25], 50, 0.02), settings(Method::Verlet, 1e-3, Some(1.5)));
+    assert!(out.steps <= 1501);
+    assert!(out.history.height.len() <= shelter::outcome::History::CAPACITY);
+    assert!(out.ledger.residual() < 1e-4);
+}

@@ -59,25 +59,20 @@ pub fn draw(app: &App, frame: &mut Frame) {
 
 fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
     let (case, theme) = (&app.case, app.theme);
-    let mut limits = format!(
-        "limits: height {} m, force {} kN (factor {})",
+    let mut about = format!(
+        "limits: height {} m, force {} kN",
         units::value(case.limits.height, Unit::Metre),
         units::value(case.limits.force, Unit::Kilonewton),
-        case.plan.limits.cable_safety_factor,
     );
     if let Some(drift) = case.limits.drift {
-        limits += &format!(", drift {} m", units::value(drift, Unit::Metre));
+        about += &format!(", drift {} m", units::value(drift, Unit::Metre));
     }
-    let about = format!(
-        "{limits} · {} tires, {} cables · {}, {}",
-        case.scene.mass.len(),
-        case.scene.cables.len(),
-        method_name(app.effort.method),
-        app.effort.step.map_or_else(
-            || accuracy_name(app.effort.accuracy).to_owned(),
-            |step| format!("step {}", units::milliseconds(step))
-        ),
-    );
+    let level = match app.effort.step {
+        Some(step) => format!("step {}", units::milliseconds(step)),
+        None => accuracy_name(app.effort.accuracy).to_owned(),
+    };
+    about += &format!(" · {}, {level}", method_name(app.effort.method));
+    about += &format!(" · {} tires, {} cables", case.scene.mass.len(), case.scene.cables.len());
     let title = Line::from(vec![
         Span::styled(case.plan.title.as_str(), theme.title()),
         Span::styled(format!("  {}", case.plan.path), theme.quiet()),

@@ -92,7 +92,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
                 );
                 let width = usize::from(spark);
                 let (history, limits) = (&checked.history, &app.case.limits);
-                let spark = |series, limit| Line::styled(sparkline(series, width, limit, false), app.theme.curve());
+                let spark =
+                    |series, limit| Line::styled(sparkline(series, width, limit, false), app.theme.curve());
                 cells.push(spark(&history.height, limits.height));
                 cells.push(spark(&history.force, limits.force));
             }
