@@ -8,8 +8,10 @@ use crate::scene::Scene;
 
 /// Elements handled at once.
 pub const LANES: usize = 8;
+/// Most cables in a block. The order of summation follows from it, so it is the same for any number of lanes.
+const CABLES: usize = 32;
 /// Most elements in a block.
-pub const BLOCK: usize = 32;
+pub const BLOCK: usize = CABLES * LANES;
 
 /// One value per lane.
 pub type Pack = [f64; LANES];
@@ -56,7 +58,7 @@ impl Blocks {
             let new = &scene.cables[c];
             let [first, second] = new.ends.map(|end| end * width);
             let continues = blocks.last().is_some_and(|last| {
-                last.len + width <= BLOCK
+                last.len < CABLES * width
                     && last.first + last.len == first
                     && last.second + last.len == second
                     && last.span == <[f64; 3]>::from(new.span)

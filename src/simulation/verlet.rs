@@ -120,6 +120,9 @@ struct Stepper<'a, const W: usize> {
     mass: Vec<f64>,
     inverse: Vec<f64>,
     due: Vec<Due>,
+    /// Elastic energy of each block when last evaluated, and its sum over those asleep [J].
+    stored: Vec<Pack>,
+    asleep: Pack,
 }
 
 impl<'a, const W: usize> Stepper<'a, W> {
@@ -137,6 +140,8 @@ impl<'a, const W: usize> Stepper<'a, W> {
             results: vec![Err(Failure::Stopped { at: 0.0 }); jobs.len()],
             runs: [const { None }; W],
             wake: Wake::new(&blocks, n),
+            stored: vec![[0.0; LANES]; blocks.blocks.len()],
+            asleep: [0.0; LANES],
             blocks,
             tension: Tension::zero(),
             lanes: Lanes { step: [0.0; LANES], friction: [0.0; LANES], gravity: scene.gravity },
@@ -160,7 +165,9 @@ impl<'a, const W: usize> Stepper<'a, W> {
                 return self.results;
             }
             self.due.sort_by_key(|due| due.element);
-            self.wake.refresh();
+            if self.wake.refresh() {
+                self.move_stored_energy();
+            }
             let mut pass = self.pull();
             if watch(&Snapshot { stepper: &self }).is_break() {
                 self.stop();
@@ -257,6 +264,21 @@ impl<'a, const W: usize> Stepper<'a, W> {
                 part.iter_mut().skip(lane).step_by(W).for_each(|value| *value = 0.0);
             }
         }
+        for energy in self.stored.iter_mut().chain([&mut self.asleep]) {
+            energy.iter_mut().skip(lane).step_by(W).for_each(|value| *value = 0.0);
+        }
+    }
+
+    /// Cables that fell asleep keep their energy, those that woke count it anew.
+    fn move_stored_energy(&mut self) {
+        for j in 0..LANES {
+            for &block in &self.wake.blocks_before {
+                self.asleep[j] += self.stored[block][j];
+            }
+            for &block in &self.wake.blocks {
+                self.asleep[j] -= self.stored[block][j];
+            }
+        }
     }
 
     fn stop(&mut self) {
@@ -286,7 +308,7 @@ impl<'a, const W: usize> Stepper<'a, W> {
     #[inline(always)]
     fn pull(&mut self) -> Pass {
         let mut pass = Pass {
-            energy: [0.0; LANES],
+            energy: self.asleep,
             dissipated: [0.0; LANES],
             lost: [0.0; LANES],
             put_in: [0.0; LANES],
@@ -303,6 +325,7 @@ impl<'a, const W: usize> Stepper<'a, W> {
             self.tension.evaluate(&block, &self.u);
             self.tension.apply(&block, &mut self.f);
             let compliance = 0.5 / block.stiffness;
+            let mut stored = [0.0; LANES];
             for at in (0..block.len).step_by(LANES) {
                 if !self.tension.taut[at / LANES] {
                     continue;
@@ -310,7 +333,7 @@ impl<'a, const W: usize> Stepper<'a, W> {
                 let force = load(&self.tension.force, at);
                 let mut exceeds = false;
                 for j in 0..LANES {
-                    pass.energy[j] += compliance * force[j] * force[j];
+                    stored[j] += compliance * force[j] * force[j];
                     pass.force[j] = pass.force[j].max(force[j]);
                     exceeds |= force[j] > self.best[1][j];
                 }
@@ -322,6 +345,10 @@ impl<'a, const W: usize> Stepper<'a, W> {
                     }
                 }
             }
+            for j in 0..LANES {
+                pass.energy[j] += stored[j];
+            }
+            self.stored[n] = stored;
         }
         pass
     }

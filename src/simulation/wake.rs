@@ -14,6 +14,8 @@ pub struct Wake {
     pub awake: Vec<usize>,
     /// Blocks to evaluate.
     pub blocks: Vec<usize>,
+    /// Blocks that were evaluated before the lists last changed.
+    pub blocks_before: Vec<usize>,
     /// Packs that receive forces without being awake.
     pub touched: Vec<usize>,
     moving: Vec<bool>,
@@ -45,6 +47,7 @@ impl Wake {
         Self {
             awake: Vec::with_capacity(n_packs),
             blocks: Vec::with_capacity(n_blocks),
+            blocks_before: Vec::with_capacity(n_blocks),
             touched: Vec::with_capacity(n_packs),
             moving: vec![false; n_packs],
             movers: Vec::with_capacity(2 * n_packs),
@@ -68,12 +71,13 @@ impl Wake {
         }
     }
 
-    /// Brings the lists up to date.
-    pub fn refresh(&mut self) {
+    /// Brings the lists up to date; whether they changed.
+    pub fn refresh(&mut self) -> bool {
         if !self.changed {
-            return;
+            return false;
         }
         self.changed = false;
+        std::mem::swap(&mut self.blocks, &mut self.blocks_before);
         let Self {
             awake, blocks, touched, moving, movers, pack_mark, block_mark, blocks_at, packs_of, ..
         } = self;
@@ -92,6 +96,7 @@ impl Wake {
             }
         }
         awake.iter().chain(touched.iter()).for_each(|&pack| pack_mark[pack] = false);
+        true
     }
 }
 
