@@ -142,29 +142,30 @@ impl Tension {
                 }
             }
             let mut length2 = [0.0; LANES];
-            let mut longest = 0.0_f64;
+            let mut longest = [0.0_f64; LANES];
             for j in 0..LANES {
                 let l2 = d[0][j] * d[0][j] + d[1][j] * d[1][j] + d[2][j] * d[2][j];
                 length2[j] = if j < live { l2 } else { 0.0 };
+                longest[j] = if length2[j] > slack2 { 1.0 } else { 0.0 };
             }
-            for l2 in length2 {
-                longest = longest.max(l2);
-            }
-            let taut = longest > slack2;
+            let taut = longest.iter().sum::<f64>() > 0.0;
             self.taut[at / LANES] = taut;
             if !taut {
                 continue;
             }
+            let mut force = [0.0; LANES];
+            let mut pull = [[0.0; LANES]; 3];
             for j in 0..LANES {
                 let length = length2[j].sqrt();
-                let stretch = length - block.rest_length;
-                let taut = length2[j] > slack2 && stretch > 0.0;
-                let force = if taut { block.stiffness * stretch } else { 0.0 };
-                let per_length = if taut { force / length } else { 0.0 };
-                self.force[at + j] = force;
-                for c in 0..3 {
-                    self.pull[c][at + j] = per_length * d[c][j];
-                }
+                force[j] = (block.stiffness * (length - block.rest_length)).max(0.0);
+                let per_length = force[j] / length.max(f64::MIN_POSITIVE);
+                pull[0][j] = per_length * d[0][j];
+                pull[1][j] = per_length * d[1][j];
+                pull[2][j] = per_length * d[2][j];
+            }
+            store(&mut self.force, at, &force);
+            for c in 0..3 {
+                store(&mut self.pull[c], at, &pull[c]);
             }
         }
     }
@@ -179,8 +180,9 @@ impl Tension {
                 }
                 for c in 0..3 {
                     let mut force = load(&f.part[c], end + at);
+                    let pull = load(&self.pull[c], at);
                     for j in 0..LANES {
-                        force[j] += sign * self.pull[c][at + j];
+                        force[j] += sign * pull[j];
                     }
                     store(&mut f.part[c], end + at, &force);
                 }

@@ -156,6 +156,7 @@ impl<'a, const W: usize> Stepper<'a, W> {
     }
 
     fn run(mut self, watch: &mut Watcher<'_>) -> Vec<Result<Outcome, Failure>> {
+        let arch = pulp::Arch::new();
         loop {
             self.due.clear();
             for lane in 0..W {
@@ -168,12 +169,12 @@ impl<'a, const W: usize> Stepper<'a, W> {
             if self.wake.refresh() {
                 self.move_stored_energy();
             }
-            let mut pass = self.pull();
+            let mut pass = arch.dispatch(Pull(&mut self));
             if watch(&Snapshot { stepper: &self }).is_break() {
                 self.stop();
                 return self.results;
             }
-            self.advance(&mut pass);
+            arch.dispatch(Advance(&mut self, &mut pass));
             for lane in 0..W {
                 self.book(lane, &pass);
             }
@@ -520,6 +521,30 @@ impl<'a, const W: usize> Stepper<'a, W> {
         run.record.history.note(now, top(&pass.height), top(&pass.force));
         run.moving = mine().any(|j| pass.motion[j] != 0);
         run.clock.tick();
+    }
+}
+
+/// Evaluation of the cables, compiled for each instruction set and chosen at run time.
+struct Pull<'s, 'a, const W: usize>(&'s mut Stepper<'a, W>);
+
+impl<const W: usize> pulp::WithSimd for Pull<'_, '_, W> {
+    type Output = Pass;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Pass {
+        self.0.pull()
+    }
+}
+
+/// Kick and drift, likewise.
+struct Advance<'s, 'a, const W: usize>(&'s mut Stepper<'a, W>, &'s mut Pass);
+
+impl<const W: usize> pulp::WithSimd for Advance<'_, '_, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        self.0.advance(self.1);
     }
 }
 
