@@ -50,3 +50,18 @@ pub fn open(plan: &Path, compute: &Compute, look: &Look) -> io::Result<Status> {
         tui::Left::Signal => Ok(Status::Interrupted),
     }
 }
+
+/// The delay option of this name; the first without one.
+pub fn find_option(case: &Case, name: Option<&str>) -> Result<usize, String> {
+    let names: Vec<&str> = case.plan.delays.iter().map(|delay| delay.name.as_str()).collect();
+    let Some(name) = name else { return Ok(0) };
+    names.iter().position(|&known| known == name).ok_or_else(|| {
+        format!("no delay option '{name}' in {}; it has: {}", case.plan.path, names.join(", "))
+    })
+}
+
+/// Reports a mistake in the arguments.
+pub fn wrong(message: &str) -> io::Result<Status> {
+    eprintln!("error: {message}");
+    Ok(Status::Wrong)
+}

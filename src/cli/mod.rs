@@ -1,5 +1,6 @@
 //! Commands: what users type, turned into studies, reports and an exit status. clap stops here.
 
+mod accuracy;
 mod check;
 mod init;
 mod load;
@@ -44,6 +45,8 @@ enum Command {
     Check(check::Arguments),
     /// Time histories of one option as CSV
     Trace(trace::Arguments),
+    /// This plan's speed against accuracy, on this machine
+    Accuracy(accuracy::Arguments),
     /// The rope catalogue
     Ropes(ropes::Arguments),
     /// A commented starter plan
@@ -200,6 +203,7 @@ pub fn run() -> ExitCode {
     let done = match (cli.command, cli.plan) {
         (Some(Command::Check(arguments)), _) => check::run(&arguments, &cli.look),
         (Some(Command::Trace(arguments)), _) => trace::run(&arguments, &cli.look),
+        (Some(Command::Accuracy(arguments)), _) => accuracy::run(&arguments, &cli.look),
         (Some(Command::Ropes(arguments)), _) => ropes::run(&arguments),
         (Some(Command::Init(arguments)), _) => init::run(&arguments),
         (Some(Command::Completions(arguments)), _) => packaging::completions(&arguments),

@@ -10,7 +10,6 @@ use super::{Compute, FormatArg, Look, Status, load};
 use crate::report;
 use crate::scene::{Scene, TireId};
 use crate::simulation::{Settings, simulate};
-use crate::study::Case;
 use crate::study::check::start_step;
 use crate::study::trace::{Chosen, trace};
 
@@ -41,17 +40,13 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     let Some(case) = load::cases([&arguments.plan], look).and_then(|mut cases| cases.pop()) else {
         return Ok(Status::Wrong);
     };
-    let wrong = |message: String| {
-        eprintln!("error: {message}");
-        Ok(Status::Wrong)
-    };
-    let option = match find_option(&case, arguments.option.as_deref()) {
+    let option = match load::find_option(&case, arguments.option.as_deref()) {
         Ok(option) => option,
-        Err(message) => return wrong(message),
+        Err(message) => return load::wrong(&message),
     };
     let mut chosen = match chosen(&case.scene, arguments) {
         Ok(chosen) => chosen,
-        Err(message) => return wrong(message),
+        Err(message) => return load::wrong(&message),
     };
     let effort = arguments.compute.effort(&case.plan);
     let settings = Settings {
@@ -62,7 +57,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     if chosen == Chosen::default() {
         match simulate(&case.scene, &case.shots[option], &settings, &mut |_| ControlFlow::Continue(())) {
             Ok(outcome) => chosen = Chosen::of(&outcome),
-            Err(failure) => return wrong(failure.to_string()),
+            Err(failure) => return load::wrong(&failure.to_string()),
         }
     }
     let mut rows = Rows::begin(arguments.format, report::trace::header(&case.scene, &chosen))?;
@@ -74,7 +69,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     });
     written?;
     rows.end()?;
-    done.map_or_else(|failure| wrong(failure.to_string()), |_| Ok(Status::Pass))
+    done.map_or_else(|failure| load::wrong(&failure.to_string()), |_| Ok(Status::Pass))
 }
 
 /// Writes rows as they come.
@@ -115,14 +110,6 @@ impl Rows {
         }
         self.out.flush()
     }
-}
-
-fn find_option(case: &Case, name: Option<&str>) -> Result<usize, String> {
-    let names: Vec<&str> = case.plan.delays.iter().map(|delay| delay.name.as_str()).collect();
-    let Some(name) = name else { return Ok(0) };
-    names.iter().position(|&known| known == name).ok_or_else(|| {
-        format!("no delay option '{name}' in {}; it has: {}", case.plan.path, names.join(", "))
-    })
 }
 
 fn chosen(scene: &Scene, arguments: &Arguments) -> Result<Chosen, String> {

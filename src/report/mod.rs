@@ -3,6 +3,7 @@
 //! Serialisable mirrors of the results live here, so that nothing below knows of formats. Field names are those that
 //! scripts depend on.
 
+pub mod accuracy;
 pub mod check;
 pub mod ropes;
 pub mod spark;

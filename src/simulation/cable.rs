@@ -33,6 +33,8 @@ pub struct Block {
     pub rest_length: f64,
     /// k [N/m].
     pub stiffness: f64,
+    /// Where its stretches are remembered; whole packs.
+    pub memory: usize,
 }
 
 /// All cables of a scene.
@@ -75,8 +77,14 @@ impl Blocks {
                     span: new.span.into(),
                     rest_length: new.rest_length,
                     stiffness: new.stiffness,
+                    memory: 0,
                 }),
             }
+        }
+        let mut remembered = 0;
+        for block in &mut blocks {
+            block.memory = remembered;
+            remembered += block.len.next_multiple_of(LANES);
         }
         Self { blocks, cable }
     }
@@ -110,14 +118,36 @@ pub fn store(to: &mut [f64], at: usize, pack: &Pack) {
     to[at..at + LANES].copy_from_slice(pack);
 }
 
+/// What is remembered of every cable from one step to the next.
+#[derive(Clone, Debug)]
+pub struct Memory {
+    /// L − L0 of packs that are `taut`, stale elsewhere [m].
+    stretch: Vec<f64>,
+    /// Whether any cable of a pack was taut.
+    taut: Vec<bool>,
+}
+
+impl Memory {
+    /// All slack.
+    pub fn new(blocks: &Blocks) -> Self {
+        let elements = blocks.blocks.last().map_or(0, |last| last.memory + last.len.next_multiple_of(LANES));
+        Self { stretch: vec![0.0; elements], taut: vec![false; elements / LANES] }
+    }
+
+    /// Every `width`th cable from `lane` on is slack.
+    pub fn slacken(&mut self, lane: usize, width: usize) {
+        self.stretch.iter_mut().skip(lane).step_by(width).for_each(|stretch| *stretch = 0.0);
+    }
+}
+
 /// Forces of one block: per element the force N and the pull on the first end.
 #[derive(Clone, Debug)]
 pub struct Tension {
     /// N [N] (`BLOCK`).
     pub force: [f64; BLOCK],
-    /// N × direction from first to second end [N] (3 × `BLOCK`).
+    /// Mean force since the last step × direction from first to second end [N] (3 × `BLOCK`); see [`Self::evaluate`].
     pub pull: [[f64; BLOCK]; 3],
-    /// Whether any cable of each pack is taut.
+    /// Whether any cable of each pack pulls.
     pub taut: [bool; BLOCK / LANES],
 }
 
@@ -127,9 +157,13 @@ impl Tension {
         Self { force: [0.0; BLOCK], pull: [[0.0; BLOCK]; 3], taut: [false; BLOCK / LANES] }
     }
 
-    /// Evaluates N = k (L − L0)₊ for every cable of `block` at displacements `u` [m].
+    /// Evaluates every cable of `block` at displacements `u` [m], reached with velocities `v` [m/s] in a `step` [s].
+    ///
+    /// The force is N = k (L − L0)₊. Kicks weigh it by the trapezoidal rule, which is wrong by O(h²) where a cable becomes
+    /// taut or slack inside a step. With stretches s₀ and s₁ of unlike sign at its ends, ∫ k s₊ dt along the line between them
+    /// differs from the trapezoid by −h k |s₀ s₁| / 2(|s₀| + |s₁|); the pull includes it.
     #[inline(always)]
-    pub fn evaluate(&mut self, block: &Block, u: &Field) {
+    pub fn evaluate(&mut self, block: &Block, u: &Field, v: &Field, step: &Pack, memory: &mut Memory) {
         let slack2 = block.rest_length * block.rest_length;
         for at in (0..block.len).step_by(LANES) {
             let live = block.len - at;
@@ -142,32 +176,70 @@ impl Tension {
                 }
             }
             let mut length2 = [0.0; LANES];
-            let mut longest = [0.0_f64; LANES];
+            let mut longer = [0.0_f64; LANES];
             for j in 0..LANES {
                 let l2 = d[0][j] * d[0][j] + d[1][j] * d[1][j] + d[2][j] * d[2][j];
                 length2[j] = if j < live { l2 } else { 0.0 };
-                longest[j] = if length2[j] > slack2 { 1.0 } else { 0.0 };
+                longer[j] = if length2[j] > slack2 { 1.0 } else { 0.0 };
             }
-            let taut = longest.iter().sum::<f64>() > 0.0;
-            self.taut[at / LANES] = taut;
-            if !taut {
+            let place = block.memory + at;
+            let taut = longer.iter().sum::<f64>() > 0.0;
+            let was_taut = std::mem::replace(&mut memory.taut[place / LANES], taut);
+            self.taut[at / LANES] = taut || was_taut;
+            if !taut && !was_taut {
                 continue;
             }
+            // What was slack is found from where its tires come, whether its pack was evaluated or not, so that the result
+            // does not depend on who shares its pack.
+            let remembered = if was_taut { load(&memory.stretch, place) } else { [0.0; LANES] };
+            let mut tightens = 0.0;
+            for j in 0..LANES {
+                tightens += if remembered[j] > 0.0 { 0.0 } else { longer[j] };
+            }
+            let mut before = remembered;
+            if tightens > 0.0 {
+                let found = Self::stretch_before(block, at, &d, v, step);
+                for j in 0..LANES {
+                    before[j] = if remembered[j] > 0.0 { remembered[j] } else { found[j] };
+                }
+            }
             let mut force = [0.0; LANES];
+            let mut stretch = [0.0; LANES];
             let mut pull = [[0.0; LANES]; 3];
             for j in 0..LANES {
                 let length = length2[j].sqrt();
-                force[j] = (block.stiffness * (length - block.rest_length)).max(0.0);
-                let per_length = force[j] / length.max(f64::MIN_POSITIVE);
+                stretch[j] = length - block.rest_length;
+                let product = before[j] * stretch[j];
+                let apart = (stretch[j] - before[j]).abs().max(f64::MIN_POSITIVE);
+                let switched =
+                    if product < 0.0 && j < live { 0.5 * block.stiffness * product / apart } else { 0.0 };
+                force[j] = (block.stiffness * stretch[j]).max(0.0);
+                let per_length = (force[j] + switched) / length.max(f64::MIN_POSITIVE);
                 pull[0][j] = per_length * d[0][j];
                 pull[1][j] = per_length * d[1][j];
                 pull[2][j] = per_length * d[2][j];
             }
+            store(&mut memory.stretch, place, &stretch);
             store(&mut self.force, at, &force);
             for c in 0..3 {
                 store(&mut self.pull[c], at, &pull[c]);
             }
         }
+    }
+
+    /// L − L0 of a pack a step earlier, from where its tires come [m].
+    #[inline(always)]
+    fn stretch_before(block: &Block, at: usize, d: &[Pack; 3], v: &Field, step: &Pack) -> Pack {
+        let mut length2 = [0.0; LANES];
+        for c in 0..3 {
+            let first = load(&v.part[c], block.first + at);
+            let second = load(&v.part[c], block.second + at);
+            for j in 0..LANES {
+                let earlier = d[c][j] - step[j] * (second[j] - first[j]);
+                length2[j] += earlier * earlier;
+            }
+        }
+        length2.map(|l2| l2.sqrt() - block.rest_length)
     }
 
     /// Adds the pulls of `block` to the forces `f` [N] on its tires.

@@ -16,7 +16,7 @@
 
 use nalgebra::Vector3;
 
-use super::cable::{Blocks, Field, LANES, Pack, Tension, load, store};
+use super::cable::{Blocks, Field, LANES, Memory, Pack, Tension, load, store};
 use super::contact::{Flight, support};
 use super::kick::{Kicked, Lanes, Tires};
 use super::record::{Clock, Record};
@@ -110,6 +110,7 @@ struct Stepper<'a, const W: usize> {
     blocks: Blocks,
     wake: Wake,
     tension: Tension,
+    memory: Memory,
     lanes: Lanes,
     /// Greatest height and force so far, per lane.
     best: [Pack; 2],
@@ -142,6 +143,7 @@ impl<'a, const W: usize> Stepper<'a, W> {
             wake: Wake::new(&blocks, n),
             stored: vec![[0.0; LANES]; blocks.blocks.len()],
             asleep: [0.0; LANES],
+            memory: Memory::new(&blocks),
             blocks,
             tension: Tension::zero(),
             lanes: Lanes { step: [0.0; LANES], friction: [0.0; LANES], gravity: scene.gravity },
@@ -265,6 +267,7 @@ impl<'a, const W: usize> Stepper<'a, W> {
                 part.iter_mut().skip(lane).step_by(W).for_each(|value| *value = 0.0);
             }
         }
+        self.memory.slacken(lane, W);
         for energy in self.stored.iter_mut().chain([&mut self.asleep]) {
             energy.iter_mut().skip(lane).step_by(W).for_each(|value| *value = 0.0);
         }
@@ -323,7 +326,7 @@ impl<'a, const W: usize> Stepper<'a, W> {
         for n in 0..self.wake.blocks.len() {
             let n = self.wake.blocks[n];
             let block = self.blocks.blocks[n];
-            self.tension.evaluate(&block, &self.u);
+            self.tension.evaluate(&block, &self.u, &self.v, &self.lanes.step, &mut self.memory);
             self.tension.apply(&block, &mut self.f);
             let compliance = 0.5 / block.stiffness;
             let mut stored = [0.0; LANES];

@@ -10,7 +10,7 @@ use super::{Case, Effort, error};
 use crate::outcome::{History, Outcome, Peak};
 use crate::plan::{Accuracy, Method};
 use crate::simulation::{Failure, Settings, simulate};
-use crate::verdict::{Estimate, Verdict};
+use crate::verdict::{Estimate, Limits, Verdict};
 
 /// A judged delay option.
 #[derive(Clone, Debug)]
@@ -45,6 +45,8 @@ pub struct Checked {
     pub total_wall: Duration,
     /// Runs behind the verdict.
     pub runs: usize,
+    /// Steps of all of them.
+    pub total_steps: usize,
 }
 
 /// A limit that was not passed.
@@ -84,7 +86,7 @@ pub struct Progress {
 /// landing.
 pub fn start_step(case: &Case, method: Method, accuracy: Accuracy) -> f64 {
     let (fraction, longest): (f64, f64) = match accuracy {
-        Accuracy::Draft => (0.3, 4e-3),
+        Accuracy::Draft => (0.2, 2e-3),
         Accuracy::Field => (0.1, 1e-3),
         Accuracy::Reference => (0.025, 2.5e-4),
     };
@@ -94,6 +96,31 @@ pub fn start_step(case: &Case, method: Method, accuracy: Accuracy) -> f64 {
 
 /// Rungs a verdict may climb beyond the first that has an error: 64 times finer.
 const FINEST: usize = 12;
+
+/// An error holds in 19 of 20 runs. A verdict should hold in more, so refinement goes on until it would stand with an
+/// error this many times larger.
+const SURE: f64 = 2.0;
+
+impl Checked {
+    /// Whether the verdict would stand with larger errors.
+    fn is_sure(&self, limits: &Limits) -> bool {
+        let larger = |estimate: Estimate| Estimate { error: SURE * estimate.error, ..estimate };
+        let verdicts = limited(self.height, self.force, self.drift, limits)
+            .map(|(_, estimate, limit)| larger(estimate).against(limit));
+        Verdict::worst(verdicts) == self.verdict && self.verdict != Verdict::Undecided
+    }
+}
+
+/// The estimates that have a limit.
+fn limited(
+    height: Estimate,
+    force: Estimate,
+    drift: Estimate,
+    limits: &Limits,
+) -> impl Iterator<Item = (Quantity, Estimate, f64)> {
+    let always = [(Quantity::Height, height, limits.height), (Quantity::Force, force, limits.force)];
+    always.into_iter().chain(limits.drift.map(|limit| (Quantity::Drift, drift, limit)))
+}
 
 /// Judges one delay option. `watch` sees the progress and may stop.
 pub fn check(
@@ -130,7 +157,7 @@ pub fn check(
             runs.swap(0, 1);
         }
         let checked = judge(case, effort.method, &runs, begun.elapsed());
-        if checked.verdict != Verdict::Undecided || effort.step.is_some() || finer as usize == FINEST {
+        if checked.is_sure(&case.limits) || effort.step.is_some() || finer as usize == FINEST {
             return Ok(checked);
         }
         finer += 1;
@@ -150,10 +177,7 @@ fn judge(case: &Case, method: Method, runs: &[(Outcome, Duration)], total_wall: 
     let force = estimate(|outcome| outcome.force);
     let drift = estimate(|outcome| outcome.drift);
     let limits = &case.limits;
-    let mut judged = vec![(Quantity::Height, height, limits.height), (Quantity::Force, force, limits.force)];
-    judged.extend(limits.drift.map(|limit| (Quantity::Drift, drift, limit)));
-    let reasons: Vec<Reason> = judged
-        .into_iter()
+    let reasons: Vec<Reason> = limited(height, force, drift, limits)
         .map(|(quantity, estimate, limit)| Reason {
             quantity,
             verdict: estimate.against(limit),
@@ -178,5 +202,6 @@ fn judge(case: &Case, method: Method, runs: &[(Outcome, Duration)], total_wall: 
         wall: last.1,
         total_wall,
         runs: count,
+        total_steps: runs.iter().map(|(outcome, _)| outcome.steps).sum(),
     }
 }

@@ -1,26 +1,62 @@
 //! How far a value at one step is from the converged one, judged from the same run at neighbouring steps.
 //!
-//! Where the motion is smooth in the step, the method is of second order: two runs at steps h and r h differ by
-//! (r² − 1) times the error at h. Where tires land and are launched anew, cables go slack and snap, the value jumps between
-//! nearby steps and all differences are alike. [`estimate`] divides by (r² − 1) to the power [`TRUST`] only, between the
-//! two, and takes the largest over several neighbours, so that two runs that agree by luck are not believed.
+//! The method is of second order: a run at step r h differs from one at h by (r² − 1) times the error at h, so every
+//! neighbour j gives an estimate sⱼ = (vⱼ − v) / (rⱼ² − 1) of it, with its sign. Where the motion is smooth in the step they
+//! agree. Where tires land and are launched anew, cables go slack and snap, the value jumps between nearby steps and they
+//! do not. The error reported is
 //!
-//! It estimates the error of the time integration. What the model leaves out it cannot know.
+//! MARGIN · (max |sⱼ| + DISTRUST · (max sⱼ − min sⱼ)):
+//!
+//! several estimates must agree before they are believed, so two runs that agree by luck are not.
+//!
+//! Both constants were fitted on 600 random scenes; `cargo bench --bench calibration` measures on others how often the true
+//! error is within the reported one (96 % and more) and how wide that is (4 to 6 times the true one in the median). It estimates the error of the time integration alone: the
+//! model, the plan's numbers, and a motion so sensitive that every step misses the same event alike are beyond it.
 
-/// How many times coarser each neighbour is.
+/// How many times coarser each neighbour is than the one before.
 pub const RATIO: f64 = std::f64::consts::SQRT_2;
 /// Neighbours wanted beside the run itself.
-pub const NEIGHBOURS: usize = 3;
-/// 1: differences shrink as second order promises; 0: not at all.
-const TRUST: f64 = 0.5;
-/// Widens the estimate.
-const MARGIN: f64 = 1.2;
+pub const NEIGHBOURS: usize = 4;
+const MARGIN: f64 = 1.4;
+const DISTRUST: f64 = 2.0;
 
-/// Estimated error of `value`, computed at `step`, from `(step, value)` of neighbours.
+/// Estimated error of `value`, computed at `step`, from `(step, value)` of neighbours; 0 without any.
 pub fn estimate(step: f64, value: f64, neighbours: impl IntoIterator<Item = (f64, f64)>) -> f64 {
-    let error = |(other, near): (f64, f64)| {
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for (other, near) in neighbours {
         let ratio = other / step;
-        (near - value).abs() / (ratio * ratio - 1.0).abs().powf(TRUST)
-    };
-    MARGIN * neighbours.into_iter().map(error).fold(0.0, f64::max)
+        let signed = (near - value) / (ratio * ratio - 1.0);
+        low = low.min(signed);
+        high = high.max(signed);
+    }
+    if low > high { 0.0 } else { MARGIN * (low.abs().max(high.abs()) + DISTRUST * (high - low)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ladder(value: impl Fn(f64) -> f64) -> f64 {
+        estimate(1.0, value(1.0), (1..=4).map(|n| RATIO.powi(n)).map(|step| (step, value(step))))
+    }
+
+    #[test]
+    fn a_second_order_error_is_found_with_the_margin() {
+        assert!((ladder(|h| 7.0 + 0.01 * h * h) - 0.014).abs() < 1e-12);
+    }
+
+    #[test]
+    fn runs_that_agree_by_luck_are_not_believed() {
+        // Peak force in kN at steps of 1, 2, 4 ms … of a long delay: the first two agree, the converged value is 35.7.
+        let values = [31.03, 31.61, 38.26, 39.5, 40.68];
+        let steps = (0..5).map(|n| RATIO.powi(n));
+        let error = estimate(1.0, values[0], steps.zip(values).skip(1));
+        assert!(error > 4.2, "{error}");
+    }
+
+    #[test]
+    fn a_finer_neighbour_serves_as_well() {
+        let value = |h: f64| 7.0 + 0.01 * h * h;
+        assert!((estimate(1.0, value(1.0), [(0.5, value(0.5))]) - 0.014).abs() < 1e-12);
+    }
 }

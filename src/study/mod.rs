@@ -3,6 +3,7 @@
 //! A [`Case`] is a plan made ready to run; each study takes one and returns a plain result that every view draws.
 //! Nothing here prints, parses or computes physics.
 
+pub mod accuracy;
 pub mod check;
 pub mod error;
 pub mod trace;

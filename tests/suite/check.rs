@@ -192,3 +192,18 @@ fn packagers_get_completions_and_a_manual_page() {
     }
     assert!(text(&shelter(&["man"]).stdout).contains(".TH"));
 }
+
+#[test]
+fn accuracy_has_the_fields_scripts_read_and_the_paper_table() {
+    let document = json(&on("paper-5-tire.toml", &["accuracy", "--format", "json"]));
+    let rows = document["rows"].as_array().expect("rows");
+    for level in ["draft", "field", "reference"] {
+        let step = &document["recommended"][level]["dt_s"];
+        let row = rows.iter().find(|row| row["dt_s"] == *step && row["method"] == "verlet").expect("measured");
+        let error = row["height_error"].as_f64().expect("a number");
+        assert!(error < 1e-3, "{level}: {error}");
+    }
+    assert!(rows.iter().any(|row| row["method"] == "newmark" && row["stable"] == true));
+    assert!(document["reference"]["dt_s"].is_f64());
+    assert!(text(&on("paper-5-tire.toml", &["accuracy"]).stdout).contains("Table 1 of the source paper"));
+}

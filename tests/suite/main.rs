@@ -1,6 +1,7 @@
 //! All integration tests, in one binary so that they link once.
 
 mod bad_plans;
+mod calibration;
 mod check;
 mod closed_forms;
 mod layers;

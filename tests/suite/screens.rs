@@ -50,6 +50,7 @@ fn checked(verdict: Verdict) -> Checked {
         wall: Duration::from_millis(2),
         total_wall: Duration::from_millis(6),
         runs: 4,
+        total_steps: 5000,
     }
 }
 

@@ -1,0 +1,183 @@
+//! What a step buys on this plan and this machine: both methods over a range of steps against a converged run.
+
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use super::Case;
+use super::check::start_step;
+use crate::outcome::Outcome;
+use crate::plan::{Accuracy, Method, Timing};
+use crate::scene::Shot;
+use crate::simulation::{Settings, simulate};
+
+/// One method at one step.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Method.
+    pub method: Method,
+    /// Step [s].
+    pub step: f64,
+    /// What came out; `None` where the method could not follow.
+    pub result: Option<Measured>,
+}
+
+/// What a run gave and cost.
+#[derive(Clone, Copy, Debug)]
+pub struct Measured {
+    /// Steps made.
+    pub steps: usize,
+    /// Greatest height [m].
+    pub height: f64,
+    /// Greatest cable force [N].
+    pub force: f64,
+    /// |height − reference| / reference.
+    pub height_error: f64,
+    /// |force − reference| / reference.
+    pub force_error: f64,
+    /// Ledger residual over the energy put in.
+    pub energy_residual: f64,
+    /// Least time of a few runs.
+    pub wall: Duration,
+}
+
+/// Speed against accuracy of one option.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// Both methods, coarse to fine.
+    pub rows: Vec<Row>,
+    /// Step of the converged run, made by `verlet` [s].
+    pub reference_step: f64,
+    /// What the accuracy levels use: level and step [s].
+    pub levels: [(Accuracy, f64); 3],
+}
+
+/// Limits of an error class: height and force, relative.
+pub const CLASSES: [(f64, f64); 2] = [(0.01, 0.02), (0.002, 0.002)];
+
+/// Steps tried per method, each half the one before.
+const STEPS: usize = 11;
+/// How much finer the reference is than the finest level.
+const FINER: f64 = 16.0;
+/// Runs of a method that are expected to take longer are left out.
+const PATIENCE: Duration = Duration::from_secs(8);
+
+/// Measures one option.
+pub fn measure(case: &Case, option: usize) -> Study {
+    let levels = [Accuracy::Draft, Accuracy::Field, Accuracy::Reference]
+        .map(|level| (level, start_step(case, Method::Verlet, level)));
+    let reference_step = levels[2].1 / FINER;
+    let shot = &case.shots[option];
+    let reference = run(case, shot, Method::Verlet, reference_step);
+    let coarsest = (0.95 * case.scene.critical_step()).min(8e-3);
+    let mut rows = Vec::new();
+    for method in [Method::Verlet, Method::Newmark] {
+        let mut steps: Vec<f64> = (0..STEPS).map(|n| coarsest * 0.5_f64.powi(n as i32)).collect();
+        if method == Method::Verlet {
+            steps.extend(levels.map(|(_, step)| step));
+            steps.sort_by(|a, b| b.total_cmp(a));
+        }
+        let mut last = Duration::ZERO;
+        for step in steps.into_iter().take_while(|&step| step > reference_step) {
+            if 2 * last > PATIENCE {
+                break;
+            }
+            let result = run(case, shot, method, step);
+            last = result.as_ref().map_or(last, |(_, wall)| *wall);
+            let result = result.map(|(outcome, wall)| compared(&outcome, wall, reference.as_ref()));
+            rows.push(Row { method, step, result });
+        }
+    }
+    Study { rows, reference_step, levels }
+}
+
+impl Study {
+    /// The largest step of a method that is within a class together with every finer one, and what it costs.
+    pub fn cheapest(&self, method: Method, class: (f64, f64)) -> Option<(f64, Duration)> {
+        let within = |row: &&Row| {
+            let good = |m: &Measured| m.height_error <= class.0 && m.force_error <= class.1;
+            row.result.as_ref().is_some_and(good)
+        };
+        let rows = self.rows.iter().filter(|row| row.method == method).rev().take_while(within);
+        rows.last().and_then(|row| Some((row.step, row.result?.wall)))
+    }
+}
+
+/// One run, repeated while it is short so that its time means something.
+fn run(case: &Case, shot: &Shot, method: Method, step: f64) -> Option<(Outcome, Duration)> {
+    let settings = Settings { method, step, duration: case.plan.simulation.duration_s };
+    let mut best: Option<(Outcome, Duration)> = None;
+    let begun = Instant::now();
+    for _ in 0..5 {
+        let start = Instant::now();
+        let outcome = simulate(&case.scene, shot, &settings, &mut |_| ControlFlow::Continue(())).ok()?;
+        let wall = start.elapsed();
+        if best.as_ref().is_none_or(|(_, least)| wall < *least) {
+            best = Some((outcome, wall));
+        }
+        if begun.elapsed() > Duration::from_millis(200) {
+            break;
+        }
+    }
+    best
+}
+
+fn compared(outcome: &Outcome, wall: Duration, reference: Option<&(Outcome, Duration)>) -> Measured {
+    let error = |value: f64, of: fn(&Outcome) -> f64| {
+        let exact = reference.map_or(f64::NAN, |(outcome, _)| of(outcome));
+        if exact == value { 0.0 } else { ((value - exact) / exact).abs() }
+    };
+    Measured {
+        steps: outcome.steps,
+        height: outcome.height.value,
+        force: outcome.force.value,
+        height_error: error(outcome.height.value, |o| o.height.value),
+        force_error: error(outcome.force.value, |o| o.force.value),
+        energy_residual: outcome.ledger.residual(),
+        wall,
+    }
+}
+
+/// A row of the source paper's Table 1: step [s], height [m], greatest force and force at 0.16 s [N].
+pub type PaperRow = (f64, f64, f64, f64);
+
+/// Table 1 as printed; NaN where it has a dash.
+pub const PAPER: [PaperRow; 6] = [
+    (5e-4, 0.705, 17_668.0, 9_265.0),
+    (2.5e-4, 0.707, 17_687.0, 8_284.0),
+    (2e-4, 0.708, 17_704.0, 7_461.0),
+    (1e-4, 0.708, 17_704.0, 7_456.0),
+    (6.25e-5, 0.708, 17_701.0, 7_521.0),
+    (5e-5, f64::NAN, f64::NAN, 7_452.0),
+];
+
+/// The same table by one of our methods, if the plan is the paper's shelter: five tires of 280 kg over one hole.
+pub fn paper_table(case: &Case, method: Method) -> Option<Vec<PaperRow>> {
+    let scene = &case.scene;
+    let single =
+        matches!(case.plan.delays.as_slice(), [delay] if matches!(delay.timing, Timing::Interval { .. }));
+    let centre = case.shots.first()?.firings.first()?.tire;
+    let [5, 8] = [scene.mass.len(), scene.cables.len()] else { return None };
+    if !single || case.shots[0].firings.len() != 1 || scene.mass[0] != 280.0 || scene.friction != 0.5 {
+        return None;
+    }
+    let diagonal = scene.cables.iter().find(|cable| cable.ends.contains(&centre))?;
+    PAPER
+        .iter()
+        .map(|row| row.0)
+        .map(|step| {
+            let settings = Settings { method, step, duration: Some(1.0) };
+            let (mut late, mut before) = (f64::NAN, (0.0, 0.0));
+            let outcome = simulate(scene, &case.shots[0], &settings, &mut |motion| {
+                let [a, b] = diagonal.ends.map(|end| motion.displacement(end));
+                let now = (motion.time(), diagonal.force((diagonal.span + (b - a)).norm()));
+                if before.0 < 0.16 && now.0 >= 0.16 - 1e-12 {
+                    let part = ((0.16 - before.0) / (now.0 - before.0)).clamp(0.0, 1.0);
+                    late = before.1 + part * (now.1 - before.1);
+                }
+                before = now;
+                ControlFlow::Continue(())
+            });
+            outcome.ok().map(|outcome| (step, outcome.height.value, outcome.force.value, late))
+        })
+        .collect()
+}
