@@ -141,6 +141,8 @@ def run_shelter(binary, case, step_ms, repeats):
         if done.returncode not in (0, 1) or not done.stdout:  # 1: limits are exceeded, which does not matter here
             return None
         option = json.loads(done.stdout)["options"][0]
+        if "wall_s" not in option:  # the step is beyond the stability limit
+            return None
         walls.append(option["wall_s"])
     height, force = option["flight_height_m"], option["cable_force_n"]
     return {
