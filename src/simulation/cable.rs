@@ -112,6 +112,12 @@ pub fn load(from: &[f64], at: usize) -> Pack {
     pack
 }
 
+/// Whether any lane is set; integers, whose order of summation is free.
+#[inline(always)]
+fn any(set: &[u64; LANES]) -> bool {
+    set.iter().fold(0, |any, set| any | set) != 0
+}
+
 /// Writes eight values from `at` on.
 #[inline(always)]
 pub fn store(to: &mut [f64], at: usize, pack: &Pack) {
@@ -176,14 +182,14 @@ impl Tension {
                 }
             }
             let mut length2 = [0.0; LANES];
-            let mut longer = [0.0_f64; LANES];
+            let mut longer = [0_u64; LANES];
             for j in 0..LANES {
                 let l2 = d[0][j] * d[0][j] + d[1][j] * d[1][j] + d[2][j] * d[2][j];
                 length2[j] = if j < live { l2 } else { 0.0 };
-                longer[j] = if length2[j] > slack2 { 1.0 } else { 0.0 };
+                longer[j] = u64::from(length2[j] > slack2);
             }
+            let taut = any(&longer);
             let place = block.memory + at;
-            let taut = longer.iter().sum::<f64>() > 0.0;
             let was_taut = std::mem::replace(&mut memory.taut[place / LANES], taut);
             self.taut[at / LANES] = taut || was_taut;
             if !taut && !was_taut {
@@ -192,12 +198,12 @@ impl Tension {
             // What was slack is found from where its tires come, whether its pack was evaluated or not, so that the result
             // does not depend on who shares its pack.
             let remembered = if was_taut { load(&memory.stretch, place) } else { [0.0; LANES] };
-            let mut tightens = 0.0;
+            let mut tightens = [0_u64; LANES];
             for j in 0..LANES {
-                tightens += if remembered[j] > 0.0 { 0.0 } else { longer[j] };
+                tightens[j] = longer[j] & u64::from(remembered[j] <= 0.0);
             }
             let mut before = remembered;
-            if tightens > 0.0 {
+            if any(&tightens) {
                 let found = Self::stretch_before(block, at, &d, v, step);
                 for j in 0..LANES {
                     before[j] = if remembered[j] > 0.0 { remembered[j] } else { found[j] };
