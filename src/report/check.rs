@@ -148,6 +148,7 @@ impl Document {
     /// The results of one plan.
     pub fn new(case: &Case, results: &Results, any: bool) -> Self {
         let Case { plan, scene, limits, .. } = case;
+        let method = results.iter().flatten().next().map_or(plan.simulation.method, |checked| checked.method);
         let options = plan.delays.iter().zip(results).map(|(delay, result)| OptionResult {
             name: delay.name.clone(),
             fire_at_s: delay.timing.fire_at_ms().iter().map(|ms| ms * 1e-3).collect(),
@@ -166,7 +167,7 @@ impl Document {
             scene: SceneSize {
                 tires: scene.mass.len(),
                 cables: scene.cables.len(),
-                modelled_tires: scene.mass.len(),
+                modelled_tires: case.modelled_tires(method),
             },
             limits: Limits {
                 flight_height_m: limits.height,

@@ -21,6 +21,7 @@ impl Scene {
             cables: Vec::new(),
             friction: plan.friction,
             gravity: plan.simulation.gravity_m_s2,
+            mirrors: Vec::new(),
         };
         let ties = match &plan.layout {
             Layout::Grid(mesh) => scene.lay_grid(mesh),
@@ -49,6 +50,7 @@ impl Scene {
                 Cable { ends, rest_length, stiffness: axial_stiffness / rest_length, span }
             })
             .collect();
+        scene.find_mirrors();
         scene
     }
 

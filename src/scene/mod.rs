@@ -4,10 +4,12 @@
 //! when) per delay option go out. Nothing here knows how motion is computed or judged.
 
 mod build;
+mod mirror;
 mod shot;
 
 use nalgebra::Vector3;
 
+pub use mirror::Mirror;
 pub use shot::{Firing, Shot};
 
 /// What lies on the ground before anything fires.
@@ -25,6 +27,8 @@ pub struct Scene {
     pub friction: f64,
     /// Gravity [m/s²].
     pub gravity: f64,
+    /// Planes in which the shelter is its own image; at most one across x and one across y.
+    pub mirrors: Vec<Mirror>,
 }
 
 /// How a plan addresses a tire.

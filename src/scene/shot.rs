@@ -37,6 +37,12 @@ impl Shot {
         Self::from_firings(targets.iter().zip(at).flat_map(fire).collect())
     }
 
+    /// Whether the shot is its own image under a reflection of the tires.
+    pub fn is_mirrored(&self, image: &[usize]) -> bool {
+        let reflected = self.firings.iter().map(|f| Firing { tire: image[f.tire], ..*f }).collect();
+        Self::from_firings(reflected) == *self
+    }
+
     /// The shot of `firings` in any order.
     pub fn from_firings(mut firings: Vec<Firing>) -> Self {
         firings.sort_by(|a, b| a.at.total_cmp(&b.at).then(a.tire.cmp(&b.tire)));

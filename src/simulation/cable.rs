@@ -33,6 +33,8 @@ pub struct Block {
     pub rest_length: f64,
     /// k [N/m].
     pub stiffness: f64,
+    /// How many cables of the whole scene each stands for.
+    pub weight: f64,
     /// Where its stretches are remembered; whole packs.
     pub memory: usize,
 }
@@ -48,7 +50,9 @@ pub struct Blocks {
 
 impl Blocks {
     /// Sorts the scene's cables into runs and cuts them, for arrays with `width` elements per tire.
-    pub fn new(scene: &Scene, width: usize) -> Self {
+    ///
+    /// `weight` says how many cables of the whole scene each stands for.
+    pub fn new(scene: &Scene, weight: &[f64], width: usize) -> Self {
         let mut cable: Vec<usize> = (0..scene.cables.len()).collect();
         let ends = |c: usize| {
             let [a, b] = scene.cables[c].ends;
@@ -66,6 +70,7 @@ impl Blocks {
                     && last.span == <[f64; 3]>::from(new.span)
                     && last.rest_length == new.rest_length
                     && last.stiffness == new.stiffness
+                    && last.weight == weight[c]
             });
             match blocks.last_mut().filter(|_| continues) {
                 Some(last) => last.len += width,
@@ -77,6 +82,7 @@ impl Blocks {
                     span: new.span.into(),
                     rest_length: new.rest_length,
                     stiffness: new.stiffness,
+                    weight: weight[c],
                     memory: 0,
                 }),
             }

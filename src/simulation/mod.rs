@@ -13,6 +13,7 @@
 mod cable;
 mod contact;
 mod kick;
+mod mirror;
 pub mod newmark;
 mod record;
 pub mod verlet;

@@ -19,12 +19,13 @@ use nalgebra::Vector3;
 use super::cable::{Blocks, Field, LANES, Memory, Pack, Tension, load, store};
 use super::contact::{Flight, support};
 use super::kick::{Kicked, Lanes, Tires};
+use super::mirror::Quotient;
 use super::record::{Clock, Record};
 use super::wake::Wake;
 use super::{Failure, Motion, Settings, Watcher, time_limit};
 use crate::outcome::{End, Outcome, Peak};
 use crate::plan::Method;
-use crate::scene::{Scene, Shot};
+use crate::scene::{Firing, Scene, Shot};
 
 /// One run asked for.
 #[derive(Clone, Copy, Debug)]
@@ -56,6 +57,11 @@ pub fn run_all(scene: &Scene, jobs: &[Job<'_>], watch: &mut Watcher<'_>) -> Vec<
     Stepper::<LANES>::new(scene, jobs).run(watch)
 }
 
+/// How many tires are integrated for a shot: fewer than the scene has where both are their own mirror image.
+pub fn modelled_tires(scene: &Scene, shot: &Shot) -> usize {
+    Quotient::new(scene, std::iter::once(shot)).modelled()
+}
+
 /// A hole that fires within the present step.
 #[derive(Clone, Copy, Debug)]
 struct Due {
@@ -66,9 +72,10 @@ struct Due {
 }
 
 /// One run in progress.
-struct Run<'a> {
+struct Run {
     job: usize,
-    shot: &'a Shot,
+    /// Sorted by time.
+    firings: Vec<Firing>,
     step: f64,
     time_limit: f64,
     clock: Clock,
@@ -102,11 +109,13 @@ struct Pass {
 
 /// The arrays of `W` runs and what drives them.
 struct Stepper<'a, const W: usize> {
-    scene: &'a Scene,
+    quotient: Quotient<'a>,
+    /// Longest stable step [s].
+    limit: f64,
     jobs: &'a [Job<'a>],
     next_job: usize,
     results: Vec<Result<Outcome, Failure>>,
-    runs: [Option<Run<'a>>; W],
+    runs: [Option<Run>; W],
     blocks: Blocks,
     wake: Wake,
     tension: Tension,
@@ -118,6 +127,7 @@ struct Stepper<'a, const W: usize> {
     v: Field,
     /// Cable forces on the tires [N]; zero between steps.
     f: Field,
+    /// Mass × how many tires of the whole scene each stands for [kg].
     mass: Vec<f64>,
     inverse: Vec<f64>,
     due: Vec<Due>,
@@ -128,14 +138,21 @@ struct Stepper<'a, const W: usize> {
 
 impl<'a, const W: usize> Stepper<'a, W> {
     fn new(scene: &'a Scene, jobs: &'a [Job<'a>]) -> Self {
-        let n = scene.mass.len() * W;
-        let spread = |value: fn(f64) -> f64| -> Vec<f64> {
-            let each = scene.mass.iter().flat_map(|&m| std::iter::repeat_n(value(m), W));
+        let quotient = Quotient::new(scene, jobs.iter().map(|job| job.shot));
+        let n = quotient.weight.len() * W;
+        let spread = |values: Vec<f64>| -> Vec<f64> {
+            let each = values.into_iter().flat_map(|value| std::iter::repeat_n(value, W));
             each.chain(std::iter::repeat_n(1.0, LANES)).collect()
         };
-        let blocks = Blocks::new(scene, W);
+        let masses = || quotient.scene.mass.iter();
+        let mass = spread(masses().zip(&quotient.weight).map(|(mass, weight)| mass * weight).collect());
+        // An image is never kicked by the part of its cables that is modelled.
+        let kicked = |(mass, &weight): (&f64, &f64)| if weight > 0.0 { 1.0 / mass } else { 0.0 };
+        let inverse = spread(masses().zip(&quotient.weight).map(kicked).collect());
+        let blocks = Blocks::new(&quotient.scene, &quotient.cable_weight, W);
         Self {
-            scene,
+            limit: scene.critical_step(),
+            quotient,
             jobs,
             next_job: 0,
             results: vec![Err(Failure::Stopped { at: 0.0 }); jobs.len()],
@@ -151,8 +168,8 @@ impl<'a, const W: usize> Stepper<'a, W> {
             u: Field::zeros(n),
             v: Field::zeros(n),
             f: Field::zeros(n),
-            mass: spread(|m| m),
-            inverse: spread(|m| 1.0 / m),
+            mass,
+            inverse,
             due: Vec::with_capacity(W * jobs.iter().map(|job| job.shot.firings.len()).max().unwrap_or(0)),
         }
     }
@@ -195,7 +212,7 @@ impl<'a, const W: usize> Stepper<'a, W> {
                 continue;
             }
             if !run.moving {
-                match run.shot.firings.get(run.clock.fired) {
+                match run.firings.get(run.clock.fired) {
                     Some(next) if next.at <= run.time_limit => run.clock.jump(next.at),
                     _ => {
                         self.finish(lane, End::AtRest);
@@ -210,7 +227,7 @@ impl<'a, const W: usize> Stepper<'a, W> {
 
     /// Starts the next job in a lane; false when none is left.
     fn take_job(&mut self, lane: usize) -> bool {
-        let limit = self.scene.critical_step();
+        let limit = self.limit;
         while let Some(job) = self.jobs.get(self.next_job) {
             let (n, step) = (self.next_job, job.settings.step);
             self.next_job += 1;
@@ -226,7 +243,7 @@ impl<'a, const W: usize> Stepper<'a, W> {
             }
             self.runs[lane] = Some(Run {
                 job: n,
-                shot: job.shot,
+                firings: self.quotient.firings(job.shot),
                 step,
                 time_limit: time_limit(job.shot, &job.settings),
                 clock: Clock::new(job.shot),
@@ -243,11 +260,11 @@ impl<'a, const W: usize> Stepper<'a, W> {
     fn finish(&mut self, lane: usize, end: End) {
         let Some(run) = self.runs[lane].take() else { return };
         let mut drift = Peak { at: run.clock.now(run.step), ..Peak::default() };
-        for tire in 0..self.scene.mass.len() {
+        for tire in 0..self.quotient.weight.len() {
             let element = tire * W + lane;
             let shift = self.u.part[0][element].hypot(self.u.part[1][element]);
             if shift > drift.value {
-                (drift.value, drift.place) = (shift, tire);
+                (drift.value, drift.place) = (shift, self.quotient.tire(tire));
             }
         }
         self.results[run.job] = Ok(run.record.finish(drift, run.clock.steps, end));
@@ -296,7 +313,7 @@ impl<'a, const W: usize> Stepper<'a, W> {
         let Some(run) = &mut self.runs[lane] else { return };
         let start = run.clock.since(run.step);
         let end = start + run.step;
-        while let Some(firing) = run.shot.firings.get(run.clock.fired) {
+        while let Some(firing) = run.firings.get(run.clock.fired) {
             let at = firing.at - run.clock.base;
             if at >= end {
                 break;
@@ -328,7 +345,7 @@ impl<'a, const W: usize> Stepper<'a, W> {
             let block = self.blocks.blocks[n];
             self.tension.evaluate(&block, &self.u, &self.v, &self.lanes.step, &mut self.memory);
             self.tension.apply(&block, &mut self.f);
-            let compliance = 0.5 / block.stiffness;
+            let compliance = 0.5 * block.weight / block.stiffness;
             let mut stored = [0.0; LANES];
             for at in (0..block.len).step_by(LANES) {
                 if !self.tension.taut[at / LANES] {
@@ -364,7 +381,7 @@ impl<'a, const W: usize> Stepper<'a, W> {
             self.best[1][j] = force;
         }
         let Some(run) = &mut self.runs[lane] else { return };
-        let place = self.blocks.cable[self.blocks.blocks[block].cable + element / W];
+        let place = self.quotient.cable(self.blocks.cable[self.blocks.blocks[block].cable + element / W]);
         run.record.force = Peak { value: force, at: run.clock.now(run.step), place };
         let step = run.step;
         let before = self.signed_force(block, element, -step);
@@ -446,6 +463,26 @@ impl<'a, const W: usize> Stepper<'a, W> {
                 store(part, pack * LANES, &[0.0; LANES]);
             }
         }
+        self.copy_images();
+    }
+
+    /// Reflects kept tires into their images and keeps those on a mirror plane in it.
+    fn copy_images(&mut self) {
+        for image in &self.quotient.images {
+            for lane in 0..W {
+                let (of, from) = (image.of * W + lane, image.from * W + lane);
+                let mut moving = 0;
+                for field in [&mut self.u, &mut self.v] {
+                    for (c, sign) in image.sign.into_iter().chain([1.0]).enumerate() {
+                        field.part[c][of] = sign * field.part[c][from];
+                        moving |= field.part[c][of].to_bits() << 1;
+                    }
+                }
+                if moving != 0 {
+                    self.wake.set_moving(of / LANES, true);
+                }
+            }
+        }
     }
 
     /// Some tires of a pack are higher than any before them.
@@ -455,7 +492,11 @@ impl<'a, const W: usize> Stepper<'a, W> {
             let Some(run) = self.runs[lane].as_mut().filter(|_| tires.u[2][j] > self.best[0][j]) else {
                 continue;
             };
-            let sample = Peak { value: tires.u[2][j], at: run.clock.now(run.step), place: (at + j) / W };
+            let sample = Peak {
+                value: tires.u[2][j],
+                at: run.clock.now(run.step),
+                place: self.quotient.tire((at + j) / W),
+            };
             let velocity = 0.5 * (tires.v[2][j] + kicked.v[2][j]);
             run.record.higher(sample, velocity, tires.f[2][j] * tires.inverse[j] - self.lanes.gravity);
             for k in (lane..LANES).step_by(W) {
@@ -568,15 +609,17 @@ impl<const W: usize> Motion for Snapshot<'_, '_, W> {
     }
 
     fn displacement(&self, tire: usize) -> Vector3<f64> {
-        self.vector(&self.stepper.u, tire)
+        let (found, [x, y]) = self.stepper.quotient.find(tire);
+        self.vector(&self.stepper.u, found).component_mul(&Vector3::new(x, y, 1.0))
     }
 
     fn friction(&self, tire: usize) -> (f64, f64) {
         if self.displacement(tire).z > 0.0 {
             return (0.0, 0.0);
         }
-        let Stepper { scene, lanes, .. } = self.stepper;
-        let (h, mass, friction) = (lanes.step[0], scene.mass[tire], lanes.friction[0]);
+        let Stepper { quotient, lanes, .. } = self.stepper;
+        let (tire, _) = quotient.find(tire);
+        let (h, mass, friction) = (lanes.step[0], quotient.scene.mass[tire], lanes.friction[0]);
         let acceleration = self.vector(&self.stepper.f, tire) / mass - Vector3::z() * lanes.gravity;
         let free = self.vector(&self.stepper.v, tire) + acceleration * h;
         let (after, normal) = support(free, friction);

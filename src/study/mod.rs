@@ -10,6 +10,7 @@ pub mod trace;
 
 use crate::plan::{Accuracy, Method, Plan};
 use crate::scene::{Scene, Shot};
+use crate::simulation::verlet::modelled_tires;
 use crate::verdict::Limits;
 
 /// A plan made ready to run.
@@ -39,6 +40,18 @@ impl Case {
             breaking_force,
         };
         Self { plan, scene, shots, limits }
+    }
+}
+
+impl Case {
+    /// Tires that `method` integrates, the most of any option: fewer than all where mirror planes halve the shelter.
+    pub fn modelled_tires(&self, method: Method) -> usize {
+        match method {
+            Method::Newmark => self.scene.mass.len(),
+            Method::Verlet => {
+                self.shots.iter().map(|shot| modelled_tires(&self.scene, shot)).max().unwrap_or(0)
+            }
+        }
     }
 }
 

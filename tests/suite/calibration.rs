@@ -26,7 +26,8 @@ fn reported_errors_hold_and_are_not_too_wide() {
             [out.height.value, out.force.value]
         };
         let (value, truth) = (run(step), run(step / 64.0));
-        let near: Vec<_> = (1..=NEIGHBOURS as i32).map(|n| RATIO.powi(n) * step).map(|s| (s, run(s))).collect();
+        let near: Vec<_> =
+            (1..=NEIGHBOURS as i32).map(|n| RATIO.powi(n) * step).map(|s| (s, run(s))).collect();
         for quantity in 0..2 {
             let neighbours = near.iter().map(|(step, value)| (*step, value[quantity]));
             let reported = estimate(step, value[quantity], neighbours);

@@ -199,7 +199,8 @@ fn accuracy_has_the_fields_scripts_read_and_the_paper_table() {
     let rows = document["rows"].as_array().expect("rows");
     for level in ["draft", "field", "reference"] {
         let step = &document["recommended"][level]["dt_s"];
-        let row = rows.iter().find(|row| row["dt_s"] == *step && row["method"] == "verlet").expect("measured");
+        let row =
+            rows.iter().find(|row| row["dt_s"] == *step && row["method"] == "verlet").expect("measured");
         let error = row["height_error"].as_f64().expect("a number");
         assert!(error < 1e-3, "{level}: {error}");
     }

@@ -5,6 +5,7 @@ mod calibration;
 mod check;
 mod closed_forms;
 mod layers;
+mod mirrors;
 mod plans;
 mod properties;
 mod reference;
