@@ -135,3 +135,47 @@ impl Flight {
         if stops { Vector3::zeros() } else { acceleration.push(0.0) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const G: f64 = 9.81;
+
+    fn flight(displacement: Vector3<f64>, velocity: Vector3<f64>, free: Vector3<f64>) -> Flight {
+        Flight { displacement, velocity, free, friction: 0.5, lost: 0.0, put_in: 0.0 }
+    }
+
+    /// P4: |v_t+| = max(0, |v_t−| − μ |v_n−|) for an inelastic landing.
+    #[test]
+    fn an_oblique_landing_loses_mu_times_its_normal_speed() {
+        let (after, normal) = support(Vector3::new(3.0, 0.0, -4.0), 0.5);
+        assert_eq!((after, normal), (Vector3::new(1.0, 0.0, 0.0), 4.0));
+        let (after, _) = support(Vector3::new(1.2, 1.6, -4.0), 0.5);
+        assert_eq!(after, Vector3::zeros());
+        let up = Vector3::new(1.0, 2.0, 0.5);
+        assert_eq!(support(up, 0.5), (up, 0.0));
+    }
+
+    /// Thrown up and sideways, it lands after 2 v/g at its launch speed, slides and stops: all in one step.
+    #[test]
+    fn one_step_holds_a_launch_a_landing_and_a_stop() {
+        let mut flight = flight(Vector3::zeros(), Vector3::zeros(), -Vector3::z() * G);
+        flight.velocity.x = 3.0;
+        flight.displacement.z = 1e-300;
+        flight.through(5.0, [(0.0, 2.0)].into_iter());
+        let sideways = 3.0 - 0.5 * 2.0;
+        let way = 3.0 * 2.0 * 2.0 / G + sideways * sideways / (2.0 * 0.5 * G);
+        assert!((flight.displacement.x - way).abs() < 1e-12);
+        assert_eq!(flight.velocity, Vector3::zeros());
+        // All that was there and put in is lost.
+        assert!((flight.lost - 0.5 * 9.0 - flight.put_in).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_pull_inside_the_cone_moves_nothing() {
+        let mut flight = flight(Vector3::zeros(), Vector3::zeros(), Vector3::new(0.49 * G, 0.0, -G));
+        flight.through(1.0, std::iter::empty());
+        assert_eq!(flight.displacement, Vector3::zeros());
+    }
+}

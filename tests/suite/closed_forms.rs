@@ -159,3 +159,35 @@ fn validates_flight_without_cables_changes_momentum_by_gravity_only() {
         }
     }
 }
+
+/// P9: pulled by a cable at an angle, a tire slips at T = μ m g / (cos θ + μ sin θ) and is lifted at T = m g / sin θ.
+#[test]
+fn validates_inclined_pull_slips_and_lifts_at_its_thresholds() {
+    let weight = 280.0 * GRAVITY;
+    // The far end stands on ground of its own, higher up.
+    let pulled = |angle: f64, pull: f64, friction: f64, method: Method| {
+        let mut scene = tires(&[(0.0, 0.0), (10.0 * angle.cos(), 0.0)], 280.0);
+        scene.position[1].z = 10.0 * angle.sin();
+        scene.mass[1] = 1e7;
+        scene.friction = friction;
+        tie(&mut scene, 0, 1, 1e5, 1.0);
+        scene.cables[0].rest_length = 10.0 / (1.0 + pull / 1e5);
+        scene.cables[0].stiffness = 1e5 / scene.cables[0].rest_length;
+        // A tire that lifts slides at once, which slackens the cable: what counts is that it left the ground.
+        let mut moved = Vector3::zeros();
+        watch(&scene, &fire(&[0], 0.0), settings(method, 1e-3, Some(0.05)), |motion| {
+            moved = moved.sup(&motion.displacement(0).abs());
+        });
+        moved
+    };
+    for method in METHODS {
+        let (angle, mu) = (0.2_f64, 0.5);
+        let slips = mu * weight / (angle.cos() + mu * angle.sin());
+        assert!((slips - 1272.372_075).abs() < 1e-5);
+        assert_eq!(pulled(angle, slips * (1.0 - 1e-9), mu, method), Vector3::zeros(), "{method:?} sticks");
+        assert!(pulled(angle, slips * (1.0 + 1e-6), mu, method).x > 0.0, "{method:?} slips");
+        let lifts = weight / angle.sin();
+        assert_eq!(pulled(angle, lifts * (1.0 - 1e-6), 1e9, method).z, 0.0, "{method:?} stays down");
+        assert!(pulled(angle, lifts * (1.0 + 1e-6), 1e9, method).z > 0.0, "{method:?} lifts");
+    }
+}

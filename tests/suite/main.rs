@@ -4,6 +4,7 @@ mod bad_plans;
 mod calibration;
 mod check;
 mod closed_forms;
+mod extremes;
 mod layers;
 mod mirrors;
 mod plans;

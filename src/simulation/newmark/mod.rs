@@ -190,6 +190,12 @@ impl<'a> Stepper<'a> {
         direction.map_or_else(Vector2::zeros, |direction| direction * -limit)
     }
 
+    /// The same at the end of a step, where it can do no more than stop the tire: one that has just landed may be slow.
+    fn end_friction(&self, tire: usize, free: Vector3<f64>, h: f64) -> Vector2<f64> {
+        let sliding = self.sliding(tire, h);
+        self.friction(free, sliding).cap_magnitude(2.0 * sliding.norm() / h)
+    }
+
     /// Newton–Raphson for the present region.
     fn solve(&mut self, h: f64) -> Result<(), Failure> {
         for tire in 0..self.u.len() {
@@ -240,7 +246,7 @@ impl<'a> Stepper<'a> {
             let mass = self.scene.mass[tire];
             let mut force = self.f[tire] / mass - Vector3::z() * self.scene.gravity;
             if self.region.ground[tire] == Ground::Slip {
-                force += self.friction(force, self.sliding(tire, h)).push(0.0);
+                force += self.end_friction(tire, force, h).push(0.0);
             }
             let inertia = (self.du[tire] / h - self.v[tire]) * (4.0 / h) - self.a[tire];
             self.right[tire] = (force - inertia) * mass;
@@ -301,7 +307,7 @@ impl<'a> Stepper<'a> {
                 velocity.z = 0.0;
                 let free = self.f[tire] / mass - Vector3::z() * self.scene.gravity;
                 let before = self.a[tire].xy() - self.f_start[tire].xy() / mass;
-                let friction = 0.5 * (before + self.friction(free, self.sliding(tire, h)));
+                let friction = 0.5 * (before + self.end_friction(tire, free, h));
                 self.record.ledger.dissipated -= mass * friction.dot(&self.du[tire].xy());
                 if self.u[tire].z > 0.0 || self.v[tire].z > 0.0 {
                     velocity = self.land(tire, h, velocity);
