@@ -188,6 +188,7 @@ fn validates_inclined_pull_slips_and_lifts_at_its_thresholds() {
         assert!(pulled(angle, slips * (1.0 + 1e-6), mu, method).x > 0.0, "{method:?} slips");
         let lifts = weight / angle.sin();
         assert_eq!(pulled(angle, lifts * (1.0 - 1e-6), 1e9, method).z, 0.0, "{method:?} stays down");
-        assert!(pulled(angle, lifts * (1.0 + 1e-6), 1e9, method).z > 0.0, "{method:?} lifts");
+        // Lifted, it slides at g / tan θ, which takes 2e-5 of the pull away within the first step.
+        assert!(pulled(angle, lifts * (1.0 + 1e-4), 1e9, method).z > 0.0, "{method:?} lifts");
     }
 }
