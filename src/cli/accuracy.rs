@@ -24,12 +24,9 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
-    let Some(case) = load::cases([&arguments.plan], look).and_then(|mut cases| cases.pop()) else {
+    let Some((case, option)) = load::case_and_option(&arguments.plan, arguments.option.as_deref(), look)
+    else {
         return Ok(Status::Wrong);
-    };
-    let option = match load::find_option(&case, arguments.option.as_deref()) {
-        Ok(option) => option,
-        Err(message) => return load::wrong(&message),
     };
     let study = arguments.compute.on_threads(|| measure(&case, option));
     let text = match arguments.format {

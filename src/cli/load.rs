@@ -51,8 +51,20 @@ pub fn open(plan: &Path, compute: &Compute, look: &Look) -> io::Result<Status> {
     }
 }
 
+/// A plan and one of its delay options; prints what is wrong and returns `None` when there is none such.
+pub fn case_and_option(plan: &Path, option: Option<&str>, look: &Look) -> Option<(Case, usize)> {
+    let case = cases(&[plan.to_path_buf()], look)?.pop()?;
+    match find_option(&case, option) {
+        Ok(option) => Some((case, option)),
+        Err(message) => {
+            eprintln!("error: {message}");
+            None
+        }
+    }
+}
+
 /// The delay option of this name; the first without one.
-pub fn find_option(case: &Case, name: Option<&str>) -> Result<usize, String> {
+fn find_option(case: &Case, name: Option<&str>) -> Result<usize, String> {
     let names: Vec<&str> = case.plan.delays.iter().map(|delay| delay.name.as_str()).collect();
     let Some(name) = name else { return Ok(0) };
     names.iter().position(|&known| known == name).ok_or_else(|| {

@@ -30,7 +30,7 @@ impl Scene {
         let (ranges, sum) = ([range(0), range(1)], range(axis).0 + range(axis).1);
         let width = ranges.iter().map(|(low, high)| high - low).fold(0.0, f64::max);
         let grain = SAME * width;
-        if !(ranges[axis].1 - ranges[axis].0 > grain) {
+        if ranges[axis].1 - ranges[axis].0 <= grain {
             return None;
         }
         let key = |place: [f64; 2]| place.map(|x| (x / grain).round() as i64);

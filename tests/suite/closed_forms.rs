@@ -183,7 +183,7 @@ fn validates_inclined_pull_slips_and_lifts_at_its_thresholds() {
     for method in METHODS {
         let (angle, mu) = (0.2_f64, 0.5);
         let slips = mu * weight / (angle.cos() + mu * angle.sin());
-        assert!((slips - 1272.372_075).abs() < 1e-5);
+        assert!((slips - 1_272.372_075).abs() < 1e-5);
         assert_eq!(pulled(angle, slips * (1.0 - 1e-9), mu, method), Vector3::zeros(), "{method:?} sticks");
         assert!(pulled(angle, slips * (1.0 + 1e-6), mu, method).x > 0.0, "{method:?} slips");
         let lifts = weight / angle.sin();
