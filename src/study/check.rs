@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use super::{Case, Effort, error};
-use crate::outcome::{History, Outcome, Peak};
+use crate::outcome::{End, History, Outcome, Peak};
 use crate::plan::{Accuracy, Method};
 use crate::simulation::{Failure, Settings, simulate};
 use crate::verdict::{Estimate, Limits, Verdict};
@@ -37,8 +37,10 @@ pub struct Checked {
     pub steps: usize,
     /// Ledger residual over the energy put in.
     pub energy_residual: f64,
-    /// End of the motion [s].
+    /// End of the run [s].
     pub end: f64,
+    /// Why it ended.
+    pub ended: End,
     /// Time the run that gave the values took.
     pub wall: Duration,
     /// Time all runs took.
@@ -199,6 +201,7 @@ fn judge(case: &Case, method: Method, runs: &[(Outcome, Duration)], total_wall: 
         steps: last.0.steps,
         energy_residual: last.0.ledger.residual(),
         end: last.0.drift.at,
+        ended: last.0.end,
         wall: last.1,
         total_wall,
         runs: count,

@@ -8,7 +8,7 @@ use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
-use shelter::outcome::History;
+use shelter::outcome::{End, History};
 use shelter::plan::{Method, Plan};
 use shelter::study::check::{Checked, Quantity, Reason};
 use shelter::study::{Case, Effort};
@@ -47,6 +47,7 @@ fn checked(verdict: Verdict) -> Checked {
         steps: 2000,
         energy_residual: 3e-5,
         end: 1.3,
+        ended: End::AtRest,
         wall: Duration::from_millis(2),
         total_wall: Duration::from_millis(6),
         runs: 4,

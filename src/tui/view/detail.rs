@@ -13,6 +13,7 @@ use ratatui::text::Line;
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::chart;
+use crate::outcome::End;
 use crate::report::check::explain;
 use crate::study::check::Checked;
 use crate::tui::app::{App, Row};
@@ -82,11 +83,15 @@ fn facts<'a>(app: &App, checked: &Checked) -> Vec<Line<'a>> {
         value_and_error(checked.drift.value, checked.drift.error, Unit::Metre),
     );
     let how = format!(
-        "step {} · {} runs in {} · energy residual {:.0e} · at rest after {}",
+        "step {} · {} runs in {} · energy residual {:.0e} · {} {}",
         units::milliseconds(checked.step),
         checked.runs,
         units::milliseconds(checked.total_wall.as_secs_f64()),
         checked.energy_residual,
+        match checked.ended {
+            End::AtRest => "at rest after",
+            End::TimeLimit => "followed for",
+        },
         units::seconds(checked.end),
     );
     let mut lines = vec![Line::from(peak), Line::styled(how, app.theme.quiet())];
