@@ -50,6 +50,8 @@ impl Scene {
                 Cable { ends, rest_length, stiffness: axial_stiffness / rest_length, span }
             })
             .collect();
+        // Runs of like cables one after the other, as the stepping loop takes them.
+        scene.cables.sort_by_key(|cable| (cable.ends[1] as isize - cable.ends[0] as isize, cable.ends[0]));
         scene.find_mirrors();
         scene
     }

@@ -34,16 +34,13 @@ impl Wake {
         let n_blocks = blocks.blocks.len();
         let mut touches: Vec<(usize, usize)> = Vec::new();
         for (n, block) in blocks.blocks.iter().enumerate() {
-            for end in [block.first, block.second] {
-                let packs = end / LANES..=(end + block.len - 1) / LANES;
-                touches.extend(packs.map(|pack| (n, pack)));
-            }
+            let packs = |end: usize| end / LANES..=(end + block.len - 1) / LANES;
+            let first = packs(block.first);
+            let apart = packs(block.second).filter(|pack| !first.contains(pack));
+            touches.extend(first.clone().chain(apart).map(|pack| (n, pack)));
         }
-        touches.sort_unstable();
-        touches.dedup();
-        let packs_of = Lists::new(n_blocks, &touches);
-        let mut touched_by: Vec<_> = touches.into_iter().map(|(block, pack)| (pack, block)).collect();
-        touched_by.sort_unstable();
+        let packs_of = Lists::new(n_blocks, touches.iter().copied());
+        let blocks_at = Lists::new(n_packs, touches.iter().map(|&(block, pack)| (pack, block)));
         Self {
             awake: Vec::with_capacity(n_packs),
             blocks: Vec::with_capacity(n_blocks),
@@ -54,7 +51,7 @@ impl Wake {
             changed: false,
             pack_mark: vec![false; n_packs],
             block_mark: vec![false; n_blocks],
-            blocks_at: Lists::new(n_packs, &touched_by),
+            blocks_at,
             packs_of,
         }
     }
@@ -122,16 +119,21 @@ struct Lists {
 }
 
 impl Lists {
-    /// From `(key, item)` pairs sorted by key.
-    fn new(keys: usize, pairs: &[(usize, usize)]) -> Self {
+    /// From `(key, item)` pairs; items of a key keep their order.
+    fn new(keys: usize, pairs: impl Iterator<Item = (usize, usize)> + Clone) -> Self {
         let mut start = vec![0; keys + 1];
-        for &(key, _) in pairs {
+        for (key, _) in pairs.clone() {
             start[key + 1] += 1;
         }
         for key in 0..keys {
             start[key + 1] += start[key];
         }
-        Self { start, items: pairs.iter().map(|&(_, item)| item).collect() }
+        let (mut next, mut items) = (start.clone(), vec![0; start[keys]]);
+        for (key, item) in pairs {
+            items[next[key]] = item;
+            next[key] += 1;
+        }
+        Self { start, items }
     }
 
     fn of(&self, key: usize) -> &[usize] {
