@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
 
 /// A shelter running in a terminal that is watched.
-struct Session {
+struct Watched {
     screen: Arc<Mutex<vt100::Parser>>,
     keyboard: Box<dyn Write + Send>,
     master: Box<dyn MasterPty + Send>,
@@ -19,7 +19,7 @@ struct Session {
 /// Generous: machines under load are slow, and nothing here measures speed.
 const PATIENCE: Duration = Duration::from_secs(30);
 
-impl Session {
+impl Watched {
     fn open(plan: &str, arguments: &[&str], columns: u16, rows: u16) -> Self {
         let size = PtySize { rows, cols: columns, pixel_width: 0, pixel_height: 0 };
         let pair = native_pty_system().openpty(size).expect("a pty");
@@ -89,32 +89,32 @@ impl Session {
 
 #[test]
 fn the_table_appears_keys_and_resizing_work_and_q_restores() {
-    let mut session = Session::open("amur-three-rows.toml", &[], 120, 36);
-    session.until("1 of 7 pass");
-    session.press("jjjj");
-    session.until("42 ms ─");
-    session.press("?");
-    session.until("select the next option");
-    session.press("?");
-    session.resize(80, 24);
-    session.until("cable force, kN");
-    session.resize(40, 10);
-    session.until("shelter needs 60x18, has 40x10");
-    session.resize(120, 36);
-    session.until("left kN");
-    session.press("-");
-    session.until("draft");
-    session.press("q");
-    assert_eq!(session.ends(), 0);
+    let mut watched = Watched::open("amur-three-rows.toml", &[], 120, 36);
+    watched.until("1 of 7 pass");
+    watched.press("jjjj");
+    watched.until("42 ms ─");
+    watched.press("?");
+    watched.until("select the next option");
+    watched.press("?");
+    watched.resize(80, 24);
+    watched.until("cable force, kN");
+    watched.resize(40, 10);
+    watched.until("shelter needs 60x18, has 40x10");
+    watched.resize(120, 36);
+    watched.until("left kN");
+    watched.press("-");
+    watched.until("draft");
+    watched.press("q");
+    assert_eq!(watched.ends(), 0);
 }
 
 #[test]
 fn quitting_in_the_middle_of_a_run_is_immediate() {
-    let mut session = Session::open("large-50x50.toml", &["--dt", "1e-6"], 100, 30);
-    session.until("computing 0/10");
+    let mut watched = Watched::open("large-50x50.toml", &["--dt", "1e-6"], 100, 30);
+    watched.until("computing 0/10");
     let start = Instant::now();
-    session.press("q");
-    assert_eq!(session.ends(), 0);
+    watched.press("q");
+    assert_eq!(watched.ends(), 0);
     // All options together would take minutes.
     assert!(start.elapsed() < Duration::from_secs(10));
 }
@@ -122,22 +122,22 @@ fn quitting_in_the_middle_of_a_run_is_immediate() {
 #[test]
 fn signals_and_control_c_restore_the_terminal() {
     for signal in ["TERM", "HUP", "INT"] {
-        let session = Session::open("large-50x50.toml", &["--dt", "1e-5"], 100, 30);
-        session.until("computing");
-        session.signal(signal);
-        assert_eq!(session.ends(), 130, "{signal}");
+        let watched = Watched::open("large-50x50.toml", &["--dt", "1e-5"], 100, 30);
+        watched.until("computing");
+        watched.signal(signal);
+        assert_eq!(watched.ends(), 130, "{signal}");
     }
-    let mut session = Session::open("paper-5-tire.toml", &[], 100, 30);
-    session.until("1 of 1 pass");
-    session.press("\x03");
-    assert_eq!(session.ends(), 0);
+    let mut watched = Watched::open("paper-5-tire.toml", &[], 100, 30);
+    watched.until("1 of 1 pass");
+    watched.press("\x03");
+    assert_eq!(watched.ends(), 0);
 }
 
 #[test]
 fn ascii_screens_are_ascii() {
-    let mut session = Session::open("paper-5-tire.toml", &["--ascii"], 100, 30);
-    session.until("+ PASS");
-    assert!(session.contents().is_ascii(), "{}", session.contents());
-    session.press("q");
-    session.ends();
+    let mut watched = Watched::open("paper-5-tire.toml", &["--ascii"], 100, 30);
+    watched.until("+ PASS");
+    assert!(watched.contents().is_ascii(), "{}", watched.contents());
+    watched.press("q");
+    watched.ends();
 }
