@@ -1,20 +1,23 @@
-//! Cables in blocks of equal ones, eight at a time: the tension law over the flat arrays of the stepping loop.
+//! Cables in blocks of equal ones: how they lie in memory, and which of them pull at which tires.
 //!
 //! Cables whose tires follow one another (a row of a mesh) and that share span, length and stiffness form a run: both ends
 //! lie one after the other in memory, and the same code takes eight neighbouring cables of one run, or one cable of eight
-//! runs that advance together. Long runs are cut into blocks, the unit that sleeps and wakes.
+//! runs that advance together. Where a cable is missing (at the end of a mesh row) its place stays empty, so that a run goes
+//! on from row to row. Long runs are cut into blocks, the unit that sleeps and wakes.
 
-use crate::scene::Scene;
+use std::ops::Range;
 
-/// Elements handled at once.
-pub const LANES: usize = 8;
-/// Most cables in a block. The order of summation follows from it, so it is the same for any number of lanes.
-const CABLES: usize = 32;
-/// Most elements in a block.
-pub const BLOCK: usize = CABLES * LANES;
+use pulp::Simd;
 
-/// One value per lane.
-pub type Pack = [f64; LANES];
+use super::pack::{LANES, Wide};
+use crate::scene::{Cable, Scene};
+
+/// Most places in a block. The order of summation follows from it, so it is the same for any number of lanes.
+const PLACES: usize = 32;
+/// Most places left empty between two cables of a run.
+const EMPTY: usize = 4;
+/// The cable of an empty place.
+const NONE: u32 = u32::MAX;
 
 /// Equal cables whose ends follow one another in memory.
 #[derive(Clone, Copy, Debug)]
@@ -23,20 +26,18 @@ pub struct Block {
     pub first: usize,
     /// First element of the second ends.
     pub second: usize,
-    /// Elements (cables × lanes per cable).
+    /// Elements (places × elements per place).
     pub len: usize,
-    /// Index of its first cable in the order of [`Blocks::cable`].
-    pub cable: usize,
+    /// Its first element in arrays over all cables; a multiple of [`LANES`].
+    pub memory: usize,
+    /// Its first place in [`Blocks::cable`].
+    place: usize,
     /// Span at rest [m].
     pub span: [f64; 3],
     /// L0 [m].
     pub rest_length: f64,
     /// k [N/m].
     pub stiffness: f64,
-    /// How many cables of the whole scene each stands for.
-    pub weight: f64,
-    /// Where its stretches are remembered; whole packs.
-    pub memory: usize,
 }
 
 /// All cables of a scene.
@@ -44,55 +45,133 @@ pub struct Block {
 pub struct Blocks {
     /// In the order in which they are evaluated.
     pub blocks: Vec<Block>,
-    /// Scene's cable index by place in the blocks (`n_cables`).
-    pub cable: Vec<usize>,
+    /// How many cables of the whole scene each element stands for, 0 where there is none (`n_elements`).
+    pub weight: Vec<f64>,
+    /// Which elements pull at the tires of each pack.
+    pub ends: Ends,
+    /// Scene's cable by place.
+    cable: Vec<u32>,
+    width: usize,
 }
 
 impl Blocks {
-    /// Sorts the scene's cables into runs and cuts them, for arrays with `width` elements per tire.
+    /// Lays out the scene's cables, for arrays with `width` elements per tire.
     ///
     /// `weight` says how many cables of the whole scene each stands for.
     pub fn new(scene: &Scene, weight: &[f64], width: usize) -> Self {
-        let mut cable: Vec<usize> = (0..scene.cables.len()).collect();
-        let ends = |c: usize| {
-            let [a, b] = scene.cables[c].ends;
-            (b as isize - a as isize, a)
-        };
-        cable.sort_by_key(|&c| ends(c));
-        let mut blocks: Vec<Block> = Vec::new();
-        for (place, &c) in cable.iter().enumerate() {
-            let new = &scene.cables[c];
-            let [first, second] = new.ends.map(|end| end * width);
-            let continues = blocks.last().is_some_and(|last| {
-                last.len < CABLES * width
-                    && last.first + last.len == first
-                    && last.second + last.len == second
-                    && last.span == <[f64; 3]>::from(new.span)
-                    && last.rest_length == new.rest_length
-                    && last.stiffness == new.stiffness
-                    && last.weight == weight[c]
-            });
-            match blocks.last_mut().filter(|_| continues) {
-                Some(last) => last.len += width,
-                None => blocks.push(Block {
+        let (cable, runs) = runs(&scene.cables);
+        let mut blocks = Vec::with_capacity(cable.len() / PLACES + runs.len());
+        let mut all = Vec::with_capacity((cable.len() + 2 * LANES * runs.len()) * width);
+        let mut ends = Vec::with_capacity(2 * runs.len());
+        for Run { places, first } in runs {
+            let Cable { ends: tires, rest_length, stiffness, span } = scene.cables[first];
+            // A pack of tires reaches over both ends of a run by up to a pack.
+            let begin = all.len().next_multiple_of(LANES) + LANES;
+            all.resize(begin, 0.0);
+            for from in places.clone().step_by(PLACES) {
+                let [first, second] = tires.map(|tire| (tire + from - places.start) * width);
+                let len = (places.end - from).min(PLACES) * width;
+                blocks.push(Block {
                     first,
                     second,
-                    len: width,
-                    cable: place,
-                    span: new.span.into(),
-                    rest_length: new.rest_length,
-                    stiffness: new.stiffness,
-                    weight: weight[c],
-                    memory: 0,
-                }),
+                    len,
+                    memory: begin + (from - places.start) * width,
+                    place: from,
+                    span: span.into(),
+                    rest_length,
+                    stiffness,
+                });
             }
+            for &c in &cable[places.clone()] {
+                let weight = if c == NONE { 0.0 } else { weight[c as usize] };
+                all.resize(all.len() + width, weight);
+            }
+            ends.extend(tires.map(|tire| (tire * width..(tire + places.len()) * width, begin)));
         }
-        let mut remembered = 0;
-        for block in &mut blocks {
-            block.memory = remembered;
-            remembered += block.len.next_multiple_of(LANES);
+        all.resize(all.len().next_multiple_of(LANES) + LANES, 0.0);
+        let packs = (scene.mass.len() * width).div_ceil(LANES);
+        Self { blocks, weight: all, ends: Ends::new(&ends, packs), cable, width }
+    }
+
+    /// Scene's index of the cable of one element of a block.
+    pub fn cable(&self, block: usize, element: usize) -> usize {
+        self.cable[self.blocks[block].place + element / self.width] as usize
+    }
+}
+
+/// Places whose ends follow one another.
+struct Run {
+    places: Range<usize>,
+    /// Scene's cable in the first place.
+    first: usize,
+}
+
+/// The cable of each place, and the runs.
+fn runs(cables: &[Cable]) -> (Vec<u32>, Vec<Run>) {
+    let offset = |cable: &Cable| cable.ends[1] as isize - cable.ends[0] as isize;
+    let mut order: Vec<u32> = (0..cables.len() as u32).collect();
+    order.sort_by_key(|&c| (offset(&cables[c as usize]), cables[c as usize].ends[0]));
+    let (mut places, mut runs): (Vec<u32>, Vec<Run>) = (Vec::with_capacity(cables.len()), Vec::new());
+    for (n, &c) in order.iter().enumerate() {
+        let new = &cables[c as usize];
+        let gap = n.checked_sub(1).and_then(|before| {
+            let last = &cables[order[before] as usize];
+            let gap = new.ends[0].checked_sub(last.ends[0] + 1)?;
+            let like = offset(new) == offset(last)
+                && new.span == last.span
+                && new.rest_length == last.rest_length
+                && new.stiffness == last.stiffness;
+            (like && gap <= EMPTY).then_some(gap)
+        });
+        match (gap, runs.last_mut()) {
+            (Some(gap), Some(run)) => {
+                places.resize(places.len() + gap, NONE);
+                run.places.end += gap + 1;
+            }
+            _ => runs.push(Run { places: places.len()..places.len() + 1, first: c as usize }),
         }
-        Self { blocks, cable }
+        places.push(c);
+    }
+    (places, runs)
+}
+
+/// For every pack of tires, the elements from which its eight pulls are read: of cables that begin there, and of those that
+/// end there.
+#[derive(Clone, Debug)]
+pub struct Ends {
+    elements: Vec<u32>,
+    /// Where in `elements` the list of a pack begins, first ends then second ends (2 × `n_packs` + 1).
+    start: Vec<u32>,
+}
+
+impl Ends {
+    /// From the elements of tires that each end of each run covers, and its first element among the cables; by turns first
+    /// and second ends.
+    fn new(ends: &[(Range<usize>, usize)], packs: usize) -> Self {
+        let covered = |tires: &Range<usize>| tires.start / LANES..=(tires.end - 1) / LANES;
+        let lists = || {
+            ends.iter().enumerate().flat_map(move |(n, (tires, begin))| {
+                covered(tires).map(move |pack| (2 * pack + n % 2, begin + pack * LANES - tires.start))
+            })
+        };
+        let mut start = vec![0; 2 * packs + 1];
+        lists().for_each(|(list, _)| start[list + 1] += 1);
+        for list in 0..2 * packs {
+            start[list + 1] += start[list];
+        }
+        let (mut next, mut elements) = (start.clone(), vec![0; start[2 * packs] as usize]);
+        for (list, element) in lists() {
+            elements[next[list] as usize] = element as u32;
+            next[list] += 1;
+        }
+        Self { elements, start }
+    }
+
+    /// Where the pulls of cables that begin, and of those that end, at the tires of a pack are read.
+    #[inline(always)]
+    pub fn of(&self, pack: usize) -> [&[u32]; 2] {
+        let at = |n: usize| self.start[2 * pack + n] as usize;
+        [&self.elements[at(0)..at(1)], &self.elements[at(1)..at(2)]]
     }
 }
 
@@ -108,169 +187,11 @@ impl Field {
     pub fn zeros(elements: usize) -> Self {
         Self { part: std::array::from_fn(|_| vec![0.0; elements + LANES]) }
     }
-}
 
-/// Eight values from `at` on.
-#[inline(always)]
-pub fn load(from: &[f64], at: usize) -> Pack {
-    let mut pack = [0.0; LANES];
-    pack.copy_from_slice(&from[at..at + LANES]);
-    pack
-}
-
-/// Whether any lane is set; integers, whose order of summation is free.
-#[inline(always)]
-fn any(set: &[u64; LANES]) -> bool {
-    set.iter().fold(0, |any, set| any | set) != 0
-}
-
-/// Writes eight values from `at` on.
-#[inline(always)]
-pub fn store(to: &mut [f64], at: usize, pack: &Pack) {
-    to[at..at + LANES].copy_from_slice(pack);
-}
-
-/// What is remembered of every cable from one step to the next.
-#[derive(Clone, Debug)]
-pub struct Memory {
-    /// L − L0 of packs that are `taut`, stale elsewhere [m].
-    stretch: Vec<f64>,
-    /// Whether any cable of a pack was taut.
-    taut: Vec<bool>,
-}
-
-impl Memory {
-    /// All slack.
-    pub fn new(blocks: &Blocks) -> Self {
-        let elements = blocks.blocks.last().map_or(0, |last| last.memory + last.len.next_multiple_of(LANES));
-        Self { stretch: vec![0.0; elements], taut: vec![false; elements / LANES] }
-    }
-
-    /// Every `width`th cable from `lane` on is slack.
-    pub fn slacken(&mut self, lane: usize, width: usize) {
-        self.stretch.iter_mut().skip(lane).step_by(width).for_each(|stretch| *stretch = 0.0);
-    }
-}
-
-/// Forces of one block: per element the force N and the pull on the first end.
-#[derive(Clone, Debug)]
-pub struct Tension {
-    /// N [N] (`BLOCK`).
-    pub force: [f64; BLOCK],
-    /// Mean force since the last step × direction from first to second end [N] (3 × `BLOCK`); see [`Self::evaluate`].
-    pub pull: [[f64; BLOCK]; 3],
-    /// Whether any cable of each pack pulls.
-    pub taut: [bool; BLOCK / LANES],
-}
-
-impl Tension {
-    /// No force anywhere.
-    pub fn zero() -> Self {
-        Self { force: [0.0; BLOCK], pull: [[0.0; BLOCK]; 3], taut: [false; BLOCK / LANES] }
-    }
-
-    /// Evaluates every cable of `block` at displacements `u` [m], reached with velocities `v` [m/s] in a `step` [s].
-    ///
-    /// The force is N = k (L − L0)₊. Kicks weigh it by the trapezoidal rule, which is wrong by O(h²) where a cable becomes
-    /// taut or slack inside a step. With stretches s₀ and s₁ of unlike sign at its ends, ∫ k s₊ dt along the line between them
-    /// differs from the trapezoid by −h k |s₀ s₁| / 2(|s₀| + |s₁|); the pull includes it.
+    /// The vectors from `at` on.
     #[inline(always)]
-    pub fn evaluate(&mut self, block: &Block, u: &Field, v: &Field, step: &Pack, memory: &mut Memory) {
-        let slack2 = block.rest_length * block.rest_length;
-        for at in (0..block.len).step_by(LANES) {
-            let live = block.len - at;
-            let mut d = [[0.0; LANES]; 3];
-            for c in 0..3 {
-                let first = load(&u.part[c], block.first + at);
-                let second = load(&u.part[c], block.second + at);
-                for j in 0..LANES {
-                    d[c][j] = second[j] - first[j] + block.span[c];
-                }
-            }
-            let mut length2 = [0.0; LANES];
-            let mut longer = [0_u64; LANES];
-            for j in 0..LANES {
-                let l2 = d[0][j] * d[0][j] + d[1][j] * d[1][j] + d[2][j] * d[2][j];
-                length2[j] = if j < live { l2 } else { 0.0 };
-                longer[j] = u64::from(length2[j] > slack2);
-            }
-            let taut = any(&longer);
-            let place = block.memory + at;
-            let was_taut = std::mem::replace(&mut memory.taut[place / LANES], taut);
-            self.taut[at / LANES] = taut || was_taut;
-            if !taut && !was_taut {
-                continue;
-            }
-            // What was slack is found from where its tires come, whether its pack was evaluated or not, so that the result
-            // does not depend on who shares its pack.
-            let remembered = if was_taut { load(&memory.stretch, place) } else { [0.0; LANES] };
-            let mut tightens = [0_u64; LANES];
-            for j in 0..LANES {
-                tightens[j] = longer[j] & u64::from(remembered[j] <= 0.0);
-            }
-            let mut before = remembered;
-            if any(&tightens) {
-                let found = Self::stretch_before(block, at, &d, v, step);
-                for j in 0..LANES {
-                    before[j] = if remembered[j] > 0.0 { remembered[j] } else { found[j] };
-                }
-            }
-            let mut force = [0.0; LANES];
-            let mut stretch = [0.0; LANES];
-            let mut pull = [[0.0; LANES]; 3];
-            for j in 0..LANES {
-                let length = length2[j].sqrt();
-                stretch[j] = length - block.rest_length;
-                let product = before[j] * stretch[j];
-                let apart = (stretch[j] - before[j]).abs().max(f64::MIN_POSITIVE);
-                let switched =
-                    if product < 0.0 && j < live { 0.5 * block.stiffness * product / apart } else { 0.0 };
-                force[j] = (block.stiffness * stretch[j]).max(0.0);
-                let per_length = (force[j] + switched) / length.max(f64::MIN_POSITIVE);
-                pull[0][j] = per_length * d[0][j];
-                pull[1][j] = per_length * d[1][j];
-                pull[2][j] = per_length * d[2][j];
-            }
-            store(&mut memory.stretch, place, &stretch);
-            store(&mut self.force, at, &force);
-            for c in 0..3 {
-                store(&mut self.pull[c], at, &pull[c]);
-            }
-        }
-    }
-
-    /// L − L0 of a pack a step earlier, from where its tires come [m].
-    #[inline(always)]
-    fn stretch_before(block: &Block, at: usize, d: &[Pack; 3], v: &Field, step: &Pack) -> Pack {
-        let mut length2 = [0.0; LANES];
-        for c in 0..3 {
-            let first = load(&v.part[c], block.first + at);
-            let second = load(&v.part[c], block.second + at);
-            for j in 0..LANES {
-                let earlier = d[c][j] - step[j] * (second[j] - first[j]);
-                length2[j] += earlier * earlier;
-            }
-        }
-        length2.map(|l2| l2.sqrt() - block.rest_length)
-    }
-
-    /// Adds the pulls of `block` to the forces `f` [N] on its tires.
-    #[inline(always)]
-    pub fn apply(&self, block: &Block, f: &mut Field) {
-        for (end, sign) in [(block.first, 1.0), (block.second, -1.0)] {
-            for at in (0..block.len).step_by(LANES) {
-                if !self.taut[at / LANES] {
-                    continue;
-                }
-                for c in 0..3 {
-                    let mut force = load(&f.part[c], end + at);
-                    let pull = load(&self.pull[c], at);
-                    for j in 0..LANES {
-                        force[j] += sign * pull[j];
-                    }
-                    store(&mut f.part[c], end + at, &force);
-                }
-            }
-        }
+    pub fn load<S: Simd>(&self, simd: S, at: usize) -> [Wide<S>; 3] {
+        let [x, y, z] = &self.part;
+        [Wide::load(simd, x, at), Wide::load(simd, y, at), Wide::load(simd, z, at)]
     }
 }

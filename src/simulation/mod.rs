@@ -15,7 +15,9 @@ mod contact;
 mod kick;
 mod mirror;
 pub mod newmark;
+mod pack;
 mod record;
+mod tension;
 pub mod verlet;
 mod wake;
 

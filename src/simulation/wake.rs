@@ -5,7 +5,8 @@
 //! those under which it was last found at rest; a block is evaluated while any pack it touches is awake. Everything else
 //! lies exactly as it did, so nothing is approximated.
 
-use super::cable::{Blocks, LANES};
+use super::cable::Blocks;
+use super::pack::LANES;
 
 /// The packs and blocks that need work in a step, each list in ascending order.
 #[derive(Clone, Debug)]
@@ -16,8 +17,6 @@ pub struct Wake {
     pub blocks: Vec<usize>,
     /// Blocks that were evaluated before the lists last changed.
     pub blocks_before: Vec<usize>,
-    /// Packs that receive forces without being awake.
-    pub touched: Vec<usize>,
     moving: Vec<bool>,
     movers: Vec<usize>,
     changed: bool,
@@ -45,7 +44,6 @@ impl Wake {
             awake: Vec::with_capacity(n_packs),
             blocks: Vec::with_capacity(n_blocks),
             blocks_before: Vec::with_capacity(n_blocks),
-            touched: Vec::with_capacity(n_packs),
             moving: vec![false; n_packs],
             movers: Vec::with_capacity(2 * n_packs),
             changed: false,
@@ -75,23 +73,13 @@ impl Wake {
         }
         self.changed = false;
         std::mem::swap(&mut self.blocks, &mut self.blocks_before);
-        let Self {
-            awake, blocks, touched, moving, movers, pack_mark, block_mark, blocks_at, packs_of, ..
-        } = self;
+        let Self { awake, blocks, moving, movers, pack_mark, block_mark, blocks_at, packs_of, .. } = self;
         movers.retain(|&pack| moving[pack] && !std::mem::replace(&mut pack_mark[pack], true));
         movers.iter().for_each(|&pack| pack_mark[pack] = false);
         unite(blocks, block_mark, movers.iter().flat_map(|&pack| blocks_at.of(pack)).copied());
         let neighbours = blocks.iter().flat_map(|&block| packs_of.of(block));
         unite(awake, pack_mark, movers.iter().chain(neighbours).copied());
         unite(blocks, block_mark, awake.iter().flat_map(|&pack| blocks_at.of(pack)).copied());
-        awake.iter().for_each(|&pack| pack_mark[pack] = true);
-        touched.clear();
-        for &pack in blocks.iter().flat_map(|&block| packs_of.of(block)) {
-            if !std::mem::replace(&mut pack_mark[pack], true) {
-                touched.push(pack);
-            }
-        }
-        awake.iter().chain(touched.iter()).for_each(|&pack| pack_mark[pack] = false);
         true
     }
 }

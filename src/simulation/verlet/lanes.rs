@@ -1,9 +1,10 @@
 //! Runs in the lanes: each takes a job, keeps its own clock and record, hands in its outcome and takes the next.
 
-use super::{Due, LANES, Pack, Pass, Sample, Stepper};
+use super::{Due, Pass, Sample, Stepper};
 use crate::outcome::{End, Peak};
 use crate::plan::Method;
 use crate::scene::Firing;
+use crate::simulation::pack::{LANES, Pack};
 use crate::simulation::record::{Clock, Record};
 use crate::simulation::{Failure, time_limit};
 
@@ -101,12 +102,12 @@ impl<const W: usize> Stepper<'_, W> {
     }
 
     fn clear(&mut self, lane: usize) {
-        for field in [&mut self.u, &mut self.v, &mut self.f] {
+        for field in [&mut self.u, &mut self.v] {
             for part in &mut field.part {
                 part.iter_mut().skip(lane).step_by(W).for_each(|value| *value = 0.0);
             }
         }
-        self.memory.slacken(lane, W);
+        self.tension.slacken(lane, W);
         for energy in self.stored.iter_mut().chain([&mut self.asleep]) {
             energy.iter_mut().skip(lane).step_by(W).for_each(|value| *value = 0.0);
         }
@@ -150,7 +151,7 @@ impl<const W: usize> Stepper<'_, W> {
         run.record.ledger.dissipated += dissipated + sum(&pass.lost);
         run.record.ledger.put_in += sum(&pass.put_in);
         run.record.history.note(now, top(&pass.height), top(&pass.force));
-        run.moving = mine().any(|j| pass.motion[j] != 0);
+        run.moving = top(&pass.motion) > 0.0;
         run.clock.tick();
     }
 }

@@ -17,13 +17,16 @@
 mod lanes;
 
 use nalgebra::Vector3;
+use pulp::Simd;
 
 use self::lanes::Run;
 
-use super::cable::{Blocks, Field, LANES, Memory, Pack, Tension, load, store};
+use super::cable::{Blocks, Field};
 use super::contact::{Flight, support};
 use super::kick::{Kicked, Lanes, Tires};
 use super::mirror::Quotient;
+use super::pack::{LANES, Pack, Wide};
+use super::tension::Tension;
 use super::wake::Wake;
 use super::{Failure, Motion, Settings, Watcher};
 use crate::outcome::{Outcome, Peak};
@@ -92,7 +95,7 @@ struct Pass {
     put_in: Pack,
     height: Pack,
     force: Pack,
-    motion: [u64; LANES],
+    motion: Pack,
 }
 
 /// The arrays of `W` runs and what drives them.
@@ -107,14 +110,11 @@ struct Stepper<'a, const W: usize> {
     blocks: Blocks,
     wake: Wake,
     tension: Tension,
-    memory: Memory,
     lanes: Lanes,
     /// Greatest height and force so far, per lane.
     best: [Pack; 2],
     u: Field,
     v: Field,
-    /// Cable forces on the tires [N]; zero between steps.
-    f: Field,
     /// Mass × how many tires of the whole scene each stands for [kg].
     mass: Vec<f64>,
     inverse: Vec<f64>,
@@ -148,14 +148,12 @@ impl<'a, const W: usize> Stepper<'a, W> {
             wake: Wake::new(&blocks, n),
             stored: vec![[0.0; LANES]; blocks.blocks.len()],
             asleep: [0.0; LANES],
-            memory: Memory::new(&blocks),
+            tension: Tension::new(&blocks),
             blocks,
-            tension: Tension::zero(),
             lanes: Lanes { step: [0.0; LANES], friction: [0.0; LANES], gravity: scene.gravity },
             best: [[0.0; LANES]; 2],
             u: Field::zeros(n),
             v: Field::zeros(n),
-            f: Field::zeros(n),
             mass,
             inverse,
             due: Vec::with_capacity(W * jobs.iter().map(|job| job.shot.firings.len()).max().unwrap_or(0)),
@@ -202,7 +200,7 @@ impl<'a, const W: usize> Stepper<'a, W> {
 
     /// Evaluates the cables that need it.
     #[inline(always)]
-    fn pull(&mut self) -> Pass {
+    fn pull<S: Simd>(&mut self, simd: S) -> Pass {
         let mut pass = Pass {
             energy: self.asleep,
             dissipated: [0.0; LANES],
@@ -210,7 +208,7 @@ impl<'a, const W: usize> Stepper<'a, W> {
             put_in: [0.0; LANES],
             height: [0.0; LANES],
             force: [0.0; LANES],
-            motion: [0; LANES],
+            motion: [0.0; LANES],
         };
         for lane in 0..W {
             self.interpolate_peak(lane);
@@ -218,50 +216,39 @@ impl<'a, const W: usize> Stepper<'a, W> {
         for n in 0..self.wake.blocks.len() {
             let n = self.wake.blocks[n];
             let block = self.blocks.blocks[n];
-            self.tension.evaluate(&block, &self.u, &self.v, &self.lanes.step, &mut self.memory);
-            self.tension.apply(&block, &mut self.f);
-            let compliance = 0.5 * block.weight / block.stiffness;
-            let mut stored = [0.0; LANES];
-            for at in (0..block.len).step_by(LANES) {
-                if !self.tension.taut[at / LANES] {
-                    continue;
-                }
-                let force = load(&self.tension.force, at);
-                let mut exceeds = false;
-                for j in 0..LANES {
-                    stored[j] += compliance * force[j] * force[j];
-                    pass.force[j] = pass.force[j].max(force[j]);
-                    exceeds |= force[j] > self.best[1][j];
-                }
-                if exceeds {
-                    for (j, &force) in force.iter().enumerate() {
-                        if force > self.best[1][j] {
-                            self.note_force(n, at + j, force);
-                        }
-                    }
-                }
-            }
+            let stress = self.tension.evaluate(simd, &block, &self.u, &self.v, &self.lanes.step);
+            let mut exceeds = false;
             for j in 0..LANES {
-                pass.energy[j] += stored[j];
+                pass.energy[j] += stress.energy[j];
+                pass.force[j] = pass.force[j].max(stress.force[j]);
+                exceeds |= stress.force[j] > self.best[1][j];
             }
-            self.stored[n] = stored;
+            if exceeds {
+                self.note_forces(n);
+            }
+            self.stored[n] = stress.energy;
         }
         pass
     }
 
-    /// A cable pulls harder than any before it.
-    fn note_force(&mut self, block: usize, element: usize, force: f64) {
-        let lane = element % W;
-        for j in (lane..LANES).step_by(W) {
-            self.best[1][j] = force;
-        }
-        let Some(run) = &mut self.runs[lane] else { return };
-        let place = self.quotient.cable(self.blocks.cable[self.blocks.blocks[block].cable + element / W]);
-        run.record.force = Peak { value: force, at: run.clock.now(run.step), place };
-        let step = run.step;
-        let before = self.signed_force(block, element, -step);
-        if let Some(run) = &mut self.runs[lane] {
-            run.sampled = Some(Sample { block, element, before });
+    /// Some cables of a block pull harder than any before them.
+    fn note_forces(&mut self, n: usize) {
+        let block = self.blocks.blocks[n];
+        for element in 0..block.len {
+            let (lane, force) = (element % W, self.tension.force(&block, element));
+            if force <= self.best[1][lane] {
+                continue;
+            }
+            for j in (lane..LANES).step_by(W) {
+                self.best[1][j] = force;
+            }
+            let Some(step) = self.runs[lane].as_ref().map(|run| run.step) else { continue };
+            let before = self.signed_force(n, element, -step);
+            if let Some(run) = &mut self.runs[lane] {
+                let place = self.quotient.cable(self.blocks.cable(n, element));
+                run.record.force = Peak { value: force, at: run.clock.now(step), place };
+                run.sampled = Some(Sample { block: n, element, before });
+            }
         }
     }
 
@@ -293,50 +280,46 @@ impl<'a, const W: usize> Stepper<'a, W> {
 
     /// Kick and drift of the awake tires.
     #[inline(always)]
-    fn advance(&mut self, pass: &mut Pass) {
+    fn advance<S: Simd>(&mut self, simd: S, pass: &mut Pass) {
+        let gravity = Wide::splat(simd, self.lanes.gravity);
+        let zero = Wide::splat(simd, 0.0);
         let mut due = 0;
         for n in 0..self.wake.awake.len() {
             let pack = self.wake.awake[n];
-            let at = pack * LANES;
-            let tires = Tires {
-                u: std::array::from_fn(|c| load(&self.u.part[c], at)),
-                v: std::array::from_fn(|c| load(&self.v.part[c], at)),
-                f: std::array::from_fn(|c| load(&self.f.part[c], at)),
-                mass: load(&self.mass, at),
-                inverse: load(&self.inverse, at),
-            };
-            let mut kicked = tires.kick(&self.lanes);
-            let mut event = self.due.get(due).is_some_and(|d| d.element < at + LANES);
-            let mut higher = false;
-            for j in 0..LANES {
-                event |= kicked.u[2][j] < 0.0;
-                higher |= tires.u[2][j] > self.best[0][j];
-                pass.energy[j] += kicked.kinetic[j] + kicked.potential[j];
-                pass.dissipated[j] += kicked.dissipated[j];
-                pass.height[j] = pass.height[j].max(tires.u[2][j]);
+            let mut moving = false;
+            for lane in (0..LANES).step_by(Wide::<S>::LEN) {
+                let at = pack * LANES + lane;
+                let tires = Tires {
+                    u: self.u.load(simd, at),
+                    v: self.v.load(simd, at),
+                    f: self.tension.pulls(simd, self.blocks.ends.of(pack), lane),
+                    mass: Wide::load(simd, &self.mass, at),
+                    inverse: Wide::load(simd, &self.inverse, at),
+                    step: Wide::load(simd, &self.lanes.step, lane),
+                    friction: Wide::load(simd, &self.lanes.friction, lane),
+                    gravity,
+                };
+                let kicked = tires.kick(simd);
+                kicked.energy.add_to(&mut pass.energy, lane);
+                kicked.dissipated.add_to(&mut pass.dissipated, lane);
+                let highest = Wide::load(simd, &pass.height, lane).max(tires.u[2]);
+                highest.store(&mut pass.height, lane);
+                kicked.motion.max(Wide::load(simd, &pass.motion, lane)).store(&mut pass.motion, lane);
+                for c in 0..3 {
+                    kicked.u[c].store(&mut self.u.part[c], at);
+                    kicked.v[c].store(&mut self.v.part[c], at);
+                }
+                moving |= zero.less(kicked.motion).any();
+                if Wide::load(simd, &self.best[0], lane).less(tires.u[2]).any() {
+                    self.note_heights(at, &tires, &kicked);
+                }
+                let fires = self.due.get(due).is_some_and(|due| due.element < at + Wide::<S>::LEN);
+                if fires || kicked.u[2].less(zero).any() {
+                    due = self.through_events(at, due, &tires, &kicked, pass);
+                    moving = true;
+                }
             }
-            if higher {
-                self.note_heights(at, &tires, &kicked);
-            }
-            if event {
-                due = self.through_events(at, due, &tires, &mut kicked, pass);
-            }
-            let mut moving = 0;
-            for j in 0..LANES {
-                pass.motion[j] |= kicked.motion[j];
-                moving |= kicked.motion[j];
-            }
-            for c in 0..3 {
-                store(&mut self.u.part[c], at, &kicked.u[c]);
-                store(&mut self.v.part[c], at, &kicked.v[c]);
-                store(&mut self.f.part[c], at, &[0.0; LANES]);
-            }
-            self.wake.set_moving(pack, moving != 0);
-        }
-        for &pack in &self.wake.touched {
-            for part in &mut self.f.part {
-                store(part, pack * LANES, &[0.0; LANES]);
-            }
+            self.wake.set_moving(pack, moving);
         }
         self.copy_images();
     }
@@ -360,65 +343,69 @@ impl<'a, const W: usize> Stepper<'a, W> {
         }
     }
 
-    /// Some tires of a pack are higher than any before them.
-    fn note_heights(&mut self, at: usize, tires: &Tires, kicked: &Kicked) {
-        for j in 0..LANES {
-            let lane = j % W;
-            let Some(run) = self.runs[lane].as_mut().filter(|_| tires.u[2][j] > self.best[0][j]) else {
+    /// Some tires in a register are higher than any before them.
+    fn note_heights<S: Simd>(&mut self, at: usize, tires: &Tires<S>, kicked: &Kicked<S>) {
+        let (height, inverse) = (tires.u[2].pack(), tires.inverse.pack());
+        let (before, after, force) = (tires.v[2].pack(), kicked.v[2].pack(), tires.f[2].pack());
+        for j in 0..Wide::<S>::LEN {
+            let lane = (at + j) % W;
+            let Some(run) = self.runs[lane].as_mut().filter(|_| height[j] > self.best[0][lane]) else {
                 continue;
             };
             let sample = Peak {
-                value: tires.u[2][j],
+                value: height[j],
                 at: run.clock.now(run.step),
                 place: self.quotient.tire((at + j) / W),
             };
-            let velocity = 0.5 * (tires.v[2][j] + kicked.v[2][j]);
-            run.record.higher(sample, velocity, tires.f[2][j] * tires.inverse[j] - self.lanes.gravity);
+            let velocity = 0.5 * (before[j] + after[j]);
+            run.record.higher(sample, velocity, force[j] * inverse[j] - self.lanes.gravity);
             for k in (lane..LANES).step_by(W) {
                 self.best[0][k] = run.record.height.value;
             }
         }
     }
 
-    /// Carries the tires of a pack that land or are fired at through the step; returns the next hole due.
-    fn through_events(
-        &self,
+    /// Carries the tires in a register that land or are fired at through the step; returns the next hole due.
+    fn through_events<S: Simd>(
+        &mut self,
         at: usize,
         mut due: usize,
-        tires: &Tires,
-        kicked: &mut Kicked,
+        tires: &Tires<S>,
+        kicked: &Kicked<S>,
         pass: &mut Pass,
     ) -> usize {
-        for j in 0..LANES {
-            let first = due;
-            while self.due.get(due).is_some_and(|d| d.element == at + j) {
+        let [u, v, f, after] = [tires.u, tires.v, tires.f, kicked.v].map(|of| of.map(Wide::pack));
+        let (mass, inverse) = (tires.mass.pack(), tires.inverse.pack());
+        let (lands, dissipated) = (kicked.u[2].pack(), kicked.dissipated.pack());
+        for j in 0..Wide::<S>::LEN {
+            let (element, lane, first) = (at + j, (at + j) % LANES, due);
+            while self.due.get(due).is_some_and(|due| due.element == element) {
                 due += 1;
             }
-            if first == due && kicked.u[2][j] >= 0.0 {
+            if first == due && lands[j] >= 0.0 {
                 continue;
             }
             let vector = |of: &[Pack; 3]| Vector3::new(of[0][j], of[1][j], of[2][j]);
-            let (h, mass) = (self.lanes.step[j], tires.mass[j]);
+            let h = self.lanes.step[lane];
             let mut flight = Flight {
-                displacement: vector(&tires.u),
-                velocity: 0.5 * (vector(&tires.v) + vector(&kicked.v)),
-                free: vector(&tires.f) * tires.inverse[j] - Vector3::z() * self.lanes.gravity,
-                friction: self.lanes.friction[j],
+                displacement: vector(&u),
+                velocity: 0.5 * (vector(&v) + vector(&after)),
+                free: vector(&f) * inverse[j] - Vector3::z() * self.lanes.gravity,
+                friction: self.lanes.friction[lane],
                 lost: 0.0,
                 put_in: 0.0,
             };
             let last = flight.through(h, self.due[first..due].iter().map(|due| (due.after, due.launch)));
             let mid = flight.velocity - last * (0.5 * h);
             for c in 0..3 {
-                kicked.u[c][j] = flight.displacement[c];
-                kicked.v[c][j] = mid[c];
-                kicked.motion[j] |= mid[c].to_bits() << 1;
+                self.u.part[c][element] = flight.displacement[c];
+                self.v.part[c][element] = mid[c];
             }
-            kicked.motion[j] |= flight.displacement.z.to_bits() << 1;
+            pass.motion[lane] = pass.motion[lane].max(mid.amax()).max(flight.displacement.z);
             // The kicks before and after count half a step of friction each; here the whole step is counted at once.
             let next_half = 0.5 * h * (flight.free - last).xy().dot(&flight.velocity.xy());
-            pass.lost[j] += mass * (flight.lost - next_half) - 0.5 * kicked.dissipated[j];
-            pass.put_in[j] += mass * flight.put_in;
+            pass.lost[lane] += mass[j] * (flight.lost - next_half) - 0.5 * dissipated[j];
+            pass.put_in[lane] += mass[j] * flight.put_in;
         }
         due
     }
@@ -431,8 +418,8 @@ impl<const W: usize> pulp::WithSimd for Pull<'_, '_, W> {
     type Output = Pass;
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> Pass {
-        self.0.pull()
+    fn with_simd<S: Simd>(self, simd: S) -> Pass {
+        self.0.pull(simd)
     }
 }
 
@@ -443,8 +430,8 @@ impl<const W: usize> pulp::WithSimd for Advance<'_, '_, W> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        self.0.advance(self.1);
+    fn with_simd<S: Simd>(self, simd: S) {
+        self.0.advance(simd, self.1);
     }
 }
 
@@ -476,7 +463,11 @@ impl<const W: usize> Motion for Snapshot<'_, '_, W> {
         let Stepper { quotient, lanes, .. } = self.stepper;
         let (tire, _) = quotient.find(tire);
         let (h, mass, friction) = (lanes.step[0], quotient.scene.mass[tire], lanes.friction[0]);
-        let acceleration = self.vector(&self.stepper.f, tire) / mass - Vector3::z() * lanes.gravity;
+        let element = tire * W;
+        let ends = self.stepper.blocks.ends.of(element / LANES);
+        let pulls = self.stepper.tension.pulls(pulp::Scalar::new(), ends, element % LANES);
+        let pull = Vector3::from(pulls.map(|pull| pull.pack()[0]));
+        let acceleration = pull / mass - Vector3::z() * lanes.gravity;
         let free = self.vector(&self.stepper.v, tire) + acceleration * h;
         let (after, normal) = support(free, friction);
         ((free - after).xy().norm() * mass / h, friction * normal * mass / h)

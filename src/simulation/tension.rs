@@ -1,0 +1,162 @@
+//! The tension law of cables over the flat arrays of the stepping loop, as many cables at a time as a register holds.
+
+use pulp::Simd;
+
+use super::cable::{Block, Blocks, Field};
+use super::pack::{LANES, Pack, Wide};
+
+/// What is remembered of every cable from one step to the next, and how it pulls.
+#[derive(Clone, Debug)]
+pub struct Tension {
+    /// How many cables of the whole scene each element stands for, 0 where there is none (`n_elements`).
+    weight: Vec<f64>,
+    /// L − L0 when last evaluated, not positive while slack [m] (`n_elements`).
+    stretch: Vec<f64>,
+    /// Mean force since the last step × direction from first to second end [N] (3 × `n_elements`); see
+    /// [`Self::evaluate`].
+    pull: [Vec<f64>; 3],
+    /// Of the cables in one register, at the first of them (`n_elements`).
+    state: Vec<State>,
+}
+
+/// Of cables in one register, when last evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    /// No cable pulls, nor pulled in the step before.
+    Slack,
+    /// No cable pulls; some did in the step before.
+    Slackened,
+    /// Some cable pulls.
+    Taut,
+}
+
+/// What the evaluation of a block says, per lane.
+#[derive(Clone, Copy, Debug)]
+pub struct Stress {
+    /// Elastic energy [J].
+    pub energy: Pack,
+    /// Greatest force [N].
+    pub force: Pack,
+}
+
+impl Tension {
+    /// All slack.
+    pub fn new(blocks: &Blocks) -> Self {
+        let elements = blocks.weight.len();
+        Self {
+            weight: blocks.weight.clone(),
+            stretch: vec![0.0; elements],
+            pull: std::array::from_fn(|_| vec![0.0; elements]),
+            state: vec![State::Slack; elements],
+        }
+    }
+
+    /// Every `width`th element from `lane` on is slack.
+    pub fn slacken(&mut self, lane: usize, width: usize) {
+        for values in self.pull.iter_mut().chain([&mut self.stretch]) {
+            values.iter_mut().skip(lane).step_by(width).for_each(|value| *value = 0.0);
+        }
+    }
+
+    /// Evaluates every cable of `block` at displacements `u` [m], reached with velocities `v` [m/s] in a `step` [s].
+    ///
+    /// The force is N = k (L − L0)₊. Kicks weigh it by the trapezoidal rule, which is wrong by O(h²) where a cable becomes
+    /// taut or slack inside a step. With stretches s₀ and s₁ of unlike sign at its ends, ∫ k s₊ dt along the line between them
+    /// differs from the trapezoid by −h k |s₀ s₁| / 2(|s₀| + |s₁|); the pull includes it.
+    #[inline(always)]
+    pub fn evaluate<S: Simd>(&mut self, simd: S, block: &Block, u: &Field, v: &Field, step: &Pack) -> Stress {
+        let (zero, half) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5));
+        let tiny = Wide::splat(simd, f64::MIN_POSITIVE);
+        let rest_length = Wide::splat(simd, block.rest_length);
+        let stiffness = Wide::splat(simd, block.stiffness);
+        let slack2 = rest_length * rest_length;
+        let mut stress = Stress { energy: [0.0; LANES], force: [0.0; LANES] };
+        for at in (0..block.len).step_by(Wide::<S>::LEN) {
+            let place = block.memory + at;
+            let mut d = between(simd, block, at, u);
+            for c in 0..3 {
+                d[c] = d[c] + Wide::splat(simd, block.span[c]);
+            }
+            let length2 = d[2].times_plus(d[2], d[1].times_plus(d[1], d[0] * d[0]));
+            let weight = Wide::load(simd, &self.weight, place);
+            let longer = slack2.less(length2).and(zero.less(weight));
+            let was = self.state[place];
+            if longer.any() {
+                self.state[place] = State::Taut;
+            } else {
+                self.state[place] = State::Slack;
+                match was {
+                    State::Slack => continue,
+                    State::Slackened => {
+                        for pull in &mut self.pull {
+                            zero.store(pull, place);
+                        }
+                        continue;
+                    }
+                    State::Taut => self.state[place] = State::Slackened,
+                }
+            }
+            // What was slack is found from where its tires come, whether it was evaluated or not, so that the result does
+            // not depend on who shares its register.
+            let mut before = Wide::load(simd, &self.stretch, place);
+            let slack_before = before.at_most(zero);
+            if slack_before.and(longer).any() {
+                let (step, velocity) = (Wide::load(simd, step, at % LANES), between(simd, block, at, v));
+                let mut earlier2 = zero;
+                for c in 0..3 {
+                    let earlier = d[c] - step * velocity[c];
+                    earlier2 = earlier.times_plus(earlier, earlier2);
+                }
+                before = slack_before.select(earlier2.sqrt() - rest_length, before);
+            }
+            let length = length2.sqrt();
+            // Empty places count as slack.
+            let stretch = zero.less(weight).select(length - rest_length, zero);
+            let positive = stretch.max(zero);
+            let mut force = stiffness * positive;
+            (half * weight * force * positive).add_to(&mut stress.energy, at % LANES);
+            force.max(Wide::load(simd, &stress.force, at % LANES)).store(&mut stress.force, at % LANES);
+            let product = before * stretch;
+            let switches = product.less(zero);
+            if switches.any() {
+                let apart = (stretch - before).abs().max(tiny);
+                force = switches.select(force + half * stiffness * product / apart, force);
+            }
+            stretch.store(&mut self.stretch, place);
+            let per_length = force / length.max(tiny);
+            for c in 0..3 {
+                (per_length * d[c]).store(&mut self.pull[c], place);
+            }
+        }
+        stress
+    }
+
+    /// Force of one element of a block when last evaluated [N].
+    pub fn force(&self, block: &Block, element: usize) -> f64 {
+        block.stiffness * self.stretch[block.memory + element].max(0.0)
+    }
+
+    /// Sum of the pulls, from `offset` in their pack on, at the tires where cables begin and end [N].
+    #[inline(always)]
+    pub fn pulls<S: Simd>(&self, simd: S, [begin, end]: [&[u32]; 2], offset: usize) -> [Wide<S>; 3] {
+        let mut sum = [Wide::splat(simd, 0.0); 3];
+        for &element in begin {
+            for c in 0..3 {
+                sum[c] = sum[c] + Wide::load(simd, &self.pull[c], element as usize + offset);
+            }
+        }
+        for &element in end {
+            for c in 0..3 {
+                sum[c] = sum[c] - Wide::load(simd, &self.pull[c], element as usize + offset);
+            }
+        }
+        sum
+    }
+}
+
+/// From the first to the second ends of the cables from `at` on, in a field over tires.
+#[inline(always)]
+fn between<S: Simd>(simd: S, block: &Block, at: usize, of: &Field) -> [Wide<S>; 3] {
+    let (first, second) = (of.load(simd, block.first + at), of.load(simd, block.second + at));
+    [second[0] - first[0], second[1] - first[1], second[2] - first[2]]
+}
