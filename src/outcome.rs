@@ -40,6 +40,15 @@ impl Ledger {
     }
 }
 
+/// A cable that broke.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Broken {
+    /// When [s].
+    pub at: f64,
+    /// Index of the cable.
+    pub cable: usize,
+}
+
 /// One finished run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
@@ -49,6 +58,8 @@ pub struct Outcome {
     pub force: Peak,
     /// Greatest horizontal shift of any tire at the end [m]; `at` is the end.
     pub drift: Peak,
+    /// Cables that broke, in order of time; none unless the scene lets cables break.
+    pub broken: Vec<Broken>,
     /// Where the energy went.
     pub ledger: Ledger,
     /// Height and force over time.

@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 use rayon::prelude::*;
 use shelter::outcome::Outcome;
 use shelter::plan::{Accuracy, Method, Plan};
-use shelter::simulation::{Settings, simulate};
+use shelter::simulation::{Model, Settings};
 use shelter::study::check::{check, start_step};
 use shelter::study::{Case, Effort};
 use shelter::verdict::{Limits, Verdict};
@@ -74,10 +74,12 @@ fn compare(n: u64, accuracy: Accuracy) -> Tried {
     let (scene, shot) = scenes::scene(n);
     let plan = Plan::parse("", PLAN).unwrap_or_else(|mistakes| panic!("{mistakes}"));
     let mut case = Case::new(plan);
-    (case.scene, case.shots) = (scene, vec![shot]);
+    (case.model, case.shots) = (Model::new(scene), vec![shot]);
     let field = start_step(&case, Method::Verlet, Accuracy::Field);
     let settings = Settings { method: Method::Verlet, step: field / FINER, duration: None };
-    let truth: Outcome = simulate(&case.scene, &case.shots[0], &settings, &mut |_| ControlFlow::Continue(()))
+    let truth: Outcome = case
+        .model
+        .run(&case.shots[0], &settings, &mut |_| ControlFlow::Continue(()))
         .unwrap_or_else(|failure| panic!("scene {n}: {failure}"));
     let mut random = scenes::Random(n);
     let mut near = |value: f64| {

@@ -41,6 +41,7 @@ pub fn scene(n: u64) -> (Scene, Shot) {
         cables: Vec::new(),
         friction: random.between(0.2, 0.7),
         gravity: 9.81,
+        breaking_force: None,
         mirrors: Vec::new(),
     };
     for row in 0..rows {

@@ -9,7 +9,7 @@ use clap::Args;
 use super::{Compute, FormatArg, Look, Status, load};
 use crate::report;
 use crate::scene::{Scene, TireId};
-use crate::simulation::{Settings, simulate};
+use crate::simulation::Settings;
 use crate::study::check::start_step;
 use crate::study::trace::{Chosen, trace};
 
@@ -41,7 +41,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     else {
         return Ok(Status::Wrong);
     };
-    let mut chosen = match chosen(&case.scene, arguments) {
+    let mut chosen = match chosen(case.scene(), arguments) {
         Ok(chosen) => chosen,
         Err(message) => return load::wrong(&message),
     };
@@ -52,12 +52,12 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         duration: case.plan.simulation.duration_s,
     };
     if chosen == Chosen::default() {
-        match simulate(&case.scene, &case.shots[option], &settings, &mut |_| ControlFlow::Continue(())) {
+        match case.model.run(&case.shots[option], &settings, &mut |_| ControlFlow::Continue(())) {
             Ok(outcome) => chosen = Chosen::of(&outcome),
             Err(failure) => return load::wrong(&failure.to_string()),
         }
     }
-    let mut rows = Rows::begin(arguments.format, report::trace::header(&case.scene, &chosen))?;
+    let mut rows = Rows::begin(arguments.format, report::trace::header(case.scene(), &chosen))?;
     let every = arguments.every.map_or(settings.step, |ms| ms * 1e-3);
     let mut written = Ok(());
     let done = trace(&case, option, &settings, &chosen, every, &mut |row| {

@@ -147,7 +147,7 @@ impl Values {
 impl Document {
     /// The results of one plan.
     pub fn new(case: &Case, results: &Results, any: bool) -> Self {
-        let Case { plan, scene, limits, .. } = case;
+        let (Case { plan, limits, .. }, scene) = (case, case.scene());
         let method = results.iter().flatten().next().map_or(plan.simulation.method, |checked| checked.method);
         let options = plan.delays.iter().zip(results).map(|(delay, result)| OptionResult {
             name: delay.name.clone(),
@@ -205,7 +205,7 @@ pub struct Row {
 impl Row {
     /// The rows of one plan.
     pub fn of(case: &Case, results: &Results) -> Vec<Self> {
-        let scene = &case.scene;
+        let scene = case.scene();
         let row = |(delay, result): (&crate::plan::DelayOption, &Result<Checked, Failure>)| {
             let (plan, option) = (case.plan.path.clone(), delay.name.clone());
             match result {

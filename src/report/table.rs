@@ -47,7 +47,7 @@ const SPARK: usize = 16;
 /// One plan's results.
 pub fn check(case: &Case, results: &Results, any: bool, style: Style) -> String {
     let plan = &case.plan;
-    let (tires, cables) = (case.scene.mass.len(), case.scene.cables.len());
+    let (tires, cables) = (case.scene().mass.len(), case.scene().cables.len());
     let mut limits = format!(
         "height {} m, cable force {} kN (breaking force {} kN / {})",
         units::value(case.limits.height, Unit::Metre),

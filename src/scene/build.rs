@@ -21,6 +21,7 @@ impl Scene {
             cables: Vec::new(),
             friction: plan.friction,
             gravity: plan.simulation.gravity_m_s2,
+            breaking_force: None,
             mirrors: Vec::new(),
         };
         let ties = match &plan.layout {

@@ -27,6 +27,8 @@ pub struct Scene {
     pub friction: f64,
     /// Gravity [m/s²].
     pub gravity: f64,
+    /// Force past which a cable is gone [N]; `None`: cables never break.
+    pub breaking_force: Option<f64>,
     /// Planes in which the shelter is its own image; at most one across x and one across y.
     pub mirrors: Vec<Mirror>,
 }

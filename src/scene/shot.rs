@@ -19,6 +19,8 @@ pub struct Firing {
 pub struct Shot {
     /// Sorted by time, then tire (`n_holes`).
     pub firings: Vec<Firing>,
+    /// Coefficient of friction on the day, instead of the scene's.
+    pub friction: Option<f64>,
 }
 
 impl Shot {
@@ -40,13 +42,13 @@ impl Shot {
     /// Whether the shot is its own image under a reflection of the tires.
     pub fn is_mirrored(&self, image: &[usize]) -> bool {
         let reflected = self.firings.iter().map(|f| Firing { tire: image[f.tire], ..*f }).collect();
-        Self::from_firings(reflected) == *self
+        Self::from_firings(reflected).firings == self.firings
     }
 
     /// The shot of `firings` in any order.
     pub fn from_firings(mut firings: Vec<Firing>) -> Self {
         firings.sort_by(|a, b| a.at.total_cmp(&b.at).then(a.tire.cmp(&b.tire)));
-        Self { firings }
+        Self { firings, friction: None }
     }
 }
 

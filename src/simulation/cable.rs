@@ -1,8 +1,7 @@
 //! Cables in blocks of equal ones: how they lie in memory, and which of them pull at which tires.
 //!
 //! Cables whose tires follow one another (a row of a mesh) and that share span, length and stiffness form a run: both ends
-//! lie one after the other in memory, and the same code takes eight neighbouring cables of one run, or one cable of eight
-//! runs that advance together. Where a cable is missing (at the end of a mesh row) its place stays empty, so that a run goes
+//! lie one after the other in memory, so that neighbouring cables are taken together. Where a cable is missing (at the end of a mesh row) its place stays empty, so that a run goes
 //! on from row to row. Long runs are cut into blocks, the unit that sleeps and wakes.
 
 use std::ops::Range;
@@ -12,7 +11,7 @@ use pulp::Simd;
 use super::pack::{LANES, Wide};
 use crate::scene::{Cable, Scene};
 
-/// Most places in a block. The order of summation follows from it, so it is the same for any number of lanes.
+/// Most places in a block.
 const PLACES: usize = 32;
 /// Most places left empty between two cables of a run.
 const EMPTY: usize = 4;
@@ -22,11 +21,11 @@ const NONE: u32 = u32::MAX;
 /// Equal cables whose ends follow one another in memory.
 #[derive(Clone, Copy, Debug)]
 pub struct Block {
-    /// First element of the first ends.
+    /// Tire at its first first end.
     pub first: usize,
-    /// First element of the second ends.
+    /// Tire at its first second end.
     pub second: usize,
-    /// Elements (places × elements per place).
+    /// Places.
     pub len: usize,
     /// Its first element in arrays over all cables; a multiple of [`LANES`].
     pub memory: usize,
@@ -51,17 +50,14 @@ pub struct Blocks {
     pub ends: Ends,
     /// Scene's cable by place.
     cable: Vec<u32>,
-    width: usize,
 }
 
 impl Blocks {
-    /// Lays out the scene's cables, for arrays with `width` elements per tire.
-    ///
-    /// `weight` says how many cables of the whole scene each stands for.
-    pub fn new(scene: &Scene, weight: &[f64], width: usize) -> Self {
+    /// Lays out the scene's cables; `weight` says how many cables of the whole scene each stands for (`n_cables`).
+    pub fn new(scene: &Scene, weight: &[f64]) -> Self {
         let (cable, runs) = runs(&scene.cables);
         let mut blocks = Vec::with_capacity(cable.len() / PLACES + runs.len());
-        let mut all = Vec::with_capacity((cable.len() + 2 * LANES * runs.len()) * width);
+        let mut all = Vec::with_capacity(cable.len() + 2 * LANES * (runs.len() + 1));
         let mut ends = Vec::with_capacity(2 * runs.len());
         for Run { places, first } in runs {
             let Cable { ends: tires, rest_length, stiffness, span } = scene.cables[first];
@@ -69,33 +65,32 @@ impl Blocks {
             let begin = all.len().next_multiple_of(LANES) + LANES;
             all.resize(begin, 0.0);
             for from in places.clone().step_by(PLACES) {
-                let [first, second] = tires.map(|tire| (tire + from - places.start) * width);
-                let len = (places.end - from).min(PLACES) * width;
+                let [first, second] = tires.map(|tire| tire + from - places.start);
+                let len = (places.end - from).min(PLACES);
                 blocks.push(Block {
                     first,
                     second,
                     len,
-                    memory: begin + (from - places.start) * width,
+                    memory: begin + from - places.start,
                     place: from,
                     span: span.into(),
                     rest_length,
                     stiffness,
                 });
             }
-            for &c in &cable[places.clone()] {
-                let weight = if c == NONE { 0.0 } else { weight[c as usize] };
-                all.resize(all.len() + width, weight);
-            }
-            ends.extend(tires.map(|tire| (tire * width..(tire + places.len()) * width, begin)));
+            all.extend(
+                cable[places.clone()].iter().map(|&c| if c == NONE { 0.0 } else { weight[c as usize] }),
+            );
+            ends.extend(tires.map(|tire| (tire..tire + places.len(), begin)));
         }
         all.resize(all.len().next_multiple_of(LANES) + LANES, 0.0);
-        let packs = (scene.mass.len() * width).div_ceil(LANES);
-        Self { blocks, weight: all, ends: Ends::new(&ends, packs), cable, width }
+        let packs = scene.mass.len().div_ceil(LANES);
+        Self { blocks, weight: all, ends: Ends::new(&ends, packs), cable }
     }
 
-    /// Scene's index of the cable of one element of a block.
-    pub fn cable(&self, block: usize, element: usize) -> usize {
-        self.cable[self.blocks[block].place + element / self.width] as usize
+    /// Scene's index of the cable in the `n`th place of a block.
+    pub fn cable(&self, block: usize, n: usize) -> usize {
+        self.cable[self.blocks[block].place + n] as usize
     }
 }
 
@@ -175,17 +170,17 @@ impl Ends {
     }
 }
 
-/// Components of a vector field over all elements, with room for one pack more.
+/// Components of a vector field over the tires, with room for one pack more.
 #[derive(Clone, Debug)]
 pub struct Field {
-    /// x, y, z (`n_elements` + [`LANES`]).
+    /// x, y, z (`n_tires` + [`LANES`]).
     pub part: [Vec<f64>; 3],
 }
 
 impl Field {
-    /// A field of zeros over `elements`.
-    pub fn zeros(elements: usize) -> Self {
-        Self { part: std::array::from_fn(|_| vec![0.0; elements + LANES]) }
+    /// Zeros.
+    pub fn zeros(tires: usize) -> Self {
+        Self { part: std::array::from_fn(|_| vec![0.0; tires + LANES]) }
     }
 
     /// The vectors from `at` on.

@@ -2,18 +2,7 @@
 
 use pulp::Simd;
 
-use super::pack::{Pack, Wide};
-
-/// What is the same for all tires, per lane.
-#[derive(Clone, Copy, Debug)]
-pub struct Lanes {
-    /// Step h [s].
-    pub step: Pack,
-    /// Coefficient of friction μ.
-    pub friction: Pack,
-    /// Gravity [m/s²].
-    pub gravity: f64,
-}
+use super::pack::Wide;
 
 /// Tires at the start of a step.
 #[derive(Clone, Copy)]

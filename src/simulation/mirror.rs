@@ -7,12 +7,11 @@
 
 use std::borrow::Cow;
 
-use crate::scene::{Firing, Scene, Shot};
+use crate::scene::{Firing, Mirror, Scene, Shot};
 
-/// The part of a scene that is modelled.
-pub struct Quotient<'a> {
-    /// Kept tires and images in the order of the whole scene, and the cables of kept ones.
-    pub scene: Cow<'a, Scene>,
+/// What a part of a scene stands for.
+#[derive(Debug)]
+pub struct Quotient {
     /// Copies to make after every step.
     pub images: Vec<Image>,
     /// How many tires of the whole scene each stands for; 0 for images (`n_tires`).
@@ -23,6 +22,7 @@ pub struct Quotient<'a> {
     map: Option<Map>,
 }
 
+#[derive(Debug)]
 struct Map {
     tire: Vec<usize>,
     cable: Vec<usize>,
@@ -40,21 +40,14 @@ pub struct Image {
     pub sign: [f64; 2],
 }
 
-impl<'a> Quotient<'a> {
-    /// Takes out every mirror plane of the scene that all shots share.
-    pub fn new<'s>(scene: &'a Scene, shots: impl Iterator<Item = &'s Shot> + Clone) -> Self {
-        let shared =
-            |mirror: &&crate::scene::Mirror| shots.clone().all(|shot| shot.is_mirrored(&mirror.image));
-        let planes: Vec<_> = scene.mirrors.iter().filter(shared).collect();
+impl Quotient {
+    /// Takes out `planes`; also returns what is left: kept tires and images in the order of the whole scene, and the cables
+    /// of kept ones.
+    pub fn new<'s>(scene: &'s Scene, planes: &[&Mirror]) -> (Self, Cow<'s, Scene>) {
         let n = scene.mass.len();
         if planes.is_empty() {
-            return Self {
-                scene: Cow::Borrowed(scene),
-                images: Vec::new(),
-                weight: vec![1.0; n],
-                cable_weight: vec![1.0; scene.cables.len()],
-                map: None,
-            };
+            let (weight, cable_weight) = (vec![1.0; n], vec![1.0; scene.cables.len()]);
+            return (Self { images: Vec::new(), weight, cable_weight, map: None }, Cow::Borrowed(scene));
         }
         // The kept tire of each tire's images, and the reflections that lead to it.
         let kept: Vec<(usize, [f64; 2])> = (0..n)
@@ -110,6 +103,7 @@ impl<'a> Quotient<'a> {
             cables: cables.iter().map(|&c| scene.cables[c]).collect(),
             friction: scene.friction,
             gravity: scene.gravity,
+            breaking_force: scene.breaking_force,
             mirrors: Vec::new(),
         };
         for cable in &mut part.cables {
@@ -120,17 +114,17 @@ impl<'a> Quotient<'a> {
             let sides = scene.cables[cable].ends.map(|end| if is_kept(end) { orbit[end] } else { 0.0 });
             0.5 * (sides[0] + sides[1])
         };
-        Self {
+        let quotient = Self {
             weight: tire.iter().map(|&t| if is_kept(t) { orbit[t] } else { 0.0 }).collect(),
             cable_weight: cables.iter().map(seen).collect(),
-            scene: Cow::Owned(part),
             images,
             map: Some(Map {
                 found: kept.iter().map(|&(source, sign)| (place[source], sign)).collect(),
                 tire,
                 cable: cables,
             }),
-        }
+        };
+        (quotient, Cow::Owned(part))
     }
 
     /// The firings of a shot under kept tires.

@@ -22,6 +22,7 @@ pub mod verlet;
 mod wake;
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use nalgebra::Vector3;
 
@@ -93,7 +94,43 @@ pub trait Motion {
 /// Sees every step; says whether to go on.
 pub type Watcher<'a> = dyn FnMut(&dyn Motion) -> ControlFlow<()> + 'a;
 
-/// Runs one shot. `watch` sees every step and may stop the run.
+/// A scene made ready for many runs.
+#[derive(Clone, Debug)]
+pub struct Model {
+    scene: Arc<Scene>,
+    verlet: Arc<verlet::Model>,
+}
+
+impl Model {
+    /// Of a scene; what the methods need is made at their first run.
+    pub fn new(scene: Scene) -> Self {
+        Self { scene: Arc::new(scene), verlet: Arc::default() }
+    }
+
+    /// What it is made of.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Runs one shot. `watch` sees every step and may stop the run.
+    pub fn run(&self, shot: &Shot, settings: &Settings, watch: &mut Watcher<'_>) -> Result<Outcome, Failure> {
+        match settings.method {
+            Method::Verlet => self.verlet.run(&self.scene, shot, settings, watch),
+            Method::Newmark => newmark::run(&self.scene, shot, settings, watch),
+        }
+    }
+
+    /// How many tires are integrated for a shot: fewer than the scene has where both are their own mirror image and the
+    /// method uses it.
+    pub fn modelled_tires(&self, method: Method, shot: &Shot) -> usize {
+        match method {
+            Method::Verlet => self.verlet.modelled_tires(&self.scene, shot),
+            Method::Newmark => self.scene.mass.len(),
+        }
+    }
+}
+
+/// Runs one shot of a scene that is run only once; see [`Model::run`].
 pub fn simulate(
     scene: &Scene,
     shot: &Shot,
@@ -101,7 +138,7 @@ pub fn simulate(
     watch: &mut Watcher<'_>,
 ) -> Result<Outcome, Failure> {
     match settings.method {
-        Method::Verlet => verlet::run(scene, shot, settings, watch),
+        Method::Verlet => verlet::Model::default().run(scene, shot, settings, watch),
         Method::Newmark => newmark::run(scene, shot, settings, watch),
     }
 }

@@ -1,6 +1,6 @@
 //! What is kept of a run as it goes: peaks between samples, the ledger, the history.
 
-use crate::outcome::{End, History, Ledger, Outcome, Peak};
+use crate::outcome::{Broken, End, History, Ledger, Outcome, Peak};
 use crate::scene::Shot;
 
 /// Running record of one run.
@@ -10,6 +10,8 @@ pub struct Record {
     pub height: Peak,
     /// Greatest cable force so far [N].
     pub force: Peak,
+    /// Cables that broke so far.
+    pub broken: Vec<Broken>,
     /// Energies so far [J].
     pub ledger: Ledger,
     /// Height and force over time.
@@ -23,6 +25,7 @@ impl Record {
         Self {
             height: Peak::default(),
             force: Peak::default(),
+            broken: Vec::new(),
             ledger: Ledger::default(),
             history: History::new(step),
             step,
@@ -41,7 +44,7 @@ impl Record {
     /// notes the top of the parabola through the three.
     pub fn vertex(&mut self, before: f64, after: f64) {
         let top = self.force.value;
-        if before <= top && after <= top && before + after < 2.0 * top {
+        if before <= top && after <= top && before + after < 2.0 * top && after.is_finite() {
             let (rise, bend) = (after - before, 2.0 * top - before - after);
             self.force.value += rise * rise / (8.0 * bend);
             self.force.at += 0.5 * self.step * rise / bend;
@@ -56,8 +59,8 @@ impl Record {
 
     /// The finished run.
     pub fn finish(self, drift: Peak, steps: usize, end: End) -> Outcome {
-        let Self { height, force, ledger, history, step } = self;
-        Outcome { height, force, drift, ledger, history, step, steps, end }
+        let Self { height, force, broken, ledger, history, step } = self;
+        Outcome { height, force, drift, broken, ledger, history, step, steps, end }
     }
 }
 

@@ -1,5 +1,7 @@
 //! The tension law of cables over the flat arrays of the stepping loop, as many cables at a time as a register holds.
 
+use std::borrow::Cow;
+
 use pulp::Simd;
 
 use super::cable::{Block, Blocks, Field};
@@ -7,9 +9,9 @@ use super::pack::{LANES, Pack, Wide};
 
 /// What is remembered of every cable from one step to the next, and how it pulls.
 #[derive(Clone, Debug)]
-pub struct Tension {
+pub struct Tension<'a> {
     /// How many cables of the whole scene each element stands for, 0 where there is none (`n_elements`).
-    weight: Vec<f64>,
+    weight: Cow<'a, [f64]>,
     /// L − L0 when last evaluated, not positive while slack [m] (`n_elements`).
     stretch: Vec<f64>,
     /// Mean force since the last step × direction from first to second end [N] (3 × `n_elements`); see
@@ -30,7 +32,7 @@ enum State {
     Taut,
 }
 
-/// What the evaluation of a block says, per lane.
+/// What the evaluation of a block says, in parts by lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Stress {
     /// Elastic energy [J].
@@ -39,22 +41,15 @@ pub struct Stress {
     pub force: Pack,
 }
 
-impl Tension {
+impl<'a> Tension<'a> {
     /// All slack.
-    pub fn new(blocks: &Blocks) -> Self {
+    pub fn new(blocks: &'a Blocks) -> Self {
         let elements = blocks.weight.len();
         Self {
-            weight: blocks.weight.clone(),
+            weight: Cow::Borrowed(&blocks.weight),
             stretch: vec![0.0; elements],
             pull: std::array::from_fn(|_| vec![0.0; elements]),
             state: vec![State::Slack; elements],
-        }
-    }
-
-    /// Every `width`th element from `lane` on is slack.
-    pub fn slacken(&mut self, lane: usize, width: usize) {
-        for values in self.pull.iter_mut().chain([&mut self.stretch]) {
-            values.iter_mut().skip(lane).step_by(width).for_each(|value| *value = 0.0);
         }
     }
 
@@ -64,7 +59,7 @@ impl Tension {
     /// taut or slack inside a step. With stretches s₀ and s₁ of unlike sign at its ends, ∫ k s₊ dt along the line between them
     /// differs from the trapezoid by −h k |s₀ s₁| / 2(|s₀| + |s₁|); the pull includes it.
     #[inline(always)]
-    pub fn evaluate<S: Simd>(&mut self, simd: S, block: &Block, u: &Field, v: &Field, step: &Pack) -> Stress {
+    pub fn evaluate<S: Simd>(&mut self, simd: S, block: &Block, u: &Field, v: &Field, step: f64) -> Stress {
         let (zero, half) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5));
         let tiny = Wide::splat(simd, f64::MIN_POSITIVE);
         let rest_length = Wide::splat(simd, block.rest_length);
@@ -101,7 +96,7 @@ impl Tension {
             let mut before = Wide::load(simd, &self.stretch, place);
             let slack_before = before.at_most(zero);
             if slack_before.and(longer).any() {
-                let (step, velocity) = (Wide::load(simd, step, at % LANES), between(simd, block, at, v));
+                let (step, velocity) = (Wide::splat(simd, step), between(simd, block, at, v));
                 let mut earlier2 = zero;
                 for c in 0..3 {
                     let earlier = d[c] - step * velocity[c];
@@ -131,9 +126,19 @@ impl Tension {
         stress
     }
 
-    /// Force of one element of a block when last evaluated [N].
-    pub fn force(&self, block: &Block, element: usize) -> f64 {
-        block.stiffness * self.stretch[block.memory + element].max(0.0)
+    /// Force of the cable in the `n`th place of a block when last evaluated [N].
+    pub fn force(&self, block: &Block, n: usize) -> f64 {
+        block.stiffness * self.stretch[block.memory + n].max(0.0)
+    }
+
+    /// Takes the cable in the `n`th place of a block away; returns the elastic energy lost with it [J].
+    pub fn cut(&mut self, block: &Block, n: usize) -> f64 {
+        let (place, force) = (block.memory + n, self.force(block, n));
+        let lost = 0.5 * self.weight[place] * force * force / block.stiffness;
+        self.weight.to_mut()[place] = 0.0;
+        self.stretch[place] = 0.0;
+        self.pull.iter_mut().for_each(|pull| pull[place] = 0.0);
+        lost
     }
 
     /// Sum of the pulls, from `offset` in their pack on, at the tires where cables begin and end [N].

@@ -8,9 +8,17 @@
 use super::cable::Blocks;
 use super::pack::LANES;
 
+/// Which packs of tires each block of cables ties together.
+#[derive(Debug)]
+pub struct Ties {
+    blocks_at: Lists,
+    packs_of: Lists,
+}
+
 /// The packs and blocks that need work in a step, each list in ascending order.
-#[derive(Clone, Debug)]
-pub struct Wake {
+#[derive(Debug)]
+pub struct Wake<'a> {
+    ties: &'a Ties,
     /// Packs whose tires are kicked.
     pub awake: Vec<usize>,
     /// Blocks to evaluate.
@@ -22,14 +30,12 @@ pub struct Wake {
     changed: bool,
     pack_mark: Vec<bool>,
     block_mark: Vec<bool>,
-    blocks_at: Lists,
-    packs_of: Lists,
 }
 
-impl Wake {
-    /// Everything asleep.
-    pub fn new(blocks: &Blocks, elements: usize) -> Self {
-        let n_packs = elements.div_ceil(LANES);
+impl Ties {
+    /// Of all blocks.
+    pub fn new(blocks: &Blocks, tires: usize) -> Self {
+        let n_packs = tires.div_ceil(LANES);
         let n_blocks = blocks.blocks.len();
         let mut touches: Vec<(usize, usize)> = Vec::new();
         for (n, block) in blocks.blocks.iter().enumerate() {
@@ -38,9 +44,19 @@ impl Wake {
             let apart = packs(block.second).filter(|pack| !first.contains(pack));
             touches.extend(first.clone().chain(apart).map(|pack| (n, pack)));
         }
-        let packs_of = Lists::new(n_blocks, touches.iter().copied());
-        let blocks_at = Lists::new(n_packs, touches.iter().map(|&(block, pack)| (pack, block)));
         Self {
+            packs_of: Lists::new(n_blocks, touches.iter().copied()),
+            blocks_at: Lists::new(n_packs, touches.iter().map(|&(block, pack)| (pack, block))),
+        }
+    }
+}
+
+impl<'a> Wake<'a> {
+    /// Everything asleep.
+    pub fn new(ties: &'a Ties) -> Self {
+        let (n_packs, n_blocks) = (ties.blocks_at.keys(), ties.packs_of.keys());
+        Self {
+            ties,
             awake: Vec::with_capacity(n_packs),
             blocks: Vec::with_capacity(n_blocks),
             blocks_before: Vec::with_capacity(n_blocks),
@@ -49,8 +65,6 @@ impl Wake {
             changed: false,
             pack_mark: vec![false; n_packs],
             block_mark: vec![false; n_blocks],
-            blocks_at,
-            packs_of,
         }
     }
 
@@ -73,7 +87,8 @@ impl Wake {
         }
         self.changed = false;
         std::mem::swap(&mut self.blocks, &mut self.blocks_before);
-        let Self { awake, blocks, moving, movers, pack_mark, block_mark, blocks_at, packs_of, .. } = self;
+        let Self { awake, blocks, moving, movers, pack_mark, block_mark, .. } = self;
+        let Ties { blocks_at, packs_of } = self.ties;
         movers.retain(|&pack| moving[pack] && !std::mem::replace(&mut pack_mark[pack], true));
         movers.iter().for_each(|&pack| pack_mark[pack] = false);
         unite(blocks, block_mark, movers.iter().flat_map(|&pack| blocks_at.of(pack)).copied());
@@ -122,6 +137,10 @@ impl Lists {
             next[key] += 1;
         }
         Self { start, items }
+    }
+
+    fn keys(&self) -> usize {
+        self.start.len() - 1
     }
 
     fn of(&self, key: usize) -> &[usize] {

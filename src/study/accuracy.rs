@@ -8,7 +8,7 @@ use super::check::start_step;
 use crate::outcome::Outcome;
 use crate::plan::{Accuracy, Method, Timing};
 use crate::scene::Shot;
-use crate::simulation::{Settings, simulate};
+use crate::simulation::Settings;
 
 /// One method at one step.
 #[derive(Clone, Debug)]
@@ -68,7 +68,7 @@ pub fn measure(case: &Case, option: usize) -> Study {
     let reference_step = levels[2].1 / FINER;
     let shot = &case.shots[option];
     let reference = run(case, shot, Method::Verlet, reference_step);
-    let coarsest = (0.95 * case.scene.critical_step()).min(8e-3);
+    let coarsest = (0.95 * case.scene().critical_step()).min(8e-3);
     let mut rows = Vec::new();
     for method in [Method::Verlet, Method::Newmark] {
         let mut steps: Vec<f64> = (0..STEPS).map(|n| coarsest * 0.5_f64.powi(n as i32)).collect();
@@ -109,7 +109,7 @@ fn run(case: &Case, shot: &Shot, method: Method, step: f64) -> Option<(Outcome, 
     let begun = Instant::now();
     for _ in 0..5 {
         let start = Instant::now();
-        let outcome = simulate(&case.scene, shot, &settings, &mut |_| ControlFlow::Continue(())).ok()?;
+        let outcome = case.model.run(shot, &settings, &mut |_| ControlFlow::Continue(())).ok()?;
         let wall = start.elapsed();
         if best.as_ref().is_none_or(|(_, least)| wall < *least) {
             best = Some((outcome, wall));
@@ -152,7 +152,7 @@ pub const PAPER: [PaperRow; 6] = [
 
 /// The same table by one of our methods, if the plan is the paper's shelter: five tires of 280 kg over one hole.
 pub fn paper_table(case: &Case, method: Method) -> Option<Vec<PaperRow>> {
-    let scene = &case.scene;
+    let scene = case.scene();
     let single =
         matches!(case.plan.delays.as_slice(), [delay] if matches!(delay.timing, Timing::Interval { .. }));
     let centre = case.shots.first()?.firings.first()?.tire;
@@ -167,7 +167,7 @@ pub fn paper_table(case: &Case, method: Method) -> Option<Vec<PaperRow>> {
         .map(|step| {
             let settings = Settings { method, step, duration: Some(1.0) };
             let (mut late, mut before) = (f64::NAN, (0.0, 0.0));
-            let outcome = simulate(scene, &case.shots[0], &settings, &mut |motion| {
+            let outcome = case.model.run(&case.shots[0], &settings, &mut |motion| {
                 let [a, b] = diagonal.ends.map(|end| motion.displacement(end));
                 let now = (motion.time(), diagonal.force((diagonal.span + (b - a)).norm()));
                 if before.0 < 0.16 && now.0 >= 0.16 - 1e-12 {

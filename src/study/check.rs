@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use super::{Case, Effort, error};
 use crate::outcome::{End, History, Outcome, Peak};
 use crate::plan::{Accuracy, Method};
-use crate::simulation::{Failure, Settings, simulate};
+use crate::simulation::{Failure, Settings};
 use crate::verdict::{Estimate, Limits, Verdict};
 
 /// A judged delay option.
@@ -93,7 +93,7 @@ pub fn start_step(case: &Case, method: Method, accuracy: Accuracy) -> f64 {
         Accuracy::Reference => (0.025, 2.5e-4),
     };
     let implicit = if method == Method::Newmark { 0.25 } else { 1.0 };
-    implicit * longest.min(fraction * case.scene.critical_step())
+    implicit * longest.min(fraction * case.scene().critical_step())
 }
 
 /// Rungs a verdict may climb beyond the first that has an error: 64 times finer.
@@ -138,7 +138,7 @@ pub fn check(
     let mut add = |runs: &mut Vec<(Outcome, Duration)>, step: f64| -> Result<(), Failure> {
         let settings = Settings { method: effort.method, step, duration: case.plan.simulation.duration_s };
         let (done, start) = (runs.len(), Instant::now());
-        let outcome = simulate(&case.scene, &case.shots[option], &settings, &mut |motion| {
+        let outcome = case.model.run(&case.shots[option], &settings, &mut |motion| {
             watch(Progress { runs: done, time: motion.time() })
         })?;
         runs.push((outcome, start.elapsed()));

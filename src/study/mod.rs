@@ -10,7 +10,7 @@ pub mod trace;
 
 use crate::plan::{Accuracy, Method, Plan};
 use crate::scene::{Scene, Shot};
-use crate::simulation::verlet::modelled_tires;
+use crate::simulation::Model;
 use crate::verdict::Limits;
 
 /// A plan made ready to run.
@@ -18,8 +18,8 @@ use crate::verdict::Limits;
 pub struct Case {
     /// As loaded.
     pub plan: Plan,
-    /// Its shelter.
-    pub scene: Scene,
+    /// Its shelter, made ready.
+    pub model: Model,
     /// What fires when, per delay option (`n_options`).
     pub shots: Vec<Shot>,
     /// Its limits, SI.
@@ -39,19 +39,19 @@ impl Case {
             drift: plan.limits.drift_m,
             breaking_force,
         };
-        Self { plan, scene, shots, limits }
+        Self { plan, model: Model::new(scene), shots, limits }
     }
 }
 
 impl Case {
+    /// Its shelter.
+    pub fn scene(&self) -> &Scene {
+        self.model.scene()
+    }
+
     /// Tires that `method` integrates, the most of any option: fewer than all where mirror planes halve the shelter.
     pub fn modelled_tires(&self, method: Method) -> usize {
-        match method {
-            Method::Newmark => self.scene.mass.len(),
-            Method::Verlet => {
-                self.shots.iter().map(|shot| modelled_tires(&self.scene, shot)).max().unwrap_or(0)
-            }
-        }
+        self.shots.iter().map(|shot| self.model.modelled_tires(method, shot)).max().unwrap_or(0)
     }
 }
 

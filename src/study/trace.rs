@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::Case;
 use crate::outcome::Outcome;
-use crate::simulation::{Failure, Motion, Settings, simulate};
+use crate::simulation::{Failure, Motion, Settings};
 
 /// What to record.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,7 +36,7 @@ pub fn trace(
 ) -> Result<Outcome, Failure> {
     let mut row = Vec::with_capacity(1 + 5 * chosen.tires.len() + chosen.cables.len());
     let mut next = 0.0;
-    simulate(&case.scene, &case.shots[option], settings, &mut |motion| {
+    case.model.run(&case.shots[option], settings, &mut |motion| {
         let now = motion.time();
         // Half a step early is nearer than a whole step late.
         if now + 0.5 * settings.step < next {
@@ -53,12 +53,12 @@ fn fill(row: &mut Vec<f64>, case: &Case, chosen: &Chosen, motion: &dyn Motion) {
     row.push(motion.time());
     for &tire in &chosen.tires {
         let u = motion.displacement(tire);
-        let place = case.scene.position[tire] + u;
+        let place = case.scene().position[tire] + u;
         let (friction, limit) = motion.friction(tire);
         row.extend([place.x, place.y, u.z, friction, limit]);
     }
     for &cable in &chosen.cables {
-        let cable = &case.scene.cables[cable];
+        let cable = case.scene().cables[cable];
         let [a, b] = cable.ends.map(|end| motion.displacement(end));
         row.push(cable.force((cable.span + (b - a)).norm()));
     }

@@ -1,5 +1,6 @@
 //! All integration tests, in one binary so that they link once.
 
+mod allocation;
 mod bad_plans;
 mod calibration;
 mod check;

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use shelter::plan::{Method, Plan};
 use shelter::scene::{Firing, Scene, Shot};
-use shelter::simulation::verlet::modelled_tires;
+use shelter::simulation::Model;
 
 use crate::scenes::{run, settings, watch};
 
@@ -42,6 +42,10 @@ fn planes_are_found_and_shared_with_what_fires() {
         2,
         "the paper's shelter: a corner and the centre"
     );
+}
+
+fn modelled_tires(scene: &Scene, shot: &Shot) -> usize {
+    Model::new(scene.clone()).modelled_tires(Method::Verlet, shot)
 }
 
 proptest! {

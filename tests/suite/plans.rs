@@ -27,22 +27,22 @@ fn every_shipped_plan_loads() {
 #[test]
 fn the_paper_plan_is_five_tires_with_a_metre_of_diagonal() {
     let case = Case::new(shipped("paper-5-tire.toml"));
-    assert_eq!((case.scene.mass.len(), case.scene.cables.len()), (5, 8));
-    let diagonals = case.scene.cables.iter().filter(|cable| (cable.rest_length - 1.0).abs() < 1e-12);
+    assert_eq!((case.scene().mass.len(), case.scene().cables.len()), (5, 8));
+    let diagonals = case.scene().cables.iter().filter(|cable| (cable.rest_length - 1.0).abs() < 1e-12);
     assert_eq!(diagonals.count(), 4);
-    assert_eq!(case.scene.tire[case.shots[0].firings[0].tire], TireId::Cell { row: 1.5, column: 1.5 });
+    assert_eq!(case.scene().tire[case.shots[0].firings[0].tire], TireId::Cell { row: 1.5, column: 1.5 });
     assert!((case.limits.force - 20_400.0 / 1.1).abs() < 1e-9);
 }
 
 #[test]
 fn cables_between_rims_are_a_diameter_shorter_and_slack_lengthens_them() {
     let case = Case::new(shipped("amur-three-rows.toml"));
-    let lengths: Vec<f64> = case.scene.cables.iter().map(|cable| cable.rest_length).collect();
+    let lengths: Vec<f64> = case.scene().cables.iter().map(|cable| cable.rest_length).collect();
     let row = 1.02 * (2.6 - 1.6);
     let diagonal = 1.02 * (2.6 * std::f64::consts::SQRT_2 - 1.6);
     let near = |length: f64| lengths.iter().filter(|l| (**l - length).abs() < 1e-12).count();
     assert_eq!((near(row), near(diagonal)), (85, 72));
-    let stiffness = case.scene.cables[0].stiffness * case.scene.cables[0].rest_length;
+    let stiffness = case.scene().cables[0].stiffness * case.scene().cables[0].rest_length;
     assert!((stiffness - case.plan.cable.axial_stiffness_kn * 1e3).abs() < 1e-6);
 }
 
@@ -94,7 +94,7 @@ fn a_list_layout_names_tires_by_number_and_holes_launch_the_nearest() {
     assert_eq!(plan.cable.breaking_force_kn, 16.0, "clips hold 80 %");
     assert!(matches!(&plan.delays[0].timing, Timing::Interval { order, .. } if order == &[1, 0]));
     let case = Case::new(plan);
-    assert_eq!(case.scene.mass, [280.0, 100.0]);
+    assert_eq!(case.scene().mass, [280.0, 100.0]);
     let fired: Vec<_> = case.shots[0].firings.iter().map(|f| (f.tire, f.at)).collect();
     assert_eq!(fired, [(0, 0.0), (1, 0.025)]);
 }

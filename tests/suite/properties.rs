@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use shelter::plan::Method;
 use shelter::scene::{Firing, Scene, Shot};
-use shelter::simulation::verlet::{Job, run_all};
+use shelter::simulation::Model;
 use std::ops::ControlFlow;
 
 use crate::scenes::{METHODS, grid, run, settings, watch};
@@ -135,25 +135,27 @@ proptest! {
         prop_assert_eq!(a.force.value, b.force.value);
     }
 
-    /// Runs that advance together, one per lane, are the runs made alone.
+    /// Runs of one model share nothing that moves: in any order and on any thread they are the runs made alone.
     #[test]
-    fn lanes_change_nothing((scene, shot) in shelter(), shift in 0.0..0.1) {
-        let h = step(&scene);
-        let shots: Vec<Shot> = (0..11)
+    fn a_model_keeps_nothing_from_run_to_run((scene, shot) in shelter(), shift in 0.0..0.1) {
+        let shots: Vec<Shot> = (0..6)
             .map(|n| {
                 let later = |f: &Firing| Firing { at: f.at + n as f64 * shift * f.tire as f64, ..*f };
-                Shot::from_firings(shot.firings.iter().map(later).collect())
+                Shot { friction: Some(0.1 * n as f64), ..Shot::from_firings(shot.firings.iter().map(later).collect()) }
             })
             .collect();
-        let settings = settings(Method::Verlet, h, Some(0.6));
-        let jobs: Vec<Job> = shots.iter().map(|shot| Job { shot, friction: scene.friction, settings }).collect();
-        let together = run_all(&scene, &jobs, &mut |_| ControlFlow::Continue(()));
-        for (shot, lane) in shots.iter().zip(together) {
-            let alone = run(&scene, shot, settings);
-            let lane = lane.expect("the run has an outcome");
-            prop_assert_eq!(alone.height.value, lane.height.value);
-            prop_assert_eq!(alone.force.value, lane.force.value);
-            prop_assert_eq!(alone.steps, lane.steps);
+        for method in METHODS {
+            let settings = settings(method, step(&scene), Some(0.6));
+            let model = Model::new(scene.clone());
+            let go = |shot: &Shot| model.run(shot, &settings, &mut |_| ControlFlow::Continue(()));
+            let together: Vec<_> = std::thread::scope(|scope| {
+                let threads: Vec<_> = shots.iter().rev().map(|shot| scope.spawn(move || go(shot))).collect();
+                threads.into_iter().rev().map(|thread| thread.join().expect("no panic")).collect()
+            });
+            for (shot, together) in shots.iter().zip(together) {
+                let scene = Scene { friction: shot.friction.unwrap_or(0.0), ..scene.clone() };
+                prop_assert_eq!(Ok(run(&scene, &Shot { friction: None, ..shot.clone() }, settings)), together);
+            }
         }
     }
 

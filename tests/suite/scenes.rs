@@ -20,6 +20,7 @@ pub fn tires(places: &[(f64, f64)], mass: f64) -> Scene {
         cables: Vec::new(),
         friction: 0.5,
         gravity: GRAVITY,
+        breaking_force: None,
         mirrors: Vec::new(),
     }
 }

@@ -13,6 +13,8 @@
 mod region;
 mod system;
 
+use std::borrow::Cow;
+
 use nalgebra::{Vector2, Vector3};
 
 use self::region::{Ground, MOST_REPEATS, Region};
@@ -20,7 +22,7 @@ use self::system::System;
 use super::contact::support;
 use super::record::{Clock, Record};
 use super::{Failure, Motion, Settings, Watcher, time_limit};
-use crate::outcome::{End, Outcome, Peak};
+use crate::outcome::{Broken, End, Outcome, Peak};
 use crate::plan::Method;
 use crate::scene::{Scene, Shot};
 
@@ -64,8 +66,10 @@ pub fn run(
 }
 
 struct Stepper<'a> {
-    scene: &'a Scene,
+    /// The scene, less the cables that broke.
+    scene: Cow<'a, Scene>,
     shot: &'a Shot,
+    friction: f64,
     step: f64,
     clock: Clock,
     moving: bool,
@@ -96,8 +100,9 @@ impl<'a> Stepper<'a> {
         let region =
             Region { taut: vec![false; scene.cables.len()], ground: vec![Ground::Stick; scene.mass.len()] };
         Self {
-            scene,
+            scene: Cow::Borrowed(scene),
             shot,
+            friction: shot.friction.unwrap_or(scene.friction),
             step,
             clock: Clock::new(shot),
             moving: false,
@@ -158,7 +163,7 @@ impl<'a> Stepper<'a> {
     }
 
     fn settle(&mut self, h: f64) -> Result<(), Failure> {
-        cable_forces(self.scene, &self.u, |cable, length| cable.force(length), &mut self.f_start);
+        cable_forces(&self.scene, &self.u, |cable, length| cable.force(length), &mut self.f_start);
         self.set_accelerations();
         for repeats in 0..MOST_REPEATS {
             self.solve(h)?;
@@ -185,7 +190,7 @@ impl<'a> Stepper<'a> {
 
     /// Friction of a sliding tire per mass: μ times the reaction, against the velocity, or the pull where there is none.
     fn friction(&self, free: Vector3<f64>, velocity: Vector2<f64>) -> Vector2<f64> {
-        let limit = self.scene.friction * (-free.z).max(0.0);
+        let limit = self.friction * (-free.z).max(0.0);
         let direction = velocity.try_normalize(0.0).or_else(|| free.xy().try_normalize(0.0));
         direction.map_or_else(Vector2::zeros, |direction| direction * -limit)
     }
@@ -209,8 +214,8 @@ impl<'a> Stepper<'a> {
         }
         for _ in 0..MOST_ITERATIONS {
             self.set_residual(h);
-            self.system.assemble(self.scene, &self.end, &self.region.taut, h);
-            if !self.system.solve(self.scene, &self.right) {
+            self.system.assemble(&self.scene, &self.end, &self.region.taut, h);
+            if !self.system.solve(&self.scene, &self.right) {
                 break;
             }
             let (mut correction, mut way) = (0.0_f64, 0.0_f64);
@@ -284,7 +289,7 @@ impl<'a> Stepper<'a> {
         if free.z > 0.0 && !lands {
             return Ground::Free;
         }
-        let within_cone = self.sliding(tire, h).norm() <= self.scene.friction * (-free.z).max(0.0) * h;
+        let within_cone = self.sliding(tire, h).norm() <= self.friction * (-free.z).max(0.0) * h;
         match assumed {
             Ground::Stick if !within_cone => Ground::Slip,
             Ground::Slip if !lands && within_cone => Ground::Stick,
@@ -326,7 +331,7 @@ impl<'a> Stepper<'a> {
         let impact = (rise * rise - 2.0 * a * height).max(0.0).sqrt();
         let left = (h - 2.0 * height / (impact - rise).max(f64::MIN_POSITIVE)).clamp(0.0, h);
         let before = velocity.xy().push(-impact);
-        let (after, _) = support(before, self.scene.friction);
+        let (after, _) = support(before, self.friction);
         self.end[tire] += (after.xy() - before.xy()).push(0.0) * left;
         let lost = 0.5 * self.scene.mass[tire] * (before.norm_squared() - after.norm_squared());
         self.record.ledger.dissipated += lost;
@@ -342,6 +347,7 @@ impl<'a> Stepper<'a> {
         if let Some((cable, before)) = self.sampled.take() {
             self.record.vertex(before, self.signed_force(cable, &self.u));
         }
+        let breaking_force = self.scene.breaking_force.unwrap_or(f64::INFINITY);
         let (mut energy, mut height, mut force) = (0.0, 0.0_f64, 0.0_f64);
         for (place, cable) in self.scene.cables.iter().enumerate() {
             let pull = cable.force(cable.displaced(&self.u).norm());
@@ -362,7 +368,25 @@ impl<'a> Stepper<'a> {
             }
         }
         self.record.balance(energy, 0.0);
+        if force > breaking_force {
+            self.cut_broken(breaking_force);
+        }
         self.record.history.note(now, height, force);
+    }
+
+    /// Takes away the cables that pull past their breaking force; what they stored is lost.
+    #[cold]
+    fn cut_broken(&mut self, breaking_force: f64) {
+        let at = self.now();
+        for cable in 0..self.scene.cables.len() {
+            let pull = self.scene.cables[cable].force(self.scene.cables[cable].displaced(&self.u).norm());
+            if pull > breaking_force {
+                self.record.ledger.dissipated += 0.5 * pull * pull / self.scene.cables[cable].stiffness;
+                self.record.broken.push(Broken { at, cable });
+                self.scene.to_mut().cables[cable].rest_length = f64::INFINITY;
+                self.region.taut[cable] = false;
+            }
+        }
     }
 
     fn signed_force(&self, cable: usize, u: &[Vector3<f64>]) -> f64 {
@@ -417,7 +441,7 @@ impl Motion for Snapshot<'_, '_> {
     fn friction(&self, tire: usize) -> (f64, f64) {
         let Stepper { scene, region, f, .. } = self.stepper;
         let mass = scene.mass[tire];
-        let limit = scene.friction * (mass * scene.gravity - f[tire].z).max(0.0);
+        let limit = self.stepper.friction * (mass * scene.gravity - f[tire].z).max(0.0);
         match region.ground[tire] {
             Ground::Free => (0.0, 0.0),
             Ground::Slip => (limit, limit),

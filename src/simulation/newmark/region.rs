@@ -38,7 +38,8 @@ impl Region {
             return false;
         }
         if repeats < AT_ONCE {
-            self.clone_from(implied);
+            self.taut.copy_from_slice(&implied.taut);
+            self.ground.copy_from_slice(&implied.ground);
         } else if let Some(tire) = (0..self.ground.len()).find(|&t| self.ground[t] != implied.ground[t]) {
             self.ground[tire] = implied.ground[tire];
         } else if let Some(cable) = (0..self.taut.len()).find(|&c| self.taut[c] != implied.taut[c]) {

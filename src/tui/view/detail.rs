@@ -71,7 +71,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
 }
 
 fn facts<'a>(app: &App, checked: &Checked) -> Vec<Line<'a>> {
-    let scene = &app.case.scene;
+    let scene = &app.case.scene();
     let peak = format!(
         "height {} m at tire {}, {} · force {} kN in cable {}, {} · drift {} m",
         value_and_error(checked.height.value, checked.height.error, Unit::Metre),

@@ -72,7 +72,7 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
         None => accuracy_name(app.effort.accuracy).to_owned(),
     };
     about += &format!(" · {}, {level}", method_name(app.effort.method));
-    about += &format!(" · {} tires, {} cables", case.scene.mass.len(), case.scene.cables.len());
+    about += &format!(" · {} tires, {} cables", case.scene().mass.len(), case.scene().cables.len());
     let title = Line::from(vec![
         Span::styled(case.plan.title.as_str(), theme.title()),
         Span::styled(format!("  {}", case.plan.path), theme.quiet()),
