@@ -2,8 +2,11 @@
 //!
 //! Numbers with one-sided errors and limits come in, a [`Verdict`] goes out; where they come from is not known here.
 
+use serde::{Deserialize, Serialize};
+
 /// Whether a delay option keeps its limits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// Value + error is within every limit.
     Pass,
@@ -66,6 +69,17 @@ pub struct Limits {
     pub drift: Option<f64>,
     /// Breaking force in use [N].
     pub breaking_force: f64,
+}
+
+impl Limits {
+    /// The verdict on height, force and drift, each with its error.
+    pub fn judge(&self, [height, force, drift]: [[f64; 2]; 3]) -> Verdict {
+        let against = |[value, error]: [f64; 2], limit: f64| {
+            Estimate { value, error, ..Estimate::default() }.against(limit)
+        };
+        let drift = self.drift.map(|limit| against(drift, limit));
+        Verdict::worst([against(height, self.height), against(force, self.force)].into_iter().chain(drift))
+    }
 }
 
 #[cfg(test)]

@@ -50,7 +50,7 @@ pub fn print(cases: Vec<Case>, compute: &Compute, look: &Look, output: &Output) 
     let pairs = || cases.iter().zip(&judged);
     match output.format {
         FormatArg::Text => {
-            let style = report::table::Style { ascii: look.ascii, color: look.colored(out.is_terminal()) };
+            let style = look.style(out.is_terminal());
             for (case, results) in pairs() {
                 write!(out, "{}", report::table::check(case, results, output.any, style))?;
             }

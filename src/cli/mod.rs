@@ -4,8 +4,14 @@ mod accuracy;
 mod check;
 mod init;
 mod load;
+mod long;
+mod merge;
+mod orders;
 mod packaging;
 mod ropes;
+mod scatter;
+mod size;
+mod sweep;
 mod trace;
 
 use std::path::PathBuf;
@@ -15,6 +21,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::plan::{Accuracy, Method, Plan};
 use crate::report::Format;
+use crate::report::table::Style;
 use crate::study::Effort;
 
 /// Which blasting delay is safe under a shelter of tires and cables.
@@ -47,6 +54,16 @@ enum Command {
     Trace(trace::Arguments),
     /// This plan's speed against accuracy, on this machine
     Accuracy(accuracy::Arguments),
+    /// Height and force against the interval between rows; the intervals that pass
+    Sweep(sweep::Arguments),
+    /// Every firing order: the worst, the best
+    Orders(orders::Arguments),
+    /// Detonator and launch scatter: how often each option fails
+    Scatter(scatter::Arguments),
+    /// The lightest rope, tires and border with which every option passes
+    Size(size::Arguments),
+    /// Joins the shares of `orders` or `scatter` that several machines computed
+    Merge(merge::Arguments),
     /// The rope catalogue
     Ropes(ropes::Arguments),
     /// A commented starter plan
@@ -106,6 +123,11 @@ struct Look {
 }
 
 impl Look {
+    /// Style of texts on a stream that is or is not a terminal.
+    fn style(&self, terminal: bool) -> Style {
+        Style { ascii: self.ascii, color: self.colored(terminal) }
+    }
+
     /// Whether to colour what goes to a stream that is or is not a terminal.
     fn colored(&self, terminal: bool) -> bool {
         match self.color {
@@ -204,6 +226,11 @@ pub fn run() -> ExitCode {
         (Some(Command::Check(arguments)), _) => check::run(&arguments, &cli.look),
         (Some(Command::Trace(arguments)), _) => trace::run(&arguments, &cli.look),
         (Some(Command::Accuracy(arguments)), _) => accuracy::run(&arguments, &cli.look),
+        (Some(Command::Sweep(arguments)), _) => sweep::run(&arguments, &cli.look),
+        (Some(Command::Orders(arguments)), _) => orders::run(&arguments, &cli.look),
+        (Some(Command::Scatter(arguments)), _) => scatter::run(&arguments, &cli.look),
+        (Some(Command::Size(arguments)), _) => size::run(&arguments, &cli.look),
+        (Some(Command::Merge(arguments)), _) => merge::run(&arguments, &cli.look),
         (Some(Command::Ropes(arguments)), _) => ropes::run(&arguments),
         (Some(Command::Init(arguments)), _) => init::run(&arguments),
         (Some(Command::Completions(arguments)), _) => packaging::completions(&arguments),

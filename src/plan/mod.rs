@@ -5,6 +5,7 @@
 //! This module knows no physics and no units but those of the plan's own keys.
 
 mod diagnostic;
+pub mod edit;
 mod read;
 mod validate;
 
@@ -12,6 +13,7 @@ use std::io::Read;
 use std::path::Path;
 
 pub use diagnostic::Diagnostics;
+use serde::{Deserialize, Serialize};
 
 /// Largest plan file read [bytes].
 const MOST_BYTES: u64 = 64 << 20;
@@ -21,6 +23,8 @@ const MOST_BYTES: u64 = 64 << 20;
 pub struct Plan {
     /// Where the plan came from, as the user named it (`-` for standard input).
     pub path: String,
+    /// As written.
+    pub text: String,
     /// Free text shown above every view; the file name when the plan has none.
     pub title: String,
     /// Tires and the ties between them.
@@ -39,6 +43,48 @@ pub struct Plan {
     pub delays: Vec<DelayOption>,
     /// How to simulate.
     pub simulation: SimulationSpec,
+    /// What scatters from shot to shot, if the plan says.
+    pub scatter: Option<ScatterSpec>,
+    /// What `size` may choose from.
+    pub size: SizeSpec,
+}
+
+/// What scatters from shot to shot.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ScatterSpec {
+    /// Of every detonator.
+    pub delay: DelayScatter,
+    /// Coefficient of variation of the launch velocity, lognormal [%].
+    pub launch_cv_percent: f64,
+    /// Range of the coefficient of friction.
+    pub friction: Option<[f64; 2]>,
+}
+
+/// Standard deviation of a firing time: the greater of a fixed one and a share of the nominal delay.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct DelayScatter {
+    /// Fixed [ms].
+    pub sd_ms: f64,
+    /// Share of the nominal delay [%].
+    pub cv_percent: f64,
+}
+
+impl DelayScatter {
+    /// Standard deviation at a nominal delay, both in the same unit as `millisecond`, which is one millisecond in it.
+    pub fn deviation(&self, nominal: f64, millisecond: f64) -> f64 {
+        (self.sd_ms * millisecond).max(self.cv_percent * 1e-2 * nominal)
+    }
+}
+
+/// What `size` may choose from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SizeSpec {
+    /// Masses of the tires to be had [kg]; empty: that of `[tire]`.
+    pub tire_mass_kg: Vec<f64>,
+    /// Family of ropes; `None`: the whole catalogue.
+    pub family: Option<String>,
+    /// Most rows of ballast on each side.
+    pub most_border_rows: usize,
 }
 
 impl Plan {
@@ -118,6 +164,16 @@ pub struct Mesh {
     pub column_spacing_m: f64,
     /// Which neighbours are tied.
     pub links: Links,
+    /// Rows of ballast laid around the mesh on each side; no blast row lies under them, and tire (1,1) stays where it is.
+    pub border_rows: usize,
+}
+
+impl Mesh {
+    /// Tires of a grid, or at the corners of a quincunx, with the border.
+    pub fn corners(&self) -> usize {
+        let with_border = |n: usize| n.saturating_add(2 * self.border_rows);
+        with_border(self.rows).saturating_mul(with_border(self.columns))
+    }
 }
 
 /// Which neighbours of a regular layout are tied.
@@ -164,6 +220,8 @@ pub struct CableSpec {
     pub slack_percent: f64,
     /// Efficiency of the termination [%], 100 when the plan has none.
     pub termination_percent: f64,
+    /// Whether a cable past its breaking force is gone, or only reported.
+    pub breaks: bool,
 }
 
 /// Holes that fire together.
@@ -271,7 +329,8 @@ pub struct SimulationSpec {
 }
 
 /// How fine a verdict starts and ends; what each level costs is measured by `shelter accuracy`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Accuracy {
     /// For a first look.
     Draft,
@@ -283,7 +342,8 @@ pub enum Accuracy {
 }
 
 /// Time integration method.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Method {
     /// Explicit, contact in closed form.
     #[default]

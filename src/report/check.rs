@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::outcome::Broken;
 use crate::plan::Method;
 use crate::scene::{Scene, TireId};
 use crate::simulation::Failure;
@@ -50,7 +51,7 @@ pub struct Document {
     title: String,
     verdict: &'static str,
     scene: SceneSize,
-    limits: Limits,
+    limits: super::Limits,
     options: Vec<OptionResult>,
 }
 
@@ -59,15 +60,6 @@ struct SceneSize {
     tires: usize,
     cables: usize,
     modelled_tires: usize,
-}
-
-#[derive(Serialize)]
-struct Limits {
-    flight_height_m: f64,
-    cable_force_n: f64,
-    cable_safety_factor: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    drift_m: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -86,6 +78,8 @@ struct Values {
     cable_force_n: AtCable,
     cable_safety_factor: Option<f64>,
     drift_m: AtTire,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    broken: Vec<BrokenCable>,
     method: &'static str,
     dt_s: f64,
     steps: usize,
@@ -111,6 +105,20 @@ struct AtCable {
     cable: Option<[Vec<f64>; 2]>,
 }
 
+/// A cable that broke.
+#[derive(Serialize)]
+struct BrokenCable {
+    cable: [Vec<f64>; 2],
+    at_s: f64,
+}
+
+impl BrokenCable {
+    fn new(scene: &Scene, broken: &Broken) -> Self {
+        let ends = scene.cables[broken.cable].ends;
+        Self { cable: ends.map(|end| scene.tire[end].numbers()), at_s: broken.at }
+    }
+}
+
 impl AtTire {
     fn new(scene: &Scene, estimate: &Estimate) -> Self {
         let Estimate { value, error, at, place } = *estimate;
@@ -133,6 +141,7 @@ impl Values {
             cable_force_n: AtCable::new(scene, &checked.force),
             cable_safety_factor: Some(checked.safety_factor).filter(|factor| factor.is_finite()),
             drift_m: AtTire::new(scene, &checked.drift),
+            broken: checked.broken.iter().map(|broken| BrokenCable::new(scene, broken)).collect(),
             method: method_name(checked.method),
             dt_s: checked.step,
             steps: checked.steps,
@@ -147,7 +156,7 @@ impl Values {
 impl Document {
     /// The results of one plan.
     pub fn new(case: &Case, results: &Results, any: bool) -> Self {
-        let (Case { plan, limits, .. }, scene) = (case, case.scene());
+        let (plan, scene) = (&case.plan, case.scene());
         let method = results.iter().flatten().next().map_or(plan.simulation.method, |checked| checked.method);
         let options = plan.delays.iter().zip(results).map(|(delay, result)| OptionResult {
             name: delay.name.clone(),
@@ -169,12 +178,7 @@ impl Document {
                 cables: scene.cables.len(),
                 modelled_tires: case.modelled_tires(method),
             },
-            limits: Limits {
-                flight_height_m: limits.height,
-                cable_force_n: limits.force,
-                cable_safety_factor: plan.limits.cable_safety_factor,
-                drift_m: limits.drift,
-            },
+            limits: super::Limits::new(case),
             options: options.collect(),
         }
     }

@@ -18,7 +18,8 @@ pub struct Style {
 }
 
 impl Style {
-    fn word(self, verdict: Verdict) -> String {
+    /// A verdict, in capitals.
+    pub(super) fn word(self, verdict: Verdict) -> String {
         let (word, code) = match verdict {
             Verdict::Pass => ("PASS", 32),
             Verdict::Undecided => ("OPEN", 33),
@@ -27,7 +28,7 @@ impl Style {
         if self.color { format!("\x1b[1;{code}m{word}\x1b[0m") } else { word.to_owned() }
     }
 
-    fn plain(self, text: String) -> String {
+    pub(super) fn plain(self, text: String) -> String {
         if self.ascii { text.replace(" ± ", " +- ").replace('·', "|") } else { text }
     }
 }
@@ -47,19 +48,7 @@ const SPARK: usize = 16;
 /// One plan's results.
 pub fn check(case: &Case, results: &Results, any: bool, style: Style) -> String {
     let plan = &case.plan;
-    let (tires, cables) = (case.scene().mass.len(), case.scene().cables.len());
-    let mut limits = format!(
-        "height {} m, cable force {} kN (breaking force {} kN / {})",
-        units::value(case.limits.height, Unit::Metre),
-        units::value(case.limits.force, Unit::Kilonewton),
-        units::value(case.limits.breaking_force, Unit::Kilonewton),
-        plan.limits.cable_safety_factor,
-    );
-    if let Some(drift) = case.limits.drift {
-        limits += &format!(", drift {} m", units::value(drift, Unit::Metre));
-    }
-    let mut text =
-        format!("{} · {}\n{tires} tires, {cables} cables · limits: {limits}\n\n", plan.title, plan.path);
+    let mut text = super::heading(case);
     let name_width = plan.delays.iter().map(|delay| delay.name.chars().count()).max().unwrap_or(0).max(6);
     text += &format!(
         "{:name_width$}  {:4}  {:>17}  {:>17}  {:>6}  {:SPARK$}  {:SPARK$}\n",
@@ -98,5 +87,22 @@ fn row(case: &Case, checked: &Checked, style: Style) -> String {
     for reason in &checked.reasons {
         text += &format!("    {}\n", explain(reason));
     }
+    if !checked.broken.is_empty() {
+        text += &format!("    {}\n", broken(case, checked));
+    }
     text
+}
+
+/// Broken cables shown one by one.
+const BROKEN: usize = 4;
+
+/// The cables that broke, the first ones by name.
+fn broken(case: &Case, checked: &Checked) -> String {
+    let name = |broken: &crate::outcome::Broken| {
+        format!("{} at {}", case.scene().cable_name(broken.cable), units::seconds(broken.at))
+    };
+    let names: Vec<String> = checked.broken.iter().take(BROKEN).map(name).collect();
+    let more = checked.broken.len().saturating_sub(BROKEN);
+    let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
+    format!("{} cables break: {}{rest}", checked.broken.len(), names.join(", "))
 }

@@ -85,6 +85,15 @@ struct Entry {
     breaking_force_kn: Vec<f64>,
 }
 
+impl Catalogue {
+    /// Names of the families, in the order listed.
+    pub fn families(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = self.ropes.iter().map(|rope| rope.family.as_str()).collect();
+        names.dedup();
+        names
+    }
+}
+
 /// The catalogue compiled into the program.
 pub fn catalogue() -> &'static Catalogue {
     static CATALOGUE: LazyLock<Catalogue> =

@@ -21,7 +21,7 @@ impl Scene {
             cables: Vec::new(),
             friction: plan.friction,
             gravity: plan.simulation.gravity_m_s2,
-            breaking_force: None,
+            breaking_force: plan.cable.breaks.then_some(plan.cable.breaking_force_kn * 1e3),
             mirrors: Vec::new(),
         };
         let ties = match &plan.layout {
@@ -62,25 +62,32 @@ impl Scene {
         self.tire.push(id);
     }
 
-    fn lay_corners(&mut self, mesh: &Mesh) {
-        for r in 0..mesh.rows {
-            for c in 0..mesh.columns {
-                let id = TireId::Cell { row: (r + 1) as f64, column: (c + 1) as f64 };
-                self.place(id, c as f64 * mesh.column_spacing_m, r as f64 * mesh.row_spacing_m);
+    /// Lays the tires whose row and column, counted from the first corner with the border, begin at `first`.
+    fn lay_tires(&mut self, mesh: &Mesh, first: f64, rows: usize, columns: usize) {
+        let from = first - mesh.border_rows as f64;
+        for r in 0..rows {
+            for c in 0..columns {
+                let (x, y) = (from + c as f64, from + r as f64);
+                let (row, column) = (y + 1.0, x + 1.0);
+                let inside =
+                    row >= 1.0 && row <= mesh.rows as f64 && column >= 1.0 && column <= mesh.columns as f64;
+                let id = if inside { TireId::Cell { row, column } } else { TireId::Border { row, column } };
+                self.place(id, x * mesh.column_spacing_m, y * mesh.row_spacing_m);
             }
         }
     }
 
     /// Returns the ties, as the other layouts do.
     fn lay_grid(&mut self, mesh: &Mesh) -> Vec<Tie> {
-        self.lay_corners(mesh);
+        let [rows, columns] = [mesh.rows, mesh.columns].map(|n| n + 2 * mesh.border_rows);
+        self.lay_tires(mesh, 0.0, rows, columns);
         let Links { row, column, diagonal } = mesh.links;
         let (dx, dy) = (mesh.column_spacing_m, mesh.row_spacing_m);
-        let at = |r: usize, c: usize| r * mesh.columns + c;
+        let at = |r: usize, c: usize| r * columns + c;
         let mut ties = Vec::new();
-        for r in 0..mesh.rows {
-            for c in 0..mesh.columns {
-                let (left, right, up) = (c > 0, c + 1 < mesh.columns, r + 1 < mesh.rows);
+        for r in 0..rows {
+            for c in 0..columns {
+                let (left, right, up) = (c > 0, c + 1 < columns, r + 1 < rows);
                 let mut tie = |tied: bool, r2: usize, c2: usize, x: f64, y: f64| {
                     if tied {
                         ties.push(Tie { ends: [at(r, c), at(r2, c2)], between: Vector3::new(x, y, 0.0) });
@@ -99,22 +106,18 @@ impl Scene {
         let diagonal = mesh.links.diagonal;
         let corners = Mesh { links: Links { diagonal: false, ..mesh.links }, ..mesh.clone() };
         let mut ties = self.lay_grid(&corners);
+        let [rows, columns] = [mesh.rows, mesh.columns].map(|n| n + 2 * mesh.border_rows);
+        let first_centre = self.position.len();
+        self.lay_tires(mesh, 0.5, rows - 1, columns - 1);
         let (dx, dy) = (0.5 * mesh.column_spacing_m, 0.5 * mesh.row_spacing_m);
-        for r in 0..mesh.rows - 1 {
-            for c in 0..mesh.columns - 1 {
-                let centre = self.position.len();
-                let (x, y) = (c as f64 + 0.5, r as f64 + 0.5);
-                let id = TireId::Cell { row: y + 1.0, column: x + 1.0 };
-                self.place(id, x * mesh.column_spacing_m, y * mesh.row_spacing_m);
-                if diagonal {
-                    let corner = r * mesh.columns + c;
-                    let spokes =
-                        [(0, dx, dy), (1, -dx, dy), (mesh.columns, dx, -dy), (mesh.columns + 1, -dx, -dy)];
-                    ties.extend(spokes.map(|(step, x, y)| Tie {
-                        ends: [corner + step, centre],
-                        between: Vector3::new(x, y, 0.0),
-                    }));
-                }
+        let spokes = [(0, dx, dy), (1, -dx, dy), (columns, dx, -dy), (columns + 1, -dx, -dy)];
+        for r in 0..rows - 1 {
+            for c in (0..columns - 1).filter(|_| diagonal) {
+                let (corner, centre) = (r * columns + c, first_centre + r * (columns - 1) + c);
+                ties.extend(spokes.map(|(step, x, y)| Tie {
+                    ends: [corner + step, centre],
+                    between: Vector3::new(x, y, 0.0),
+                }));
             }
         }
         ties

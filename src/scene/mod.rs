@@ -43,6 +43,13 @@ pub enum TireId {
         /// Along x.
         column: f64,
     },
+    /// Ballast around a mesh, numbered on from it: from 0 downwards, or from one past the last.
+    Border {
+        /// Along y.
+        row: f64,
+        /// Along x.
+        column: f64,
+    },
     /// Place in a list layout, from 1.
     Listed(usize),
 }
@@ -51,7 +58,7 @@ impl TireId {
     /// The numbers of the address: row and column, or the place in the list.
     pub fn numbers(&self) -> Vec<f64> {
         match *self {
-            TireId::Cell { row, column } => vec![row, column],
+            TireId::Cell { row, column } | TireId::Border { row, column } => vec![row, column],
             TireId::Listed(n) => vec![n as f64],
         }
     }
@@ -60,7 +67,7 @@ impl TireId {
 impl std::fmt::Display for TireId {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            TireId::Cell { row, column } => write!(f, "{row}:{column}"),
+            TireId::Cell { row, column } | TireId::Border { row, column } => write!(f, "{row}:{column}"),
             TireId::Listed(n) => write!(f, "{n}"),
         }
     }

@@ -1,6 +1,6 @@
 //! What fires when: the firing times of one delay option, per tire.
 
-use super::Scene;
+use super::{Scene, TireId};
 use crate::plan::{BlastRow, Charge, Timing};
 
 /// One hole's impulse on one tire.
@@ -57,10 +57,9 @@ impl Scene {
     pub fn targets(&self, charge: &Charge) -> Vec<(usize, f64)> {
         match charge {
             Charge::UnderRow { row, launch_m_s } => {
-                let on_row =
-                    |id: &super::TireId| matches!(id, super::TireId::Cell { row: r, .. } if r == row);
-                let tires = self.tire.iter().enumerate().filter(|(_, id)| on_row(id));
-                tires.map(|(tire, _)| (tire, *launch_m_s)).collect()
+                let over = |&n: &usize| matches!(self.tire[n], TireId::Cell { row: r, .. } if r == *row);
+                let tires = (0..self.tire.len()).filter(over);
+                tires.map(|tire| (tire, *launch_m_s)).collect()
             }
             Charge::UnderTires { tires, launch_m_s } => {
                 tires.iter().map(|&tire| (tire, *launch_m_s)).collect()

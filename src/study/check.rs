@@ -7,8 +7,9 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use super::{Case, Effort, error};
-use crate::outcome::{End, History, Outcome, Peak};
+use crate::outcome::{Broken, End, History, Outcome, Peak};
 use crate::plan::{Accuracy, Method};
+use crate::scene::Shot;
 use crate::simulation::{Failure, Settings};
 use crate::verdict::{Estimate, Limits, Verdict};
 
@@ -27,6 +28,8 @@ pub struct Checked {
     pub drift: Estimate,
     /// Breaking force over greatest force; infinite when no cable pulls.
     pub safety_factor: f64,
+    /// Cables that broke, in order of time; none where the plan only reports overload.
+    pub broken: Vec<Broken>,
     /// Height and force over time.
     pub history: History,
     /// Method that gave the values.
@@ -131,6 +134,16 @@ pub fn check(
     effort: &Effort,
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Checked, Failure> {
+    check_shot(case, &case.shots[option], effort, watch)
+}
+
+/// Judges any shot under the shelter of a case.
+pub fn check_shot(
+    case: &Case,
+    shot: &Shot,
+    effort: &Effort,
+    watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+) -> Result<Checked, Failure> {
     let begun = Instant::now();
     let mut runs: Vec<(Outcome, Duration)> = Vec::new();
     let first = effort.step.unwrap_or_else(|| start_step(case, effort.method, effort.accuracy));
@@ -138,9 +151,9 @@ pub fn check(
     let mut add = |runs: &mut Vec<(Outcome, Duration)>, step: f64| -> Result<(), Failure> {
         let settings = Settings { method: effort.method, step, duration: case.plan.simulation.duration_s };
         let (done, start) = (runs.len(), Instant::now());
-        let outcome = case.model.run(&case.shots[option], &settings, &mut |motion| {
-            watch(Progress { runs: done, time: motion.time() })
-        })?;
+        let outcome = case
+            .model
+            .run(shot, &settings, &mut |motion| watch(Progress { runs: done, time: motion.time() }))?;
         runs.push((outcome, start.elapsed()));
         Ok(())
     };
@@ -195,6 +208,7 @@ fn judge(case: &Case, method: Method, runs: &[(Outcome, Duration)], total_wall: 
         force,
         drift,
         safety_factor: limits.breaking_force / force.value,
+        broken: last.0.broken.clone(),
         history: last.0.history.clone(),
         method,
         step: last.0.step,

@@ -4,11 +4,19 @@
 //! Nothing here prints, parses or computes physics.
 
 pub mod accuracy;
+pub mod batch;
 pub mod check;
 pub mod error;
+pub mod merge;
+pub mod orders;
+pub mod scatter;
+pub mod size;
+pub mod sweep;
 pub mod trace;
 
-use crate::plan::{Accuracy, Method, Plan};
+use serde::{Deserialize, Serialize};
+
+use crate::plan::{Accuracy, Method, Plan, Timing};
 use crate::scene::{Scene, Shot};
 use crate::simulation::Model;
 use crate::verdict::Limits;
@@ -44,6 +52,12 @@ impl Case {
 }
 
 impl Case {
+    /// The shot of blast rows fired in `order`, `interval` [s] apart.
+    pub fn shot(&self, order: &[usize], interval: f64) -> Shot {
+        let timing = Timing::Interval { order: order.to_vec(), interval_ms: interval * 1e3 };
+        Shot::new(self.scene(), &self.plan.blast_rows, &timing)
+    }
+
     /// Its shelter.
     pub fn scene(&self) -> &Scene {
         self.model.scene()
@@ -56,7 +70,7 @@ impl Case {
 }
 
 /// How finely to compute; from the plan, with what the command line overrides.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Effort {
     /// Which method.
     pub method: Method,
@@ -70,5 +84,43 @@ impl Effort {
     /// As the plan asks.
     pub fn of(plan: &Plan) -> Self {
         Self { method: plan.simulation.method, accuracy: plan.simulation.accuracy, step: None }
+    }
+}
+
+/// Intervals between rows to try.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Intervals {
+    /// First [s].
+    pub from: f64,
+    /// Last [s].
+    pub to: f64,
+    /// Apart [s].
+    pub step: f64,
+}
+
+impl Intervals {
+    /// Each of them [s].
+    pub fn values(&self) -> Vec<f64> {
+        let count = ((self.to - self.from) / self.step + 1e-9).floor() as usize;
+        (0..=count).map(|n| self.from + n as f64 * self.step).collect()
+    }
+}
+
+/// One of several machines' share of a study.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Shard {
+    /// Which, from 0.
+    pub index: usize,
+    /// Of how many.
+    pub of: usize,
+}
+
+impl Shard {
+    /// All the work.
+    pub const WHOLE: Shard = Shard { index: 0, of: 1 };
+
+    /// Whether a piece of work falls to it.
+    pub fn has(self, number: usize) -> bool {
+        number % self.of == self.index
     }
 }

@@ -31,6 +31,7 @@ fn checked(verdict: Verdict) -> Checked {
     let force = estimate(61_234.0, 45.0, 0.123, 3);
     let limit = Reason { quantity: Quantity::Force, verdict, estimate: force, limit: 61_019.0 };
     Checked {
+        broken: Vec::new(),
         verdict,
         reasons: if verdict == Verdict::Pass { Vec::new() } else { vec![limit] },
         height: estimate(1.2345, 0.0012, 0.456, 7),

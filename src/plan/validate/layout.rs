@@ -26,8 +26,8 @@ pub fn read_layout(table: Table<'_>, mistakes: &Mistakes) -> Option<Layout> {
         Kind::Quincunx => Layout::Quincunx(read_mesh(&table, 2, mistakes)),
     };
     let tires = match &layout {
-        Layout::Grid(mesh) => mesh.rows.saturating_mul(mesh.columns),
-        Layout::Quincunx(mesh) => mesh.rows.saturating_mul(mesh.columns).saturating_mul(2),
+        Layout::Grid(mesh) => mesh.corners(),
+        Layout::Quincunx(mesh) => mesh.corners().saturating_mul(2),
         Layout::List { tires, .. } => tires.len(),
     };
     if tires > MOST_TIRES {
@@ -59,7 +59,9 @@ fn read_mesh(table: &Table<'_>, least: usize, mistakes: &Mistakes) -> Mesh {
         }
     }
     let [row, column, diagonal] = tied;
-    Mesh { rows, columns, row_spacing_m, column_spacing_m, links: Links { row, column, diagonal } }
+    let border_rows = if table.has("border_rows") { table.whole("border_rows", 0..=1000, "1") } else { 0 };
+    let links = Links { row, column, diagonal };
+    Mesh { rows, columns, row_spacing_m, column_spacing_m, links, border_rows }
 }
 
 fn read_spacing(table: &Table<'_>) -> (f64, f64) {

@@ -2,11 +2,13 @@
 
 mod layout;
 mod shot;
+mod study;
 
 use toml::de::DeTable;
 
 use self::layout::{check_gaps, read_layout};
 use self::shot::{read_blast_rows, read_delays};
+use self::study::{read_scatter, read_size};
 use super::diagnostic::Diagnostics;
 use super::read::{At, Mistakes, Table};
 use super::{Accuracy, CableSpec, Limits, Method, Plan, SimulationSpec, TireSpec};
@@ -32,7 +34,7 @@ pub fn parse(path: &str, text: &str) -> Result<Plan, Diagnostics> {
         return Err(Diagnostics::new(path, source, mistakes.take()));
     }
     let root = Table::new("the plan", 0..0, document.get_ref(), &mistakes);
-    let plan = read_plan(path, &root, &mistakes);
+    let plan = read_plan(path, text, &root, &mistakes);
     root.finish();
     if mistakes.count() > 0 {
         return Err(Diagnostics::new(path, source, mistakes.take()));
@@ -41,7 +43,7 @@ pub fn parse(path: &str, text: &str) -> Result<Plan, Diagnostics> {
     plan.ok_or_else(|| Diagnostics::unreadable(path, "the plan is incomplete".to_owned(), ""))
 }
 
-fn read_plan(path: &str, root: &Table<'_>, mistakes: &Mistakes) -> Option<Plan> {
+fn read_plan(path: &str, text: &str, root: &Table<'_>, mistakes: &Mistakes) -> Option<Plan> {
     let title =
         root.text_if("title", "\"…\"").map_or_else(|| path.to_owned(), |title| title.value.to_owned());
     let simulation = read_simulation(root.table_if("simulation"));
@@ -61,8 +63,11 @@ fn read_plan(path: &str, root: &Table<'_>, mistakes: &Mistakes) -> Option<Plan> 
     let blast_rows = read_blast_rows(root, layout.as_ref(), simulation.gravity_m_s2, mistakes);
     let limits = root.table("limits", "flight_height_m and cable_safety_factor").map(read_limits);
     let delays = read_delays(root, &blast_rows, mistakes);
+    let scatter = root.table_if("scatter").map(|table| read_scatter(table, mistakes));
+    let size = root.table_if("size").map(|table| read_size(table, mistakes)).unwrap_or_default();
     Some(Plan {
         path: path.to_owned(),
+        text: text.to_owned(),
         title,
         layout: layout?,
         tire: tire?,
@@ -72,6 +77,8 @@ fn read_plan(path: &str, root: &Table<'_>, mistakes: &Mistakes) -> Option<Plan> 
         limits: limits?,
         delays,
         simulation,
+        scatter,
+        size,
     })
 }
 
@@ -174,6 +181,7 @@ fn read_cable(table: Table<'_>, mistakes: &Mistakes) -> CableSpec {
         breaking_force_kn: breaking_force_kn * termination_percent * 1e-2,
         slack_percent: table.number("slack_percent", Some(0.0), 0.0..=1e3, "2"),
         termination_percent,
+        breaks: table.word("on_overload", &[("report", false), ("break", true)]),
     };
     table.finish();
     spec

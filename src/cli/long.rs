@@ -1,0 +1,92 @@
+//! Running a long study from the command line: on the threads asked for, with a progress bar, ended by a signal.
+
+use std::io::{self, Write};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::{Compute, Status};
+use crate::simulation::Failure;
+use crate::study::batch::Progress;
+use crate::study::{Intervals, Shard};
+
+/// How often the bar is drawn and signals are looked for.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// Runs `work`; the bar shows only where standard error is a terminal.
+pub fn run<T: Send>(
+    compute: &Compute,
+    work: impl FnOnce(&Progress) -> Result<T, Failure> + Send,
+) -> Result<T, Failure> {
+    let (progress, signal) = (Progress::default(), Arc::new(AtomicBool::new(false)));
+    #[cfg(unix)]
+    for number in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM, signal_hook::consts::SIGHUP] {
+        // Without a handler the signal ends the program at once, which is as good.
+        let _ = signal_hook::flag::register(number, Arc::clone(&signal));
+    }
+    let template = "{bar:30} {pos} of {len} shots, {eta} left";
+    let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+    let bar = ProgressBar::new(0).with_style(style);
+    let result = std::thread::scope(|scope| {
+        let study = scope.spawn(|| compute.on_threads(|| work(&progress)));
+        while !study.is_finished() {
+            std::thread::sleep(LOOK);
+            let (done, total) = progress.counts();
+            bar.set_length(total as u64);
+            bar.set_position(done as u64);
+            if signal.load(Ordering::Relaxed) {
+                progress.stop();
+            }
+        }
+        study.join()
+    });
+    bar.finish_and_clear();
+    result.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+}
+
+/// What a study without a result says to the shell.
+pub fn failed(failure: &Failure) -> io::Result<Status> {
+    if matches!(failure, Failure::Stopped { .. }) {
+        eprintln!("interrupted");
+        return Ok(Status::Interrupted);
+    }
+    super::load::wrong(&failure.to_string())
+}
+
+/// Writes a finished text to standard output.
+pub fn print(text: &str) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes())?;
+    out.flush()
+}
+
+/// `FROM..TO:STEP` in milliseconds.
+pub fn intervals(text: &str) -> Result<Intervals, String> {
+    let wrong = || format!("'{text}' is no range of intervals: write FROM..TO:STEP in ms, such as 0..500:5");
+    let (range, step) = text.split_once(':').ok_or_else(wrong)?;
+    let (from, to) = range.split_once("..").ok_or_else(wrong)?;
+    let number = |text: &str| text.trim().parse::<f64>().map(|ms| ms * 1e-3).map_err(|_| wrong());
+    let intervals = Intervals { from: number(from)?, to: number(to)?, step: number(step)? };
+    let Intervals { from, to, step } = intervals;
+    if !(from >= 0.0 && to >= from && to <= 1e6 && step > 0.0) {
+        return Err(wrong());
+    }
+    if (to - from) / step > 1e5 {
+        return Err(format!("'{text}' is more than 100,000 intervals: take a longer step"));
+    }
+    Ok(intervals)
+}
+
+/// `I/N`, I from 1.
+pub fn shard(text: &str) -> Result<Shard, String> {
+    let wrong = || format!("'{text}' is no share: write I/N, such as 1/4 to 4/4");
+    let (index, of) = text.split_once('/').ok_or_else(wrong)?;
+    let [index, of] = [index, of].map(|text| text.trim().parse::<usize>().map_err(|_| wrong()));
+    let (index, of) = (index?, of?);
+    if index == 0 || index > of {
+        return Err(wrong());
+    }
+    Ok(Shard { index: index - 1, of })
+}

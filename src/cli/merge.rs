@@ -1,0 +1,113 @@
+//! `shelter merge`: shares of a study joined; and the printing of what it and a single machine find.
+
+use std::io::{self, BufWriter, IsTerminal, Write};
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::{FormatArg, Look, Status, load, long};
+use crate::plan::Plan;
+use crate::report;
+use crate::study::merge::{Findings, Head, Question, SCHEMA, merge};
+use crate::study::orders::{Orders, is_complete};
+use crate::study::scatter::swaps;
+use crate::study::{Case, Effort, Shard};
+use crate::verdict::Verdict;
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Files that `orders` or `scatter` wrote with --shard, all of them
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    format: FormatArg,
+}
+
+pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
+    let mut shares = Vec::new();
+    for file in &arguments.files {
+        match std::fs::read_to_string(file) {
+            Ok(text) => shares.push((file.display().to_string(), text)),
+            Err(error) => return load::wrong(&format!("cannot read {}: {error}", file.display())),
+        }
+    }
+    let (head, findings) = match merge(&shares) {
+        Ok(merged) => merged,
+        Err(message) => return load::wrong(&message),
+    };
+    let case = match Plan::parse(&head.plan, &head.text) {
+        Ok(plan) => Case::new(plan),
+        Err(mistakes) => return load::wrong(&mistakes.to_string()),
+    };
+    let answer = Answer { case: &case, question: head.question, effort: head.effort, findings };
+    print(answer, None, arguments.format, look)
+}
+
+/// What a study of many shots found.
+pub struct Answer<'a> {
+    pub case: &'a Case,
+    pub question: Question,
+    pub effort: Effort,
+    pub findings: Findings,
+}
+
+/// Prints all that was found, or this machine's share of it.
+pub fn print(answer: Answer<'_>, shard: Option<Shard>, format: FormatArg, look: &Look) -> io::Result<Status> {
+    if let Some(shard) = shard {
+        return write_share(answer, shard);
+    }
+    let Answer { case, question, findings, .. } = answer;
+    let style = look.style(io::stdout().is_terminal());
+    let (text, all_pass) = match (findings, question) {
+        (Findings::Scatter(samples), Question::Scatter { spec, draw }) => {
+            let text = match format {
+                FormatArg::Text => report::scatter::text(case, &draw, &samples, style),
+                FormatArg::Json => {
+                    let swaps = swaps(case, &spec, super::scatter::SWAP);
+                    report::json(&report::scatter::Document::new(case, &draw, &samples, &swaps))
+                }
+                FormatArg::Csv => report::csv(report::scatter::lines(case, &samples)),
+            };
+            (text, samples.iter().all(|sample| sample.envelope.verdict == Verdict::Pass))
+        }
+        (Findings::Orders(tried), _) => {
+            let orders = Orders::new(case, tried, is_complete(case));
+            let text = match format {
+                FormatArg::Text => report::orders::text(case, &orders, style),
+                FormatArg::Json => report::json(&report::orders::Document::new(case, &orders)),
+                FormatArg::Csv => {
+                    report::csv(orders.ranked.iter().map(|tried| report::orders::Line::new(case, tried)))
+                }
+            };
+            (text, orders.passing() == orders.ranked.len())
+        }
+        (Findings::Scatter(_), Question::Orders { .. }) => {
+            return load::wrong("the shares do not fit together");
+        }
+    };
+    long::print(&text)?;
+    Ok(if all_pass { Status::Pass } else { Status::Fail })
+}
+
+fn write_share(answer: Answer<'_>, shard: Shard) -> io::Result<Status> {
+    let Answer { case, question, effort, findings } = answer;
+    let head = Head {
+        schema: SCHEMA.to_owned(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        question,
+        effort,
+        plan: case.plan.path.clone(),
+        text: case.plan.text.clone(),
+        shard,
+    };
+    let mut out = BufWriter::new(io::stdout().lock());
+    let mut line = |text: serde_json::Result<String>| writeln!(out, "{}", text?);
+    line(serde_json::to_string(&head))?;
+    match findings {
+        Findings::Orders(tried) => tried.iter().try_for_each(|one| line(serde_json::to_string(one)))?,
+        Findings::Scatter(samples) => samples.iter().try_for_each(|one| line(serde_json::to_string(one)))?,
+    }
+    out.flush()?;
+    Ok(Status::Pass)
+}

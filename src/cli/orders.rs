@@ -1,0 +1,68 @@
+//! `shelter orders`: every firing order, the worst and the best.
+
+use std::io;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::merge::{self, Answer};
+use super::{Compute, FormatArg, Look, Status, load, long};
+use crate::plan::Timing;
+use crate::study::merge::{Findings, Question};
+use crate::study::orders::{MOST_ROWS, is_complete, orders};
+use crate::study::{Case, Intervals, Shard};
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Plan to study; `-` reads standard input
+    plan: PathBuf,
+    /// Intervals in ms; default: those of the delay options
+    #[arg(long, value_name = "FROM..TO:STEP", value_parser = long::intervals)]
+    interval: Option<Intervals>,
+    /// This machine's share; `shelter merge` joins the shares
+    #[arg(long, value_name = "I/N", value_parser = long::shard)]
+    shard: Option<Shard>,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    format: FormatArg,
+    #[command(flatten)]
+    compute: Compute,
+}
+
+/// Intervals of the delay options [s], each once.
+pub fn intervals_of(case: &Case) -> Vec<f64> {
+    let interval = |timing: &Timing| match timing {
+        Timing::Interval { interval_ms, .. } => Some(interval_ms * 1e-3),
+        Timing::At(_) => None,
+    };
+    let mut all: Vec<f64> = case.plan.delays.iter().filter_map(|delay| interval(&delay.timing)).collect();
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    all
+}
+
+pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
+    let Some(case) = load::cases([&arguments.plan], look).and_then(|mut cases| cases.pop()) else {
+        return Ok(Status::Wrong);
+    };
+    let intervals_s = arguments.interval.map_or_else(|| intervals_of(&case), |interval| interval.values());
+    if intervals_s.is_empty() {
+        return load::wrong("no delay option has an interval: give --interval FROM..TO:STEP");
+    }
+    if arguments.shard.is_some() && !is_complete(&case) {
+        return load::wrong(&format!(
+            "orders of more than {MOST_ROWS} rows are searched, not shared: leave out --shard"
+        ));
+    }
+    let (effort, shard) = (arguments.compute.effort(&case.plan), arguments.shard.unwrap_or(Shard::WHOLE));
+    let tried =
+        long::run(&arguments.compute, |progress| orders(&case, &intervals_s, shard, &effort, progress));
+    match tried {
+        Err(failure) => long::failed(&failure),
+        Ok(tried) => {
+            let question = Question::Orders { intervals_s };
+            let answer = Answer { case: &case, question, effort, findings: Findings::Orders(tried) };
+            merge::print(answer, arguments.shard, arguments.format, look)
+        }
+    }
+}

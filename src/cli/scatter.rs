@@ -1,0 +1,81 @@
+//! `shelter scatter`: how often each option fails.
+
+use std::io;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::merge::{self, Answer};
+use super::{Compute, FormatArg, Look, Status, load, long};
+use crate::report;
+use crate::study::Shard;
+use crate::study::merge::{Findings, Question};
+use crate::study::scatter::{Draw, scatter, swaps};
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Plan to study, with a section [scatter]; `-` reads standard input
+    plan: PathBuf,
+    #[command(flatten)]
+    draw: DrawArguments,
+    /// This machine's share; `shelter merge` joins the shares
+    #[arg(long, value_name = "I/N", value_parser = long::shard, conflicts_with = "until_certain")]
+    shard: Option<Shard>,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    format: FormatArg,
+    #[command(flatten)]
+    compute: Compute,
+}
+
+/// How many samples, from which seed.
+#[derive(Args, Clone, Copy)]
+pub struct DrawArguments {
+    /// Samples of every option
+    #[arg(long, value_name = "N", default_value = "1000", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
+    samples: u32,
+    /// Of the random numbers
+    #[arg(long, value_name = "N", default_value = "1")]
+    seed: u64,
+    /// Stop an option once it certainly fails less, or more, often than this [%]
+    #[arg(long, value_name = "PERCENT", num_args = 0..=1, default_missing_value = "1", value_parser = super::positive)]
+    until_certain: Option<f64>,
+}
+
+impl DrawArguments {
+    pub fn draw(self) -> Draw {
+        Draw {
+            samples: self.samples as usize,
+            seed: self.seed,
+            certain_at: self.until_certain.map(|percent| percent * 1e-2),
+        }
+    }
+}
+
+/// What a plan without a section [scatter] is told.
+pub const NO_SCATTER: &str = "the plan does not say what scatters: add a section such as\n\n[scatter]\ndetonator = \"pyrotechnic\"\nlaunch_cv_percent = 10";
+
+/// A swap of rows is worth a warning from this probability on.
+pub const SWAP: f64 = 1e-4;
+
+pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
+    let Some(case) = load::cases([&arguments.plan], look).and_then(|mut cases| cases.pop()) else {
+        return Ok(Status::Wrong);
+    };
+    let Some(spec) = case.plan.scatter else { return load::wrong(NO_SCATTER) };
+    for swap in swaps(&case, &spec, SWAP) {
+        eprintln!("warning: {}", report::scatter::warning(&case, &swap));
+    }
+    let draw = arguments.draw.draw();
+    let (effort, shard) = (arguments.compute.effort(&case.plan), arguments.shard.unwrap_or(Shard::WHOLE));
+    let samples =
+        long::run(&arguments.compute, |progress| scatter(&case, &spec, &draw, shard, &effort, progress));
+    match samples {
+        Err(failure) => long::failed(&failure),
+        Ok(samples) => {
+            let question = Question::Scatter { spec, draw };
+            let answer = Answer { case: &case, question, effort, findings: Findings::Scatter(samples) };
+            merge::print(answer, arguments.shard, arguments.format, look)
+        }
+    }
+}

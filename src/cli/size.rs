@@ -1,0 +1,123 @@
+//! `shelter size`: the lightest shelter that holds.
+
+use std::io::{self, IsTerminal};
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::scatter::{DrawArguments, NO_SCATTER};
+use super::{Compute, FormatArg, Look, Status, load, long, orders};
+use crate::plan::{Layout, edit};
+use crate::report;
+use crate::ropes::catalogue;
+use crate::study::orders::{MOST_ROWS, is_complete};
+use crate::study::size::{Combination, Demand, size};
+use crate::study::{Case, Intervals};
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Plan to size; its section [size] says what may be chosen
+    plan: PathBuf,
+    /// Every order of the rows must pass, not only the plan's options
+    #[arg(long)]
+    any_order: bool,
+    /// With --any-order: intervals in ms; default: those of the delay options
+    #[arg(long, value_name = "FROM..TO:STEP", value_parser = long::intervals, requires = "any_order")]
+    interval: Option<Intervals>,
+    /// 99 % of the samples of every option must pass
+    #[arg(long, conflicts_with = "any_order")]
+    scatter: bool,
+    #[command(flatten)]
+    draw: DrawArguments,
+    /// Family of ropes; default: that of [size], else the whole catalogue
+    #[arg(long, value_name = "FAMILY")]
+    ropes: Option<String>,
+    /// Most rows of ballast on each side; default: that of [size], else none
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=100))]
+    border: Option<u16>,
+    /// Write the choice into the plan
+    #[arg(long)]
+    write: bool,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    format: FormatArg,
+    #[command(flatten)]
+    compute: Compute,
+}
+
+pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
+    let Some(mut case) = load::cases([&arguments.plan], look).and_then(|mut cases| cases.pop()) else {
+        return Ok(Status::Wrong);
+    };
+    let demand = match choose(arguments, &mut case) {
+        Ok(demand) => demand,
+        Err(message) => return load::wrong(&message),
+    };
+    let effort = arguments.compute.effort(&case.plan);
+    let sizing = long::run(&arguments.compute, |progress| size(&case.plan, &demand, &effort, progress));
+    let sizing = match sizing {
+        Ok(sizing) => sizing,
+        Err(failure) => return long::failed(&failure),
+    };
+    long::print(&match arguments.format {
+        FormatArg::Text => report::size::text(&case, &sizing, look.style(io::stdout().is_terminal())),
+        FormatArg::Json => report::json(&report::size::Document::new(&case, &sizing)),
+        FormatArg::Csv => report::csv(sizing.combinations.iter().map(report::size::Line::new)),
+    })?;
+    match sizing.found() {
+        Some(found) => {
+            if arguments.write {
+                write(arguments, &case, found)?;
+            }
+            Ok(Status::Pass)
+        }
+        None => Ok(Status::Fail),
+    }
+}
+
+/// What must hold; puts what the command line chooses into the plan.
+fn choose(arguments: &Arguments, case: &mut Case) -> Result<Demand, String> {
+    if let Some(family) = &arguments.ropes {
+        let families = catalogue().families();
+        if !families.contains(&family.as_str()) {
+            return Err(format!(
+                "no family of ropes '{family}' in the catalogue, which has: {}",
+                families.join(", ")
+            ));
+        }
+        case.plan.size.family = Some(family.clone());
+    }
+    if let Some(border) = arguments.border {
+        case.plan.size.most_border_rows = border.into();
+    }
+    if case.plan.size.most_border_rows > 0 && matches!(case.plan.layout, Layout::List { .. }) {
+        return Err("a list layout has no border rows: leave them out".to_owned());
+    }
+    if arguments.scatter {
+        let spec = case.plan.scatter.ok_or(NO_SCATTER)?;
+        return Ok(Demand::Samples(spec, arguments.draw.draw()));
+    }
+    if !arguments.any_order {
+        return Ok(Demand::Options);
+    }
+    if !is_complete(case) {
+        return Err(format!("--any-order tries all orders of at most {MOST_ROWS} blast rows"));
+    }
+    let intervals =
+        arguments.interval.map_or_else(|| orders::intervals_of(case), |interval| interval.values());
+    if intervals.is_empty() {
+        return Err("no delay option has an interval: give --interval FROM..TO:STEP".to_owned());
+    }
+    Ok(Demand::AnyOrder(intervals))
+}
+
+fn write(arguments: &Arguments, case: &Case, found: &Combination) -> io::Result<()> {
+    if std::fs::read_to_string(&arguments.plan)? != case.plan.text {
+        return Err(io::Error::other("the plan has changed meanwhile; nothing was written"));
+    }
+    let text = edit::write_sizes(&case.plan.text, &found.rope.name, found.tire_mass, found.border_rows)
+        .map_err(io::Error::other)?;
+    edit::save(&arguments.plan, &text)?;
+    eprintln!("written: {}", arguments.plan.display());
+    Ok(())
+}

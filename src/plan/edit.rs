@@ -1,0 +1,95 @@
+//! Changes to the text of a plan that leave everything else, comments and formatting, as it was.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use toml_edit::{DocumentMut, Item, Table, value};
+
+use super::Plan;
+use crate::ropes::Rope;
+
+impl Plan {
+    /// The plan with another rope, tire mass and border; what else it says stays.
+    pub fn with(&self, rope: &Rope, tire_mass_kg: f64, border_rows: usize) -> Plan {
+        let mut plan = self.clone();
+        plan.cable.rope = Some(rope.name.clone());
+        plan.cable.axial_stiffness_kn = rope.axial_stiffness_kn;
+        plan.cable.breaking_force_kn = rope.breaking_force_kn * plan.cable.termination_percent * 1e-2;
+        plan.tire.mass_kg = tire_mass_kg;
+        if let super::Layout::Grid(mesh) | super::Layout::Quincunx(mesh) = &mut plan.layout {
+            mesh.border_rows = border_rows;
+        }
+        plan
+    }
+}
+
+/// The text of a plan with another rope, tire mass and border.
+pub fn write_sizes(
+    text: &str,
+    rope: &str,
+    tire_mass_kg: f64,
+    border_rows: usize,
+) -> Result<String, toml_edit::TomlError> {
+    let mut document: DocumentMut = text.parse()?;
+    let section = |document: &mut DocumentMut, name: &str, change: &dyn Fn(&mut dyn toml_edit::TableLike)| {
+        let item = document.entry(name).or_insert(Item::Table(Table::new()));
+        if let Some(table) = item.as_table_like_mut() {
+            change(table);
+        }
+    };
+    section(&mut document, "cable", &|cable| {
+        let comment = cable.key("axial_stiffness_kn").and_then(|key| key.leaf_decor().prefix().cloned());
+        cable.remove("axial_stiffness_kn");
+        cable.remove("breaking_force_kn");
+        set(cable, "rope", rope.into());
+        if let (Some(comment), Some(mut key)) = (comment, cable.key_mut("rope")) {
+            key.leaf_decor_mut().set_prefix(comment);
+        }
+    });
+    section(&mut document, "tire", &|tire| set(tire, "mass_kg", tire_mass_kg.into()));
+    section(&mut document, "shelter", &|shelter| {
+        if border_rows > 0 || shelter.contains_key("border_rows") {
+            set(shelter, "border_rows", (border_rows as i64).into());
+        }
+    });
+    Ok(document.to_string())
+}
+
+/// Replaces a file with `text` whole: whoever reads it, or a loss of power, finds the old text or the new.
+pub fn save(path: &Path, text: &str) -> io::Result<()> {
+    // A link stays a link: what it names is replaced.
+    let path = path.canonicalize()?;
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let mut new = tempfile::NamedTempFile::new_in(folder)?;
+    new.write_all(text.as_bytes())?;
+    new.as_file().set_permissions(path.metadata()?.permissions())?;
+    new.as_file().sync_all()?;
+    new.persist(&path)?;
+    Ok(())
+}
+
+/// Puts a value where the old one stood, with the comment beside it.
+fn set(table: &mut dyn toml_edit::TableLike, key: &str, mut new: toml_edit::Value) {
+    match table.get_mut(key).and_then(Item::as_value_mut) {
+        Some(old) => {
+            *new.decor_mut() = old.decor().clone();
+            *old = new;
+        }
+        None => {
+            table.insert(key, value(new));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_was_chosen_changes() {
+        let text = "# top\n[shelter] # here\nrows = 5\n\n[tire]\nmass_kg = 280 # worn\n\n[cable]\n# ours\naxial_stiffness_kn = 1519\nbreaking_force_kn = 20.9\nslack_percent = 2\n";
+        let written = write_sizes(text, "GOST 2688-80 8.3", 350.0, 1).expect("TOML");
+        let expected = "# top\n[shelter] # here\nrows = 5\nborder_rows = 1\n\n[tire]\nmass_kg = 350.0 # worn\n\n[cable]\nslack_percent = 2\n# ours\nrope = \"GOST 2688-80 8.3\"\n";
+        assert_eq!(written, expected);
+    }
+}

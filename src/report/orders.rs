@@ -1,0 +1,133 @@
+//! The results of `orders`; schema `shelter.orders/1`.
+
+use serde::Serialize;
+
+use super::table::Style;
+use crate::study::Case;
+use crate::study::orders::{Orders, Tried};
+use crate::units::{self, Unit, value_and_error};
+use crate::verdict::Verdict;
+
+/// The document of one study.
+#[derive(Serialize)]
+pub struct Document {
+    schema: &'static str,
+    plan: String,
+    title: String,
+    limits: super::Limits,
+    count: usize,
+    complete: bool,
+    passing: usize,
+    worst: Option<Row>,
+    best: Option<Row>,
+    ranked: Vec<Row>,
+}
+
+/// One order, for JSON.
+#[derive(Serialize)]
+pub struct Row {
+    order: Vec<String>,
+    interval_s: f64,
+    #[serde(flatten)]
+    values: super::Values,
+}
+
+/// One order, for CSV.
+#[derive(Serialize)]
+pub struct Line {
+    order: String,
+    interval_s: f64,
+    verdict: Verdict,
+    flight_height_m: f64,
+    flight_height_error_m: f64,
+    cable_force_n: f64,
+    cable_force_error_n: f64,
+}
+
+impl Row {
+    fn new(case: &Case, tried: &Tried) -> Self {
+        Self {
+            order: super::row_names(case, &tried.order),
+            interval_s: tried.interval,
+            values: super::Values::new(&tried.envelope),
+        }
+    }
+}
+
+impl Line {
+    /// Of a tried order.
+    pub fn new(case: &Case, tried: &Tried) -> Self {
+        let Tried { envelope, .. } = tried;
+        Self {
+            order: super::row_names(case, &tried.order).join(" "),
+            interval_s: tried.interval,
+            verdict: envelope.verdict,
+            flight_height_m: envelope.height[0],
+            flight_height_error_m: envelope.height[1],
+            cable_force_n: envelope.force[0],
+            cable_force_error_n: envelope.force[1],
+        }
+    }
+}
+
+impl Document {
+    /// Of all orders tried.
+    pub fn new(case: &Case, orders: &Orders) -> Self {
+        let row = |tried: &Tried| Row::new(case, tried);
+        Self {
+            schema: "shelter.orders/1",
+            plan: case.plan.path.clone(),
+            title: case.plan.title.clone(),
+            limits: super::Limits::new(case),
+            count: orders.ranked.len(),
+            complete: orders.complete,
+            passing: orders.passing(),
+            worst: orders.ranked.first().map(row),
+            best: orders.ranked.last().map(row),
+            ranked: orders.ranked.iter().map(row).collect(),
+        }
+    }
+}
+
+/// Orders shown at each end of the ranking.
+const SHOWN: usize = 8;
+
+/// The ranking for reading.
+pub fn text(case: &Case, orders: &Orders, style: Style) -> String {
+    let mut text = super::heading(case);
+    let all = orders.ranked.len();
+    text += &format!(
+        "{all} orders {}, worst first\n\n",
+        if orders.complete {
+            "and intervals, all there are"
+        } else {
+            "searched: the worst may not be among them"
+        }
+    );
+    let names = |tried: &Tried| super::row_names(case, &tried.order).join(" ");
+    let width = orders.ranked.iter().map(|tried| names(tried).chars().count()).max().unwrap_or(0).max(5);
+    text += &format!(
+        "{:width$}  {:>8}  {:4}  {:>17}  {:>17}\n",
+        "order", "interval", "", "height, m", "force, kN"
+    );
+    for (n, tried) in orders.ranked.iter().enumerate() {
+        if n == SHOWN && all > 2 * SHOWN {
+            text += &format!("… {} more\n", all - 2 * SHOWN);
+        }
+        if n < SHOWN || n + SHOWN >= all {
+            let [[height, height_error], [force, force_error]] =
+                [tried.envelope.height, tried.envelope.force];
+            text += &format!(
+                "{:width$}  {:>8}  {}  {:>17}  {:>17}\n",
+                names(tried),
+                units::milliseconds(tried.interval),
+                style.word(tried.envelope.verdict),
+                value_and_error(height, height_error, Unit::Metre),
+                value_and_error(force, force_error, Unit::Kilonewton),
+            );
+        }
+    }
+    let verdict = if orders.passing() == all { Verdict::Pass } else { Verdict::Fail };
+    text += &format!("\n{}: {} of {all} orders pass\n", style.word(verdict), orders.passing());
+    style.plain(text)
+}

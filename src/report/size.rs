@@ -1,0 +1,164 @@
+//! The results of `size`; schema `shelter.size/1`.
+
+use serde::Serialize;
+
+use super::table::Style;
+use crate::study::Case;
+use crate::study::size::{Combination, Sizing, Trial};
+use crate::units::{Unit, value_and_error};
+use crate::verdict::Verdict;
+
+/// The document of one study.
+#[derive(Serialize)]
+pub struct Document {
+    schema: &'static str,
+    plan: String,
+    title: String,
+    found: bool,
+    #[serde(flatten)]
+    lightest: Option<Row>,
+    tried: usize,
+    not_tried: usize,
+    frontier: Vec<Row>,
+}
+
+/// One combination, for JSON.
+#[derive(Serialize)]
+pub struct Row {
+    rope: String,
+    tire_mass_kg: f64,
+    border_rows: usize,
+    tires: usize,
+    total_mass_kg: f64,
+    use_of_limits: Option<f64>,
+    worst: Option<super::Values>,
+}
+
+/// One combination, for CSV.
+#[derive(Serialize)]
+pub struct Line {
+    rope: String,
+    tire_mass_kg: f64,
+    border_rows: usize,
+    tires: usize,
+    total_mass_kg: f64,
+    holds: bool,
+    tried: bool,
+    use_of_limits: Option<f64>,
+}
+
+impl Row {
+    fn new(combination: &Combination) -> Self {
+        let Combination { rope, tire_mass, border_rows, tires, total_mass, trial } = combination;
+        Self {
+            rope: rope.name.clone(),
+            tire_mass_kg: *tire_mass,
+            border_rows: *border_rows,
+            tires: *tires,
+            total_mass_kg: *total_mass,
+            use_of_limits: trial.map(|trial| trial.use_of_limits),
+            worst: trial.map(|trial| super::Values::new(&trial.worst)),
+        }
+    }
+}
+
+impl Line {
+    /// Of a combination.
+    pub fn new(combination: &Combination) -> Self {
+        let row = Row::new(combination);
+        Self {
+            rope: row.rope,
+            tire_mass_kg: row.tire_mass_kg,
+            border_rows: row.border_rows,
+            tires: row.tires,
+            total_mass_kg: row.total_mass_kg,
+            holds: combination.trial.is_some_and(|trial| trial.holds),
+            tried: combination.trial.is_some(),
+            use_of_limits: row.use_of_limits,
+        }
+    }
+}
+
+impl Document {
+    /// Of all combinations.
+    pub fn new(case: &Case, sizing: &Sizing) -> Self {
+        let found = sizing.found();
+        Self {
+            schema: "shelter.size/1",
+            plan: case.plan.path.clone(),
+            title: case.plan.title.clone(),
+            found: found.is_some(),
+            lightest: found.map(Row::new),
+            tried: sizing.tried(),
+            not_tried: sizing.combinations.len() - sizing.tried(),
+            frontier: sizing.frontier().into_iter().map(Row::new).collect(),
+        }
+    }
+}
+
+/// The frontier for reading.
+pub fn text(case: &Case, sizing: &Sizing, style: Style) -> String {
+    let plan = &case.plan;
+    let mut text = format!("{} · {}\n", plan.title, plan.path);
+    text += &format!(
+        "limits: height {} m, breaking force / {}\n",
+        plan.limits.flight_height_m, plan.limits.cable_safety_factor
+    );
+    let (tried, all) = (sizing.tried(), sizing.combinations.len());
+    text += &format!("{tried} of {all} combinations tried");
+    if tried < all {
+        text +=
+            &format!("; {} have the stiffness of a stronger rope that fails, and move alike", all - tried);
+    }
+    text += "\n\n";
+    let frontier = sizing.frontier();
+    let Some(found) = sizing.found() else {
+        text += &format!("{}: no combination holds\n", style.word(Verdict::Fail));
+        if let Some((combination, trial)) = nearest(sizing) {
+            text += &format!("nearest: {}\n", words(combination, &trial));
+        }
+        return style.plain(text);
+    };
+    text += &format!(
+        "{:26}  {:>7}  {:>6}  {:>5}  {:>9}  {:>6}  {:>17}  {:>17}\n",
+        "rope", "tire kg", "border", "tires", "total t", "margin", "height, m", "force, kN"
+    );
+    for combination in frontier {
+        let Some(trial) = combination.trial else { continue };
+        let [[height, height_error], [force, force_error]] = [trial.worst.height, trial.worst.force];
+        text += &format!(
+            "{:26}  {:>7}  {:>6}  {:>5}  {:>9.2}  {:>4.0} %  {:>17}  {:>17}\n",
+            combination.rope.name,
+            combination.tire_mass,
+            combination.border_rows,
+            combination.tires,
+            combination.total_mass * 1e-3,
+            1e2 * (1.0 - trial.use_of_limits),
+            value_and_error(height, height_error, Unit::Metre),
+            value_and_error(force, force_error, Unit::Kilonewton),
+        );
+    }
+    let word = style.word(Verdict::Pass);
+    if let Some(trial) = &found.trial {
+        text += &format!("\n{word}: lightest {}\n", words(found, trial));
+    }
+    style.plain(text)
+}
+
+/// The combination that uses least of the limits, of those that fail.
+fn nearest(sizing: &Sizing) -> Option<(&Combination, Trial)> {
+    let trials = sizing.combinations.iter().filter_map(|c| Some((c, c.trial?)));
+    trials.min_by(|a, b| a.1.use_of_limits.total_cmp(&b.1.use_of_limits))
+}
+
+fn words(combination: &Combination, trial: &Trial) -> String {
+    format!(
+        "{}, tires of {} kg, {} border rows: {:.2} t in all, {:.0} % of the limits used, {} shots judged",
+        combination.rope.name,
+        combination.tire_mass,
+        combination.border_rows,
+        combination.total_mass * 1e-3,
+        1e2 * trial.use_of_limits,
+        trial.shots,
+    )
+}

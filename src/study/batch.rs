@@ -1,0 +1,111 @@
+//! Many shots of one plan, spread over the cores: what all long studies share.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::check::{Checked, check_shot};
+use super::{Case, Effort};
+use crate::scene::Shot;
+use crate::simulation::Failure;
+use crate::verdict::{Estimate, Limits, Verdict};
+
+/// A long study seen from outside: how far it is, and a way to stop it.
+#[derive(Debug, Default)]
+pub struct Progress {
+    stop: AtomicBool,
+    done: AtomicUsize,
+    total: AtomicUsize,
+}
+
+impl Progress {
+    /// Ends the study within a step.
+    pub fn stop(&self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether it was told to end.
+    pub fn stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    /// Shots judged, and how many there will be as far as is known.
+    pub fn counts(&self) -> (usize, usize) {
+        (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed))
+    }
+
+    /// Announces so many more shots.
+    fn expect(&self, more: usize) {
+        self.total.fetch_add(more, Ordering::Relaxed);
+    }
+
+    /// Continue, unless told to end: for watchers.
+    pub fn flow(&self) -> ControlFlow<()> {
+        if self.stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+/// What is kept of a judged shot.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Envelope {
+    /// Pass, fail or undecided.
+    pub verdict: Verdict,
+    /// Greatest flight height and its error [m].
+    pub height: [f64; 2],
+    /// Greatest cable force and its error [N].
+    pub force: [f64; 2],
+    /// Greatest drift and its error [m].
+    pub drift: [f64; 2],
+}
+
+impl Envelope {
+    /// Of a checked shot.
+    pub fn of(checked: &Checked) -> Self {
+        let pair = |estimate: Estimate| [estimate.value, estimate.error];
+        Self {
+            verdict: checked.verdict,
+            height: pair(checked.height),
+            force: pair(checked.force),
+            drift: pair(checked.drift),
+        }
+    }
+
+    /// The greatest share of any limit: above 1 the shot fails.
+    pub fn use_of_limits(&self, limits: &Limits) -> f64 {
+        let drift = limits.drift.map_or(0.0, |limit| self.drift[0] / limit);
+        (self.height[0] / limits.height).max(self.force[0] / limits.force).max(drift)
+    }
+}
+
+/// Does `work` for every job, in parallel; results in the order of jobs, whatever the number of threads.
+pub fn each<J: Sync, T: Send>(
+    jobs: &[J],
+    progress: &Progress,
+    work: impl Fn(&J) -> Result<T, Failure> + Sync,
+) -> Result<Vec<T>, Failure> {
+    progress.expect(jobs.len());
+    let one = |job: &J| {
+        if progress.stopped() {
+            return Err(Failure::Stopped { at: 0.0 });
+        }
+        let result = work(job);
+        progress.done.fetch_add(1, Ordering::Relaxed);
+        result
+    };
+    let results: Vec<_> = jobs.par_iter().map(one).collect();
+    results.into_iter().collect()
+}
+
+/// Judges every shot, refined until sure.
+pub fn judge(
+    case: &Case,
+    shots: &[Shot],
+    effort: &Effort,
+    progress: &Progress,
+) -> Result<Vec<Envelope>, Failure> {
+    each(shots, progress, |shot| {
+        check_shot(case, shot, effort, &mut |_| progress.flow()).map(|checked| Envelope::of(&checked))
+    })
+}

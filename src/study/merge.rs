@@ -1,0 +1,112 @@
+//! A study spread over several machines: each writes its share as lines of JSON, merged into what one would have found.
+//!
+//! The first line of a share says what is studied, with the plan itself, so that merging needs no other file.
+
+use serde::{Deserialize, Serialize};
+
+use super::orders::Tried;
+use super::scatter::{Draw, Sample};
+use super::{Effort, Shard};
+use crate::plan::ScatterSpec;
+
+/// What is studied.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "study", rename_all = "lowercase")]
+pub enum Question {
+    /// Every order at these intervals.
+    Orders {
+        /// Between successive rows [s].
+        intervals_s: Vec<f64>,
+    },
+    /// Samples of every option.
+    Scatter {
+        /// What scatters.
+        spec: ScatterSpec,
+        /// How many.
+        draw: Draw,
+    },
+}
+
+/// The first line of a share.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Head {
+    /// `shelter.shard/1`.
+    pub schema: String,
+    /// Version of the program.
+    pub version: String,
+    /// What is studied.
+    pub question: Question,
+    /// How finely.
+    pub effort: Effort,
+    /// Name of the plan.
+    pub plan: String,
+    /// Its text.
+    pub text: String,
+    /// Which share.
+    pub shard: Shard,
+}
+
+/// Results of a study, in the order of one machine.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Findings {
+    /// Of `orders`.
+    Orders(Vec<Tried>),
+    /// Of `scatter`.
+    Scatter(Vec<Sample>),
+}
+
+/// The schema of shares.
+pub const SCHEMA: &str = "shelter.shard/1";
+
+/// Joins shares, given as `(name, text)`; says what is wrong with them.
+pub fn merge(shares: &[(String, String)]) -> Result<(Head, Findings), String> {
+    let mut heads: Vec<(&str, Head)> = Vec::new();
+    let (mut orders, mut samples) = (Vec::new(), Vec::new());
+    for (name, text) in shares {
+        let mut lines = text.lines().enumerate();
+        let wrong = |line: usize, error: &dyn std::fmt::Display| {
+            format!(
+                "{name}:{}: {error}; a share is what `shelter orders` or `scatter` wrote with --shard",
+                line + 1
+            )
+        };
+        let (_, first) = lines.next().ok_or_else(|| wrong(0, &"the file is empty"))?;
+        let head: Head = serde_json::from_str(first).map_err(|error| wrong(0, &error))?;
+        for (n, line) in lines {
+            match head.question {
+                Question::Orders { .. } => {
+                    orders.push(serde_json::from_str(line).map_err(|error| wrong(n, &error))?);
+                }
+                Question::Scatter { .. } => {
+                    samples.push(serde_json::from_str(line).map_err(|error| wrong(n, &error))?);
+                }
+            }
+        }
+        heads.push((name, head));
+    }
+    let (_, first) = heads.first().cloned().ok_or("no share to merge")?;
+    for (name, head) in &heads {
+        let alike = Head { shard: Shard { index: first.shard.index, ..head.shard }, ..head.clone() };
+        if alike != first {
+            return Err(format!("{name}: a share of another study than {}", heads[0].0));
+        }
+    }
+    for index in 0..first.shard.of {
+        let count = heads.iter().filter(|(_, head)| head.shard.index == index).count();
+        if count != 1 {
+            let which = format!("share {}/{}", index + 1, first.shard.of);
+            return Err(if count == 0 {
+                format!("{which} is missing")
+            } else {
+                format!("{which} is there twice")
+            });
+        }
+    }
+    orders.sort_by_key(|tried: &Tried| tried.number);
+    samples.sort_by_key(|sample: &Sample| (sample.option, sample.number));
+    let findings = match first.question {
+        Question::Orders { .. } => Findings::Orders(orders),
+        Question::Scatter { .. } => Findings::Scatter(samples),
+    };
+    Ok((first, findings))
+}

@@ -1,0 +1,159 @@
+//! Every order in which the blast rows can fire: the worst, the best.
+//!
+//! Up to [`MOST_ROWS`] rows all orders are tried. Beyond that orders are searched: random ones, and from the worst and the
+//! best of them exchanges of two rows while they lead on. A search may miss the worst order, and its result says so.
+
+use itertools::Itertools;
+use rand::SeedableRng;
+use rand::seq::SliceRandom;
+use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
+
+use super::batch::{Envelope, Progress, judge};
+use super::{Case, Effort, Shard};
+use crate::scene::Shot;
+use crate::simulation::Failure;
+use crate::verdict::Verdict;
+
+/// Most blast rows whose orders are all tried: 5,040 of them.
+pub const MOST_ROWS: usize = 7;
+/// Random orders of a search, per interval.
+const RANDOM: usize = 1000;
+/// Rounds of exchanges of a search, per interval and direction.
+const ROUNDS: usize = 8;
+
+/// One order at one interval.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Tried {
+    /// Its place among all that were to be tried.
+    pub number: usize,
+    /// Blast rows in firing order.
+    pub order: Vec<usize>,
+    /// Between successive rows [s].
+    pub interval: f64,
+    /// What it gives.
+    pub envelope: Envelope,
+}
+
+/// All orders tried.
+#[derive(Clone, Debug)]
+pub struct Orders {
+    /// From the worst to the best.
+    pub ranked: Vec<Tried>,
+    /// Whether these are all there are.
+    pub complete: bool,
+}
+
+impl Orders {
+    /// Ranks what was tried, by one machine or many.
+    pub fn new(case: &Case, mut tried: Vec<Tried>, complete: bool) -> Self {
+        let share = |tried: &Tried| tried.envelope.use_of_limits(&case.limits);
+        tried.sort_by(|a, b| share(b).total_cmp(&share(a)).then(a.number.cmp(&b.number)));
+        Self { ranked: tried, complete }
+    }
+
+    /// How many pass.
+    pub fn passing(&self) -> usize {
+        self.ranked.iter().filter(|tried| tried.envelope.verdict == Verdict::Pass).count()
+    }
+}
+
+/// Whether all orders of a plan are tried.
+pub fn is_complete(case: &Case) -> bool {
+    case.plan.blast_rows.len() <= MOST_ROWS
+}
+
+/// Tries the orders at every interval [s]; of them only those in `shard`.
+pub fn orders(
+    case: &Case,
+    intervals: &[f64],
+    shard: Shard,
+    effort: &Effort,
+    progress: &Progress,
+) -> Result<Vec<Tried>, Failure> {
+    let rows = case.plan.blast_rows.len();
+    if !is_complete(case) {
+        return search(case, intervals, effort, progress);
+    }
+    let all = intervals
+        .iter()
+        .flat_map(|&interval| (0..rows).permutations(rows).map(move |order| (order, interval)));
+    let jobs: Vec<_> = all.enumerate().filter(|(number, _)| shard.has(*number)).collect();
+    judge_orders(case, jobs, effort, progress)
+}
+
+type Job = (usize, (Vec<usize>, f64));
+
+fn judge_orders(
+    case: &Case,
+    jobs: Vec<Job>,
+    effort: &Effort,
+    progress: &Progress,
+) -> Result<Vec<Tried>, Failure> {
+    let shots: Vec<Shot> = jobs.iter().map(|(_, (order, interval))| case.shot(order, *interval)).collect();
+    let envelopes = judge(case, &shots, effort, progress)?;
+    let tried = |((number, (order, interval)), envelope): (Job, Envelope)| Tried {
+        number,
+        order,
+        interval,
+        envelope,
+    };
+    Ok(jobs.into_iter().zip(envelopes).map(tried).collect())
+}
+
+fn search(
+    case: &Case,
+    intervals: &[f64],
+    effort: &Effort,
+    progress: &Progress,
+) -> Result<Vec<Tried>, Failure> {
+    let rows: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
+    let mut tried: Vec<Tried> = Vec::new();
+    for (n, &interval) in intervals.iter().enumerate() {
+        let mut random = ChaCha8Rng::seed_from_u64(n as u64);
+        let mut starts = vec![rows.clone(), rows.iter().rev().copied().collect()];
+        starts.extend((0..RANDOM).map(|_| {
+            let mut order = rows.clone();
+            order.shuffle(&mut random);
+            order
+        }));
+        let first = tried.len();
+        add(case, &mut tried, starts, interval, effort, progress)?;
+        for sign in [1.0, -1.0] {
+            let rank = |tried: &Tried| sign * tried.envelope.use_of_limits(&case.limits);
+            for _ in 0..ROUNDS {
+                let here = tried[first..].iter().max_by(|a, b| rank(a).total_cmp(&rank(b))).cloned();
+                let Some(here) = here else { break };
+                let exchanged = (0..rows.len()).array_combinations().map(|[a, b]| {
+                    let mut order = here.order.clone();
+                    order.swap(a, b);
+                    order
+                });
+                let before = tried.len();
+                add(case, &mut tried, exchanged.collect(), interval, effort, progress)?;
+                if !tried[before..].iter().any(|next| rank(next) > rank(&here)) {
+                    break;
+                }
+            }
+        }
+    }
+    Ok(tried)
+}
+
+/// Judges the orders not yet tried at this interval.
+fn add(
+    case: &Case,
+    tried: &mut Vec<Tried>,
+    orders: Vec<Vec<usize>>,
+    interval: f64,
+    effort: &Effort,
+    progress: &Progress,
+) -> Result<(), Failure> {
+    let known: std::collections::HashSet<&[usize]> =
+        tried.iter().filter(|t| t.interval == interval).map(|t| t.order.as_slice()).collect();
+    let new = orders.into_iter().unique().filter(|order| !known.contains(order.as_slice()));
+    let jobs = new.enumerate().map(|(n, order)| (tried.len() + n, (order, interval))).collect();
+    let judged = judge_orders(case, jobs, effort, progress)?;
+    tried.extend(judged);
+    Ok(())
+}

@@ -1,0 +1,253 @@
+//! Detonators, launches and friction scatter from shot to shot: how often does each option fail?
+//!
+//! Every sample draws the firing time of every hole (normal about its nominal time), every launch velocity (lognormal, its
+//! mean as planned) and the friction (uniform over its range). Holes are independent. A sample's numbers come from the
+//! seed, its option and its number alone, so they are the same for any number of threads and any sharding.
+//!
+//! A sample is run once, at the step the accuracy level starts from. The nominal shot, refined as `check` does, tells how
+//! wrong such a run may be; a sample that comes that near a limit is judged as `check` does, too.
+
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, LogNormal, Normal};
+use serde::{Deserialize, Serialize};
+
+use super::batch::{Envelope, Progress, each};
+use super::check::{check_shot, start_step};
+use super::{Case, Effort, Shard};
+use crate::plan::ScatterSpec;
+use crate::scene::{Firing, Shot};
+use crate::simulation::{Failure, Settings};
+use crate::verdict::{Estimate, Verdict};
+
+/// One sample of one option.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sample {
+    /// Index of the option.
+    pub option: usize,
+    /// Number of the sample.
+    pub number: usize,
+    /// What it gives.
+    pub envelope: Envelope,
+}
+
+/// How many samples, from which seed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Draw {
+    /// Of every option.
+    pub samples: usize,
+    /// Of the random numbers.
+    pub seed: u64,
+    /// Stop an option once its verdict is certain: the interval of its failure probability lies on one side of this.
+    pub certain_at: Option<f64>,
+}
+
+/// Samples between two looks at whether an option's verdict is certain.
+const LOOK_EVERY: usize = 200;
+
+/// Draws and judges the samples of every option; of them only those in `shard`.
+pub fn scatter(
+    case: &Case,
+    spec: &ScatterSpec,
+    draw: &Draw,
+    shard: Shard,
+    effort: &Effort,
+    progress: &Progress,
+) -> Result<Vec<Sample>, Failure> {
+    let options: Vec<usize> = (0..case.shots.len()).collect();
+    let errors = each(&options, progress, |&option| {
+        let checked = check_shot(case, &case.shots[option], effort, &mut |_| progress.flow())?;
+        // Its error grew less than the step's square from the first step to the last.
+        let coarser = (start(case, effort) / checked.step).powi(2).max(1.0);
+        let relative = |of: Estimate| if of.value > 0.0 { of.error / of.value * coarser } else { 0.0 };
+        Ok([relative(checked.height), relative(checked.force), relative(checked.drift)])
+    })?;
+    let mut all = Vec::new();
+    for option in options {
+        let mut samples: Vec<Sample> = Vec::new();
+        let round = if draw.certain_at.is_some() { LOOK_EVERY } else { draw.samples };
+        while samples.len() < draw.samples && !is_certain(&samples, draw) {
+            let from = samples.len();
+            let numbers: Vec<usize> =
+                (from..(from + round).min(draw.samples)).filter(|&number| shard.has(number)).collect();
+            let done = each(&numbers, progress, |&number| {
+                let shot = drawn(&case.shots[option], spec, draw.seed, option, number);
+                let envelope = judge_sample(case, &shot, &errors[option], effort, progress)?;
+                Ok(Sample { option, number, envelope })
+            })?;
+            samples.extend(done);
+            if draw.certain_at.is_none() {
+                break;
+            }
+        }
+        all.extend(samples);
+    }
+    Ok(all)
+}
+
+fn start(case: &Case, effort: &Effort) -> f64 {
+    effort.step.unwrap_or_else(|| start_step(case, effort.method, effort.accuracy))
+}
+
+fn is_certain(samples: &[Sample], draw: &Draw) -> bool {
+    let Some(bound) = draw.certain_at.filter(|_| !samples.is_empty()) else { return false };
+    let failures = samples.iter().filter(|sample| sample.envelope.verdict != Verdict::Pass).count();
+    let [low, high] = wilson(failures, samples.len());
+    high < bound || low > bound
+}
+
+/// One run, or a whole check where it comes too near a limit.
+fn judge_sample(
+    case: &Case,
+    shot: &Shot,
+    relative_error: &[f64; 3],
+    effort: &Effort,
+    progress: &Progress,
+) -> Result<Envelope, Failure> {
+    let settings = Settings {
+        method: effort.method,
+        step: start(case, effort),
+        duration: case.plan.simulation.duration_s,
+    };
+    let outcome = case.model.run(shot, &settings, &mut |_| progress.flow())?;
+    let pair = |value: f64, relative: f64| [value, value * relative];
+    let [height, force, drift] = [
+        pair(outcome.height.value, relative_error[0]),
+        pair(outcome.force.value, relative_error[1]),
+        pair(outcome.drift.value, relative_error[2]),
+    ];
+    let verdict = case.limits.judge([height, force, drift]);
+    if verdict == Verdict::Undecided && effort.step.is_none() {
+        let checked = check_shot(case, shot, effort, &mut |_| progress.flow())?;
+        return Ok(Envelope::of(&checked));
+    }
+    Ok(Envelope { verdict, height, force, drift })
+}
+
+/// Sample `number` of a nominal shot.
+pub fn drawn(nominal: &Shot, spec: &ScatterSpec, seed: u64, option: usize, number: usize) -> Shot {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    random.set_stream(((option as u64) << 40) | number as u64);
+    let sigma = (1.0 + (spec.launch_cv_percent * 1e-2).powi(2)).ln().sqrt();
+    let launch = LogNormal::new(-0.5 * sigma * sigma, sigma).ok();
+    let friction = spec.friction.map(|[low, high]| low + (high - low) * random.random::<f64>());
+    let mut firings: Vec<Firing> = nominal
+        .firings
+        .iter()
+        .map(|firing| {
+            let late = Normal::new(0.0, spec.delay.deviation(firing.at, 1e-3)).ok();
+            let late = late.map_or(0.0, |late| late.sample(&mut random));
+            let factor = launch.map_or(1.0, |launch| launch.sample(&mut random));
+            Firing { at: firing.at + late, launch: firing.launch * factor, ..*firing }
+        })
+        .collect();
+    // Only differences of time matter; none may be before the start.
+    let first = firings.iter().map(|firing| firing.at).fold(0.0, f64::min);
+    firings.iter_mut().for_each(|firing| firing.at -= first);
+    Shot { friction, ..Shot::from_firings(firings) }
+}
+
+/// The 95 % Wilson interval of a probability seen `hits` times in `trials`.
+pub fn wilson(hits: usize, trials: usize) -> [f64; 2] {
+    const Z: f64 = 1.959_963_984_540_054;
+    let (k, n) = (hits as f64, trials as f64);
+    if trials == 0 {
+        return [0.0, 1.0];
+    }
+    let centre = (k + 0.5 * Z * Z) / (n + Z * Z);
+    let half = Z / (n + Z * Z) * (k * (n - k) / n + 0.25 * Z * Z).sqrt();
+    let low = if hits == 0 { 0.0 } else { centre - half };
+    let high = if hits == trials { 1.0 } else { centre + half };
+    [low, high]
+}
+
+/// Samples of one option, summed up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    /// Samples.
+    pub samples: usize,
+    /// Of them, those that do not pass.
+    pub failures: usize,
+    /// Of these, those that stay undecided.
+    pub undecided: usize,
+    /// 95 % interval of the failure probability.
+    pub interval: [f64; 2],
+    /// Median, 95th percentile and greatest height [m].
+    pub height: [f64; 3],
+    /// Median, 95th percentile and greatest force [N].
+    pub force: [f64; 3],
+}
+
+/// Sums up the samples of one option, in any order.
+pub fn summary(samples: &[Sample], option: usize) -> Summary {
+    let mine: Vec<&Envelope> =
+        samples.iter().filter(|sample| sample.option == option).map(|sample| &sample.envelope).collect();
+    let count = |verdict: Verdict| mine.iter().filter(|envelope| envelope.verdict == verdict).count();
+    let failures = mine.len() - count(Verdict::Pass);
+    Summary {
+        samples: mine.len(),
+        failures,
+        undecided: count(Verdict::Undecided),
+        interval: wilson(failures, mine.len()),
+        height: percentiles(mine.iter().map(|envelope| envelope.height[0]).collect()),
+        force: percentiles(mine.iter().map(|envelope| envelope.force[0]).collect()),
+    }
+}
+
+fn percentiles(mut values: Vec<f64>) -> [f64; 3] {
+    values.sort_by(f64::total_cmp);
+    let at = |share: f64| {
+        let rank = (share * values.len() as f64).ceil() as usize;
+        values.get(rank.saturating_sub(1)).copied().unwrap_or(0.0)
+    };
+    [at(0.5), at(0.95), at(1.0)]
+}
+
+/// Blast rows planned one after another that may fire the other way round.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Swap {
+    /// Index of the option.
+    pub option: usize,
+    /// Indices of the blast rows, planned in this order.
+    pub rows: [usize; 2],
+    /// Planned between them [s].
+    pub interval: f64,
+    /// Probability that a hole of the second fires before one of the first.
+    pub probability: f64,
+}
+
+/// Pairs of successive rows that the scatter of their detonators may swap with a probability of at least `least`.
+pub fn swaps(case: &Case, spec: &ScatterSpec, least: f64) -> Vec<Swap> {
+    let mut swaps = Vec::new();
+    for (option, delay) in case.plan.delays.iter().enumerate() {
+        let mut rows: Vec<(f64, usize)> =
+            delay.timing.fire_at_ms().into_iter().enumerate().map(|(row, ms)| (ms * 1e-3, row)).collect();
+        rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for pair in rows.windows(2) {
+            let [(early, first), (late, second)] = [pair[0], pair[1]];
+            let deviation = spec.delay.deviation(early, 1e-3).hypot(spec.delay.deviation(late, 1e-3));
+            if late > early && deviation > 0.0 {
+                let probability = 0.5 * libm::erfc((late - early) / (deviation * std::f64::consts::SQRT_2));
+                if probability >= least {
+                    swaps.push(Swap { option, rows: [first, second], interval: late - early, probability });
+                }
+            }
+        }
+    }
+    swaps
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Wilson 1927; figures by the formula in exact arithmetic: 0 of 100 gives z²/(n + z²).
+    #[test]
+    fn wilson_intervals_match_known_values() {
+        let [low, high] = wilson(0, 100);
+        assert_eq!(low, 0.0);
+        assert!((high - 0.036_994_8).abs() < 1e-6, "{high}");
+        let [low, high] = wilson(50, 100);
+        assert!((low - 0.403_832).abs() < 1e-5 && (high - 0.596_168).abs() < 1e-5, "{low} {high}");
+    }
+}

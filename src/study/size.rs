@@ -1,0 +1,199 @@
+//! The lightest rope, tires and border with which a shelter holds.
+//!
+//! Every combination of rope, tire mass and border rows is a shelter of its own: a stiffer rope pulls harder, a heavier tire
+//! flies lower and pulls longer, so nothing is known of one from another, with one exception. The motion depends on a rope's
+//! stiffness alone, so of ropes equally stiff a stronger one holds wherever a weaker one does. Of each stiffness the
+//! strongest is tried first, and where it fails the others are not tried.
+
+use itertools::Itertools;
+
+use super::batch::{Envelope, Progress, judge};
+use super::scatter::{Draw, Sample, scatter};
+use super::{Case, Effort, Shard};
+use crate::plan::{Layout, Plan, ScatterSpec};
+use crate::ropes::{Rope, catalogue};
+use crate::scene::Shot;
+use crate::simulation::Failure;
+use crate::verdict::Verdict;
+
+/// What a shelter must hold.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Demand {
+    /// Every delay option of the plan.
+    Options,
+    /// Every order of the blast rows, of which there are at most [`MOST_ROWS`](super::orders::MOST_ROWS), at each of these
+    /// intervals [s].
+    AnyOrder(Vec<f64>),
+    /// 99 % of the samples of every option.
+    Samples(ScatterSpec, Draw),
+}
+
+/// Share of samples that may fail.
+const MAY_FAIL: f64 = 0.01;
+/// Shots judged before it is asked whether one has failed; fixed, so that what is tried depends on no thread.
+const AT_ONCE: usize = 32;
+
+/// One combination.
+#[derive(Clone, Debug)]
+pub struct Combination {
+    /// Of the catalogue.
+    pub rope: &'static Rope,
+    /// Mass of a tire [kg].
+    pub tire_mass: f64,
+    /// Rows of ballast on each side.
+    pub border_rows: usize,
+    /// Tires in all.
+    pub tires: usize,
+    /// Tires and cables [kg].
+    pub total_mass: f64,
+    /// What its trial says; `None`: not tried, because a stronger rope of the same stiffness fails.
+    pub trial: Option<Trial>,
+}
+
+/// What a combination came to.
+#[derive(Clone, Copy, Debug)]
+pub struct Trial {
+    /// Whether it holds.
+    pub holds: bool,
+    /// The worst shot judged; where the combination fails, others may be worse.
+    pub worst: Envelope,
+    /// Its greatest share of any limit.
+    pub use_of_limits: f64,
+    /// Shots judged.
+    pub shots: usize,
+}
+
+/// Every combination, the lightest first.
+#[derive(Clone, Debug)]
+pub struct Sizing {
+    /// By total mass.
+    pub combinations: Vec<Combination>,
+}
+
+impl Sizing {
+    /// The lightest that holds; of several as light the one with the weakest rope.
+    pub fn found(&self) -> Option<&Combination> {
+        self.combinations.iter().find(|c| c.trial.is_some_and(|trial| trial.holds))
+    }
+
+    /// Combinations that hold with more margin than any lighter one.
+    pub fn frontier(&self) -> Vec<&Combination> {
+        let mut least = f64::INFINITY;
+        let better = |c: &&Combination| {
+            let used = c.trial.filter(|trial| trial.holds).map(|trial| trial.use_of_limits);
+            let better = used.is_some_and(|used| used < least);
+            least = used.unwrap_or(least).min(least);
+            better
+        };
+        self.combinations.iter().filter(better).collect()
+    }
+
+    /// Combinations that were run.
+    pub fn tried(&self) -> usize {
+        self.combinations.iter().filter(|c| c.trial.is_some()).count()
+    }
+}
+
+/// Tries the combinations that the plan allows.
+pub fn size(plan: &Plan, demand: &Demand, effort: &Effort, progress: &Progress) -> Result<Sizing, Failure> {
+    let family = |rope: &&Rope| plan.size.family.as_ref().is_none_or(|family| *family == rope.family);
+    let by_stiffness = catalogue()
+        .ropes
+        .iter()
+        .filter(family)
+        .into_group_map_by(|rope| (rope.axial_stiffness_kn.to_bits(), rope.mass_kg_per_m.to_bits()));
+    let own = [plan.tire.mass_kg];
+    let masses = if plan.size.tire_mass_kg.is_empty() { &own[..] } else { &plan.size.tire_mass_kg };
+    let most_border = if matches!(plan.layout, Layout::List { .. }) { 0 } else { plan.size.most_border_rows };
+    let mut combinations = Vec::new();
+    // The shot at which the last combination failed is the likeliest to fail the next.
+    let mut likeliest = 0;
+    let stiffnesses =
+        by_stiffness.into_iter().sorted_by_key(|(stiffness, _)| f64::from_bits(stiffness.0) as u64);
+    for ((_, ropes), &tire_mass, border_rows) in
+        itertools::iproduct!(stiffnesses.collect_vec(), masses, 0..=most_border)
+    {
+        let ropes = ropes.into_iter().sorted_by(|a, b| b.breaking_force_kn.total_cmp(&a.breaking_force_kn));
+        let mut held = true;
+        for rope in ropes {
+            let case = Case::new(plan.with(rope, tire_mass, border_rows));
+            let (tires, total_mass) = (case.scene().mass.len(), total_mass(&case, rope));
+            let trial =
+                if held { Some(try_out(&case, demand, effort, &mut likeliest, progress)?) } else { None };
+            held = trial.is_some_and(|trial| trial.holds);
+            combinations.push(Combination { rope, tire_mass, border_rows, tires, total_mass, trial });
+        }
+    }
+    combinations.sort_by(|a, b| {
+        let strength = |c: &Combination| c.rope.breaking_force_kn;
+        a.total_mass.total_cmp(&b.total_mass).then(strength(a).total_cmp(&strength(b)))
+    });
+    Ok(Sizing { combinations })
+}
+
+fn total_mass(case: &Case, rope: &Rope) -> f64 {
+    let scene = case.scene();
+    let length: f64 = scene.cables.iter().map(|cable| cable.rest_length).sum();
+    scene.mass.iter().sum::<f64>() + length * rope.mass_kg_per_m
+}
+
+fn try_out(
+    case: &Case,
+    demand: &Demand,
+    effort: &Effort,
+    likeliest: &mut usize,
+    progress: &Progress,
+) -> Result<Trial, Failure> {
+    let shots = match demand {
+        Demand::Options => case.shots.clone(),
+        Demand::AnyOrder(intervals) => all_orders(case, intervals),
+        Demand::Samples(spec, draw) => {
+            let samples = scatter(case, spec, draw, Shard::WHOLE, effort, progress)?;
+            return Ok(most_hold(case, &samples));
+        }
+    };
+    let mut order: Vec<usize> = (0..shots.len()).collect();
+    if *likeliest < shots.len() {
+        order.swap(0, *likeliest);
+    }
+    let mut judged: Vec<Envelope> = Vec::new();
+    for chunk in order.chunks(AT_ONCE) {
+        let part: Vec<Shot> = chunk.iter().map(|&n| shots[n].clone()).collect();
+        let envelopes = judge(case, &part, effort, progress)?;
+        let failed = envelopes.iter().position(|envelope| envelope.verdict != Verdict::Pass);
+        judged.extend(envelopes);
+        if let Some(failed) = failed {
+            *likeliest = chunk[failed];
+            break;
+        }
+    }
+    Ok(trial(case, &judged, judged.iter().all(|envelope| envelope.verdict == Verdict::Pass)))
+}
+
+fn all_orders(case: &Case, intervals: &[f64]) -> Vec<Shot> {
+    let rows = case.plan.blast_rows.len();
+    let orders = (0..rows).permutations(rows).collect_vec();
+    itertools::iproduct!(intervals, &orders).map(|(&interval, order)| case.shot(order, interval)).collect()
+}
+
+/// 99 % of the samples of every option pass.
+fn most_hold(case: &Case, samples: &[Sample]) -> Trial {
+    let holds = (0..case.shots.len()).all(|option| {
+        let mine = || samples.iter().filter(|sample| sample.option == option);
+        let failures = mine().filter(|sample| sample.envelope.verdict != Verdict::Pass).count();
+        failures as f64 <= MAY_FAIL * mine().count() as f64
+    });
+    let mut envelopes: Vec<Envelope> = samples.iter().map(|sample| sample.envelope).collect();
+    let share = |envelope: &Envelope| envelope.use_of_limits(&case.limits);
+    envelopes.sort_by(|a, b| share(a).total_cmp(&share(b)));
+    // The worst of those that count.
+    let counting = ((1.0 - MAY_FAIL) * envelopes.len() as f64).ceil() as usize;
+    Trial { shots: samples.len(), ..trial(case, &envelopes[..counting], holds) }
+}
+
+fn trial(case: &Case, judged: &[Envelope], holds: bool) -> Trial {
+    let none = Envelope { verdict: Verdict::Pass, height: [0.0; 2], force: [0.0; 2], drift: [0.0; 2] };
+    let share = |envelope: &Envelope| envelope.use_of_limits(&case.limits);
+    let worst = judged.iter().copied().max_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or(none);
+    Trial { holds, worst, use_of_limits: share(&worst), shots: judged.len() }
+}

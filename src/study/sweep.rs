@@ -1,0 +1,95 @@
+//! Height and force against the interval between rows, and the intervals that pass.
+
+use super::batch::{Envelope, Progress, judge};
+use super::{Case, Effort, Intervals};
+use crate::scene::Shot;
+use crate::simulation::Failure;
+use crate::verdict::Verdict;
+
+/// One interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Between successive rows [s].
+    pub interval: f64,
+    /// What it gives.
+    pub envelope: Envelope,
+}
+
+/// A swept plan.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    /// Blast rows in firing order.
+    pub order: Vec<usize>,
+    /// By interval.
+    pub points: Vec<Point>,
+}
+
+/// Neighbours whose use of the limits differs by more are looked at more closely.
+const JUMP: f64 = 0.1;
+/// How often the distance between neighbours is halved.
+const HALVINGS: usize = 3;
+
+/// Sweeps the interval of `order`, closer where the curve jumps or the verdict changes.
+pub fn sweep(
+    case: &Case,
+    order: &[usize],
+    intervals: &Intervals,
+    effort: &Effort,
+    progress: &Progress,
+) -> Result<Sweep, Failure> {
+    let judged = |intervals: Vec<f64>| -> Result<Vec<Point>, Failure> {
+        let shots: Vec<Shot> = intervals.iter().map(|&interval| case.shot(order, interval)).collect();
+        let envelopes = judge(case, &shots, effort, progress)?;
+        let point = |(interval, envelope)| Point { interval, envelope };
+        Ok(intervals.into_iter().zip(envelopes).map(point).collect())
+    };
+    let mut points = judged(intervals.values())?;
+    for _ in 0..HALVINGS {
+        let between: Vec<f64> = points
+            .windows(2)
+            .filter(|pair| jumps(case, &pair[0], &pair[1]))
+            .map(|pair| 0.5 * (pair[0].interval + pair[1].interval))
+            .collect();
+        points.extend(judged(between)?);
+        points.sort_by(|a, b| a.interval.total_cmp(&b.interval));
+    }
+    Ok(Sweep { order: order.to_vec(), points })
+}
+
+fn jumps(case: &Case, a: &Point, b: &Point) -> bool {
+    let share = |point: &Point| point.envelope.use_of_limits(&case.limits);
+    a.envelope.verdict != b.envelope.verdict || (share(a) - share(b)).abs() > JUMP
+}
+
+impl Sweep {
+    /// The first and the last interval tried [s].
+    pub fn range(&self) -> [f64; 2] {
+        let at = |point: Option<&Point>| point.map_or(0.0, |point| point.interval);
+        [at(self.points.first()), at(self.points.last())]
+    }
+
+    /// Stretches of intervals [s] at which every one tried passes.
+    pub fn windows(&self) -> Vec<[f64; 2]> {
+        let passing = |point: &&Point| point.envelope.verdict == Verdict::Pass;
+        self.points
+            .chunk_by(|a, b| (a.envelope.verdict == Verdict::Pass) == (b.envelope.verdict == Verdict::Pass))
+            .filter(|stretch| stretch.first().is_some_and(|point| passing(&point)))
+            .filter_map(|stretch| Some([stretch.first()?.interval, stretch.last()?.interval]))
+            .collect()
+    }
+
+    /// The interval that uses most of the limits.
+    pub fn worst(&self, case: &Case) -> Option<&Point> {
+        self.points.iter().max_by(|a, b| by_use(case, a, b))
+    }
+
+    /// The interval that uses least of the limits.
+    pub fn best(&self, case: &Case) -> Option<&Point> {
+        self.points.iter().min_by(|a, b| by_use(case, a, b))
+    }
+}
+
+fn by_use(case: &Case, a: &Point, b: &Point) -> std::cmp::Ordering {
+    let share = |point: &Point| point.envelope.use_of_limits(&case.limits);
+    share(a).total_cmp(&share(b))
+}
