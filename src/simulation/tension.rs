@@ -137,7 +137,8 @@ impl<'a> Tension<'a> {
         let lost = 0.5 * self.weight[place] * force * force / block.stiffness;
         self.weight.to_mut()[place] = 0.0;
         self.stretch[place] = 0.0;
-        self.pull.iter_mut().for_each(|pull| pull[place] = 0.0);
+        // It pulled until now: through the first half of the kick.
+        self.pull.iter_mut().for_each(|pull| pull[place] *= 0.5);
         lost
     }
 

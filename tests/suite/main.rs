@@ -2,16 +2,19 @@
 
 mod allocation;
 mod bad_plans;
+mod breaking;
 mod calibration;
 mod check;
 mod closed_forms;
 mod extremes;
 mod layers;
+mod long_studies;
 mod mirrors;
 mod plans;
 mod properties;
 mod reference;
 mod scenes;
 mod screens;
+mod studies;
 #[cfg(unix)]
 mod terminal;

@@ -203,7 +203,7 @@ impl<'a> Stepper<'a> {
         for place in 0..block.len {
             if self.tension.force(block, place) > self.breaking_force {
                 let lost = self.tension.cut(block, place);
-                pass.lost += lost;
+                self.record.ledger.dissipated += lost;
                 pass.energy[place % LANES] -= lost;
                 self.stored[n][place % LANES] -= lost;
                 let cable = self.part.quotient.cable(self.part.blocks.cable(n, place));

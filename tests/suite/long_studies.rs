@@ -1,0 +1,156 @@
+//! `sweep`, `orders`, `scatter`, `size` and `merge` as scripts use them.
+
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+fn amur() -> String {
+    let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("plans/amur-three-rows.toml");
+    path.to_str().expect("UTF-8").to_owned()
+}
+
+fn shelter(arguments: &[&str]) -> Output {
+    Command::cargo_bin("shelter").expect("the binary is built").args(arguments).output().expect("it runs")
+}
+
+fn json(arguments: &[&str]) -> Value {
+    let output = shelter(arguments);
+    assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).expect("one JSON document")
+}
+
+#[test]
+fn sweep_has_the_fields_scripts_read() {
+    let plan = amur();
+    let arguments = ["sweep", &plan, "--interval", "0..60:10", "--accuracy", "draft"];
+    let document = json(&[&arguments[..], &["--format", "json"]].concat());
+    let points = document["points"].as_array().expect("points");
+    assert!(points.len() >= 7);
+    for key in ["interval_s", "flight_height_m", "cable_force_n"] {
+        assert!(points[0][key].is_number(), "{key}");
+        assert!(document["worst"][key].is_number(), "{key}");
+    }
+    let passing = |point: &&Value| point["verdict"] == "pass";
+    assert_eq!(
+        document["windows_s"].as_array().expect("windows").is_empty(),
+        !points.iter().any(|p| passing(&p))
+    );
+    let csv = shelter(&[&arguments[..], &["--format", "csv"]].concat());
+    assert_eq!(String::from_utf8_lossy(&csv.stdout).lines().count(), points.len() + 1);
+    assert_eq!(csv.status.code(), Some(1));
+}
+
+#[test]
+fn shares_merge_into_the_whole_byte_for_byte() {
+    let plan = amur();
+    let folder = tempfile::tempdir().expect("a folder");
+    let orders: &[&str] = &["orders", &plan, "--accuracy", "draft"];
+    let scatter: &[&str] = &["scatter", &plan, "--accuracy", "draft", "--samples", "11", "--seed", "4"];
+    for command in [orders, scatter] {
+        for format in ["json", "csv", "text"] {
+            let whole = shelter(&[command, &["--format", format, "--threads", "1"]].concat());
+            for of in 1..4 {
+                let files: Vec<String> = (1..=of)
+                    .rev()
+                    .map(|index| {
+                        let share = shelter(&[command, &["--shard", &format!("{index}/{of}")]].concat());
+                        let file = folder.path().join(format!("{index}"));
+                        std::fs::write(&file, &share.stdout).expect("written");
+                        file.to_str().expect("UTF-8").to_owned()
+                    })
+                    .collect();
+                let mut merge = vec!["merge", "--format", format];
+                merge.extend(files.iter().map(String::as_str));
+                let merged = shelter(&merge);
+                assert_eq!(merged.stdout, whole.stdout, "{format} of {of}");
+                assert_eq!(merged.status.code(), whole.status.code());
+                if of > 1 {
+                    let missing = shelter(&merge[..merge.len() - 1]);
+                    assert_eq!(missing.status.code(), Some(2));
+                    assert!(String::from_utf8_lossy(&missing.stderr).contains("is missing"));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let plan = amur();
+    for command in [
+        &["scatter", &plan, "--accuracy", "draft", "--samples", "40", "--until-certain", "5"][..],
+        &["orders", &plan, "--accuracy", "draft"],
+        &["size", &plan, "--accuracy", "draft"],
+        &["sweep", &plan, "--accuracy", "draft", "--interval", "0..100:20"],
+    ] {
+        let [one, two] =
+            ["1", "2"].map(|n| shelter(&[command, &["--threads", n, "--format", "json"]].concat()));
+        assert!(!one.stdout.is_empty());
+        assert_eq!(one.stdout, two.stdout, "{command:?}");
+    }
+}
+
+#[test]
+fn scatter_needs_to_know_what_scatters() {
+    let plan = Path::new(env!("CARGO_MANIFEST_DIR")).join("plans/paper-5-tire.toml");
+    let output = shelter(&["scatter", plan.to_str().expect("UTF-8")]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("[scatter]"));
+    let whole = ["scatter", &amur(), "--samples", "3", "--format", "json", "--accuracy", "draft"];
+    let document = json(&whole);
+    assert_eq!(document["samples"], 3);
+    let option = &document["options"][0];
+    for key in ["p50", "p95", "max"] {
+        assert!(option["flight_height_m"][key].is_number() && option["cable_force_n"][key].is_number());
+    }
+    assert_eq!(option["interval_95"].as_array().map(Vec::len), Some(2));
+}
+
+/// The choice goes into the plan, which then passes; everything else in it stays.
+#[test]
+fn size_writes_its_choice() {
+    let text = std::fs::read_to_string(amur()).expect("the plan");
+    let text = text.replace("flight_height_m = 1.8", "flight_height_m = 2.5 # higher");
+    let text = text.replace("at_ms = [0, 500, 1000]", "interval_ms = 30");
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("plan.toml");
+    std::fs::write(&file, &text).expect("written");
+    let path = file.to_str().expect("UTF-8");
+    let output = shelter(&["size", path, "--write", "--format", "json", "--accuracy", "draft"]);
+    let document: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
+    assert_eq!(document["found"], true, "{document}");
+    assert_eq!(output.status.code(), Some(0));
+    let written = std::fs::read_to_string(&file).expect("the plan");
+    assert!(written.contains(document["rope"].as_str().expect("a rope")), "{written}");
+    let kept =
+        |line: &&str| !["rope = ", "mass_kg = ", "border_rows = "].iter().any(|key| line.starts_with(key));
+    assert_eq!(
+        written.lines().filter(kept).collect::<Vec<_>>(),
+        text.lines().filter(kept).collect::<Vec<_>>()
+    );
+    assert_eq!(shelter(&["check", path, "--accuracy", "draft"]).status.code(), Some(0));
+    assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 1, "nothing is left beside it");
+}
+
+#[test]
+fn mistaken_ranges_and_shares_are_explained() {
+    let plan = amur();
+    for (arguments, words) in [
+        (&["sweep", &plan, "--interval", "0-500"][..], "FROM..TO:STEP"),
+        (&["sweep", &plan, "--interval", "0..500:0"], "FROM..TO:STEP"),
+        (&["sweep", &plan, "--interval", "0..1e6:1e-6"], "longer step"),
+        (&["orders", &plan, "--shard", "3/2"], "1/4 to 4/4"),
+        (&["scatter", &plan, "--shard", "1/2", "--until-certain"], "cannot be used with"),
+        (&["size", &plan, "--ropes", "string"], "GOST 2688-80"),
+        (&["sweep", &plan, "--option", "long period"], "firing times of its own"),
+        (&["merge", &plan], "--shard"),
+    ] {
+        let output = shelter(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(output.stdout.is_empty());
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(told.contains(words), "{arguments:?}: {told}");
+    }
+}
