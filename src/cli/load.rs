@@ -8,7 +8,7 @@ use super::{Compute, Look, Status};
 use crate::plan::Plan;
 use crate::study::Case;
 use crate::tui::{self, app::App};
-use crate::worker::Worker;
+use crate::worker::{Errands, Worker};
 
 /// Loads plans; prints every mistake of every plan and returns `None` when there is one.
 pub fn cases<'a>(paths: impl IntoIterator<Item = &'a std::path::PathBuf>, look: &Look) -> Option<Vec<Case>> {
@@ -43,9 +43,10 @@ pub fn open(plan: &Path, compute: &Compute, look: &Look) -> io::Result<Status> {
         ));
     }
     let effort = compute.effort(&case.plan);
-    let worker = Worker::new(compute.threads.unwrap_or(0).into());
+    let threads = compute.threads.unwrap_or(0).into();
+    let (worker, errands) = (Worker::new(threads), Errands::new(threads));
     let screen = tui::Look { ascii: look.ascii, color: look.colored(true) };
-    match tui::run(App::new(Arc::new(case), effort), worker, screen)? {
+    match tui::run(App::new(Arc::new(case), effort), worker, errands, screen)? {
         tui::Left::Quit => Ok(Status::Pass),
         tui::Left::Signal => Ok(Status::Interrupted),
     }

@@ -7,10 +7,9 @@ use clap::Args;
 
 use super::merge::{self, Answer};
 use super::{Compute, FormatArg, Look, Status, load, long};
-use crate::plan::Timing;
 use crate::study::merge::{Findings, Question};
 use crate::study::orders::{MOST_ROWS, is_complete, orders};
-use crate::study::{Case, Intervals, Shard};
+use crate::study::{Intervals, Shard};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -29,23 +28,11 @@ pub struct Arguments {
     compute: Compute,
 }
 
-/// Intervals of the delay options [s], each once.
-pub fn intervals_of(case: &Case) -> Vec<f64> {
-    let interval = |timing: &Timing| match timing {
-        Timing::Interval { interval_ms, .. } => Some(interval_ms * 1e-3),
-        Timing::At(_) => None,
-    };
-    let mut all: Vec<f64> = case.plan.delays.iter().filter_map(|delay| interval(&delay.timing)).collect();
-    all.sort_by(f64::total_cmp);
-    all.dedup();
-    all
-}
-
 pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     let Some(case) = load::cases([&arguments.plan], look).and_then(|mut cases| cases.pop()) else {
         return Ok(Status::Wrong);
     };
-    let intervals_s = arguments.interval.map_or_else(|| intervals_of(&case), |interval| interval.values());
+    let intervals_s = arguments.interval.map_or_else(|| case.intervals(), |interval| interval.values());
     if intervals_s.is_empty() {
         return load::wrong("no delay option has an interval: give --interval FROM..TO:STEP");
     }

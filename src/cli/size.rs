@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::scatter::{DrawArguments, NO_SCATTER};
-use super::{Compute, FormatArg, Look, Status, load, long, orders};
+use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::plan::{Layout, edit};
 use crate::report;
 use crate::ropes::catalogue;
@@ -103,8 +103,7 @@ fn choose(arguments: &Arguments, case: &mut Case) -> Result<Demand, String> {
     if !is_complete(case) {
         return Err(format!("--any-order tries all orders of at most {MOST_ROWS} blast rows"));
     }
-    let intervals =
-        arguments.interval.map_or_else(|| orders::intervals_of(case), |interval| interval.values());
+    let intervals = arguments.interval.map_or_else(|| case.intervals(), |interval| interval.values());
     if intervals.is_empty() {
         return Err("no delay option has an interval: give --interval FROM..TO:STEP".to_owned());
     }

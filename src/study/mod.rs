@@ -58,6 +58,18 @@ impl Case {
         Shot::new(self.scene(), &self.plan.blast_rows, &timing)
     }
 
+    /// Intervals of the delay options [s], each once.
+    pub fn intervals(&self) -> Vec<f64> {
+        let interval = |timing: &Timing| match timing {
+            Timing::Interval { interval_ms, .. } => Some(interval_ms * 1e-3),
+            Timing::At(_) => None,
+        };
+        let mut all: Vec<f64> = self.plan.delays.iter().filter_map(|delay| interval(&delay.timing)).collect();
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+        all
+    }
+
     /// Its shelter.
     pub fn scene(&self) -> &Scene {
         self.model.scene()

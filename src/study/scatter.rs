@@ -62,23 +62,24 @@ pub fn scatter(
         let relative = |of: Estimate| if of.value > 0.0 { of.error / of.value * coarser } else { 0.0 };
         Ok([relative(checked.height), relative(checked.force), relative(checked.drift)])
     })?;
+    let judge_one = |&(option, number): &(usize, usize)| {
+        let shot = drawn(&case.shots[option], spec, draw.seed, option, number);
+        let envelope = judge_sample(case, &shot, &errors[option], effort, progress)?;
+        Ok(Sample { option, number, envelope })
+    };
+    if draw.certain_at.is_none() {
+        let all = itertools::iproduct!(options, 0..draw.samples);
+        let jobs: Vec<_> = all.filter(|&(_, number)| shard.has(number)).collect();
+        return each(&jobs, progress, judge_one);
+    }
     let mut all = Vec::new();
     for option in options {
         let mut samples: Vec<Sample> = Vec::new();
-        let round = if draw.certain_at.is_some() { LOOK_EVERY } else { draw.samples };
         while samples.len() < draw.samples && !is_certain(&samples, draw) {
             let from = samples.len();
-            let numbers: Vec<usize> =
-                (from..(from + round).min(draw.samples)).filter(|&number| shard.has(number)).collect();
-            let done = each(&numbers, progress, |&number| {
-                let shot = drawn(&case.shots[option], spec, draw.seed, option, number);
-                let envelope = judge_sample(case, &shot, &errors[option], effort, progress)?;
-                Ok(Sample { option, number, envelope })
-            })?;
-            samples.extend(done);
-            if draw.certain_at.is_none() {
-                break;
-            }
+            let jobs: Vec<_> =
+                (from..(from + LOOK_EVERY).min(draw.samples)).map(|number| (option, number)).collect();
+            samples.extend(each(&jobs, progress, judge_one)?);
         }
         all.extend(samples);
     }

@@ -17,7 +17,17 @@ pub enum Action {
     First,
     /// Select the last option.
     Last,
-    /// Show the selected option large, or all again.
+    /// Show the study before.
+    Left,
+    /// Show the next study.
+    Right,
+    /// Compare the options.
+    Compare,
+    /// The long studies.
+    Studies,
+    /// End the study shown.
+    Cancel,
+    /// Show the selected option large, or all again; start the study shown.
     Zoom,
     /// Compute everything again.
     Rerun,
@@ -58,6 +68,41 @@ const fn key(letter: char) -> (KeyCode, KeyModifiers) {
 
 /// Every key there is.
 pub const KEYS: &[Binding] = &[
+    Binding {
+        keys: &[key('1')],
+        action: Action::Compare,
+        label: "1",
+        text: "compare the delay options",
+        short: "compare",
+    },
+    Binding {
+        keys: &[key('2')],
+        action: Action::Studies,
+        label: "2",
+        text: "studies: sweep, orders, scatter, size",
+        short: "studies",
+    },
+    Binding {
+        keys: &[(KeyCode::Right, NONE), key('l'), (KeyCode::Tab, NONE)],
+        action: Action::Right,
+        label: "Right l",
+        text: "studies: the next one",
+        short: "",
+    },
+    Binding {
+        keys: &[(KeyCode::Left, NONE), key('h'), (KeyCode::BackTab, NONE)],
+        action: Action::Left,
+        label: "Left h",
+        text: "studies: the one before",
+        short: "",
+    },
+    Binding {
+        keys: &[key('x')],
+        action: Action::Cancel,
+        label: "x",
+        text: "studies: cancel the one shown",
+        short: "",
+    },
     Binding {
         keys: &[(KeyCode::Down, NONE), key('j')],
         action: Action::Down,
@@ -104,7 +149,7 @@ pub const KEYS: &[Binding] = &[
         keys: &[(KeyCode::Enter, NONE)],
         action: Action::Zoom,
         label: "Enter",
-        text: "show the selected option large, and back",
+        text: "show the option large, and back; start a study",
         short: "enlarge",
     },
     Binding {

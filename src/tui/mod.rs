@@ -5,6 +5,7 @@
 
 pub mod app;
 pub mod keymap;
+pub mod studies;
 pub mod theme;
 pub mod view;
 
@@ -21,8 +22,9 @@ use crossterm::{ExecutableCommand, QueueableCommand};
 use ratatui::Terminal;
 use ratatui::backend::CrosstermBackend;
 
-use self::app::{App, Request};
-use crate::worker::Worker;
+use self::app::{App, Request, Screen};
+use self::studies::Progress;
+use crate::worker::{Errands, Kind, Worker};
 
 /// How the screen is drawn.
 #[derive(Clone, Copy, Debug, Default)]
@@ -48,18 +50,28 @@ const FRAME: Duration = Duration::from_millis(16);
 const IDLE: Duration = Duration::from_millis(250);
 
 /// Shows the app until the user leaves.
-pub fn run(mut app: App, mut worker: Worker, look: Look) -> io::Result<Left> {
+pub fn run(mut app: App, mut worker: Worker, mut errands: Errands, look: Look) -> io::Result<Left> {
     // Without this, crossterm under NO_COLOR resets bold and reverse as well; colours are taken out in `draw`.
     crossterm::style::force_color_output(true);
     let signals = Signals::register()?;
     restore_on_panic();
-    let mut screen = Screen::open()?;
+    let mut screen = Display::open()?;
     worker.start(&app.case, app.effort);
     let mut dirty = true;
     loop {
         for news in worker.news() {
             app.hear(news);
             dirty = true;
+        }
+        for (kind, result) in errands.results() {
+            app.learn(kind, result);
+            dirty = true;
+        }
+        for kind in Kind::ALL {
+            if let Some((done, total)) = errands.counts(kind) {
+                app.studies.set(kind, Progress::Running { done, total });
+                dirty |= app.screen == Screen::Studies;
+            }
         }
         if dirty {
             screen.draw(&app, look)?;
@@ -79,6 +91,8 @@ pub fn run(mut app: App, mut worker: Worker, look: Look) -> io::Result<Left> {
         match request {
             Request::None => {}
             Request::Run => worker.start(&app.case, app.effort),
+            Request::Start(kind) => errands.start(kind, &app.case, app.effort),
+            Request::Cancel(kind) => errands.cancel(kind),
             Request::Quit => return Ok(Left::Quit),
             Request::Suspend => {
                 screen.suspend()?;
@@ -100,11 +114,11 @@ pub fn update(app: &mut App, event: &Event) -> Request {
 }
 
 /// The terminal while it is ours.
-struct Screen {
+struct Display {
     terminal: Terminal<CrosstermBackend<Stdout>>,
 }
 
-impl Screen {
+impl Display {
     fn open() -> io::Result<Self> {
         enter()?;
         // From here on dropping gives the terminal back.
@@ -136,7 +150,7 @@ impl Screen {
     }
 }
 
-impl Drop for Screen {
+impl Drop for Display {
     fn drop(&mut self) {
         leave();
     }

@@ -10,11 +10,15 @@ use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use shelter::outcome::{End, History};
 use shelter::plan::{Method, Plan};
+use shelter::study::batch::Envelope;
 use shelter::study::check::{Checked, Quantity, Reason};
+use shelter::study::sweep::{Point, Sweep};
 use shelter::study::{Case, Effort};
-use shelter::tui::app::{App, Request, Row};
+use shelter::tui::app::{App, Request, Row, Screen};
+use shelter::tui::studies::Progress;
 use shelter::tui::{theme, update, view};
 use shelter::verdict::{Estimate, Verdict};
+use shelter::worker::{Found, Kind};
 
 fn app() -> App {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("plans/amur-three-rows.toml");
@@ -158,4 +162,71 @@ fn keys_move_and_escape_closes_before_it_quits() {
     assert_eq!(key(&mut app, KeyCode::Char('q')), Request::Quit);
     assert_eq!(key(&mut app, KeyCode::Char('+')), Request::Run);
     assert!(app.rows.iter().all(|row| matches!(row, Row::Waiting)));
+}
+
+/// A sweep with round numbers.
+fn swept() -> Found {
+    let point = |n: usize| {
+        let share = (n as f64 * 0.3).sin().abs();
+        let verdict = if share < 0.8 { Verdict::Pass } else { Verdict::Fail };
+        let [height, force] = [[2.0 * share, 0.01], [76_000.0 * share, 250.0]];
+        Point { interval: n as f64 * 0.01, envelope: Envelope { verdict, height, force, drift: [0.0; 2] } }
+    };
+    Found::Sweep(Sweep { order: vec![0, 1, 2], points: (0..51).map(point).collect() })
+}
+
+#[test]
+fn studies_wait_run_and_show_what_they_found() {
+    let mut app = finished();
+    key(&mut app, KeyCode::Char('2'));
+    insta::assert_snapshot!("study_idle", text(&draw(&app, 80, 24)));
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::Start(Kind::Sweep));
+    app.studies.set(Kind::Sweep, Progress::Running { done: 34, total: 101 });
+    insta::assert_snapshot!("study_running", text(&draw(&app, 80, 24)));
+    app.learn(Kind::Sweep, Ok(swept()));
+    for (width, height) in [(80, 24), (120, 36)] {
+        insta::assert_snapshot!(format!("sweep_{width}x{height}"), text(&draw(&app, width, height)));
+    }
+    key(&mut app, KeyCode::Char('1'));
+    key(&mut app, KeyCode::Char('2'));
+    assert!(matches!(app.studies.progress(Kind::Sweep), Progress::Done(_)), "a result is kept");
+}
+
+#[test]
+fn a_study_is_cancelled_by_x_or_escape_and_escape_then_goes_back() {
+    let mut app = finished();
+    key(&mut app, KeyCode::Char('2'));
+    key(&mut app, KeyCode::Right);
+    assert_eq!(app.studies.shown, Kind::Orders);
+    assert_eq!(key(&mut app, KeyCode::Char('x')), Request::None, "nothing to cancel");
+    for code in [KeyCode::Char('x'), KeyCode::Esc] {
+        assert_eq!(key(&mut app, KeyCode::Enter), Request::Start(Kind::Orders));
+        assert_eq!(key(&mut app, code), Request::Cancel(Kind::Orders));
+    }
+    assert_eq!(key(&mut app, KeyCode::Esc), Request::None);
+    assert_eq!(app.screen, Screen::Compare);
+    assert_eq!(key(&mut app, KeyCode::Esc), Request::Quit);
+}
+
+proptest::proptest! {
+    #![proptest_config(proptest::prelude::ProptestConfig { cases: 64, ..Default::default() })]
+
+    /// Whatever is typed on whatever screen, something is drawn.
+    #[test]
+    fn no_keys_and_no_size_do_harm(
+        keys in proptest::collection::vec((0..12_usize, proptest::char::range(' ', '~')), 0..60),
+        (width, height) in (1..160_u16, 1..60_u16),
+    ) {
+        let mut app = finished();
+        app.learn(Kind::Sweep, Ok(swept()));
+        app.learn(Kind::Scatter, Err("the plan has no section [scatter]".to_owned()));
+        for (n, letter) in keys {
+            let codes = [
+                KeyCode::Up, KeyCode::Down, KeyCode::Left, KeyCode::Right, KeyCode::Enter, KeyCode::Esc,
+                KeyCode::PageUp, KeyCode::PageDown, KeyCode::Home, KeyCode::End, KeyCode::Tab,
+            ];
+            key(&mut app, codes.get(n).copied().unwrap_or(KeyCode::Char(letter)));
+            draw(&app, width, height);
+        }
+    }
 }

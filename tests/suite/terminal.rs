@@ -134,6 +134,30 @@ fn signals_and_control_c_restore_the_terminal() {
 }
 
 #[test]
+fn studies_run_are_cancelled_and_keep_their_result() {
+    let mut watched = Watched::open("amur-three-rows.toml", &["--accuracy", "draft"], 120, 36);
+    watched.until("1 of 7 pass");
+    watched.press("2");
+    watched.until("Enter starts it");
+    watched.press("\r");
+    watched.until("interval between rows 1, 2, 3");
+    watched.press("l\r");
+    watched.until("36 orders and intervals");
+    watched.press("l\r");
+    watched.until("x cancels");
+    watched.press("x");
+    watched.until("Enter starts it");
+    watched.press("l\r");
+    watched.until("combinations tried");
+    watched.press("1");
+    watched.until("left kN");
+    watched.press("2");
+    watched.until("combinations tried");
+    watched.press("q");
+    assert_eq!(watched.ends(), 0);
+}
+
+#[test]
 fn ascii_screens_are_ascii() {
     let mut watched = Watched::open("paper-5-tire.toml", &["--ascii"], 100, 30);
     watched.until("+ PASS");

@@ -12,6 +12,7 @@
 mod chart;
 mod detail;
 mod help;
+mod studies;
 mod table;
 
 use ratatui::Frame;
@@ -19,7 +20,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph, Wrap};
 
-use super::app::{App, Row};
+use super::app::{App, Row, Screen};
 use super::keymap::KEYS;
 use crate::report::check::method_name;
 use crate::report::table::accuracy_name;
@@ -37,24 +38,28 @@ pub fn draw(app: &App, frame: &mut Frame) {
         let text = format!("shelter needs {}x{}, has {}x{}", LEAST.0, LEAST.1, area.width, area.height);
         return frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), area);
     }
-    let rows = app.rows.len() as u16 + 1;
-    let table = if app.zoom { 0 } else { rows.min((area.height - 3) / 2) };
-    let [header, list, rest, footer] = Layout::vertical([
-        Constraint::Length(2),
-        Constraint::Length(table),
-        Constraint::Min(0),
-        Constraint::Length(1),
-    ])
-    .areas(area);
+    let [header, body, footer] =
+        Layout::vertical([Constraint::Length(2), Constraint::Min(0), Constraint::Length(1)]).areas(area);
     draw_header(app, frame, header);
-    if !app.zoom {
-        table::draw(app, frame, list);
+    match app.screen {
+        Screen::Compare => draw_options(app, frame, body),
+        Screen::Studies => studies::draw(app, frame, body),
     }
-    detail::draw(app, frame, rest);
     draw_footer(app, frame, footer);
     if app.help {
         help::draw(app, frame, area);
     }
+}
+
+/// The table of options and the selected one below it, or that alone.
+fn draw_options(app: &App, frame: &mut Frame, area: Rect) {
+    let rows = app.rows.len() as u16 + 1;
+    let table = if app.zoom { 0 } else { rows.min(area.height / 2) };
+    let [list, rest] = Layout::vertical([Constraint::Length(table), Constraint::Min(0)]).areas(area);
+    if !app.zoom {
+        table::draw(app, frame, list);
+    }
+    detail::draw(app, frame, rest);
 }
 
 fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
@@ -91,7 +96,7 @@ fn summary(app: &App) -> String {
     let done = app.rows.iter().filter(|row| matches!(row, Row::Done(_) | Row::Failed(_))).count();
     let passed = |row: &&Row| matches!(row, Row::Done(checked) if checked.verdict == Verdict::Pass);
     let passed = app.rows.iter().filter(passed).count();
-    if app.busy() {
+    if app.computing() {
         format!("computing {done}/{}", app.rows.len())
     } else {
         format!("{passed} of {} pass", app.rows.len())
@@ -100,10 +105,25 @@ fn summary(app: &App) -> String {
 
 fn draw_footer(app: &App, frame: &mut Frame, area: Rect) {
     let mut spans = Vec::new();
-    for binding in KEYS.iter().filter(|binding| !binding.short.is_empty()) {
-        let label = binding.label.split(' ').next().unwrap_or_default();
+    let mut add = |label: &str, short: &'static str| {
         spans.push(Span::styled(format!(" {label} "), app.theme.title()));
-        spans.push(Span::styled(format!("{} ", binding.short), app.theme.quiet()));
+        spans.push(Span::styled(format!("{short} "), app.theme.quiet()));
+    };
+    if app.screen == Screen::Studies {
+        [
+            ("1", "compare"),
+            ("Left Right", "study"),
+            ("Enter", "start"),
+            ("x", "cancel"),
+            ("?", "help"),
+            ("q", "quit"),
+        ]
+        .into_iter()
+        .for_each(|(label, short)| add(label, short));
+    } else {
+        for binding in KEYS.iter().filter(|binding| !binding.short.is_empty()) {
+            add(binding.label.split(' ').next().unwrap_or_default(), binding.short);
+        }
     }
     frame.render_widget(Line::from(spans), area);
 }

@@ -3,6 +3,8 @@
 //! Each request has a generation number; starting a new one, or dropping the worker, stops the old within a step. A panic
 //! while an option computes becomes that option's failure. The work itself is [`check`], the same that scripts run.
 
+mod errand;
+
 use std::any::Any;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -11,6 +13,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
+
+pub use errand::{Errands, Found, Kind};
 
 use crate::study::check::{Checked, check};
 use crate::study::{Case, Effort};

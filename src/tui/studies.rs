@@ -1,0 +1,86 @@
+//! What the long studies have come to, as the screen shows it.
+
+use std::fmt;
+use std::sync::Arc;
+
+use crate::worker::{Found, Kind};
+
+/// One study.
+#[derive(Clone, Debug, Default)]
+pub enum Progress {
+    /// Not begun, or cancelled.
+    #[default]
+    Idle,
+    /// Under way.
+    Running {
+        /// Shots judged.
+        done: usize,
+        /// Expected so far.
+        total: usize,
+    },
+    /// Its result, kept while one looks elsewhere.
+    Done(Arc<Found>),
+    /// Without a result.
+    Failed(String),
+}
+
+impl fmt::Display for Progress {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Progress::Idle => Ok(()),
+            Progress::Running { done, total } => write!(f, "{} %", 100 * done / (*total).max(1)),
+            Progress::Done(_) => write!(f, "done"),
+            Progress::Failed(_) => write!(f, "no result"),
+        }
+    }
+}
+
+/// All of them.
+#[derive(Clone, Debug)]
+pub struct Studies {
+    /// Which is shown.
+    pub shown: Kind,
+    /// Lines scrolled.
+    pub scroll: u16,
+    progress: [Progress; 4],
+}
+
+impl Default for Studies {
+    fn default() -> Self {
+        Self { shown: Kind::Sweep, scroll: 0, progress: Default::default() }
+    }
+}
+
+impl Studies {
+    /// How a study stands.
+    pub fn progress(&self, kind: Kind) -> &Progress {
+        &self.progress[kind as usize]
+    }
+
+    /// Notes how a study stands.
+    pub fn set(&mut self, kind: Kind, progress: Progress) {
+        self.progress[kind as usize] = progress;
+    }
+
+    /// How a study stands, in a word.
+    pub fn state(&self, kind: Kind) -> String {
+        self.progress(kind).to_string()
+    }
+
+    /// Shows the study so many places further.
+    pub fn turn(&mut self, places: isize) {
+        let count = Kind::ALL.len() as isize;
+        self.shown = Kind::ALL[(self.shown as isize + places).rem_euclid(count) as usize];
+        self.scroll = 0;
+    }
+
+    /// Scrolls so many lines.
+    pub fn scroll(&mut self, lines: i16) {
+        self.scroll = self.scroll.saturating_add_signed(lines);
+    }
+
+    /// Whether any computes.
+    pub fn busy(&self) -> bool {
+        self.progress.iter().any(|progress| matches!(progress, Progress::Running { .. }))
+    }
+}

@@ -1,0 +1,180 @@
+//! Long studies: sweep, orders, scatter and size, one shown at a time.
+//!
+//! ```text
+//!  Sweep   Orders   Scatter   Size
+//! ──────────────────────────────────
+//! what it found; for the sweep, charts against the interval
+//! ```
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::Style;
+use ratatui::symbols::Marker;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Axis, Block, Borders, Chart, Dataset, Gauge, GraphType, Paragraph, Wrap};
+
+use crate::report;
+use crate::report::table::Style as Plain;
+use crate::study::sweep::{Point, Sweep};
+use crate::tui::app::App;
+use crate::tui::studies::Progress;
+use crate::units::{self, Unit};
+use crate::verdict::Verdict;
+use crate::worker::{Found, Kind};
+
+/// What lines of sparklines contain.
+const BARS: [char; 3] = ['▁', '▄', '▇'];
+
+/// Name of a study, and what it answers.
+fn about(kind: Kind) -> (&'static str, &'static str) {
+    match kind {
+        Kind::Sweep => {
+            ("Sweep", "Which intervals between rows pass? From 0 to 500 ms, closer where the answer changes.")
+        }
+        Kind::Orders => (
+            "Orders",
+            "Which order of the rows is worst, which best? All orders at the intervals of the plan.",
+        ),
+        Kind::Scatter => (
+            "Scatter",
+            "How often does each option fail when detonators and launches scatter? 1000 samples each.",
+        ),
+        Kind::Size => ("Size", "What is the lightest rope, tire and border with which every option passes?"),
+    }
+}
+
+/// Draws the studies.
+pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
+    let [tabs, body] = Layout::vertical([Constraint::Length(1), Constraint::Min(0)]).areas(area);
+    let mut spans = Vec::new();
+    for kind in Kind::ALL {
+        let style = if kind == app.studies.shown { app.theme.selected() } else { app.theme.base() };
+        spans.push(Span::styled(format!(" {} ", about(kind).0), style));
+        spans.push(Span::styled(format!("{} ", app.studies.state(kind)), app.theme.quiet()));
+    }
+    frame.render_widget(Line::from(spans), tabs);
+    let rule = Block::new().borders(Borders::TOP).border_style(app.theme.quiet());
+    let inside = rule.inner(body);
+    frame.render_widget(rule, body);
+    let kind = app.studies.shown;
+    let question = Line::styled(about(kind).1, app.theme.title());
+    match app.studies.progress(kind) {
+        Progress::Idle => message(app, frame, inside, question, "Enter starts it."),
+        Progress::Failed(words) => message(app, frame, inside, question, words),
+        Progress::Running { done, total } => {
+            let [text, bar] = Layout::vertical([Constraint::Length(2), Constraint::Length(1)]).areas(inside);
+            frame.render_widget(Paragraph::new(question), text);
+            let part = if *total > 0 { *done as f64 / *total as f64 } else { 0.0 };
+            let label = format!("{done} of {total} shots · x cancels");
+            let gauge =
+                Gauge::default().ratio(part.clamp(0.0, 1.0)).label(label).gauge_style(app.theme.curve());
+            frame.render_widget(gauge, bar);
+        }
+        Progress::Done(found) => match found.as_ref() {
+            Found::Sweep(sweep) => draw_sweep(app, sweep, frame, inside),
+            found => scrolled(app, frame, inside, &text(app, found)),
+        },
+    }
+}
+
+fn message(app: &App, frame: &mut Frame, area: Rect, question: Line<'_>, words: &str) {
+    let lines = vec![question, Line::default(), Line::styled(words.to_owned(), app.theme.base())];
+    frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), area);
+}
+
+/// The same text as the command prints, without its heading, which stands above already.
+fn text(app: &App, found: &Found) -> String {
+    let (case, style) = (&app.case, Plain::default());
+    let whole = match found {
+        Found::Sweep(sweep) => report::sweep::text(case, sweep, style),
+        Found::Orders(orders) => report::orders::text(case, orders, style),
+        Found::Scatter(draw, samples) => report::scatter::text(case, draw, samples, style),
+        Found::Size(sizing) => report::size::text(case, sizing, style),
+    };
+    whole.lines().skip(2).skip_while(|line| line.is_empty()).map(|line| format!("{line}\n")).collect()
+}
+
+fn scrolled(app: &App, frame: &mut Frame, area: Rect, text: &str) {
+    let lines: Vec<Line> = text.lines().map(|line| with_verdicts(app, line)).collect();
+    let most = (lines.len() as u16).saturating_sub(area.height);
+    let text = Paragraph::new(lines).wrap(Wrap { trim: false });
+    frame.render_widget(text.scroll((app.studies.scroll.min(most), 0)), area);
+}
+
+/// A line of a report with its first verdict in its colour.
+fn with_verdicts<'l>(app: &App, line: &'l str) -> Line<'l> {
+    let words = [("PASS", Verdict::Pass), ("FAIL", Verdict::Fail), ("OPEN", Verdict::Undecided)];
+    for (word, verdict) in words {
+        if let Some((before, after)) = line.split_once(word) {
+            let word = Span::styled(word, app.theme.verdict(verdict));
+            return Line::from(vec![Span::raw(before), word, Span::raw(after)]);
+        }
+    }
+    Line::raw(line)
+}
+
+fn draw_sweep(app: &App, sweep: &Sweep, frame: &mut Frame, area: Rect) {
+    let text = text(app, &Found::Sweep(sweep.clone()));
+    // What the charts show need not stand there as bars.
+    let facts: Vec<&str> = text.lines().filter(|line| !line.contains(BARS) && !line.is_empty()).collect();
+    let lines: Vec<Line> = facts.iter().map(|line| with_verdicts(app, line)).collect();
+    let [words, left, right] = Layout::vertical([
+        Constraint::Length((lines.len() as u16 + 1).min(area.height / 2)),
+        Constraint::Fill(1),
+        Constraint::Fill(1),
+    ])
+    .areas(area);
+    frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: false }), words);
+    let limits = &app.case.limits;
+    draw_curve(app, sweep, |point| point.envelope.height[0], limits.height, Unit::Metre, frame, left);
+    draw_curve(app, sweep, |point| point.envelope.force[0], limits.force, Unit::Kilonewton, frame, right);
+}
+
+/// A quantity against the interval; stretches that pass lie under a line along the bottom.
+fn draw_curve(
+    app: &App,
+    sweep: &Sweep,
+    of: fn(&Point) -> f64,
+    limit: f64,
+    unit: Unit,
+    frame: &mut Frame,
+    area: Rect,
+) {
+    if area.height < 3 || area.width < 20 {
+        return;
+    }
+    let (size, [from, to]) = (unit.size(), sweep.range().map(|interval| interval * 1e3));
+    let curve: Vec<(f64, f64)> =
+        sweep.points.iter().map(|point| (point.interval * 1e3, of(point) / size)).collect();
+    let top = sweep.points.iter().map(of).fold(limit, f64::max) / size * 1.08;
+    let limit = [(from, limit / size), (to, limit / size)];
+    let windows: Vec<Vec<(f64, f64)>> = sweep
+        .windows()
+        .iter()
+        .map(|[from, to]| {
+            let columns = usize::from(area.width);
+            let at = |n: usize| 1e3 * (from + (to - from) * n as f64 / columns as f64);
+            (0..=columns).map(|n| (at(n), top * 0.02)).collect()
+        })
+        .collect();
+    let line = |data, style: Style, marker| {
+        Dataset::default().data(data).graph_type(GraphType::Line).marker(marker).style(style)
+    };
+    let pass = app.theme.verdict(Verdict::Pass);
+    let mut sets: Vec<Dataset> = windows.iter().map(|window| line(window, pass, Marker::Block)).collect();
+    sets.push(line(&limit, app.theme.limit(), Marker::Dot));
+    sets.push(line(&curve, app.theme.curve(), Marker::Braille));
+    let quiet = app.theme.quiet();
+    let at = [from, 0.5 * (from + to), to].map(|ms| Line::from(units::milliseconds(ms * 1e-3)));
+    let levels =
+        [0.0, top].map(|level| Line::from(format!("{level:.4}").chars().take(5).collect::<String>()));
+    let name = if unit == Unit::Metre { "flight height, m" } else { "cable force, kN" };
+    let title = format!("{name} against the interval (dotted: limit; bar below: passes)");
+    let chart = Chart::new(sets)
+        .block(Block::new().title(Line::styled(title, quiet).centered()))
+        .style(app.theme.base())
+        .x_axis(Axis::default().bounds([from, to.max(from + f64::MIN_POSITIVE)]).labels(at).style(quiet))
+        .y_axis(Axis::default().bounds([0.0, top]).labels(levels).style(quiet))
+        .legend_position(None);
+    frame.render_widget(chart, area);
+}

@@ -1,0 +1,143 @@
+//! Long studies in the background: each kind at most once, cancelled within a step, its result handed over whole.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread;
+
+use crate::plan::ScatterSpec;
+use crate::simulation::Failure;
+use crate::study::batch::Progress;
+use crate::study::orders::{Orders, is_complete, orders};
+use crate::study::scatter::{Draw, Sample, scatter};
+use crate::study::size::{Demand, Sizing, size};
+use crate::study::sweep::{Sweep, sweep};
+use crate::study::{Case, Effort, Intervals, Shard};
+
+/// A long study, with what a screen asks it for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Intervals from 0 to 500 ms, rows in the order listed.
+    Sweep,
+    /// All orders at the intervals of the delay options.
+    Orders,
+    /// A thousand samples of every option.
+    Scatter,
+    /// The lightest shelter with which every option passes.
+    Size,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Kind; 4] = [Kind::Sweep, Kind::Orders, Kind::Scatter, Kind::Size];
+}
+
+/// What a study found.
+#[derive(Clone, Debug)]
+pub enum Found {
+    /// Of [`Kind::Sweep`].
+    Sweep(Sweep),
+    /// Of [`Kind::Orders`].
+    Orders(Orders),
+    /// Of [`Kind::Scatter`].
+    Scatter(Draw, Vec<Sample>),
+    /// Of [`Kind::Size`].
+    Size(Sizing),
+}
+
+/// Samples of every option.
+const DRAW: Draw = Draw { samples: 1000, seed: 1, certain_at: None };
+/// Intervals swept [s].
+const INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: 5e-3 };
+
+type Result = std::result::Result<Found, String>;
+
+/// Long studies under way.
+pub struct Errands {
+    threads: usize,
+    under_way: [Option<Arc<Progress>>; 4],
+    sender: Sender<(Kind, Arc<Progress>, Result)>,
+    results: Receiver<(Kind, Arc<Progress>, Result)>,
+}
+
+impl Errands {
+    /// None under way; each will use so many threads, 0: one per core.
+    pub fn new(threads: usize) -> Self {
+        let (sender, results) = channel();
+        Self { threads, under_way: Default::default(), sender, results }
+    }
+
+    /// Begins a study; one of its kind that was under way ends without a result.
+    pub fn start(&mut self, kind: Kind, case: &Arc<Case>, effort: Effort) {
+        self.cancel(kind);
+        let progress = Arc::new(Progress::default());
+        self.under_way[kind as usize] = Some(Arc::clone(&progress));
+        let (case, sender, threads) = (Arc::clone(case), self.sender.clone(), self.threads);
+        thread::spawn(move || {
+            let study = || study(kind, &case, &effort, &progress);
+            let on_threads = || match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+                Ok(pool) => pool.install(study),
+                Err(error) => Err(error.to_string()),
+            };
+            let result = catch_unwind(AssertUnwindSafe(on_threads));
+            let result = result.unwrap_or_else(|panic| Err(super::words_of(&*panic)));
+            // A receiver that is gone has quit: nobody is left to tell.
+            let _ = sender.send((kind, progress, result));
+        });
+    }
+
+    /// Ends a study without a result.
+    pub fn cancel(&mut self, kind: Kind) {
+        if let Some(progress) = self.under_way[kind as usize].take() {
+            progress.stop();
+        }
+    }
+
+    /// Shots judged and expected, of a study under way.
+    pub fn counts(&self, kind: Kind) -> Option<(usize, usize)> {
+        self.under_way[kind as usize].as_ref().map(|progress| progress.counts())
+    }
+
+    /// Results since the last call; those of cancelled studies are dropped.
+    pub fn results(&mut self) -> Vec<(Kind, Result)> {
+        let mut new = Vec::new();
+        while let Ok((kind, progress, result)) = self.results.try_recv() {
+            let place = &mut self.under_way[kind as usize];
+            if place.as_ref().is_some_and(|current| Arc::ptr_eq(current, &progress)) {
+                *place = None;
+                new.push((kind, result));
+            }
+        }
+        new
+    }
+}
+
+impl Drop for Errands {
+    fn drop(&mut self) {
+        Kind::ALL.into_iter().for_each(|kind| self.cancel(kind));
+    }
+}
+
+fn study(kind: Kind, case: &Case, effort: &Effort, progress: &Progress) -> Result {
+    let said = |failure: Failure| failure.to_string();
+    match kind {
+        Kind::Sweep => {
+            let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
+            sweep(case, &order, &INTERVALS, effort, progress).map(Found::Sweep).map_err(said)
+        }
+        Kind::Orders => {
+            let intervals = case.intervals();
+            if intervals.is_empty() {
+                return Err("no delay option has an interval".to_owned());
+            }
+            let tried = orders(case, &intervals, Shard::WHOLE, effort, progress).map_err(said)?;
+            Ok(Found::Orders(Orders::new(case, tried, is_complete(case))))
+        }
+        Kind::Scatter => {
+            let spec: ScatterSpec = case.plan.scatter.ok_or("the plan has no section [scatter]")?;
+            let samples = scatter(case, &spec, &DRAW, Shard::WHOLE, effort, progress).map_err(said)?;
+            Ok(Found::Scatter(DRAW, samples))
+        }
+        Kind::Size => size(&case.plan, &Demand::Options, effort, progress).map(Found::Size).map_err(said),
+    }
+}
