@@ -8,6 +8,7 @@ mod long;
 mod merge;
 mod orders;
 mod packaging;
+mod report;
 mod ropes;
 mod scatter;
 mod size;
@@ -20,8 +21,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::plan::{Accuracy, Method, Plan};
-use crate::report::Format;
-use crate::report::table::Style;
+use crate::report::{Format, table::Style};
 use crate::study::Effort;
 
 /// Which blasting delay is safe under a shelter of tires and cables.
@@ -64,6 +64,8 @@ enum Command {
     Size(size::Arguments),
     /// Joins the shares of `orders` or `scatter` that several machines computed
     Merge(merge::Arguments),
+    /// One self-contained page for the blast file
+    Report(report::Arguments),
     /// The rope catalogue
     Ropes(ropes::Arguments),
     /// A commented starter plan
@@ -231,6 +233,7 @@ pub fn run() -> ExitCode {
         (Some(Command::Scatter(arguments)), _) => scatter::run(&arguments, &cli.look),
         (Some(Command::Size(arguments)), _) => size::run(&arguments, &cli.look),
         (Some(Command::Merge(arguments)), _) => merge::run(&arguments, &cli.look),
+        (Some(Command::Report(arguments)), _) => report::run(&arguments, &cli.look),
         (Some(Command::Ropes(arguments)), _) => ropes::run(&arguments),
         (Some(Command::Init(arguments)), _) => init::run(&arguments),
         (Some(Command::Completions(arguments)), _) => packaging::completions(&arguments),

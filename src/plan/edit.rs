@@ -58,14 +58,23 @@ pub fn write_sizes(
 /// Replaces a file with `text` whole: whoever reads it, or a loss of power, finds the old text or the new.
 pub fn save(path: &Path, text: &str) -> io::Result<()> {
     // A link stays a link: what it names is replaced.
-    let path = path.canonicalize()?;
-    let folder = path.parent().unwrap_or(Path::new("."));
-    let mut new = tempfile::NamedTempFile::new_in(folder)?;
+    let path = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    builder.permissions(permissions(&path));
+    let mut new = builder.tempfile_in(folder)?;
     new.write_all(text.as_bytes())?;
-    new.as_file().set_permissions(path.metadata()?.permissions())?;
     new.as_file().sync_all()?;
     new.persist(&path)?;
     Ok(())
+}
+
+/// Those of the file, or what a new one gets.
+#[cfg(unix)]
+fn permissions(path: &Path) -> std::fs::Permissions {
+    use std::os::unix::fs::PermissionsExt;
+    path.metadata().map_or_else(|_| std::fs::Permissions::from_mode(0o666), |old| old.permissions())
 }
 
 /// Puts a value where the old one stood, with the comment beside it.

@@ -5,6 +5,7 @@
 
 pub mod accuracy;
 pub mod check;
+pub mod html;
 pub mod orders;
 pub mod ropes;
 pub mod scatter;

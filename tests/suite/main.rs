@@ -10,6 +10,7 @@ mod extremes;
 mod layers;
 mod long_studies;
 mod mirrors;
+mod page;
 mod plans;
 mod properties;
 mod reference;

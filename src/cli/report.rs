@@ -1,0 +1,58 @@
+//! `shelter report`: one page for the blast file.
+
+use std::io;
+use std::path::PathBuf;
+
+use clap::Args;
+use jiff::{Timestamp, tz::TimeZone};
+
+use super::{Compute, Look, Status, load, long};
+use crate::plan::edit;
+use crate::report;
+use crate::study::batch::each;
+use crate::study::check::check;
+use crate::verdict::Verdict;
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Plan to report; `-` reads standard input
+    plan: PathBuf,
+    /// Page to write
+    #[arg(short, long, value_name = "FILE.html")]
+    output: PathBuf,
+    #[command(flatten)]
+    compute: Compute,
+}
+
+pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
+    let Some(case) = load::cases([&arguments.plan], look).and_then(|mut cases| cases.pop()) else {
+        return Ok(Status::Wrong);
+    };
+    let effort = arguments.compute.effort(&case.plan);
+    let options: Vec<usize> = (0..case.shots.len()).collect();
+    let judged = long::run(&arguments.compute, |progress| {
+        each(&options, progress, |&option| {
+            let checked = check(&case, option, &effort, &mut |_| progress.flow());
+            if progress.stopped() { checked.map(Ok) } else { Ok(checked) }
+        })
+    });
+    let results = match judged {
+        Ok(results) => results,
+        Err(failure) => return long::failed(&failure),
+    };
+    edit::save(&arguments.output, &report::html::page(&case, &results, &date()))?;
+    let passed = report::check::verdict(&results, false) == Verdict::Pass;
+    Ok(if passed { Status::Pass } else { Status::Fail })
+}
+
+/// Today; a day fixed by SOURCE_DATE_EPOCH where builds are to be reproduced.
+fn date() -> String {
+    let fixed = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|seconds| seconds.parse().ok());
+    let now = fixed.and_then(|seconds| Timestamp::from_second(seconds).ok());
+    match now {
+        Some(fixed) => fixed.to_zoned(TimeZone::UTC),
+        None => jiff::Zoned::now(),
+    }
+    .strftime("%Y-%m-%d")
+    .to_string()
+}
