@@ -1,12 +1,14 @@
 //! `shelter init`: a commented starter plan.
 
 use std::fs::OpenOptions;
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 
 use clap::Args;
 
-use super::Status;
+use super::{Look, Status};
+use crate::plan::Diagnostics;
+use crate::plan::import::plan_from_holes;
 
 /// The starter plan.
 pub const STARTER: &str = include_str!("../../plans/amur-three-rows.toml");
@@ -15,18 +17,35 @@ pub const STARTER: &str = include_str!("../../plans/amur-three-rows.toml");
 pub struct Arguments {
     /// File to write, never overwritten; default: standard output
     file: Option<PathBuf>,
+    /// Build the plan from a list of holes, as Kirra and others export it
+    #[arg(long, value_name = "HOLES.csv")]
+    from: Option<PathBuf>,
 }
 
-pub fn run(arguments: &Arguments) -> io::Result<Status> {
+pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
+    let text = match &arguments.from {
+        None => STARTER.to_owned(),
+        Some(list) => {
+            let read =
+                Diagnostics::read(list).and_then(|text| plan_from_holes(&list.display().to_string(), &text));
+            match read {
+                Ok(text) => text,
+                Err(mistakes) => {
+                    eprint!("{}", mistakes.render(look.colored(io::stderr().is_terminal())));
+                    return Ok(Status::Wrong);
+                }
+            }
+        }
+    };
     let Some(path) = &arguments.file else {
-        io::stdout().write_all(STARTER.as_bytes())?;
+        io::stdout().write_all(text.as_bytes())?;
         return Ok(Status::Pass);
     };
     let written = OpenOptions::new()
         .write(true)
         .create_new(true)
         .open(path)
-        .and_then(|mut file| file.write_all(STARTER.as_bytes()));
+        .and_then(|mut file| file.write_all(text.as_bytes()));
     match written {
         Ok(()) => {
             eprintln!("wrote {0}; open it with: shelter {0}", path.display());

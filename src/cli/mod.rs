@@ -235,7 +235,7 @@ pub fn run() -> ExitCode {
         (Some(Command::Merge(arguments)), _) => merge::run(&arguments, &cli.look),
         (Some(Command::Report(arguments)), _) => report::run(&arguments, &cli.look),
         (Some(Command::Ropes(arguments)), _) => ropes::run(&arguments),
-        (Some(Command::Init(arguments)), _) => init::run(&arguments),
+        (Some(Command::Init(arguments)), _) => init::run(&arguments, &cli.look),
         (Some(Command::Completions(arguments)), _) => packaging::completions(&arguments),
         (Some(Command::Man), _) => packaging::man(),
         (None, Some(plan)) => load::open(&plan, &cli.compute, &cli.look),

@@ -6,6 +6,7 @@
 
 mod diagnostic;
 pub mod edit;
+pub mod import;
 mod read;
 mod validate;
 
@@ -90,15 +91,20 @@ pub struct SizeSpec {
 impl Plan {
     /// Reads and validates a plan file; `-` is standard input.
     pub fn load(path: &Path) -> Result<Self, Diagnostics> {
-        let name = path.display().to_string();
-        let text =
-            read_text(path).map_err(|(message, remedy)| Diagnostics::unreadable(&name, message, remedy))?;
-        Self::parse(&name, &text)
+        Self::parse(&path.display().to_string(), &Diagnostics::read(path)?)
     }
 
     /// Validates the text of a plan; `name` stands for the file in messages.
     pub fn parse(name: &str, text: &str) -> Result<Self, Diagnostics> {
         validate::parse(name, text)
+    }
+}
+
+impl Diagnostics {
+    /// The text of a file; `-` is standard input.
+    pub fn read(path: &Path) -> Result<String, Self> {
+        let name = path.display().to_string();
+        read_text(path).map_err(|(message, remedy)| Self::unreadable(&name, message, remedy))
     }
 }
 
@@ -112,7 +118,7 @@ fn read_text(path: &Path) -> Result<String, (String, &'static str)> {
             std::io::ErrorKind::IsADirectory => "name a plan file inside it",
             _ => "check the path and its permissions",
         };
-        (format!("cannot read the plan: {error}"), remedy)
+        (format!("cannot read the file: {error}"), remedy)
     };
     let mut bytes = Vec::new();
     let read = if path.as_os_str() == "-" {

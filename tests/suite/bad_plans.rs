@@ -217,7 +217,7 @@ fn files_that_cannot_be_read_name_the_path_and_the_remedy() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("plan.toml");
     let told = |path: &std::path::Path| Plan::load(path).expect_err("unreadable").render(false);
-    assert!(told(&path).contains("cannot read the plan"), "missing");
+    assert!(told(&path).contains("cannot read the file"), "missing");
     assert!(told(&path).contains("shelter init"), "missing: the remedy");
     assert!(told(folder.path()).contains("directory"), "a directory");
     std::fs::write(&path, b"title = \"\xff\"").expect("written");

@@ -7,6 +7,7 @@ mod calibration;
 mod check;
 mod closed_forms;
 mod extremes;
+mod import;
 mod layers;
 mod long_studies;
 mod mirrors;

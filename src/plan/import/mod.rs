@@ -1,0 +1,144 @@
+//! A starter plan from a list of holes, as blast design programs export it.
+
+mod holes;
+mod timing;
+
+use std::fmt::Write;
+
+use self::holes::{ListedHole, read};
+use self::timing::{Group, groups};
+use super::Diagnostics;
+use super::validate::MOST_TIRES;
+
+/// Tires lie as far apart as the holes where those are this near [m], else [`USUAL_SPACING_M`].
+const NEAR_M: std::ops::RangeInclusive<f64> = 1.0..=3.0;
+const USUAL_SPACING_M: f64 = 2.6;
+/// Tires beyond the outermost holes on each side.
+const MARGIN: usize = 1;
+/// Launch velocity of holes for which the list has none [m/s].
+const LAUNCH_M_S: f64 = 6.0;
+
+/// The text of a plan for the holes in `text`, a table of values separated by commas, semicolons or tabs; `name` is the
+/// file's.
+///
+/// Columns are known by their header: hole, x and y in metres, and a row, or a firing time (`fire_ms`, counted from the
+/// first), or a delay after another hole (`delay_ms` and `from`). Tables without a header are taken for Kirra's of 4, 7, 9,
+/// 12 or 14 columns.
+pub fn plan_from_holes(name: &str, text: &str) -> Result<String, Diagnostics> {
+    let source = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let wrong = |mistakes| Diagnostics::new(name, source, mistakes);
+    let table = read(source).map_err(wrong)?;
+    let groups = groups(&table).map_err(wrong)?;
+    let layout = Cover::of(&table.holes);
+    if layout.rows.saturating_mul(layout.columns) > MOST_TIRES {
+        let message = "the holes lie too far apart for one shelter".to_owned();
+        return Err(Diagnostics::unreadable(
+            name,
+            message,
+            "are x and y in metres? split the list into blasts",
+        ));
+    }
+    Ok(write(name, &layout, &table.holes, &groups))
+}
+
+/// A grid of tires over all holes.
+struct Cover {
+    rows: usize,
+    columns: usize,
+    spacing_m: f64,
+    /// Where tire (1,1) lies in the list's coordinates [m].
+    origin: [f64; 2],
+}
+
+impl Cover {
+    fn of(holes: &[ListedHole]) -> Self {
+        let nearest = nearest_distance(holes);
+        let spacing_m =
+            if NEAR_M.contains(&nearest) { (nearest * 100.0).round() / 100.0 } else { USUAL_SPACING_M };
+        let range = |of: fn(&ListedHole) -> f64| {
+            holes.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
+        };
+        let ((left, right), (bottom, top)) = (range(|hole| hole.x_m), range(|hole| hole.y_m));
+        let count = |way: f64| (way / spacing_m - 1e-6).ceil().max(0.0) as usize + 1 + 2 * MARGIN;
+        let margin = MARGIN as f64 * spacing_m;
+        Self {
+            rows: count(top - bottom),
+            columns: count(right - left),
+            spacing_m,
+            origin: [left - margin, bottom - margin],
+        }
+    }
+}
+
+/// Median distance of a hole to its nearest [m]; of the first thousand holes.
+fn nearest_distance(holes: &[ListedHole]) -> f64 {
+    let some = &holes[..holes.len().min(1000)];
+    let nearest = |hole: &ListedHole| {
+        let others = some.iter().map(|other| (other.x_m - hole.x_m).hypot(other.y_m - hole.y_m));
+        others.filter(|&distance| distance > 0.0).fold(f64::INFINITY, f64::min)
+    };
+    let mut all: Vec<f64> = some.iter().map(nearest).collect();
+    all.sort_by(f64::total_cmp);
+    all.get(all.len() / 2).copied().unwrap_or(f64::INFINITY)
+}
+
+fn write(name: &str, cover: &Cover, holes: &[ListedHole], groups: &[Group]) -> String {
+    let mut text = String::new();
+    let Cover { rows, columns, spacing_m, origin } = cover;
+    let file = toml_edit::value(format!("Holes of {name}")).to_string();
+    let _ = write!(
+        text,
+        "# Written by `shelter init --from`. Put in your tires, rope, friction and limits, and the launch velocity.
+title = {file}
+
+[shelter]               # tire (1,1) lies at x = {:.3}, y = {:.3} of the list
+layout = \"grid\"
+rows = {rows}                # along y
+columns = {columns}             # along x
+spacing_m = {spacing_m}
+
+[tire]
+mass_kg = 280           # a worn 18.00-25
+
+[cable]
+rope = \"GOST 2688-80 14\"         # `shelter ropes` lists the catalogue
+termination = \"mechanical sleeve\"
+slack_percent = 2
+
+[ground]
+friction = 0.5          # rocky soil 0.3 to 0.5
+",
+        origin[0], origin[1]
+    );
+    for group in groups {
+        let title = toml_edit::value(group.name.as_str()).to_string();
+        let _ = write!(text, "\n[[blast_row]]\nname = {title}\nholes = [\n");
+        for &hole in &group.holes {
+            let hole = &holes[hole];
+            let _ = writeln!(
+                text,
+                "    {{ x_m = {:.3}, y_m = {:.3}, launch_m_s = {:?} }}, # {}",
+                hole.x_m - origin[0],
+                hole.y_m - origin[1],
+                hole.launch_m_s.unwrap_or(LAUNCH_M_S),
+                hole.id.replace(char::is_control, " "),
+            );
+        }
+        text += "]\n";
+    }
+    text +=
+        "\n[limits]\nflight_height_m = 1.8\ncable_safety_factor = 1.5   # breaking force / greatest force\n";
+    let times: Option<Vec<String>> =
+        groups.iter().map(|group| Some(format!("{:?}", group.fire_ms?))).collect();
+    match times {
+        Some(times) => {
+            let _ = write!(text, "\n[[delay]]\nname = \"as listed\"\nat_ms = [{}]\n", times.join(", "));
+        }
+        None => {
+            for interval in [17, 25, 42] {
+                let _ = write!(text, "\n[[delay]]\nname = \"{interval} ms\"\ninterval_ms = {interval}\n");
+            }
+        }
+    }
+    text
+}

@@ -1,0 +1,115 @@
+//! Which holes fire together, and when: from firing times, from delays after other holes, or from rows.
+
+use std::collections::{HashMap, HashSet};
+
+use super::holes::{Holes, ListedHole};
+use crate::plan::diagnostic::Mistake;
+
+/// Holes that fire together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Group {
+    pub name: String,
+    /// Indices of the holes.
+    pub holes: Vec<usize>,
+    /// From the first of the blast [ms]; `None` where the list has no times.
+    pub fire_ms: Option<f64>,
+}
+
+/// Groups the holes of a list, in the order in which they fire or, without times, in which their rows are listed.
+pub fn groups(table: &Holes) -> Result<Vec<Group>, Vec<Mistake>> {
+    let times = times(&table.holes)?;
+    let (mut groups, mut known): (Vec<Group>, HashMap<String, usize>) = (Vec::new(), HashMap::new());
+    for (n, hole) in table.holes.iter().enumerate() {
+        let fire_ms = times.as_ref().map(|times| times[n]);
+        let name = match (fire_ms, &hole.row) {
+            (Some(ms), _) => format!("{ms} ms"),
+            (None, Some(row)) => row.clone(),
+            (None, None) => "1".to_owned(),
+        };
+        let place = *known.entry(name.clone()).or_insert_with(|| {
+            groups.push(Group { name, holes: Vec::new(), fire_ms });
+            groups.len() - 1
+        });
+        groups[place].holes.push(n);
+    }
+    groups.sort_by(|a, b| a.fire_ms.unwrap_or(0.0).total_cmp(&b.fire_ms.unwrap_or(0.0)));
+    let rows: Option<Vec<String>> = groups.iter().map(|group| one_row(&table.holes, group)).collect();
+    if let Some(rows) = rows.filter(|rows| rows.iter().collect::<HashSet<_>>().len() == rows.len()) {
+        groups.iter_mut().zip(rows).for_each(|(group, row)| group.name = row);
+    }
+    Ok(groups)
+}
+
+/// The row that all holes of a group are of.
+fn one_row(holes: &[ListedHole], group: &Group) -> Option<String> {
+    let row = holes[group.holes[0]].row.clone()?;
+    group.holes.iter().all(|&hole| holes[hole].row.as_ref() == Some(&row)).then_some(row)
+}
+
+/// When every hole fires [ms], the first at 0; `None` where the list does not say.
+fn times(holes: &[ListedHole]) -> Result<Option<Vec<f64>>, Vec<Mistake>> {
+    let absolute = holes.iter().any(|hole| hole.fire_ms.is_some());
+    if !absolute && holes.iter().all(|hole| hole.delay_ms.is_none()) {
+        return Ok(None);
+    }
+    let mut times = if absolute { firing_times(holes)? } else { chained_times(holes)? };
+    let first = times.iter().copied().fold(f64::INFINITY, f64::min);
+    times.iter_mut().for_each(|time| *time -= first);
+    Ok(Some(times))
+}
+
+fn wrong(hole: &ListedHole, message: String, remedy: &str) -> Mistake {
+    Mistake { span: hole.span.clone(), message, remedy: remedy.to_owned() }
+}
+
+fn firing_times(holes: &[ListedHole]) -> Result<Vec<f64>, Vec<Mistake>> {
+    let without = holes.iter().filter(|hole| hole.fire_ms.is_none());
+    let mistake = |hole: &ListedHole| {
+        wrong(hole, format!("hole {} has no firing time", hole.id), "give every hole one, or none")
+    };
+    let mistakes: Vec<Mistake> = without.map(mistake).collect();
+    if mistakes.is_empty() {
+        Ok(holes.iter().filter_map(|hole| hole.fire_ms).collect())
+    } else {
+        Err(mistakes)
+    }
+}
+
+/// Sums delays along the chains of holes; a hole that follows itself, or none, begins a chain.
+fn chained_times(holes: &[ListedHole]) -> Result<Vec<f64>, Vec<Mistake>> {
+    let by_id: HashMap<&str, usize> =
+        holes.iter().enumerate().map(|(n, hole)| (hole.id.as_str(), n)).collect();
+    let mut mistakes = Vec::new();
+    let mut times: Vec<Option<f64>> = vec![None; holes.len()];
+    for n in 0..holes.len() {
+        let (mut chain, mut at) = (Vec::new(), n);
+        let mut time = loop {
+            if let Some(time) = times[at] {
+                break time;
+            }
+            chain.push(at);
+            let hole = &holes[at];
+            let Some(from) = hole.from.as_deref().filter(|&from| from != hole.id) else { break 0.0 };
+            match by_id.get(from) {
+                Some(&before) if chain.len() <= holes.len() => at = before,
+                Some(_) => {
+                    let message = format!("hole {} follows itself by way of others", holes[n].id);
+                    mistakes.push(wrong(&holes[n], message, "let the chain of holes begin somewhere"));
+                    chain.clear();
+                    times[n] = Some(0.0);
+                    break 0.0;
+                }
+                None => {
+                    let message = format!("hole {} follows hole {from}, which is not listed", hole.id);
+                    mistakes.push(wrong(hole, message, "list it, or correct the column `from`"));
+                    break 0.0;
+                }
+            }
+        };
+        for &hole in chain.iter().rev() {
+            time += holes[hole].delay_ms.unwrap_or(0.0);
+            times[hole] = Some(time);
+        }
+    }
+    if mistakes.is_empty() { Ok(times.into_iter().flatten().collect()) } else { Err(mistakes) }
+}

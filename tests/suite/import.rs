@@ -1,0 +1,121 @@
+//! Plans from lists of holes: the formats that load, and what is said of those that do not.
+
+use shelter::plan::import::plan_from_holes;
+use shelter::plan::{Charge, Plan, Timing};
+use shelter::study::Case;
+
+fn imported(list: &str) -> Plan {
+    let text = plan_from_holes("holes.csv", list).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    Plan::parse("plan.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"))
+}
+
+/// Names of the blast rows with their number of holes, and the firing times.
+fn rows_and_times(plan: &Plan) -> (Vec<(&str, usize)>, Vec<f64>) {
+    let holes = |charge: &Charge| if let Charge::Holes(holes) = charge { holes.len() } else { 0 };
+    let rows = plan.blast_rows.iter().map(|row| (row.name.as_str(), holes(&row.charge))).collect();
+    (rows, plan.delays[0].timing.fire_at_ms())
+}
+
+#[test]
+fn rows_without_times_get_options_to_choose_from() {
+    let plan = imported("Hole,X (m),Y (m),Row\nA1,100,200,A\nA2,102,200,A\nB1,100,202,B\nB2,102,202,B\n");
+    let (rows, _) = rows_and_times(&plan);
+    assert_eq!(rows, [("A", 2), ("B", 2)]);
+    assert_eq!(plan.delays.len(), 3);
+    assert!(matches!(plan.delays[0].timing, Timing::Interval { .. }));
+    // Every hole launches a tire of its own, right above it.
+    let case = Case::new(plan);
+    let mut tires: Vec<usize> = case.shots[0].firings.iter().map(|firing| firing.tire).collect();
+    tires.dedup();
+    assert_eq!(tires.len(), 4);
+    for firing in &case.shots[0].firings {
+        let place = case.scene().position[firing.tire];
+        assert!([2.0, 4.0].contains(&place.x) && [2.0, 4.0].contains(&place.y), "{place}");
+    }
+}
+
+#[test]
+fn firing_times_group_holes_whatever_separates_the_columns() {
+    let expected = (vec![("0 ms", 2), ("25 ms", 1)], vec![0.0, 25.0]);
+    for list in [
+        "id,x,y,fire_ms\n1,0,0,100\n2,2,0,100\n3,0,2,125\n",
+        "\u{feff}ID;Easting;Northing;Firing time (ms)\r\n1;0,0;0;100\r\n2;2,0;0;100\r\n3;0;2,0;125\r\n",
+        "hole_id\tx_m\ty_m\tinitiation_time\n1\t0\t0\t100\n\n2\t2\t0\t100\n3\t0\t2\t125",
+    ] {
+        let plan = imported(list);
+        assert_eq!(rows_and_times(&plan), expected, "{list}");
+    }
+}
+
+#[test]
+fn delays_after_other_holes_add_up() {
+    let plan = imported("id,x,y,delay_ms,from\nc,4,0,42,b\na,0,0,0,a\nb,2,0,17,a\n");
+    assert_eq!(rows_and_times(&plan), (vec![("0 ms", 1), ("17 ms", 1), ("59 ms", 1)], vec![0.0, 17.0, 59.0]));
+}
+
+/// Kirra's layouts of 4, 12 and 14 columns without a header and of 35 with one, as its documentation describes them.
+#[test]
+fn kirra_exports_load_as_they_are() {
+    let plan = imported("H1,478746.054,6772335.082,405.5\nH2,478750.438,6772336.474,405.4\n");
+    assert_eq!(rows_and_times(&plan).0, [("1", 2)]);
+    let twelve = "1,0,0,10,0,0,0,165,Production,B:::1,0,red\n2,4,0,10,4,0,0,165,Production,B:::1,17,red\n";
+    assert_eq!(rows_and_times(&imported(twelve)).1, [0.0, 17.0]);
+    let fourteen = "B,hole,1,0,0,10,0,0,0,165,Production,B:::1,0,red\nB,hole,2,4,0,10,4,0,0,165,Production,B:::1,17,red\n";
+    assert_eq!(rows_and_times(&imported(fourteen)).1, [0.0, 17.0]);
+    let header = "entityName,entityType,holeID,startXLocation,startYLocation,startZLocation,endXLocation,endYLocation,endZLocation,gradeXLocation, gradeYLocation, gradeZLocation, subdrillAmount, subdrillLength, benchHeight, holeDiameter,holeType,fromHoleID,timingDelayMilliseconds,colorHexDecimal,holeLengthCalculated,holeAngle,holeBearing,initiationTime,measuredLength,measuredLengthTimeStamp,measuredMass,measuredMassTimeStamp,measuredComment,measuredCommentTimeStamp, rowID, posID, burden, spacing, connectorCurve";
+    let line = |id: usize, from: usize, delay: usize, time: usize, row: usize| {
+        let x = 4.5 * id as f64;
+        format!(
+            "B,hole,{id},{x},7,5,{x},7,0,{x},7,1,1.5,0,11,165,contour,B:::{from},{delay},#888888,13,0,180,{time},12,9/05/2025 7:00,178,9/05/1975 0:00,None,9/05/1975 0:00,{row},1,0,0,0\n"
+        )
+    };
+    let list = format!("{header}\n{}{}{}", line(1, 2, 42, 59, 2), line(2, 3, 17, 17, 1), line(3, 3, 0, 0, 1));
+    let plan = imported(&list);
+    assert_eq!(rows_and_times(&plan).1, [0.0, 17.0, 59.0]);
+}
+
+#[test]
+fn every_bad_line_is_named_with_its_remedy() {
+    let lists = [
+        "",
+        "\n\n",
+        "id,x,y,row\n",
+        "id,x,y,delay\n1,0,0,17\n2,2,0,34\n",
+        "id,easting\n1,0\n",
+        "id,x,y,z,t,u\n1,2\n",
+        "1,2,3,4,5\n2,3,4,5,6\n",
+        "id,x,y\n1,zero,0\n2,0,\n3,NaN,inf\n4,0,0\n5,0,0\n",
+        "id,x,y,fire_ms\n1,0,0,10\n2,2,0,\n3,4,0,-5\n4,6,0,1e999\n",
+        "id,x,y,from,delay_ms\n1,0,0,2,5\n2,2,0,1,5\n3,4,0,9,5\n",
+        "id,x,y,X\n1,0,0,0\n",
+        "id,x,y\n1,0,0\n2,1e6,1e6\n",
+        "id,x,y,launch_m_s\n1,0,0,-6\n",
+        "id,x,y\n\"1,0,0\n",
+    ];
+    let told: Vec<String> = lists
+        .iter()
+        .map(|list| {
+            let words = match plan_from_holes("holes.csv", list) {
+                Ok(_) => panic!("{list} is accepted"),
+                Err(mistakes) => {
+                    let line = |(line, column, message, remedy)| {
+                        format!("{line}:{column} {message}\n    {remedy}\n")
+                    };
+                    mistakes.iter().map(line).collect::<String>()
+                }
+            };
+            format!("## {}\n{words}", list.replace('\n', " / "))
+        })
+        .collect();
+    insta::assert_snapshot!(told.join("\n"));
+}
+
+proptest::proptest! {
+    /// Nothing that is not a list of holes does harm, and whatever is accepted is a plan.
+    #[test]
+    fn any_text_is_a_plan_or_a_mistake(list in "(id|x|y|row|fire_ms|delay_ms|from|[-0-9.,;e \t]{0,12}|\n){0,40}") {
+        if let Ok(text) = plan_from_holes("holes.csv", &list) {
+            proptest::prop_assert!(Plan::parse("plan.toml", &text).is_ok(), "{text}");
+        }
+    }
+}
