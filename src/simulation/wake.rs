@@ -1,149 +1,171 @@
 //! Which tires and cables need work: the wake front.
 //!
-//! Tires are kept in packs of eight elements, cables in blocks. A pack *moves* while any of its tires has speed or height;
-//! it is *awake* (its tires are kicked) while it or a pack tied to it moves, since only then can its forces differ from
-//! those under which it was last found at rest; a block is evaluated while any pack it touches is awake. Everything else
-//! lies exactly as it did, so nothing is approximated.
+//! Tires are kept in packs of eight, cables in blocks. A pack *moves* while any of its tires has speed or height; it is
+//! *awake* (its tires are kicked) while it or a pack tied to it moves, since only then can its forces differ from those under
+//! which it was last found at rest; a block is evaluated while any pack it touches is awake. Everything else lies exactly as
+//! it did, so nothing is approximated. Counts are kept, so that a step costs what changes in it.
+
+use fixedbitset::FixedBitSet;
 
 use super::cable::Blocks;
 use super::pack::LANES;
 
-/// Which packs of tires each block of cables ties together.
+/// What ties packs of tires together.
 #[derive(Debug)]
 pub struct Ties {
-    blocks_at: Lists,
-    packs_of: Lists,
-}
-
-/// The packs and blocks that need work in a step, each list in ascending order.
-#[derive(Debug)]
-pub struct Wake<'a> {
-    ties: &'a Ties,
-    /// Packs whose tires are kicked.
-    pub awake: Vec<usize>,
-    /// Blocks to evaluate.
-    pub blocks: Vec<usize>,
-    /// Blocks that were evaluated before the lists last changed.
-    pub blocks_before: Vec<usize>,
-    moving: Vec<bool>,
-    movers: Vec<usize>,
-    changed: bool,
-    pack_mark: Vec<bool>,
-    block_mark: Vec<bool>,
+    /// By pack, the blocks that touch it.
+    blocks: Lists,
+    /// By pack, those tied to it, and itself.
+    neighbours: Lists,
+    n_blocks: usize,
 }
 
 impl Ties {
     /// Of all blocks.
     pub fn new(blocks: &Blocks, tires: usize) -> Self {
         let n_packs = tires.div_ceil(LANES);
-        let n_blocks = blocks.blocks.len();
-        let mut touches: Vec<(usize, usize)> = Vec::new();
+        let (mut touches, mut tied): (Vec<(u32, u32)>, Vec<(u32, u32)>) = (Vec::new(), Vec::new());
         for (n, block) in blocks.blocks.iter().enumerate() {
-            let packs = |end: usize| end / LANES..=(end + block.len - 1) / LANES;
-            let first = packs(block.first);
-            let apart = packs(block.second).filter(|pack| !first.contains(pack));
-            touches.extend(first.clone().chain(apart).map(|pack| (n, pack)));
+            let packs = |end: usize, len: usize| (end / LANES) as u32..=((end + len - 1) / LANES) as u32;
+            touches.extend(
+                packs(block.first, block.len).chain(packs(block.second, block.len)).map(|p| (p, n as u32)),
+            );
+            for first in packs(block.first, block.len) {
+                // The part of the block that begins at this pack, and where it ends.
+                let from = (first as usize * LANES).max(block.first) - block.first;
+                let to = ((first as usize + 1) * LANES).min(block.first + block.len) - block.first;
+                let second = packs(block.second + from, to - from);
+                tied.extend(second.flat_map(|second| [(first, second), (second, first)]));
+            }
         }
+        tied.extend((0..n_packs as u32).map(|pack| (pack, pack)));
         Self {
-            packs_of: Lists::new(n_blocks, touches.iter().copied()),
-            blocks_at: Lists::new(n_packs, touches.iter().map(|&(block, pack)| (pack, block))),
+            blocks: Lists::new(n_packs, touches),
+            neighbours: Lists::new(n_packs, tied),
+            n_blocks: blocks.blocks.len(),
         }
     }
+}
+
+/// The packs and blocks that need work in a step.
+#[derive(Debug)]
+pub struct Wake<'a> {
+    ties: &'a Ties,
+    /// Packs whose tires are kicked, ascending.
+    pub awake: Vec<usize>,
+    /// Blocks to evaluate, ascending.
+    pub blocks: Vec<usize>,
+    /// Blocks that woke and that fell asleep when the lists last changed; one may be in both.
+    pub woke: Vec<usize>,
+    /// See [`Self::woke`].
+    pub fell_asleep: Vec<usize>,
+    /// Whether each pack moves, and whether it is counted so.
+    moving: FixedBitSet,
+    counted: FixedBitSet,
+    changed: Vec<usize>,
+    /// How many of a pack's neighbours move.
+    near: Vec<u32>,
+    /// How many of a block's packs are awake.
+    active: Vec<u32>,
+    awake_set: FixedBitSet,
+    block_set: FixedBitSet,
 }
 
 impl<'a> Wake<'a> {
     /// Everything asleep.
     pub fn new(ties: &'a Ties) -> Self {
-        let (n_packs, n_blocks) = (ties.blocks_at.keys(), ties.packs_of.keys());
+        let (n_packs, n_blocks) = (ties.neighbours.keys(), ties.n_blocks);
         Self {
             ties,
             awake: Vec::with_capacity(n_packs),
             blocks: Vec::with_capacity(n_blocks),
-            blocks_before: Vec::with_capacity(n_blocks),
-            moving: vec![false; n_packs],
-            movers: Vec::with_capacity(2 * n_packs),
-            changed: false,
-            pack_mark: vec![false; n_packs],
-            block_mark: vec![false; n_blocks],
+            woke: Vec::with_capacity(n_blocks),
+            fell_asleep: Vec::with_capacity(n_blocks),
+            moving: FixedBitSet::with_capacity(n_packs),
+            counted: FixedBitSet::with_capacity(n_packs),
+            changed: Vec::with_capacity(2 * n_packs),
+            near: vec![0; n_packs],
+            active: vec![0; n_blocks],
+            awake_set: FixedBitSet::with_capacity(n_packs),
+            block_set: FixedBitSet::with_capacity(n_blocks),
         }
     }
 
     /// Notes whether a pack moves.
     #[inline(always)]
     pub fn set_moving(&mut self, pack: usize, moving: bool) {
-        if self.moving[pack] != moving {
-            self.moving[pack] = moving;
-            self.changed = true;
-            if moving {
-                self.movers.push(pack);
-            }
+        if self.moving.contains(pack) != moving {
+            self.moving.set(pack, moving);
+            self.changed.push(pack);
         }
     }
 
     /// Brings the lists up to date; whether they changed.
     pub fn refresh(&mut self) -> bool {
-        if !self.changed {
+        if self.changed.is_empty() {
             return false;
         }
-        self.changed = false;
-        std::mem::swap(&mut self.blocks, &mut self.blocks_before);
-        let Self { awake, blocks, moving, movers, pack_mark, block_mark, .. } = self;
-        let Ties { blocks_at, packs_of } = self.ties;
-        movers.retain(|&pack| moving[pack] && !std::mem::replace(&mut pack_mark[pack], true));
-        movers.iter().for_each(|&pack| pack_mark[pack] = false);
-        unite(blocks, block_mark, movers.iter().flat_map(|&pack| blocks_at.of(pack)).copied());
-        let neighbours = blocks.iter().flat_map(|&block| packs_of.of(block));
-        unite(awake, pack_mark, movers.iter().chain(neighbours).copied());
-        unite(blocks, block_mark, awake.iter().flat_map(|&pack| blocks_at.of(pack)).copied());
+        self.woke.clear();
+        self.fell_asleep.clear();
+        let Self { ties, near, active, awake_set, block_set, .. } = self;
+        for pack in self.changed.drain(..) {
+            let moves = self.moving.contains(pack);
+            if self.counted.contains(pack) == moves {
+                continue;
+            }
+            self.counted.set(pack, moves);
+            for &neighbour in ties.neighbours.of(pack) {
+                let neighbour = neighbour as usize;
+                near[neighbour] = if moves { near[neighbour] + 1 } else { near[neighbour] - 1 };
+                if near[neighbour] != u32::from(moves) {
+                    continue;
+                }
+                awake_set.set(neighbour, moves);
+                for &block in ties.blocks.of(neighbour) {
+                    let block = block as usize;
+                    active[block] = if moves { active[block] + 1 } else { active[block] - 1 };
+                    if active[block] == u32::from(moves) {
+                        block_set.set(block, moves);
+                        if moves { &mut self.woke } else { &mut self.fell_asleep }.push(block);
+                    }
+                }
+            }
+        }
+        self.awake.clear();
+        self.awake.extend(awake_set.ones());
+        self.blocks.clear();
+        self.blocks.extend(block_set.ones());
         true
     }
 }
 
-/// `into` becomes the sorted set of `items`; `mark` is all false before and after.
-fn unite(into: &mut Vec<usize>, mark: &mut [bool], items: impl Iterator<Item = usize>) {
-    into.clear();
-    into.extend(items.filter(|&item| !std::mem::replace(&mut mark[item], true)));
-    // A long list is sorted faster by reading the marks in order.
-    if into.len() * 16 > mark.len() {
-        into.clear();
-        into.extend(mark.iter().enumerate().filter_map(|(item, &marked)| marked.then_some(item)));
-        mark.fill(false);
-    } else {
-        into.iter().for_each(|&item| mark[item] = false);
-        into.sort_unstable();
-    }
-}
-
-/// A list of indices for each of many keys, in one allocation.
-#[derive(Clone, Debug)]
+/// A sorted list of indices for each of many keys, in one allocation.
+#[derive(Debug)]
 struct Lists {
-    start: Vec<usize>,
-    items: Vec<usize>,
+    start: Vec<u32>,
+    items: Vec<u32>,
 }
 
 impl Lists {
-    /// From `(key, item)` pairs; items of a key keep their order.
-    fn new(keys: usize, pairs: impl Iterator<Item = (usize, usize)> + Clone) -> Self {
+    /// From `(key, item)` pairs in any order, some of them more than once.
+    fn new(keys: usize, mut pairs: Vec<(u32, u32)>) -> Self {
+        pairs.sort_unstable();
+        pairs.dedup();
         let mut start = vec![0; keys + 1];
-        for (key, _) in pairs.clone() {
-            start[key + 1] += 1;
+        for (key, _) in &pairs {
+            start[*key as usize + 1] += 1;
         }
         for key in 0..keys {
             start[key + 1] += start[key];
         }
-        let (mut next, mut items) = (start.clone(), vec![0; start[keys]]);
-        for (key, item) in pairs {
-            items[next[key]] = item;
-            next[key] += 1;
-        }
-        Self { start, items }
+        Self { start, items: pairs.into_iter().map(|(_, item)| item).collect() }
     }
 
     fn keys(&self) -> usize {
         self.start.len() - 1
     }
 
-    fn of(&self, key: usize) -> &[usize] {
-        &self.items[self.start[key]..self.start[key + 1]]
+    fn of(&self, key: usize) -> &[u32] {
+        &self.items[self.start[key] as usize..self.start[key + 1] as usize]
     }
 }

@@ -146,13 +146,11 @@ impl<'a> Stepper<'a> {
 
     /// Cables that fell asleep keep their energy, those that woke count it anew.
     fn move_stored_energy(&mut self) {
-        for j in 0..LANES {
-            for &block in &self.wake.blocks_before {
-                self.asleep[j] += self.stored[block][j];
-            }
-            for &block in &self.wake.blocks {
-                self.asleep[j] -= self.stored[block][j];
-            }
+        for &block in &self.wake.fell_asleep {
+            (0..LANES).for_each(|j| self.asleep[j] += self.stored[block][j]);
+        }
+        for &block in &self.wake.woke {
+            (0..LANES).for_each(|j| self.asleep[j] -= self.stored[block][j]);
         }
     }
 
