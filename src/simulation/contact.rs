@@ -39,6 +39,16 @@ pub struct Flight {
     pub lost: f64,
     /// Energy put in per mass so far [J/kg].
     pub put_in: f64,
+    /// Time within the step so far [s].
+    pub elapsed: f64,
+    /// Highest top of a parabola so far: height [m] and time within the step [s].
+    pub top: (f64, f64),
+}
+
+/// Rise to the top of a parabola [m] and the time until then [s], if it is reached within `time` [s].
+pub fn top(velocity: f64, acceleration: f64, time: f64) -> Option<(f64, f64)> {
+    let until = -velocity / acceleration;
+    (velocity > 0.0 && acceleration < 0.0 && until <= time).then_some((0.5 * velocity * until, until))
 }
 
 impl Flight {
@@ -97,6 +107,12 @@ impl Flight {
     }
 
     fn fly(&mut self, time: f64) {
+        if let Some((rise, until)) = top(self.velocity.z, self.free.z, time)
+            && self.displacement.z + rise > self.top.0
+        {
+            self.top = (self.displacement.z + rise, self.elapsed + until);
+        }
+        self.elapsed += time;
         self.displacement += self.velocity * time + self.free * (0.5 * time * time);
         self.velocity += self.free * time;
     }
@@ -111,6 +127,11 @@ impl Flight {
 
     /// On the ground for `time` seconds: slides until friction stops it, then sticks if the pull stays in the cone.
     fn slide(&mut self, time: f64) -> Vector3<f64> {
+        self.elapsed += time;
+        if self.velocity.z < 0.0 {
+            // Fired at downwards: a landing without a fall.
+            self.land();
+        }
         self.displacement.z = 0.0;
         self.velocity.z = 0.0;
         let limit = -self.friction * self.free.z;
@@ -143,7 +164,16 @@ mod tests {
     const G: f64 = 9.81;
 
     fn flight(displacement: Vector3<f64>, velocity: Vector3<f64>, free: Vector3<f64>) -> Flight {
-        Flight { displacement, velocity, free, friction: 0.5, lost: 0.0, put_in: 0.0 }
+        Flight {
+            displacement,
+            velocity,
+            free,
+            friction: 0.5,
+            lost: 0.0,
+            put_in: 0.0,
+            elapsed: 0.0,
+            top: (0.0, 0.0),
+        }
     }
 
     /// P4: |v_t+| = max(0, |v_t−| − μ |v_n−|) for an inelastic landing.

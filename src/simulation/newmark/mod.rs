@@ -19,7 +19,7 @@ use nalgebra::{Vector2, Vector3};
 
 use self::region::{Ground, MOST_REPEATS, Region};
 use self::system::System;
-use super::contact::support;
+use super::contact::{support, top};
 use super::record::{Clock, Record};
 use super::{Failure, Motion, Settings, Watcher, time_limit};
 use crate::outcome::{Broken, End, Outcome, Peak};
@@ -268,6 +268,11 @@ impl<'a> Stepper<'a> {
         self.v[tire].xy() + force * (0.5 * h / self.scene.mass[tire])
     }
 
+    /// Whether a tire found on the ground at the end of the step meets it there with a speed.
+    fn lands(&self, tire: usize) -> bool {
+        self.u[tire].z > 0.0 || self.v[tire].z != 0.0
+    }
+
     /// The region that the solution implies.
     fn imply(&mut self, h: f64) {
         for (cable, taut) in self.scene.cables.iter().zip(&mut self.implied.taut) {
@@ -282,7 +287,7 @@ impl<'a> Stepper<'a> {
         let mass = self.scene.mass[tire];
         let free = self.f[tire] / mass - Vector3::z() * self.scene.gravity;
         let assumed = self.region.ground[tire];
-        let lands = self.u[tire].z > 0.0 || self.v[tire].z > 0.0;
+        let lands = self.lands(tire);
         if assumed == Ground::Free {
             return if self.end[tire].z < 0.0 { Ground::Slip } else { Ground::Free };
         }
@@ -314,7 +319,7 @@ impl<'a> Stepper<'a> {
                 let before = self.a[tire].xy() - self.f_start[tire].xy() / mass;
                 let friction = 0.5 * (before + self.end_friction(tire, free, h));
                 self.record.ledger.dissipated -= mass * friction.dot(&self.du[tire].xy());
-                if self.u[tire].z > 0.0 || self.v[tire].z > 0.0 {
+                if self.lands(tire) {
                     velocity = self.land(tire, h, velocity);
                 }
             }
@@ -328,6 +333,12 @@ impl<'a> Stepper<'a> {
     /// The landing of a tire within the step: its impact speed follows from the fall, friction takes its share sideways.
     fn land(&mut self, tire: usize, h: f64, velocity: Vector3<f64>) -> Vector3<f64> {
         let (height, rise, a) = (self.u[tire].z, self.v[tire].z, self.a[tire].z);
+        // A flight within the step is seen by no sample.
+        if let Some((more, until)) = top(rise, a, h)
+            && height + more > self.record.height.value
+        {
+            self.record.height = Peak { value: height + more, at: self.now() + until, place: tire };
+        }
         let impact = (rise * rise - 2.0 * a * height).max(0.0).sqrt();
         let left = (h - 2.0 * height / (impact - rise).max(f64::MIN_POSITIVE)).clamp(0.0, h);
         let before = velocity.xy().push(-impact);

@@ -334,9 +334,18 @@ impl<'a> Stepper<'a> {
                 friction: self.friction,
                 lost: 0.0,
                 put_in: 0.0,
+                elapsed: 0.0,
+                top: (0.0, 0.0),
             };
             let last = flight.through(h, self.due[first..due].iter().map(|due| (due.after, due.launch)));
             let mid = flight.velocity - last * (0.5 * h);
+            // A flight within the step is seen by no sample.
+            let (height, after) = flight.top;
+            if height > self.record.height.value {
+                let place = self.part.quotient.tire(tire);
+                self.record.height = Peak { value: height, at: self.now() + after, place };
+            }
+            pass.height[0] = pass.height[0].max(height);
             for c in 0..3 {
                 self.u.part[c][tire] = flight.displacement[c];
                 self.v.part[c][tire] = mid[c];
