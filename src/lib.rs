@@ -20,7 +20,7 @@
 //! | [`verdict`] | value, error, limit | pass, fail, undecided | where they come from |
 //! | [`study`] | a plan made ready | verdicts refined until sure, accuracy tables, traces | formats |
 //! | [`report`] | study results | text, JSON, CSV | terminals |
-//! | [`worker`] | a request | small events, the newest request wins | screens |
+//! | [`worker`] | a request | small events, the newest request wins; long studies, whole | screens |
 //! | [`tui`] | keys and events | a screen | physics |
 //! | [`cli`] | the command line | an exit status | physics |
 //!

@@ -1,6 +1,6 @@
 //! Mirror planes of a shelter: x or y reflected about its middle, if every tire and cable has its image.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 use super::Scene;
 

@@ -24,7 +24,7 @@ impl Ties {
     /// Of all blocks.
     pub fn new(blocks: &Blocks, tires: usize) -> Self {
         let n_packs = tires.div_ceil(LANES);
-        let (mut touches, mut tied): (Vec<(u32, u32)>, Vec<(u32, u32)>) = (Vec::new(), Vec::new());
+        let (mut touches, mut tied) = (Vec::<(u32, u32)>::new(), Vec::<(u32, u32)>::new());
         for (n, block) in blocks.blocks.iter().enumerate() {
             let packs = |end: usize, len: usize| (end / LANES) as u32..=((end + len - 1) / LANES) as u32;
             touches.extend(
