@@ -18,8 +18,8 @@
 //! | [`outcome`] | | peaks, ledger, histories of a run | who filled them |
 //! | [`simulation`] | scene, shot, step | an [`Outcome`](outcome::Outcome) or a [`Failure`](simulation::Failure) | options, limits, screens |
 //! | [`verdict`] | value, error, limit | pass, fail, undecided | where they come from |
-//! | [`study`] | a plan made ready | verdicts refined until sure, accuracy tables, traces | formats |
-//! | [`report`] | study results | text, JSON, CSV | terminals |
+//! | [`study`] | a plan made ready | verdicts refined until sure; sweeps, orders, scatter, sizes; accuracy tables, traces | formats |
+//! | [`report`] | study results | text, JSON, CSV, a page of HTML | terminals |
 //! | [`worker`] | a request | small events, the newest request wins; long studies, whole | screens |
 //! | [`tui`] | keys and events | a screen | physics |
 //! | [`cli`] | the command line | an exit status | physics |

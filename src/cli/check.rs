@@ -1,16 +1,15 @@
 //! `shelter check`: pass or fail of every delay option.
 
 use std::io::{self, IsTerminal, Write};
-use std::ops::ControlFlow;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::Args;
-use rayon::prelude::*;
 
-use super::{Compute, FormatArg, Look, Status, load};
+use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::report;
+use crate::simulation::Failure;
 use crate::study::Case;
+use crate::study::batch::each;
 use crate::study::check::check;
 use crate::verdict::Verdict;
 
@@ -45,7 +44,10 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
 
 /// Checks every option of every case and prints the results.
 pub fn print(cases: Vec<Case>, compute: &Compute, look: &Look, output: &Output) -> io::Result<Status> {
-    let judged = compute.on_threads(|| check_all(&cases, compute));
+    let judged = match all(&cases, compute) {
+        Ok(judged) => judged,
+        Err(failure) => return long::failed(&failure),
+    };
     let mut out = io::stdout().lock();
     let pairs = || cases.iter().zip(&judged);
     match output.format {
@@ -77,32 +79,25 @@ pub fn print(cases: Vec<Case>, compute: &Compute, look: &Look, output: &Output) 
 }
 
 /// All options of all cases in parallel; results in the order of plans and options.
-fn check_all(cases: &[Case], compute: &Compute) -> Vec<report::check::Results> {
+pub fn all(cases: &[Case], compute: &Compute) -> Result<Vec<report::check::Results>, Failure> {
     let jobs: Vec<(usize, usize)> = cases
         .iter()
         .enumerate()
         .flat_map(|(n, case)| (0..case.shots.len()).map(move |option| (n, option)))
         .collect();
-    let (done, show) = (AtomicUsize::new(0), io::stderr().is_terminal());
-    let mut results: Vec<_> = jobs
-        .par_iter()
-        .map(|&(n, option)| {
-            let case = &cases[n];
-            let effort = compute.effort(&case.plan);
-            let checked = check(case, option, &effort, &mut |_| ControlFlow::Continue(()));
-            if show {
-                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-                eprint!("\r{done} of {} options", jobs.len());
+    let results = long::run(compute, |progress| {
+        each(&jobs, progress, |&(n, option)| {
+            let effort = compute.effort(&cases[n].plan);
+            match check(&cases[n], option, &effort, &mut |_| progress.flow()) {
+                Err(stopped @ Failure::Stopped { .. }) => Err(stopped),
+                // An option without a result is no reason for the others to have none.
+                result => Ok(result),
             }
-            (n, checked)
         })
-        .collect();
-    if show {
-        eprint!("\r\x1b[K");
-    }
+    })?;
     let mut judged: Vec<report::check::Results> = cases.iter().map(|_| Vec::new()).collect();
-    for (n, checked) in results.drain(..) {
+    for ((n, _), checked) in jobs.into_iter().zip(results) {
         judged[n].push(checked);
     }
-    judged
+    Ok(judged)
 }

@@ -6,11 +6,9 @@ use std::path::PathBuf;
 use clap::Args;
 use jiff::{Timestamp, tz::TimeZone};
 
-use super::{Compute, Look, Status, load, long};
+use super::{Compute, Look, Status, check, load, long};
 use crate::plan::edit;
 use crate::report;
-use crate::study::batch::each;
-use crate::study::check::check;
 use crate::verdict::Verdict;
 
 #[derive(Args)]
@@ -25,22 +23,13 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
-    let Some(case) = load::cases([&arguments.plan], look).and_then(|mut cases| cases.pop()) else {
-        return Ok(Status::Wrong);
-    };
-    let effort = arguments.compute.effort(&case.plan);
-    let options: Vec<usize> = (0..case.shots.len()).collect();
-    let judged = long::run(&arguments.compute, |progress| {
-        each(&options, progress, |&option| {
-            let checked = check(&case, option, &effort, &mut |_| progress.flow());
-            if progress.stopped() { checked.map(Ok) } else { Ok(checked) }
-        })
-    });
-    let results = match judged {
-        Ok(results) => results,
+    let Some(cases) = load::cases([&arguments.plan], look) else { return Ok(Status::Wrong) };
+    let mut judged = match check::all(&cases, &arguments.compute) {
+        Ok(judged) => judged,
         Err(failure) => return long::failed(&failure),
     };
-    edit::save(&arguments.output, &report::html::page(&case, &results, &date()))?;
+    let (case, results) = (&cases[0], judged.remove(0));
+    edit::save(&arguments.output, &report::html::page(case, &results, &date()))?;
     let passed = report::check::verdict(&results, false) == Verdict::Pass;
     Ok(if passed { Status::Pass } else { Status::Fail })
 }

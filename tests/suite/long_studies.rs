@@ -154,3 +154,24 @@ fn mistaken_ranges_and_shares_are_explained() {
         assert!(told.contains(words), "{arguments:?}: {told}");
     }
 }
+
+/// An interrupt ends the longest computation at once, with nothing on standard output and the status of a signal.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_a_command_with_130() {
+    let plan = Path::new(env!("CARGO_MANIFEST_DIR")).join("plans/large-50x50.toml");
+    for command in ["check", "sweep", "orders", "size"] {
+        let child = std::process::Command::new(env!("CARGO_BIN_EXE_shelter"))
+            .args([command, plan.to_str().expect("UTF-8"), "--dt", "1e-6"])
+            .stdout(std::process::Stdio::piped())
+            .stderr(std::process::Stdio::null())
+            .spawn()
+            .expect("it starts");
+        std::thread::sleep(std::time::Duration::from_millis(700));
+        let killed = std::process::Command::new("kill").args(["-s", "INT", &child.id().to_string()]).status();
+        assert!(killed.expect("kill runs").success(), "{command} had ended");
+        let output = child.wait_with_output().expect("it ends");
+        assert_eq!(output.status.code(), Some(130), "{command}");
+        assert!(output.stdout.is_empty());
+    }
+}
