@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::{Compute, Look, Status};
 use crate::plan::Plan;
 use crate::study::Case;
+use crate::tui::start::{Choice, Start};
 use crate::tui::{self, app::App};
 use crate::worker::{Errands, Worker};
 
@@ -37,16 +38,44 @@ pub fn open(plan: &Path, compute: &Compute, look: &Look) -> io::Result<Status> {
     if !io::stdout().is_terminal() {
         return super::check::print(vec![case], compute, look, &super::check::Output::default());
     }
-    if !io::stdin().is_terminal() {
-        return Err(io::Error::other(
-            "the terminal UI needs a keyboard on standard input; scripts use `shelter check`",
-        ));
+    needs_keyboard()?;
+    let file = (plan.as_os_str() != "-").then_some(plan);
+    show(case, file, compute, look)
+}
+
+/// Without a plan: offers what there is; where output is no terminal, the help.
+pub fn start(compute: &Compute, look: &Look) -> io::Result<Status> {
+    if !io::stdout().is_terminal() {
+        super::print_help()?;
+        return Ok(Status::Wrong);
     }
+    needs_keyboard()?;
+    match tui::choose(Start::new(Path::new(".")), screen(look))? {
+        None => Ok(Status::Pass),
+        Some(Choice::File(path)) => open(&path, compute, look),
+        Some(Choice::Example(name, text)) => match Plan::parse(name, text) {
+            Ok(plan) => show(Case::new(plan), None, compute, look),
+            Err(mistakes) => wrong(&mistakes.to_string()),
+        },
+    }
+}
+
+fn needs_keyboard() -> io::Result<()> {
+    if io::stdin().is_terminal() {
+        return Ok(());
+    }
+    Err(io::Error::other("the terminal UI needs a keyboard on standard input; scripts use `shelter check`"))
+}
+
+fn screen(look: &Look) -> tui::Look {
+    tui::Look { ascii: look.ascii, color: look.colored(true) }
+}
+
+fn show(case: Case, file: Option<&Path>, compute: &Compute, look: &Look) -> io::Result<Status> {
     let effort = compute.effort(&case.plan);
     let threads = compute.threads.unwrap_or(0).into();
     let (worker, errands) = (Worker::new(threads), Errands::new(threads));
-    let screen = tui::Look { ascii: look.ascii, color: look.colored(true) };
-    match tui::run(App::new(Arc::new(case), effort), worker, errands, screen)? {
+    match tui::run(App::new(Arc::new(case), effort), worker, errands, screen(look), file)? {
         tui::Left::Quit => Ok(Status::Pass),
         tui::Left::Signal => Ok(Status::Interrupted),
     }

@@ -15,10 +15,11 @@ mod size;
 mod sweep;
 mod trace;
 
+use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
 use crate::plan::{Accuracy, Method, Plan};
 use crate::report::{Format, table::Style};
@@ -28,17 +29,12 @@ use crate::study::Effort;
 ///
 /// Opens a plan in the terminal: `shelter plans/amur-three-rows.toml`. Scripts use `shelter check`.
 #[derive(Parser)]
-#[command(
-    version,
-    args_conflicts_with_subcommands = true,
-    subcommand_negates_reqs = true,
-    arg_required_else_help = true
-)]
+#[command(version, args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
     /// Plan to open
-    #[arg(value_name = "PLAN", required = true)]
+    #[arg(value_name = "PLAN")]
     plan: Option<PathBuf>,
     #[command(flatten)]
     compute: Compute,
@@ -197,6 +193,11 @@ impl From<MethodArg> for Method {
     }
 }
 
+/// The help, where a command is missing.
+fn print_help() -> io::Result<()> {
+    Cli::command().print_help()
+}
+
 fn positive(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
     if value > 0.0 && value.is_finite() { Ok(value) } else { Err("must be a positive number".to_owned()) }
@@ -239,7 +240,7 @@ pub fn run() -> ExitCode {
         (Some(Command::Completions(arguments)), _) => packaging::completions(&arguments),
         (Some(Command::Man), _) => packaging::man(),
         (None, Some(plan)) => load::open(&plan, &cli.compute, &cli.look),
-        (None, None) => Ok(Status::Wrong),
+        (None, None) => load::start(&cli.compute, &cli.look),
     };
     match done {
         Ok(status) => status.into(),

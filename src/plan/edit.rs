@@ -78,7 +78,7 @@ fn permissions(path: &Path) -> std::fs::Permissions {
 }
 
 /// Puts a value where the old one stood, with the comment beside it.
-fn set(table: &mut dyn toml_edit::TableLike, key: &str, mut new: toml_edit::Value) {
+pub(super) fn set(table: &mut dyn toml_edit::TableLike, key: &str, mut new: toml_edit::Value) {
     match table.get_mut(key).and_then(Item::as_value_mut) {
         Some(old) => {
             *new.decor_mut() = old.decor().clone();

@@ -6,6 +6,7 @@
 
 mod diagnostic;
 pub mod edit;
+pub mod fields;
 pub mod import;
 mod read;
 mod validate;

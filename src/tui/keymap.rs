@@ -27,6 +27,18 @@ pub enum Action {
     Studies,
     /// End the study shown.
     Cancel,
+    /// Change the plan.
+    Plan,
+    /// Take a change back.
+    Undo,
+    /// Make it again.
+    Redo,
+    /// Copy the selected option.
+    Copy,
+    /// Remove the selected option.
+    Remove,
+    /// Write the plan.
+    Save,
     /// Show the selected option large, or all again; start the study shown.
     Zoom,
     /// Compute everything again.
@@ -73,27 +85,69 @@ pub const KEYS: &[Binding] = &[
         action: Action::Compare,
         label: "1",
         text: "compare the delay options",
-        short: "compare",
+        short: "",
     },
     Binding {
         keys: &[key('2')],
         action: Action::Studies,
         label: "2",
         text: "studies: sweep, orders, scatter, size",
-        short: "studies",
+        short: "",
+    },
+    Binding {
+        keys: &[key('3')],
+        action: Action::Plan,
+        label: "3",
+        text: "the plan: change values, add and remove options",
+        short: "",
     },
     Binding {
         keys: &[(KeyCode::Right, NONE), key('l'), (KeyCode::Tab, NONE)],
         action: Action::Right,
         label: "Right l",
-        text: "studies: the next one",
+        text: "studies: the next one; plan: a step up",
         short: "",
     },
     Binding {
         keys: &[(KeyCode::Left, NONE), key('h'), (KeyCode::BackTab, NONE)],
         action: Action::Left,
         label: "Left h",
-        text: "studies: the one before",
+        text: "studies: the one before; plan: a step down",
+        short: "",
+    },
+    Binding {
+        keys: &[key('u')],
+        action: Action::Undo,
+        label: "u",
+        text: "plan: take the last change back",
+        short: "",
+    },
+    Binding {
+        keys: &[key('U'), (KeyCode::Char('r'), CONTROL)],
+        action: Action::Redo,
+        label: "U Ctrl-r",
+        text: "plan: make it again",
+        short: "",
+    },
+    Binding {
+        keys: &[key('a')],
+        action: Action::Copy,
+        label: "a",
+        text: "plan: add a copy of the selected option",
+        short: "",
+    },
+    Binding {
+        keys: &[key('d')],
+        action: Action::Remove,
+        label: "d",
+        text: "plan: remove the selected option",
+        short: "",
+    },
+    Binding {
+        keys: &[key('s'), (KeyCode::Char('s'), CONTROL)],
+        action: Action::Save,
+        label: "s Ctrl-s",
+        text: "save the plan; comments and formatting stay",
         short: "",
     },
     Binding {
@@ -185,7 +239,7 @@ pub const KEYS: &[Binding] = &[
         action: Action::Help,
         label: "? F1",
         text: "show or hide this help",
-        short: "help",
+        short: "",
     },
     Binding {
         keys: &[(KeyCode::Char('z'), CONTROL)],
@@ -199,7 +253,7 @@ pub const KEYS: &[Binding] = &[
         action: Action::Quit,
         label: "q Esc Ctrl-c",
         text: "leave (Esc closes what is open first)",
-        short: "quit",
+        short: "",
     },
 ];
 

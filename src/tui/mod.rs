@@ -4,12 +4,16 @@
 //! every way out: quitting, an error, a panic, a signal.
 
 pub mod app;
+pub mod editor;
+mod file;
 pub mod keymap;
+pub mod start;
 pub mod studies;
 pub mod theme;
 pub mod view;
 
 use std::io::{self, Stdout, Write};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
@@ -19,11 +23,14 @@ use crossterm::cursor::Show;
 use crossterm::event::{self, Event, KeyCode, KeyEvent, KeyEventKind};
 use crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode};
 use crossterm::{ExecutableCommand, QueueableCommand};
-use ratatui::Terminal;
 use ratatui::backend::CrosstermBackend;
+use ratatui::{Frame, Terminal};
 
 use self::app::{App, Request, Screen};
+use self::file::PlanFile;
+use self::start::{Choice, Next, Start};
 use self::studies::Progress;
+use self::theme::Theme;
 use crate::worker::{Errands, Kind, Worker};
 
 /// How the screen is drawn.
@@ -50,7 +57,16 @@ const FRAME: Duration = Duration::from_millis(16);
 const IDLE: Duration = Duration::from_millis(250);
 
 /// Shows the app until the user leaves.
-pub fn run(mut app: App, mut worker: Worker, mut errands: Errands, look: Look) -> io::Result<Left> {
+///
+/// `plan` is the file shown, if it is one: it is read again when it changes.
+pub fn run(
+    mut app: App,
+    mut worker: Worker,
+    mut errands: Errands,
+    look: Look,
+    plan: Option<&Path>,
+) -> io::Result<Left> {
+    let mut file = plan.map(PlanFile::new);
     // Without this, crossterm under NO_COLOR resets bold and reverse as well; colours are taken out in `draw`.
     crossterm::style::force_color_output(true);
     let signals = Signals::register()?;
@@ -73,8 +89,14 @@ pub fn run(mut app: App, mut worker: Worker, mut errands: Errands, look: Look) -
                 dirty |= app.screen == Screen::Studies;
             }
         }
+        if let Some(read) = file.as_mut().and_then(PlanFile::changed) {
+            if app.reload(read) == Request::Replaced {
+                replace(&app, &mut worker, &mut errands);
+            }
+            dirty = true;
+        }
         if dirty {
-            screen.draw(&app, look)?;
+            screen.draw(look, |frame| view::draw(&app, frame))?;
             dirty = false;
         }
         if signals.end.load(Ordering::Relaxed) {
@@ -91,6 +113,14 @@ pub fn run(mut app: App, mut worker: Worker, mut errands: Errands, look: Look) -
         match request {
             Request::None => {}
             Request::Run => worker.start(&app.case, app.effort),
+            Request::Replaced => replace(&app, &mut worker, &mut errands),
+            Request::Save => {
+                let written = match &mut file {
+                    Some(file) => file.write(&app.editor.saved, &app.editor.text),
+                    None => Err("the plan was not read from a file".to_owned()),
+                };
+                app.written(written);
+            }
             Request::Start(kind) => errands.start(kind, &app.case, app.effort),
             Request::Cancel(kind) => errands.cancel(kind),
             Request::Quit => return Ok(Left::Quit),
@@ -102,9 +132,39 @@ pub fn run(mut app: App, mut worker: Worker, mut errands: Errands, look: Look) -
     }
 }
 
+/// Lets the user choose what to open; `None` when they leave instead.
+pub fn choose(mut start: Start, look: Look) -> io::Result<Option<Choice>> {
+    crossterm::style::force_color_output(true);
+    let signals = Signals::register()?;
+    restore_on_panic();
+    let mut screen = Display::open()?;
+    loop {
+        screen.draw(look, |frame| start.draw(Theme::default(), frame))?;
+        while !event::poll(IDLE)? {
+            if signals.end.load(Ordering::Relaxed) {
+                return Ok(None);
+            }
+        }
+        match start.update(&event::read()?) {
+            Next::Wait => {}
+            Next::Open(choice) => return Ok(Some(choice)),
+            Next::Quit => return Ok(None),
+        }
+    }
+}
+
+/// Computes another plan; results of the old one would say nothing of it.
+fn replace(app: &App, worker: &mut Worker, errands: &mut Errands) {
+    Kind::ALL.into_iter().for_each(|kind| errands.cancel(kind));
+    worker.start(&app.case, app.effort);
+}
+
 /// What a terminal event does to the app.
 pub fn update(app: &mut App, event: &Event) -> Request {
     match event {
+        Event::Key(key) if app.editor.input.is_some() && key.kind != KeyEventKind::Release => {
+            app.type_key(key)
+        }
         Event::Key(KeyEvent { code: KeyCode::Esc, kind: KeyEventKind::Press, .. }) => app.escape(),
         Event::Key(key) if key.kind != KeyEventKind::Release => {
             keymap::action(key).map_or(Request::None, |action| app.act(action))
@@ -127,9 +187,9 @@ impl Display {
             .inspect_err(|_| leave())
     }
 
-    fn draw(&mut self, app: &App, look: Look) -> io::Result<()> {
+    fn draw(&mut self, look: Look, content: impl FnOnce(&mut Frame)) -> io::Result<()> {
         self.terminal.draw(|frame| {
-            view::draw(app, frame);
+            content(frame);
             let buffer = frame.buffer_mut();
             if look.ascii {
                 theme::to_ascii(buffer);

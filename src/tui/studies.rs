@@ -62,6 +62,11 @@ impl Studies {
         self.progress[kind as usize] = progress;
     }
 
+    /// Nothing found yet, the same study shown.
+    pub fn forget(&mut self) {
+        *self = Self { shown: self.shown, ..Self::default() };
+    }
+
     /// How a study stands, in a word.
     pub fn state(&self, kind: Kind) -> String {
         self.progress(kind).to_string()

@@ -193,6 +193,18 @@ fn studies_wait_run_and_show_what_they_found() {
 }
 
 #[test]
+fn the_plan_is_shown_with_its_values() {
+    let mut app = finished();
+    key(&mut app, KeyCode::Char('3'));
+    for (width, height) in [(80, 24), (120, 36)] {
+        insta::assert_snapshot!(format!("plan_{width}x{height}"), text(&draw(&app, width, height)));
+    }
+    key(&mut app, KeyCode::Enter);
+    key(&mut app, KeyCode::Char('x'));
+    insta::assert_snapshot!("plan_typing", text(&draw(&app, 100, 30)));
+}
+
+#[test]
 fn a_study_is_cancelled_by_x_or_escape_and_escape_then_goes_back() {
     let mut app = finished();
     key(&mut app, KeyCode::Char('2'));

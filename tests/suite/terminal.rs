@@ -21,11 +21,17 @@ const PATIENCE: Duration = Duration::from_secs(30);
 
 impl Watched {
     fn open(plan: &str, arguments: &[&str], columns: u16, rows: u16) -> Self {
+        let plan = Path::new(env!("CARGO_MANIFEST_DIR")).join("plans").join(plan);
+        let all = [&[plan.to_str().expect("UTF-8")], arguments].concat();
+        Self::start(&all, Path::new(env!("CARGO_MANIFEST_DIR")), columns, rows)
+    }
+
+    fn start(arguments: &[&str], folder: &Path, columns: u16, rows: u16) -> Self {
         let size = PtySize { rows, cols: columns, pixel_width: 0, pixel_height: 0 };
         let pair = native_pty_system().openpty(size).expect("a pty");
         let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_shelter"));
-        command.arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("plans").join(plan));
         command.args(arguments);
+        command.cwd(folder);
         command.env("TERM", "xterm-256color");
         let child = pair.slave.spawn_command(command).expect("it starts");
         let screen = Arc::new(Mutex::new(vt100::Parser::new(rows, columns, 0)));
@@ -155,6 +161,68 @@ fn studies_run_are_cancelled_and_keep_their_result() {
     watched.until("combinations tried");
     watched.press("q");
     assert_eq!(watched.ends(), 0);
+}
+
+#[test]
+fn without_a_plan_there_is_a_choice() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("mine.toml"), include_str!("../../plans/paper-5-tire.toml"))
+        .expect("written");
+    std::fs::write(folder.path().join("Cargo.toml"), "[package]").expect("written");
+    let mut watched = Watched::start(&[], folder.path(), 100, 30);
+    watched.until("mine.toml");
+    assert!(!watched.contents().contains("Cargo.toml"));
+    watched.until("amur-three-rows   example");
+    watched.press("\r");
+    watched.until("1 of 1 pass");
+    watched.press("q");
+    assert_eq!(watched.ends(), 0);
+    let mut watched = Watched::start(&[], folder.path(), 100, 30);
+    watched.until("mine.toml");
+    watched.press("j\r");
+    watched.until("1 of 7 pass");
+    watched.press("q");
+    assert_eq!(watched.ends(), 0);
+    let piped = std::process::Command::new(env!("CARGO_BIN_EXE_shelter")).output().expect("it runs");
+    assert_eq!(piped.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&piped.stdout).contains("Usage"));
+}
+
+/// A plan is changed by keys, undone, saved with its comments, and read again when another program changes it.
+#[test]
+fn a_plan_is_edited_saved_and_reloaded() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("plan.toml");
+    let text = include_str!("../../plans/amur-three-rows.toml");
+    std::fs::write(&file, text).expect("written");
+    let read = || std::fs::read_to_string(&file).expect("the plan");
+    let mut watched = Watched::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 120, 36);
+    watched.until("1 of 7 pass");
+    watched.press("3");
+    watched.until("limit of flight height");
+    watched.press("\r\x152x");
+    watched.until("no value");
+    watched.press("\x7f.5\r");
+    watched.until("Plan, not saved");
+    watched.until("height 2.500 m");
+    assert_eq!(read(), text, "nothing is written before it is saved");
+    watched.press("u");
+    watched.until("height 1.800 m");
+    watched.press("U");
+    watched.until("height 2.500 m");
+    watched.press("q");
+    watched.until("not saved: s saves");
+    watched.press("s");
+    watched.until("saved /");
+    assert_eq!(read(), text.replace("flight_height_m = 1.8", "flight_height_m = 2.5"));
+    std::fs::write(&file, text.replace("flight_height_m = 1.8", "flight_height_m = -3")).expect("written");
+    watched.until("the last good plan is shown");
+    std::fs::write(&file, text.replace("flight_height_m = 1.8", "flight_height_m = 2.125")).expect("written");
+    watched.until("was read again");
+    watched.until("2.125");
+    watched.press("q");
+    assert_eq!(watched.ends(), 0);
+    assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 1);
 }
 
 #[test]

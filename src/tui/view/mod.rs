@@ -12,6 +12,7 @@
 mod chart;
 mod detail;
 mod help;
+mod plan;
 mod studies;
 mod table;
 
@@ -44,6 +45,7 @@ pub fn draw(app: &App, frame: &mut Frame) {
     match app.screen {
         Screen::Compare => draw_options(app, frame, body),
         Screen::Studies => studies::draw(app, frame, body),
+        Screen::Plan => plan::draw(app, frame, body),
     }
     draw_footer(app, frame, footer);
     if app.help {
@@ -88,7 +90,11 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
         Layout::horizontal([Constraint::Min(0), Constraint::Length(state.width() as u16 + 1)]).areas(first);
     frame.render_widget(title, left);
     frame.render_widget(state, right);
-    frame.render_widget(Line::styled(about, theme.quiet()), second);
+    let line = match &app.notice {
+        Some(notice) => Line::styled(notice.as_str(), theme.limit()),
+        None => Line::styled(about, theme.quiet()),
+    };
+    frame.render_widget(line, second);
 }
 
 /// How the whole plan stands.
@@ -109,21 +115,20 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect) {
         spans.push(Span::styled(format!(" {label} "), app.theme.title()));
         spans.push(Span::styled(format!("{short} "), app.theme.quiet()));
     };
-    if app.screen == Screen::Studies {
-        [
-            ("1", "compare"),
-            ("Left Right", "study"),
-            ("Enter", "start"),
-            ("x", "cancel"),
-            ("?", "help"),
-            ("q", "quit"),
-        ]
+    let keys: &[(&str, &'static str)] = match app.screen {
+        Screen::Compare => &[],
+        Screen::Studies => &[("Left Right", "study"), ("Enter", "start"), ("x", "cancel")],
+        Screen::Plan => &[("Enter", "edit"), ("Left Right", "step"), ("u", "undo"), ("s", "save")],
+    };
+    [("1", "compare"), ("2", "studies"), ("3", "plan")]
         .into_iter()
         .for_each(|(label, short)| add(label, short));
-    } else {
+    keys.iter().for_each(|(label, short)| add(label, short));
+    if app.screen == Screen::Compare {
         for binding in KEYS.iter().filter(|binding| !binding.short.is_empty()) {
             add(binding.label.split(' ').next().unwrap_or_default(), binding.short);
         }
     }
+    [("?", "help"), ("q", "quit")].into_iter().for_each(|(label, short)| add(label, short));
     frame.render_widget(Line::from(spans), area);
 }

@@ -1,0 +1,281 @@
+//! The plan being edited: its text, what is selected, what is being typed, and the way back.
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
+use crate::plan::Plan;
+use crate::plan::fields::{self, Field};
+use crate::ropes::catalogue;
+
+/// What an edit came to.
+#[derive(Clone, Debug)]
+pub enum Edit {
+    /// Nothing new.
+    None,
+    /// Another plan.
+    Changed(Box<Plan>),
+}
+
+/// The text of a plan and its history.
+#[derive(Clone, Debug)]
+pub struct Editor {
+    /// Name of the file.
+    path: String,
+    /// As it stands.
+    pub text: String,
+    /// As the file has it.
+    pub saved: String,
+    undone: Vec<String>,
+    done: Vec<String>,
+    /// What can be changed.
+    pub fields: Vec<Field>,
+    /// Index of the selected field.
+    pub selected: usize,
+    /// What is being typed in its place.
+    pub input: Option<String>,
+    /// What is wrong with it, or with the last change.
+    pub problem: Option<String>,
+}
+
+impl Editor {
+    /// Of a plan as loaded.
+    pub fn new(plan: &Plan) -> Self {
+        Self {
+            path: plan.path.clone(),
+            text: plan.text.clone(),
+            saved: plan.text.clone(),
+            undone: Vec::new(),
+            done: Vec::new(),
+            fields: fields::fields(&plan.text),
+            selected: 0,
+            input: None,
+            problem: None,
+        }
+    }
+
+    /// Whether the file has another text.
+    pub fn unsaved(&self) -> bool {
+        self.text != self.saved
+    }
+
+    /// Selects a field so many places further.
+    pub fn select(&mut self, places: isize) {
+        let last = self.fields.len().saturating_sub(1);
+        self.selected = self.selected.saturating_add_signed(places).min(last);
+        self.problem = None;
+    }
+
+    /// The selected field.
+    pub fn field(&self) -> Option<&Field> {
+        self.fields.get(self.selected)
+    }
+
+    /// Begins to type in place of the selected value.
+    pub fn begin(&mut self) {
+        self.input = self.field().map(|field| field.value.trim_matches('"').to_owned());
+        self.problem = None;
+    }
+
+    /// A key while typing; the value is checked at every one.
+    pub fn type_key(&mut self, key: &KeyEvent) -> Edit {
+        let Some(input) = &mut self.input else { return Edit::None };
+        match key.code {
+            KeyCode::Esc => {
+                self.input = None;
+                self.problem = None;
+                return Edit::None;
+            }
+            KeyCode::Enter => return self.commit(),
+            KeyCode::Backspace => {
+                input.pop();
+            }
+            KeyCode::Char('u') if key.modifiers.contains(KeyModifiers::CONTROL) => input.clear(),
+            KeyCode::Char(letter) if !key.modifiers.intersects(KeyModifiers::CONTROL | KeyModifiers::ALT) => {
+                input.push(letter);
+            }
+            _ => return Edit::None,
+        }
+        self.problem = self.candidate().err();
+        Edit::None
+    }
+
+    /// The text and plan with what is typed.
+    fn candidate(&self) -> Result<(String, Plan), String> {
+        let (Some(input), Some(field)) = (&self.input, self.field()) else { return Err(String::new()) };
+        self.checked(fields::set(&self.text, &field.path, input)?)
+    }
+
+    /// A text with its plan, or the first thing wrong with it.
+    fn checked(&self, text: String) -> Result<(String, Plan), String> {
+        match Plan::parse(&self.path, &text) {
+            Ok(plan) => Ok((text, plan)),
+            Err(mistakes) => Err(mistakes
+                .iter()
+                .next()
+                .map_or_else(String::new, |(_, _, message, remedy)| format!("{message}; {remedy}"))),
+        }
+    }
+
+    fn commit(&mut self) -> Edit {
+        match self.candidate() {
+            Ok((text, plan)) => {
+                self.input = None;
+                self.problem = None;
+                self.replace(text, plan)
+            }
+            Err(problem) => {
+                self.problem = Some(problem);
+                Edit::None
+            }
+        }
+    }
+
+    fn replace(&mut self, text: String, plan: Plan) -> Edit {
+        if text == self.text {
+            return Edit::None;
+        }
+        self.done.push(std::mem::replace(&mut self.text, text));
+        self.undone.clear();
+        self.refresh();
+        Edit::Changed(Box::new(plan))
+    }
+
+    fn refresh(&mut self) {
+        self.fields = fields::fields(&self.text);
+        self.select(0);
+    }
+
+    /// Takes the last change back.
+    pub fn undo(&mut self) -> Edit {
+        let Some(before) = self.done.pop() else { return Edit::None };
+        self.undone.push(std::mem::replace(&mut self.text, before));
+        self.restored()
+    }
+
+    /// Makes the last change taken back again.
+    pub fn redo(&mut self) -> Edit {
+        let Some(after) = self.undone.pop() else { return Edit::None };
+        self.done.push(std::mem::replace(&mut self.text, after));
+        self.restored()
+    }
+
+    fn restored(&mut self) -> Edit {
+        self.refresh();
+        Plan::parse(&self.path, &self.text).map_or(Edit::None, |plan| Edit::Changed(Box::new(plan)))
+    }
+
+    /// The next smaller or larger choice: a rope of the catalogue, or a number a tenth of its size away.
+    pub fn step(&mut self, up: bool) -> Edit {
+        let Some(field) = self.field() else { return Edit::None };
+        let value = field.value.trim_matches('"');
+        let next = match field.path.key {
+            "rope" => {
+                let ropes = &catalogue().ropes;
+                let at = ropes.iter().position(|rope| rope.name == value);
+                let next = at.map_or(0, |at| at.saturating_add_signed(if up { 1 } else { -1 }));
+                ropes.get(next).map(|rope| rope.name.clone())
+            }
+            "termination" => {
+                let all = &catalogue().terminations;
+                let at = all.iter().position(|termination| termination.name == value);
+                let next = at.map_or(0, |at| at.saturating_add_signed(if up { 1 } else { -1 }));
+                all.get(next).map(|termination| termination.name.clone())
+            }
+            _ => value.parse::<f64>().ok().map(|number| stepped(number, up).to_string()),
+        };
+        let Some(next) = next else { return Edit::None };
+        let changed = fields::set(&self.text, &field.path.clone(), &next);
+        match changed.and_then(|text| self.checked(text)) {
+            Ok((text, plan)) => self.replace(text, plan),
+            Err(problem) => {
+                self.problem = Some(problem);
+                Edit::None
+            }
+        }
+    }
+
+    /// Copies the selected option.
+    pub fn copy_option(&mut self) -> Edit {
+        self.with_option(fields::copy_delay)
+    }
+
+    /// Removes the selected option.
+    pub fn remove_option(&mut self) -> Edit {
+        self.with_option(fields::remove_delay)
+    }
+
+    fn with_option(&mut self, change: fn(&str, usize) -> Option<String>) -> Edit {
+        let option =
+            self.field().filter(|field| field.path.section == "delay").and_then(|field| field.path.index);
+        let Some(option) = option else {
+            self.problem = Some("select a delay option first".to_owned());
+            return Edit::None;
+        };
+        match change(&self.text, option).ok_or_else(|| "the plan needs a delay option".to_owned()) {
+            Ok(text) => match self.checked(text) {
+                Ok((text, plan)) => self.replace(text, plan),
+                Err(problem) => {
+                    self.problem = Some(problem);
+                    Edit::None
+                }
+            },
+            Err(problem) => {
+                self.problem = Some(problem);
+                Edit::None
+            }
+        }
+    }
+}
+
+/// A tenth of the leading digit's place further: 20 to 21, 6 to 6.1, 280 to 290.
+fn stepped(number: f64, up: bool) -> f64 {
+    if number == 0.0 {
+        return if up { 1.0 } else { 0.0 };
+    }
+    let place = 10_f64.powf(number.abs().log10().floor() - 1.0);
+    let steps = (number / place).round() + if up { 1.0 } else { -1.0 };
+    // Not through `place`, which may have no exact value.
+    if place < 1.0 { steps / (1.0 / place).round() } else { steps * place }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn editor() -> Editor {
+        let text = include_str!("../../plans/amur-three-rows.toml");
+        Editor::new(&Plan::parse("plan.toml", text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
+    }
+
+    fn type_text(editor: &mut Editor, text: &str) {
+        for letter in text.chars() {
+            editor.type_key(&KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
+        }
+    }
+
+    #[test]
+    fn what_is_typed_is_checked_committed_and_undone() {
+        let mut editor = editor();
+        editor.begin();
+        editor.type_key(&KeyEvent::new(KeyCode::Char('u'), KeyModifiers::CONTROL));
+        type_text(&mut editor, "-2");
+        assert!(editor.problem.is_some(), "checked while typing");
+        let enter = KeyEvent::new(KeyCode::Enter, KeyModifiers::NONE);
+        assert!(matches!(editor.type_key(&enter), Edit::None), "a bad value is not taken");
+        editor.type_key(&KeyEvent::new(KeyCode::Char('u'), KeyModifiers::CONTROL));
+        type_text(&mut editor, "2.5");
+        let Edit::Changed(plan) = editor.type_key(&enter) else { panic!("{:?}", editor.problem) };
+        assert_eq!(plan.limits.flight_height_m, 2.5);
+        assert!(editor.unsaved());
+        let Edit::Changed(plan) = editor.undo() else { panic!("nothing to undo") };
+        assert_eq!(plan.limits.flight_height_m, 1.8);
+        assert!(!editor.unsaved());
+        assert!(matches!(editor.redo(), Edit::Changed(_)));
+        assert!(matches!(editor.redo(), Edit::None));
+    }
+
+    #[test]
+    fn steps_follow_the_leading_digit() {
+        assert_eq!([20.0, 6.0, 280.0, 1.8].map(|n| stepped(n, true)), [21.0, 6.1, 290.0, 1.9]);
+        assert_eq!([20.0, 0.0].map(|n| stepped(n, false)), [19.0, 0.0]);
+    }
+}

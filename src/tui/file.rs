@@ -1,0 +1,49 @@
+//! The plan's file: noticed when another program changes it, and replaced whole when saved.
+
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use crate::plan::{Plan, edit};
+
+/// A plan's file and how it was last seen.
+pub struct PlanFile {
+    path: PathBuf,
+    seen: Option<(SystemTime, u64)>,
+}
+
+impl PlanFile {
+    /// As it is now.
+    pub fn new(path: &Path) -> Self {
+        Self { path: path.to_owned(), seen: stamp(path) }
+    }
+
+    /// The plan in the file, or what is wrong with it, if the file has changed since it was last seen.
+    pub fn changed(&mut self) -> Option<Result<Plan, String>> {
+        let now = stamp(&self.path)?;
+        if self.seen.replace(now) == Some(now) {
+            return None;
+        }
+        Some(Plan::load(&self.path).map_err(|mistakes| {
+            let first = mistakes.iter().next();
+            first.map_or_else(String::new, |(line, column, message, _)| {
+                format!("line {line}:{column}: {message}")
+            })
+        }))
+    }
+
+    /// Writes `text`, unless the file is no longer the one whose text was `before`.
+    pub fn write(&mut self, before: &str, text: &str) -> Result<(), String> {
+        let now = std::fs::read_to_string(&self.path).map_err(|error| error.to_string())?;
+        if now != before {
+            return Err("another program has changed the file".to_owned());
+        }
+        edit::save(&self.path, text).map_err(|error| error.to_string())?;
+        self.seen = stamp(&self.path);
+        Ok(())
+    }
+}
+
+fn stamp(path: &Path) -> Option<(SystemTime, u64)> {
+    let data = path.metadata().ok()?;
+    Some((data.modified().ok()?, data.len()))
+}

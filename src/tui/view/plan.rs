@@ -1,0 +1,121 @@
+//! The plan: the shelter from above with its holes, and every value that is often changed.
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::{Color, Modifier, Style};
+use ratatui::symbols::Marker;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::canvas::{Canvas, Points};
+use ratatui::widgets::{Block, Borders, List, ListState, Paragraph, Wrap};
+
+use crate::tui::app::App;
+use crate::units;
+
+/// Draws the plan.
+pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
+    let [left, right] =
+        Layout::horizontal([Constraint::Percentage(50), Constraint::Percentage(50)]).spacing(1).areas(area);
+    let [list, message] = Layout::vertical([Constraint::Min(0), Constraint::Length(2)]).areas(left);
+    draw_fields(app, frame, list);
+    draw_message(app, frame, message);
+    draw_shelter(app, frame, right);
+}
+
+fn draw_fields(app: &App, frame: &mut Frame, area: Rect) {
+    let editor = &app.editor;
+    let title = if editor.unsaved() { " Plan, not saved " } else { " Plan " };
+    let block = Block::new()
+        .borders(Borders::TOP)
+        .border_style(app.theme.quiet())
+        .title(Span::styled(title, app.theme.title()));
+    let width = editor.fields.iter().map(|field| field.label.chars().count()).max().unwrap_or(0).min(36);
+    let rows = editor.fields.iter().enumerate().map(|(n, field)| {
+        let selected = n == editor.selected;
+        let label: String = field.label.chars().take(width).collect();
+        let value = match &editor.input {
+            Some(input) if selected => format!("{input}▏"),
+            _ if field.value.is_empty() => "not set".to_owned(),
+            _ => field.value.clone(),
+        };
+        let style = if selected { app.theme.selected() } else { app.theme.base() };
+        Line::from(vec![
+            Span::styled(format!("{label:width$}  "), app.theme.quiet()),
+            Span::styled(format!(" {value} "), style),
+        ])
+    });
+    let mut state = ListState::default().with_selected(Some(editor.selected));
+    frame.render_stateful_widget(List::new(rows).block(block), area, &mut state);
+}
+
+fn draw_message(app: &App, frame: &mut Frame, area: Rect) {
+    let editor = &app.editor;
+    let line = match (&editor.problem, &editor.input) {
+        (Some(problem), _) => Line::styled(problem.clone(), app.theme.limit()),
+        (None, Some(_)) => Line::styled("Enter takes it, Esc leaves it, Ctrl-u clears", app.theme.quiet()),
+        (None, None) => Line::styled(
+            "Enter edits · Left Right step · a copies, d removes an option · u undo, U redo · s save",
+            app.theme.quiet(),
+        ),
+    };
+    frame.render_widget(Paragraph::new(line).wrap(Wrap { trim: true }), area);
+}
+
+/// Tires as points; holes in the colour of their turn in the selected option, with its firing times below.
+fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
+    let (case, theme) = (&app.case, app.theme);
+    let Some(delay) = case.plan.delays.get(app.selected) else { return };
+    let times = delay.timing.fire_at_ms();
+    let fires: Vec<String> = case
+        .plan
+        .blast_rows
+        .iter()
+        .zip(&times)
+        .map(|(row, ms)| format!("{} at {}", row.name, units::milliseconds(ms * 1e-3)))
+        .collect();
+    let title = Line::styled(format!(" {}: {} ", delay.name, fires.join(", ")), theme.title());
+    let block = Block::new().borders(Borders::TOP).border_style(theme.quiet()).title(title);
+    let scene = case.scene();
+    let range = |axis: usize| {
+        let places = scene.position.iter().map(|place| place[axis]);
+        places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+    };
+    let [(left, right), (bottom, top)] = [range(0), range(1)];
+    let margin = 0.05 * (right - left).max(top - bottom).max(1.0);
+    let tires: Vec<(f64, f64)> = scene.position.iter().map(|place| (place.x, place.y)).collect();
+    let mut turns: Vec<(f64, Vec<(f64, f64)>)> = Vec::new();
+    for firing in case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings) {
+        let place = tires[firing.tire];
+        match turns.last_mut().filter(|(at, _)| *at == firing.at) {
+            Some((_, holes)) => holes.push(place),
+            None => turns.push((firing.at, vec![place])),
+        }
+    }
+    let canvas = Canvas::default()
+        .block(block)
+        .marker(Marker::Dot)
+        .x_bounds([left - margin, right + margin])
+        .y_bounds([bottom - margin, top + margin])
+        .paint(|context| {
+            context.draw(&Points { coords: &tires, color: theme.quiet().fg.unwrap_or(Color::Reset) });
+            context.layer();
+            for (turn, (_, holes)) in turns.iter().enumerate() {
+                let style = Style::new().fg(turn_color(app, turn, turns.len())).add_modifier(Modifier::BOLD);
+                for &(x, y) in holes {
+                    context.print(x, y, Span::styled(sign(turn), style));
+                }
+            }
+        });
+    frame.render_widget(canvas, area);
+}
+
+/// The turn as a character: 1 to 9, then letters.
+fn sign(turn: usize) -> String {
+    char::from_digit((turn as u32 + 1).min(35), 36).unwrap_or('+').to_string()
+}
+
+fn turn_color(app: &App, turn: usize, turns: usize) -> Color {
+    use crate::verdict::Verdict;
+    let third = 3 * turn / turns.max(1);
+    let verdict = [Verdict::Pass, Verdict::Undecided, Verdict::Fail][third.min(2)];
+    app.theme.verdict(verdict).fg.unwrap_or(Color::Reset)
+}
