@@ -247,7 +247,7 @@ mod tests {
     fn wilson_intervals_match_known_values() {
         let [low, high] = wilson(0, 100);
         assert_eq!(low, 0.0);
-        assert!((high - 0.036_994_8).abs() < 1e-6, "{high}");
+        assert!((high - 0.036_993_498).abs() < 1e-9, "{high}");
         let [low, high] = wilson(50, 100);
         assert!((low - 0.403_832).abs() < 1e-5 && (high - 0.596_168).abs() < 1e-5, "{low} {high}");
     }
