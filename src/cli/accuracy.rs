@@ -1,13 +1,17 @@
 //! `shelter accuracy`: this plan's speed against accuracy, on this machine.
 
-use std::io::{self, Write};
+use std::io;
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::Args;
 
-use super::{Compute, FormatArg, Look, Status, load};
+use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::report;
 use crate::study::accuracy::measure;
+
+/// Runs that are expected to take longer are left out.
+const PATIENCE: Duration = Duration::from_secs(8);
 
 #[derive(Args)]
 pub struct Arguments {
@@ -28,12 +32,16 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     else {
         return Ok(Status::Wrong);
     };
-    let study = arguments.compute.on_threads(|| measure(&case, option));
+    let measured = long::run(&arguments.compute, |progress| measure(&case, option, PATIENCE, progress));
+    let study = match measured {
+        Ok(study) => study,
+        Err(failure) => return long::failed(&failure),
+    };
     let text = match arguments.format {
         FormatArg::Text => report::accuracy::text(&case, option, &study),
         FormatArg::Json => report::json(&report::accuracy::Document::new(&case, option, &study)),
         FormatArg::Csv => report::csv(report::accuracy::rows(&study)),
     };
-    io::stdout().write_all(text.as_bytes())?;
+    long::print(&text)?;
     Ok(Status::Pass)
 }

@@ -9,7 +9,7 @@ use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::report;
 use crate::simulation::Failure;
 use crate::study::Case;
-use crate::study::batch::each;
+use crate::study::batch::{each, guarded};
 use crate::study::check::check;
 use crate::verdict::Verdict;
 
@@ -88,11 +88,9 @@ pub fn all(cases: &[Case], compute: &Compute) -> Result<Vec<report::check::Resul
     let results = long::run(compute, |progress| {
         each(&jobs, progress, |&(n, option)| {
             let effort = compute.effort(&cases[n].plan);
-            match check(&cases[n], option, &effort, &mut |_| progress.flow()) {
-                Err(stopped @ Failure::Stopped { .. }) => Err(stopped),
-                // An option without a result is no reason for the others to have none.
-                result => Ok(result),
-            }
+            // An option without a result is no reason for the others to have none, unless all are to end.
+            let checked = guarded(|| check(&cases[n], option, &effort, &mut |_| progress.flow()));
+            if progress.stopped() { Err(Failure::Stopped { at: 0.0 }) } else { Ok(checked) }
         })
     })?;
     let mut judged: Vec<report::check::Results> = cases.iter().map(|_| Vec::new()).collect();

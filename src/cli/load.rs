@@ -7,7 +7,8 @@ use std::sync::Arc;
 use super::{Compute, Look, Status};
 use crate::plan::Plan;
 use crate::study::Case;
-use crate::tui::start::{Choice, Start};
+use crate::tui::config::{self, Config};
+use crate::tui::start::{Opened, Start};
 use crate::tui::{self, app::App};
 use crate::worker::{Errands, Worker};
 
@@ -40,7 +41,13 @@ pub fn open(plan: &Path, compute: &Compute, look: &Look) -> io::Result<Status> {
     }
     needs_keyboard()?;
     let file = (plan.as_os_str() != "-").then_some(plan);
-    show(case, file, compute, look)
+    if let Some(file) = file {
+        config::remember(file);
+    }
+    let effort = compute.effort(&case.plan);
+    let config = config()?;
+    let app = App::new(Arc::new(case), effort, &config);
+    show(app, file, &config, compute, look)
 }
 
 /// Without a plan: offers what there is; where output is no terminal, the help.
@@ -50,14 +57,29 @@ pub fn start(compute: &Compute, look: &Look) -> io::Result<Status> {
         return Ok(Status::Wrong);
     }
     needs_keyboard()?;
-    match tui::choose(Start::new(Path::new(".")), screen(look))? {
-        None => Ok(Status::Pass),
-        Some(Choice::File(path)) => open(&path, compute, look),
-        Some(Choice::Example(name, text)) => match Plan::parse(name, text) {
-            Ok(plan) => show(Case::new(plan), None, compute, look),
-            Err(mistakes) => wrong(&mistakes.to_string()),
-        },
+    let config = config()?;
+    let start = Start::new(Path::new("."), config::recent());
+    let (name, text, kept) = match tui::choose(start, config.theme, screen(&config, look))? {
+        None => return Ok(Status::Pass),
+        Some(Opened::File(path)) => return open(&path, compute, look),
+        Some(Opened::Example(name, text)) => (name, text.to_owned(), true),
+        Some(Opened::New(text)) => ("new plan", text, false),
+    };
+    match Plan::parse(name, &text) {
+        Ok(plan) => {
+            let effort = compute.effort(&plan);
+            let mut app = App::new(Arc::new(Case::new(plan)), effort, &config);
+            if !kept {
+                app.editor.saved.clear();
+            }
+            show(app, None, &config, compute, look)
+        }
+        Err(mistakes) => wrong(&mistakes.to_string()),
     }
+}
+
+fn config() -> io::Result<Config> {
+    Config::load().map_err(io::Error::other)
 }
 
 fn needs_keyboard() -> io::Result<()> {
@@ -67,15 +89,20 @@ fn needs_keyboard() -> io::Result<()> {
     Err(io::Error::other("the terminal UI needs a keyboard on standard input; scripts use `shelter check`"))
 }
 
-fn screen(look: &Look) -> tui::Look {
-    tui::Look { ascii: look.ascii, color: look.colored(true) }
+fn screen(config: &Config, look: &Look) -> tui::Look {
+    tui::Look { ascii: look.ascii || config.ascii, color: look.colored(true) }
 }
 
-fn show(case: Case, file: Option<&Path>, compute: &Compute, look: &Look) -> io::Result<Status> {
-    let effort = compute.effort(&case.plan);
+fn show(
+    app: App,
+    file: Option<&Path>,
+    config: &Config,
+    compute: &Compute,
+    look: &Look,
+) -> io::Result<Status> {
     let threads = compute.threads.unwrap_or(0).into();
     let (worker, errands) = (Worker::new(threads), Errands::new(threads));
-    match tui::run(App::new(Arc::new(case), effort), worker, errands, screen(look), file)? {
+    match tui::run(app, worker, errands, screen(config, look), file)? {
         tui::Left::Quit => Ok(Status::Pass),
         tui::Left::Signal => Ok(Status::Interrupted),
     }

@@ -70,6 +70,8 @@ enum Command {
     Completions(packaging::Completions),
     /// The manual page
     Man,
+    /// The default configuration of the terminal, commented
+    Config,
 }
 
 /// How to compute; shared by every command that does.
@@ -239,6 +241,7 @@ pub fn run() -> ExitCode {
         (Some(Command::Init(arguments)), _) => init::run(&arguments, &cli.look),
         (Some(Command::Completions(arguments)), _) => packaging::completions(&arguments),
         (Some(Command::Man), _) => packaging::man(),
+        (Some(Command::Config), _) => packaging::config(),
         (None, Some(plan)) => load::open(&plan, &cli.compute, &cli.look),
         (None, None) => load::start(&cli.compute, &cli.look),
     };

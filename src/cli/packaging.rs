@@ -1,4 +1,4 @@
-//! `shelter completions` and `shelter man`, for packagers.
+//! `shelter completions`, `shelter man` and `shelter config`: texts about the program itself.
 
 use std::io::{self, Write};
 
@@ -24,5 +24,10 @@ pub fn man() -> io::Result<Status> {
     let mut text = Vec::new();
     clap_mangen::Man::new(Cli::command()).render(&mut text)?;
     io::stdout().write_all(&text)?;
+    Ok(Status::Pass)
+}
+
+pub fn config() -> io::Result<Status> {
+    io::stdout().write_all(crate::tui::config::default_text().as_bytes())?;
     Ok(Status::Pass)
 }

@@ -4,7 +4,6 @@ use std::io;
 use std::path::PathBuf;
 
 use clap::Args;
-use jiff::{Timestamp, tz::TimeZone};
 
 use super::{Compute, Look, Status, check, load, long};
 use crate::plan::edit;
@@ -29,19 +28,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         Err(failure) => return long::failed(&failure),
     };
     let (case, results) = (&cases[0], judged.remove(0));
-    edit::save(&arguments.output, &report::html::page(case, &results, &date()))?;
+    edit::save(&arguments.output, &report::html::page(case, &results, &report::html::today()))?;
     let passed = report::check::verdict(&results, false) == Verdict::Pass;
     Ok(if passed { Status::Pass } else { Status::Fail })
-}
-
-/// Today; a day fixed by SOURCE_DATE_EPOCH where builds are to be reproduced.
-fn date() -> String {
-    let fixed = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|seconds| seconds.parse().ok());
-    let now = fixed.and_then(|seconds| Timestamp::from_second(seconds).ok());
-    match now {
-        Some(fixed) => fixed.to_zoned(TimeZone::UTC),
-        None => jiff::Zoned::now(),
-    }
-    .strftime("%Y-%m-%d")
-    .to_string()
 }

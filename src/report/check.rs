@@ -5,14 +5,13 @@ use serde::Serialize;
 use crate::outcome::Broken;
 use crate::plan::Method;
 use crate::scene::{Scene, TireId};
-use crate::simulation::Failure;
 use crate::study::Case;
 use crate::study::check::{Checked, Quantity, Reason};
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::{Estimate, Verdict};
 
 /// One plan's results, in the order of its options.
-pub type Results = Vec<Result<Checked, Failure>>;
+pub type Results = Vec<Result<Checked, String>>;
 
 /// The verdict on a plan: the worst of its options, or the best where one passing option is enough.
 pub fn verdict(results: &Results, any: bool) -> Verdict {
@@ -164,7 +163,7 @@ impl Document {
             verdict: result.as_ref().map_or(Verdict::Undecided, |c| c.verdict).word(),
             reasons: match result {
                 Ok(checked) => checked.reasons.iter().map(explain).collect(),
-                Err(failure) => vec![failure.to_string()],
+                Err(words) => vec![words.clone()],
             },
             values: result.as_ref().ok().map(|checked| Values::new(scene, checked)),
         });
@@ -210,14 +209,14 @@ impl Row {
     /// The rows of one plan.
     pub fn of(case: &Case, results: &Results) -> Vec<Self> {
         let scene = case.scene();
-        let row = |(delay, result): (&crate::plan::DelayOption, &Result<Checked, Failure>)| {
+        let row = |(delay, result): (&crate::plan::DelayOption, &Result<Checked, String>)| {
             let (plan, option) = (case.plan.path.clone(), delay.name.clone());
             match result {
-                Err(failure) => Self {
+                Err(words) => Self {
                     plan,
                     option,
                     verdict: Verdict::Undecided.word(),
-                    reasons: failure.to_string(),
+                    reasons: words.clone(),
                     ..Self::default()
                 },
                 Ok(checked) => Self {

@@ -4,6 +4,7 @@
 //! scripts depend on.
 
 pub mod accuracy;
+pub mod chart;
 pub mod check;
 pub mod html;
 pub mod orders;

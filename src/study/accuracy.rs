@@ -4,11 +4,12 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use super::Case;
+use super::batch::Progress;
 use super::check::start_step;
 use crate::outcome::Outcome;
 use crate::plan::{Accuracy, Method, Timing};
 use crate::scene::Shot;
-use crate::simulation::Settings;
+use crate::simulation::{Failure, Settings};
 
 /// One method at one step.
 #[derive(Clone, Debug)]
@@ -58,16 +59,21 @@ pub const CLASSES: [(f64, f64); 2] = [(0.01, 0.02), (0.002, 0.002)];
 const STEPS: usize = 11;
 /// How much finer the reference is than the finest level.
 const FINER: f64 = 16.0;
-/// Runs of a method that are expected to take longer are left out.
-const PATIENCE: Duration = Duration::from_secs(8);
 
-/// Measures one option.
-pub fn measure(case: &Case, option: usize) -> Study {
+/// Measures one option; runs of a method that are expected to take longer than `patience` are left out.
+pub fn measure(
+    case: &Case,
+    option: usize,
+    patience: Duration,
+    progress: &Progress,
+) -> Result<Study, Failure> {
     let levels = [Accuracy::Draft, Accuracy::Field, Accuracy::Reference]
         .map(|level| (level, start_step(case, Method::Verlet, level)));
     let reference_step = levels[2].1 / FINER;
     let shot = &case.shots[option];
-    let reference = run(case, shot, Method::Verlet, reference_step);
+    progress.expect(2 * STEPS + levels.len() + 1);
+    let reference = run(case, shot, Method::Verlet, reference_step, progress)?;
+    progress.advance();
     let coarsest = (0.95 * case.scene().critical_step()).min(8e-3);
     let mut rows = Vec::new();
     for method in [Method::Verlet, Method::Newmark] {
@@ -78,16 +84,17 @@ pub fn measure(case: &Case, option: usize) -> Study {
         }
         let mut last = Duration::ZERO;
         for step in steps.into_iter().take_while(|&step| step > reference_step) {
-            if 2 * last > PATIENCE {
+            if 2 * last > patience {
                 break;
             }
-            let result = run(case, shot, method, step);
+            let result = run(case, shot, method, step, progress)?;
+            progress.advance();
             last = result.as_ref().map_or(last, |(_, wall)| *wall);
             let result = result.map(|(outcome, wall)| compared(&outcome, wall, reference.as_ref()));
             rows.push(Row { method, step, result });
         }
     }
-    Study { rows, reference_step, levels }
+    Ok(Study { rows, reference_step, levels })
 }
 
 impl Study {
@@ -102,14 +109,24 @@ impl Study {
     }
 }
 
-/// One run, repeated while it is short so that its time means something.
-fn run(case: &Case, shot: &Shot, method: Method, step: f64) -> Option<(Outcome, Duration)> {
+/// One run, repeated while it is short so that its time means something; `None` where the method cannot follow.
+fn run(
+    case: &Case,
+    shot: &Shot,
+    method: Method,
+    step: f64,
+    progress: &Progress,
+) -> Result<Option<(Outcome, Duration)>, Failure> {
     let settings = Settings { method, step, duration: case.plan.simulation.duration_s };
     let mut best: Option<(Outcome, Duration)> = None;
     let begun = Instant::now();
     for _ in 0..5 {
         let start = Instant::now();
-        let outcome = case.model.run(shot, &settings, &mut |_| ControlFlow::Continue(())).ok()?;
+        let outcome = match case.model.run(shot, &settings, &mut |_| progress.flow()) {
+            Ok(outcome) => outcome,
+            Err(stopped @ Failure::Stopped { .. }) => return Err(stopped),
+            Err(_) => return Ok(None),
+        };
         let wall = start.elapsed();
         if best.as_ref().is_none_or(|(_, least)| wall < *least) {
             best = Some((outcome, wall));
@@ -118,7 +135,7 @@ fn run(case: &Case, shot: &Shot, method: Method, step: f64) -> Option<(Outcome, 
             break;
         }
     }
-    best
+    Ok(best)
 }
 
 fn compared(outcome: &Outcome, wall: Duration, reference: Option<&(Outcome, Duration)>) -> Measured {

@@ -1,6 +1,7 @@
 //! Many shots of one plan, spread over the cores: what all long studies share.
 
 use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use rayon::prelude::*;
@@ -37,8 +38,13 @@ impl Progress {
     }
 
     /// Announces so many more shots.
-    fn expect(&self, more: usize) {
+    pub(super) fn expect(&self, more: usize) {
         self.total.fetch_add(more, Ordering::Relaxed);
+    }
+
+    /// One shot is judged.
+    pub(super) fn advance(&self) {
+        self.done.fetch_add(1, Ordering::Relaxed);
     }
 
     /// Continue, unless told to end: for watchers.
@@ -91,11 +97,23 @@ pub fn each<J: Sync, T: Send>(
             return Err(Failure::Stopped { at: 0.0 });
         }
         let result = work(job);
-        progress.done.fetch_add(1, Ordering::Relaxed);
+        progress.advance();
         result
     };
     let results: Vec<_> = jobs.par_iter().map(one).collect();
     results.into_iter().collect()
+}
+
+/// Does one piece of work; a panic in it is told in words, so that others go on.
+pub fn guarded<T, E: ToString>(work: impl FnOnce() -> Result<T, E>) -> Result<T, String> {
+    match catch_unwind(AssertUnwindSafe(work)) {
+        Ok(result) => result.map_err(|error| error.to_string()),
+        Err(panic) => {
+            let words = panic.downcast_ref::<String>().map(String::as_str);
+            let words = words.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("unknown cause");
+            Err(format!("internal error: {words}"))
+        }
+    }
 }
 
 /// Judges every shot, refined until sure.

@@ -7,6 +7,7 @@ pub mod accuracy;
 pub mod batch;
 pub mod check;
 pub mod error;
+pub mod flight;
 pub mod merge;
 pub mod orders;
 pub mod scatter;

@@ -1,6 +1,8 @@
 //! The plan being edited: its text, what is selected, what is being typed, and the way back.
 
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use crossterm::event::{Event, KeyCode, KeyEvent};
+use tui_input::Input;
+use tui_input::backend::crossterm::EventHandler;
 
 use crate::plan::Plan;
 use crate::plan::fields::{self, Field};
@@ -31,9 +33,40 @@ pub struct Editor {
     /// Index of the selected field.
     pub selected: usize,
     /// What is being typed in its place.
-    pub input: Option<String>,
+    pub input: Option<Input>,
+    /// Blast rows being put in order, in place of the selected value.
+    pub order: Option<Order>,
     /// What is wrong with it, or with the last change.
     pub problem: Option<String>,
+}
+
+/// Blast rows in their order of firing.
+#[derive(Clone, Debug)]
+pub struct Order {
+    /// Their names.
+    pub names: Vec<String>,
+    /// Index of the selected one.
+    pub selected: usize,
+}
+
+impl Order {
+    fn select(&mut self, down: bool) {
+        let last = self.names.len().saturating_sub(1);
+        self.selected = self.selected.saturating_add_signed(if down { 1 } else { -1 }).min(last);
+    }
+
+    /// Moves the selected row one place.
+    fn shift(&mut self, later: bool) {
+        let from = self.selected;
+        self.select(later);
+        self.names.swap(from, self.selected);
+    }
+
+    /// As a plan writes it.
+    fn text(&self) -> String {
+        let names: Vec<String> = self.names.iter().map(|name| format!("{name:?}")).collect();
+        format!("[{}]", names.join(", "))
+    }
 }
 
 impl Editor {
@@ -48,6 +81,7 @@ impl Editor {
             fields: fields::fields(&plan.text),
             selected: 0,
             input: None,
+            order: None,
             problem: None,
         }
     }
@@ -69,39 +103,75 @@ impl Editor {
         self.fields.get(self.selected)
     }
 
-    /// Begins to type in place of the selected value.
+    /// Selects the next field, from the selected one on, whose label or value contains a text.
+    pub fn find(&mut self, text: &str) {
+        let text = text.to_lowercase();
+        let count = self.fields.len();
+        let found = (0..count).map(|n| (self.selected + n) % count).find(|&n| {
+            let field = &self.fields[n];
+            field.label.to_lowercase().contains(&text) || field.value.to_lowercase().contains(&text)
+        });
+        self.selected = found.unwrap_or(self.selected);
+    }
+
+    /// Whether keys go into a value.
+    pub fn typing(&self) -> bool {
+        self.input.is_some() || self.order.is_some()
+    }
+
+    /// Begins to type in place of the selected value, or to put the rows in order.
     pub fn begin(&mut self) {
-        self.input = self.field().map(|field| field.value.trim_matches('"').to_owned());
         self.problem = None;
+        let Some(field) = self.field() else { return };
+        if field.path.key == "order" {
+            let names = fields::order(&self.text, &field.path);
+            self.order = Some(Order { names, selected: 0 });
+        } else {
+            self.input = Some(Input::new(field.value.trim_matches('"').to_owned()));
+        }
     }
 
     /// A key while typing; the value is checked at every one.
     pub fn type_key(&mut self, key: &KeyEvent) -> Edit {
-        let Some(input) = &mut self.input else { return Edit::None };
         match key.code {
             KeyCode::Esc => {
-                self.input = None;
-                self.problem = None;
+                self.leave();
                 return Edit::None;
             }
             KeyCode::Enter => return self.commit(),
-            KeyCode::Backspace => {
-                input.pop();
-            }
-            KeyCode::Char('u') if key.modifiers.contains(KeyModifiers::CONTROL) => input.clear(),
-            KeyCode::Char(letter) if !key.modifiers.intersects(KeyModifiers::CONTROL | KeyModifiers::ALT) => {
-                input.push(letter);
-            }
-            _ => return Edit::None,
+            _ => {}
         }
-        self.problem = self.candidate().err();
+        if let Some(order) = &mut self.order {
+            match key.code {
+                KeyCode::Up | KeyCode::Char('k') => order.select(false),
+                KeyCode::Down | KeyCode::Char('j') => order.select(true),
+                KeyCode::Left | KeyCode::Char('h' | 'K') => order.shift(false),
+                KeyCode::Right | KeyCode::Char('l' | 'J') => order.shift(true),
+                _ => {}
+            }
+        } else if let Some(input) = &mut self.input
+            && input.handle_event(&Event::Key(*key)).is_some_and(|change| change.value)
+        {
+            self.problem = self.candidate().err();
+        }
         Edit::None
+    }
+
+    fn leave(&mut self) {
+        self.input = None;
+        self.order = None;
+        self.problem = None;
     }
 
     /// The text and plan with what is typed.
     fn candidate(&self) -> Result<(String, Plan), String> {
-        let (Some(input), Some(field)) = (&self.input, self.field()) else { return Err(String::new()) };
-        self.checked(fields::set(&self.text, &field.path, input)?)
+        let Some(field) = self.field() else { return Err("no value is selected".to_owned()) };
+        let typed = match (&self.order, &self.input) {
+            (Some(order), _) => order.text(),
+            (None, Some(input)) => input.value().to_owned(),
+            (None, None) => return Err("nothing is typed".to_owned()),
+        };
+        self.checked(fields::set(&self.text, &field.path, &typed)?)
     }
 
     /// A text with its plan, or the first thing wrong with it.
@@ -118,8 +188,7 @@ impl Editor {
     fn commit(&mut self) -> Edit {
         match self.candidate() {
             Ok((text, plan)) => {
-                self.input = None;
-                self.problem = None;
+                self.leave();
                 self.replace(text, plan)
             }
             Err(problem) => {
@@ -239,6 +308,8 @@ fn stepped(number: f64, up: bool) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use crossterm::event::KeyModifiers;
+
     use super::*;
 
     fn editor() -> Editor {
@@ -250,6 +321,21 @@ mod tests {
         for letter in text.chars() {
             editor.type_key(&KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
         }
+    }
+
+    #[test]
+    fn rows_are_put_in_order_by_moving_them() {
+        let mut editor = editor();
+        editor.find("\"20 ms\": order");
+        editor.begin();
+        for code in [KeyCode::Down, KeyCode::Left, KeyCode::Enter] {
+            if let Edit::Changed(plan) = editor.type_key(&KeyEvent::new(code, KeyModifiers::NONE)) {
+                assert_eq!(plan.delays[2].timing.fire_at_ms(), [20.0, 0.0, 40.0]);
+                assert!(editor.text.contains("order = [\"2\", \"1\", \"3\"]"), "{}", editor.text);
+                return;
+            }
+        }
+        panic!("{:?}", editor.problem);
     }
 
     #[test]

@@ -43,6 +43,14 @@ impl PlanFile {
     }
 }
 
+/// Writes a new file, never over one that is there.
+pub fn create(path: &Path, text: &str) -> Result<(), String> {
+    if path.exists() {
+        return Err(format!("{} is there already", path.display()));
+    }
+    edit::save(path, text).map_err(|error| format!("{}: {error}", path.display()))
+}
+
 fn stamp(path: &Path) -> Option<(SystemTime, u64)> {
     let data = path.metadata().ok()?;
     Some((data.modified().ok()?, data.len()))

@@ -1,268 +1,255 @@
-//! The one table of keys: dispatch, footer and help all read it.
+//! The one table of keys: dispatch, footer, help, command palette and configuration all read it.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
+use super::app::Screen;
 
 /// What a key asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
-    /// Select the option above.
+    /// Show a screen.
+    Show(Screen),
+    /// Show the next screen.
+    NextScreen,
+    /// Show the screen before.
+    PreviousScreen,
+    /// Select what is above.
     Up,
-    /// Select the option below.
+    /// Select what is below.
     Down,
-    /// Select an option a page up.
+    /// Select what is a page up.
     PageUp,
-    /// Select an option a page down.
+    /// Select what is a page down.
     PageDown,
-    /// Select the first option.
+    /// Select the first.
     First,
-    /// Select the last option.
+    /// Select the last.
     Last,
-    /// Show the study before.
+    /// To the left, or a step down.
     Left,
-    /// Show the next study.
+    /// To the right, or a step up.
     Right,
-    /// Compare the options.
-    Compare,
-    /// The long studies.
-    Studies,
-    /// End the study shown.
-    Cancel,
-    /// Change the plan.
-    Plan,
-    /// Take a change back.
-    Undo,
-    /// Make it again.
-    Redo,
-    /// Copy the selected option.
-    Copy,
-    /// Remove the selected option.
-    Remove,
-    /// Write the plan.
-    Save,
-    /// Show the selected option large, or all again; start the study shown.
-    Zoom,
+    /// Open, edit or start what is selected.
+    Open,
     /// Compute everything again.
     Rerun,
     /// Next finer accuracy.
     Finer,
     /// Next coarser accuracy.
     Coarser,
+    /// Sort by the next column.
+    Sort,
+    /// Turn the sorting round.
+    Reverse,
+    /// Compare with the selected option.
+    Baseline,
+    /// Play or pause.
+    Play,
+    /// Play faster.
+    Faster,
+    /// Play slower.
+    Slower,
+    /// Look from the other side.
+    Turn,
+    /// End the study shown.
+    Cancel,
+    /// Copy the selected option.
+    AddOption,
+    /// Remove the selected option.
+    RemoveOption,
+    /// Take a change back.
+    Undo,
+    /// Make it again.
+    Redo,
+    /// Write the plan.
+    Save,
+    /// Find.
+    Search,
+    /// Choose a command by name.
+    Palette,
+    /// Put what is shown on the clipboard.
+    Yank,
+    /// Write what is shown to a file.
+    Export,
     /// Next theme.
     Theme,
     /// Show or hide the help.
     Help,
-    /// Leave.
-    Quit,
     /// Stop and give the shell back until resumed.
     Suspend,
+    /// Leave.
+    Quit,
 }
 
 /// Keys that ask for one action.
 pub struct Binding {
-    /// Any of these.
-    pub keys: &'static [(KeyCode, KeyModifiers)],
     /// What they ask for.
     pub action: Action,
-    /// The keys in words.
-    pub label: &'static str,
-    /// The action in words.
-    pub text: &'static str,
-    /// The action in one word for the footer; empty to leave it out.
+    /// Its name in the configuration and the command palette.
+    pub name: &'static str,
+    /// Any of these, unless the configuration has others.
+    pub keys: &'static [&'static str],
+    /// In a word, for the footer; empty to leave it out.
     pub short: &'static str,
+    /// In words.
+    pub text: &'static str,
+    /// The screens that know it; empty for all.
+    pub on: &'static [Screen],
 }
 
-const NONE: KeyModifiers = KeyModifiers::NONE;
-const CONTROL: KeyModifiers = KeyModifiers::CONTROL;
-
-const fn key(letter: char) -> (KeyCode, KeyModifiers) {
-    (KeyCode::Char(letter), NONE)
+impl Binding {
+    /// Whether a screen knows it.
+    pub fn is_on(&self, screen: Screen) -> bool {
+        self.on.is_empty() || self.on.contains(&screen)
+    }
 }
 
-/// Every key there is.
-pub const KEYS: &[Binding] = &[
-    Binding {
-        keys: &[key('1')],
-        action: Action::Compare,
-        label: "1",
-        text: "compare the delay options",
-        short: "",
-    },
-    Binding {
-        keys: &[key('2')],
-        action: Action::Studies,
-        label: "2",
-        text: "studies: sweep, orders, scatter, size",
-        short: "",
-    },
-    Binding {
-        keys: &[key('3')],
-        action: Action::Plan,
-        label: "3",
-        text: "the plan: change values, add and remove options",
-        short: "",
-    },
-    Binding {
-        keys: &[(KeyCode::Right, NONE), key('l'), (KeyCode::Tab, NONE)],
-        action: Action::Right,
-        label: "Right l",
-        text: "studies: the next one; plan: a step up",
-        short: "",
-    },
-    Binding {
-        keys: &[(KeyCode::Left, NONE), key('h'), (KeyCode::BackTab, NONE)],
-        action: Action::Left,
-        label: "Left h",
-        text: "studies: the one before; plan: a step down",
-        short: "",
-    },
-    Binding {
-        keys: &[key('u')],
-        action: Action::Undo,
-        label: "u",
-        text: "plan: take the last change back",
-        short: "",
-    },
-    Binding {
-        keys: &[key('U'), (KeyCode::Char('r'), CONTROL)],
-        action: Action::Redo,
-        label: "U Ctrl-r",
-        text: "plan: make it again",
-        short: "",
-    },
-    Binding {
-        keys: &[key('a')],
-        action: Action::Copy,
-        label: "a",
-        text: "plan: add a copy of the selected option",
-        short: "",
-    },
-    Binding {
-        keys: &[key('d')],
-        action: Action::Remove,
-        label: "d",
-        text: "plan: remove the selected option",
-        short: "",
-    },
-    Binding {
-        keys: &[key('s'), (KeyCode::Char('s'), CONTROL)],
-        action: Action::Save,
-        label: "s Ctrl-s",
-        text: "save the plan; comments and formatting stay",
-        short: "",
-    },
-    Binding {
-        keys: &[key('x')],
-        action: Action::Cancel,
-        label: "x",
-        text: "studies: cancel the one shown",
-        short: "",
-    },
-    Binding {
-        keys: &[(KeyCode::Down, NONE), key('j')],
-        action: Action::Down,
-        label: "Down j",
-        text: "select the next option",
-        short: "select",
-    },
-    Binding {
-        keys: &[(KeyCode::Up, NONE), key('k')],
-        action: Action::Up,
-        label: "Up k",
-        text: "select the option before",
-        short: "",
-    },
-    Binding {
-        keys: &[(KeyCode::PageDown, NONE)],
-        action: Action::PageDown,
-        label: "PgDn",
-        text: "select ten options further",
-        short: "",
-    },
-    Binding {
-        keys: &[(KeyCode::PageUp, NONE)],
-        action: Action::PageUp,
-        label: "PgUp",
-        text: "select ten options back",
-        short: "",
-    },
-    Binding {
-        keys: &[(KeyCode::Home, NONE), key('g')],
-        action: Action::First,
-        label: "Home g",
-        text: "select the first option",
-        short: "",
-    },
-    Binding {
-        keys: &[(KeyCode::End, NONE), key('G')],
-        action: Action::Last,
-        label: "End G",
-        text: "select the last option",
-        short: "",
-    },
-    Binding {
-        keys: &[(KeyCode::Enter, NONE)],
-        action: Action::Zoom,
-        label: "Enter",
-        text: "show the option large, and back; start a study",
-        short: "enlarge",
-    },
-    Binding {
-        keys: &[key('r')],
-        action: Action::Rerun,
-        label: "r",
-        text: "compute all options again",
-        short: "run",
-    },
-    Binding {
-        keys: &[key('+'), key('=')],
-        action: Action::Finer,
-        label: "+",
-        text: "finer accuracy: draft, field, reference",
-        short: "finer",
-    },
-    Binding {
-        keys: &[key('-')],
-        action: Action::Coarser,
-        label: "-",
-        text: "coarser accuracy",
-        short: "coarser",
-    },
-    Binding {
-        keys: &[key('t')],
-        action: Action::Theme,
-        label: "t",
-        text: "next theme: dark, light, sunlight",
-        short: "theme",
-    },
-    Binding {
-        keys: &[key('?'), (KeyCode::F(1), NONE)],
-        action: Action::Help,
-        label: "? F1",
-        text: "show or hide this help",
-        short: "",
-    },
-    Binding {
-        keys: &[(KeyCode::Char('z'), CONTROL)],
-        action: Action::Suspend,
-        label: "Ctrl-z",
-        text: "back to the shell until `fg`",
-        short: "",
-    },
-    Binding {
-        keys: &[key('q'), (KeyCode::Esc, NONE), (KeyCode::Char('c'), CONTROL)],
-        action: Action::Quit,
-        label: "q Esc Ctrl-c",
-        text: "leave (Esc closes what is open first)",
-        short: "",
-    },
+const fn bind(
+    action: Action,
+    name: &'static str,
+    keys: &'static [&'static str],
+    short: &'static str,
+    text: &'static str,
+    on: &'static [Screen],
+) -> Binding {
+    Binding { action, name, keys, short, text, on }
+}
+
+const ALL: &[Screen] = &[];
+const PLAN: &[Screen] = &[Screen::Plan];
+const COMPARE: &[Screen] = &[Screen::Compare];
+const FLIGHT: &[Screen] = &[Screen::Flight];
+const SIDEWAYS: &[Screen] = &[Screen::Plan, Screen::Flight, Screen::Studies];
+const ASKED: &[Screen] = &[Screen::Studies, Screen::Accuracy];
+
+/// Every action there is. Those of one screen stand first: the footer shows as many as fit.
+pub const BINDINGS: &[Binding] = &[
+    bind(Action::Play, "play", &["space"], "play", "play or pause", FLIGHT),
+    bind(Action::Faster, "faster", &[">", "."], "faster", "play faster", FLIGHT),
+    bind(Action::Slower, "slower", &["<", ","], "slower", "play slower", FLIGHT),
+    bind(Action::Turn, "turn", &["v"], "turn", "side view along the rows, or across them", FLIGHT),
+    bind(Action::Open, "open", &["enter"], "open", "edit the value; enlarge the option; start the study", ALL),
+    bind(Action::Left, "left", &["left", "h"], "", "smaller value, study before, back in time", SIDEWAYS),
+    bind(Action::Right, "right", &["right", "l"], "step", "larger value, next study, on in time", SIDEWAYS),
+    bind(Action::Cancel, "cancel", &["x"], "cancel", "end what computes here", ASKED),
+    bind(Action::AddOption, "add-option", &["a"], "add", "add a copy of the selected delay option", PLAN),
+    bind(Action::RemoveOption, "remove-option", &["d"], "remove", "remove the selected delay option", PLAN),
+    bind(Action::Undo, "undo", &["u"], "undo", "take the last change of the plan back", ALL),
+    bind(Action::Redo, "redo", &["U", "ctrl-r"], "", "make it again", ALL),
+    bind(Action::Save, "save", &["s", "ctrl-s"], "save", "save the plan; comments and formatting stay", ALL),
+    bind(Action::Sort, "sort", &["o"], "sort", "sort by the next column", COMPARE),
+    bind(Action::Reverse, "reverse", &["O"], "", "turn the sorting round", COMPARE),
+    bind(Action::Baseline, "baseline", &["b"], "baseline", "show differences from the selected option", COMPARE),
+    bind(Action::Finer, "finer", &["+", "="], "finer", "finer accuracy: draft, field, reference", ALL),
+    bind(Action::Coarser, "coarser", &["-"], "coarser", "coarser accuracy", ALL),
+    bind(Action::Rerun, "rerun", &["r"], "", "compute again", ALL),
+    bind(Action::Search, "search", &["/"], "find", "find: options by name or verdict, values, lines", ALL),
+    bind(Action::Export, "export", &["e"], "export", "write what is shown to a CSV, SVG or HTML file", ALL),
+    bind(Action::Yank, "copy", &["y"], "", "copy what is shown to the clipboard", ALL),
+    bind(Action::Palette, "commands", &[":"], "", "choose a command by name", ALL),
+    bind(Action::Theme, "theme", &["t"], "theme", "next theme: dark, light, sunlight", ALL),
+    bind(Action::Show(Screen::Plan), "plan", &["1"], "", "the plan and its values", ALL),
+    bind(Action::Show(Screen::Compare), "compare", &["2"], "", "the delay options side by side", ALL),
+    bind(Action::Show(Screen::Flight), "flight", &["3"], "", "the selected option in motion", ALL),
+    bind(Action::Show(Screen::Studies), "studies", &["4"], "", "sweep, orders, scatter, size", ALL),
+    bind(Action::Show(Screen::Accuracy), "accuracy", &["5"], "", "what accuracy costs on this plan", ALL),
+    bind(Action::NextScreen, "next-screen", &["tab"], "", "the next screen", ALL),
+    bind(Action::PreviousScreen, "previous-screen", &["backtab"], "", "the screen before", ALL),
+    bind(Action::Up, "up", &["up", "k"], "", "select what is above", ALL),
+    bind(Action::Down, "down", &["down", "j"], "", "select what is below", ALL),
+    bind(Action::PageUp, "page-up", &["pageup"], "", "a page up", ALL),
+    bind(Action::PageDown, "page-down", &["pagedown"], "", "a page down", ALL),
+    bind(Action::First, "first", &["home", "g"], "", "to the first", ALL),
+    bind(Action::Last, "last", &["end", "G"], "", "to the last", ALL),
+    bind(Action::Help, "help", &["?", "f1"], "", "show or hide the keys", ALL),
+    bind(Action::Suspend, "suspend", &["ctrl-z"], "", "back to the shell until `fg`", ALL),
+    bind(Action::Quit, "quit", &["q", "ctrl-c"], "", "leave (Esc closes what is open first)", ALL),
 ];
 
-/// The action a key asks for.
-pub fn action(event: &KeyEvent) -> Option<Action> {
-    // Shift is part of the letter itself; terminals differ in whether they report it as well.
-    let modifiers = event.modifiers - KeyModifiers::SHIFT;
-    let asked = |binding: &&Binding| binding.keys.contains(&(event.code, modifiers));
-    KEYS.iter().find(asked).map(|binding| binding.action)
+/// Which key asks for what.
+#[derive(Clone, Debug)]
+pub struct Keymap {
+    /// Of each of [`BINDINGS`], its keys as written.
+    labels: Vec<Vec<String>>,
+    keys: Vec<((KeyCode, KeyModifiers), Action)>,
+}
+
+impl Default for Keymap {
+    fn default() -> Self {
+        let written = |binding: &Binding| binding.keys.iter().map(|key| (*key).to_owned()).collect();
+        let keymap = Self::new(BINDINGS.iter().map(written).collect());
+        keymap.unwrap_or_else(|mistake| unreachable!("the table is tested: {mistake}"))
+    }
+}
+
+impl Keymap {
+    /// Those of the table, with other keys for the actions named; or what is wrong with them.
+    pub fn with(changes: impl IntoIterator<Item = (String, Vec<String>)>) -> Result<Self, String> {
+        let mut labels = Self::default().labels;
+        for (name, keys) in changes {
+            let Some(place) = BINDINGS.iter().position(|binding| binding.name == name) else {
+                let near = BINDINGS.iter().max_by(|a, b| {
+                    strsim::jaro(a.name, &name).total_cmp(&strsim::jaro(b.name, &name))
+                });
+                let near = near.map_or("", |binding| binding.name);
+                return Err(format!("there is no command '{name}'; did you mean '{near}'?"));
+            };
+            labels[place] = keys;
+        }
+        Self::new(labels)
+    }
+
+    fn new(labels: Vec<Vec<String>>) -> Result<Self, String> {
+        let mut keys: Vec<((KeyCode, KeyModifiers), Action)> = Vec::new();
+        for (binding, written) in BINDINGS.iter().zip(&labels) {
+            for key in written {
+                let parsed = parse(key).ok_or_else(|| {
+                    format!("'{key}' is no key; write one such as \"a\", \"A\", \"ctrl-a\", \"f5\" or \"pageup\"")
+                })?;
+                if let Some((_, other)) = keys.iter().find(|(taken, _)| *taken == parsed) {
+                    let other = BINDINGS.iter().find(|binding| binding.action == *other);
+                    let other = other.map_or("", |binding| binding.name);
+                    return Err(format!("the key '{key}' asks for both '{other}' and '{}'", binding.name));
+                }
+                keys.push((parsed, binding.action));
+            }
+        }
+        Ok(Self { labels, keys })
+    }
+
+    /// The action a key asks for.
+    pub fn action(&self, event: &KeyEvent) -> Option<Action> {
+        // Shift is part of the letter itself; terminals differ in whether they report it as well.
+        let pressed = (event.code, event.modifiers - KeyModifiers::SHIFT);
+        self.keys.iter().find(|(key, _)| *key == pressed).map(|(_, action)| *action)
+    }
+
+    /// The keys of an action, the first alone or all.
+    pub fn label(&self, action: Action, all: bool) -> String {
+        let place = BINDINGS.iter().position(|binding| binding.action == action);
+        let written = place.and_then(|place| self.labels.get(place)).map_or(&[][..], Vec::as_slice);
+        let shown = if all { written } else { &written[..written.len().min(1)] };
+        shown.iter().map(|key| readable(key)).collect::<Vec<_>>().join(" ")
+    }
+}
+
+/// A key as written: a single character as it is, others by name.
+fn parse(written: &str) -> Option<(KeyCode, KeyModifiers)> {
+    let mut letters = written.chars();
+    if let (Some(letter), None) = (letters.next(), letters.next()) {
+        return (!letter.is_control()).then_some((KeyCode::Char(letter), KeyModifiers::NONE));
+    }
+    let key = crokey::parse(written).ok()?;
+    Some((*key.codes.first(), key.modifiers - KeyModifiers::SHIFT))
+}
+
+/// With a capital letter where it is a name: `Enter`, `Ctrl-s`.
+fn readable(written: &str) -> String {
+    let mut letters = written.chars();
+    match letters.next() {
+        Some(first) if written.chars().count() > 1 => first.to_uppercase().chain(letters).collect(),
+        _ => written.to_owned(),
+    }
 }
 
 #[cfg(test)]
@@ -270,13 +257,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_key_asks_for_two_things_and_every_binding_is_described() {
-        let mut seen = Vec::new();
-        for binding in KEYS {
-            assert!(!binding.keys.is_empty() && !binding.label.is_empty() && !binding.text.is_empty());
+    fn every_default_key_is_one_and_asks_for_one_thing() {
+        let keymap = Keymap::default();
+        for binding in BINDINGS {
+            assert!(!binding.text.is_empty());
             for key in binding.keys {
-                assert!(!seen.contains(key), "{key:?} is bound twice");
-                seen.push(*key);
+                let (code, modifiers) = parse(key).expect("a key");
+                assert_eq!(keymap.action(&KeyEvent::new(code, modifiers)), Some(binding.action), "{key}");
             }
         }
     }
@@ -284,6 +271,19 @@ mod tests {
     #[test]
     fn letters_with_a_reported_shift_are_found() {
         let event = KeyEvent::new(KeyCode::Char('G'), KeyModifiers::SHIFT);
-        assert_eq!(action(&event), Some(Action::Last));
+        assert_eq!(Keymap::default().action(&event), Some(Action::Last));
+    }
+
+    #[test]
+    fn other_keys_replace_those_of_the_table_and_mistakes_are_named() {
+        let with = |name: &str, key: &str| Keymap::with([(name.to_owned(), vec![key.to_owned()])]);
+        let keymap = with("quit", "ctrl-q").expect("a key");
+        let pressed = |letter, modifiers| keymap.action(&KeyEvent::new(KeyCode::Char(letter), modifiers));
+        assert_eq!(pressed('q', KeyModifiers::CONTROL), Some(Action::Quit));
+        assert_eq!(pressed('q', KeyModifiers::NONE), None);
+        assert_eq!(keymap.label(Action::Quit, true), "Ctrl-q");
+        assert!(with("qiut", "x").is_err_and(|words| words.contains("'quit'")));
+        assert!(with("quit", "j").is_err_and(|words| words.contains("'down'")));
+        assert!(with("quit", "nokey").is_err_and(|words| words.contains("is no key")));
     }
 }

@@ -1,34 +1,45 @@
 //! The terminal: set up, kept drawn, given back whole. ratatui and crossterm stop here.
 //!
-//! The loop waits for a key or news, updates the [`App`] and draws only when something changed. The terminal comes back on
+//! The loop waits for a key, a click or news, updates the [`App`] and draws only when something changed. The terminal comes back on
 //! every way out: quitting, an error, a panic, a signal.
 
 pub mod app;
+pub mod compare;
+pub mod config;
 pub mod editor;
+mod export;
 mod file;
 pub mod keymap;
+pub mod player;
+pub mod prompt;
 pub mod start;
 pub mod studies;
 pub mod theme;
 pub mod view;
 
 use std::io::{self, Stdout, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
+use crossterm::clipboard::CopyToClipboard;
 use crossterm::cursor::Show;
-use crossterm::event::{self, Event, KeyCode, KeyEvent, KeyEventKind};
+use crossterm::event::{
+    self, DisableMouseCapture, EnableMouseCapture, Event, KeyCode, KeyEvent, KeyEventKind, MouseButton,
+    MouseEventKind,
+};
 use crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode};
 use crossterm::{ExecutableCommand, QueueableCommand};
 use ratatui::backend::CrosstermBackend;
+use ratatui::layout::Position;
 use ratatui::{Frame, Terminal};
 
-use self::app::{App, Request, Screen};
+use self::app::{App, Request};
 use self::file::PlanFile;
-use self::start::{Choice, Next, Start};
+use self::keymap::Action;
+use self::start::{Next, Opened, Start};
 use self::studies::Progress;
 use self::theme::Theme;
 use crate::worker::{Errands, Kind, Worker};
@@ -59,87 +70,143 @@ const IDLE: Duration = Duration::from_millis(250);
 /// Shows the app until the user leaves.
 ///
 /// `plan` is the file shown, if it is one: it is read again when it changes.
-pub fn run(
-    mut app: App,
-    mut worker: Worker,
-    mut errands: Errands,
-    look: Look,
-    plan: Option<&Path>,
-) -> io::Result<Left> {
-    let mut file = plan.map(PlanFile::new);
+pub fn run(app: App, worker: Worker, errands: Errands, look: Look, plan: Option<&Path>) -> io::Result<Left> {
     // Without this, crossterm under NO_COLOR resets bold and reverse as well; colours are taken out in `draw`.
     crossterm::style::force_color_output(true);
     let signals = Signals::register()?;
     restore_on_panic();
-    let mut screen = Display::open()?;
-    worker.start(&app.case, app.effort);
-    let mut dirty = true;
+    let mut display = Display::open()?;
+    let mut session = Session { app, worker, errands, file: plan.map(PlanFile::new) };
+    session.worker.start(&session.app.case, session.app.effort);
+    let (mut dirty, mut drawn) = (true, Instant::now());
     loop {
-        for news in worker.news() {
-            app.hear(news);
+        dirty |= session.listen();
+        if session.app.moving() {
+            session.app.pass(drawn.elapsed());
             dirty = true;
         }
-        for (kind, result) in errands.results() {
-            app.learn(kind, result);
-            dirty = true;
-        }
-        for kind in Kind::ALL {
-            if let Some((done, total)) = errands.counts(kind) {
-                app.studies.set(kind, Progress::Running { done, total });
-                dirty |= app.screen == Screen::Studies;
-            }
-        }
-        if let Some(read) = file.as_mut().and_then(PlanFile::changed) {
-            if app.reload(read) == Request::Replaced {
-                replace(&app, &mut worker, &mut errands);
-            }
-            dirty = true;
-        }
+        drawn = Instant::now();
         if dirty {
-            screen.draw(look, |frame| view::draw(&app, frame))?;
+            let mut places = Vec::new();
+            display.draw(look, |frame| places = view::draw(&session.app, frame))?;
+            session.app.places = places;
             dirty = false;
         }
         if signals.end.load(Ordering::Relaxed) {
             return Ok(Left::Signal);
         }
+        let busy = session.app.busy() || session.app.moving();
         let request = if signals.stop.swap(false, Ordering::Relaxed) {
             Request::Suspend
-        } else if event::poll(if app.busy() { FRAME } else { IDLE })? {
+        } else if event::poll(if busy { FRAME } else { IDLE })? {
             dirty = true;
-            update(&mut app, &event::read()?)
+            update(&mut session.app, &event::read()?)
         } else {
-            Request::None
+            session.app.wanted()
         };
         match request {
-            Request::None => {}
-            Request::Run => worker.start(&app.case, app.effort),
-            Request::Replaced => replace(&app, &mut worker, &mut errands),
-            Request::Save => {
-                let written = match &mut file {
-                    Some(file) => file.write(&app.editor.saved, &app.editor.text),
-                    None => Err("the plan was not read from a file".to_owned()),
-                };
-                app.written(written);
-            }
-            Request::Start(kind) => errands.start(kind, &app.case, app.effort),
-            Request::Cancel(kind) => errands.cancel(kind),
             Request::Quit => return Ok(Left::Quit),
             Request::Suspend => {
-                screen.suspend()?;
+                display.suspend()?;
                 dirty = true;
             }
+            other => session.serve(other),
         }
     }
 }
 
+/// The app with those that work for it.
+struct Session {
+    app: App,
+    worker: Worker,
+    errands: Errands,
+    file: Option<PlanFile>,
+}
+
+impl Session {
+    /// Takes in what the workers and the plan's file have to say; whether there was anything.
+    fn listen(&mut self) -> bool {
+        let mut heard = false;
+        for news in self.worker.news() {
+            self.app.hear(news);
+            heard = true;
+        }
+        for (kind, result) in self.errands.results() {
+            self.app.learn(kind, result);
+            heard = true;
+        }
+        for kind in Kind::ALL {
+            if let Some((done, total)) = self.errands.counts(kind) {
+                self.app.studies.set(kind, Progress::Running { done, total });
+                heard = true;
+            }
+        }
+        if let Some(read) = self.file.as_mut().and_then(PlanFile::changed) {
+            if self.app.reload(read) == Request::Replaced {
+                self.replace();
+            }
+            heard = true;
+        }
+        heard
+    }
+
+    /// Does what the app asked for.
+    fn serve(&mut self, request: Request) {
+        match request {
+            Request::None | Request::Quit | Request::Suspend => {}
+            Request::Run => self.worker.start(&self.app.case, self.app.effort),
+            Request::Replaced => self.replace(),
+            Request::Save => match &mut self.file {
+                Some(file) => {
+                    let written = file.write(&self.app.editor.saved, &self.app.editor.text);
+                    self.app.written(written.map(|()| self.app.case.plan.path.clone()));
+                }
+                None => self.app.ask_for_file(),
+            },
+            Request::SaveAs(path) => self.save_as(&path),
+            Request::Export(path) => {
+                let written = export::write(&self.app, &path);
+                self.app.notice = Some(written.map_or_else(|words| words, |()| format!("wrote {}", path.display())));
+            }
+            Request::Yank => {
+                let copied = export::csv(&self.app).and_then(|text| {
+                    let copy = io::stdout().execute(CopyToClipboard::to_clipboard_from(text)).map(|_| ());
+                    copy.map_err(|error| error.to_string())
+                });
+                self.app.notice = Some(copied.map_or_else(|words| words, |()| "copied as CSV".to_owned()));
+            }
+            Request::Start(kind) => {
+                self.errands.start(kind, &self.app.case, self.app.selected, self.app.effort);
+            }
+            Request::Cancel(kind) => self.errands.cancel(kind),
+        }
+    }
+
+    /// Computes another plan; results of the old one would say nothing of it.
+    fn replace(&mut self) {
+        Kind::ALL.into_iter().for_each(|kind| self.errands.cancel(kind));
+        self.worker.start(&self.app.case, self.app.effort);
+    }
+
+    /// Writes the plan to a new file, which is then the one shown.
+    fn save_as(&mut self, path: &PathBuf) {
+        let written = file::create(path, &self.app.editor.text);
+        if written.is_ok() {
+            self.file = Some(PlanFile::new(path));
+            config::remember(path);
+        }
+        self.app.written(written.map(|()| path.display().to_string()));
+    }
+}
+
 /// Lets the user choose what to open; `None` when they leave instead.
-pub fn choose(mut start: Start, look: Look) -> io::Result<Option<Choice>> {
+pub fn choose(mut start: Start, theme: Theme, look: Look) -> io::Result<Option<Opened>> {
     crossterm::style::force_color_output(true);
     let signals = Signals::register()?;
     restore_on_panic();
     let mut screen = Display::open()?;
     loop {
-        screen.draw(look, |frame| start.draw(Theme::default(), frame))?;
+        screen.draw(look, |frame| start.draw(theme, frame))?;
         while !event::poll(IDLE)? {
             if signals.end.load(Ordering::Relaxed) {
                 return Ok(None);
@@ -147,28 +214,27 @@ pub fn choose(mut start: Start, look: Look) -> io::Result<Option<Choice>> {
         }
         match start.update(&event::read()?) {
             Next::Wait => {}
-            Next::Open(choice) => return Ok(Some(choice)),
+            Next::Open(opened) => return Ok(Some(opened)),
             Next::Quit => return Ok(None),
         }
     }
 }
 
-/// Computes another plan; results of the old one would say nothing of it.
-fn replace(app: &App, worker: &mut Worker, errands: &mut Errands) {
-    Kind::ALL.into_iter().for_each(|kind| errands.cancel(kind));
-    worker.start(&app.case, app.effort);
-}
-
 /// What a terminal event does to the app.
 pub fn update(app: &mut App, event: &Event) -> Request {
     match event {
-        Event::Key(key) if app.editor.input.is_some() && key.kind != KeyEventKind::Release => {
-            app.type_key(key)
-        }
-        Event::Key(KeyEvent { code: KeyCode::Esc, kind: KeyEventKind::Press, .. }) => app.escape(),
-        Event::Key(key) if key.kind != KeyEventKind::Release => {
-            keymap::action(key).map_or(Request::None, |action| app.act(action))
-        }
+        Event::Key(key) if key.kind == KeyEventKind::Release => Request::None,
+        Event::Key(key) if app.prompt.is_some() => app.type_in_prompt(key),
+        Event::Key(key) if app.editor.typing() => app.type_key(key),
+        Event::Key(KeyEvent { code: KeyCode::Esc, .. }) => app.escape(),
+        Event::Key(key) => app.keymap.action(key).map_or(Request::None, |action| app.act(action)),
+        Event::Mouse(_) if app.prompt.is_some() || app.editor.typing() => Request::None,
+        Event::Mouse(mouse) => match mouse.kind {
+            MouseEventKind::Down(MouseButton::Left) => app.click(Position::new(mouse.column, mouse.row)),
+            MouseEventKind::ScrollUp => app.act(Action::Up),
+            MouseEventKind::ScrollDown => app.act(Action::Down),
+            _ => Request::None,
+        },
         _ => Request::None,
     }
 }
@@ -218,13 +284,19 @@ impl Drop for Display {
 
 fn enter() -> io::Result<()> {
     enable_raw_mode()?;
-    io::stdout().execute(EnterAlternateScreen).map(|_| ()).inspect_err(|_| leave())
+    let mut out = io::stdout();
+    let entered = out.execute(EnterAlternateScreen).and_then(|out| out.execute(EnableMouseCapture));
+    entered.map(|_| ()).inspect_err(|_| leave())
 }
 
 /// Gives the terminal back. Nothing can be done about a terminal that is gone.
 fn leave() {
     let mut out = io::stdout();
-    let _ = out.queue(LeaveAlternateScreen).and_then(|out| out.queue(Show)).map(Write::flush);
+    let _ = out
+        .queue(DisableMouseCapture)
+        .and_then(|out| out.queue(LeaveAlternateScreen))
+        .and_then(|out| out.queue(Show))
+        .map(Write::flush);
     let _ = disable_raw_mode();
 }
 

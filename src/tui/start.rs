@@ -1,22 +1,41 @@
-//! What is offered when no plan is named: the plans at hand, and the examples that come with the program.
+//! What is offered when no plan is named: a new one by a few questions, the plans opened lately and at hand, and the
+//! examples that come with the program.
 
 use std::path::{Path, PathBuf};
 
-use crossterm::event::{Event, KeyCode, KeyEventKind};
+use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, MouseButton, MouseEventKind};
 use ratatui::Frame;
-use ratatui::layout::{Constraint, Layout};
+use ratatui::layout::{Constraint, Layout, Position, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, List, ListState, Paragraph, Wrap};
+use tui_input::Input;
+use tui_input::backend::crossterm::EventHandler;
 
 use super::theme::Theme;
+use crate::plan::Plan;
+use crate::plan::starter::{self, QUESTIONS, ROPE};
+use crate::ropes::catalogue;
 
 /// Something to open.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Choice {
+    /// A plan that answers to questions will make.
+    New,
     /// A file.
     File(PathBuf),
     /// An example: its name and text.
     Example(&'static str, &'static str),
+}
+
+/// What was opened.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Opened {
+    /// A file.
+    File(PathBuf),
+    /// An example: its name and text.
+    Example(&'static str, &'static str),
+    /// The text of a new plan.
+    New(String),
 }
 
 /// Plans that come with the program.
@@ -32,13 +51,25 @@ const MOST: usize = 50;
 /// Files larger than this are not looked into for whether they are plans [bytes].
 const LARGE: u64 = 1 << 20;
 
-/// The list and what is selected in it.
+/// The list and what is selected in it, or the questions.
 #[derive(Clone, Debug)]
 pub struct Start {
     /// What can be opened.
     pub choices: Vec<Choice>,
     /// Index of the selected one.
     pub selected: usize,
+    /// The questions, once they are asked.
+    questions: Option<Questions>,
+    /// Where the choices were drawn.
+    places: Vec<(Rect, usize)>,
+}
+
+/// The answers as they stand.
+#[derive(Clone, Debug)]
+struct Questions {
+    answers: [Input; QUESTIONS.len()],
+    selected: usize,
+    problem: Option<String>,
 }
 
 /// What a key came to.
@@ -47,74 +78,200 @@ pub enum Next {
     /// Wait for another.
     Wait,
     /// Open this.
-    Open(Choice),
+    Open(Opened),
     /// Leave.
     Quit,
 }
 
 impl Start {
-    /// Plans in `folder` and in `plans` below it, then the examples.
-    pub fn new(folder: &Path) -> Self {
+    /// A new plan, plans opened lately, plans in `folder` and in `plans` below it, then the examples.
+    pub fn new(folder: &Path, recent: Vec<PathBuf>) -> Self {
         let mut files: Vec<PathBuf> = [folder.to_owned(), folder.join("plans")]
             .iter()
             .filter_map(|folder| std::fs::read_dir(folder).ok())
             .flatten()
             .filter_map(|entry| Some(entry.ok()?.path()))
-            .filter(|path| is_plan(path))
+            .filter(|path| is_plan(path) && !path.canonicalize().is_ok_and(|path| recent.contains(&path)))
             .take(MOST)
             .map(|path| path.strip_prefix(".").map(Path::to_owned).unwrap_or(path))
             .collect();
         files.sort();
         let examples = EXAMPLES.iter().map(|(name, text)| Choice::Example(name, text));
-        Self { choices: files.into_iter().map(Choice::File).chain(examples).collect(), selected: 0 }
+        let files = recent.into_iter().chain(files).map(Choice::File);
+        let choices: Vec<Choice> = [Choice::New].into_iter().chain(files).chain(examples).collect();
+        // Somebody who has plans opens one of them.
+        let selected = usize::from(matches!(choices.get(1), Some(Choice::File(_))));
+        Self { choices, selected, questions: None, places: Vec::new() }
     }
 
     /// A terminal event.
     pub fn update(&mut self, event: &Event) -> Next {
-        let Event::Key(key) = event else { return Next::Wait };
-        if key.kind == KeyEventKind::Release {
-            return Next::Wait;
+        match event {
+            Event::Key(key) if key.kind == KeyEventKind::Release => Next::Wait,
+            Event::Key(key) => match &mut self.questions {
+                Some(questions) => match questions.key(key) {
+                    Some(next) => next,
+                    None => {
+                        self.questions = None;
+                        Next::Wait
+                    }
+                },
+                None => self.key(key),
+            },
+            Event::Mouse(mouse) if self.questions.is_none() => match mouse.kind {
+                MouseEventKind::Down(MouseButton::Left) => {
+                    let at = Position::new(mouse.column, mouse.row);
+                    match self.places.iter().find(|(place, _)| place.contains(at)) {
+                        Some(&(_, choice)) if choice == self.selected => self.open(),
+                        Some(&(_, choice)) => self.select(choice),
+                        None => Next::Wait,
+                    }
+                }
+                MouseEventKind::ScrollUp => self.select(self.selected.saturating_sub(1)),
+                MouseEventKind::ScrollDown => self.select(self.selected + 1),
+                _ => Next::Wait,
+            },
+            _ => Next::Wait,
         }
-        let last = self.choices.len().saturating_sub(1);
+    }
+
+    fn key(&mut self, key: &KeyEvent) -> Next {
         match key.code {
-            KeyCode::Down | KeyCode::Char('j') => self.selected = (self.selected + 1).min(last),
-            KeyCode::Up | KeyCode::Char('k') => self.selected = self.selected.saturating_sub(1),
-            KeyCode::Home | KeyCode::Char('g') => self.selected = 0,
-            KeyCode::End | KeyCode::Char('G') => self.selected = last,
-            KeyCode::Enter => return self.choices.get(self.selected).cloned().map_or(Next::Wait, Next::Open),
-            KeyCode::Esc | KeyCode::Char('q' | 'c') => return Next::Quit,
-            _ => {}
+            KeyCode::Down | KeyCode::Char('j') => self.select(self.selected + 1),
+            KeyCode::Up | KeyCode::Char('k') => self.select(self.selected.saturating_sub(1)),
+            KeyCode::Home | KeyCode::Char('g') => self.select(0),
+            KeyCode::End | KeyCode::Char('G') => self.select(usize::MAX),
+            KeyCode::Enter => self.open(),
+            KeyCode::Esc | KeyCode::Char('q' | 'c') => Next::Quit,
+            _ => Next::Wait,
         }
+    }
+
+    fn select(&mut self, choice: usize) -> Next {
+        self.selected = choice.min(self.choices.len().saturating_sub(1));
         Next::Wait
     }
 
-    /// Draws the list.
-    pub fn draw(&self, theme: Theme, frame: &mut Frame) {
+    fn open(&mut self) -> Next {
+        match self.choices.get(self.selected).cloned() {
+            Some(Choice::File(path)) => Next::Open(Opened::File(path)),
+            Some(Choice::Example(name, text)) => Next::Open(Opened::Example(name, text)),
+            Some(Choice::New) => {
+                let answers = QUESTIONS.map(|(_, answer)| Input::new(answer.to_owned()));
+                self.questions = Some(Questions { answers, selected: 0, problem: None });
+                Next::Wait
+            }
+            None => Next::Wait,
+        }
+    }
+
+    /// Draws the list or the questions.
+    pub fn draw(&mut self, theme: Theme, frame: &mut Frame) {
         let area = frame.area();
         frame.render_widget(Block::new().style(theme.base()), area);
-        let [head, list, foot] =
+        let [head, body, foot] =
             Layout::vertical([Constraint::Length(3), Constraint::Min(0), Constraint::Length(2)]).areas(area);
-        let words = vec![
-            Line::styled("shelter", theme.title()),
-            Line::styled(
-                "Which delay is safe under a shelter of tires and cables? Open a plan:",
-                theme.base(),
-            ),
-        ];
+        let asked = match self.questions {
+            None => "Which delay is safe under a shelter of tires and cables? Open a plan:",
+            Some(_) => "A new plan; everything can be changed later:",
+        };
+        let words = vec![Line::styled("shelter", theme.title()), Line::styled(asked, theme.base())];
         frame.render_widget(Paragraph::new(words).wrap(Wrap { trim: true }), head);
+        let keys = match &self.questions {
+            None => {
+                self.draw_choices(theme, frame, body);
+                "Enter opens · q leaves · from a list of holes: `shelter init PLAN --from HOLES.csv`"
+            }
+            Some(questions) => {
+                questions.draw(theme, frame, body);
+                "Up Down question · Enter next, at the last: make the plan · Esc back"
+            }
+        };
+        let keys = Paragraph::new(Line::styled(keys, theme.quiet()));
+        frame.render_widget(keys.wrap(Wrap { trim: true }), foot);
+    }
+
+    fn draw_choices(&mut self, theme: Theme, frame: &mut Frame, area: Rect) {
         let row = |(n, choice): (usize, &Choice)| {
             let style = if n == self.selected { theme.selected() } else { theme.base() };
             let (name, kind) = match choice {
+                Choice::New => ("A new plan by a few questions".to_owned(), ""),
                 Choice::File(path) => (path.display().to_string(), ""),
                 Choice::Example(name, _) => ((*name).to_owned(), "  example"),
             };
             Line::from(vec![Span::styled(format!(" {name} "), style), Span::styled(kind, theme.quiet())])
         };
         let mut state = ListState::default().with_selected(Some(self.selected));
-        frame.render_stateful_widget(List::new(self.choices.iter().enumerate().map(row)), list, &mut state);
-        let keys = "Enter opens · q leaves · a plan of your own: `shelter init FILE`, or from a list of holes with --from";
-        frame
-            .render_widget(Paragraph::new(Line::styled(keys, theme.quiet())).wrap(Wrap { trim: true }), foot);
+        frame.render_stateful_widget(List::new(self.choices.iter().enumerate().map(row)), area, &mut state);
+        let shown = (state.offset()..self.choices.len()).take(usize::from(area.height));
+        self.places =
+            (area.y..).zip(shown).map(|(y, choice)| (Rect { y, height: 1, ..area }, choice)).collect();
+    }
+}
+
+impl Questions {
+    /// A key; `None` to go back.
+    fn key(&mut self, key: &KeyEvent) -> Option<Next> {
+        let last = QUESTIONS.len() - 1;
+        match key.code {
+            KeyCode::Esc => return None,
+            KeyCode::Up | KeyCode::BackTab => self.selected = self.selected.saturating_sub(1),
+            KeyCode::Enter if self.selected == last => match self.plan() {
+                Ok(text) => return Some(Next::Open(Opened::New(text))),
+                Err(problem) => self.problem = Some(problem),
+            },
+            KeyCode::Down | KeyCode::Tab | KeyCode::Enter => self.selected = (self.selected + 1).min(last),
+            KeyCode::Left | KeyCode::Right if self.selected == ROPE => {
+                let ropes = &catalogue().ropes;
+                let rope = self.answers[ROPE].value();
+                let at = ropes.iter().position(|known| known.name == rope).unwrap_or(0);
+                let next = if key.code == KeyCode::Right { at + 1 } else { at.saturating_sub(1) };
+                if let Some(rope) = ropes.get(next) {
+                    self.answers[ROPE] = Input::new(rope.name.clone());
+                }
+                self.problem = self.plan().err();
+            }
+            _ => {
+                self.answers[self.selected].handle_event(&Event::Key(*key));
+                self.problem = self.plan().err();
+            }
+        }
+        Some(Next::Wait)
+    }
+
+    /// The text of the plan, or what stands against it.
+    fn plan(&self) -> Result<String, String> {
+        let text = starter::plan(&std::array::from_fn(|n| self.answers[n].value()))?;
+        match Plan::parse("new plan", &text) {
+            Ok(_) => Ok(text),
+            Err(mistakes) => Err(mistakes
+                .iter()
+                .next()
+                .map_or_else(String::new, |(_, _, message, remedy)| format!("{message}; {remedy}"))),
+        }
+    }
+
+    fn draw(&self, theme: Theme, frame: &mut Frame, area: Rect) {
+        let width = QUESTIONS.iter().map(|(question, _)| question.len()).max().unwrap_or(0);
+        let mut lines: Vec<Line> = QUESTIONS
+            .iter()
+            .zip(&self.answers)
+            .enumerate()
+            .map(|(n, ((question, _), answer))| {
+                let style = if n == self.selected { theme.selected() } else { theme.base() };
+                let question = Span::styled(format!(" {question:width$}  "), theme.quiet());
+                Line::from(vec![question, Span::styled(format!(" {} ", answer.value()), style)])
+            })
+            .collect();
+        if let Some(problem) = &self.problem {
+            lines.extend([Line::default(), Line::styled(format!(" {problem}"), theme.limit())]);
+        }
+        frame.render_widget(Paragraph::new(lines), area);
+        let column = width + 4 + self.answers[self.selected].visual_cursor();
+        let (x, y) = (area.x + column as u16, area.y + self.selected as u16);
+        if x < area.right() && y < area.bottom() {
+            frame.set_cursor_position(Position::new(x, y));
+        }
     }
 }
 

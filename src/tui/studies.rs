@@ -3,6 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
+use crate::study::flight::Flight;
 use crate::worker::{Found, Kind};
 
 /// One study.
@@ -42,12 +43,14 @@ pub struct Studies {
     pub shown: Kind,
     /// Lines scrolled.
     pub scroll: u16,
-    progress: [Progress; 4],
+    /// Only lines that contain this.
+    pub filter: String,
+    progress: [Progress; Kind::ALL.len()],
 }
 
 impl Default for Studies {
     fn default() -> Self {
-        Self { shown: Kind::Sweep, scroll: 0, progress: Default::default() }
+        Self { shown: Kind::Sweep, scroll: 0, filter: String::new(), progress: Default::default() }
     }
 }
 
@@ -74,14 +77,30 @@ impl Studies {
 
     /// Shows the study so many places further.
     pub fn turn(&mut self, places: isize) {
-        let count = Kind::ALL.len() as isize;
-        self.shown = Kind::ALL[(self.shown as isize + places).rem_euclid(count) as usize];
+        let count = Kind::STUDIES.len() as isize;
+        self.show(Kind::STUDIES[(self.shown as isize + places).rem_euclid(count) as usize]);
+    }
+
+    /// Shows a study.
+    pub fn show(&mut self, kind: Kind) {
+        self.shown = kind;
         self.scroll = 0;
     }
 
     /// Scrolls so many lines.
     pub fn scroll(&mut self, lines: i16) {
         self.scroll = self.scroll.saturating_add_signed(lines);
+    }
+
+    /// The recorded motion of an option.
+    pub fn flight(&self, option: usize) -> Option<&Flight> {
+        match self.progress(Kind::Flight) {
+            Progress::Done(found) => match found.as_ref() {
+                Found::Flight(flight) if flight.option == option => Some(flight),
+                _ => None,
+            },
+            _ => None,
+        }
     }
 
     /// Whether any computes.

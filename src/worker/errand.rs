@@ -1,13 +1,15 @@
 //! Long studies in the background: each kind at most once, cancelled within a step, its result handed over whole.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
+use std::time::Duration;
 
 use crate::plan::ScatterSpec;
 use crate::simulation::Failure;
-use crate::study::batch::Progress;
+use crate::study::accuracy;
+use crate::study::batch::{Progress, guarded};
+use crate::study::flight::{Flight, record};
 use crate::study::orders::{Orders, is_complete, orders};
 use crate::study::scatter::{Draw, Sample, scatter};
 use crate::study::size::{Demand, Sizing, size};
@@ -25,11 +27,18 @@ pub enum Kind {
     Scatter,
     /// The lightest shelter with which every option passes.
     Size,
+    /// The motion of one option.
+    Flight,
+    /// What accuracy costs, by one option.
+    Accuracy,
 }
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Kind; 4] = [Kind::Sweep, Kind::Orders, Kind::Scatter, Kind::Size];
+    pub const ALL: [Kind; 6] =
+        [Kind::Sweep, Kind::Orders, Kind::Scatter, Kind::Size, Kind::Flight, Kind::Accuracy];
+    /// Those that answer a question about the whole plan.
+    pub const STUDIES: [Kind; 4] = [Kind::Sweep, Kind::Orders, Kind::Scatter, Kind::Size];
 }
 
 /// What a study found.
@@ -43,19 +52,25 @@ pub enum Found {
     Scatter(Draw, Vec<Sample>),
     /// Of [`Kind::Size`].
     Size(Sizing),
+    /// Of [`Kind::Flight`].
+    Flight(Flight),
+    /// Of [`Kind::Accuracy`].
+    Accuracy(accuracy::Study),
 }
 
 /// Samples of every option.
 const DRAW: Draw = Draw { samples: 1000, seed: 1, certain_at: None };
 /// Intervals swept [s].
 const INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: 5e-3 };
+/// Longest run that [`Kind::Accuracy`] makes.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 type Result = std::result::Result<Found, String>;
 
 /// Long studies under way.
 pub struct Errands {
     threads: usize,
-    under_way: [Option<Arc<Progress>>; 4],
+    under_way: [Option<Arc<Progress>>; Kind::ALL.len()],
     sender: Sender<(Kind, Arc<Progress>, Result)>,
     results: Receiver<(Kind, Arc<Progress>, Result)>,
 }
@@ -68,19 +83,19 @@ impl Errands {
     }
 
     /// Begins a study; one of its kind that was under way ends without a result.
-    pub fn start(&mut self, kind: Kind, case: &Arc<Case>, effort: Effort) {
+    ///
+    /// `option` is that of a study of a single one.
+    pub fn start(&mut self, kind: Kind, case: &Arc<Case>, option: usize, effort: Effort) {
         self.cancel(kind);
         let progress = Arc::new(Progress::default());
         self.under_way[kind as usize] = Some(Arc::clone(&progress));
         let (case, sender, threads) = (Arc::clone(case), self.sender.clone(), self.threads);
         thread::spawn(move || {
-            let study = || study(kind, &case, &effort, &progress);
-            let on_threads = || match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+            let study = || guarded(|| study(kind, &case, option, &effort, &progress));
+            let result = match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
                 Ok(pool) => pool.install(study),
                 Err(error) => Err(error.to_string()),
             };
-            let result = catch_unwind(AssertUnwindSafe(on_threads));
-            let result = result.unwrap_or_else(|panic| Err(super::words_of(&*panic)));
             // A receiver that is gone has quit: nobody is left to tell.
             let _ = sender.send((kind, progress, result));
         });
@@ -118,7 +133,7 @@ impl Drop for Errands {
     }
 }
 
-fn study(kind: Kind, case: &Case, effort: &Effort, progress: &Progress) -> Result {
+fn study(kind: Kind, case: &Case, option: usize, effort: &Effort, progress: &Progress) -> Result {
     let said = |failure: Failure| failure.to_string();
     match kind {
         Kind::Sweep => {
@@ -139,5 +154,9 @@ fn study(kind: Kind, case: &Case, effort: &Effort, progress: &Progress) -> Resul
             Ok(Found::Scatter(DRAW, samples))
         }
         Kind::Size => size(&case.plan, &Demand::Options, effort, progress).map(Found::Size).map_err(said),
+        Kind::Flight => record(case, option, effort, progress).map(Found::Flight).map_err(said),
+        Kind::Accuracy => {
+            accuracy::measure(case, option, PATIENCE, progress).map(Found::Accuracy).map_err(said)
+        }
     }
 }

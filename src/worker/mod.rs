@@ -5,9 +5,7 @@
 
 mod errand;
 
-use std::any::Any;
 use std::ops::ControlFlow;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -16,6 +14,8 @@ use std::time::{Duration, Instant};
 
 pub use errand::{Errands, Found, Kind};
 
+use crate::simulation::Failure;
+use crate::study::batch::guarded;
 use crate::study::check::{Checked, check};
 use crate::study::{Case, Effort};
 
@@ -121,9 +121,8 @@ impl Errand {
             if option >= self.case.shots.len() {
                 return;
             }
-            let judged = catch_unwind(AssertUnwindSafe(|| self.judge(option)));
-            let news = judged.unwrap_or_else(|panic| News::Failed(words_of(&*panic)));
-            self.send(option, news);
+            let judged = guarded(|| self.judge(option));
+            self.send(option, judged.map_or_else(News::Failed, |checked| News::Done(Box::new(checked))));
         }
     }
 
@@ -136,9 +135,9 @@ impl Errand {
         let _ = self.sender.send((self.generation, Event { option, news }));
     }
 
-    fn judge(&self, option: usize) -> News {
+    fn judge(&self, option: usize) -> Result<Checked, Failure> {
         let (mut steps, mut told) = (0_usize, Instant::now());
-        let judged = check(&self.case, option, &self.effort, &mut |progress| {
+        check(&self.case, option, &self.effort, &mut |progress| {
             steps += 1;
             if steps.is_multiple_of(STEPS_PER_LOOK) {
                 if self.stopped() {
@@ -150,14 +149,6 @@ impl Errand {
                 }
             }
             ControlFlow::Continue(())
-        });
-        judged
-            .map_or_else(|failure| News::Failed(failure.to_string()), |checked| News::Done(Box::new(checked)))
+        })
     }
-}
-
-fn words_of(panic: &(dyn Any + Send)) -> String {
-    let words = panic.downcast_ref::<String>().map(String::as_str);
-    let words = words.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("unknown cause");
-    format!("internal error: {words}")
 }

@@ -1,12 +1,15 @@
 //! One page for the blast file: what was planned, what came out and what the model leaves out. Nothing in it is fetched
 //! from elsewhere, and it prints on A4.
 
-mod chart;
 mod top_view;
 
+pub use self::top_view::svg as top_view;
+
+use jiff::{Timestamp, tz::TimeZone};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
+use super::chart;
 use super::check::{Results, explain, method_name, verdict};
 use super::table::accuracy_name;
 use crate::plan::{Charge, Layout, Plan};
@@ -56,7 +59,7 @@ pub fn page(case: &Case, results: &Results, date: &str) -> String {
                 section {
                     h2 { "Shelter" }
                     (shelter(case))
-                    div.view { (PreEscaped(top_view::svg(case))) }
+                    div.view { (PreEscaped(top_view(case, 0))) }
                 }
                 section {
                     h2 { "Delay options" }
@@ -68,7 +71,7 @@ pub fn page(case: &Case, results: &Results, date: &str) -> String {
                             h2 { (delay.name) " " (word(checked.verdict)) }
                             p.quiet { (how(case, checked)) }
                             div.charts {
-                                @for curve in chart::curves(case, checked, &delay.timing.fire_at_ms()) {
+                                @for curve in chart::history(case, &checked.history, &delay.timing.fire_at_ms()) {
                                     div { (PreEscaped(curve)) }
                                 }
                             }
@@ -88,6 +91,18 @@ pub fn page(case: &Case, results: &Results, date: &str) -> String {
         }
     };
     page.into_string()
+}
+
+/// Today; a day fixed by SOURCE_DATE_EPOCH where pages are to be reproduced.
+pub fn today() -> String {
+    let fixed = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|seconds| seconds.parse().ok());
+    let now = fixed.and_then(|seconds| Timestamp::from_second(seconds).ok());
+    match now {
+        Some(fixed) => fixed.to_zoned(TimeZone::UTC),
+        None => jiff::Zoned::now(),
+    }
+    .strftime("%Y-%m-%d")
+    .to_string()
 }
 
 fn word(verdict: Verdict) -> Markup {

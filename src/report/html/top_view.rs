@@ -1,4 +1,4 @@
-//! The shelter from above: tires, cables, and over each blast row's holes the order in which the first option fires them.
+//! The shelter from above: tires, cables, and over each blast row's holes the order in which one option fires them.
 
 use plotters::prelude::*;
 
@@ -16,11 +16,11 @@ const CABLE: RGBColor = RGBColor(200, 200, 200);
 const HOLE: RGBColor = RGBColor(160, 48, 0);
 
 /// The view; empty if it cannot be drawn.
-pub fn svg(case: &Case) -> String {
-    draw(case).unwrap_or_default()
+pub fn svg(case: &Case, option: usize) -> String {
+    draw(case, option).unwrap_or_default()
 }
 
-fn draw(case: &Case) -> Result<String, Box<dyn std::error::Error>> {
+fn draw(case: &Case, option: usize) -> Result<String, Box<dyn std::error::Error>> {
     let scene = case.scene();
     let range = |axis: usize| {
         let places = scene.position.iter().map(|place| place[axis]);
@@ -47,7 +47,7 @@ fn draw(case: &Case) -> Result<String, Box<dyn std::error::Error>> {
         for tire in 0..scene.mass.len() {
             area.draw(&Circle::new(at(tire), radius, TIRE.stroke_width(1)))?;
         }
-        let firings = case.shots.first().map_or(&[][..], |shot| &shot.firings);
+        let firings = case.shots.get(option).map_or(&[][..], |shot| &shot.firings);
         for firing in firings {
             area.draw(&Circle::new(at(firing.tire), (radius / 2).max(1), HOLE.filled()))?;
             if firings.len() <= MOST_LABELS {

@@ -5,26 +5,53 @@ use ratatui::layout::{Alignment, Rect};
 use ratatui::style::Style;
 use ratatui::symbols::Marker;
 use ratatui::text::Line;
-use ratatui::widgets::{Axis, Chart, Dataset, GraphType};
+use ratatui::widgets::{Axis, Block, Chart, Dataset, GraphType};
 
+use crate::outcome::History;
 use crate::tui::app::App;
 use crate::units::Unit;
+use crate::verdict::Limits;
 
 /// What is drawn, SI.
 #[derive(Clone, Copy, Debug)]
 pub struct Curve<'a> {
-    /// Name of the quantity.
-    pub name: &'static str,
-    /// Unit shown.
-    pub unit: Unit,
+    name: &'static str,
+    unit: Unit,
     /// Greatest value per bucket.
-    pub values: &'a [f64],
+    values: &'a [f64],
     /// Width of a bucket [s].
-    pub width: f64,
-    /// Limit.
-    pub limit: f64,
+    width: f64,
+    limit: f64,
     /// Firing times [s].
-    pub fires: &'a [f64],
+    fires: &'a [f64],
+    /// Time marked [s].
+    cursor: Option<f64>,
+}
+
+/// Height and force over time.
+pub fn curves<'a>(
+    limits: &Limits,
+    history: &'a History,
+    fires: &'a [f64],
+    cursor: Option<f64>,
+) -> [Curve<'a>; 2] {
+    let height = Curve {
+        name: "flight height",
+        unit: Unit::Metre,
+        values: &history.height,
+        width: history.width,
+        limit: limits.height,
+        fires,
+        cursor,
+    };
+    let force = Curve {
+        name: "cable force",
+        unit: Unit::Kilonewton,
+        values: &history.force,
+        limit: limits.force,
+        ..height
+    };
+    [height, force]
 }
 
 impl Curve<'_> {
@@ -45,26 +72,32 @@ impl Curve<'_> {
         let limit = [(0.0, self.limit / size), (end, self.limit / size)];
         let marks: Vec<[(f64, f64); 2]> =
             self.fires.iter().map(|&at| [(at, 0.0), (at, top * 0.12)]).collect();
-        let line = |data, style: Style, marker| {
-            Dataset::default().data(data).graph_type(GraphType::Line).marker(marker).style(style)
-        };
+        let cursor: Vec<(f64, f64)> =
+            self.cursor.iter().flat_map(|&at| [(at.min(end), 0.0), (at.min(end), top)]).collect();
         let mut sets: Vec<Dataset> =
             marks.iter().map(|mark| line(mark, app.theme.firing(), Marker::Braille)).collect();
         sets.push(line(&limit, app.theme.limit(), Marker::Dot));
+        sets.push(line(&cursor, app.theme.base(), Marker::Braille));
         sets.push(line(&curve, app.theme.curve(), Marker::Braille));
         let quiet = app.theme.quiet();
         let times = [0.0, 0.5 * end, end].map(|time| Line::from(format!("{time:.2} s")));
-        let levels =
-            [0.0, top].map(|level| Line::from(format!("{level:.4}").chars().take(5).collect::<String>()));
         let title = format!("{}, {} (dotted: limit)", self.name, self.unit.symbol());
         let chart = Chart::new(sets)
-            .block(
-                ratatui::widgets::Block::new().title(Line::styled(title, quiet).alignment(Alignment::Center)),
-            )
+            .block(Block::new().title(Line::styled(title, quiet).alignment(Alignment::Center)))
             .style(app.theme.base())
             .x_axis(Axis::default().bounds([0.0, end]).labels(times).style(quiet))
-            .y_axis(Axis::default().bounds([0.0, top]).labels(levels).style(quiet))
+            .y_axis(Axis::default().bounds([0.0, top]).labels([level(0.0), level(top)]).style(quiet))
             .legend_position(None);
         frame.render_widget(chart, area);
     }
+}
+
+/// A line through points.
+pub fn line(data: &[(f64, f64)], style: Style, marker: Marker) -> Dataset<'_> {
+    Dataset::default().data(data).graph_type(GraphType::Line).marker(marker).style(style)
+}
+
+/// A label of the vertical axis.
+pub fn level<'l>(value: f64) -> Line<'l> {
+    Line::from(format!("{value:.4}").chars().take(5).collect::<String>())
 }

@@ -50,22 +50,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     frame.render_widget(Paragraph::new(facts).wrap(Wrap { trim: true }), text);
     let [left, right] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(charts);
     let fires: Vec<f64> = delay.timing.fire_at_ms().iter().map(|ms| ms * 1e-3).collect();
-    let (limits, history) = (&app.case.limits, &checked.history);
-    let height = chart::Curve {
-        name: "flight height",
-        unit: Unit::Metre,
-        values: &history.height,
-        width: history.width,
-        limit: limits.height,
-        fires: &fires,
-    };
-    let force = chart::Curve {
-        name: "cable force",
-        unit: Unit::Kilonewton,
-        values: &history.force,
-        limit: limits.force,
-        ..height
-    };
+    let [height, force] = chart::curves(&app.case.limits, &checked.history, &fires, None);
     height.draw(app, frame, left);
     force.draw(app, frame, right);
 }

@@ -1,12 +1,12 @@
-//! The help: every key there is, and what the words on the screen mean.
+//! The help: the keys of the screen shown, and what the words on it mean.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Flex, Layout, Rect};
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, Clear, Padding, Paragraph, Wrap};
+use ratatui::widgets::{Block, Clear, Padding, Paragraph};
 
 use crate::tui::app::App;
-use crate::tui::keymap::KEYS;
+use crate::tui::keymap::{BINDINGS, Binding};
 
 const WORDS: &[(&str, &str)] = &[
     ("✓ PASS", "height and force, with their errors, are within the limits"),
@@ -15,17 +15,39 @@ const WORDS: &[(&str, &str)] = &[
     ("±", "estimated error of the computation, not of the plan's numbers"),
 ];
 
-/// Draws the help over everything else.
+/// Lines of two columns, where one would not fit.
+const TWO_COLUMNS: u16 = 132;
+
+/// Draws the help over everything else: what this screen knows first, then what all know.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
-    let row = |left: &'static str, right: &'static str| {
-        Line::from(vec![Span::styled(format!("{left:13} "), app.theme.title()), Span::raw(right)])
+    let row = |left: String, right: &'static str| {
+        Line::from(vec![Span::styled(format!("{left:14} "), app.theme.title()), Span::raw(right)])
     };
-    let mut lines: Vec<Line> = KEYS.iter().map(|binding| row(binding.label, binding.text)).collect();
-    lines.extend(WORDS.iter().map(|(word, meaning)| row(word, meaning)));
-    let height = lines.len() as u16 + 2;
-    let [column] = Layout::horizontal([Constraint::Max(78)]).flex(Flex::Center).areas(area);
-    let [place] = Layout::vertical([Constraint::Max(height)]).flex(Flex::Center).areas(column);
+    let key = |binding: &Binding| row(app.keymap.label(binding.action, true), binding.text);
+    let known = BINDINGS.iter().filter(|binding| binding.is_on(app.screen));
+    let (here, everywhere): (Vec<_>, Vec<_>) = known.partition(|binding| !binding.on.is_empty());
+    let head = |words: String| Line::styled(words, app.theme.quiet());
+    let mut lines = Vec::new();
+    if !here.is_empty() {
+        lines.push(head(format!("On the screen {}", app.screen.name())));
+        lines.extend(here.into_iter().map(key));
+    }
+    lines.push(head("Everywhere".to_owned()));
+    lines.extend(everywhere.into_iter().map(key));
+    lines.push(head("Words".to_owned()));
+    lines.extend(WORDS.iter().map(|(word, meaning)| row((*word).to_owned(), meaning)));
+    let columns = if area.width >= TWO_COLUMNS && lines.len() as u16 + 2 > area.height { 2 } else { 1 };
+    let rows = lines.len().div_ceil(columns);
+    let width = 76 * columns as u16 + 2;
+    let [column] = Layout::horizontal([Constraint::Max(width)]).flex(Flex::Center).areas(area);
+    let [place] = Layout::vertical([Constraint::Max(rows as u16 + 2)]).flex(Flex::Center).areas(column);
     let block = Block::bordered().title(" Help ").padding(Padding::horizontal(1)).style(app.theme.base());
+    let inside = block.inner(place);
     frame.render_widget(Clear, place);
-    frame.render_widget(Paragraph::new(lines).block(block).wrap(Wrap { trim: false }), place);
+    frame.render_widget(block, place);
+    let parts = Layout::horizontal(vec![Constraint::Fill(1); columns]).split(inside);
+    for (part, lines) in parts.iter().zip(lines.chunks(rows)) {
+        let over = (lines.len() as u16).saturating_sub(part.height);
+        frame.render_widget(Paragraph::new(lines.to_vec()).scroll((app.help_scroll.min(over), 0)), *part);
+    }
 }

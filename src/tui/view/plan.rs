@@ -1,27 +1,29 @@
 //! The plan: the shelter from above with its holes, and every value that is often changed.
 
 use ratatui::Frame;
-use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::layout::{Constraint, Layout, Position, Rect};
 use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::canvas::{Canvas, Points};
-use ratatui::widgets::{Block, Borders, List, ListState, Paragraph, Wrap};
+use ratatui::widgets::{Block, Borders, Clear, List, ListState, Paragraph, Wrap};
 
-use crate::tui::app::App;
+use super::{Places, color};
+use crate::tui::app::{App, Target};
+use crate::tui::editor::Order;
 use crate::units;
 
 /// Draws the plan.
-pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
+pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     let [left, right] =
         Layout::horizontal([Constraint::Percentage(50), Constraint::Percentage(50)]).spacing(1).areas(area);
     let [list, message] = Layout::vertical([Constraint::Min(0), Constraint::Length(2)]).areas(left);
-    draw_fields(app, frame, list);
+    draw_fields(app, frame, list, places);
     draw_message(app, frame, message);
     draw_shelter(app, frame, right);
 }
 
-fn draw_fields(app: &App, frame: &mut Frame, area: Rect) {
+fn draw_fields(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     let editor = &app.editor;
     let title = if editor.unsaved() { " Plan, not saved " } else { " Plan " };
     let block = Block::new()
@@ -33,7 +35,7 @@ fn draw_fields(app: &App, frame: &mut Frame, area: Rect) {
         let selected = n == editor.selected;
         let label: String = field.label.chars().take(width).collect();
         let value = match &editor.input {
-            Some(input) if selected => format!("{input}▏"),
+            Some(input) if selected => input.value().to_owned(),
             _ if field.value.is_empty() => "not set".to_owned(),
             _ => field.value.clone(),
         };
@@ -44,18 +46,49 @@ fn draw_fields(app: &App, frame: &mut Frame, area: Rect) {
         ])
     });
     let mut state = ListState::default().with_selected(Some(editor.selected));
+    let inside = block.inner(area);
     frame.render_stateful_widget(List::new(rows).block(block), area, &mut state);
+    let shown = (state.offset()..editor.fields.len()).take(usize::from(inside.height));
+    for (y, field) in (inside.y..).zip(shown) {
+        let row = Rect { y, height: 1, ..inside };
+        places.push((row, Target::Field(field)));
+        if field == editor.selected {
+            if let Some(input) = &editor.input {
+                let x = inside.x + (width + 3 + input.visual_cursor()) as u16;
+                frame.set_cursor_position(Position::new(x.min(inside.right().saturating_sub(1)), y));
+            }
+            if let Some(order) = &editor.order {
+                draw_order(app, order, frame, row);
+            }
+        }
+    }
+}
+
+/// The rows in their order of firing, below or above the value they belong to.
+fn draw_order(app: &App, order: &Order, frame: &mut Frame, value: Rect) {
+    let height = (order.names.len() as u16 + 2).min(frame.area().height);
+    let below = value.y + 1 + height <= frame.area().bottom();
+    let y = if below { value.y + 1 } else { value.y.saturating_sub(height) };
+    let place = Rect { y, height, ..value }.intersection(frame.area());
+    let rows = order.names.iter().enumerate().map(|(n, name)| {
+        let style = if n == order.selected { app.theme.selected() } else { app.theme.base() };
+        Line::styled(format!(" {}. row {name} ", n + 1), style)
+    });
+    let block = Block::bordered().title(" Firing order: Left earlier, Right later ").style(app.theme.base());
+    let mut state = ListState::default().with_selected(Some(order.selected));
+    frame.render_widget(Clear, place);
+    frame.render_stateful_widget(List::new(rows).block(block), place, &mut state);
 }
 
 fn draw_message(app: &App, frame: &mut Frame, area: Rect) {
     let editor = &app.editor;
-    let line = match (&editor.problem, &editor.input) {
-        (Some(problem), _) => Line::styled(problem.clone(), app.theme.limit()),
-        (None, Some(_)) => Line::styled("Enter takes it, Esc leaves it, Ctrl-u clears", app.theme.quiet()),
-        (None, None) => Line::styled(
-            "Enter edits · Left Right step · a copies, d removes an option · u undo, U redo · s save",
-            app.theme.quiet(),
-        ),
+    let line = match &editor.problem {
+        Some(problem) => Line::styled(problem.clone(), app.theme.limit()),
+        None if editor.order.is_some() => {
+            Line::styled("Up Down select a row, Left Right move it · Enter takes it, Esc leaves it", app.theme.quiet())
+        }
+        None if editor.input.is_some() => Line::styled("Enter takes it, Esc leaves it, Ctrl-u clears", app.theme.quiet()),
+        None => Line::styled("Enter edits · Left Right step through values and ropes", app.theme.quiet()),
     };
     frame.render_widget(Paragraph::new(line).wrap(Wrap { trim: true }), area);
 }
@@ -96,7 +129,7 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
         .x_bounds([left - margin, right + margin])
         .y_bounds([bottom - margin, top + margin])
         .paint(|context| {
-            context.draw(&Points { coords: &tires, color: theme.quiet().fg.unwrap_or(Color::Reset) });
+            context.draw(&Points { coords: &tires, color: color(theme.quiet()) });
             context.layer();
             for (turn, (_, holes)) in turns.iter().enumerate() {
                 let style = Style::new().fg(turn_color(app, turn, turns.len())).add_modifier(Modifier::BOLD);
@@ -117,5 +150,5 @@ fn turn_color(app: &App, turn: usize, turns: usize) -> Color {
     use crate::verdict::Verdict;
     let third = 3 * turn / turns.max(1);
     let verdict = [Verdict::Pass, Verdict::Undecided, Verdict::Fail][third.min(2)];
-    app.theme.verdict(verdict).fg.unwrap_or(Color::Reset)
+    color(app.theme.verdict(verdict))
 }

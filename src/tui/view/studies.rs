@@ -8,15 +8,17 @@
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::style::Style;
 use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Axis, Block, Borders, Chart, Dataset, Gauge, GraphType, Paragraph, Wrap};
+use ratatui::widgets::{Axis, Block, Borders, Chart, Dataset, Gauge, Paragraph, Wrap};
 
 use crate::report;
 use crate::report::table::Style as Plain;
 use crate::study::sweep::{Point, Sweep};
-use crate::tui::app::App;
+use super::Places;
+use super::chart::{level, line};
+use crate::tui::app::{App, Target};
+use crate::tui::keymap::Action;
 use crate::tui::studies::Progress;
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
@@ -40,19 +42,21 @@ fn about(kind: Kind) -> (&'static str, &'static str) {
             "How often does each option fail when detonators and launches scatter? 1000 samples each.",
         ),
         Kind::Size => ("Size", "What is the lightest rope, tire and border with which every option passes?"),
+        // Have screens of their own.
+        Kind::Flight | Kind::Accuracy => ("", ""),
     }
 }
 
 /// Draws the studies.
-pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
+pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     let [tabs, body] = Layout::vertical([Constraint::Length(1), Constraint::Min(0)]).areas(area);
-    let mut spans = Vec::new();
-    for kind in Kind::ALL {
+    let word = |kind: Kind| {
         let style = if kind == app.studies.shown { app.theme.selected() } else { app.theme.base() };
-        spans.push(Span::styled(format!(" {} ", about(kind).0), style));
-        spans.push(Span::styled(format!("{} ", app.studies.state(kind)), app.theme.quiet()));
-    }
-    frame.render_widget(Line::from(spans), tabs);
+        let name = Span::styled(format!(" {} ", about(kind).0), style);
+        Line::from(vec![name, Span::styled(format!("{} ", app.studies.state(kind)), app.theme.quiet())])
+    };
+    let words = Kind::STUDIES.map(|kind| (word(kind), Target::Study(kind)));
+    super::draw_row(words, frame, tabs, places);
     let rule = Block::new().borders(Borders::TOP).border_style(app.theme.quiet());
     let inside = rule.inner(body);
     frame.render_widget(rule, body);
@@ -62,13 +66,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         Progress::Idle => message(app, frame, inside, question, "Enter starts it."),
         Progress::Failed(words) => message(app, frame, inside, question, words),
         Progress::Running { done, total } => {
-            let [text, bar] = Layout::vertical([Constraint::Length(2), Constraint::Length(1)]).areas(inside);
-            frame.render_widget(Paragraph::new(question), text);
-            let part = if *total > 0 { *done as f64 / *total as f64 } else { 0.0 };
-            let label = format!("{done} of {total} shots · x cancels");
-            let gauge =
-                Gauge::default().ratio(part.clamp(0.0, 1.0)).label(label).gauge_style(app.theme.curve());
-            frame.render_widget(gauge, bar);
+            waiting(app, frame, inside, question, (*done, *total));
         }
         Progress::Done(found) => match found.as_ref() {
             Found::Sweep(sweep) => draw_sweep(app, sweep, frame, inside),
@@ -77,7 +75,18 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     }
 }
 
-fn message(app: &App, frame: &mut Frame, area: Rect, question: Line<'_>, words: &str) {
+/// How far a study is.
+pub fn waiting(app: &App, frame: &mut Frame, area: Rect, question: Line<'_>, (done, total): (usize, usize)) {
+    let [text, bar] = Layout::vertical([Constraint::Length(2), Constraint::Length(1)]).areas(area);
+    frame.render_widget(Paragraph::new(question), text);
+    let part = if total > 0 { done as f64 / total as f64 } else { 0.0 };
+    let label = format!("{done} of {total} shots · {} cancels", app.keymap.label(Action::Cancel, false));
+    let gauge = Gauge::default().ratio(part.clamp(0.0, 1.0)).label(label).gauge_style(app.theme.curve());
+    frame.render_widget(gauge, bar);
+}
+
+/// A question without an answer, and why.
+pub fn message(app: &App, frame: &mut Frame, area: Rect, question: Line<'_>, words: &str) {
     let lines = vec![question, Line::default(), Line::styled(words.to_owned(), app.theme.base())];
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), area);
 }
@@ -90,12 +99,14 @@ fn text(app: &App, found: &Found) -> String {
         Found::Orders(orders) => report::orders::text(case, orders, style),
         Found::Scatter(draw, samples) => report::scatter::text(case, draw, samples, style),
         Found::Size(sizing) => report::size::text(case, sizing, style),
+        Found::Flight(_) | Found::Accuracy(_) => String::new(),
     };
     whole.lines().skip(2).skip_while(|line| line.is_empty()).map(|line| format!("{line}\n")).collect()
 }
 
 fn scrolled(app: &App, frame: &mut Frame, area: Rect, text: &str) {
-    let lines: Vec<Line> = text.lines().map(|line| with_verdicts(app, line)).collect();
+    let kept = |line: &&str| line.to_lowercase().contains(&app.studies.filter.to_lowercase());
+    let lines: Vec<Line> = text.lines().filter(kept).map(|line| with_verdicts(app, line)).collect();
     let most = (lines.len() as u16).saturating_sub(area.height);
     let text = Paragraph::new(lines).wrap(Wrap { trim: false });
     frame.render_widget(text.scroll((app.studies.scroll.min(most), 0)), area);
@@ -157,24 +168,19 @@ fn draw_curve(
             (0..=columns).map(|n| (at(n), top * 0.02)).collect()
         })
         .collect();
-    let line = |data, style: Style, marker| {
-        Dataset::default().data(data).graph_type(GraphType::Line).marker(marker).style(style)
-    };
     let pass = app.theme.verdict(Verdict::Pass);
     let mut sets: Vec<Dataset> = windows.iter().map(|window| line(window, pass, Marker::Block)).collect();
     sets.push(line(&limit, app.theme.limit(), Marker::Dot));
     sets.push(line(&curve, app.theme.curve(), Marker::Braille));
     let quiet = app.theme.quiet();
     let at = [from, 0.5 * (from + to), to].map(|ms| Line::from(units::milliseconds(ms * 1e-3)));
-    let levels =
-        [0.0, top].map(|level| Line::from(format!("{level:.4}").chars().take(5).collect::<String>()));
     let name = if unit == Unit::Metre { "flight height, m" } else { "cable force, kN" };
     let title = format!("{name} against the interval (dotted: limit; bar below: passes)");
     let chart = Chart::new(sets)
         .block(Block::new().title(Line::styled(title, quiet).centered()))
         .style(app.theme.base())
         .x_axis(Axis::default().bounds([from, to.max(from + f64::MIN_POSITIVE)]).labels(at).style(quiet))
-        .y_axis(Axis::default().bounds([0.0, top]).labels(levels).style(quiet))
+        .y_axis(Axis::default().bounds([0.0, top]).labels([level(0.0), level(top)]).style(quiet))
         .legend_position(None);
     frame.render_widget(chart, area);
 }

@@ -7,17 +7,20 @@ use ratatui::widgets::{Row as Cells, Table, TableState};
 
 use crate::report::spark::sparkline;
 use crate::study::check::Checked;
-use crate::tui::app::{App, Row};
+use super::Places;
+use crate::tui::app::{App, Row, Target};
+use crate::tui::compare::SortBy;
 use crate::tui::theme;
 use crate::units::{self, Unit, margin_percent, value_and_error};
-use crate::verdict::Verdict;
+use crate::verdict::{Estimate, Verdict};
 
 /// A column: head, width, and the least width of the screen that shows it.
 struct Column {
     head: &'static str,
+    sort: SortBy,
     width: u16,
     from: u16,
-    cell: fn(&App, &Checked, u16) -> String,
+    cell: fn(&App, &Checked) -> String,
 }
 
 const VERDICT: u16 = 6;
@@ -25,94 +28,143 @@ const VERDICT: u16 = 6;
 const COLUMNS: &[Column] = &[
     Column {
         head: "height, m",
+        sort: SortBy::Height,
         width: 15,
         from: 0,
-        cell: |_, checked, _| value_and_error(checked.height.value, checked.height.error, Unit::Metre),
+        cell: |app, checked| against(app, checked, |checked| checked.height, Unit::Metre),
     },
     Column {
         head: "force, kN",
+        sort: SortBy::Force,
         width: 15,
         from: 0,
-        cell: |_, checked, _| value_and_error(checked.force.value, checked.force.error, Unit::Kilonewton),
+        cell: |app, checked| against(app, checked, |checked| checked.force, Unit::Kilonewton),
     },
-    Column { head: "factor", width: 6, from: 70, cell: |_, checked, _| units::factor(checked.safety_factor) },
+    Column {
+        head: "factor",
+        sort: SortBy::Force,
+        width: 6,
+        from: 70,
+        cell: |_, checked| units::factor(checked.safety_factor),
+    },
     Column {
         head: "left m",
+        sort: SortBy::Height,
         width: 7,
         from: 110,
-        cell: |app, checked, _| percent(margin_percent(checked.height.value, app.case.limits.height)),
+        cell: |app, checked| percent(margin_percent(checked.height.value, app.case.limits.height)),
     },
     Column {
         head: "left kN",
+        sort: SortBy::Force,
         width: 7,
         from: 110,
-        cell: |app, checked, _| percent(margin_percent(checked.force.value, app.case.limits.force)),
+        cell: |app, checked| percent(margin_percent(checked.force.value, app.case.limits.force)),
     },
     Column {
         head: "drift, m",
+        sort: SortBy::Drift,
         width: 14,
         from: 130,
-        cell: |_, checked, _| value_and_error(checked.drift.value, checked.drift.error, Unit::Metre),
+        cell: |app, checked| against(app, checked, |checked| checked.drift, Unit::Metre),
     },
 ];
+
+/// A quantity, or how much more it is than that of the baseline; both errors count then.
+fn against(app: &App, checked: &Checked, of: fn(&Checked) -> Estimate, unit: Unit) -> String {
+    let mine = of(checked);
+    match app.baseline() {
+        Some((_, base)) if !std::ptr::eq(base, checked) => {
+            let base = of(base);
+            let difference = mine.value - base.value;
+            let words = value_and_error(difference, mine.error + base.error, unit);
+            if difference >= 0.0 { format!("+{words}") } else { words }
+        }
+        _ => value_and_error(mine.value, mine.error, unit),
+    }
+}
 
 fn percent(margin: f64) -> String {
     format!("{margin:.0} %")
 }
 
 /// Draws the table.
-pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
+pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     let columns: Vec<&Column> = COLUMNS.iter().filter(|column| area.width >= column.from).collect();
     let longest = app.case.plan.delays.iter().map(|delay| delay.name.chars().count()).max().unwrap_or(0);
     let fixed: u16 = columns.iter().map(|column| column.width + 1).sum::<u16>() + VERDICT + 2;
-    let name = (longest.max(6) as u16).min(area.width.saturating_sub(fixed + 16).max(8));
+    let name = (longest.max(6) as u16 + 1).min(area.width.saturating_sub(fixed + 16).max(8));
     let spark = (area.width.saturating_sub(fixed + name + 2) / 2).min(40);
-    let mut head = vec![Line::from("option"), Line::from("")];
-    let mut widths = vec![Constraint::Length(name), Constraint::Length(VERDICT)];
-    for column in &columns {
-        head.push(Line::from(column.head).right_aligned());
-        widths.push(Constraint::Length(column.width));
-    }
+    let mut heads = vec![("option", SortBy::Name, name), ("", SortBy::Verdict, VERDICT)];
+    heads.extend(columns.iter().map(|column| (column.head, column.sort, column.width)));
     if spark >= 4 {
-        head.extend(["height over time", "force over time"].map(Line::from));
-        widths.extend([Constraint::Length(spark); 2]);
+        heads.extend([("height over time", SortBy::Height, spark), ("force over time", SortBy::Force, spark)]);
     }
-    let options = app.case.plan.delays.iter().zip(&app.rows).enumerate();
-    let rows = options.map(|(n, (delay, row))| {
-        let style = if n == app.selected { app.theme.selected() } else { app.theme.base() };
-        let name = format!("{:1$}", delay.name, usize::from(name));
-        let mut cells = vec![Line::styled(name, style)];
-        match row {
-            Row::Done(checked) => {
-                cells.push(verdict(app, checked.verdict));
-                cells.extend(
-                    columns
-                        .iter()
-                        .map(|column| Line::from((column.cell)(app, checked, area.width)).right_aligned()),
-                );
-                let width = usize::from(spark);
-                let (history, limits) = (&checked.history, &app.case.limits);
-                let spark =
-                    |series, limit| Line::styled(sparkline(series, width, limit, false), app.theme.curve());
-                cells.push(spark(&history.height, limits.height));
-                cells.push(spark(&history.force, limits.force));
-            }
-            Row::Failed(message) => {
-                cells.push(verdict(app, Verdict::Undecided));
-                cells.push(Line::from(message.as_str()));
-            }
-            Row::Waiting => cells.push(Line::styled("waits", app.theme.quiet())),
-            Row::Running { runs, done } => {
-                cells.push(Line::styled(format!("{:>3.0} %", done * 100.0), app.theme.quiet()));
-                cells.push(Line::styled(bar(*done, 15), app.theme.quiet()));
-                cells.push(Line::styled(format!("run {}", runs + 1), app.theme.quiet()));
-            }
-        }
-        Cells::new(cells)
+    let listed = app.listed();
+    let rows = listed.iter().map(|&option| row(app, option, &columns, (name, spark)));
+    let widths = heads.iter().map(|head| Constraint::Length(head.2));
+    let cells = heads.iter().enumerate().map(|(n, head)| {
+        let line = Line::from(headline(app, head.0, head.1));
+        if (2..2 + columns.len()).contains(&n) { line.right_aligned() } else { line }
     });
-    let table = Table::new(rows, widths).header(Cells::new(head).style(app.theme.quiet()));
-    let mut state = TableState::new().with_selected(app.selected);
+    let table = Table::new(rows, widths).header(Cells::new(cells).style(app.theme.quiet()));
+    let at = listed.iter().position(|&option| option == app.selected);
+    let mut state = TableState::new().with_selected(at);
     frame.render_stateful_widget(table, area, &mut state);
+    let mut x = area.x;
+    for (_, sort, width) in heads {
+        places.push((Rect { x, width, height: 1, ..area }, Target::Sort(sort)));
+        x += width + 1;
+    }
+    let shown = listed.iter().skip(state.offset()).take(usize::from(area.height.saturating_sub(1)));
+    for (y, &option) in (area.y + 1..).zip(shown) {
+        places.push((Rect { y, height: 1, ..area }, Target::Option(option)));
+    }
+    if listed.is_empty() && area.height > 1 {
+        let none = format!("no option has '{}' in its name or verdict; Esc shows all", app.compare.filter);
+        frame.render_widget(Line::styled(none, app.theme.quiet()), Rect { y: area.y + 1, height: 1, ..area });
+    }
+}
+
+/// A column's head, marked where it is sorted by.
+fn headline(app: &App, head: &str, sort: SortBy) -> String {
+    let first = |column: &Column| column.sort == sort && column.head == head;
+    let leads = sort < SortBy::Height || COLUMNS.iter().find(|column| column.sort == sort).is_some_and(first);
+    match app.compare.reversed {
+        _ if app.compare.sort != sort || !leads => head.to_owned(),
+        false => format!("{head}▲"),
+        true => format!("{head}▼"),
+    }
+}
+
+fn row<'r>(app: &'r App, option: usize, columns: &[&Column], (name, spark): (u16, u16)) -> Cells<'r> {
+    let style = if option == app.selected { app.theme.selected() } else { app.theme.base() };
+    let mark = if app.compare.baseline == Some(option) { "=" } else { "" };
+    let words = format!("{mark}{}", app.case.plan.delays[option].name);
+    let mut cells = vec![Line::styled(format!("{words:0$.0$}", usize::from(name)), style)];
+    match &app.rows[option] {
+        Row::Done(checked) => {
+            cells.push(verdict(app, checked.verdict));
+            cells.extend(columns.iter().map(|column| Line::from((column.cell)(app, checked)).right_aligned()));
+            let width = usize::from(spark);
+            let (history, limits) = (&checked.history, &app.case.limits);
+            let spark =
+                |series, limit| Line::styled(sparkline(series, width, limit, false), app.theme.curve());
+            cells.push(spark(&history.height, limits.height));
+            cells.push(spark(&history.force, limits.force));
+        }
+        Row::Failed(message) => {
+            cells.push(verdict(app, Verdict::Undecided));
+            cells.push(Line::from(message.as_str()));
+        }
+        Row::Waiting => cells.push(Line::styled("waits", app.theme.quiet())),
+        Row::Running { runs, done } => {
+            cells.push(Line::styled(format!("{:>3.0} %", done * 100.0), app.theme.quiet()));
+            cells.push(Line::styled(bar(*done, 15), app.theme.quiet()));
+            cells.push(Line::styled(format!("run {}", runs + 1), app.theme.quiet()));
+        }
+    }
+    Cells::new(cells)
 }
 
 fn verdict(app: &App, verdict: Verdict) -> Line<'static> {

@@ -1,0 +1,89 @@
+//! Where every tire is over time, for playing one option back.
+
+use super::Case;
+use super::Effort;
+use super::batch::Progress;
+use super::check::start_step;
+use crate::outcome::Outcome;
+use crate::simulation::{Failure, Motion, Settings};
+
+/// One option's motion, sampled at even times.
+#[derive(Clone, Debug)]
+pub struct Flight {
+    /// Index of the option.
+    pub option: usize,
+    /// What the run gave.
+    pub outcome: Outcome,
+    tires: usize,
+    /// When each frame was taken [s].
+    times: Vec<f64>,
+    /// Displacement of each tire from its place at rest, frame after frame [m].
+    displacements: Vec<[f32; 3]>,
+}
+
+/// Displacements kept, of all tires and frames: 60 MB.
+const MOST_KEPT: usize = 5_000_000;
+/// Fewest and most frames kept, whatever the shelter; a power of two each, because full recordings are halved.
+const FRAMES: [usize; 2] = [16, 1024];
+
+/// Runs one option once, at the step its accuracy starts from or at `step` [s], and keeps its frames.
+///
+/// However long the run, memory is bounded: full recordings drop every second frame.
+pub fn record(case: &Case, option: usize, effort: &Effort, progress: &Progress) -> Result<Flight, Failure> {
+    let step = effort.step.unwrap_or_else(|| start_step(case, effort.method, effort.accuracy));
+    let settings = Settings { method: effort.method, step, duration: case.plan.simulation.duration_s };
+    let tires = case.scene().mass.len();
+    let most = (MOST_KEPT / tires.max(1)).clamp(FRAMES[0], FRAMES[1]) / 2 * 2;
+    let (mut times, mut displacements) = (Vec::new(), Vec::new());
+    // The shelter at rest, before the first hole.
+    times.push(0.0);
+    displacements.resize(tires, [0.0; 3]);
+    let mut every = step;
+    let outcome = case.model.run(&case.shots[option], &settings, &mut |motion| {
+        let last = times.last().copied().unwrap_or(0.0);
+        if motion.time() >= last + every * (1.0 - 1e-9) {
+            if times.len() == most {
+                halve(&mut times, &mut displacements, tires);
+                every *= 2.0;
+            }
+            times.push(motion.time());
+            displacements.extend((0..tires).map(|tire| single(motion, tire)));
+        }
+        progress.flow()
+    })?;
+    Ok(Flight { option, outcome, tires, times, displacements })
+}
+
+fn single(motion: &dyn Motion, tire: usize) -> [f32; 3] {
+    let u = motion.displacement(tire);
+    [u.x as f32, u.y as f32, u.z as f32]
+}
+
+fn halve(times: &mut Vec<f64>, displacements: &mut Vec<[f32; 3]>, tires: usize) {
+    let kept = times.len().div_ceil(2);
+    for frame in 0..kept {
+        times[frame] = times[2 * frame];
+        displacements.copy_within(2 * frame * tires..(2 * frame + 1) * tires, frame * tires);
+    }
+    times.truncate(kept);
+    displacements.truncate(kept * tires);
+}
+
+impl Flight {
+    /// When it ends [s].
+    pub fn end(&self) -> f64 {
+        self.outcome.drift.at
+    }
+
+    /// Frames kept.
+    pub fn frames(&self) -> usize {
+        self.times.len()
+    }
+
+    /// Displacements of all tires at `time` [s], `(n_tires)` of (x, y, height) [m]: those of the last frame before.
+    pub fn at(&self, time: f64) -> &[[f32; 3]] {
+        let after = self.times.partition_point(|&taken| taken <= time + 1e-9);
+        let frame = after.saturating_sub(1);
+        &self.displacements[frame * self.tires..(frame + 1) * self.tires]
+    }
+}

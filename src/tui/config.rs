@@ -1,0 +1,137 @@
+//! What the user prefers: colours, characters, keys; and the plans opened lately.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+use etcetera::{BaseStrategy, choose_base_strategy};
+use serde::Deserialize;
+
+use super::keymap::{BINDINGS, Keymap};
+use super::theme::Theme;
+
+/// The configuration.
+#[derive(Clone, Debug, Default)]
+pub struct Config {
+    /// Colours to begin with.
+    pub theme: Theme,
+    /// Plain characters only.
+    pub ascii: bool,
+    /// Which key asks for what.
+    pub keymap: Keymap,
+}
+
+/// As written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    #[serde(default)]
+    theme: Theme,
+    #[serde(default)]
+    ascii: bool,
+    #[serde(default)]
+    keys: BTreeMap<String, Vec<String>>,
+}
+
+impl Config {
+    /// The user's, or the default where there is none.
+    pub fn load() -> Result<Self, String> {
+        let Some(path) = path() else { return Ok(Self::default()) };
+        match fs::read_to_string(&path) {
+            Ok(text) => Self::parse(&text).map_err(|words| format!("{}: {words}", path.display())),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Self::default()),
+            Err(error) => Err(format!("{}: {error}", path.display())),
+        }
+    }
+
+    /// A configuration as written; or what is wrong with it, in words.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let written: Written = toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())?;
+        let keymap = Keymap::with(written.keys).map_err(|words| format!("[keys]: {words}"))?;
+        Ok(Self { theme: written.theme, ascii: written.ascii, keymap })
+    }
+}
+
+/// Where the configuration is looked for.
+pub fn path() -> Option<PathBuf> {
+    Some(choose_base_strategy().ok()?.config_dir().join("shelter/config.toml"))
+}
+
+/// The default configuration, every line of it commented out.
+pub fn default_text() -> String {
+    let place = path().map_or_else(String::new, |path| format!("# Read from {}.\n", path.display()));
+    let mut text = format!(
+        "# The terminal's colours, characters and keys. Take the '#' away from what you change.\n{place}\n\
+         # theme = \"dark\"   # dark | light | sunlight\n# ascii = false    # plain characters only, for poor fonts\n\n\
+         # Keys: one character, or a name such as \"enter\", \"pageup\", \"f5\", \"ctrl-a\", \"alt-a\".\n# [keys]\n"
+    );
+    let width = BINDINGS.iter().map(|binding| binding.name.len()).max().unwrap_or(0);
+    for binding in BINDINGS {
+        let keys: Vec<String> = binding.keys.iter().map(|key| format!("{key:?}")).collect();
+        text += &format!("# {:width$} = {:20} # {}\n", binding.name, format!("[{}]", keys.join(", ")), binding.text);
+    }
+    text
+}
+
+/// Plans remembered.
+const MOST_RECENT: usize = 10;
+
+fn recent_path() -> Option<PathBuf> {
+    let places = choose_base_strategy().ok()?;
+    Some(places.state_dir().unwrap_or_else(|| places.data_dir()).join("shelter/recent"))
+}
+
+/// Plans opened lately that are still there, the last one first.
+pub fn recent() -> Vec<PathBuf> {
+    let text = recent_path().and_then(|path| fs::read_to_string(path).ok()).unwrap_or_default();
+    text.lines().map(PathBuf::from).filter(|path| path.is_file()).collect()
+}
+
+/// Remembers a plan. Nobody is told where this fails: it is a convenience.
+pub fn remember(plan: &Path) {
+    let (Some(path), Ok(plan)) = (recent_path(), plan.canonicalize()) else { return };
+    let mut plans = recent();
+    plans.retain(|other| *other != plan);
+    plans.insert(0, plan);
+    plans.truncate(MOST_RECENT);
+    let lines: Vec<&str> = plans.iter().filter_map(|plan| plan.to_str()).collect();
+    let folder = path.parent().map(fs::create_dir_all);
+    if matches!(folder, Some(Ok(()))) {
+        let _ = crate::plan::edit::save(&path, &(lines.join("\n") + "\n"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_default_text_says_what_is_the_case() {
+        assert!(default_text().lines().all(|line| line.is_empty() || line.starts_with('#')));
+        let all: String = default_text()
+            .lines()
+            .filter_map(|line| line.strip_prefix("# "))
+            .filter(|line| line.contains(" = ") || *line == "[keys]")
+            .map(|line| format!("{line}\n"))
+            .collect();
+        let config = Config::parse(&all).unwrap_or_else(|words| panic!("{words}\n{all}"));
+        for binding in BINDINGS {
+            let default = Keymap::default().label(binding.action, true);
+            assert_eq!(config.keymap.label(binding.action, true), default);
+        }
+    }
+
+    #[test]
+    fn mistakes_are_named_with_their_place() {
+        for (text, words) in [
+            ("theme = \"pink\"", "line 1, column 9"),
+            ("ascii = 1", "line 1, column 9"),
+            ("colour = 1", "unknown field"),
+            ("[keys]\nsvae = [\"s\"]", "did you mean 'save'"),
+            ("[keys]\nsave = \"s\"", "line 2, column 8"),
+        ] {
+            let told = Config::parse(text).expect_err("a mistake");
+            assert!(told.contains(words), "{told}");
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! What accuracy costs on this plan and this machine: the accuracy levels, and both methods from coarse to fine.
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::Style;
+use ratatui::symbols::Marker;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Axis, Block, Borders, Chart, Dataset, GraphType, Paragraph, Wrap};
+
+use super::studies::{message, waiting};
+use crate::plan::Method;
+use crate::report::chart::{logarithms, work_precision};
+use crate::report::check::method_name;
+use crate::report::table::accuracy_name;
+use crate::study::accuracy::{Measured, Study};
+use crate::tui::app::App;
+use crate::tui::studies::Progress;
+use crate::units;
+use crate::worker::{Found, Kind};
+
+const QUESTION: &str = "What does accuracy cost here? Both methods, coarse to fine, against a far finer run.";
+
+/// Draws the screen.
+pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
+    let name = app.case.plan.delays.get(app.selected).map_or("", |delay| &delay.name);
+    let rule = Block::new()
+        .borders(Borders::TOP)
+        .border_style(app.theme.quiet())
+        .title(Line::styled(format!(" {name} "), app.theme.title()));
+    let inside = rule.inner(area);
+    frame.render_widget(rule, area);
+    let question = Line::styled(QUESTION, app.theme.title());
+    match app.studies.progress(Kind::Accuracy) {
+        Progress::Idle => {
+            message(app, frame, inside, question, "Enter measures the selected option; it takes seconds.");
+        }
+        Progress::Failed(words) => message(app, frame, inside, question, words),
+        Progress::Running { done, total } => waiting(app, frame, inside, question, (*done, *total)),
+        Progress::Done(found) => {
+            if let Found::Accuracy(study) = found.as_ref() {
+                let words = levels(app, study);
+                let [table, plot] =
+                    Layout::vertical([Constraint::Length(words.len() as u16 + 1), Constraint::Min(0)])
+                        .areas(inside);
+                frame.render_widget(Paragraph::new(words).wrap(Wrap { trim: false }), table);
+                draw_plot(app, study, frame, plot);
+            }
+        }
+    }
+}
+
+/// Each level with its step, its errors before refinement and its time; that chosen is marked.
+fn levels<'l>(app: &App, study: &Study) -> Vec<Line<'l>> {
+    let head = format!(
+        "  {:10} {:>10} {:>11} {:>11} {:>11}  {}",
+        "level", "first step", "height", "force", "one run", "+ and - choose"
+    );
+    let mut lines = vec![Line::styled(head, app.theme.quiet())];
+    let base = measured(study, study.levels[0].1);
+    for (level, step) in study.levels {
+        let chosen = level == app.effort.accuracy && app.effort.step.is_none();
+        let start = format!(
+            "{} {:10} {:>10} ",
+            if chosen { ">" } else { " " },
+            accuracy_name(level),
+            units::milliseconds(step)
+        );
+        let words = measured(study, step).map_or_else(|| "not stable".to_owned(), |m| costs(m, base));
+        let style = if chosen { app.theme.selected() } else { app.theme.base() };
+        lines.push(Line::from(Span::styled(start + &words, style)));
+    }
+    lines
+}
+
+/// The run of a level's step.
+fn measured(study: &Study, step: f64) -> Option<Measured> {
+    let mut rows = study.rows.iter().filter(|row| row.method == Method::Verlet && row.step == step);
+    rows.find_map(|row| row.result)
+}
+
+fn costs(m: Measured, base: Option<Measured>) -> String {
+    let percent = |error: f64| format!("{:.4} %", error * 100.0);
+    let wall = m.wall.as_secs_f64();
+    let times = base.map_or_else(String::new, |base| {
+        format!("  {:.1} times draft", wall / base.wall.as_secs_f64().max(f64::MIN_POSITIVE))
+    });
+    format!(
+        "{:>11} {:>11} {:>11}{times}",
+        percent(m.height_error),
+        percent(m.force_error),
+        units::milliseconds(wall)
+    )
+}
+
+/// The larger error of every run against its time, both axes logarithmic; the levels as large dots.
+fn draw_plot(app: &App, study: &Study, frame: &mut Frame, area: Rect) {
+    let series = [Method::Verlet, Method::Newmark].map(|method| work_precision(study, method));
+    let points = || series.iter().flatten();
+    let range = |of: fn(&(f64, f64)) -> f64| {
+        let (low, high) = points().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+            (low.min(value), high.max(value))
+        });
+        [low.floor(), high.ceil().max(low.floor() + 1.0)]
+    };
+    if area.height < 4 || points().next().is_none() {
+        return;
+    }
+    let (across, up) = (range(|point| point.0), range(|point| point.1));
+    let dots = |data, style: Style, marker, name: &'static str| {
+        Dataset::default().data(data).graph_type(GraphType::Line).marker(marker).style(style).name(name)
+    };
+    let levels: Vec<(f64, f64)> =
+        study.levels.iter().filter_map(|(_, step)| logarithms(&measured(study, *step)?)).collect();
+    let sets = vec![
+        dots(&series[1], app.theme.limit(), Marker::Braille, method_name(Method::Newmark)),
+        dots(&series[0], app.theme.curve(), Marker::Braille, method_name(Method::Verlet)),
+        Dataset::default()
+            .data(&levels)
+            .graph_type(GraphType::Scatter)
+            .marker(Marker::Dot)
+            .style(app.theme.firing())
+            .name("levels"),
+    ];
+    let power = |exponent: f64| Line::from(format!("{}", 10_f64.powf(exponent) as f32));
+    let quiet = app.theme.quiet();
+    let chart = Chart::new(sets)
+        .block(Block::new().title(Line::styled("error, %, against the time of a run, ms", quiet).centered()))
+        .style(app.theme.base())
+        .x_axis(Axis::default().bounds(across).labels(across.map(power)).style(quiet))
+        .y_axis(Axis::default().bounds(up).labels(up.map(power)).style(quiet));
+    frame.render_widget(chart, area);
+}

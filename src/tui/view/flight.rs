@@ -1,0 +1,199 @@
+//! The selected option in motion.
+//!
+//! ```text
+//! from above: a cell per tire   │ from the side: tires and cables
+//! ▶ 0.412 s of 1.630 s  x0.1    ━━━━━━━━━●────────────────
+//! flight height, m              │ cable force, kN          with a cursor at the time shown
+//! ```
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::{Modifier, Style};
+use ratatui::symbols::Marker;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::canvas::{Canvas, Line as Stroke, Points};
+use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
+
+use super::{Places, chart, color};
+use crate::scene::Scene;
+use crate::study::flight::Flight;
+use crate::tui::app::{App, Target};
+use crate::tui::studies::Progress;
+use crate::units::{self, Unit};
+use crate::verdict::Verdict;
+use crate::worker::Kind;
+
+/// A hole is shown firing for so long [s].
+const FLASH: f64 = 0.03;
+/// Heights below this count as on the ground [m].
+const GROUND: f32 = 1e-4;
+/// Eighths of the limit, as signs.
+const LEVELS: [&str; 8] = ["▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
+
+/// Draws the screen.
+pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
+    let Some(delay) = app.case.plan.delays.get(app.selected) else { return };
+    let Some(flight) = app.studies.flight(app.selected) else {
+        let words = match app.studies.progress(Kind::Flight) {
+            Progress::Failed(words) => format!("{}: {words}", delay.name),
+            _ => format!("{}: recording the flight…", delay.name),
+        };
+        return frame.render_widget(Paragraph::new(words).wrap(Wrap { trim: true }), area);
+    };
+    let [views, bar, charts] =
+        Layout::vertical([Constraint::Fill(3), Constraint::Length(1), Constraint::Fill(2)]).areas(area);
+    let [above, side] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(views);
+    draw_above(app, flight, frame, above);
+    draw_side(app, flight, frame, side);
+    draw_bar(app, flight, frame, bar, places);
+    let fires: Vec<f64> = delay.timing.fire_at_ms().iter().map(|ms| ms * 1e-3).collect();
+    let history = &flight.outcome.history;
+    for (place, curve) in Layout::horizontal([Constraint::Fill(1); 2])
+        .spacing(1)
+        .split(charts)
+        .iter()
+        .zip(chart::curves(&app.case.limits, history, &fires, Some(app.player.time)))
+    {
+        curve.draw(app, frame, *place);
+    }
+}
+
+fn titled<'t>(app: &App, title: String) -> Block<'t> {
+    Block::new()
+        .borders(Borders::TOP)
+        .border_style(app.theme.quiet())
+        .title(Line::styled(format!(" {title} "), app.theme.title()))
+}
+
+/// Least and greatest place of the tires at rest along an axis [m].
+fn range(scene: &Scene, axis: usize) -> (f64, f64) {
+    let places = scene.position.iter().map(|place| place[axis]);
+    places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+}
+
+/// A cell per tire, its sign by height; where several tires share a cell, the highest.
+fn draw_above(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
+    let (scene, theme) = (app.case.scene(), app.theme);
+    let name = &app.case.plan.delays[app.selected].name;
+    let block = titled(app, format!("{name}, from above"));
+    let inside = block.inner(area);
+    frame.render_widget(block, area);
+    let [(left, right), (bottom, top)] = [range(scene, 0), range(scene, 1)];
+    let (columns, rows) = (f64::from(inside.width), f64::from(inside.height));
+    if columns < 2.0 || rows < 1.0 {
+        return;
+    }
+    // A cell of a terminal is about twice as high as wide.
+    let width = ((right - left) / (columns - 1.0)).max((top - bottom) / (2.0 * (rows - 1.0).max(1.0))).max(1e-9);
+    let mut highest: Vec<Option<(f32, bool)>> = vec![None; usize::from(inside.width) * usize::from(inside.height)];
+    let time = app.player.time;
+    let mut firing = vec![false; scene.mass.len()];
+    for fire in app.case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings) {
+        firing[fire.tire] |= (fire.at..fire.at + FLASH).contains(&time);
+    }
+    for (tire, u) in flight.at(time).iter().enumerate() {
+        let place = scene.position[tire];
+        let x = ((place.x - left) / width).round().min(columns - 1.0) as usize;
+        let y = ((top - place.y) / (2.0 * width)).round().min(rows - 1.0) as usize;
+        let cell = &mut highest[y * usize::from(inside.width) + x];
+        let (height, fires) = cell.unwrap_or((f32::MIN, false));
+        *cell = Some((height.max(u[2]), fires || firing[tire]));
+    }
+    let lines = highest.chunks(usize::from(inside.width)).map(|cells| {
+        Line::from_iter(cells.iter().map(|cell| match cell {
+            None => Span::raw(" "),
+            Some((height, fires)) => {
+                let (sign, style) = sign(app, *height);
+                let fire = theme.firing().add_modifier(Modifier::REVERSED);
+                if *fires { Span::styled("*", fire) } else { Span::styled(sign, style) }
+            }
+        }))
+    });
+    frame.render_widget(Paragraph::new(lines.collect::<Vec<_>>()), inside);
+}
+
+/// A height against its limit: a dot on the ground, more of the cell the higher, another colour past the limit.
+fn sign(app: &App, height: f32) -> (&'static str, Style) {
+    let share = f64::from(height) / app.case.limits.height;
+    if height < GROUND {
+        return ("·", app.theme.quiet());
+    }
+    let sign = LEVELS[((share * 8.0) as usize).min(7)];
+    let verdict = if share > 1.0 { Verdict::Fail } else { Verdict::Pass };
+    (sign, app.theme.verdict(verdict))
+}
+
+/// Tires and cables against the ground and the limit; cables that pull stand out.
+fn draw_side(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
+    let (scene, theme, axis) = (app.case.scene(), app.theme, usize::from(app.player.along_rows));
+    let (left, right) = range(scene, axis);
+    let margin = 0.03 * (right - left).max(1.0);
+    let limit = app.case.limits.height;
+    let top = flight.outcome.height.value.max(limit) * 1.1;
+    let frame_of = flight.at(app.player.time);
+    let place = |tire: usize| {
+        let u = frame_of[tire];
+        (scene.position[tire][axis] + f64::from(u[axis]), f64::from(u[2]))
+    };
+    let aloft = |tire: usize| frame_of[tire][2] > GROUND;
+    let tires: Vec<(f64, f64)> = (0..scene.mass.len()).map(place).collect();
+    let stretched = |cable: &crate::scene::Cable| {
+        let [a, b] = cable.ends.map(|end| frame_of[end].map(f64::from));
+        let between = cable.span + nalgebra::Vector3::from(b) - nalgebra::Vector3::from(a);
+        cable.force(between.norm()) > 0.0
+    };
+    let pulling: Vec<bool> = scene.cables.iter().map(stretched).collect();
+    let seen = if axis == 0 { "from the side, across the rows" } else { "from the side, along the rows" };
+    let taut = pulling.iter().filter(|&&pulls| pulls).count();
+    let canvas = Canvas::default()
+        .block(titled(app, format!("{seen}: {taut} of {} cables taut", scene.cables.len())))
+        .marker(Marker::Braille)
+        .x_bounds([left - margin, right + margin])
+        .y_bounds([-0.03 * top, top])
+        .paint(|context| {
+            let stroke = |(x1, y1), (x2, y2), color| Stroke { x1, y1, x2, y2, color };
+            let (from, to) = (left - margin, right + margin);
+            context.draw(&stroke((from, 0.0), (to, 0.0), color(theme.quiet())));
+            for wanted in [false, true] {
+                let style = if wanted { theme.firing() } else { theme.quiet() };
+                for (cable, _) in scene.cables.iter().zip(&pulling).filter(|(cable, pulls)| {
+                    **pulls == wanted && cable.ends.iter().any(|&end| aloft(end))
+                }) {
+                    let [a, b] = cable.ends.map(|end| tires[end]);
+                    context.draw(&stroke(a, b, color(style)));
+                }
+                context.layer();
+            }
+            context.draw(&Points { coords: &tires, color: color(theme.curve()) });
+            context.layer();
+            context.draw(&stroke((from, limit), (to, limit), color(theme.limit())));
+            let words = format!("limit {} m", units::value(limit, Unit::Metre));
+            context.print(from, limit, Span::styled(words, theme.limit()));
+        });
+    frame.render_widget(canvas, area);
+}
+
+/// The time shown, as text and along a bar to click.
+fn draw_bar(app: &App, flight: &Flight, frame: &mut Frame, area: Rect, places: &mut Places) {
+    let player = &app.player;
+    let state = if player.playing { "playing" } else { "paused " };
+    let words = format!(
+        " {state} {} of {}  x{} ",
+        units::seconds(player.time),
+        units::seconds(flight.end()),
+        player.speed()
+    );
+    let width = words.chars().count() as u16;
+    let [text, bar] = Layout::horizontal([Constraint::Length(width), Constraint::Min(0)]).areas(area);
+    frame.render_widget(Line::styled(words, app.theme.title()), text);
+    let cells = usize::from(bar.width);
+    let part = if flight.end() > 0.0 { player.time / flight.end() } else { 0.0 };
+    let at = ((cells.saturating_sub(1)) as f64 * part).round() as usize;
+    let line = Line::from(vec![
+        Span::styled("━".repeat(at.min(cells)), app.theme.curve()),
+        Span::styled("●".repeat(cells.min(1)), app.theme.title()),
+        Span::styled("─".repeat(cells.saturating_sub(at + 1)), app.theme.quiet()),
+    ]);
+    frame.render_widget(line, bar);
+    places.push((bar, Target::Time(flight.end())));
+}
