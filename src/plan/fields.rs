@@ -98,7 +98,8 @@ fn tables<'d>(
 /// Names of the blast rows in the order of firing that a delay option's field has, or in that of the plan.
 pub fn order(text: &str, path: &Path) -> Vec<String> {
     let Ok(document) = text.parse::<DocumentMut>() else { return Vec::new() };
-    let written = path.index.and_then(|index| tables(&document, path.section).nth(index)?.get("order")?.as_array());
+    let written =
+        path.index.and_then(|index| tables(&document, path.section).nth(index)?.get("order")?.as_array());
     let names = |list: &toml_edit::Array| list.iter().filter_map(Value::as_str).map(str::to_owned).collect();
     let all = || {
         let name = |row: &dyn toml_edit::TableLike| Some(row.get("name")?.as_str()?.to_owned());

@@ -27,7 +27,8 @@ const LAUNCH_M_S: f64 = 6.0;
 pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
     let [title, rows, columns, spacing, mass, rope, blast_rows, intervals, height] = answers.map(str::trim);
     let number = |text: &str, question: usize| {
-        let value = text.parse::<f64>().map_err(|_| format!("{}: '{text}' is no number", QUESTIONS[question].0))?;
+        let value =
+            text.parse::<f64>().map_err(|_| format!("{}: '{text}' is no number", QUESTIONS[question].0))?;
         Ok::<f64, String>(value)
     };
     let count = |text: &str, question: usize| {
@@ -51,10 +52,10 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
 layout = \"grid\"
 rows = {rows}                # along y, numbered from 1
 columns = {columns}            # along x, numbered from 1
-spacing_m = {spacing:?}         # centre to centre
+spacing_m = {spacing}         # centre to centre
 
 [tire]
-mass_kg = {mass:?}
+mass_kg = {mass}
 
 [cable]
 rope = {}         # `shelter ropes` lists the catalogue
@@ -77,10 +78,10 @@ friction = 0.5          # rocky soil 0.3 to 0.5
     }
     let _ = write!(
         text,
-        "\n[limits]\nflight_height_m = {height:?}\ncable_safety_factor = 1.5   # breaking force / greatest force\n"
+        "\n[limits]\nflight_height_m = {height}\ncable_safety_factor = 1.5   # breaking force / greatest force\n"
     );
     for interval in intervals {
-        let _ = write!(text, "\n[[delay]]\nname = \"{interval} ms\"\ninterval_ms = {interval:?}\n");
+        let _ = write!(text, "\n[[delay]]\nname = \"{interval} ms\"\ninterval_ms = {interval}\n");
     }
     Ok(text)
 }

@@ -100,9 +100,9 @@ pub fn accuracy(study: &Study) -> Option<String> {
     let series = [Method::Verlet, Method::Newmark].map(|method| (method, work_precision(study, method)));
     let all = || series.iter().flat_map(|(_, points)| points);
     let range = |of: fn(&(f64, f64)) -> f64| {
-        let (low, high) = all().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-            (low.min(value), high.max(value))
-        });
+        let (low, high) = all()
+            .map(of)
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
         (low.floor()..high.ceil().max(low.floor() + 1.0), low.is_finite())
     };
     let ((across, some), (up, _)) = (range(|point| point.0), range(|point| point.1));

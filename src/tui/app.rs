@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use crossterm::event::KeyEvent;
+use crossterm::event::{KeyCode, KeyEvent};
 use ratatui::layout::{Position, Rect};
 
 use super::compare::{Compare, SortBy};
@@ -254,8 +254,8 @@ impl App {
         let typed = prompt.key(key);
         let text = prompt.input.value().to_owned();
         match (prompt.purpose, typed) {
-            (Purpose::Search, Typed::Left) => self.find(""),
-            (Purpose::Search, Typed::Changed) => self.find(&text),
+            (Purpose::Search, Typed::Left) => self.find("", false),
+            (Purpose::Search, Typed::Changed) => self.find(&text, key.code == KeyCode::Down),
             (Purpose::Palette, Typed::Done) => {
                 let chosen = prompt.commands().get(prompt.selected).map(|binding| binding.action);
                 return chosen.map_or(Request::None, |action| self.act(action));
@@ -271,9 +271,12 @@ impl App {
     }
 
     /// Looks for something typed: options and lines that have it are kept, a value of the plan is selected.
-    fn find(&mut self, text: &str) {
+    fn find(&mut self, text: &str, next: bool) {
         match self.screen {
-            Screen::Plan => self.editor.find(text),
+            Screen::Plan => {
+                self.editor.find(text, next);
+                self.follow_field();
+            }
             Screen::Studies => self.studies.filter = text.to_owned(),
             Screen::Compare | Screen::Flight | Screen::Accuracy => {
                 self.compare.filter = text.to_owned();
@@ -363,10 +366,15 @@ impl App {
     /// Selects a field, and with it the option it belongs to.
     fn select_field(&mut self, places: isize) -> Request {
         self.editor.select(places);
+        self.follow_field();
+        Request::None
+    }
+
+    /// Selects the option that the selected field belongs to.
+    fn follow_field(&mut self) {
         if let Some(field) = self.editor.field().filter(|field| field.path.section == "delay") {
             self.selected = field.path.index.unwrap_or(0).min(self.rows.len().saturating_sub(1));
         }
-        Request::None
     }
 
     /// A key while a value is typed.

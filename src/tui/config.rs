@@ -46,7 +46,8 @@ impl Config {
 
     /// A configuration as written; or what is wrong with it, in words.
     pub fn parse(text: &str) -> Result<Self, String> {
-        let written: Written = toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())?;
+        let written: Written =
+            toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())?;
         let keymap = Keymap::with(written.keys).map_err(|words| format!("[keys]: {words}"))?;
         Ok(Self { theme: written.theme, ascii: written.ascii, keymap })
     }
@@ -68,7 +69,12 @@ pub fn default_text() -> String {
     let width = BINDINGS.iter().map(|binding| binding.name.len()).max().unwrap_or(0);
     for binding in BINDINGS {
         let keys: Vec<String> = binding.keys.iter().map(|key| format!("{key:?}")).collect();
-        text += &format!("# {:width$} = {:20} # {}\n", binding.name, format!("[{}]", keys.join(", ")), binding.text);
+        text += &format!(
+            "# {:width$} = {:20} # {}\n",
+            binding.name,
+            format!("[{}]", keys.join(", ")),
+            binding.text
+        );
     }
     text
 }

@@ -103,11 +103,11 @@ impl Editor {
         self.fields.get(self.selected)
     }
 
-    /// Selects the next field, from the selected one on, whose label or value contains a text.
-    pub fn find(&mut self, text: &str) {
+    /// Selects the first field whose label or value contains a text, from the selected one on or from that behind it.
+    pub fn find(&mut self, text: &str, next: bool) {
         let text = text.to_lowercase();
         let count = self.fields.len();
-        let found = (0..count).map(|n| (self.selected + n) % count).find(|&n| {
+        let found = (usize::from(next)..=count).map(|n| (self.selected + n) % count).find(|&n| {
             let field = &self.fields[n];
             field.label.to_lowercase().contains(&text) || field.value.to_lowercase().contains(&text)
         });
@@ -326,7 +326,7 @@ mod tests {
     #[test]
     fn rows_are_put_in_order_by_moving_them() {
         let mut editor = editor();
-        editor.find("\"20 ms\": order");
+        editor.find("\"20 ms\": order", false);
         editor.begin();
         for code in [KeyCode::Down, KeyCode::Left, KeyCode::Enter] {
             if let Edit::Changed(plan) = editor.type_key(&KeyEvent::new(code, KeyModifiers::NONE)) {

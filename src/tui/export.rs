@@ -24,9 +24,7 @@ pub fn write(app: &App, path: &Path) -> Result<(), String> {
 /// The table on the screen.
 pub fn csv(app: &App) -> Result<String, String> {
     match app.screen {
-        Screen::Plan | Screen::Compare => {
-            Ok(report::csv(report::check::Row::of(&app.case, &results(app)?)))
-        }
+        Screen::Plan | Screen::Compare => Ok(report::csv(report::check::Row::of(&app.case, &results(app)?))),
         Screen::Flight => {
             let flight = app.studies.flight(app.selected).ok_or("nothing is shown yet")?;
             Ok(report::csv(report::trace::history(&flight.outcome.history)))

@@ -128,7 +128,14 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Faster, "faster", &[">", "."], "faster", "play faster", FLIGHT),
     bind(Action::Slower, "slower", &["<", ","], "slower", "play slower", FLIGHT),
     bind(Action::Turn, "turn", &["v"], "turn", "side view along the rows, or across them", FLIGHT),
-    bind(Action::Open, "open", &["enter"], "open", "edit the value; enlarge the option; start the study", ALL),
+    bind(
+        Action::Open,
+        "open",
+        &["enter"],
+        "open",
+        "edit the value; enlarge the option; start the study",
+        ALL,
+    ),
     bind(Action::Left, "left", &["left", "h"], "", "smaller value, study before, back in time", SIDEWAYS),
     bind(Action::Right, "right", &["right", "l"], "step", "larger value, next study, on in time", SIDEWAYS),
     bind(Action::Cancel, "cancel", &["x"], "cancel", "end what computes here", ASKED),
@@ -139,7 +146,14 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Save, "save", &["s", "ctrl-s"], "save", "save the plan; comments and formatting stay", ALL),
     bind(Action::Sort, "sort", &["o"], "sort", "sort by the next column", COMPARE),
     bind(Action::Reverse, "reverse", &["O"], "", "turn the sorting round", COMPARE),
-    bind(Action::Baseline, "baseline", &["b"], "baseline", "show differences from the selected option", COMPARE),
+    bind(
+        Action::Baseline,
+        "baseline",
+        &["b"],
+        "baseline",
+        "show differences from the selected option",
+        COMPARE,
+    ),
     bind(Action::Finer, "finer", &["+", "="], "finer", "finer accuracy: draft, field, reference", ALL),
     bind(Action::Coarser, "coarser", &["-"], "coarser", "coarser accuracy", ALL),
     bind(Action::Rerun, "rerun", &["r"], "", "compute again", ALL),
@@ -188,9 +202,9 @@ impl Keymap {
         let mut labels = Self::default().labels;
         for (name, keys) in changes {
             let Some(place) = BINDINGS.iter().position(|binding| binding.name == name) else {
-                let near = BINDINGS.iter().max_by(|a, b| {
-                    strsim::jaro(a.name, &name).total_cmp(&strsim::jaro(b.name, &name))
-                });
+                let near = BINDINGS
+                    .iter()
+                    .max_by(|a, b| strsim::jaro(a.name, &name).total_cmp(&strsim::jaro(b.name, &name)));
                 let near = near.map_or("", |binding| binding.name);
                 return Err(format!("there is no command '{name}'; did you mean '{near}'?"));
             };
@@ -204,7 +218,9 @@ impl Keymap {
         for (binding, written) in BINDINGS.iter().zip(&labels) {
             for key in written {
                 let parsed = parse(key).ok_or_else(|| {
-                    format!("'{key}' is no key; write one such as \"a\", \"A\", \"ctrl-a\", \"f5\" or \"pageup\"")
+                    format!(
+                        "'{key}' is no key; write one such as \"a\", \"A\", \"ctrl-a\", \"f5\" or \"pageup\""
+                    )
                 })?;
                 if let Some((_, other)) = keys.iter().find(|(taken, _)| *taken == parsed) {
                     let other = BINDINGS.iter().find(|binding| binding.action == *other);
@@ -243,11 +259,14 @@ fn parse(written: &str) -> Option<(KeyCode, KeyModifiers)> {
     Some((*key.codes.first(), key.modifiers - KeyModifiers::SHIFT))
 }
 
-/// With a capital letter where it is a name: `Enter`, `Ctrl-s`.
+/// As keyboards name it: `Enter`, `PgUp`, `Ctrl-s`.
 fn readable(written: &str) -> String {
     let mut letters = written.chars();
-    match letters.next() {
-        Some(first) if written.chars().count() > 1 => first.to_uppercase().chain(letters).collect(),
+    match (written, letters.next()) {
+        ("pageup", _) => "PgUp".to_owned(),
+        ("pagedown", _) => "PgDn".to_owned(),
+        ("backtab", _) => "Shift-Tab".to_owned(),
+        (_, Some(first)) if written.chars().count() > 1 => first.to_uppercase().chain(letters).collect(),
         _ => written.to_owned(),
     }
 }

@@ -30,7 +30,9 @@ use crossterm::event::{
     self, DisableMouseCapture, EnableMouseCapture, Event, KeyCode, KeyEvent, KeyEventKind, MouseButton,
     MouseEventKind,
 };
-use crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode};
+use crossterm::terminal::{
+    Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
+};
 use crossterm::{ExecutableCommand, QueueableCommand};
 use ratatui::backend::CrosstermBackend;
 use ratatui::layout::Position;
@@ -166,7 +168,8 @@ impl Session {
             Request::SaveAs(path) => self.save_as(&path),
             Request::Export(path) => {
                 let written = export::write(&self.app, &path);
-                self.app.notice = Some(written.map_or_else(|words| words, |()| format!("wrote {}", path.display())));
+                self.app.notice =
+                    Some(written.map_or_else(|words| words, |()| format!("wrote {}", path.display())));
             }
             Request::Yank => {
                 let copied = export::csv(&self.app).and_then(|text| {
@@ -272,7 +275,9 @@ impl Display {
         #[cfg(unix)]
         signal_hook::low_level::raise(signal_hook::consts::SIGSTOP)?;
         enter()?;
-        self.terminal.clear()
+        // One that knows of nothing drawn yet. `clear` would ask the terminal where its cursor is, and wait.
+        self.terminal = Terminal::new(CrosstermBackend::new(io::stdout()))?;
+        Ok(())
     }
 }
 
@@ -285,7 +290,11 @@ impl Drop for Display {
 fn enter() -> io::Result<()> {
     enable_raw_mode()?;
     let mut out = io::stdout();
-    let entered = out.execute(EnterAlternateScreen).and_then(|out| out.execute(EnableMouseCapture));
+    // Not every terminal empties its second screen by itself.
+    let entered = out
+        .execute(EnterAlternateScreen)
+        .and_then(|out| out.execute(Clear(ClearType::All)))
+        .and_then(|out| out.execute(EnableMouseCapture));
     entered.map(|_| ()).inspect_err(|_| leave())
 }
 

@@ -8,6 +8,7 @@ mod check;
 mod closed_forms;
 mod extremes;
 mod import;
+mod keys;
 mod layers;
 mod long_studies;
 mod mirrors;
@@ -17,6 +18,7 @@ mod properties;
 mod reference;
 mod scenes;
 mod screens;
+mod stage;
 mod studies;
 #[cfg(unix)]
 mod terminal;

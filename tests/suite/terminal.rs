@@ -15,7 +15,7 @@ struct Watched {
     master: Box<dyn MasterPty + Send>,
     child: Box<dyn Child + Send + Sync>,
     /// Where the user's configuration would be.
-    home: tempfile::TempDir,
+    _home: tempfile::TempDir,
 }
 
 /// Generous: machines under load are slow, and nothing here measures speed.
@@ -50,7 +50,7 @@ impl Watched {
             }
         });
         let keyboard = pair.master.take_writer().expect("a writer");
-        Self { screen, keyboard, master: pair.master, child, home }
+        Self { screen, keyboard, master: pair.master, child, _home: home }
     }
 
     fn contents(&self) -> String {

@@ -95,14 +95,14 @@ fn costs(m: Measured, base: Option<Measured>) -> String {
 /// The larger error of every run against its time, both axes logarithmic; the levels as large dots.
 fn draw_plot(app: &App, study: &Study, frame: &mut Frame, area: Rect) {
     let series = [Method::Verlet, Method::Newmark].map(|method| work_precision(study, method));
-    let points = || series.iter().flatten();
+    let runs = || series.iter().flatten();
     let range = |of: fn(&(f64, f64)) -> f64| {
-        let (low, high) = points().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-            (low.min(value), high.max(value))
-        });
+        let (low, high) = runs()
+            .map(of)
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
         [low.floor(), high.ceil().max(low.floor() + 1.0)]
     };
-    if area.height < 4 || points().next().is_none() {
+    if area.height < 4 || runs().next().is_none() {
         return;
     }
     let (across, up) = (range(|point| point.0), range(|point| point.1));
@@ -111,22 +111,28 @@ fn draw_plot(app: &App, study: &Study, frame: &mut Frame, area: Rect) {
     };
     let levels: Vec<(f64, f64)> =
         study.levels.iter().filter_map(|(_, step)| logarithms(&measured(study, *step)?)).collect();
+    let chosen = study.levels.iter().find(|(level, _)| *level == app.effort.accuracy);
+    let chosen: Vec<(f64, f64)> =
+        chosen.and_then(|(_, step)| logarithms(&measured(study, *step)?)).into_iter().collect();
+    let points = |data, marker, name: &'static str| {
+        let style = app.theme.firing();
+        Dataset::default().data(data).graph_type(GraphType::Scatter).marker(marker).style(style).name(name)
+    };
     let sets = vec![
         dots(&series[1], app.theme.limit(), Marker::Braille, method_name(Method::Newmark)),
         dots(&series[0], app.theme.curve(), Marker::Braille, method_name(Method::Verlet)),
-        Dataset::default()
-            .data(&levels)
-            .graph_type(GraphType::Scatter)
-            .marker(Marker::Dot)
-            .style(app.theme.firing())
-            .name("levels"),
+        points(&levels, Marker::Dot, "levels"),
+        points(&chosen, Marker::Block, "chosen"),
     ];
-    let power = |exponent: f64| Line::from(format!("{}", 10_f64.powf(exponent) as f32));
+    let powers = |[from, to]: [f64; 2]| {
+        let exponents = from as i32..=to as i32;
+        exponents.map(|exponent| Line::from(format!("{}", 10_f64.powi(exponent) as f32))).collect::<Vec<_>>()
+    };
     let quiet = app.theme.quiet();
     let chart = Chart::new(sets)
         .block(Block::new().title(Line::styled("error, %, against the time of a run, ms", quiet).centered()))
         .style(app.theme.base())
-        .x_axis(Axis::default().bounds(across).labels(across.map(power)).style(quiet))
-        .y_axis(Axis::default().bounds(up).labels(up.map(power)).style(quiet));
+        .x_axis(Axis::default().bounds(across).labels(powers(across)).style(quiet))
+        .y_axis(Axis::default().bounds(up).labels(powers(up)).style(quiet));
     frame.render_widget(chart, area);
 }

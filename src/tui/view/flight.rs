@@ -8,7 +8,7 @@
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::style::{Modifier, Style};
+use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::canvas::{Canvas, Line as Stroke, Points};
@@ -84,8 +84,10 @@ fn draw_above(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
         return;
     }
     // A cell of a terminal is about twice as high as wide.
-    let width = ((right - left) / (columns - 1.0)).max((top - bottom) / (2.0 * (rows - 1.0).max(1.0))).max(1e-9);
-    let mut highest: Vec<Option<(f32, bool)>> = vec![None; usize::from(inside.width) * usize::from(inside.height)];
+    let width =
+        ((right - left) / (columns - 1.0)).max((top - bottom) / (2.0 * (rows - 1.0).max(1.0))).max(1e-9);
+    let mut highest: Vec<Option<(f32, bool)>> =
+        vec![None; usize::from(inside.width) * usize::from(inside.height)];
     let time = app.player.time;
     let mut firing = vec![false; scene.mass.len()];
     for fire in app.case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings) {
@@ -143,33 +145,35 @@ fn draw_side(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
         cable.force(between.norm()) > 0.0
     };
     let pulling: Vec<bool> = scene.cables.iter().map(stretched).collect();
-    let seen = if axis == 0 { "from the side, across the rows" } else { "from the side, along the rows" };
+    let seen = if axis == 0 { "across rows" } else { "along rows" };
     let taut = pulling.iter().filter(|&&pulls| pulls).count();
-    let canvas = Canvas::default()
-        .block(titled(app, format!("{seen}: {taut} of {} cables taut", scene.cables.len())))
-        .marker(Marker::Braille)
-        .x_bounds([left - margin, right + margin])
-        .y_bounds([-0.03 * top, top])
-        .paint(|context| {
-            let stroke = |(x1, y1), (x2, y2), color| Stroke { x1, y1, x2, y2, color };
-            let (from, to) = (left - margin, right + margin);
-            context.draw(&stroke((from, 0.0), (to, 0.0), color(theme.quiet())));
-            for wanted in [false, true] {
-                let style = if wanted { theme.firing() } else { theme.quiet() };
-                for (cable, _) in scene.cables.iter().zip(&pulling).filter(|(cable, pulls)| {
-                    **pulls == wanted && cable.ends.iter().any(|&end| aloft(end))
-                }) {
-                    let [a, b] = cable.ends.map(|end| tires[end]);
-                    context.draw(&stroke(a, b, color(style)));
+    let canvas =
+        Canvas::default()
+            .block(titled(app, format!("{seen}: {taut} of {} cables taut", scene.cables.len())))
+            .background_color(theme.base().bg.unwrap_or(Color::Reset))
+            .marker(Marker::Braille)
+            .x_bounds([left - margin, right + margin])
+            .y_bounds([-0.03 * top, top])
+            .paint(|context| {
+                let stroke = |(x1, y1), (x2, y2), color| Stroke { x1, y1, x2, y2, color };
+                let (from, to) = (left - margin, right + margin);
+                context.draw(&stroke((from, 0.0), (to, 0.0), color(theme.quiet())));
+                for wanted in [false, true] {
+                    let style = if wanted { theme.firing() } else { theme.quiet() };
+                    for (cable, _) in scene.cables.iter().zip(&pulling).filter(|(cable, pulls)| {
+                        **pulls == wanted && cable.ends.iter().any(|&end| aloft(end))
+                    }) {
+                        let [a, b] = cable.ends.map(|end| tires[end]);
+                        context.draw(&stroke(a, b, color(style)));
+                    }
+                    context.layer();
                 }
+                context.draw(&Points { coords: &tires, color: color(theme.curve()) });
                 context.layer();
-            }
-            context.draw(&Points { coords: &tires, color: color(theme.curve()) });
-            context.layer();
-            context.draw(&stroke((from, limit), (to, limit), color(theme.limit())));
-            let words = format!("limit {} m", units::value(limit, Unit::Metre));
-            context.print(from, limit, Span::styled(words, theme.limit()));
-        });
+                context.draw(&stroke((from, limit), (to, limit), color(theme.limit())));
+                let words = format!("limit {} m", units::value(limit, Unit::Metre));
+                context.print(from, limit, Span::styled(words, theme.limit()));
+            });
     frame.render_widget(canvas, area);
 }
 

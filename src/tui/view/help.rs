@@ -41,7 +41,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let width = 76 * columns as u16 + 2;
     let [column] = Layout::horizontal([Constraint::Max(width)]).flex(Flex::Center).areas(area);
     let [place] = Layout::vertical([Constraint::Max(rows as u16 + 2)]).flex(Flex::Center).areas(column);
-    let block = Block::bordered().title(" Help ").padding(Padding::horizontal(1)).style(app.theme.base());
+    let more = rows as u16 + 2 > area.height;
+    let title = if more { " Help: Up Down for more " } else { " Help " };
+    let block = Block::bordered().title(title).padding(Padding::horizontal(1)).style(app.theme.base());
     let inside = block.inner(place);
     frame.render_widget(Clear, place);
     frame.render_widget(block, place);

@@ -77,7 +77,7 @@ pub fn draw(app: &App, frame: &mut Frame) -> Places {
 
 /// The table of options and the selected one below it, or that alone.
 fn draw_options(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
-    let rows = app.listed().len() as u16 + 1;
+    let rows = app.listed().len().max(1) as u16 + 1;
     let table = if app.zoom { 0 } else { rows.min(area.height / 2) };
     let [list, rest] = Layout::vertical([Constraint::Length(table), Constraint::Min(0)]).areas(area);
     if !app.zoom {
@@ -178,8 +178,7 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     };
     let end = [word(Action::Help, "help"), word(Action::Quit, "quit")];
     let width: usize = end.iter().map(|(line, _)| line.width()).sum();
-    let [keys, last] =
-        Layout::horizontal([Constraint::Min(0), Constraint::Length(width as u16)]).areas(area);
+    let [keys, last] = Layout::horizontal([Constraint::Min(0), Constraint::Length(width as u16)]).areas(area);
     let shown = BINDINGS.iter().filter(|binding| !binding.short.is_empty() && binding.is_on(app.screen));
     let (special, general): (Vec<_>, Vec<_>) = shown.partition(|binding| !binding.on.is_empty());
     let words = special.into_iter().chain(general).map(|binding| word(binding.action, binding.short));
@@ -190,6 +189,7 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
 /// What is being typed, with the cursor in it.
 fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
     let head = match prompt.purpose {
+        Purpose::Search if app.screen == Screen::Plan => " find (Down: next): ",
         Purpose::Search => " find: ",
         Purpose::Palette => " : ",
         Purpose::Export => " write to (.csv, .svg, .html): ",

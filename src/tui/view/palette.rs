@@ -15,7 +15,7 @@ const MOST: u16 = 10;
 pub fn draw(app: &App, prompt: &Prompt, frame: &mut Frame, line: Rect) {
     let commands = prompt.commands();
     let height = (commands.len() as u16).clamp(1, MOST) + 2;
-    let place = Rect { y: line.y.saturating_sub(height), height, width: line.width.min(76), ..line };
+    let place = Rect { y: line.y.saturating_sub(height), height, width: line.width.min(100), ..line };
     let rows = commands.iter().enumerate().map(|(n, binding)| {
         let style = if n == prompt.selected { app.theme.selected() } else { app.theme.base() };
         Line::from(vec![

@@ -8,7 +8,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::canvas::{Canvas, Points};
 use ratatui::widgets::{Block, Borders, Clear, List, ListState, Paragraph, Wrap};
 
-use super::{Places, color};
+use super::{Places, color, table};
 use crate::tui::app::{App, Target};
 use crate::tui::editor::Order;
 use crate::units;
@@ -16,11 +16,15 @@ use crate::units;
 /// Draws the plan.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     let [left, right] =
-        Layout::horizontal([Constraint::Percentage(50), Constraint::Percentage(50)]).spacing(1).areas(area);
+        Layout::horizontal([Constraint::Percentage(55), Constraint::Percentage(45)]).spacing(1).areas(area);
     let [list, message] = Layout::vertical([Constraint::Min(0), Constraint::Length(2)]).areas(left);
     draw_fields(app, frame, list, places);
     draw_message(app, frame, message);
-    draw_shelter(app, frame, right);
+    let options = (app.listed().len() as u16 + 1).min(right.height / 3);
+    let [shelter, verdicts] =
+        Layout::vertical([Constraint::Min(0), Constraint::Length(options)]).areas(right);
+    draw_shelter(app, frame, shelter);
+    table::draw(app, frame, verdicts, places);
 }
 
 fn draw_fields(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
@@ -30,10 +34,11 @@ fn draw_fields(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
         .borders(Borders::TOP)
         .border_style(app.theme.quiet())
         .title(Span::styled(title, app.theme.title()));
-    let width = editor.fields.iter().map(|field| field.label.chars().count()).max().unwrap_or(0).min(36);
+    let width = editor.fields.iter().map(|field| field.label.chars().count()).max().unwrap_or(0);
+    let width = width.min(36).min(usize::from(area.width) * 3 / 5);
     let rows = editor.fields.iter().enumerate().map(|(n, field)| {
         let selected = n == editor.selected;
-        let label: String = field.label.chars().take(width).collect();
+        let label = shortened(&field.label, width);
         let value = match &editor.input {
             Some(input) if selected => input.value().to_owned(),
             _ if field.value.is_empty() => "not set".to_owned(),
@@ -64,6 +69,18 @@ fn draw_fields(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     }
 }
 
+/// A label in so many characters: its end, which tells what it is, stays whole.
+fn shortened(label: &str, width: usize) -> String {
+    let count = label.chars().count();
+    if count <= width {
+        return label.to_owned();
+    }
+    let (name, end) = label.rsplit_once(": ").unwrap_or(("", label));
+    let room = width.saturating_sub(end.chars().count() + 3);
+    let start: String = name.chars().take(room).collect();
+    format!("{start}…: {end}")
+}
+
 /// The rows in their order of firing, below or above the value they belong to.
 fn draw_order(app: &App, order: &Order, frame: &mut Frame, value: Rect) {
     let height = (order.names.len() as u16 + 2).min(frame.area().height);
@@ -84,10 +101,13 @@ fn draw_message(app: &App, frame: &mut Frame, area: Rect) {
     let editor = &app.editor;
     let line = match &editor.problem {
         Some(problem) => Line::styled(problem.clone(), app.theme.limit()),
-        None if editor.order.is_some() => {
-            Line::styled("Up Down select a row, Left Right move it · Enter takes it, Esc leaves it", app.theme.quiet())
+        None if editor.order.is_some() => Line::styled(
+            "Up Down select a row, Left Right move it · Enter takes it, Esc leaves it",
+            app.theme.quiet(),
+        ),
+        None if editor.input.is_some() => {
+            Line::styled("Enter takes it, Esc leaves it, Ctrl-u clears", app.theme.quiet())
         }
-        None if editor.input.is_some() => Line::styled("Enter takes it, Esc leaves it, Ctrl-u clears", app.theme.quiet()),
         None => Line::styled("Enter edits · Left Right step through values and ropes", app.theme.quiet()),
     };
     frame.render_widget(Paragraph::new(line).wrap(Wrap { trim: true }), area);
@@ -103,9 +123,9 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
         .blast_rows
         .iter()
         .zip(&times)
-        .map(|(row, ms)| format!("{} at {}", row.name, units::milliseconds(ms * 1e-3)))
+        .map(|(row, ms)| format!("{}: {}", row.name, units::milliseconds(ms * 1e-3)))
         .collect();
-    let title = Line::styled(format!(" {}: {} ", delay.name, fires.join(", ")), theme.title());
+    let title = Line::styled(format!(" {} · {} ", delay.name, fires.join(", ")), theme.title());
     let block = Block::new().borders(Borders::TOP).border_style(theme.quiet()).title(title);
     let scene = case.scene();
     let range = |axis: usize| {
@@ -115,21 +135,26 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
     let [(left, right), (bottom, top)] = [range(0), range(1)];
     let margin = 0.05 * (right - left).max(top - bottom).max(1.0);
     let tires: Vec<(f64, f64)> = scene.position.iter().map(|place| (place.x, place.y)).collect();
+    let mut fires = vec![false; tires.len()];
     let mut turns: Vec<(f64, Vec<(f64, f64)>)> = Vec::new();
     for firing in case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings) {
         let place = tires[firing.tire];
+        fires[firing.tire] = true;
         match turns.last_mut().filter(|(at, _)| *at == firing.at) {
             Some((_, holes)) => holes.push(place),
             None => turns.push((firing.at, vec![place])),
         }
     }
+    let others: Vec<(f64, f64)> =
+        tires.iter().zip(&fires).filter(|(_, fires)| !**fires).map(|(place, _)| *place).collect();
     let canvas = Canvas::default()
         .block(block)
+        .background_color(theme.base().bg.unwrap_or(Color::Reset))
         .marker(Marker::Dot)
         .x_bounds([left - margin, right + margin])
         .y_bounds([bottom - margin, top + margin])
         .paint(|context| {
-            context.draw(&Points { coords: &tires, color: color(theme.quiet()) });
+            context.draw(&Points { coords: &others, color: color(theme.quiet()) });
             context.layer();
             for (turn, (_, holes)) in turns.iter().enumerate() {
                 let style = Style::new().fg(turn_color(app, turn, turns.len())).add_modifier(Modifier::BOLD);

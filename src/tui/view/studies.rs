@@ -12,11 +12,11 @@ use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Axis, Block, Borders, Chart, Dataset, Gauge, Paragraph, Wrap};
 
+use super::Places;
+use super::chart::{level, line};
 use crate::report;
 use crate::report::table::Style as Plain;
 use crate::study::sweep::{Point, Sweep};
-use super::Places;
-use super::chart::{level, line};
 use crate::tui::app::{App, Target};
 use crate::tui::keymap::Action;
 use crate::tui::studies::Progress;

@@ -5,9 +5,9 @@ use ratatui::layout::{Constraint, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Row as Cells, Table, TableState};
 
+use super::Places;
 use crate::report::spark::sparkline;
 use crate::study::check::Checked;
-use super::Places;
 use crate::tui::app::{App, Row, Target};
 use crate::tui::compare::SortBy;
 use crate::tui::theme;
@@ -24,19 +24,21 @@ struct Column {
 }
 
 const VERDICT: u16 = 6;
+/// Characters of an option's name that always show.
+const LEAST_NAME: u16 = 8;
 
 const COLUMNS: &[Column] = &[
     Column {
         head: "height, m",
         sort: SortBy::Height,
-        width: 15,
+        width: 16,
         from: 0,
         cell: |app, checked| against(app, checked, |checked| checked.height, Unit::Metre),
     },
     Column {
         head: "force, kN",
         sort: SortBy::Force,
-        width: 15,
+        width: 16,
         from: 0,
         cell: |app, checked| against(app, checked, |checked| checked.force, Unit::Kilonewton),
     },
@@ -90,15 +92,23 @@ fn percent(margin: f64) -> String {
 
 /// Draws the table.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
-    let columns: Vec<&Column> = COLUMNS.iter().filter(|column| area.width >= column.from).collect();
+    // A number is shown whole or not at all.
+    let mut room = area.width.saturating_sub(LEAST_NAME + VERDICT + 2);
+    let fits = |column: &&Column| {
+        let fits = area.width >= column.from && room > column.width;
+        room -= if fits { column.width + 1 } else { 0 };
+        fits
+    };
+    let columns: Vec<&Column> = COLUMNS.iter().filter(fits).collect();
     let longest = app.case.plan.delays.iter().map(|delay| delay.name.chars().count()).max().unwrap_or(0);
     let fixed: u16 = columns.iter().map(|column| column.width + 1).sum::<u16>() + VERDICT + 2;
-    let name = (longest.max(6) as u16 + 1).min(area.width.saturating_sub(fixed + 16).max(8));
+    let name = (longest.max(6) as u16 + 1).min(area.width.saturating_sub(fixed + 16).max(LEAST_NAME));
     let spark = (area.width.saturating_sub(fixed + name + 2) / 2).min(40);
     let mut heads = vec![("option", SortBy::Name, name), ("", SortBy::Verdict, VERDICT)];
     heads.extend(columns.iter().map(|column| (column.head, column.sort, column.width)));
     if spark >= 4 {
-        heads.extend([("height over time", SortBy::Height, spark), ("force over time", SortBy::Force, spark)]);
+        heads
+            .extend([("height over time", SortBy::Height, spark), ("force over time", SortBy::Force, spark)]);
     }
     let listed = app.listed();
     let rows = listed.iter().map(|&option| row(app, option, &columns, (name, spark)));
@@ -145,7 +155,8 @@ fn row<'r>(app: &'r App, option: usize, columns: &[&Column], (name, spark): (u16
     match &app.rows[option] {
         Row::Done(checked) => {
             cells.push(verdict(app, checked.verdict));
-            cells.extend(columns.iter().map(|column| Line::from((column.cell)(app, checked)).right_aligned()));
+            cells
+                .extend(columns.iter().map(|column| Line::from((column.cell)(app, checked)).right_aligned()));
             let width = usize::from(spark);
             let (history, limits) = (&checked.history, &app.case.limits);
             let spark =

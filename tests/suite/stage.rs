@@ -1,0 +1,140 @@
+//! An app on a test terminal: what the tests of screens and keys share.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Duration;
+
+use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
+use ratatui::Terminal;
+use ratatui::backend::TestBackend;
+use ratatui::buffer::Buffer;
+use shelter::outcome::{End, History};
+use shelter::plan::{Accuracy, Method, Plan};
+use shelter::study::accuracy::{Measured, Row, Study};
+use shelter::study::batch::Envelope;
+use shelter::study::check::{Checked, Quantity, Reason};
+use shelter::study::sweep::{Point, Sweep};
+use shelter::study::{Case, Effort, flight};
+use shelter::tui::app::{self, App, Request};
+use shelter::tui::config::Config;
+use shelter::tui::{update, view};
+use shelter::verdict::{Estimate, Verdict};
+use shelter::worker::Found;
+
+pub fn app() -> App {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("plans/amur-three-rows.toml");
+    let mut plan = Plan::load(&path).expect("a shipped plan");
+    plan.path = "plans/amur-three-rows.toml".to_owned();
+    let effort = Effort::of(&plan);
+    App::new(Arc::new(Case::new(plan)), effort, &Config::default())
+}
+
+/// A result with round numbers, so that a snapshot changes with the screen and not with the physics.
+pub fn checked(verdict: Verdict) -> Checked {
+    let wave = |n: usize| (n as f64 * 0.05).sin().abs();
+    let estimate = |value, error, at, place| Estimate { value, error, at, place };
+    let force = estimate(61_234.0, 45.0, 0.123, 3);
+    let limit = Reason { quantity: Quantity::Force, verdict, estimate: force, limit: 61_019.0 };
+    Checked {
+        broken: Vec::new(),
+        verdict,
+        reasons: if verdict == Verdict::Pass { Vec::new() } else { vec![limit] },
+        height: estimate(1.2345, 0.0012, 0.456, 7),
+        force,
+        drift: estimate(0.321, 0.01, 1.3, 9),
+        safety_factor: 1.49,
+        history: History {
+            width: 0.005,
+            height: (0..200).map(wave).collect(),
+            force: (0..200).map(|n| 61_234.0 * wave(3 * n)).collect(),
+        },
+        method: Method::Verlet,
+        step: 5e-4,
+        steps: 2000,
+        energy_residual: 3e-5,
+        end: 1.3,
+        ended: End::AtRest,
+        wall: Duration::from_millis(2),
+        total_wall: Duration::from_millis(6),
+        runs: 4,
+        total_steps: 5000,
+    }
+}
+
+pub fn finished() -> App {
+    let mut app = app();
+    let verdicts = [Verdict::Fail, Verdict::Pass, Verdict::Undecided];
+    for (n, row) in app.rows.iter_mut().enumerate() {
+        *row = app::Row::Done(Box::new(checked(verdicts[n % 3])));
+    }
+    app
+}
+
+pub fn draw(app: &App, width: u16, height: u16) -> Buffer {
+    let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("a test terminal");
+    terminal.draw(|frame| drop(view::draw(app, frame))).expect("drawn");
+    terminal.backend().buffer().clone()
+}
+
+/// What a click would mean where.
+pub fn draw_places(app: &App, width: u16, height: u16) -> view::Places {
+    let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("a test terminal");
+    let mut places = view::Places::new();
+    terminal.draw(|frame| places = view::draw(app, frame)).expect("drawn");
+    places
+}
+
+pub fn text(buffer: &Buffer) -> String {
+    let lines = buffer.content.chunks(usize::from(buffer.area.width));
+    let line = |cells: &[ratatui::buffer::Cell]| {
+        let line: String = cells.iter().map(ratatui::buffer::Cell::symbol).collect();
+        line.trim_end().to_owned()
+    };
+    lines.map(line).collect::<Vec<_>>().join("\n")
+}
+
+pub fn key(app: &mut App, code: KeyCode) -> Request {
+    update(app, &Event::Key(KeyEvent::new(code, KeyModifiers::NONE)))
+}
+
+/// A sweep with round numbers.
+pub fn swept() -> Found {
+    let point = |n: usize| {
+        let share = (n as f64 * 0.3).sin().abs();
+        let verdict = if share < 0.8 { Verdict::Pass } else { Verdict::Fail };
+        let [height, force] = [[2.0 * share, 0.01], [76_000.0 * share, 250.0]];
+        Point { interval: n as f64 * 0.01, envelope: Envelope { verdict, height, force, drift: [0.0; 2] } }
+    };
+    Found::Sweep(Sweep { order: vec![0, 1, 2], points: (0..51).map(point).collect() })
+}
+
+/// What accuracy costs, with round numbers.
+pub fn measured() -> Found {
+    let levels = [(Accuracy::Draft, 8e-4), (Accuracy::Field, 4e-4), (Accuracy::Reference, 1e-4)];
+    let row = |n: i32, method: Method| {
+        let part = 0.5_f64.powi(n);
+        let cost = if method == Method::Verlet { 1.0 } else { 50.0 };
+        Row {
+            method,
+            step: 8e-4 * part,
+            result: Some(Measured {
+                steps: 1000 << n,
+                height: 1.7,
+                force: 60e3,
+                height_error: 1e-4 * part * part,
+                force_error: 5e-4 * part * part,
+                energy_residual: 1e-5,
+                wall: Duration::from_micros((400.0 * cost / part) as u64),
+            }),
+        }
+    };
+    let rows =
+        [Method::Verlet, Method::Newmark].iter().flat_map(|&method| (0..6).map(move |n| row(n, method)));
+    Found::Accuracy(Study { rows: rows.collect(), reference_step: 1e-5, levels })
+}
+
+/// The motion of an option, at a fixed step.
+pub fn recorded(app: &App, option: usize) -> Found {
+    let effort = Effort { step: Some(5e-4), ..app.effort };
+    Found::Flight(flight::record(&app.case, option, &effort, &Default::default()).expect("a flight"))
+}
