@@ -239,3 +239,150 @@ fn ascii_screens_are_ascii() {
     watched.press("q");
     watched.ends();
 }
+
+/// Every screen, edit, undo, save, reload, sizes, theme and mouse in one sitting.
+#[test]
+fn a_walk_through_everything() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("plan.toml");
+    let text = include_str!("../../plans/amur-three-rows.toml");
+    std::fs::write(&file, text).expect("written");
+    let mut watched = Watched::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 200, 60);
+    watched.until("1 of 7 pass");
+    watched.press("ooo");
+    watched.until("height, m▲");
+    watched.press("/42\r");
+    watched.until("42 ms ─");
+    watched.press("\x1b");
+    watched.until("long period");
+    watched.press("3");
+    watched.until("cables taut");
+    watched.press(" ");
+    watched.until("playing");
+    watched.press(" ");
+    watched.until("paused");
+    watched.press("\x1b[F");
+    watched.resize(60, 18);
+    watched.until("from above");
+    watched.resize(200, 60);
+    watched.press("4\r");
+    watched.until("interval between rows 1, 2, 3");
+    watched.press("5\r");
+    watched.until("times draft");
+    watched.press("1");
+    watched.until("limit of flight height");
+    watched.press("/rope\r");
+    watched.press("\x1b[C");
+    watched.until("GOST 2688-80 14 1670");
+    watched.until("*not saved*");
+    watched.press("u");
+    watched.until("force 61.019 kN");
+    watched.press("Us");
+    watched.until("saved /");
+    let saved = std::fs::read_to_string(&file).expect("the plan");
+    assert_eq!(saved, text.replace("GOST 2688-80 14", "GOST 2688-80 14 1670"));
+    std::fs::write(&file, text.replace("title = \"Three", "title = \"Seven")).expect("written");
+    watched.until("Seven rows");
+    watched.press("ttt");
+    // The third tab; the fourth option of the table.
+    watched.press("\x1b[<0;18;1M\x1b[<0;18;1m");
+    watched.until("height over time");
+    watched.press("o\x1b[<0;3;6M\x1b[<0;3;6m");
+    watched.until("25 ms, middle first ─");
+    watched.resize(60, 18);
+    watched.until("? help");
+    watched.resize(200, 60);
+    watched.press(":theme\r");
+    let page = folder.path().join("page.html");
+    watched.press("e\x15");
+    watched.press(&format!("{}\r", page.display()));
+    watched.until("wrote /");
+    assert!(std::fs::read_to_string(&page).expect("the page").contains("Seven rows"));
+    watched.press("y");
+    watched.until("copied as CSV");
+    watched.press("q");
+    assert_eq!(watched.ends(), 0);
+}
+
+/// Stopped and continued as a shell does it, the screen is drawn again.
+#[test]
+fn suspending_gives_the_terminal_back_and_continuing_takes_it_again() {
+    let mut watched = Watched::open("paper-5-tire.toml", &[], 100, 30);
+    watched.until("1 of 1 pass");
+    watched.press("\x1a");
+    let start = Instant::now();
+    while watched.screen.lock().expect("the parser lives").screen().alternate_screen() {
+        assert!(start.elapsed() < PATIENCE, "the alternate screen is left");
+        thread::sleep(Duration::from_millis(10));
+    }
+    watched.signal("CONT");
+    watched.until("1 of 1 pass");
+    assert!(watched.screen.lock().expect("the parser lives").screen().alternate_screen());
+    watched.press("q");
+    assert_eq!(watched.ends(), 0);
+}
+
+/// A new plan comes from a few questions and is saved where one says.
+#[test]
+fn a_new_plan_by_questions() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut watched = Watched::start(&[], folder.path(), 100, 30);
+    watched.until("A new plan by a few questions");
+    watched.press("\r");
+    watched.until("title");
+    watched.press("\x15My shelter\r");
+    watched.press("\r\r\r\r\r\r\r");
+    watched.press("\x7f9\r");
+    watched.until("height 1.900 m");
+    watched.until("*not saved*");
+    watched.press("q");
+    watched.until("not saved: s saves");
+    watched.press("s\x15mine.toml\r");
+    watched.until("saved mine.toml");
+    let text = std::fs::read_to_string(folder.path().join("mine.toml")).expect("the plan");
+    assert!(text.starts_with("title = \"My shelter\"\n"), "{text}");
+    watched.press("q");
+    assert_eq!(watched.ends(), 0);
+}
+
+#[test]
+fn a_mistake_in_the_configuration_is_named() {
+    let home = tempfile::tempdir().expect("a folder");
+    let run = |arguments: &[&str]| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_shelter"));
+        command.args(arguments).env("XDG_CONFIG_HOME", home.path()).env("HOME", home.path());
+        command.output().expect("it runs")
+    };
+    let text = String::from_utf8(run(&["config"]).stdout).expect("UTF-8");
+    assert!(text.contains("shelter/config.toml") && text.contains("# theme = \"dark\""), "{text}");
+    std::fs::create_dir_all(home.path().join("shelter")).expect("a folder");
+    std::fs::write(home.path().join("shelter/config.toml"), "theme = \"pink\"\n").expect("written");
+    let size = PtySize { rows: 30, cols: 100, pixel_width: 0, pixel_height: 0 };
+    let pair = native_pty_system().openpty(size).expect("a pty");
+    let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_shelter"));
+    command.args([concat!(env!("CARGO_MANIFEST_DIR"), "/plans/paper-5-tire.toml")]);
+    command.env("XDG_CONFIG_HOME", home.path());
+    let mut child = pair.slave.spawn_command(command).expect("it starts");
+    drop(pair.slave);
+    let mut told = String::new();
+    let _ = pair.master.try_clone_reader().expect("a reader").read_to_string(&mut told);
+    assert_eq!(child.wait().expect("it ends").exit_code(), 2);
+    assert!(told.contains("config.toml: TOML parse error at line 1, column 9"), "{told}");
+}
+
+/// The window is closed while options compute: nobody is left to quit it, and it ends by itself.
+#[test]
+fn a_terminal_that_is_closed_ends_the_program() {
+    let watched = Watched::open("large-50x50.toml", &["--dt", "1e-6"], 100, 30);
+    watched.until("computing");
+    let Watched { mut child, keyboard, master, .. } = watched;
+    // Its reader goes with the last of the terminal's ends.
+    drop((keyboard, master));
+    let id = child.process_id().expect("a process").to_string();
+    std::process::Command::new("kill").args(["-s", "HUP", &id]).status().expect("kill runs");
+    let start = Instant::now();
+    while child.try_wait().expect("a child").is_none() {
+        assert!(start.elapsed() < PATIENCE, "still running");
+        thread::sleep(Duration::from_millis(10));
+    }
+}
