@@ -98,6 +98,18 @@ pub struct Binding {
 }
 
 impl Binding {
+    /// In a word, on a screen.
+    pub fn short_on(&self, screen: Screen) -> &'static str {
+        match (self.action, screen) {
+            (Action::Open, Screen::Plan) => "edit",
+            (Action::Open, Screen::Compare) => "enlarge",
+            (Action::Open, Screen::Flight) => "back",
+            (Action::Right, Screen::Flight) => "on",
+            (Action::Right, Screen::Studies) => "next",
+            _ => self.short,
+        }
+    }
+
     /// Whether a screen knows it.
     pub fn is_on(&self, screen: Screen) -> bool {
         self.on.is_empty() || self.on.contains(&screen)
@@ -133,7 +145,7 @@ pub const BINDINGS: &[Binding] = &[
         "open",
         &["enter"],
         "open",
-        "edit the value; enlarge the option; start the study",
+        "edit the value, enlarge the option, start the study",
         ALL,
     ),
     bind(Action::Left, "left", &["left", "h"], "", "smaller value, study before, back in time", SIDEWAYS),

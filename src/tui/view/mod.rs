@@ -181,7 +181,8 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     let [keys, last] = Layout::horizontal([Constraint::Min(0), Constraint::Length(width as u16)]).areas(area);
     let shown = BINDINGS.iter().filter(|binding| !binding.short.is_empty() && binding.is_on(app.screen));
     let (special, general): (Vec<_>, Vec<_>) = shown.partition(|binding| !binding.on.is_empty());
-    let words = special.into_iter().chain(general).map(|binding| word(binding.action, binding.short));
+    let words =
+        special.into_iter().chain(general).map(|binding| word(binding.action, binding.short_on(app.screen)));
     draw_row(words, frame, keys, places);
     draw_row(end, frame, last, places);
 }
