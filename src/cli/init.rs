@@ -51,6 +51,9 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
             eprintln!("wrote {0}; open it with: shelter {0}", path.display());
             Ok(Status::Pass)
         }
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+            Err(io::Error::other(format!("{} is there already and is not overwritten", path.display())))
+        }
         Err(error) => Err(io::Error::new(error.kind(), format!("{}: {error}", path.display()))),
     }
 }

@@ -1,6 +1,7 @@
 //! Running a long study from the command line: on the threads asked for, with a progress bar, ended by a signal.
 
 use std::io::{self, Write};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -8,6 +9,7 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{Compute, Status};
+use crate::plan::edit;
 use crate::simulation::Failure;
 use crate::study::batch::Progress;
 use crate::study::{Intervals, Shard};
@@ -53,6 +55,13 @@ pub fn failed(failure: &Failure) -> io::Result<Status> {
         return Ok(Status::Interrupted);
     }
     super::load::wrong(&failure.to_string())
+}
+
+/// Writes a file whole, or says which could not be written.
+pub fn save(path: &Path, text: &str) -> io::Result<()> {
+    let named =
+        |error: io::Error| io::Error::new(error.kind(), format!("{}: {}", path.display(), error.kind()));
+    edit::save(path, text).map_err(named)
 }
 
 /// Writes a finished text to standard output.

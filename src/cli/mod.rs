@@ -19,6 +19,7 @@ use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
 use crate::plan::{Accuracy, Method, Plan};
@@ -84,7 +85,7 @@ struct Compute {
     #[arg(long, value_enum)]
     method: Option<MethodArg>,
     /// Exactly this step, never refined
-    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
     dt: Option<f64>,
     /// Worker threads; default: one per core
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -205,6 +206,23 @@ fn positive(text: &str) -> Result<f64, String> {
     if value > 0.0 && value.is_finite() { Ok(value) } else { Err("must be a positive number".to_owned()) }
 }
 
+/// clap takes a command it does not know for a plan, and then stumbles over what follows: says what was meant instead.
+fn misspelt(error: &clap::Error) -> Option<clap::Error> {
+    let first = std::env::args().nth(1)?;
+    let stumbled = matches!(error.kind(), ErrorKind::ArgumentConflict | ErrorKind::UnknownArgument);
+    if !stumbled || first.starts_with('-') || std::path::Path::new(&first).exists() {
+        return None;
+    }
+    let command = Cli::command();
+    let names = || command.get_subcommands().map(clap::Command::get_name);
+    if names().any(|name| name == first) {
+        return None;
+    }
+    let near = names().max_by(|a, b| strsim::jaro(a, &first).total_cmp(&strsim::jaro(b, &first)))?;
+    let words = format!("there is no command and no plan '{first}'; did you mean `shelter {near}`?\n");
+    Some(Cli::command().error(ErrorKind::InvalidSubcommand, words))
+}
+
 /// What a command that ran to its end says to the shell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Status {
@@ -226,7 +244,7 @@ impl From<Status> for ExitCode {
 
 /// Runs the command line.
 pub fn run() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = Cli::try_parse().unwrap_or_else(|error| misspelt(&error).unwrap_or(error).exit());
     let done = match (cli.command, cli.plan) {
         (Some(Command::Check(arguments)), _) => check::run(&arguments, &cli.look),
         (Some(Command::Trace(arguments)), _) => trace::run(&arguments, &cli.look),

@@ -16,7 +16,7 @@ pub struct Arguments {
     /// Plan to study; `-` reads standard input
     plan: PathBuf,
     /// Intervals in ms; default: those of the delay options
-    #[arg(long, value_name = "FROM..TO:STEP", value_parser = long::intervals)]
+    #[arg(long, value_name = "FROM..TO:STEP", value_parser = long::intervals, allow_hyphen_values = true)]
     interval: Option<Intervals>,
     /// This machine's share; `shelter merge` joins the shares
     #[arg(long, value_name = "I/N", value_parser = long::shard)]

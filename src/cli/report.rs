@@ -6,7 +6,6 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{Compute, Look, Status, check, load, long};
-use crate::plan::edit;
 use crate::report;
 use crate::verdict::Verdict;
 
@@ -28,7 +27,8 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         Err(failure) => return long::failed(&failure),
     };
     let (case, results) = (&cases[0], judged.remove(0));
-    edit::save(&arguments.output, &report::html::page(case, &results, &report::html::today()))?;
+    let page = report::html::page(case, &results, &report::html::today());
+    long::save(&arguments.output, &page)?;
     let passed = report::check::verdict(&results, false) == Verdict::Pass;
     Ok(if passed { Status::Pass } else { Status::Fail })
 }

@@ -35,7 +35,7 @@ pub struct DrawArguments {
     #[arg(long, value_name = "N", default_value = "1000", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     samples: u32,
     /// Of the random numbers
-    #[arg(long, value_name = "N", default_value = "1")]
+    #[arg(long, value_name = "N", default_value = "1", allow_negative_numbers = true)]
     seed: u64,
     /// Stop an option once it certainly fails less, or more, often than this [%]
     #[arg(long, value_name = "PERCENT", num_args = 0..=1, default_missing_value = "1", value_parser = super::positive)]

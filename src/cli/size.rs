@@ -116,7 +116,7 @@ fn write(arguments: &Arguments, case: &Case, found: &Combination) -> io::Result<
     }
     let text = edit::write_sizes(&case.plan.text, &found.rope.name, found.tire_mass, found.border_rows)
         .map_err(io::Error::other)?;
-    edit::save(&arguments.plan, &text)?;
+    long::save(&arguments.plan, &text)?;
     eprintln!("written: {}", arguments.plan.display());
     Ok(())
 }

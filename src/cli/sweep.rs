@@ -16,7 +16,7 @@ pub struct Arguments {
     /// Plan to sweep; `-` reads standard input
     plan: PathBuf,
     /// Intervals in ms; where the curve jumps, closer ones are tried as well
-    #[arg(long, value_name = "FROM..TO:STEP", default_value = "0..500:5", value_parser = long::intervals)]
+    #[arg(long, value_name = "FROM..TO:STEP", default_value = "0..500:5", value_parser = long::intervals, allow_hyphen_values = true)]
     interval: Intervals,
     /// Delay option whose order of rows is swept; default: rows in the order listed
     #[arg(long, value_name = "NAME")]

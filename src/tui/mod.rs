@@ -18,7 +18,7 @@ pub mod theme;
 pub mod view;
 
 use std::io::{self, Stdout, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
@@ -192,7 +192,7 @@ impl Session {
     }
 
     /// Writes the plan to a new file, which is then the one shown.
-    fn save_as(&mut self, path: &PathBuf) {
+    fn save_as(&mut self, path: &Path) {
         let written = file::create(path, &self.app.editor.text);
         if written.is_ok() {
             self.file = Some(PlanFile::new(path));

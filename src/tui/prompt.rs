@@ -71,13 +71,11 @@ impl Prompt {
         let mut matcher = Matcher::new(Config::DEFAULT);
         let mut letters = Vec::new();
         let mut score = |words| pattern.score(Utf32Str::new(words, &mut letters), &mut matcher);
-        let mut scored: Vec<((Option<u32>, Option<u32>), &Binding)> = BINDINGS
-            .iter()
-            .map(|binding| ((score(binding.name), score(binding.text)), binding))
-            .filter(|(score, _)| *score != (None, None))
-            .collect();
-        scored.sort_by_key(|(score, _)| std::cmp::Reverse(*score));
-        scored.into_iter().map(|(_, binding)| binding).collect()
+        let scores: Vec<_> =
+            BINDINGS.iter().map(|binding| (score(binding.name), score(binding.text))).collect();
+        let mut found: Vec<usize> = (0..BINDINGS.len()).filter(|&n| scores[n] != (None, None)).collect();
+        found.sort_by_key(|&n| std::cmp::Reverse(scores[n]));
+        found.into_iter().map(|n| &BINDINGS[n]).collect()
     }
 }
 

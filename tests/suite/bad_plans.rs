@@ -130,6 +130,79 @@ const BAD: &[(&str, &str)] = &[
     ("interval_ms = 20", "interval_ms = 20\n[weather]\nrain = true"),
     ("title = \"T\"", "title = 5"),
     ("title = \"T\"", "title = \"T"),
+    ("title = \"T\"", "title = \"T\"\ntitle = \"U\""),
+    ("title = \"T\"", "titel = \"T\""),
+    ("title = \"T\"", "title = \"\\q\""),
+    ("title = \"T\"", "title = T"),
+    ("title = \"T\"", "title = [\"T\"]"),
+    ("title = \"T\"", "\u{0}title = \"T\""),
+    ("[shelter]", "[shelter"),
+    ("[shelter]", "[Shelter]"),
+    ("[shelter]", "[shelter]\n[shelter]"),
+    ("[shelter]", "shelter = 5\n[roof]"),
+    ("rows = 3", "rows = 1_0_"),
+    ("rows = 3", "rows = 0x"),
+    ("rows = 3", "rows = true"),
+    ("rows = 3", "rows = []"),
+    ("rows = 3", "rows = 3\nborder_rows = -1"),
+    ("rows = 3", "rows = 3\nborder_rows = 1e3"),
+    ("rows = 3", "rows = 3\nborder_rows = 5000"),
+    ("columns = 4", "columns = 0"),
+    ("columns = 4", "columns = 4\ncolumns_m = 4"),
+    ("spacing_m = 1.5", "spacing_m = \"1.5\""),
+    ("spacing_m = 1.5", "spacing_m = { row = 0, column = 1.5 }"),
+    ("spacing_m = 1.5", "spacing_m = { row = nan, column = 1.5 }"),
+    ("spacing_m = 1.5", "spacing_m = {}"),
+    ("spacing_m = 1.5", "spacing_m = 1.5\nlinks = [1]"),
+    ("mass_kg = 280", "mass_kg = nan"),
+    ("mass_kg = 280", "mass_kg = 1e300"),
+    ("mass_kg = 280", "mass_kg = 280\nouter_diameter_m = -1"),
+    ("mass_kg = 280", "mass_kg = 280\nouter_diameter_m = nan"),
+    ("mass_kg = 280", "mass_kg = 280\ncolour = \"black\""),
+    ("rope = \"GOST 2688-80 6.2\"", "rope = 6.2"),
+    ("rope = \"GOST 2688-80 6.2\"", "rope = \"\""),
+    ("rope = \"GOST 2688-80 6.2\"", "axial_stiffness_kn = nan\nbreaking_force_kn = 20"),
+    ("rope = \"GOST 2688-80 6.2\"", "axial_stiffness_kn = 1e300\nbreaking_force_kn = 20"),
+    ("rope = \"GOST 2688-80 6.2\"", "axial_stiffness_kn = 1519\nbreaking_force_kn = inf"),
+    ("rope = \"GOST 2688-80 6.2\"", "rope = \"GOST 2688-80 6.2\"\non_overload = \"snap\""),
+    ("rope = \"GOST 2688-80 6.2\"", "rope = \"GOST 2688-80 6.2\"\nslack_percent = 1e9"),
+    ("rope = \"GOST 2688-80 6.2\"", "rope = \"GOST 2688-80 6.2\"\nslack = 2"),
+    ("rope = \"GOST 2688-80 6.2\"", "rope = \"GOST 2688-80 6.2\"\ntermination_percent = 0"),
+    ("friction = 0.5", "friction = inf"),
+    ("friction = 0.5", "mu = 0.5"),
+    ("friction = 0.5", "friction = 0,5"),
+    ("under_row = 1\n", "under_row = -1\n"),
+    ("under_row = 1\n", "under_row = \"1\"\n"),
+    ("under_row = 1\n", "under_tires = []\n"),
+    ("under_row = 1\nlaunch_m_s = 6.0", "holes = [{ x_m = 1 }]"),
+    ("under_row = 1\nlaunch_m_s = 6.0", "holes = [{ x_m = 1, y_m = 1, launch_m_s = -6 }]"),
+    ("under_row = 1\nlaunch_m_s = 6.0", "holes = [{ x_m = 1, y_m = 1, launch_m_s = 6, depth_m = 3 }]"),
+    ("launch_m_s = 6.0\n[[blast_row]]", "launch_m_s = nan\n[[blast_row]]"),
+    ("launch_m_s = 6.0\n[[blast_row]]", "launch_kmh = 20\n[[blast_row]]"),
+    ("launch_m_s = 6.0\n[[blast_row]]", "free_flight_height_m = -1\n[[blast_row]]"),
+    ("flight_height_m = 1.5", "flight_height_m = nan"),
+    ("flight_height_m = 1.5", "flight_height_m = 1.5\ndrift_m = 0"),
+    ("flight_height_m = 1.5", "flight_height_m = 1.5\ndrift_m = -1"),
+    ("cable_safety_factor = 2.0", "cable_safety_factor = 0"),
+    ("cable_safety_factor = 2.0", "cable_safety_factor = \"2\""),
+    ("cable_safety_factor = 2.0\n", ""),
+    ("interval_ms = 20", "interval_ms = nan"),
+    ("interval_ms = 20", "interval_ms = 1e12"),
+    ("interval_ms = 20", "interval_ms = \"20 ms\""),
+    ("interval_ms = 20", ""),
+    ("interval_ms = 20", "interval_ms = 20\norder = \"2, 1\""),
+    ("interval_ms = 20", "interval_ms = 20\norder = [2, 1]"),
+    ("interval_ms = 20", "at_ms = [0, 5, 10]"),
+    ("interval_ms = 20", "at_ms = []"),
+    ("interval_ms = 20", "at_ms = [0, \"5\"]"),
+    ("interval_ms = 20", "interval_ms = 20\n[simulation]\nduration_s = inf"),
+    ("interval_ms = 20", "interval_ms = 20\n[simulation]\nduration_s = 1e9"),
+    ("interval_ms = 20", "interval_ms = 20\n[scatter]\ndetonator = \"fuse\""),
+    ("interval_ms = 20", "interval_ms = 20\n[scatter]\nlaunch_cv_percent = -5"),
+    ("interval_ms = 20", "interval_ms = 20\n[scatter]\nfriction = [0.5, 0.3]"),
+    ("interval_ms = 20", "interval_ms = 20\n[scatter]\nfriction = 0.5"),
+    ("interval_ms = 20", "interval_ms = 20\n[size]\nropes = \"GOST 1\""),
+    ("interval_ms = 20", "interval_ms = 20\n[size]\ntire_mass_kg = [280, -1]"),
 ];
 
 #[test]
@@ -210,6 +283,86 @@ fn what_is_no_plan_at_all_says_so() {
     let deep = "a = ".to_owned() + &"[".repeat(500);
     let texts = ["", "\u{feff}", "\0", "%PDF-1.4", "{\"rows\": 5}", "= = =", deep.as_str()];
     insta::assert_snapshot!(texts.map(first).join("\n"));
+}
+
+/// Command lines that are wrong, in a folder with a good plan and a list of holes.
+const COMMANDS: &[&[&str]] = &[
+    &["chek", "plan.toml"],
+    &["check"],
+    &["check", "none.toml"],
+    &["check", "plan.toml", "none.toml"],
+    &["check", "."],
+    &["check", "plan.toml", "--format", "xml"],
+    &["check", "plan.toml", "--accuracy", "fine"],
+    &["check", "plan.toml", "--method", "euler"],
+    &["check", "plan.toml", "--dt", "0"],
+    &["check", "plan.toml", "--dt", "-1e-3"],
+    &["check", "plan.toml", "--dt", "nan"],
+    &["check", "plan.toml", "--dt", "inf"],
+    &["check", "plan.toml", "--dt", "1ms"],
+    &["check", "plan.toml", "--threads", "0"],
+    &["check", "plan.toml", "--threads", "100000"],
+    &["check", "plan.toml", "--treads", "2"],
+    &["check", "plan.toml", "--color", "blue"],
+    &["trace", "plan.toml", "--option", "none"],
+    &["accuracy", "plan.toml", "--option", "none"],
+    &["sweep", "plan.toml", "--interval", "0..500"],
+    &["sweep", "plan.toml", "--interval", "500..0:5"],
+    &["sweep", "plan.toml", "--interval", "0..500:0"],
+    &["sweep", "plan.toml", "--interval", "0..1e6:1e-6"],
+    &["sweep", "plan.toml", "--interval", "-5..10:1"],
+    &["orders", "plan.toml", "--shard", "3/2"],
+    &["orders", "plan.toml", "--shard", "0/2"],
+    &["orders", "plan.toml", "--shard", "half"],
+    &["scatter", "plan.toml"],
+    &["scatter", "plan.toml", "--samples", "many"],
+    &["scatter", "plan.toml", "--seed", "-1"],
+    &["size", "plan.toml", "--scatter"],
+    &["report", "plan.toml"],
+    &["report", "plan.toml", "-o", "none/page.html"],
+    &["merge"],
+    &["merge", "none.jsonl"],
+    &["merge", "plan.toml"],
+    &["init", "plan.toml"],
+    &["init", "new.toml", "--from", "none.csv"],
+    &["init", "new.toml", "--from", "plan.toml"],
+    &["ropes", "plan.toml"],
+    &["completions", "tcsh"],
+    &["plan.toml", "extra.toml"],
+];
+
+/// Each ends with 2, says what is wrong on standard error, and writes nothing.
+#[test]
+fn every_wrong_command_line_is_explained() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("plan.toml"), GOOD).expect("written");
+    let mut all = String::new();
+    for arguments in COMMANDS {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_shelter"));
+        let output = command.args(*arguments).current_dir(folder.path()).output().expect("it runs");
+        let told = String::from_utf8(output.stderr).expect("UTF-8");
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {told}");
+        assert!(output.stdout.is_empty(), "{arguments:?}");
+        let _ = writeln!(all, "## shelter {}\n{}\n", arguments.join(" "), told.trim_end());
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 1, "nothing is written");
+    insta::assert_snapshot!(all);
+}
+
+/// A plan may be piped, named, or come with line ends and marks of other systems.
+#[test]
+fn odd_files_are_read_or_refused_with_a_reason() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plan.toml");
+    let load = |bytes: &[u8]| {
+        std::fs::write(&path, bytes).expect("written");
+        Plan::load(&path)
+    };
+    assert!(load(GOOD.replace('\n', "\r\n").as_bytes()).is_ok(), "CRLF");
+    assert!(load(format!("\u{feff}{GOOD}").as_bytes()).is_ok(), "a byte order mark");
+    let large = format!("{GOOD}\n#{}", "x".repeat(100 << 20));
+    let told = load(large.as_bytes()).expect_err("100 MB").render(false);
+    assert!(told.contains("MB") || told.contains("large"), "{told}");
 }
 
 #[test]

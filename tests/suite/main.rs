@@ -12,6 +12,7 @@ mod keys;
 mod layers;
 mod long_studies;
 mod mirrors;
+mod oracle;
 mod page;
 mod plans;
 mod properties;

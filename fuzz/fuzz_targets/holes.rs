@@ -1,0 +1,17 @@
+//! Any table is a list of holes that makes a plan, or a list of mistakes.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use shelter::plan::Plan;
+use shelter::plan::import::plan_from_holes;
+
+fuzz_target!(|text: &str| {
+    match plan_from_holes("holes.csv", text) {
+        Ok(plan) => {
+            if let Err(mistakes) = Plan::parse("plan.toml", &plan) {
+                panic!("{}\n{plan}", mistakes.render(false));
+            }
+        }
+        Err(mistakes) => assert!(!mistakes.render(false).is_empty()),
+    }
+});

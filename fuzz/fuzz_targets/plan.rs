@@ -1,0 +1,20 @@
+//! Any text is a plan, or a list of mistakes that can be shown; its values can be listed and replaced.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use shelter::plan::{Plan, fields};
+
+fuzz_target!(|text: &str| {
+    match Plan::parse("plan.toml", text) {
+        Ok(plan) => {
+            for field in fields::fields(&plan.text).iter().take(3) {
+                let changed = fields::set(&plan.text, &field.path, &field.value);
+                assert!(changed.is_ok(), "{field:?}: {changed:?}");
+            }
+        }
+        Err(mistakes) => {
+            assert!(mistakes.iter().next().is_some(), "a refusal says why");
+            assert!(!mistakes.render(false).is_empty());
+        }
+    }
+});
