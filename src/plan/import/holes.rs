@@ -1,10 +1,12 @@
 //! Reading the table: which column is what, and every mistake in it.
 
 use std::collections::HashSet;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 use crate::plan::diagnostic::Mistake;
 use crate::plan::read::nearest;
+use crate::plan::validate::PLACE_M;
+use crate::plan::validate::shot::{LAUNCH_M_S, TIME_MS};
 
 /// One hole of the list.
 #[derive(Clone, Debug, PartialEq)]
@@ -200,15 +202,14 @@ fn read_hole(
             |field: &&str| !["", "na", "nan", "null", "none"].contains(&field.to_lowercase().as_str());
         record.get(n).filter(empty)
     };
-    let mut value = |column: Column, word: &str, least: f64, must: bool| {
+    let mut value = |column: Column, word: &str, range: &RangeInclusive<f64>, must: bool| {
         let found = field(column);
         match found.map(|text| (text, number(text))) {
-            Some((_, Some(number))) if number >= least => Some(number),
+            Some((_, Some(number))) if range.contains(&number) => Some(number),
             Some((text, _)) => {
-                let bound =
-                    if least > f64::NEG_INFINITY { format!(" of at least {least}") } else { String::new() };
                 let message = format!("{word} is `{text}`");
-                mistakes.push(mistake(place.clone(), message, format!("write a number{bound}")));
+                let remedy = format!("write a number from {} to {}", range.start(), range.end());
+                mistakes.push(mistake(place.clone(), message, remedy));
                 None
             }
             None if must => {
@@ -223,11 +224,10 @@ fn read_hole(
             None => None,
         }
     };
-    let any = f64::NEG_INFINITY;
-    let (x_m, y_m) = (value(Column::X, "x", any, true), value(Column::Y, "y", any, true));
-    let fire_ms = value(Column::Fire, "the firing time", 0.0, false);
-    let delay_ms = value(Column::Delay, "the delay", 0.0, false);
-    let launch_m_s = value(Column::Launch, "the launch velocity", 0.0, false);
+    let (x_m, y_m) = (value(Column::X, "x", &PLACE_M, true), value(Column::Y, "y", &PLACE_M, true));
+    let fire_ms = value(Column::Fire, "the firing time", &TIME_MS, false);
+    let delay_ms = value(Column::Delay, "the delay", &TIME_MS, false);
+    let launch_m_s = value(Column::Launch, "the launch velocity", &LAUNCH_M_S, false);
     let text = |column: Column| field(column).map(str::to_owned);
     // Kirra writes Pattern:::Hole.
     let from = text(Column::From).map(|from| from.rsplit(":::").next().unwrap_or_default().to_owned());

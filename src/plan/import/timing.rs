@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::holes::{Holes, ListedHole};
 use crate::plan::diagnostic::Mistake;
+use crate::plan::validate::shot::TIME_MS;
 
 /// Holes that fire together.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,7 +56,13 @@ fn times(holes: &[ListedHole]) -> Result<Option<Vec<f64>>, Vec<Mistake>> {
     let mut times = if absolute { firing_times(holes)? } else { chained_times(holes)? };
     let first = times.iter().copied().fold(f64::INFINITY, f64::min);
     times.iter_mut().for_each(|time| *time -= first);
-    Ok(Some(times))
+    match times.iter().position(|time| !TIME_MS.contains(time)) {
+        None => Ok(Some(times)),
+        Some(late) => {
+            let message = format!("hole {} fires {} ms after the first", holes[late].id, times[late]);
+            Err(vec![wrong(&holes[late], message, "are the delays in milliseconds?")])
+        }
+    }
 }
 
 fn wrong(hole: &ListedHole, message: String, remedy: &str) -> Mistake {
@@ -95,8 +102,7 @@ fn chained_times(holes: &[ListedHole]) -> Result<Vec<f64>, Vec<Mistake>> {
                 Some(_) => {
                     let message = format!("hole {} follows itself by way of others", holes[n].id);
                     mistakes.push(wrong(&holes[n], message, "let the chain of holes begin somewhere"));
-                    chain.clear();
-                    times[n] = Some(0.0);
+                    chain.drain(..).for_each(|hole| times[hole] = Some(0.0));
                     break 0.0;
                 }
                 None => {

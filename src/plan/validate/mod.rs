@@ -1,7 +1,7 @@
 //! From TOML text to a valid [`Plan`]: one small function per section, every mistake noted with its remedy.
 
 mod layout;
-mod shot;
+pub mod shot;
 mod study;
 
 use toml::de::DeTable;
@@ -18,7 +18,7 @@ use crate::ropes;
 pub const MOST_TIRES: usize = 4_000_000;
 
 const MASS_KG: std::ops::RangeInclusive<f64> = 1e-3..=1e7;
-const PLACE_M: std::ops::RangeInclusive<f64> = -1e7..=1e7;
+pub const PLACE_M: std::ops::RangeInclusive<f64> = -1e7..=1e7;
 const PERCENT: std::ops::RangeInclusive<f64> = 1.0..=100.0;
 
 /// Reads a plan from text; `path` names it in messages.

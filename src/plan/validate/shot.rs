@@ -8,8 +8,8 @@ use super::PLACE_M;
 use crate::plan::read::{At, Mistakes, Table, as_number, as_whole, bounded, nearest};
 use crate::plan::{BlastRow, Charge, DelayOption, Hole, Layout, Timing};
 
-const LAUNCH_M_S: std::ops::RangeInclusive<f64> = 0.0..=1e4;
-const TIME_MS: std::ops::RangeInclusive<f64> = 0.0..=1e9;
+pub const LAUNCH_M_S: std::ops::RangeInclusive<f64> = 0.0..=1e4;
+pub const TIME_MS: std::ops::RangeInclusive<f64> = 0.0..=1e9;
 
 pub fn read_blast_rows(
     root: &Table<'_>,
