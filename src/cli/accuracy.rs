@@ -34,7 +34,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     };
     let measured = long::run(&arguments.compute, |progress| measure(&case, option, PATIENCE, progress));
     let study = match measured {
-        Ok(study) => study,
+        Ok(finished) => finished.value,
         Err(failure) => return long::failed(&failure),
     };
     let text = match arguments.format {

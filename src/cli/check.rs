@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::long::Finished;
 use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::report;
 use crate::simulation::Failure;
@@ -85,17 +86,17 @@ pub fn all(cases: &[Case], compute: &Compute) -> Result<Vec<report::check::Resul
         .enumerate()
         .flat_map(|(n, case)| (0..case.shots.len()).map(move |option| (n, option)))
         .collect();
-    let results = long::run(compute, |progress| {
+    let Finished { value: results, .. } = long::run(compute, |progress| {
         each(&jobs, progress, |&(n, option)| {
             let effort = compute.effort(&cases[n].plan);
             // An option without a result is no reason for the others to have none, unless all are to end.
             let checked = guarded(|| check(&cases[n], option, &effort, &mut |_| progress.flow()));
-            if progress.stopped() { Err(Failure::Stopped { at: 0.0 }) } else { Ok(checked) }
+            if progress.flow().is_break() { Err(Failure::Stopped { at: 0.0 }) } else { Ok(checked) }
         })
     })?;
     let mut judged: Vec<report::check::Results> = cases.iter().map(|_| Vec::new()).collect();
     for ((n, _), checked) in jobs.into_iter().zip(results) {
-        judged[n].push(checked);
+        judged[n].push(checked.unwrap_or_else(|| Err("not computed: the time was up".to_owned())));
     }
     Ok(judged)
 }

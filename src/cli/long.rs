@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -17,11 +17,24 @@ use crate::study::{Intervals, Shard};
 /// How often the bar is drawn and signals are looked for.
 const LOOK: Duration = Duration::from_millis(50);
 
+/// Studies that will take longer say so beforehand.
+const LONG: Duration = Duration::from_secs(60);
+/// How long one is watched before that is told.
+const WATCHED: Duration = Duration::from_secs(1);
+
+/// What a study came to.
+pub struct Finished<T> {
+    /// Its result.
+    pub value: T,
+    /// Whether the time did not suffice for all of it.
+    pub partial: bool,
+}
+
 /// Runs `work`; the bar shows only where standard error is a terminal.
 pub fn run<T: Send>(
     compute: &Compute,
     work: impl FnOnce(&Progress) -> Result<T, Failure> + Send,
-) -> Result<T, Failure> {
+) -> Result<Finished<T>, Failure> {
     let (progress, signal) = (Progress::default(), Arc::new(AtomicBool::new(false)));
     #[cfg(unix)]
     for number in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM, signal_hook::consts::SIGHUP] {
@@ -31,6 +44,7 @@ pub fn run<T: Send>(
     let template = "{bar:30} {pos} of {len} shots, {eta} left";
     let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
     let bar = ProgressBar::new(0).with_style(style);
+    let (begun, mut told) = (Instant::now(), false);
     let result = std::thread::scope(|scope| {
         let study = scope.spawn(|| compute.on_threads(|| work(&progress)));
         while !study.is_finished() {
@@ -41,17 +55,34 @@ pub fn run<T: Send>(
             if signal.load(Ordering::Relaxed) {
                 progress.stop();
             }
+            if compute.timeout.is_some_and(|timeout| begun.elapsed().as_secs_f64() > timeout) {
+                progress.expire();
+            }
+            let expected = begun.elapsed().mul_f64(total as f64 / done.max(1) as f64);
+            if !told && done > 0 && begun.elapsed() > WATCHED && expected > LONG {
+                told = true;
+                let minutes = (expected.as_secs_f64() / 60.0).ceil();
+                bar.suspend(|| {
+                    eprintln!("about {minutes} min; --timeout SECONDS ends it with what is computed by then");
+                });
+            }
         }
         study.join()
     });
     bar.finish_and_clear();
-    result.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    let value = result.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+    let partial = progress.expired();
+    if partial {
+        let (done, total) = progress.counts();
+        eprintln!("the time was up after {done} of {total} shots; what follows is partial");
+    }
+    Ok(Finished { value, partial })
 }
 
 /// What a study without a result says to the shell.
 pub fn failed(failure: &Failure) -> io::Result<Status> {
     if matches!(failure, Failure::Stopped { .. }) {
-        eprintln!("interrupted");
+        eprintln!("interrupted before there was a result");
         return Ok(Status::Interrupted);
     }
     super::load::wrong(&failure.to_string())

@@ -9,7 +9,7 @@ use super::{FormatArg, Look, Status, load, long};
 use crate::plan::Plan;
 use crate::report;
 use crate::study::merge::{Findings, Head, Question, SCHEMA, merge};
-use crate::study::orders::{Orders, is_complete};
+use crate::study::orders::Orders;
 use crate::study::scatter::swaps;
 use crate::study::{Case, Effort, Shard};
 use crate::verdict::Verdict;
@@ -40,7 +40,8 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         Ok(plan) => Case::new(plan),
         Err(mistakes) => return load::wrong(&mistakes.to_string()),
     };
-    let answer = Answer { case: &case, question: head.question, effort: head.effort, findings };
+    let Head { question, effort, .. } = head;
+    let answer = Answer { case: &case, question, effort, findings, partial: false };
     print(answer, None, arguments.format, look)
 }
 
@@ -50,6 +51,8 @@ pub struct Answer<'a> {
     pub question: Question,
     pub effort: Effort,
     pub findings: Findings,
+    /// Whether the time did not suffice for all.
+    pub partial: bool,
 }
 
 /// Prints all that was found, or this machine's share of it.
@@ -57,7 +60,7 @@ pub fn print(answer: Answer<'_>, shard: Option<Shard>, format: FormatArg, look: 
     if let Some(shard) = shard {
         return write_share(answer, shard);
     }
-    let Answer { case, question, findings, .. } = answer;
+    let Answer { case, question, findings, partial, .. } = answer;
     let style = look.style(io::stdout().is_terminal());
     let (text, all_pass) = match (findings, question) {
         (Findings::Scatter(samples), Question::Scatter { spec, draw }) => {
@@ -71,8 +74,8 @@ pub fn print(answer: Answer<'_>, shard: Option<Shard>, format: FormatArg, look: 
             };
             (text, samples.iter().all(|sample| sample.envelope.verdict == Verdict::Pass))
         }
-        (Findings::Orders(tried), _) => {
-            let orders = Orders::new(case, tried, is_complete(case));
+        (Findings::Orders(tried), Question::Orders { intervals_s }) => {
+            let orders = Orders::new(case, tried, intervals_s.len());
             let text = match format {
                 FormatArg::Text => report::orders::text(case, &orders, style),
                 FormatArg::Json => report::json(&report::orders::Document::new(case, &orders)),
@@ -82,16 +85,16 @@ pub fn print(answer: Answer<'_>, shard: Option<Shard>, format: FormatArg, look: 
             };
             (text, orders.passing() == orders.ranked.len())
         }
-        (Findings::Scatter(_), Question::Orders { .. }) => {
+        (Findings::Scatter(_), Question::Orders { .. }) | (Findings::Orders(_), Question::Scatter { .. }) => {
             return load::wrong("the shares do not fit together");
         }
     };
     long::print(&text)?;
-    Ok(if all_pass { Status::Pass } else { Status::Fail })
+    Ok(if all_pass && !partial { Status::Pass } else { Status::Fail })
 }
 
 fn write_share(answer: Answer<'_>, shard: Shard) -> io::Result<Status> {
-    let Answer { case, question, effort, findings } = answer;
+    let Answer { case, question, effort, findings, .. } = answer;
     let head = Head {
         schema: SCHEMA.to_owned(),
         version: env!("CARGO_PKG_VERSION").to_owned(),

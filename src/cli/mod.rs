@@ -90,6 +90,9 @@ struct Compute {
     /// Worker threads; default: one per core
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    /// End after this time with what is computed by then
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    timeout: Option<f64>,
 }
 
 impl Compute {

@@ -6,9 +6,10 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::merge::{self, Answer};
+use super::long::Finished;
 use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::study::merge::{Findings, Question};
-use crate::study::orders::{MOST_ROWS, is_complete, orders};
+use crate::study::orders::{MOST_ROWS, count, is_complete, orders};
 use crate::study::{Intervals, Shard};
 
 #[derive(Args)]
@@ -19,7 +20,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FROM..TO:STEP", value_parser = long::intervals, allow_hyphen_values = true)]
     interval: Option<Intervals>,
     /// This machine's share; `shelter merge` joins the shares
-    #[arg(long, value_name = "I/N", value_parser = long::shard)]
+    #[arg(long, value_name = "I/N", value_parser = long::shard, conflicts_with = "timeout")]
     shard: Option<Shard>,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
@@ -27,6 +28,9 @@ pub struct Arguments {
     #[command(flatten)]
     compute: Compute,
 }
+
+/// Orders and intervals together, some 200 bytes each.
+const MOST_ORDERS: usize = 5_000_000;
 
 pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     let Some(case) = load::cases([&arguments.plan], look).and_then(|mut cases| cases.pop()) else {
@@ -41,14 +45,18 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
             "orders of more than {MOST_ROWS} rows are searched, not shared: leave out --shard"
         ));
     }
+    if is_complete(&case) && count(&case, intervals_s.len()) > MOST_ORDERS {
+        let words = format!("more than {MOST_ORDERS} orders and intervals do not fit into memory: take fewer intervals");
+        return load::wrong(&words);
+    }
     let (effort, shard) = (arguments.compute.effort(&case.plan), arguments.shard.unwrap_or(Shard::WHOLE));
     let tried =
         long::run(&arguments.compute, |progress| orders(&case, &intervals_s, shard, &effort, progress));
     match tried {
         Err(failure) => long::failed(&failure),
-        Ok(tried) => {
+        Ok(Finished { value: tried, partial }) => {
             let question = Question::Orders { intervals_s };
-            let answer = Answer { case: &case, question, effort, findings: Findings::Orders(tried) };
+            let answer = Answer { case: &case, question, effort, findings: Findings::Orders(tried), partial };
             merge::print(answer, arguments.shard, arguments.format, look)
         }
     }

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::merge::{self, Answer};
+use super::long::Finished;
 use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::report;
 use crate::study::Shard;
@@ -19,7 +20,7 @@ pub struct Arguments {
     #[command(flatten)]
     draw: DrawArguments,
     /// This machine's share; `shelter merge` joins the shares
-    #[arg(long, value_name = "I/N", value_parser = long::shard, conflicts_with = "until_certain")]
+    #[arg(long, value_name = "I/N", value_parser = long::shard, conflicts_with_all = ["until_certain", "timeout"])]
     shard: Option<Shard>,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
@@ -55,6 +56,9 @@ impl DrawArguments {
 /// What a plan without a section [scatter] is told.
 pub const NO_SCATTER: &str = "the plan does not say what scatters: add a section such as\n\n[scatter]\ndetonator = \"pyrotechnic\"\nlaunch_cv_percent = 10";
 
+/// Samples of all options together, some 100 bytes each.
+const MOST_SAMPLES: usize = 20_000_000;
+
 /// A swap of rows is worth a warning from this probability on.
 pub const SWAP: f64 = 1e-4;
 
@@ -67,14 +71,18 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         eprintln!("warning: {}", report::scatter::warning(&case, &swap));
     }
     let draw = arguments.draw.draw();
+    if draw.samples.saturating_mul(case.shots.len()) > MOST_SAMPLES {
+        let words = format!("more than {MOST_SAMPLES} samples of all options do not fit into memory: take fewer");
+        return load::wrong(&words);
+    }
     let (effort, shard) = (arguments.compute.effort(&case.plan), arguments.shard.unwrap_or(Shard::WHOLE));
     let samples =
         long::run(&arguments.compute, |progress| scatter(&case, &spec, &draw, shard, &effort, progress));
     match samples {
         Err(failure) => long::failed(&failure),
-        Ok(samples) => {
+        Ok(Finished { value: samples, partial }) => {
             let question = Question::Scatter { spec, draw };
-            let answer = Answer { case: &case, question, effort, findings: Findings::Scatter(samples) };
+            let answer = Answer { case: &case, question, effort, findings: Findings::Scatter(samples), partial };
             merge::print(answer, arguments.shard, arguments.format, look)
         }
     }

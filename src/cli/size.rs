@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::scatter::{DrawArguments, NO_SCATTER};
+use super::long::Finished;
 use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::plan::{Layout, edit};
 use crate::report;
@@ -55,8 +56,8 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     };
     let effort = arguments.compute.effort(&case.plan);
     let sizing = long::run(&arguments.compute, |progress| size(&case.plan, &demand, &effort, progress));
-    let sizing = match sizing {
-        Ok(sizing) => sizing,
+    let Finished { value: sizing, partial } = match sizing {
+        Ok(finished) => finished,
         Err(failure) => return long::failed(&failure),
     };
     long::print(&match arguments.format {
@@ -65,13 +66,13 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         FormatArg::Csv => report::csv(sizing.combinations.iter().map(report::size::Line::new)),
     })?;
     match sizing.found() {
-        Some(found) => {
+        Some(found) if !partial => {
             if arguments.write {
                 write(arguments, &case, found)?;
             }
             Ok(Status::Pass)
         }
-        None => Ok(Status::Fail),
+        _ => Ok(Status::Fail),
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::long::Finished;
 use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::plan::Timing;
 use crate::report;
@@ -46,8 +47,8 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     let swept = long::run(&arguments.compute, |progress| {
         sweep(&case, &order, &arguments.interval, &effort, progress)
     });
-    let swept = match swept {
-        Ok(swept) => swept,
+    let Finished { value: swept, partial } = match swept {
+        Ok(finished) => finished,
         Err(failure) => return long::failed(&failure),
     };
     long::print(&match arguments.format {
@@ -56,5 +57,5 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         FormatArg::Csv => report::csv(swept.points.iter().map(report::sweep::Row::new)),
     })?;
     let all = swept.windows().len() == 1 && swept.windows()[0] == swept.range();
-    Ok(if all { Status::Pass } else { Status::Fail })
+    Ok(if all && !partial { Status::Pass } else { Status::Fail })
 }

@@ -84,10 +84,13 @@ pub fn measure(
         }
         let mut last = Duration::ZERO;
         for step in steps.into_iter().take_while(|&step| step > reference_step) {
-            if 2 * last > patience {
+            if 2 * last > patience || progress.expired() {
                 break;
             }
-            let result = run(case, shot, method, step, progress)?;
+            let result = match run(case, shot, method, step, progress) {
+                Err(Failure::Stopped { .. }) if progress.expired() => break,
+                result => result?,
+            };
             progress.advance();
             last = result.as_ref().map_or(last, |(_, wall)| *wall);
             let result = result.map(|(outcome, wall)| compared(&outcome, wall, reference.as_ref()));

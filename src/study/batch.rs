@@ -17,6 +17,7 @@ use crate::verdict::{Estimate, Limits, Verdict};
 #[derive(Debug, Default)]
 pub struct Progress {
     stop: AtomicBool,
+    expired: AtomicBool,
     done: AtomicUsize,
     total: AtomicUsize,
 }
@@ -30,6 +31,16 @@ impl Progress {
     /// Whether it was told to end.
     pub fn stopped(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
+    }
+
+    /// The time is up: what is judged by now is all there will be.
+    pub fn expire(&self) {
+        self.expired.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether the time was up.
+    pub fn expired(&self) -> bool {
+        self.expired.load(Ordering::Relaxed)
     }
 
     /// Shots judged, and how many there will be as far as is known.
@@ -49,7 +60,7 @@ impl Progress {
 
     /// Continue, unless told to end: for watchers.
     pub fn flow(&self) -> ControlFlow<()> {
-        if self.stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if self.stopped() || self.expired() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
 
@@ -85,20 +96,24 @@ impl Envelope {
     }
 }
 
-/// Does `work` for every job, in parallel; results in the order of jobs, whatever the number of threads.
+/// Does `work` for every job, in parallel; results in the order of jobs, whatever the number of threads. Only jobs that the
+/// time did not suffice for have none.
 pub fn each<J: Sync, T: Send>(
     jobs: &[J],
     progress: &Progress,
     work: impl Fn(&J) -> Result<T, Failure> + Sync,
-) -> Result<Vec<T>, Failure> {
+) -> Result<Vec<Option<T>>, Failure> {
     progress.expect(jobs.len());
     let one = |job: &J| {
-        if progress.stopped() {
-            return Err(Failure::Stopped { at: 0.0 });
+        if progress.flow().is_break() {
+            return if progress.stopped() { Err(Failure::Stopped { at: 0.0 }) } else { Ok(None) };
         }
         let result = work(job);
         progress.advance();
-        result
+        match result {
+            Err(Failure::Stopped { .. }) if !progress.stopped() => Ok(None),
+            result => result.map(Some),
+        }
     };
     let results: Vec<_> = jobs.par_iter().map(one).collect();
     results.into_iter().collect()
@@ -116,13 +131,13 @@ pub fn guarded<T, E: ToString>(work: impl FnOnce() -> Result<T, E>) -> Result<T,
     }
 }
 
-/// Judges every shot, refined until sure.
+/// Judges every shot, refined until sure; those that the time did not suffice for have no result.
 pub fn judge(
     case: &Case,
     shots: &[Shot],
     effort: &Effort,
     progress: &Progress,
-) -> Result<Vec<Envelope>, Failure> {
+) -> Result<Vec<Option<Envelope>>, Failure> {
     each(shots, progress, |shot| {
         check_shot(case, shot, effort, &mut |_| progress.flow()).map(|checked| Envelope::of(&checked))
     })

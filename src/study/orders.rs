@@ -45,8 +45,9 @@ pub struct Orders {
 }
 
 impl Orders {
-    /// Ranks what was tried, by one machine or many.
-    pub fn new(case: &Case, mut tried: Vec<Tried>, complete: bool) -> Self {
+    /// Ranks what was tried at so many intervals, by one machine or many.
+    pub fn new(case: &Case, mut tried: Vec<Tried>, intervals: usize) -> Self {
+        let complete = is_complete(case) && tried.len() == count(case, intervals);
         let share = |tried: &Tried| tried.envelope.use_of_limits(&case.limits);
         tried.sort_by(|a, b| share(b).total_cmp(&share(a)).then(a.number.cmp(&b.number)));
         Self { ranked: tried, complete }
@@ -56,6 +57,11 @@ impl Orders {
     pub fn passing(&self) -> usize {
         self.ranked.iter().filter(|tried| tried.envelope.verdict == Verdict::Pass).count()
     }
+}
+
+/// How many orders there are at so many intervals.
+pub fn count(case: &Case, intervals: usize) -> usize {
+    (1..=case.plan.blast_rows.len()).product::<usize>().saturating_mul(intervals)
 }
 
 /// Whether all orders of a plan are tried.
@@ -92,13 +98,10 @@ fn judge_orders(
 ) -> Result<Vec<Tried>, Failure> {
     let shots: Vec<Shot> = jobs.iter().map(|(_, (order, interval))| case.shot(order, *interval)).collect();
     let envelopes = judge(case, &shots, effort, progress)?;
-    let tried = |((number, (order, interval)), envelope): (Job, Envelope)| Tried {
-        number,
-        order,
-        interval,
-        envelope,
+    let tried = |((number, (order, interval)), envelope): (Job, Option<Envelope>)| {
+        envelope.map(|envelope| Tried { number, order, interval, envelope })
     };
-    Ok(jobs.into_iter().zip(envelopes).map(tried).collect())
+    Ok(jobs.into_iter().zip(envelopes).filter_map(tried).collect())
 }
 
 fn search(

@@ -62,6 +62,7 @@ pub fn scatter(
         let relative = |of: Estimate| if of.value > 0.0 { of.error / of.value * coarser } else { 0.0 };
         Ok([relative(checked.height), relative(checked.force), relative(checked.drift)])
     })?;
+    let Some(errors) = errors.into_iter().collect::<Option<Vec<_>>>() else { return Ok(Vec::new()) };
     let judge_one = |&(option, number): &(usize, usize)| {
         let shot = drawn(&case.shots[option], spec, draw.seed, option, number);
         let envelope = judge_sample(case, &shot, &errors[option], effort, progress)?;
@@ -70,16 +71,16 @@ pub fn scatter(
     if draw.certain_at.is_none() {
         let all = itertools::iproduct!(options, 0..draw.samples);
         let jobs: Vec<_> = all.filter(|&(_, number)| shard.has(number)).collect();
-        return each(&jobs, progress, judge_one);
+        return Ok(each(&jobs, progress, judge_one)?.into_iter().flatten().collect());
     }
     let mut all = Vec::new();
     for option in options {
         let mut samples: Vec<Sample> = Vec::new();
-        while samples.len() < draw.samples && !is_certain(&samples, draw) {
+        while samples.len() < draw.samples && !is_certain(&samples, draw) && !progress.expired() {
             let from = samples.len();
             let jobs: Vec<_> =
                 (from..(from + LOOK_EVERY).min(draw.samples)).map(|number| (option, number)).collect();
-            samples.extend(each(&jobs, progress, judge_one)?);
+            samples.extend(each(&jobs, progress, judge_one)?.into_iter().flatten());
         }
         all.extend(samples);
     }

@@ -94,7 +94,7 @@ impl Sizing {
     }
 }
 
-/// Tries the combinations that the plan allows.
+/// Tries the combinations that the plan allows, as far as the time suffices.
 pub fn size(plan: &Plan, demand: &Demand, effort: &Effort, progress: &Progress) -> Result<Sizing, Failure> {
     let family = |rope: &&Rope| plan.size.family.as_ref().is_none_or(|family| *family == rope.family);
     let by_stiffness = catalogue()
@@ -118,8 +118,11 @@ pub fn size(plan: &Plan, demand: &Demand, effort: &Effort, progress: &Progress) 
         for rope in ropes {
             let case = Case::new(plan.with(rope, tire_mass, border_rows));
             let (tires, total_mass) = (case.scene().mass.len(), total_mass(&case, rope));
-            let trial =
-                if held { Some(try_out(&case, demand, effort, &mut likeliest, progress)?) } else { None };
+            let trial = if held && !progress.expired() {
+                try_out(&case, demand, effort, &mut likeliest, progress)?
+            } else {
+                None
+            };
             held = trial.is_some_and(|trial| trial.holds);
             combinations.push(Combination { rope, tire_mass, border_rows, tires, total_mass, trial });
         }
@@ -143,13 +146,13 @@ fn try_out(
     effort: &Effort,
     likeliest: &mut usize,
     progress: &Progress,
-) -> Result<Trial, Failure> {
+) -> Result<Option<Trial>, Failure> {
     let shots = match demand {
         Demand::Options => case.shots.clone(),
         Demand::AnyOrder(intervals) => all_orders(case, intervals),
         Demand::Samples(spec, draw) => {
             let samples = scatter(case, spec, draw, Shard::WHOLE, effort, progress)?;
-            return Ok(most_hold(case, &samples));
+            return Ok((!progress.expired()).then(|| most_hold(case, &samples)));
         }
     };
     let mut order: Vec<usize> = (0..shots.len()).collect();
@@ -160,6 +163,7 @@ fn try_out(
     for chunk in order.chunks(AT_ONCE) {
         let part: Vec<Shot> = chunk.iter().map(|&n| shots[n].clone()).collect();
         let envelopes = judge(case, &part, effort, progress)?;
+        let Some(envelopes) = envelopes.into_iter().collect::<Option<Vec<_>>>() else { return Ok(None) };
         let failed = envelopes.iter().position(|envelope| envelope.verdict != Verdict::Pass);
         judged.extend(envelopes);
         if let Some(failed) = failed {
@@ -167,7 +171,7 @@ fn try_out(
             break;
         }
     }
-    Ok(trial(case, &judged, judged.iter().all(|envelope| envelope.verdict == Verdict::Pass)))
+    Ok(Some(trial(case, &judged, judged.iter().all(|envelope| envelope.verdict == Verdict::Pass))))
 }
 
 fn all_orders(case: &Case, intervals: &[f64]) -> Vec<Shot> {

@@ -40,8 +40,9 @@ pub fn sweep(
     let judged = |intervals: Vec<f64>| -> Result<Vec<Point>, Failure> {
         let shots: Vec<Shot> = intervals.iter().map(|&interval| case.shot(order, interval)).collect();
         let envelopes = judge(case, &shots, effort, progress)?;
-        let point = |(interval, envelope)| Point { interval, envelope };
-        Ok(intervals.into_iter().zip(envelopes).map(point).collect())
+        let point = |(interval, envelope): (f64, Option<_>)| Some(Point { interval, envelope: envelope? });
+        // Where the time did not suffice, only up to the first interval without a result: windows have no gaps.
+        Ok(intervals.into_iter().zip(envelopes).map_while(point).collect())
     };
     let mut points = judged(intervals.values())?;
     for _ in 0..HALVINGS {

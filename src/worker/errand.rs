@@ -10,7 +10,7 @@ use crate::simulation::Failure;
 use crate::study::accuracy;
 use crate::study::batch::{Progress, guarded};
 use crate::study::flight::{Flight, record};
-use crate::study::orders::{Orders, is_complete, orders};
+use crate::study::orders::{Orders, orders};
 use crate::study::scatter::{Draw, Sample, scatter};
 use crate::study::size::{Demand, Sizing, size};
 use crate::study::sweep::{Sweep, sweep};
@@ -146,7 +146,7 @@ fn study(kind: Kind, case: &Case, option: usize, effort: &Effort, progress: &Pro
                 return Err("no delay option has an interval".to_owned());
             }
             let tried = orders(case, &intervals, Shard::WHOLE, effort, progress).map_err(said)?;
-            Ok(Found::Orders(Orders::new(case, tried, is_complete(case))))
+            Ok(Found::Orders(Orders::new(case, tried, intervals.len())))
         }
         Kind::Scatter => {
             let spec: ScatterSpec = case.plan.scatter.ok_or("the plan has no section [scatter]")?;

@@ -175,3 +175,50 @@ fn an_interrupt_ends_a_command_with_130() {
         assert!(output.stdout.is_empty());
     }
 }
+
+/// What is computed by then is told, with the status of what is not sure; shares, which must be whole, refuse it.
+#[test]
+fn a_timeout_ends_with_what_is_there() {
+    let plan = concat!(env!("CARGO_MANIFEST_DIR"), "/plans/large-50x50.toml");
+    let many: &[&[&str]] = &[
+        &["check", plan, "--dt", "2e-7"],
+        &["sweep", plan, "--dt", "2e-5"],
+        &["orders", plan, "--dt", "2e-5"],
+        &["size", plan],
+    ];
+    for arguments in many {
+        let begun = std::time::Instant::now();
+        let output = shelter(&[*arguments, &["--timeout", "0.3", "--threads", "1"]].concat());
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(told.contains("the time was up"), "{arguments:?}: {told}");
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}");
+        assert!(begun.elapsed() < std::time::Duration::from_secs(30), "{arguments:?}");
+    }
+    let check = shelter(&["check", plan, "--dt", "2e-7", "--timeout", "0.3"]);
+    assert!(String::from_utf8_lossy(&check.stdout).contains("not computed: the time was up"));
+    let share = shelter(&["orders", plan, "--shard", "1/2", "--timeout", "1"]);
+    assert_eq!(share.status.code(), Some(2));
+}
+
+#[test]
+fn studies_that_do_not_fit_into_memory_are_refused_beforehand() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let plan = folder.path().join("plan.toml");
+    let text = include_str!("../../plans/amur-three-rows.toml").replace("rows = 5 ", "rows = 7 ");
+    let more: String = (4..=7)
+        .map(|row| format!("[[blast_row]]\nname = \"{row}\"\nunder_row = {row}\nlaunch_m_s = 6.0\n"))
+        .collect();
+    let text = text.replacen("[limits]", &format!("{more}[limits]"), 1);
+    let (head, _) = text.split_once("[[delay]]").expect("an option");
+    let scatter = "[scatter]\ndetonator = \"electronic\"\n";
+    std::fs::write(&plan, format!("{head}[[delay]]\nname = \"a\"\ninterval_ms = 9\n{scatter}")).expect("written");
+    let plan = plan.to_str().expect("UTF-8");
+    for arguments in
+        [&["scatter", plan, "--samples", "100000000"][..], &["orders", plan, "--interval", "0..1000:1"]]
+    {
+        let output = shelter(arguments);
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        assert!(told.contains("do not fit into memory"), "{told}");
+    }
+}

@@ -75,7 +75,7 @@ fn all_orders_are_tried_and_ranked() {
     let intervals = [0.02, 0.045];
     let effort = Effort::of(&case.plan);
     let tried = orders(&case, &intervals, Shard::WHOLE, &effort, &Progress::default()).expect("a result");
-    let ranked = Orders::new(&case, tried, true).ranked;
+    let ranked = Orders::new(&case, tried, intervals.len()).ranked;
     let share = |envelope: &Envelope| envelope.use_of_limits(&case.limits);
     let all = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     let mut brute: Vec<f64> = intervals
