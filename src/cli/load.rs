@@ -40,7 +40,8 @@ pub fn open(plan: &Path, compute: &Compute, look: &Look) -> io::Result<Status> {
         return super::check::print(vec![case], compute, look, &super::check::Output::default());
     }
     needs_keyboard()?;
-    let file = (plan.as_os_str() != "-").then_some(plan);
+    // Standard input and pipes are read once; only a file can be watched and written.
+    let file = plan.is_file().then_some(plan);
     if let Some(file) = file {
         config::remember(file);
     }

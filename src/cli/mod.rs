@@ -71,6 +71,8 @@ enum Command {
     Completions(packaging::Completions),
     /// The manual page
     Man,
+    /// The keys of a plan as a JSON Schema, for editors
+    Schema,
     /// The default configuration of the terminal, commented
     Config,
 }
@@ -262,6 +264,7 @@ pub fn run() -> ExitCode {
         (Some(Command::Init(arguments)), _) => init::run(&arguments, &cli.look),
         (Some(Command::Completions(arguments)), _) => packaging::completions(&arguments),
         (Some(Command::Man), _) => packaging::man(),
+        (Some(Command::Schema), _) => packaging::schema(),
         (Some(Command::Config), _) => packaging::config(),
         (None, Some(plan)) => load::open(&plan, &cli.compute, &cli.look),
         (None, None) => load::start(&cli.compute, &cli.look),

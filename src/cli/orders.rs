@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::merge::{self, Answer};
 use super::long::Finished;
+use super::merge::{self, Answer};
 use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::study::merge::{Findings, Question};
 use crate::study::orders::{MOST_ROWS, count, is_complete, orders};
@@ -46,7 +46,9 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         ));
     }
     if is_complete(&case) && count(&case, intervals_s.len()) > MOST_ORDERS {
-        let words = format!("more than {MOST_ORDERS} orders and intervals do not fit into memory: take fewer intervals");
+        let words = format!(
+            "more than {MOST_ORDERS} orders and intervals do not fit into memory: take fewer intervals"
+        );
         return load::wrong(&words);
     }
     let (effort, shard) = (arguments.compute.effort(&case.plan), arguments.shard.unwrap_or(Shard::WHOLE));

@@ -1,4 +1,4 @@
-//! `shelter completions`, `shelter man` and `shelter config`: texts about the program itself.
+//! `shelter completions`, `shelter man`, `shelter schema` and `shelter config`: texts about the program itself.
 
 use std::io::{self, Write};
 
@@ -29,5 +29,10 @@ pub fn man() -> io::Result<Status> {
 
 pub fn config() -> io::Result<Status> {
     io::stdout().write_all(crate::tui::config::default_text().as_bytes())?;
+    Ok(Status::Pass)
+}
+
+pub fn schema() -> io::Result<Status> {
+    io::stdout().write_all(crate::report::json(&crate::plan::schema::schema()).as_bytes())?;
     Ok(Status::Pass)
 }

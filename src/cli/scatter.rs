@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::merge::{self, Answer};
 use super::long::Finished;
+use super::merge::{self, Answer};
 use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::report;
 use crate::study::Shard;
@@ -72,7 +72,8 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     }
     let draw = arguments.draw.draw();
     if draw.samples.saturating_mul(case.shots.len()) > MOST_SAMPLES {
-        let words = format!("more than {MOST_SAMPLES} samples of all options do not fit into memory: take fewer");
+        let words =
+            format!("more than {MOST_SAMPLES} samples of all options do not fit into memory: take fewer");
         return load::wrong(&words);
     }
     let (effort, shard) = (arguments.compute.effort(&case.plan), arguments.shard.unwrap_or(Shard::WHOLE));
@@ -82,7 +83,8 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         Err(failure) => long::failed(&failure),
         Ok(Finished { value: samples, partial }) => {
             let question = Question::Scatter { spec, draw };
-            let answer = Answer { case: &case, question, effort, findings: Findings::Scatter(samples), partial };
+            let answer =
+                Answer { case: &case, question, effort, findings: Findings::Scatter(samples), partial };
             merge::print(answer, arguments.shard, arguments.format, look)
         }
     }

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::scatter::{DrawArguments, NO_SCATTER};
 use super::long::Finished;
+use super::scatter::{DrawArguments, NO_SCATTER};
 use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::plan::{Layout, edit};
 use crate::report;

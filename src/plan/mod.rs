@@ -9,6 +9,7 @@ pub mod edit;
 pub mod fields;
 pub mod import;
 mod read;
+pub mod schema;
 pub mod starter;
 mod validate;
 

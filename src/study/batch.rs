@@ -142,3 +142,18 @@ pub fn judge(
         check_shot(case, shot, effort, &mut |_| progress.flow()).map(|checked| Envelope::of(&checked))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_told_and_the_others_go_on() {
+        let jobs = [1, 2, 3];
+        let work = |&job: &i32| {
+            Ok(guarded(|| if job == 2 { panic!("job {job}") } else { Ok::<_, Failure>(10 * job) }))
+        };
+        let results = each(&jobs, &Progress::default(), work).expect("nobody stopped it");
+        assert_eq!(results, [Some(Ok(10)), Some(Err("internal error: job 2".to_owned())), Some(Ok(30))]);
+    }
+}

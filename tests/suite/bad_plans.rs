@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use shelter::plan::Plan;
 
-const GOOD: &str = r#"title = "T"
+pub const GOOD: &str = r#"title = "T"
 [shelter]
 layout = "grid"
 rows = 3
@@ -33,7 +33,7 @@ interval_ms = 20
 "#;
 
 /// What is replaced in the good plan, and by what.
-const BAD: &[(&str, &str)] = &[
+pub const BAD: &[(&str, &str)] = &[
     ("rows = 3", "rows = 0"),
     ("rows = 3", "rows = -3"),
     ("rows = 3", "rows = 1000000000"),

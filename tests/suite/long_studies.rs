@@ -211,7 +211,8 @@ fn studies_that_do_not_fit_into_memory_are_refused_beforehand() {
     let text = text.replacen("[limits]", &format!("{more}[limits]"), 1);
     let (head, _) = text.split_once("[[delay]]").expect("an option");
     let scatter = "[scatter]\ndetonator = \"electronic\"\n";
-    std::fs::write(&plan, format!("{head}[[delay]]\nname = \"a\"\ninterval_ms = 9\n{scatter}")).expect("written");
+    std::fs::write(&plan, format!("{head}[[delay]]\nname = \"a\"\ninterval_ms = 9\n{scatter}"))
+        .expect("written");
     let plan = plan.to_str().expect("UTF-8");
     for arguments in
         [&["scatter", plan, "--samples", "100000000"][..], &["orders", plan, "--interval", "0..1000:1"]]

@@ -17,7 +17,7 @@ use crate::ropes;
 /// Most tires in a shelter.
 pub const MOST_TIRES: usize = 4_000_000;
 
-const MASS_KG: std::ops::RangeInclusive<f64> = 1e-3..=1e7;
+pub const MASS_KG: std::ops::RangeInclusive<f64> = 1e-3..=1e7;
 pub const PLACE_M: std::ops::RangeInclusive<f64> = -1e7..=1e7;
 const PERCENT: std::ops::RangeInclusive<f64> = 1.0..=100.0;
 

@@ -1,0 +1,179 @@
+//! The keys of a plan as a JSON Schema, for editors that complete and check as one types.
+//!
+//! It says less than the reader does: names of rows, places and sums are checked there alone.
+
+use serde_json::{Map, Value, json};
+
+use super::validate::shot::{LAUNCH_M_S, TIME_MS};
+use super::validate::{MASS_KG, MOST_TIRES, PLACE_M};
+use crate::ropes::catalogue;
+
+/// The schema (draft 2020-12).
+pub fn schema() -> Value {
+    let ropes: Vec<&str> = catalogue().ropes.iter().map(|rope| rope.name.as_str()).collect();
+    let terminations: Vec<&str> = catalogue().terminations.iter().map(|known| known.name.as_str()).collect();
+    let spacing = number(1e-4..=1e5, "centre to centre [m]");
+    let link = json!({ "enum": ["row", "column", "diagonal"] });
+    let launch = number(LAUNCH_M_S, "launch velocity of the tires [m/s]");
+    let hole = table(
+        "one hole; it launches the nearest tire",
+        &["x_m", "y_m", "launch_m_s"],
+        [("x_m", number(PLACE_M, "[m]")), ("y_m", number(PLACE_M, "[m]")), ("launch_m_s", launch.clone())],
+    );
+    let listed_tire = table(
+        "one tire",
+        &["x_m", "y_m"],
+        [
+            ("x_m", number(PLACE_M, "[m]")),
+            ("y_m", number(PLACE_M, "[m]")),
+            ("mass_kg", number(MASS_KG, "instead of that of [tire]")),
+        ],
+    );
+    let tire_number = json!({ "type": "integer", "minimum": 1 });
+    let listed_cable =
+        table("one cable", &["from", "to"], [("from", tire_number.clone()), ("to", tire_number.clone())]);
+    let whole = |least: usize, most: usize, words: &str| json!({ "type": "integer", "minimum": least, "maximum": most, "description": words });
+    let shelter = table(
+        "tires and the ties between them",
+        &["layout"],
+        [
+            ("layout", json!({ "enum": ["grid", "quincunx", "list"] })),
+            ("rows", whole(1, MOST_TIRES, "along y, numbered from 1")),
+            ("columns", whole(1, MOST_TIRES, "along x, numbered from 1")),
+            ("border_rows", whole(0, 1000, "rows of ballast laid around the mesh, over no hole")),
+            (
+                "spacing_m",
+                json!({ "oneOf": [spacing.clone(), table("between rows, between columns [m]", &["row", "column"], [("row", spacing.clone()), ("column", spacing)])] }),
+            ),
+            ("links", json!({ "type": "array", "items": link, "description": "which neighbours are tied" })),
+            ("tire", list(listed_tire, "of a list")),
+            ("cable", list(listed_cable, "of a list")),
+        ],
+    );
+    let tire = table(
+        "the tire at every place",
+        &["mass_kg"],
+        [
+            ("mass_kg", number(MASS_KG, "[kg]")),
+            (
+                "outer_diameter_m",
+                number(0.0..=1e3, "cables run from rim to rim; 0: from centre to centre [m]"),
+            ),
+        ],
+    );
+    let cable = table(
+        "the rope of every tie: from the catalogue, or stiffness and breaking force",
+        &[],
+        [
+            ("rope", json!({ "enum": ropes })),
+            ("axial_stiffness_kn", number(1e-6..=1e9, "EA [kN]")),
+            ("breaking_force_kn", number(1e-6..=1e9, "[kN]")),
+            ("slack_percent", number(0.0..=1e3, "length over distance [%]")),
+            ("termination", json!({ "enum": terminations })),
+            ("termination_percent", number(1.0..=100.0, "what it leaves of the breaking force [%]")),
+            ("on_overload", json!({ "enum": ["report", "break"] })),
+        ],
+    );
+    let blast_row = table(
+        "holes that fire together",
+        &["name"],
+        [
+            ("name", json!({ "type": "string" })),
+            ("under_row", number(0.0..=1e7, "launches every tire of this shelter row")),
+            ("under_tires", list(tire_number, "launches these tires")),
+            ("holes", list(hole, "one by one")),
+            ("launch_m_s", launch),
+            ("free_flight_height_m", number(0.0..=1e5, "seen on a loose test tire [m]")),
+        ],
+    );
+    let limits = table(
+        "what an option must keep to pass",
+        &["flight_height_m", "cable_safety_factor"],
+        [
+            ("flight_height_m", number(1e-6..=1e6, "[m]")),
+            ("cable_safety_factor", number(1e-3..=1e6, "breaking force / greatest force")),
+            ("drift_m", number(1e-6..=1e6, "greatest horizontal shift of any tire at the end [m]")),
+        ],
+    );
+    let delay = table(
+        "one delay option",
+        &["name"],
+        [
+            ("name", json!({ "type": "string" })),
+            ("interval_ms", number(TIME_MS, "between successive blast rows [ms]")),
+            ("order", list(json!({ "type": "string" }), "names of the blast rows as they fire")),
+            ("at_ms", list(number(TIME_MS, "[ms]"), "firing time of each blast row, in the order listed")),
+        ],
+    );
+    let simulation = table(
+        "how to compute",
+        &[],
+        [
+            ("duration_s", number(1e-6..=1e6, "default: until every tire is at rest [s]")),
+            ("accuracy", json!({ "enum": ["draft", "field", "reference"] })),
+            ("method", json!({ "enum": ["verlet", "newmark"] })),
+            ("gravity_m_s2", number(0.0..=1e3, "[m/s²]")),
+        ],
+    );
+    let scatter = table(
+        "what scatters from shot to shot",
+        &[],
+        [
+            ("detonator", json!({ "enum": ["electronic", "pyrotechnic", "pyrotechnic surface"] })),
+            ("delay_sd_ms", number(0.0..=1e6, "standard deviation of firing times [ms]")),
+            ("delay_cv_percent", number(0.0..=100.0, "standard deviation over delay [%]")),
+            ("launch_cv_percent", number(0.0..=100.0, "of launch velocities, lognormal [%]")),
+            ("friction", list(number(0.0..=1e9, "from, to"), "anything between")),
+        ],
+    );
+    let size = table(
+        "what `shelter size` may choose from",
+        &[],
+        [
+            ("ropes", json!({ "enum": catalogue().families() })),
+            ("tire_mass_kg", list(number(MASS_KG, "[kg]"), "masses of tires at hand")),
+            ("most_border_rows", whole(0, 100, "rows of ballast")),
+        ],
+    );
+    let ground = table("", &["friction"], [("friction", number(0.0..=1e9, "of a tire on the ground"))]);
+    let mut schema = table(
+        "A blast row, the shelter over it, and the delay options to choose from",
+        &["shelter", "tire", "cable", "ground", "blast_row", "limits", "delay"],
+        [
+            ("title", json!({ "type": "string" })),
+            ("shelter", shelter),
+            ("tire", tire),
+            ("cable", cable),
+            ("ground", ground),
+            ("blast_row", list(blast_row, "in the order listed")),
+            ("limits", limits),
+            ("delay", list(delay, "options to compare")),
+            ("simulation", simulation),
+            ("scatter", scatter),
+            ("size", size),
+        ],
+    );
+    schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
+    schema["title"] = json!("Plan of shelter");
+    schema
+}
+
+fn number(range: std::ops::RangeInclusive<f64>, words: &str) -> Value {
+    json!({ "type": "number", "minimum": range.start(), "maximum": range.end(), "description": words })
+}
+
+fn list(items: Value, words: &str) -> Value {
+    json!({ "type": "array", "items": items, "description": words })
+}
+
+fn table<const N: usize>(words: &str, required: &[&str], keys: [(&str, Value); N]) -> Value {
+    let properties: Map<String, Value> =
+        keys.into_iter().map(|(key, value)| (key.to_owned(), value)).collect();
+    json!({
+        "type": "object",
+        "description": words,
+        "required": required,
+        "properties": properties,
+        "additionalProperties": false,
+    })
+}

@@ -1,0 +1,161 @@
+//! Kills, full disks and closed pipes: what is on the disk stays whole, and what happened is said.
+
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use shelter::plan::edit;
+
+const SHELTER: &str = env!("CARGO_BIN_EXE_shelter");
+
+/// A plan of one small shelter that three ropes are tried for, and what `size --write` makes of it.
+fn small_plan(folder: &Path) -> (std::path::PathBuf, String, String) {
+    let plan = folder.join("plan.toml");
+    let text = include_str!("../../plans/paper-5-tire.toml");
+    // Long enough that a save takes more than one block of the disk.
+    let text = format!("{text}\n{}", "# what the shotfirer noted\n".repeat(2000));
+    fs::write(&plan, &text).expect("written");
+    assert!(size(&plan).status.success());
+    let new = fs::read_to_string(&plan).expect("the plan");
+    assert_ne!(new, text);
+    (plan, text, new)
+}
+
+fn size(plan: &Path) -> Output {
+    sizing(plan).output().expect("it runs")
+}
+
+fn sizing(plan: &Path) -> Command {
+    let mut command = Command::new(SHELTER);
+    command.args(["size", "--write", "--accuracy", "draft"]).arg(plan);
+    command
+}
+
+/// Killed at fifty moments from its start to past its end, it leaves the old plan or the new one.
+#[test]
+fn a_killed_save_leaves_the_old_plan_or_the_new_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (plan, old, new) = small_plan(folder.path());
+    let begun = Instant::now();
+    fs::write(&plan, &old).expect("written");
+    size(&plan);
+    let whole = begun.elapsed();
+    let mut seen = [0, 0];
+    for n in 0..50 {
+        fs::write(&plan, &old).expect("written");
+        let mut child = sizing(&plan).stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts");
+        thread::sleep(whole.mul_f64(f64::from(n) / 40.0));
+        // It may have ended by itself.
+        let _ = child.kill();
+        child.wait().expect("it ended");
+        let left = fs::read_to_string(&plan).expect("the plan");
+        assert!(left == old || left == new, "after {n}: {} bytes", left.len());
+        seen[usize::from(left == new)] += 1;
+    }
+    assert!(seen[0] > 0 && seen[1] > 0, "both were seen: {seen:?}");
+}
+
+/// The disk may hold so many more blocks and no more: the old text stays until all of the new one is written, and nothing
+/// else is left behind.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_leaves_the_old_plan() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (plan, old, _) = small_plan(folder.path());
+    for blocks in [0, 1, 2, 5, 10, 20, 40, 50] {
+        fs::write(&plan, &old).expect("written");
+        // A file may grow to so many blocks of 512 bytes; beyond that writing fails as on a full disk.
+        let script =
+            format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" size --write --accuracy draft \"$1\"");
+        let output = Command::new("sh").args(["-c", &script, SHELTER]).arg(&plan).output().expect("it runs");
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{blocks} blocks: {told}");
+        assert!(told.contains("plan.toml"), "{told}");
+        assert_eq!(fs::read_to_string(&plan).expect("the plan"), old, "{blocks} blocks");
+        assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 1, "{blocks} blocks");
+    }
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_leaves_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("file");
+    fs::write(&file, "text").expect("written");
+    // A file where a folder should be.
+    assert!(edit::save(&file.join("plan.toml"), "new").is_err());
+    assert!(edit::save(&folder.path().join("none/plan.toml"), "new").is_err());
+    assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 1);
+}
+
+/// A link stays a link, and rights stay as they were.
+#[cfg(unix)]
+#[test]
+fn links_and_rights_survive_a_save() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().expect("a folder");
+    let (file, link) = (folder.path().join("file.toml"), folder.path().join("link.toml"));
+    fs::write(&file, "old").expect("written");
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o640)).expect("set");
+    std::os::unix::fs::symlink(&file, &link).expect("linked");
+    edit::save(&link, "new").expect("saved");
+    assert!(link.symlink_metadata().expect("the link").is_symlink());
+    assert_eq!(fs::read_to_string(&file).expect("the file"), "new");
+    assert_eq!(file.metadata().expect("the file").permissions().mode() & 0o777, 0o640);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn output_that_cannot_be_written_is_said() {
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("the full device");
+    let plan = concat!(env!("CARGO_MANIFEST_DIR"), "/plans/paper-5-tire.toml");
+    let output = Command::new(SHELTER).args(["check", plan]).stdout(full).output().expect("it runs");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("No space left"));
+}
+
+/// Whoever reads the output may stop reading: nothing is said about it.
+#[test]
+fn a_closed_pipe_ends_it_quietly() {
+    let plan = concat!(env!("CARGO_MANIFEST_DIR"), "/plans/paper-5-tire.toml");
+    for arguments in [&["check", plan][..], &["trace", plan], &["ropes"], &["man"], &["schema"]] {
+        let mut child = Command::new(SHELTER)
+            .args(arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("it starts");
+        drop(child.stdout.take());
+        let output = child.wait_with_output().expect("it ends");
+        assert!(output.stderr.is_empty(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+        assert_ne!(output.status.code(), None, "{arguments:?} ends by itself");
+    }
+}
+
+/// A plan that comes through a pipe is read as it comes.
+#[cfg(unix)]
+#[test]
+fn a_plan_is_read_from_a_fifo_and_from_standard_input() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let fifo = folder.path().join("fifo");
+    assert!(Command::new("mkfifo").arg(&fifo).status().expect("mkfifo runs").success());
+    let text = include_str!("../../plans/paper-5-tire.toml");
+    let check = |path: &Path| {
+        let mut command = Command::new(SHELTER);
+        command.args(["check", "--format", "csv"]).arg(path).stdin(Stdio::piped()).stdout(Stdio::piped());
+        command.spawn().expect("it starts")
+    };
+    let child = check(&fifo);
+    let mut writer = fs::OpenOptions::new().write(true).open(&fifo).expect("the fifo");
+    let (first, second) = text.split_at(text.len() / 2);
+    writer.write_all(first.as_bytes()).expect("written");
+    thread::sleep(Duration::from_millis(50));
+    writer.write_all(second.as_bytes()).expect("written");
+    drop(writer);
+    assert!(child.wait_with_output().expect("it ends").status.success());
+    let mut child = check(Path::new("-"));
+    child.stdin.take().expect("a pipe").write_all(text.as_bytes()).expect("written");
+    assert!(child.wait_with_output().expect("it ends").status.success());
+}

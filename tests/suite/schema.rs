@@ -1,0 +1,50 @@
+//! The schema for editors against the reader: it never refuses a plan that the reader takes.
+
+use shelter::plan::Plan;
+use shelter::plan::schema::schema;
+
+use super::bad_plans::{BAD, GOOD};
+
+fn value(text: &str) -> Option<serde_json::Value> {
+    toml::from_str::<toml::Table>(text).ok().and_then(|table| serde_json::to_value(table).ok())
+}
+
+#[test]
+fn shipped_plans_are_valid() {
+    let schema = schema();
+    jsonschema::meta::validate(&schema).unwrap_or_else(|error| panic!("{error}"));
+    let check = jsonschema::validator_for(&schema).expect("a schema");
+    for entry in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/plans")).expect("the folder") {
+        let path = entry.expect("an entry").path();
+        let text = std::fs::read_to_string(&path).expect("a plan");
+        let told: Vec<String> =
+            check.iter_errors(&value(&text).expect("TOML")).map(|error| error.to_string()).collect();
+        assert!(told.is_empty(), "{}: {told:?}", path.display());
+    }
+}
+
+/// Of the wrong plans that are TOML, it finds two thirds: all unknown keys, wrong types and numbers out of range.
+#[test]
+fn wrong_plans_are_mostly_found_and_right_ones_never_refused() {
+    let check = jsonschema::validator_for(&schema()).expect("a schema");
+    let (mut all, mut found) = (0, 0);
+    for (good, bad) in BAD {
+        let text = GOOD.replacen(good, bad, 1);
+        let Some(value) = value(&text) else { continue };
+        all += 1;
+        found += usize::from(!check.is_valid(&value));
+    }
+    assert!(3 * found >= 2 * all, "{found} of {all}");
+    for (good, other) in [
+        ("spacing_m = 1.5", "spacing_m = { row = 1.5, column = 2 }"),
+        ("spacing_m = 1.5", "spacing_m = 2\nlinks = []"),
+        ("interval_ms = 20", "at_ms = [0, 20.5]"),
+        ("interval_ms = 20", "interval_ms = 20\n[size]\ntire_mass_kg = []"),
+        ("under_row = 1\nlaunch_m_s = 6.0", "free_flight_height_m = 1\nunder_tires = [1]"),
+    ] {
+        let text = GOOD.replacen(good, other, 1);
+        if Plan::parse("plan.toml", &text).is_ok() {
+            assert!(check.is_valid(&value(&text).expect("TOML")), "{other}");
+        }
+    }
+}
