@@ -15,7 +15,10 @@ fuzz_target!(|text: &str| {
         }
         Err(mistakes) => {
             assert!(mistakes.iter().next().is_some(), "a refusal says why");
-            assert!(!mistakes.render(false).is_empty());
+            // Drawing them takes ten times as long as finding them.
+            if text.len().is_multiple_of(16) {
+                assert!(!mistakes.render(false).is_empty());
+            }
         }
     }
 });

@@ -9,6 +9,7 @@ mod closed_forms;
 mod extremes;
 mod faults;
 mod import;
+mod invariants;
 mod keys;
 mod layers;
 mod long_studies;

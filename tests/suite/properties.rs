@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use crate::scenes::{METHODS, grid, run, settings, watch};
 
 /// A random grid with random friction, slack, launches and firing times.
-fn shelter() -> impl Strategy<Value = (Scene, Shot)> {
+pub fn shelter() -> impl Strategy<Value = (Scene, Shot)> {
     let size = (1..4_usize, 2..5_usize);
     (size, 0.5..4.0, 5.0..7.0, 0.0..0.9, 1.0..1.06).prop_flat_map(
         |((rows, columns), spacing, ea, mu, slack)| {
@@ -29,7 +29,7 @@ fn shelter() -> impl Strategy<Value = (Scene, Shot)> {
     )
 }
 
-fn step(scene: &Scene) -> f64 {
+pub fn step(scene: &Scene) -> f64 {
     (0.05 * scene.critical_step()).min(1e-3)
 }
 
