@@ -31,6 +31,7 @@ fn size(plan: &Path) -> Output {
 fn sizing(plan: &Path) -> Command {
     let mut command = Command::new(SHELTER);
     command.args(["size", "--write", "--accuracy", "draft"]).arg(plan);
+    command.stdout(Stdio::null()).stderr(Stdio::null());
     command
 }
 
@@ -46,7 +47,7 @@ fn a_killed_save_leaves_the_old_plan_or_the_new_one() {
     let mut seen = [0, 0];
     for n in 0..50 {
         fs::write(&plan, &old).expect("written");
-        let mut child = sizing(&plan).stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts");
+        let mut child = sizing(&plan).spawn().expect("it starts");
         thread::sleep(whole.mul_f64(f64::from(n) / 40.0));
         // It may have ended by itself.
         let _ = child.kill();
@@ -56,6 +57,31 @@ fn a_killed_save_leaves_the_old_plan_or_the_new_one() {
         seen[usize::from(left == new)] += 1;
     }
     assert!(seen[0] > 0 && seen[1] > 0, "both were seen: {seen:?}");
+}
+
+/// Killed as soon as anything in the folder changes, in the midst of writing a plan of megabytes.
+#[test]
+fn a_save_killed_as_it_begins_leaves_the_old_plan_or_the_new_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (plan, old, new) = small_plan(folder.path());
+    let notes = "# what the shotfirer noted\n".repeat(200_000);
+    let (old, new) = (old + &notes, new + &notes);
+    for n in 0..8 {
+        fs::write(&plan, &old).expect("written");
+        let files = || fs::read_dir(folder.path()).expect("the folder").count();
+        let before = files();
+        let mut child = sizing(&plan).spawn().expect("it starts");
+        let length = || plan.metadata().map_or(0, |data| data.len());
+        while child.try_wait().expect("a child").is_none() {
+            if files() != before || length() != old.len() as u64 {
+                let _ = child.kill();
+                break;
+            }
+        }
+        child.wait().expect("it ended");
+        let left = fs::read_to_string(&plan).expect("the plan");
+        assert!(left == old || left == new, "round {n}: {} bytes of {}", left.len(), old.len());
+    }
 }
 
 /// The disk may hold so many more blocks and no more: the old text stays until all of the new one is written, and nothing

@@ -91,7 +91,7 @@ fn every_bad_line_is_named_with_its_remedy() {
         "id,x,y\n1,0,0\n2,1e6,1e6\n",
         "id,x,y,launch_m_s\n1,0,0,-6\n",
         "id,x,y\n\"1,0,0\n",
-        "id;x;y;delay_ms;from\n1;0;0;0666666666666666666666666,1\n23w\0%\03;0;17;1\n",
+        "id;x;y;delay_ms;from\n1;0;0;0666666666666666666666666,1\n23w;%;3;0;17;1\n",
         "id,x,y,from,delay_ms\n1,0,0,1,0\n2,2,0,1,9e8\n3,4,0,2,9e8\n",
         "id,x,y,launch_m_s\n1,0,0,20000\n",
     ];
