@@ -39,18 +39,25 @@ pub fn record(case: &Case, option: usize, effort: &Effort, progress: &Progress) 
     times.push(0.0);
     displacements.resize(tires, [0.0; 3]);
     let mut every = step;
+    let (mut latest, mut now) = (vec![[0.0; 3]; tires], 0.0);
     let outcome = case.model.run(&case.shots[option], &settings, &mut |motion| {
+        now = motion.time();
+        latest.iter_mut().enumerate().for_each(|(tire, u)| *u = single(motion, tire));
         let last = times.last().copied().unwrap_or(0.0);
-        if motion.time() >= last + every * (1.0 - 1e-9) {
+        if now >= last + every * (1.0 - 1e-9) {
             if times.len() == most {
                 halve(&mut times, &mut displacements, tires);
                 every *= 2.0;
             }
-            times.push(motion.time());
-            displacements.extend((0..tires).map(|tire| single(motion, tire)));
+            times.push(now);
+            displacements.extend_from_slice(&latest);
         }
         progress.flow()
     })?;
+    if times.last().is_some_and(|&last| last < now) {
+        times.push(now);
+        displacements.extend_from_slice(&latest);
+    }
     Ok(Flight { option, outcome, tires, times, displacements })
 }
 

@@ -8,6 +8,7 @@ mod check;
 mod closed_forms;
 mod extremes;
 mod faults;
+mod flight;
 mod hostile;
 mod import;
 mod invariants;
