@@ -104,6 +104,7 @@ impl Binding {
             (Action::Open, Screen::Plan) => "edit",
             (Action::Open, Screen::Compare) => "enlarge",
             (Action::Open, Screen::Flight) => "back",
+            (Action::Open, Screen::Studies | Screen::Accuracy) => "start",
             (Action::Right, Screen::Flight) => "on",
             (Action::Right, Screen::Studies) => "next",
             _ => self.short,

@@ -9,7 +9,7 @@ use shelter::tui::theme::{self, Theme};
 use shelter::verdict::Verdict;
 use shelter::worker::Kind;
 
-use super::stage::{app, checked, draw, finished, key, measured, recorded, swept, text};
+use super::stage::{app, checked, draw, finished, key, measured, recorded, spreads, swept, text};
 
 #[test]
 fn compare_at_three_sizes() {
@@ -79,6 +79,21 @@ fn the_plan_is_shown_with_its_values() {
     key(&mut app, KeyCode::Enter);
     key(&mut app, KeyCode::Char('x'));
     insta::assert_snapshot!("plan_typing", text(&draw(&app, 100, 30)));
+}
+
+#[test]
+fn orders_samples_and_sizes_have_a_picture() {
+    let mut app = finished();
+    key(&mut app, KeyCode::Char('4'));
+    for (kind, found) in spreads(&app) {
+        app.learn(kind, Ok(found));
+        app.studies.show(kind);
+        let name = format!("{kind:?}").to_lowercase();
+        insta::assert_snapshot!(format!("{name}_120x36"), text(&draw(&app, 120, 36)));
+        for (width, height) in [(60, 18), (80, 24), (200, 60)] {
+            draw(&app, width, height);
+        }
+    }
 }
 
 /// Every screen in plain characters, and where each theme shows which style.

@@ -10,16 +10,20 @@ use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use shelter::outcome::{End, History};
 use shelter::plan::{Accuracy, Method, Plan};
+use shelter::ropes::catalogue;
 use shelter::study::accuracy::{Measured, Row, Study};
 use shelter::study::batch::Envelope;
 use shelter::study::check::{Checked, Quantity, Reason};
+use shelter::study::orders::{Orders, Tried};
+use shelter::study::scatter::{Draw, Sample};
+use shelter::study::size::{Combination, Sizing, Trial};
 use shelter::study::sweep::{Point, Sweep};
 use shelter::study::{Case, Effort, flight};
 use shelter::tui::app::{self, App, Request};
 use shelter::tui::config::Config;
 use shelter::tui::{update, view};
 use shelter::verdict::{Estimate, Verdict};
-use shelter::worker::Found;
+use shelter::worker::{Found, Kind};
 
 pub fn app() -> App {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("plans/amur-three-rows.toml");
@@ -137,4 +141,36 @@ pub fn measured() -> Found {
 pub fn recorded(app: &App, option: usize) -> Found {
     let effort = Effort { step: Some(5e-4), ..app.effort };
     Found::Flight(flight::record(&app.case, option, &effort, &Default::default()).expect("a flight"))
+}
+
+/// What is kept of a shot that uses so much of its limits.
+fn envelope(share: f64) -> Envelope {
+    let verdict = if share < 1.0 { Verdict::Pass } else { Verdict::Fail };
+    Envelope { verdict, height: [1.8 * share, 0.01], force: [61_000.0 * share, 250.0], drift: [0.0; 2] }
+}
+
+/// Orders, samples and sizes with round numbers.
+pub fn spreads(app: &App) -> [(Kind, Found); 3] {
+    let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+    let tried = orders.iter().enumerate().map(|(number, order)| Tried {
+        number,
+        order: order.to_vec(),
+        interval: 0.02,
+        envelope: envelope(1.5 - 0.2 * number as f64),
+    });
+    let samples = (0..app.rows.len()).flat_map(|option| {
+        (0..100).map(move |number| Sample { option, number, envelope: envelope(0.5 + 0.01 * number as f64) })
+    });
+    let combinations = catalogue().ropes.iter().take(8).enumerate().map(|(n, rope)| {
+        let share = 1.5 - 0.1 * n as f64;
+        let trial = Trial { holds: share < 1.0, worst: envelope(share), use_of_limits: share, shots: 7 };
+        let (total_mass, trial) = (14_000.0 + 100.0 * n as f64, Some(trial));
+        Combination { rope, tire_mass: 280.0, border_rows: 0, tires: 50, total_mass, trial }
+    });
+    let draw = Draw { samples: 100, seed: 1, certain_at: None };
+    [
+        (Kind::Orders, Found::Orders(Orders::new(&app.case, tried.collect(), 1))),
+        (Kind::Scatter, Found::Scatter(draw, samples.collect())),
+        (Kind::Size, Found::Size(Sizing { combinations: combinations.collect() })),
+    ]
 }

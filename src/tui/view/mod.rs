@@ -16,6 +16,7 @@ mod flight;
 mod help;
 mod palette;
 mod plan;
+mod spread;
 mod studies;
 mod table;
 

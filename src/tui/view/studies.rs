@@ -12,8 +12,8 @@ use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Axis, Block, Borders, Chart, Dataset, Gauge, Paragraph, Wrap};
 
-use super::Places;
 use super::chart::{level, line};
+use super::{Places, spread};
 use crate::report;
 use crate::report::table::Style as Plain;
 use crate::study::sweep::{Point, Sweep};
@@ -70,7 +70,15 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
         }
         Progress::Done(found) => match found.as_ref() {
             Found::Sweep(sweep) => draw_sweep(app, sweep, frame, inside),
-            found => scrolled(app, frame, inside, &text(app, found)),
+            found => {
+                let text = text(app, found);
+                // The words first; the picture takes what they leave.
+                let words = (text.lines().count() as u16 + 1).clamp(inside.height / 2, inside.height);
+                let [words, picture] =
+                    Layout::vertical([Constraint::Length(words), Constraint::Min(0)]).areas(inside);
+                scrolled(app, frame, words, &text);
+                spread::draw(app, found, frame, picture);
+            }
         },
     }
 }
