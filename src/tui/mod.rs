@@ -3,6 +3,7 @@
 //! The loop waits for a key, a click or news, updates the [`App`] and draws only when something changed. The terminal comes back on
 //! every way out: quitting, an error, a panic, a signal.
 
+mod act;
 pub mod app;
 pub mod compare;
 pub mod config;
