@@ -18,7 +18,7 @@
 //! | [`outcome`] | | peaks, ledger, histories of a run | who filled them |
 //! | [`simulation`] | scene, shot, step | an [`Outcome`](outcome::Outcome) or a [`Failure`](simulation::Failure) | options, limits, screens |
 //! | [`verdict`] | value, error, limit | pass, fail, undecided | where they come from |
-//! | [`study`] | a plan made ready | verdicts refined until sure; sweeps, orders, scatter, sizes; accuracy tables, traces | formats |
+//! | [`study`] | a plan made ready | verdicts refined until sure; sweeps, orders, scatter, sizes; accuracy tables, traces, flights | formats |
 //! | [`report`] | study results | text, JSON, CSV, a page of HTML | terminals |
 //! | [`worker`] | a request | small events, the newest request wins; long studies, whole | screens |
 //! | [`tui`] | keys and events | a screen | physics |

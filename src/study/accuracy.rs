@@ -44,6 +44,8 @@ pub struct Measured {
 /// Speed against accuracy of one option.
 #[derive(Clone, Debug)]
 pub struct Study {
+    /// Index of the option.
+    pub option: usize,
     /// Both methods, coarse to fine.
     pub rows: Vec<Row>,
     /// Step of the converged run, made by `verlet` [s].
@@ -97,7 +99,7 @@ pub fn measure(
             rows.push(Row { method, step, result });
         }
     }
-    Ok(Study { rows, reference_step, levels })
+    Ok(Study { option, rows, reference_step, levels })
 }
 
 impl Study {

@@ -46,7 +46,8 @@ pub struct Combination {
     pub tires: usize,
     /// Tires and cables [kg].
     pub total_mass: f64,
-    /// What its trial says; `None`: not tried, because a stronger rope of the same stiffness fails.
+    /// What its trial says; `None`: not tried, because a stronger rope of the same stiffness fails or the
+    /// time was up.
     pub trial: Option<Trial>,
 }
 

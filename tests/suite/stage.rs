@@ -134,7 +134,7 @@ pub fn measured() -> Found {
     };
     let rows =
         [Method::Verlet, Method::Newmark].iter().flat_map(|&method| (0..6).map(move |n| row(n, method)));
-    Found::Accuracy(Study { rows: rows.collect(), reference_step: 1e-5, levels })
+    Found::Accuracy(Study { option: 4, rows: rows.collect(), reference_step: 1e-5, levels })
 }
 
 /// The motion of an option, at a fixed step.

@@ -37,7 +37,12 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         Progress::Failed(words) => message(app, frame, inside, question, words),
         Progress::Running { done, total } => waiting(app, frame, inside, question, (*done, *total)),
         Progress::Done(found) => {
-            if let Found::Accuracy(study) = found.as_ref() {
+            let Found::Accuracy(study) = found.as_ref() else { return };
+            if study.option != app.selected {
+                let other = app.case.plan.delays.get(study.option).map_or("", |delay| &delay.name);
+                let words = format!("Measured for {other}. Enter measures this option instead.");
+                message(app, frame, inside, question, &words);
+            } else {
                 let words = levels(app, study);
                 let [table, plot] =
                     Layout::vertical([Constraint::Length(words.len() as u16 + 1), Constraint::Min(0)])
