@@ -283,11 +283,15 @@ fn a_walk_through_everything() {
     assert_eq!(saved, text.replace("GOST 2688-80 14", "GOST 2688-80 14 1670"));
     std::fs::write(&file, text.replace("title = \"Three", "title = \"Seven")).expect("written");
     watched.until("Seven rows");
+    // Rows that are computed move in a list that is sorted.
+    watched.until("1 of 7 pass");
     watched.press("ttt");
     // The third tab; the fourth option of the table.
     watched.press("\x1b[<0;18;1M\x1b[<0;18;1m");
     watched.until("height over time");
-    watched.press("o\x1b[<0;3;6M\x1b[<0;3;6m");
+    watched.press("o");
+    watched.until("force, kN▲");
+    watched.press("\x1b[<0;3;6M\x1b[<0;3;6m");
     watched.until("25 ms, middle first ─");
     watched.resize(60, 18);
     watched.until("? help");
