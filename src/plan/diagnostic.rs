@@ -47,6 +47,12 @@ impl Diagnostics {
         self.mistakes.is_empty()
     }
 
+    /// Message and remedy of the first, for views that show one line.
+    pub fn first(&self) -> String {
+        let first = self.mistakes.first();
+        first.map_or_else(String::new, |mistake| format!("{}; {}", mistake.message, mistake.remedy))
+    }
+
     /// Line and column, from 1, message and remedy of each.
     pub fn iter(&self) -> impl Iterator<Item = (usize, usize, &str, &str)> {
         self.mistakes.iter().map(|mistake| {

@@ -162,16 +162,16 @@ fn svg(draw: &dyn Fn(&DrawingArea<SVGBackend, Shift>) -> Drawn) -> Option<String
 
 /// Several charts below each other as one picture.
 pub fn stack(charts: &[String]) -> String {
-    let [chart] = charts else {
-        let (width, height) = (SIZE.0, SIZE.1 * charts.len() as u32);
-        let placed: String = charts
-            .iter()
-            .enumerate()
-            .map(|(n, chart)| format!("<g transform=\"translate(0 {})\">{chart}</g>\n", SIZE.1 * n as u32))
-            .collect();
-        return format!(
-            "<svg width=\"{width}\" height=\"{height}\" xmlns=\"http://www.w3.org/2000/svg\">\n{placed}</svg>\n"
-        );
-    };
-    chart.clone()
+    if let [chart] = charts {
+        return chart.clone();
+    }
+    let (width, height) = (SIZE.0, SIZE.1 * charts.len() as u32);
+    let placed: String = charts
+        .iter()
+        .enumerate()
+        .map(|(n, chart)| format!("<g transform=\"translate(0 {})\">{chart}</g>\n", SIZE.1 * n as u32))
+        .collect();
+    format!(
+        "<svg width=\"{width}\" height=\"{height}\" xmlns=\"http://www.w3.org/2000/svg\">\n{placed}</svg>\n"
+    )
 }

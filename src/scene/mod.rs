@@ -122,6 +122,12 @@ impl Scene {
         squared.fold(0.0, f64::max).sqrt()
     }
 
+    /// Least and greatest place of the tires at rest along an axis [m].
+    pub fn extent(&self, axis: usize) -> [f64; 2] {
+        let places = self.position.iter().map(|place| place[axis]);
+        places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+    }
+
     /// Critical step of explicit central differences, 2/ω [s]; infinite without cables.
     pub fn critical_step(&self) -> f64 {
         2.0 / self.frequency_bound()

@@ -51,7 +51,7 @@ impl App {
         true
     }
 
-    /// A place of the screen was clicked, or the button held and moved over it.
+    /// A place of the screen was clicked.
     pub fn click(&mut self, at: Position) -> Request {
         let hit = self.places.iter().rev().find(|(place, _)| place.contains(at)).copied();
         let Some((place, target)) = hit else { return Request::None };
@@ -134,10 +134,7 @@ impl App {
 
     fn act_on_accuracy(&mut self, action: Action) -> Request {
         match action {
-            Action::Open | Action::Rerun => {
-                self.studies.set(Kind::Accuracy, Progress::Running { done: 0, total: 0 });
-                return Request::Start(Kind::Accuracy);
-            }
+            Action::Open | Action::Rerun => return self.start(Kind::Accuracy),
             Action::Cancel => return self.cancel(Kind::Accuracy),
             Action::Up => self.select_listed(-1),
             Action::Down => self.select_listed(1),
@@ -206,10 +203,7 @@ impl App {
             Action::Last => self.studies.scroll = u16::MAX,
             Action::Left => self.studies.turn(-1),
             Action::Right => self.studies.turn(1),
-            Action::Open | Action::Rerun => {
-                self.studies.set(kind, Progress::Running { done: 0, total: 0 });
-                return Request::Start(kind);
-            }
+            Action::Open | Action::Rerun => return self.start(kind),
             Action::Cancel => return self.cancel(kind),
             other => return self.act_anywhere(other),
         }

@@ -1,4 +1,5 @@
-//! The state of the screen and how news changes it; what keys and clicks do to it is in `act`. No input or output happens here.
+//! The state of the screen and how news changes it; what keys and clicks do to it is in `act`. No input or output happens
+//! here.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -196,8 +197,13 @@ impl App {
             return Request::None;
         }
         self.player.ask(self.selected);
-        self.studies.set(Kind::Flight, Progress::Running { done: 0, total: 0 });
-        Request::Start(Kind::Flight)
+        self.start(Kind::Flight)
+    }
+
+    /// Begins a study.
+    pub(super) fn start(&mut self, kind: Kind) -> Request {
+        self.studies.set(kind, Progress::Running { done: 0, total: 0 });
+        Request::Start(kind)
     }
 
     /// So much time has passed.

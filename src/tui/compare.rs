@@ -5,7 +5,7 @@ use crate::study::check::Checked;
 use crate::verdict::Verdict;
 
 /// What the list is sorted by.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SortBy {
     /// As the plan lists them.
     #[default]

@@ -106,12 +106,12 @@ impl Editor {
     /// Selects the first field whose label or value contains a text, from the selected one on or from that behind it.
     pub fn find(&mut self, text: &str, next: bool) {
         let text = text.to_lowercase();
-        let count = self.fields.len();
-        let found = (usize::from(next)..=count).map(|n| (self.selected + n) % count).find(|&n| {
-            let field = &self.fields[n];
+        let has = |field: &Field| {
             field.label.to_lowercase().contains(&text) || field.value.to_lowercase().contains(&text)
-        });
-        self.selected = found.unwrap_or(self.selected);
+        };
+        let from = self.selected + usize::from(next);
+        let mut round = self.fields.iter().enumerate().cycle().skip(from).take(self.fields.len());
+        self.selected = round.find(|(_, field)| has(field)).map_or(self.selected, |(n, _)| n);
     }
 
     /// Whether keys go into a value.
@@ -125,7 +125,7 @@ impl Editor {
         let Some(field) = self.field() else { return };
         if field.path.key == "order" {
             let names = fields::order(&self.text, &field.path);
-            self.order = Some(Order { names, selected: 0 });
+            self.order = (!names.is_empty()).then_some(Order { names, selected: 0 });
         } else {
             self.input = Some(Input::new(field.value.trim_matches('"').to_owned()));
         }
@@ -178,19 +178,22 @@ impl Editor {
     fn checked(&self, text: String) -> Result<(String, Plan), String> {
         match Plan::parse(&self.path, &text) {
             Ok(plan) => Ok((text, plan)),
-            Err(mistakes) => Err(mistakes
-                .iter()
-                .next()
-                .map_or_else(String::new, |(_, _, message, remedy)| format!("{message}; {remedy}"))),
+            Err(mistakes) => Err(mistakes.first()),
         }
     }
 
     fn commit(&mut self) -> Edit {
-        match self.candidate() {
-            Ok((text, plan)) => {
-                self.leave();
-                self.replace(text, plan)
-            }
+        let candidate = self.candidate();
+        if candidate.is_ok() {
+            self.leave();
+        }
+        self.settle(candidate)
+    }
+
+    /// Takes a checked text, or keeps what stands against it.
+    fn settle(&mut self, checked: Result<(String, Plan), String>) -> Edit {
+        match checked {
+            Ok((text, plan)) => self.replace(text, plan),
             Err(problem) => {
                 self.problem = Some(problem);
                 Edit::None
@@ -237,29 +240,13 @@ impl Editor {
         let Some(field) = self.field() else { return Edit::None };
         let value = field.value.trim_matches('"');
         let next = match field.path.key {
-            "rope" => {
-                let ropes = &catalogue().ropes;
-                let at = ropes.iter().position(|rope| rope.name == value);
-                let next = at.map_or(0, |at| at.saturating_add_signed(if up { 1 } else { -1 }));
-                ropes.get(next).map(|rope| rope.name.clone())
-            }
-            "termination" => {
-                let all = &catalogue().terminations;
-                let at = all.iter().position(|termination| termination.name == value);
-                let next = at.map_or(0, |at| at.saturating_add_signed(if up { 1 } else { -1 }));
-                all.get(next).map(|termination| termination.name.clone())
-            }
+            "rope" => beside(catalogue().ropes.iter().map(|rope| &rope.name), value, up),
+            "termination" => beside(catalogue().terminations.iter().map(|known| &known.name), value, up),
             _ => value.parse::<f64>().ok().map(|number| stepped(number, up).to_string()),
         };
         let Some(next) = next else { return Edit::None };
-        let changed = fields::set(&self.text, &field.path.clone(), &next);
-        match changed.and_then(|text| self.checked(text)) {
-            Ok((text, plan)) => self.replace(text, plan),
-            Err(problem) => {
-                self.problem = Some(problem);
-                Edit::None
-            }
-        }
+        let changed = fields::set(&self.text, &field.path, &next).and_then(|text| self.checked(text));
+        self.settle(changed)
     }
 
     /// Copies the selected option.
@@ -279,20 +266,17 @@ impl Editor {
             self.problem = Some("select a delay option first".to_owned());
             return Edit::None;
         };
-        match change(&self.text, option).ok_or_else(|| "the plan needs a delay option".to_owned()) {
-            Ok(text) => match self.checked(text) {
-                Ok((text, plan)) => self.replace(text, plan),
-                Err(problem) => {
-                    self.problem = Some(problem);
-                    Edit::None
-                }
-            },
-            Err(problem) => {
-                self.problem = Some(problem);
-                Edit::None
-            }
-        }
+        let changed = change(&self.text, option).ok_or_else(|| "the plan needs a delay option".to_owned());
+        let changed = changed.and_then(|text| self.checked(text));
+        self.settle(changed)
     }
+}
+
+/// The name before or behind one in a list; the first for a name that is not in it.
+fn beside<'n>(mut names: impl Iterator<Item = &'n String> + Clone, name: &str, up: bool) -> Option<String> {
+    let at = names.clone().position(|known| known == name);
+    let next = at.map_or(0, |at| at.saturating_add_signed(if up { 1 } else { -1 }));
+    names.nth(next).cloned()
 }
 
 /// A tenth of the leading digit's place further: 20 to 21, 6 to 6.1, 280 to 290.

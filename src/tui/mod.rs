@@ -43,7 +43,6 @@ use self::app::{App, Request};
 use self::file::PlanFile;
 use self::keymap::Action;
 use self::start::{Next, Opened, Start};
-use self::studies::Progress;
 use self::theme::Theme;
 use crate::worker::{Errands, Kind, Worker};
 
@@ -139,9 +138,8 @@ impl Session {
             heard = true;
         }
         for kind in Kind::ALL {
-            if let Some((done, total)) = self.errands.counts(kind) {
-                self.app.studies.set(kind, Progress::Running { done, total });
-                heard = true;
+            if let Some(counts) = self.errands.counts(kind) {
+                heard |= self.app.studies.advance(kind, counts);
             }
         }
         if let Some(read) = self.file.as_mut().and_then(PlanFile::changed) {

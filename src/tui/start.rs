@@ -242,13 +242,7 @@ impl Questions {
     /// The text of the plan, or what stands against it.
     fn plan(&self) -> Result<String, String> {
         let text = starter::plan(&std::array::from_fn(|n| self.answers[n].value()))?;
-        match Plan::parse("new plan", &text) {
-            Ok(_) => Ok(text),
-            Err(mistakes) => Err(mistakes
-                .iter()
-                .next()
-                .map_or_else(String::new, |(_, _, message, remedy)| format!("{message}; {remedy}"))),
-        }
+        Plan::parse("new plan", &text).map(|_| text).map_err(|mistakes| mistakes.first())
     }
 
     fn draw(&self, theme: Theme, frame: &mut Frame, area: Rect) {

@@ -65,6 +65,15 @@ impl Studies {
         self.progress[kind as usize] = progress;
     }
 
+    /// Notes how far a study is; whether that is news.
+    pub fn advance(&mut self, kind: Kind, counts: (usize, usize)) -> bool {
+        let known =
+            matches!(self.progress(kind), Progress::Running { done, total } if (*done, *total) == counts);
+        let (done, total) = counts;
+        self.set(kind, Progress::Running { done, total });
+        !known
+    }
+
     /// Nothing found yet, the same study shown.
     pub fn forget(&mut self) {
         *self = Self { shown: self.shown, ..Self::default() };

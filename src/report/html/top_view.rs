@@ -22,11 +22,7 @@ pub fn svg(case: &Case, option: usize) -> String {
 
 fn draw(case: &Case, option: usize) -> Result<String, Box<dyn std::error::Error>> {
     let scene = case.scene();
-    let range = |axis: usize| {
-        let places = scene.position.iter().map(|place| place[axis]);
-        places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
-    };
-    let [(left, right), (bottom, top)] = [range(0), range(1)];
+    let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
     let (wide, high) = ((right - left).max(1.0), (top - bottom).max(1.0));
     let scale = ((WIDTH - 2.0 * MARGIN) / wide).min((TALLEST - 2.0 * MARGIN) / high);
     let size = (WIDTH as u32, (high * scale + 2.0 * MARGIN) as u32);

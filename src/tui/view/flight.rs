@@ -15,7 +15,6 @@ use ratatui::widgets::canvas::{Canvas, Line as Stroke, Points};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::{Places, chart, color};
-use crate::scene::Scene;
 use crate::study::flight::Flight;
 use crate::tui::app::{App, Target};
 use crate::tui::studies::Progress;
@@ -65,12 +64,6 @@ fn titled<'t>(app: &App, title: String) -> Block<'t> {
         .title(Line::styled(format!(" {title} "), app.theme.title()))
 }
 
-/// Least and greatest place of the tires at rest along an axis [m].
-fn range(scene: &Scene, axis: usize) -> (f64, f64) {
-    let places = scene.position.iter().map(|place| place[axis]);
-    places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
-}
-
 /// A cell per tire, its sign by height; where several tires share a cell, the highest.
 fn draw_above(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
     let (scene, theme) = (app.case.scene(), app.theme);
@@ -78,7 +71,7 @@ fn draw_above(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
     let block = titled(app, format!("{name}, from above"));
     let inside = block.inner(area);
     frame.render_widget(block, area);
-    let [(left, right), (bottom, top)] = [range(scene, 0), range(scene, 1)];
+    let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
     let (columns, rows) = (f64::from(inside.width), f64::from(inside.height));
     if columns < 2.0 || rows < 1.0 {
         return;
@@ -128,7 +121,7 @@ fn sign(app: &App, height: f32) -> (&'static str, Style) {
 /// Tires and cables against the ground and the limit; cables that pull stand out.
 fn draw_side(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
     let (scene, theme, axis) = (app.case.scene(), app.theme, usize::from(app.player.along_rows));
-    let (left, right) = range(scene, axis);
+    let [left, right] = scene.extent(axis);
     let margin = 0.03 * (right - left).max(1.0);
     let limit = app.case.limits.height;
     let top = flight.outcome.height.value.max(limit) * 1.1;

@@ -128,11 +128,7 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
     let title = Line::styled(format!(" {} · {} ", delay.name, fires.join(", ")), theme.title());
     let block = Block::new().borders(Borders::TOP).border_style(theme.quiet()).title(title);
     let scene = case.scene();
-    let range = |axis: usize| {
-        let places = scene.position.iter().map(|place| place[axis]);
-        places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
-    };
-    let [(left, right), (bottom, top)] = [range(0), range(1)];
+    let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
     let margin = 0.05 * (right - left).max(top - bottom).max(1.0);
     let tires: Vec<(f64, f64)> = scene.position.iter().map(|place| (place.x, place.y)).collect();
     let mut fires = vec![false; tires.len()];

@@ -113,8 +113,11 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     let listed = app.listed();
     let rows = listed.iter().map(|&option| row(app, option, &columns, (name, spark)));
     let widths = heads.iter().map(|head| Constraint::Length(head.2));
+    // Of several columns of one quantity the first is marked.
+    let marked = heads.iter().position(|head| head.1 == app.compare.sort);
+    let mark = if app.compare.reversed { "▼" } else { "▲" };
     let cells = heads.iter().enumerate().map(|(n, head)| {
-        let line = Line::from(headline(app, head.0, head.1));
+        let line = Line::from(format!("{}{}", head.0, if marked == Some(n) { mark } else { "" }));
         if (2..2 + columns.len()).contains(&n) { line.right_aligned() } else { line }
     });
     let table = Table::new(rows, widths).header(Cells::new(cells).style(app.theme.quiet()));
@@ -133,17 +136,6 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     if listed.is_empty() && area.height > 1 {
         let none = format!("no option has '{}' in its name or verdict; Esc shows all", app.compare.filter);
         frame.render_widget(Line::styled(none, app.theme.quiet()), Rect { y: area.y + 1, height: 1, ..area });
-    }
-}
-
-/// A column's head, marked where it is sorted by.
-fn headline(app: &App, head: &str, sort: SortBy) -> String {
-    let first = |column: &Column| column.sort == sort && column.head == head;
-    let leads = sort < SortBy::Height || COLUMNS.iter().find(|column| column.sort == sort).is_some_and(first);
-    match app.compare.reversed {
-        _ if app.compare.sort != sort || !leads => head.to_owned(),
-        false => format!("{head}▲"),
-        true => format!("{head}▼"),
     }
 }
 
