@@ -97,6 +97,12 @@ impl Cable {
     pub fn force(&self, length: f64) -> f64 {
         (self.stiffness * (length - self.rest_length)).max(0.0)
     }
+
+    /// Elastic energy N²/2k at a given length [J].
+    pub fn energy(&self, length: f64) -> f64 {
+        let force = self.force(length);
+        0.5 * force * force / self.stiffness
+    }
 }
 
 impl Scene {

@@ -99,12 +99,13 @@ pub type Watcher<'a> = dyn FnMut(&dyn Motion) -> ControlFlow<()> + 'a;
 pub struct Model {
     scene: Arc<Scene>,
     verlet: Arc<verlet::Model>,
+    newmark: Arc<newmark::Model>,
 }
 
 impl Model {
     /// Of a scene; what the methods need is made at their first run.
     pub fn new(scene: Scene) -> Self {
-        Self { scene: Arc::new(scene), verlet: Arc::default() }
+        Self { scene: Arc::new(scene), verlet: Arc::default(), newmark: Arc::default() }
     }
 
     /// What it is made of.
@@ -116,7 +117,7 @@ impl Model {
     pub fn run(&self, shot: &Shot, settings: &Settings, watch: &mut Watcher<'_>) -> Result<Outcome, Failure> {
         match settings.method {
             Method::Verlet => self.verlet.run(&self.scene, shot, settings, watch),
-            Method::Newmark => newmark::run(&self.scene, shot, settings, watch),
+            Method::Newmark => self.newmark.run(&self.scene, shot, settings, watch),
         }
     }
 
@@ -139,7 +140,7 @@ pub fn simulate(
 ) -> Result<Outcome, Failure> {
     match settings.method {
         Method::Verlet => verlet::Model::default().run(scene, shot, settings, watch),
-        Method::Newmark => newmark::run(scene, shot, settings, watch),
+        Method::Newmark => newmark::Model::default().run(scene, shot, settings, watch),
     }
 }
 

@@ -3,12 +3,14 @@
 //! Tires are kept in packs of eight, cables in blocks. A pack *moves* while any of its tires has speed or height; it is
 //! *awake* (its tires are kicked) while it or a pack tied to it moves, since only then can its forces differ from those under
 //! which it was last found at rest; a block is evaluated while any pack it touches is awake. Everything else lies exactly as
-//! it did, so nothing is approximated. Counts are kept, so that a step costs what changes in it.
+//! it did, so nothing is approximated. Counts are kept, so that a step costs what changes in it. [`super::newmark`] uses packs
+//! of one tire and blocks of one cable.
 
 use fixedbitset::FixedBitSet;
 
 use super::cable::Blocks;
 use super::pack::LANES;
+use crate::scene::Cable;
 
 /// What ties packs of tires together.
 #[derive(Debug)]
@@ -21,9 +23,8 @@ pub struct Ties {
 }
 
 impl Ties {
-    /// Of all blocks.
-    pub fn new(blocks: &Blocks, tires: usize) -> Self {
-        let n_packs = tires.div_ceil(LANES);
+    /// Of packs of eight tires.
+    pub fn of_blocks(blocks: &Blocks, tires: usize) -> Self {
         let (mut touches, mut tied) = (Vec::<(u32, u32)>::new(), Vec::<(u32, u32)>::new());
         for (n, block) in blocks.blocks.iter().enumerate() {
             let packs = |end: usize, len: usize| (end / LANES) as u32..=((end + len - 1) / LANES) as u32;
@@ -38,12 +39,25 @@ impl Ties {
                 tied.extend(second.flat_map(|second| [(first, second), (second, first)]));
             }
         }
+        Self::new(tires.div_ceil(LANES), blocks.blocks.len(), touches, tied)
+    }
+
+    /// Of single tires.
+    pub fn of_cables(cables: &[Cable], tires: usize) -> Self {
+        let ends = || cables.iter().map(|cable| cable.ends.map(|end| end as u32)).zip(0..);
+        let touches = ends().flat_map(|([a, b], n)| [(a, n), (b, n)]).collect();
+        let tied = ends().flat_map(|([a, b], _)| [(a, b), (b, a)]).collect();
+        Self::new(tires, cables.len(), touches, tied)
+    }
+
+    fn new(
+        n_packs: usize,
+        n_blocks: usize,
+        touches: Vec<(u32, u32)>,
+        mut tied: Vec<(u32, u32)>,
+    ) -> Self {
         tied.extend((0..n_packs as u32).map(|pack| (pack, pack)));
-        Self {
-            blocks: Lists::new(n_packs, touches),
-            neighbours: Lists::new(n_packs, tied),
-            n_blocks: blocks.blocks.len(),
-        }
+        Self { blocks: Lists::new(n_packs, touches), neighbours: Lists::new(n_packs, tied), n_blocks }
     }
 }
 
@@ -98,6 +112,12 @@ impl<'a> Wake<'a> {
             self.moving.set(pack, moving);
             self.changed.push(pack);
         }
+    }
+
+    /// Whether a pack was awake when the lists last changed.
+    #[inline(always)]
+    pub fn is_awake(&self, pack: usize) -> bool {
+        self.awake_set.contains(pack)
     }
 
     /// Brings the lists up to date; whether they changed.

@@ -3,6 +3,8 @@
 //! A step is solved for one region; what comes out implies a region of its own. They must agree, or the step is repeated
 //! (source paper, after (5)).
 
+use crate::simulation::wake::Wake;
+
 /// One tire's part of the contact region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ground {
@@ -15,7 +17,7 @@ pub enum Ground {
 }
 
 /// The contact region of a step.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Region {
     /// Whether each cable is "switched on" (`n_cables`).
     pub taut: Vec<bool>,
@@ -29,22 +31,25 @@ const AT_ONCE: usize = 8;
 pub const MOST_REPEATS: usize = 40;
 
 impl Region {
-    /// Takes over what `implied` says differently; false when nothing does.
+    /// Takes over what `implied` says differently of the tires and cables awake; false when nothing does.
     ///
     /// All at once at first; if that goes in circles, only the first difference each time (Murty's least-index rule,
     /// which ends for the positive definite systems met here).
-    pub fn adopt(&mut self, implied: &Region, repeats: usize) -> bool {
-        if self == implied {
-            return false;
+    pub fn adopt(&mut self, implied: &Region, wake: &Wake<'_>, repeats: usize) -> bool {
+        let most = if repeats < AT_ONCE { usize::MAX } else { 1 };
+        let mut changes = 0;
+        for &tire in &wake.awake {
+            if changes < most && self.ground[tire] != implied.ground[tire] {
+                self.ground[tire] = implied.ground[tire];
+                changes += 1;
+            }
         }
-        if repeats < AT_ONCE {
-            self.taut.copy_from_slice(&implied.taut);
-            self.ground.copy_from_slice(&implied.ground);
-        } else if let Some(tire) = (0..self.ground.len()).find(|&t| self.ground[t] != implied.ground[t]) {
-            self.ground[tire] = implied.ground[tire];
-        } else if let Some(cable) = (0..self.taut.len()).find(|&c| self.taut[c] != implied.taut[c]) {
-            self.taut[cable] = implied.taut[cable];
+        for &cable in &wake.blocks {
+            if changes < most && self.taut[cable] != implied.taut[cable] {
+                self.taut[cable] = implied.taut[cable];
+                changes += 1;
+            }
         }
-        true
+        changes > 0
     }
 }

@@ -1,139 +1,184 @@
 //! The linear system of a Newton iteration, (K + 4M/h²) δ = r, and its solution by conjugate gradients.
 //!
-//! K is never assembled: a taut cable of length L contributes k [(1 − L₀/L) I + (L₀/L) d dᵀ] between its ends, d being its
-//! direction. The matrix is symmetric, positive definite and at useful steps dominated by 4M/h², so a few iterations
-//! preconditioned with its 3×3 diagonal blocks do.
+//! It has a row for every tire that can move and a link for every taut cable at such a tire. K is never assembled: a link of
+//! length L contributes k [(1 − L₀/L) I + (L₀/L) d dᵀ] between its ends, d being its direction. The matrix is symmetric,
+//! positive definite and at useful steps dominated by 4M/h², so a few iterations preconditioned with its 3×3 diagonal blocks
+//! do.
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::scene::Scene;
+use super::region::{Ground, Region};
+use crate::scene::{Cable, Scene};
+use crate::simulation::wake::Wake;
 
-/// Vectors of one linear solve, kept between solves.
+/// The row that stands for every tire that is held; it stays at rest.
+const HELD: u32 = 0;
+
+/// Rows and links of one linear solve; their memory is kept between solves.
 #[derive(Clone, Debug)]
 pub struct System {
-    /// Tangent stiffness of each cable [N/m] (`n_cables`).
-    tangent: Vec<Matrix3<f64>>,
-    /// Diagonal blocks, inverted [m/N] (`n_tires`).
-    preconditioner: Vec<Matrix3<f64>>,
-    /// 4m/h² [N/m] (`n_tires`).
-    inertia: Vec<f64>,
-    /// 1 where a component is solved for, 0 where it is prescribed (`n_tires`).
-    pub open: Vec<Vector3<f64>>,
-    residual: Vec<Vector3<f64>>,
-    scaled: Vec<Vector3<f64>>,
-    direction: Vec<Vector3<f64>>,
-    image: Vec<Vector3<f64>>,
-    /// The solution δ [m] (`n_tires`).
-    pub correction: Vec<Vector3<f64>>,
+    /// The first stands for every tire that is held.
+    rows: Vec<Row>,
+    links: Vec<Link>,
+    /// By tire, its row; [`HELD`] between one assembly and the next (`n_tires`).
+    row: Vec<u32>,
+}
+
+/// A tire that can move.
+#[derive(Clone, Copy, Debug, Default)]
+struct Row {
+    tire: usize,
+    /// 4m/h² [N/m].
+    inertia: f64,
+    /// Whether its height is solved for, not prescribed by the ground.
+    rises: bool,
+    /// The diagonal block, inverted [m/N].
+    preconditioner: Matrix3<f64>,
+    /// What δ leaves of the right side [N], and preconditioned [m].
+    residual: Vector3<f64>,
+    scaled: Vector3<f64>,
+    /// Where the present iteration goes, and the matrix times that.
+    direction: Vector3<f64>,
+    image: Vector3<f64>,
+    /// δ [m].
+    correction: Vector3<f64>,
+}
+
+/// A taut cable.
+#[derive(Clone, Copy, Debug)]
+struct Link {
+    rows: [usize; 2],
+    /// Tangent stiffness [N/m].
+    tangent: Matrix3<f64>,
 }
 
 /// Relative residual at which conjugate gradients stop; Newton's own iterations remove what is left.
 const TOLERANCE: f64 = 1e-8;
 
 impl System {
-    /// For `scene`, nothing prescribed.
+    /// With room for every tire and cable of `scene`.
     pub fn new(scene: &Scene) -> Self {
-        let n = scene.mass.len();
-        let vectors = || vec![Vector3::zeros(); n];
         Self {
-            tangent: vec![Matrix3::zeros(); scene.cables.len()],
-            preconditioner: vec![Matrix3::identity(); n],
-            inertia: vec![0.0; n],
-            open: vec![Vector3::repeat(1.0); n],
-            residual: vectors(),
-            scaled: vectors(),
-            direction: vectors(),
-            image: vectors(),
-            correction: vectors(),
+            rows: Vec::with_capacity(scene.mass.len() + 1),
+            links: Vec::with_capacity(scene.cables.len()),
+            row: vec![HELD; scene.mass.len()],
         }
     }
 
-    /// Sets K at displacements `u` [m] with the cables in `taut`, and 4M/h² for the step `h` [s].
-    pub fn assemble(&mut self, scene: &Scene, u: &[Vector3<f64>], taut: &[bool], h: f64) {
-        for (tire, &mass) in scene.mass.iter().enumerate() {
-            self.inertia[tire] = 4.0 * mass / (h * h);
-            self.preconditioner[tire] = Matrix3::from_diagonal_element(self.inertia[tire]);
+    /// Sets K at displacements `u` [m] for the contact `region`, 4M/h² for the step `h` [s], and the right side [N]
+    /// (both `n_tires`).
+    pub fn assemble(
+        &mut self,
+        scene: &Scene,
+        wake: &Wake<'_>,
+        region: &Region,
+        u: &[Vector3<f64>],
+        right: &[Vector3<f64>],
+        h: f64,
+    ) {
+        self.rows.clear();
+        self.links.clear();
+        self.rows.push(Row::default());
+        for &tire in wake.awake.iter().filter(|&&tire| region.ground[tire] != Ground::Stick) {
+            self.row[tire] = self.rows.len() as u32;
+            let (inertia, rises) = (4.0 * scene.mass[tire] / (h * h), region.ground[tire] == Ground::Free);
+            let mut residual = right[tire];
+            residual.z = if rises { residual.z } else { 0.0 };
+            let preconditioner = Matrix3::from_diagonal_element(inertia);
+            self.rows.push(Row { tire, inertia, rises, preconditioner, residual, ..Row::default() });
         }
-        for (n, cable) in scene.cables.iter().enumerate() {
-            self.tangent[n] = Matrix3::zeros();
-            if !taut[n] {
-                continue;
-            }
-            let span = cable.displaced(u);
-            let length = span.norm().max(f64::MIN_POSITIVE);
-            let direction = span / length;
-            let shorter = cable.rest_length / length;
-            self.tangent[n] = (Matrix3::from_diagonal_element(1.0 - shorter)
-                + direction * direction.transpose() * shorter)
-                * cable.stiffness;
-            for end in cable.ends {
-                self.preconditioner[end] += self.tangent[n];
-            }
-        }
-        for (block, open) in self.preconditioner.iter_mut().zip(&self.open) {
-            for c in 0..3 {
-                if open[c] == 0.0 {
-                    block.row_mut(c).fill(0.0);
-                    block.column_mut(c).fill(0.0);
-                    block[(c, c)] = 1.0;
+        for cable in wake.blocks.iter().filter(|&&n| region.taut[n]).map(|&n| &scene.cables[n]) {
+            let rows = cable.ends.map(|end| self.row[end] as usize);
+            if rows != [HELD as usize; 2] {
+                let tangent = tangent(cable, u);
+                for row in rows {
+                    self.rows[row].preconditioner += tangent;
                 }
+                self.links.push(Link { rows, tangent });
             }
-            let diagonal = Matrix3::from_diagonal(&block.diagonal().map(|d| 1.0 / d));
-            *block = block.try_inverse().unwrap_or(diagonal);
+        }
+        for row in &mut self.rows[1..] {
+            row.invert_block();
+            self.row[row.tire] = HELD;
         }
     }
 
-    /// Solves for the correction of `right` [N]; false when it does not converge within a bound.
-    pub fn solve(&mut self, scene: &Scene, right: &[Vector3<f64>]) -> bool {
-        let n = right.len();
-        for tire in 0..n {
-            self.residual[tire] = right[tire].component_mul(&self.open[tire]);
-            self.correction[tire] = Vector3::zeros();
-            self.scaled[tire] = self.preconditioner[tire] * self.residual[tire];
-            self.direction[tire] = self.scaled[tire];
+    /// Solves for the correction; false when it does not converge within a bound.
+    pub fn solve(&mut self) -> bool {
+        for row in &mut self.rows[1..] {
+            row.scaled = row.preconditioner * row.residual;
+            row.direction = row.scaled;
         }
-        let mut along = dot(&self.residual, &self.scaled);
+        let mut along = self.sum(|row| row.residual.dot(&row.scaled));
         let enough = along * TOLERANCE * TOLERANCE;
-        for _ in 0..20 + 3 * n {
+        for _ in 0..20 + 3 * self.rows.len() {
             if along <= enough {
                 return true;
             }
-            self.multiply(scene);
-            let length = along / dot(&self.direction, &self.image);
+            self.multiply();
+            let length = along / self.sum(|row| row.direction.dot(&row.image));
             if !length.is_finite() {
                 return false;
             }
-            for tire in 0..n {
-                self.correction[tire] += self.direction[tire] * length;
-                self.residual[tire] -= self.image[tire] * length;
-                self.scaled[tire] = self.preconditioner[tire] * self.residual[tire];
+            for row in &mut self.rows[1..] {
+                row.correction += row.direction * length;
+                row.residual -= row.image * length;
+                row.scaled = row.preconditioner * row.residual;
             }
-            let next = dot(&self.residual, &self.scaled);
-            for tire in 0..n {
-                self.direction[tire] = self.scaled[tire] + self.direction[tire] * (next / along);
+            let next = self.sum(|row| row.residual.dot(&row.scaled));
+            for row in &mut self.rows[1..] {
+                row.direction = row.scaled + row.direction * (next / along);
             }
             along = next;
         }
         false
     }
 
+    /// Tires that can move and their part of the solution [m].
+    pub fn corrections(&self) -> impl Iterator<Item = (usize, Vector3<f64>)> {
+        self.rows[1..].iter().map(|row| (row.tire, row.correction))
+    }
+
+    fn sum(&self, of: impl Fn(&Row) -> f64) -> f64 {
+        self.rows[1..].iter().map(of).sum()
+    }
+
     /// image = (K + 4M/h²) direction.
-    fn multiply(&mut self, scene: &Scene) {
-        for (tire, image) in self.image.iter_mut().enumerate() {
-            *image = self.direction[tire] * self.inertia[tire];
+    fn multiply(&mut self) {
+        for row in &mut self.rows {
+            row.image = row.direction * row.inertia;
         }
-        for (cable, tangent) in scene.cables.iter().zip(&self.tangent) {
-            let [a, b] = cable.ends;
-            let pull = tangent * (self.direction[b] - self.direction[a]);
-            self.image[a] -= pull;
-            self.image[b] += pull;
+        for Link { rows: [a, b], tangent } in &self.links {
+            let pull = tangent * (self.rows[*b].direction - self.rows[*a].direction);
+            self.rows[*a].image -= pull;
+            self.rows[*b].image += pull;
         }
-        for (image, open) in self.image.iter_mut().zip(&self.open) {
-            image.component_mul_assign(open);
+        for row in self.rows.iter_mut().filter(|row| !row.rises) {
+            row.image.z = 0.0;
         }
     }
 }
 
-fn dot(a: &[Vector3<f64>], b: &[Vector3<f64>]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
+impl Row {
+    /// Makes the diagonal block the preconditioner.
+    fn invert_block(&mut self) {
+        let block = &mut self.preconditioner;
+        if !self.rises {
+            block.row_mut(2).fill(0.0);
+            block.column_mut(2).fill(0.0);
+            block[(2, 2)] = 1.0;
+        }
+        let diagonal = Matrix3::from_diagonal(&block.diagonal().map(|d| 1.0 / d));
+        *block = block.try_inverse().unwrap_or(diagonal);
+    }
+}
+
+/// Tangent stiffness of a taut cable at displacements `u` [N/m].
+fn tangent(cable: &Cable, u: &[Vector3<f64>]) -> Matrix3<f64> {
+    let span = cable.displaced(u);
+    let length = span.norm().max(f64::MIN_POSITIVE);
+    let direction = span / length;
+    let shorter = cable.rest_length / length;
+    (Matrix3::from_diagonal_element(1.0 - shorter) + direction * direction.transpose() * shorter)
+        * cable.stiffness
 }

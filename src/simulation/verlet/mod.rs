@@ -90,7 +90,7 @@ impl Part {
         let inverse = |(mass, &weight): (&f64, &f64)| if weight > 0.0 { 1.0 / mass } else { 0.0 };
         let blocks = Blocks::new(&part, &quotient.cable_weight);
         Self {
-            ties: Ties::new(&blocks, part.mass.len()),
+            ties: Ties::of_blocks(&blocks, part.mass.len()),
             blocks,
             mass: weighed().map(|(mass, weight)| mass * weight).chain(spare()).collect(),
             inverse: weighed().map(inverse).chain(spare()).collect(),

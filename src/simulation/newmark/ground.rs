@@ -1,0 +1,113 @@
+//! Where tires meet the ground: friction, the contact region a solution implies, and the end of a step with its landings.
+
+use nalgebra::{Vector2, Vector3};
+
+use super::Stepper;
+use super::region::Ground;
+use crate::outcome::Peak;
+use crate::simulation::contact::{support, top};
+
+impl Stepper<'_> {
+    /// Friction of a sliding tire per mass: μ times the reaction, against the velocity, or the pull where there is none.
+    pub(super) fn friction(&self, free: Vector3<f64>, velocity: Vector2<f64>) -> Vector2<f64> {
+        let limit = self.friction * (-free.z).max(0.0);
+        let direction = velocity.try_normalize(0.0).or_else(|| free.xy().try_normalize(0.0));
+        direction.map_or_else(Vector2::zeros, |direction| direction * -limit)
+    }
+
+    /// The same at the end of a step, where it can do no more than stop the tire: one that has just landed may be slow.
+    pub(super) fn end_friction(&self, tire: usize, free: Vector3<f64>, h: f64) -> Vector2<f64> {
+        let sliding = self.sliding(tire, h);
+        self.friction(free, sliding).cap_magnitude(2.0 * sliding.norm() / h)
+    }
+
+    /// Sideways velocity at the end of the step were there no friction [m/s]: what friction opposes.
+    fn sliding(&self, tire: usize, h: f64) -> Vector2<f64> {
+        let force = (self.f_start[tire] + self.f[tire]).xy();
+        self.v[tire].xy() + force * (0.5 * h / self.scene.mass[tire])
+    }
+
+    /// Whether a tire found on the ground at the end of the step meets it there with a speed.
+    fn lands(&self, tire: usize) -> bool {
+        self.u[tire].z > 0.0 || self.v[tire].z != 0.0
+    }
+
+    /// The region that the solution implies.
+    pub(super) fn imply(&mut self, h: f64) {
+        for &n in &self.wake.blocks {
+            let cable = &self.scene.cables[n];
+            self.implied.taut[n] = cable.displaced(&self.end).norm() > cable.rest_length;
+        }
+        for &tire in &self.wake.awake {
+            self.implied.ground[tire] = self.implied_ground(tire, h);
+        }
+    }
+
+    fn implied_ground(&self, tire: usize, h: f64) -> Ground {
+        let mass = self.scene.mass[tire];
+        let free = self.f[tire] / mass - Vector3::z() * self.scene.gravity;
+        let assumed = self.region.ground[tire];
+        let lands = self.lands(tire);
+        if assumed == Ground::Free {
+            return if self.end[tire].z < 0.0 { Ground::Slip } else { Ground::Free };
+        }
+        if free.z > 0.0 && !lands {
+            return Ground::Free;
+        }
+        let within_cone = self.sliding(tire, h).norm() <= self.friction * (-free.z).max(0.0) * h;
+        match assumed {
+            Ground::Stick if !within_cone => Ground::Slip,
+            Ground::Slip if !lands && within_cone => Ground::Stick,
+            other => other,
+        }
+    }
+
+    /// Takes over the end of the step, with landings and what they and friction dissipate.
+    pub(super) fn accept(&mut self, h: f64) {
+        for n in 0..self.wake.awake.len() {
+            let tire = self.wake.awake[n];
+            let mass = self.scene.mass[tire];
+            let mut velocity = self.du[tire] * (2.0 / h) - self.v[tire];
+            let ground = self.region.ground[tire];
+            if ground == Ground::Stick {
+                let force = (self.f[tire] + self.f_start[tire]).xy() * (0.5 * h);
+                let stopped = self.v[tire].xy() * mass + force;
+                self.record.ledger.dissipated += 0.5 * stopped.dot(&self.v[tire].xy());
+                velocity = Vector3::zeros();
+            } else if ground == Ground::Slip {
+                velocity.z = 0.0;
+                let free = self.f[tire] / mass - Vector3::z() * self.scene.gravity;
+                let before = self.a[tire].xy() - self.f_start[tire].xy() / mass;
+                let friction = 0.5 * (before + self.end_friction(tire, free, h));
+                self.record.ledger.dissipated -= mass * friction.dot(&self.du[tire].xy());
+                if self.lands(tire) {
+                    velocity = self.land(tire, h, velocity);
+                }
+            }
+            self.v[tire] = velocity;
+            self.u[tire] = self.end[tire];
+        }
+    }
+
+    /// The landing of a tire within the step: its impact speed follows from the fall, friction takes its share sideways.
+    fn land(&mut self, tire: usize, h: f64, velocity: Vector3<f64>) -> Vector3<f64> {
+        let (height, rise, a) = (self.u[tire].z, self.v[tire].z, self.a[tire].z);
+        // A flight within the step is seen by no sample.
+        if let Some((more, until)) = top(rise, a, h)
+            && height + more > self.record.height.value
+        {
+            self.record.height = Peak { value: height + more, at: self.now() + until, place: tire };
+        }
+        let impact = (rise * rise - 2.0 * a * height).max(0.0).sqrt();
+        let left = (h - 2.0 * height / (impact - rise).max(f64::MIN_POSITIVE)).clamp(0.0, h);
+        let before = velocity.xy().push(-impact);
+        let (after, _) = support(before, self.friction);
+        self.end[tire] += (after.xy() - before.xy()).push(0.0) * left;
+        let lost = 0.5 * self.scene.mass[tire] * (before.norm_squared() - after.norm_squared());
+        self.record.ledger.dissipated += lost;
+        if after.xy() == Vector2::zeros() {
+            self.region.ground[tire] = Ground::Stick;
+        }
+        after
+    }
+}

@@ -1,0 +1,163 @@
+//! One cut of a step: Newton–Raphson within a contact region, repeated until the region stands still.
+
+use nalgebra::Vector3;
+
+use super::Stepper;
+use super::region::{Ground, MOST_REPEATS};
+use crate::scene::{Cable, Scene};
+use crate::simulation::Failure;
+use crate::simulation::wake::Wake;
+
+/// Newton iterations before a step is halved.
+const MOST_ITERATIONS: usize = 20;
+/// Times a step is halved before it is given up.
+const MOST_HALVINGS: usize = 8;
+/// Newton stops when its correction is this small beside the step's displacement.
+const CONVERGED: f64 = 1e-10;
+
+impl Stepper<'_> {
+    /// One cut of a step: repeated until the contact region stands still, and halved where it does not.
+    pub(super) fn advance(&mut self, h: f64, halved: usize) -> Result<(), Failure> {
+        match self.settle(h) {
+            Err(Failure::Unsettled { .. }) if halved < MOST_HALVINGS => {
+                self.advance(0.5 * h, halved + 1)?;
+                self.advance(0.5 * h, halved + 1)
+            }
+            settled => settled,
+        }
+    }
+
+    fn settle(&mut self, h: f64) -> Result<(), Failure> {
+        self.refresh();
+        self.set_start_forces();
+        self.set_accelerations();
+        for repeats in 0..MOST_REPEATS {
+            self.solve(h)?;
+            self.imply(h);
+            if !self.region.adopt(&self.implied, &self.wake, repeats) {
+                self.accept(h);
+                return Ok(());
+            }
+            self.spread();
+        }
+        Err(Failure::Unsettled { what: "contact region", at: self.now() })
+    }
+
+    fn set_start_forces(&mut self) {
+        cable_forces(
+            &self.scene,
+            &self.wake,
+            &self.u,
+            |_, cable, length| cable.force(length),
+            &mut self.f_start,
+        );
+    }
+
+    /// Tires that leave their place wake those they are tied to.
+    fn spread(&mut self) {
+        for n in 0..self.wake.awake.len() {
+            let tire = self.wake.awake[n];
+            if self.region.ground[tire] != Ground::Stick {
+                self.wake.set_moving(tire, true);
+            }
+        }
+        if self.refresh() {
+            self.set_start_forces();
+        }
+    }
+
+    /// Accelerations at the start of a cut from the balance of forces there.
+    fn set_accelerations(&mut self) {
+        for &tire in &self.wake.awake {
+            let free = self.f_start[tire] / self.scene.mass[tire] - Vector3::z() * self.scene.gravity;
+            self.a[tire] = match self.region.ground[tire] {
+                Ground::Free => free,
+                Ground::Stick => Vector3::zeros(),
+                Ground::Slip => (free.xy() + self.friction(free, self.v[tire].xy())).push(0.0),
+            };
+        }
+    }
+
+    /// Newton–Raphson for the present region.
+    fn solve(&mut self, h: f64) -> Result<(), Failure> {
+        for &tire in &self.wake.awake {
+            self.du[tire] = match self.region.ground[tire] {
+                Ground::Free => Vector3::zeros(),
+                Ground::Slip => Vector3::z() * -self.u[tire].z,
+                Ground::Stick => (self.v[tire].xy() * (0.5 * h)).push(-self.u[tire].z),
+            };
+        }
+        for _ in 0..MOST_ITERATIONS {
+            self.set_residual(h);
+            self.system.assemble(&self.scene, &self.wake, &self.region, &self.end, &self.residual, h);
+            if !self.system.solve() {
+                break;
+            }
+            let (mut correction, mut way) = (0.0_f64, 0.0_f64);
+            for (tire, delta) in self.system.corrections() {
+                self.du[tire] += delta;
+                correction = correction.max(delta.amax());
+            }
+            for &tire in &self.wake.awake {
+                way = way.max(self.du[tire].amax());
+            }
+            if !(correction + way).is_finite() {
+                return Err(Failure::Diverged { at: self.now() });
+            }
+            if correction <= CONVERGED * way {
+                self.set_residual(h);
+                return Ok(());
+            }
+        }
+        Err(Failure::Unsettled { what: "Newton iteration", at: self.now() })
+    }
+
+    /// Residual of equilibrium at the end of the step, and the forces there.
+    fn set_residual(&mut self, h: f64) {
+        for &tire in &self.wake.awake {
+            self.end[tire] = self.u[tire] + self.du[tire];
+        }
+        let taut = &self.region.taut;
+        let law = |n: usize, cable: &Cable, length: f64| {
+            if taut[n] { cable.stiffness * (length - cable.rest_length) } else { 0.0 }
+        };
+        cable_forces(&self.scene, &self.wake, &self.end, law, &mut self.f);
+        for &tire in &self.wake.awake {
+            let mass = self.scene.mass[tire];
+            let mut force = self.f[tire] / mass - Vector3::z() * self.scene.gravity;
+            if self.region.ground[tire] == Ground::Slip {
+                force += self.end_friction(tire, force, h).push(0.0);
+            }
+            let inertia = (self.du[tire] / h - self.v[tire]) * (4.0 / h) - self.a[tire];
+            self.residual[tire] = (force - inertia) * mass;
+        }
+    }
+}
+
+/// Sums over the cables the force that `law` gives for their number and length, into the forces on the awake tires [N].
+fn cable_forces(
+    scene: &Scene,
+    wake: &Wake<'_>,
+    u: &[Vector3<f64>],
+    law: impl Fn(usize, &Cable, f64) -> f64,
+    forces: &mut [Vector3<f64>],
+) {
+    for &tire in &wake.awake {
+        forces[tire] = Vector3::zeros();
+    }
+    for &n in &wake.blocks {
+        let cable = &scene.cables[n];
+        let span = cable.displaced(u);
+        let length = span.norm();
+        let force = law(n, cable, length);
+        if force == 0.0 {
+            continue;
+        }
+        let pull = span * (force / length);
+        for (end, sign) in cable.ends.into_iter().zip([1.0, -1.0]) {
+            if wake.is_awake(end) {
+                forces[end] += pull * sign;
+            }
+        }
+    }
+}
