@@ -189,3 +189,46 @@ impl Lists {
         &self.items[self.start[key] as usize..self.start[key + 1] as usize]
     }
 }
+
+#[cfg(test)]
+pub mod tests {
+    use super::*;
+    use crate::outcome::Outcome;
+    use crate::plan::Plan;
+    use crate::scene::{Firing, Scene, Shot};
+
+    impl Ties {
+        /// The same, but whatever moves wakes everything.
+        pub fn with_everything(self) -> Self {
+            let packs = 0..self.neighbours.keys() as u32;
+            let all = packs.clone().flat_map(|a| packs.clone().map(move |b| (a, b)));
+            Self { neighbours: Lists::new(packs.len(), all.collect()), ..self }
+        }
+    }
+
+    /// A slack shelter without mirror planes, and shots of it that leave parts of it at rest and find others at rest again.
+    pub fn scenes() -> (Scene, Vec<Shot>) {
+        let plan = "title = ''\n[shelter]\nlayout = 'grid'\nrows = 9\ncolumns = 11\nspacing_m = 1.5\n\
+                    [tire]\nmass_kg = 280\n[cable]\naxial_stiffness_kn = 1500\nbreaking_force_kn = 40\n\
+                    slack_percent = 1\n[ground]\nfriction = 0.5\n\
+                    [[blast_row]]\nname = '1'\nunder_row = 2\nlaunch_m_s = 6\n\
+                    [limits]\nflight_height_m = 2\ncable_safety_factor = 2\n\
+                    [[delay]]\nname = '0'\ninterval_ms = 0\n";
+        let mut scene = Scene::build(&Plan::parse("slack", plan).expect("a plan"));
+        scene.mirrors.clear();
+        let fired = |interval: f64, launch: f64| {
+            let tires = [3, 38, 3, 90, 41].into_iter().enumerate();
+            Shot::from_firings(
+                tires.map(|(n, tire)| Firing { at: n as f64 * interval, tire, launch }).collect(),
+            )
+        };
+        (scene, vec![fired(0.017, 3.0), fired(0.11, 6.0), fired(0.6, 0.5), fired(2.0, 8.0)])
+    }
+
+    /// All that is counted over what moves, as bits; the order of sums decides the last digits of the rest.
+    pub fn exact(run: &Outcome) -> [u64; 8] {
+        let [height, force, drift] = [run.height, run.force, run.drift];
+        [height.value, height.at, force.value, force.at, drift.value, drift.at, run.ledger.put_in, run.steps as f64]
+            .map(f64::to_bits)
+    }
+}

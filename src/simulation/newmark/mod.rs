@@ -226,3 +226,25 @@ impl Motion for Snapshot<'_, '_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use super::*;
+    use crate::simulation::wake::tests::{exact, scenes};
+
+    #[test]
+    fn what_sleeps_would_not_have_moved() {
+        let (scene, shots) = scenes();
+        let ties = || Ties::of_cables(&scene.cables, scene.mass.len());
+        let (some, all) = (Model::default(), Model { ties: ties().with_everything().into() });
+        for shot in shots {
+            let settings = Settings { method: Method::Newmark, step: 2e-3, duration: None };
+            let [some, all] = [&some, &all].map(|model| {
+                model.run(&scene, &shot, &settings, &mut |_| ControlFlow::Continue(())).expect("a run")
+            });
+            assert_eq!(exact(&some), exact(&all));
+        }
+    }
+}

@@ -12,7 +12,9 @@ use crate::simulation::wake::Wake;
 const MOST_ITERATIONS: usize = 20;
 /// Times a step is halved before it is given up.
 const MOST_HALVINGS: usize = 8;
-/// Newton stops when its correction is this small beside the step's displacement.
+/// Newton stops when its correction is this small beside the step's displacement: while the contact region is sought, and
+/// once it stands still.
+const ROUGHLY: f64 = 1e-4;
 const CONVERGED: f64 = 1e-10;
 
 impl Stepper<'_> {
@@ -31,14 +33,20 @@ impl Stepper<'_> {
         self.refresh();
         self.set_start_forces();
         self.set_accelerations();
+        self.predict(h);
+        let mut enough = ROUGHLY;
         for repeats in 0..MOST_REPEATS {
-            self.solve(h)?;
+            self.solve(h, enough)?;
             self.imply(h);
-            if !self.region.adopt(&self.implied, &self.wake, repeats) {
+            if self.region.adopt(&self.implied, &self.wake, repeats) {
+                self.spread();
+                enough = ROUGHLY;
+            } else if enough == CONVERGED {
                 self.accept(h);
                 return Ok(());
+            } else {
+                enough = CONVERGED;
             }
-            self.spread();
         }
         Err(Failure::Unsettled { what: "contact region", at: self.now() })
     }
@@ -78,14 +86,20 @@ impl Stepper<'_> {
         }
     }
 
-    /// Newton–Raphson for the present region.
-    fn solve(&mut self, h: f64) -> Result<(), Failure> {
+    fn predict(&mut self, h: f64) {
         for &tire in &self.wake.awake {
-            self.du[tire] = match self.region.ground[tire] {
-                Ground::Free => Vector3::zeros(),
-                Ground::Slip => Vector3::z() * -self.u[tire].z,
-                Ground::Stick => (self.v[tire].xy() * (0.5 * h)).push(-self.u[tire].z),
-            };
+            self.du[tire] = self.v[tire] * h + self.a[tire] * (0.5 * h * h);
+        }
+    }
+
+    /// Newton–Raphson for the present region, on from the displacement last found.
+    fn solve(&mut self, h: f64, enough: f64) -> Result<(), Failure> {
+        for &tire in &self.wake.awake {
+            match self.region.ground[tire] {
+                Ground::Free => {}
+                Ground::Slip => self.du[tire].z = -self.u[tire].z,
+                Ground::Stick => self.du[tire] = (self.v[tire].xy() * (0.5 * h)).push(-self.u[tire].z),
+            }
         }
         for _ in 0..MOST_ITERATIONS {
             self.set_residual(h);
@@ -104,7 +118,7 @@ impl Stepper<'_> {
             if !(correction + way).is_finite() {
                 return Err(Failure::Diverged { at: self.now() });
             }
-            if correction <= CONVERGED * way {
+            if correction <= enough * way {
                 self.set_residual(h);
                 return Ok(());
             }

@@ -99,3 +99,27 @@ impl Part {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use super::*;
+    use crate::simulation::wake::tests::{exact, scenes};
+
+    #[test]
+    fn what_sleeps_would_not_have_moved() {
+        let (scene, shots) = scenes();
+        let mut part = Part::new(&scene, &[]);
+        part.ties = part.ties.with_everything();
+        let (some, mut all) = (Model::default(), Model::default());
+        all.parts[0] = part.into();
+        for shot in shots {
+            let settings = Settings { method: Method::Verlet, step: 2e-3, duration: None };
+            let [some, all] = [&some, &all].map(|model| {
+                model.run(&scene, &shot, &settings, &mut |_| ControlFlow::Continue(())).expect("a run")
+            });
+            assert_eq!(exact(&some), exact(&all));
+        }
+    }
+}
