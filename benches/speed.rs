@@ -68,10 +68,10 @@ fn by_size_with_mirrors(bencher: Bencher, n: usize) {
 }
 
 /// One hole in the middle of a small and of a large shelter.
-#[divan::bench(args = [30, 100, 300])]
-fn single_hole(bencher: Bencher, n: usize) {
+#[divan::bench(args = [Method::Verlet, Method::Newmark].into_iter().flat_map(|method| [30, 100, 300].map(|n| (method, n))))]
+fn single_hole(bencher: Bencher, (method, n): (Method, usize)) {
     let case = case(n, n, 0);
-    time(bencher, &whole(&case), &case, Method::Verlet, 2e-3, None);
+    time(bencher, &whole(&case), &case, method, 2e-3, None);
 }
 
 /// Both methods at the same step.

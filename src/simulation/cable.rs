@@ -6,9 +6,7 @@
 
 use std::ops::Range;
 
-use pulp::Simd;
-
-use super::pack::{LANES, Wide};
+use super::pack::LANES;
 use crate::scene::{Cable, Scene};
 
 /// Most places in a block.
@@ -183,10 +181,17 @@ impl Field {
         Self { part: std::array::from_fn(|_| vec![0.0; tires + LANES]) }
     }
 
-    /// The vectors from `at` on.
+    /// The components in `range`, in slices whose lengths the compiler knows to be equal.
     #[inline(always)]
-    pub fn load<S: Simd>(&self, simd: S, at: usize) -> [Wide<S>; 3] {
+    pub fn slices(&self, range: Range<usize>) -> [&[f64]; 3] {
         let [x, y, z] = &self.part;
-        [Wide::load(simd, x, at), Wide::load(simd, y, at), Wide::load(simd, z, at)]
+        [&x[range.clone()], &y[range.clone()], &z[range]]
+    }
+
+    /// The same, to be written.
+    #[inline(always)]
+    pub fn slices_mut(&mut self, range: Range<usize>) -> [&mut [f64]; 3] {
+        let [x, y, z] = &mut self.part;
+        [&mut x[range.clone()], &mut y[range.clone()], &mut z[range]]
     }
 }

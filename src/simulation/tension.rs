@@ -65,38 +65,53 @@ impl<'a> Tension<'a> {
         let rest_length = Wide::splat(simd, block.rest_length);
         let stiffness = Wide::splat(simd, block.stiffness);
         let slack2 = rest_length * rest_length;
-        let mut stress = Stress { energy: [0.0; LANES], force: [0.0; LANES] };
-        for at in (0..block.len).step_by(Wide::<S>::LEN) {
-            let place = block.memory + at;
-            let mut d = between(simd, block, at, u);
+        let span = block.span.map(|component| Wide::splat(simd, component));
+        // Slices of one length, so that one check of bounds serves them all.
+        let room = block.len.next_multiple_of(LANES);
+        let places = block.memory..block.memory + room;
+        let (first, second) = (block.first..block.first + room, block.second..block.second + room);
+        let (u_first, u_second) = (u.slices(first.clone()), u.slices(second.clone()));
+        let (weights, stretches) = (&self.weight[places.clone()], &mut self.stretch[places.clone()]);
+        let [pull_x, pull_y, pull_z] = &mut self.pull;
+        let pulls = [
+            &mut pull_x[places.clone()],
+            &mut pull_y[places.clone()],
+            &mut pull_z[places.clone()],
+        ];
+        let states = &mut self.state[places];
+        let (mut energy, mut greatest) = ([0.0; LANES], [0.0; LANES]);
+        for at in (0..room).step_by(Wide::<S>::LEN) {
+            let mut d = between(simd, &u_first, &u_second, at);
             for c in 0..3 {
-                d[c] = d[c] + Wide::splat(simd, block.span[c]);
+                d[c] = d[c] + span[c];
             }
             let length2 = d[2].times_plus(d[2], d[1].times_plus(d[1], d[0] * d[0]));
-            let weight = Wide::load(simd, &self.weight, place);
+            let weight = Wide::load(simd, weights, at);
             let longer = slack2.less(length2).and(zero.less(weight));
-            let was = self.state[place];
+            let was = states[at];
             if longer.any() {
-                self.state[place] = State::Taut;
+                states[at] = State::Taut;
             } else {
-                self.state[place] = State::Slack;
+                states[at] = State::Slack;
                 match was {
                     State::Slack => continue,
                     State::Slackened => {
-                        for pull in &mut self.pull {
-                            zero.store(pull, place);
+                        for c in 0..3 {
+                            zero.store(pulls[c], at);
                         }
                         continue;
                     }
-                    State::Taut => self.state[place] = State::Slackened,
+                    State::Taut => states[at] = State::Slackened,
                 }
             }
             // What was slack is found from where its tires come, whether it was evaluated or not, so that the result does
             // not depend on who shares its register.
-            let mut before = Wide::load(simd, &self.stretch, place);
+            let mut before = Wide::load(simd, stretches, at);
             let slack_before = before.at_most(zero);
             if slack_before.and(longer).any() {
-                let (step, velocity) = (Wide::splat(simd, step), between(simd, block, at, v));
+                let step = Wide::splat(simd, step);
+                let velocity =
+                    between(simd, &v.slices(first.clone()), &v.slices(second.clone()), at);
                 let mut earlier2 = zero;
                 for c in 0..3 {
                     let earlier = d[c] - step * velocity[c];
@@ -109,21 +124,21 @@ impl<'a> Tension<'a> {
             let stretch = zero.less(weight).select(length - rest_length, zero);
             let positive = stretch.max(zero);
             let mut force = stiffness * positive;
-            (half * weight * force * positive).add_to(&mut stress.energy, at % LANES);
-            force.max(Wide::load(simd, &stress.force, at % LANES)).store(&mut stress.force, at % LANES);
+            (half * weight * force * positive).add_to(&mut energy, at % LANES);
+            force.max(Wide::load(simd, &greatest, at % LANES)).store(&mut greatest, at % LANES);
             let product = before * stretch;
             let switches = product.less(zero);
             if switches.any() {
                 let apart = (stretch - before).abs().max(tiny);
                 force = switches.select(force + half * stiffness * product / apart, force);
             }
-            stretch.store(&mut self.stretch, place);
+            stretch.store(stretches, at);
             let per_length = force / length.max(tiny);
             for c in 0..3 {
-                (per_length * d[c]).store(&mut self.pull[c], place);
+                (per_length * d[c]).store(pulls[c], at);
             }
         }
-        stress
+        Stress { energy, force: greatest }
     }
 
     /// Force of the cable in the `n`th place of a block when last evaluated [N].
@@ -142,27 +157,41 @@ impl<'a> Tension<'a> {
         lost
     }
 
-    /// Sum of the pulls, from `offset` in their pack on, at the tires where cables begin and end [N].
+    /// What cables pull with [N], for [`Pulls::at`].
     #[inline(always)]
-    pub fn pulls<S: Simd>(&self, simd: S, [begin, end]: [&[u32]; 2], offset: usize) -> [Wide<S>; 3] {
+    pub fn pulls(&self) -> Pulls<'_> {
+        let [x, y, z] = &self.pull;
+        let n = x.len();
+        Pulls([&x[..n], &y[..n], &z[..n]])
+    }
+}
+
+/// Pulls of all cables by component [N], in slices of one length (`n_elements`).
+#[derive(Clone, Copy, Debug)]
+pub struct Pulls<'a>([&'a [f64]; 3]);
+
+impl Pulls<'_> {
+    /// Their sum at the tires where cables begin and end, from `offset` in their pack on [N].
+    #[inline(always)]
+    pub fn at<S: Simd>(&self, simd: S, [begin, end]: [&[u32]; 2], offset: usize) -> [Wide<S>; 3] {
         let mut sum = [Wide::splat(simd, 0.0); 3];
         for &element in begin {
             for c in 0..3 {
-                sum[c] = sum[c] + Wide::load(simd, &self.pull[c], element as usize + offset);
+                sum[c] = sum[c] + Wide::load(simd, self.0[c], element as usize + offset);
             }
         }
         for &element in end {
             for c in 0..3 {
-                sum[c] = sum[c] - Wide::load(simd, &self.pull[c], element as usize + offset);
+                sum[c] = sum[c] - Wide::load(simd, self.0[c], element as usize + offset);
             }
         }
         sum
     }
 }
 
-/// From the first to the second ends of the cables from `at` on, in a field over tires.
+/// From `first` to `second` of a field, from `at` on.
 #[inline(always)]
-fn between<S: Simd>(simd: S, block: &Block, at: usize, of: &Field) -> [Wide<S>; 3] {
-    let (first, second) = (of.load(simd, block.first + at), of.load(simd, block.second + at));
-    [second[0] - first[0], second[1] - first[1], second[2] - first[2]]
+fn between<S: Simd>(simd: S, first: &[&[f64]; 3], second: &[&[f64]; 3], at: usize) -> [Wide<S>; 3] {
+    let apart = |c: usize| Wide::load(simd, second[c], at) - Wide::load(simd, first[c], at);
+    [apart(0), apart(1), apart(2)]
 }

@@ -242,9 +242,9 @@ impl<'a> Stepper<'a> {
             for lane in (0..LANES).step_by(Wide::<S>::LEN) {
                 let at = pack * LANES + lane;
                 let tires = Tires {
-                    u: self.u.load(simd, at),
-                    v: self.v.load(simd, at),
-                    f: self.tension.pulls(simd, self.part.blocks.ends.of(pack), lane),
+                    u: self.u.slices(at..at+Wide::<S>::LEN).map(|part| Wide::load(simd, part, 0)),
+                    v: self.v.slices(at..at+Wide::<S>::LEN).map(|part| Wide::load(simd, part, 0)),
+                    f: self.tension.pulls().at(simd, self.part.blocks.ends.of(pack), lane),
                     mass: Wide::load(simd, &self.part.mass, at),
                     inverse: Wide::load(simd, &self.part.inverse, at),
                     step,
@@ -440,7 +440,8 @@ impl Motion for Snapshot<'_, '_> {
         }
         let Stepper { part, tension, step, .. } = self.stepper;
         let (tire, _) = part.quotient.find(tire);
-        let pulls = tension.pulls(pulp::Scalar::new(), part.blocks.ends.of(tire / LANES), tire % LANES);
+        let ends = part.blocks.ends.of(tire / LANES);
+        let pulls = tension.pulls().at(pulp::Scalar::new(), ends, tire % LANES);
         let pull = Vector3::from(pulls.map(|pull| pull.pack()[0]));
         let (inverse, impulse_to_force) = (part.inverse[tire], 1.0 / (part.inverse[tire] * step));
         let acceleration = pull * inverse - Vector3::z() * self.stepper.gravity;
