@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use super::pack::LANES;
+use super::pack::{Aligned, LANES};
 use crate::scene::{Cable, Scene};
 
 /// Most places in a block.
@@ -169,29 +169,31 @@ impl Ends {
 }
 
 /// Components of a vector field over the tires, with room for one pack more.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Field {
     /// x, y, z (`n_tires` + [`LANES`]).
-    pub part: [Vec<f64>; 3],
+    pub part: [Aligned; 3],
 }
 
 impl Field {
     /// Zeros.
     pub fn zeros(tires: usize) -> Self {
-        Self { part: std::array::from_fn(|_| vec![0.0; tires + LANES]) }
+        Self { part: std::array::from_fn(|_| Aligned::zeros(tires + LANES)) }
     }
 
-    /// The components in `range`, in slices whose lengths the compiler knows to be equal.
+    /// The components, in slices whose lengths the compiler knows to be equal.
     #[inline(always)]
-    pub fn slices(&self, range: Range<usize>) -> [&[f64]; 3] {
+    pub fn slices(&self) -> [&[f64]; 3] {
         let [x, y, z] = &self.part;
-        [&x[range.clone()], &y[range.clone()], &z[range]]
+        let n = x.len();
+        [&x[..n], &y[..n], &z[..n]]
     }
 
     /// The same, to be written.
     #[inline(always)]
-    pub fn slices_mut(&mut self, range: Range<usize>) -> [&mut [f64]; 3] {
+    pub fn slices_mut(&mut self) -> [&mut [f64]; 3] {
         let [x, y, z] = &mut self.part;
-        [&mut x[range.clone()], &mut y[range.clone()], &mut z[range]]
+        let n = x.len();
+        [&mut x[..n], &mut y[..n], &mut z[..n]]
     }
 }

@@ -1,6 +1,6 @@
 //! Arithmetic on as many numbers at once as the instruction set holds, chosen at run time.
 
-use std::ops::{Add, Div, Mul, Sub};
+use std::ops::{Add, Deref, DerefMut, Div, Mul, Sub};
 
 use pulp::Simd;
 
@@ -22,6 +22,39 @@ pub struct Wide<S: Simd> {
 pub struct Mask<S: Simd> {
     simd: S,
     value: S::m64s,
+}
+
+/// Numbers that begin at a line of the cache, so that no pack of them lies across two.
+#[derive(Debug)]
+pub struct Aligned {
+    memory: Vec<f64>,
+    start: usize,
+    len: usize,
+}
+
+impl Aligned {
+    /// Zeros; what is never touched takes no memory.
+    pub fn zeros(len: usize) -> Self {
+        let memory = vec![0.0; len + LANES];
+        let start = memory.as_ptr().align_offset(size_of::<Pack>()).min(LANES);
+        Self { memory, start, len }
+    }
+}
+
+impl Deref for Aligned {
+    type Target = [f64];
+
+    #[inline(always)]
+    fn deref(&self) -> &[f64] {
+        &self.memory[self.start..self.start + self.len]
+    }
+}
+
+impl DerefMut for Aligned {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [f64] {
+        &mut self.memory[self.start..self.start + self.len]
+    }
 }
 
 impl<S: Simd> Wide<S> {

@@ -4,19 +4,19 @@ use std::borrow::Cow;
 
 use pulp::Simd;
 
-use super::cable::{Block, Blocks, Field};
-use super::pack::{LANES, Pack, Wide};
+use super::cable::{Block, Blocks};
+use super::pack::{Aligned, LANES, Pack, Wide};
 
 /// What is remembered of every cable from one step to the next, and how it pulls.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Tension<'a> {
     /// How many cables of the whole scene each element stands for, 0 where there is none (`n_elements`).
     weight: Cow<'a, [f64]>,
     /// L − L0 when last evaluated, not positive while slack [m] (`n_elements`).
-    stretch: Vec<f64>,
+    stretch: Aligned,
     /// Mean force since the last step × direction from first to second end [N] (3 × `n_elements`); see
     /// [`Self::evaluate`].
-    pull: [Vec<f64>; 3],
+    pull: [Aligned; 3],
     /// Of the cables in one register, at the first of them (`n_elements`).
     state: Vec<State>,
 }
@@ -47,19 +47,73 @@ impl<'a> Tension<'a> {
         let elements = blocks.weight.len();
         Self {
             weight: Cow::Borrowed(&blocks.weight),
-            stretch: vec![0.0; elements],
-            pull: std::array::from_fn(|_| vec![0.0; elements]),
+            stretch: Aligned::zeros(elements),
+            pull: std::array::from_fn(|_| Aligned::zeros(elements)),
             state: vec![State::Slack; elements],
         }
     }
 
+    /// Everything in slices of one length (`n_elements`).
+    #[inline(always)]
+    pub fn slices(&mut self) -> Slices<'_> {
+        let n = self.weight.len();
+        let [x, y, z] = &mut self.pull;
+        Slices {
+            weight: &self.weight[..n],
+            stretch: &mut self.stretch[..n],
+            pull: [&mut x[..n], &mut y[..n], &mut z[..n]],
+            state: &mut self.state[..n],
+        }
+    }
+
+    /// Force of the cable in the `n`th place of a block when last evaluated [N].
+    pub fn force(&self, block: &Block, n: usize) -> f64 {
+        block.stiffness * self.stretch[block.memory + n].max(0.0)
+    }
+
+    /// Takes the cable in the `n`th place of a block away; returns the elastic energy lost with it [J].
+    pub fn cut(&mut self, block: &Block, n: usize) -> f64 {
+        let (place, force) = (block.memory + n, self.force(block, n));
+        let lost = 0.5 * self.weight[place] * force * force / block.stiffness;
+        self.weight.to_mut()[place] = 0.0;
+        self.stretch[place] = 0.0;
+        // It pulled until now: through the first half of the kick.
+        self.pull.iter_mut().for_each(|pull| pull[place] *= 0.5);
+        lost
+    }
+
+    /// What cables pull with.
+    #[inline(always)]
+    pub fn pulls(&self) -> Pulls<'_> {
+        let [x, y, z] = &self.pull;
+        let n = x.len();
+        Pulls([&x[..n], &y[..n], &z[..n]])
+    }
+}
+
+/// [`Tension`] during the evaluation of many blocks.
+pub struct Slices<'a> {
+    weight: &'a [f64],
+    stretch: &'a mut [f64],
+    pull: [&'a mut [f64]; 3],
+    state: &'a mut [State],
+}
+
+impl Slices<'_> {
     /// Evaluates every cable of `block` at displacements `u` [m], reached with velocities `v` [m/s] in a `step` [s].
     ///
     /// The force is N = k (L − L0)₊. Kicks weigh it by the trapezoidal rule, which is wrong by O(h²) where a cable becomes
     /// taut or slack inside a step. With stretches s₀ and s₁ of unlike sign at its ends, ∫ k s₊ dt along the line between them
     /// differs from the trapezoid by −h k |s₀ s₁| / 2(|s₀| + |s₁|); the pull includes it.
     #[inline(always)]
-    pub fn evaluate<S: Simd>(&mut self, simd: S, block: &Block, u: &Field, v: &Field, step: f64) -> Stress {
+    pub fn evaluate<S: Simd>(
+        &mut self,
+        simd: S,
+        block: &Block,
+        u: [&[f64]; 3],
+        v: [&[f64]; 3],
+        step: Wide<S>,
+    ) -> Stress {
         let (zero, half) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5));
         let tiny = Wide::splat(simd, f64::MIN_POSITIVE);
         let rest_length = Wide::splat(simd, block.rest_length);
@@ -69,19 +123,14 @@ impl<'a> Tension<'a> {
         // Slices of one length, so that one check of bounds serves them all.
         let room = block.len.next_multiple_of(LANES);
         let places = block.memory..block.memory + room;
-        let (first, second) = (block.first..block.first + room, block.second..block.second + room);
-        let (u_first, u_second) = (u.slices(first.clone()), u.slices(second.clone()));
-        let (weights, stretches) = (&self.weight[places.clone()], &mut self.stretch[places.clone()]);
-        let [pull_x, pull_y, pull_z] = &mut self.pull;
-        let pulls = [
-            &mut pull_x[places.clone()],
-            &mut pull_y[places.clone()],
-            &mut pull_z[places.clone()],
-        ];
+        let at_ends = ends(block, room, u);
+        let weights = &self.weight[places.clone()];
+        let stretches = &mut self.stretch[places.clone()];
+        let pulls = self.pull.each_mut().map(|pull| &mut pull[places.clone()]);
         let states = &mut self.state[places];
         let (mut energy, mut greatest) = ([0.0; LANES], [0.0; LANES]);
         for at in (0..room).step_by(Wide::<S>::LEN) {
-            let mut d = between(simd, &u_first, &u_second, at);
+            let mut d = between(simd, at_ends, at);
             for c in 0..3 {
                 d[c] = d[c] + span[c];
             }
@@ -109,9 +158,7 @@ impl<'a> Tension<'a> {
             let mut before = Wide::load(simd, stretches, at);
             let slack_before = before.at_most(zero);
             if slack_before.and(longer).any() {
-                let step = Wide::splat(simd, step);
-                let velocity =
-                    between(simd, &v.slices(first.clone()), &v.slices(second.clone()), at);
+                let velocity = between(simd, ends(block, room, v), at);
                 let mut earlier2 = zero;
                 for c in 0..3 {
                     let earlier = d[c] - step * velocity[c];
@@ -140,30 +187,6 @@ impl<'a> Tension<'a> {
         }
         Stress { energy, force: greatest }
     }
-
-    /// Force of the cable in the `n`th place of a block when last evaluated [N].
-    pub fn force(&self, block: &Block, n: usize) -> f64 {
-        block.stiffness * self.stretch[block.memory + n].max(0.0)
-    }
-
-    /// Takes the cable in the `n`th place of a block away; returns the elastic energy lost with it [J].
-    pub fn cut(&mut self, block: &Block, n: usize) -> f64 {
-        let (place, force) = (block.memory + n, self.force(block, n));
-        let lost = 0.5 * self.weight[place] * force * force / block.stiffness;
-        self.weight.to_mut()[place] = 0.0;
-        self.stretch[place] = 0.0;
-        // It pulled until now: through the first half of the kick.
-        self.pull.iter_mut().for_each(|pull| pull[place] *= 0.5);
-        lost
-    }
-
-    /// What cables pull with [N], for [`Pulls::at`].
-    #[inline(always)]
-    pub fn pulls(&self) -> Pulls<'_> {
-        let [x, y, z] = &self.pull;
-        let n = x.len();
-        Pulls([&x[..n], &y[..n], &z[..n]])
-    }
 }
 
 /// Pulls of all cables by component [N], in slices of one length (`n_elements`).
@@ -189,9 +212,14 @@ impl Pulls<'_> {
     }
 }
 
-/// From `first` to `second` of a field, from `at` on.
+/// A field at both ends of the first `room` places of a block.
 #[inline(always)]
-fn between<S: Simd>(simd: S, first: &[&[f64]; 3], second: &[&[f64]; 3], at: usize) -> [Wide<S>; 3] {
-    let apart = |c: usize| Wide::load(simd, second[c], at) - Wide::load(simd, first[c], at);
-    [apart(0), apart(1), apart(2)]
+fn ends<'f>(block: &Block, room: usize, of: [&'f [f64]; 3]) -> [[&'f [f64]; 3]; 2] {
+    [block.first, block.second].map(|from| of.map(|component| &component[from..from + room]))
+}
+
+/// From the first to the second ends of cables, from `at` on.
+#[inline(always)]
+fn between<S: Simd>(simd: S, [first, second]: [[&[f64]; 3]; 2], at: usize) -> [Wide<S>; 3] {
+    std::array::from_fn(|c| Wide::load(simd, second[c], at) - Wide::load(simd, first[c], at))
 }
