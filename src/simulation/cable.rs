@@ -27,8 +27,6 @@ pub struct Block {
     pub len: usize,
     /// Its first element in arrays over all cables; a multiple of [`LANES`].
     pub memory: usize,
-    /// Its first place in [`Blocks::cable`].
-    place: usize,
     /// Span at rest [m].
     pub span: [f64; 3],
     /// L0 [m].
@@ -46,86 +44,82 @@ pub struct Blocks {
     pub weight: Vec<f64>,
     /// Which elements pull at the tires of each pack.
     pub ends: Ends,
-    /// Scene's cable by place.
+    /// Scene's cable by element, [`NONE`] where there is none (`n_elements`).
     cable: Vec<u32>,
 }
 
 impl Blocks {
     /// Lays out the scene's cables; `weight` says how many cables of the whole scene each stands for (`n_cables`).
     pub fn new(scene: &Scene, weight: &[f64]) -> Self {
-        let (cable, runs) = runs(&scene.cables);
-        let mut blocks = Vec::with_capacity(cable.len() / PLACES + runs.len());
-        let mut all = Vec::with_capacity(cable.len() + 2 * LANES * (runs.len() + 1));
+        let runs = runs(&scene.cables);
+        let mut blocks = Vec::with_capacity(scene.cables.len() / PLACES + runs.len());
+        let mut cable = Vec::with_capacity(scene.cables.len() + 3 * LANES * (runs.len() + 1));
         let mut ends = Vec::with_capacity(2 * runs.len());
-        for Run { places, first } in runs {
-            let Cable { ends: tires, rest_length, stiffness, span } = scene.cables[first];
-            // A pack of tires reaches over both ends of a run by up to a pack.
-            let begin = all.len().next_multiple_of(LANES) + LANES;
-            all.resize(begin, 0.0);
-            for from in places.clone().step_by(PLACES) {
-                let [first, second] = tires.map(|tire| tire + from - places.start);
-                let len = (places.end - from).min(PLACES);
-                blocks.push(Block {
-                    first,
-                    second,
-                    len,
-                    memory: begin + from - places.start,
-                    place: from,
-                    span: span.into(),
-                    rest_length,
-                    stiffness,
-                });
+        for Run { places, like } in runs {
+            let Cable { ends: tires, rest_length, stiffness, span } = like;
+            // Packs of cables begin at the same tires as packs of tires. A pack of tires reaches over the second ends of a
+            // run by up to a pack.
+            let head = tires[0] % LANES;
+            let begin = cable.len().next_multiple_of(LANES) + LANES;
+            cable.resize(begin + head, NONE);
+            ends.extend(tires.map(|tire| (tire..tire + places.len(), begin + head)));
+            cable.extend(&places);
+            for from in (0..head + places.len()).step_by(PLACES) {
+                let [first, second] = tires.map(|tire| tire + from - head);
+                let len = (head + places.len() - from).min(PLACES);
+                let memory = begin + from;
+                blocks.push(Block { first, second, len, memory, span: span.into(), rest_length, stiffness });
             }
-            all.extend(
-                cable[places.clone()].iter().map(|&c| if c == NONE { 0.0 } else { weight[c as usize] }),
-            );
-            ends.extend(tires.map(|tire| (tire..tire + places.len(), begin)));
         }
-        all.resize(all.len().next_multiple_of(LANES) + LANES, 0.0);
+        cable.resize(cable.len().next_multiple_of(LANES) + LANES, NONE);
+        let weight = cable.iter().map(|&c| if c == NONE { 0.0 } else { weight[c as usize] }).collect();
         let packs = scene.mass.len().div_ceil(LANES);
-        Self { blocks, weight: all, ends: Ends::new(&ends, packs), cable }
+        Self { blocks, weight, ends: Ends::new(&ends, packs), cable }
     }
 
     /// Scene's index of the cable in the `n`th place of a block.
     pub fn cable(&self, block: usize, n: usize) -> usize {
-        self.cable[self.blocks[block].place + n] as usize
+        self.cable[self.blocks[block].memory + n] as usize
     }
 }
 
-/// Places whose ends follow one another.
+/// Cables whose ends follow one another.
 struct Run {
-    places: Range<usize>,
-    /// Scene's cable in the first place.
-    first: usize,
+    /// The scene's cable in each place.
+    places: Vec<u32>,
+    /// The first of them, its ends in ascending order.
+    like: Cable,
 }
 
-/// The cable of each place, and the runs.
-fn runs(cables: &[Cable]) -> (Vec<u32>, Vec<Run>) {
-    let offset = |cable: &Cable| cable.ends[1] as isize - cable.ends[0] as isize;
+fn runs(cables: &[Cable]) -> Vec<Run> {
+    let ascending = |&c: &u32| {
+        let cable = cables[c as usize];
+        let [a, b] = cable.ends;
+        if a < b { cable } else { Cable { ends: [b, a], span: -cable.span, ..cable } }
+    };
+    let offset = |cable: &Cable| cable.ends[1] - cable.ends[0];
     let mut order: Vec<u32> = (0..cables.len() as u32).collect();
-    order.sort_by_key(|&c| (offset(&cables[c as usize]), cables[c as usize].ends[0]));
-    let (mut places, mut runs): (Vec<u32>, Vec<Run>) = (Vec::with_capacity(cables.len()), Vec::new());
-    for (n, &c) in order.iter().enumerate() {
-        let new = &cables[c as usize];
-        let gap = n.checked_sub(1).and_then(|before| {
-            let last = &cables[order[before] as usize];
-            let gap = new.ends[0].checked_sub(last.ends[0] + 1)?;
-            let like = offset(new) == offset(last)
-                && new.span == last.span
-                && new.rest_length == last.rest_length
-                && new.stiffness == last.stiffness;
-            (like && gap <= EMPTY).then_some(gap)
+    order.sort_by_key(|c| (offset(&ascending(c)), ascending(c).ends[0]));
+    let mut runs = Vec::<Run>::new();
+    for c in order {
+        let new = ascending(&c);
+        let goes_on = runs.last_mut().and_then(|run| {
+            let gap = new.ends[0].checked_sub(run.like.ends[0] + run.places.len())?;
+            let like = offset(&new) == offset(&run.like)
+                && new.span == run.like.span
+                && new.rest_length == run.like.rest_length
+                && new.stiffness == run.like.stiffness;
+            (like && gap <= EMPTY).then_some((run, gap))
         });
-        match (gap, runs.last_mut()) {
-            (Some(gap), Some(run)) => {
-                places.resize(places.len() + gap, NONE);
-                run.places.end += gap + 1;
+        match goes_on {
+            Some((run, gap)) => {
+                run.places.resize(run.places.len() + gap, NONE);
+                run.places.push(c);
             }
-            _ => runs.push(Run { places: places.len()..places.len() + 1, first: c as usize }),
+            None => runs.push(Run { places: vec![c], like: new }),
         }
-        places.push(c);
     }
-    (places, runs)
+    runs
 }
 
 /// For every pack of tires, the elements from which its eight pulls are read: of cables that begin there, and of those that
