@@ -36,8 +36,8 @@ pub struct Image {
     pub of: usize,
     /// What is copied; itself for a tire on a plane.
     pub from: usize,
-    /// Factors of x and y: −1 reflected, 0 on the plane.
-    pub sign: [f64; 2],
+    /// Factors of x, y and z: −1 reflected, 0 on the plane.
+    pub sign: [f64; 3],
 }
 
 impl Quotient {
@@ -92,7 +92,7 @@ impl Quotient {
             .map(|(of, &old)| {
                 let (source, sign) = kept[old];
                 let flat = on_plane(old);
-                Image { of, from: place[source], sign: [sign[0] * flat[0], sign[1] * flat[1]] }
+                Image { of, from: place[source], sign: [sign[0] * flat[0], sign[1] * flat[1], 1.0] }
             })
             .filter(|image| image.of != image.from || image.sign.contains(&0.0))
             .collect();

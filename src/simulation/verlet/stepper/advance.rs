@@ -90,20 +90,19 @@ impl Stepper<'_> {
             pass.height[j] = pass.height[j].max(height[j]);
         }
         (pass.dissipated, pass.motion) = (dissipated, motion);
-        self.copy_images();
     }
 
     /// Reflects kept tires into their images and keeps those on a mirror plane in it.
-    fn copy_images(&mut self) {
+    pub(super) fn copy_images(&mut self) {
+        let mut fields = [self.u.slices_mut(), self.v.slices_mut()];
         for image in &self.part.quotient.images {
-            let mut moving = false;
-            for field in [&mut self.u, &mut self.v] {
-                for (c, sign) in image.sign.into_iter().chain([1.0]).enumerate() {
-                    field.part[c][image.of] = sign * field.part[c][image.from];
-                    moving |= field.part[c][image.of] != 0.0;
-                }
+            let mut most = 0.0_f64;
+            for (c, part) in fields.iter_mut().flat_map(|field| field.iter_mut().enumerate()) {
+                let value = image.sign[c] * part[image.from];
+                part[image.of] = value;
+                most = most.max(value.abs());
             }
-            if moving {
+            if most > 0.0 {
                 self.wake.set_moving(image.of / LANES, true);
             }
         }

@@ -113,6 +113,7 @@ impl<'a> Stepper<'a> {
                 }
             }
             self.collect_due();
+            self.copy_images();
             if self.wake.refresh() {
                 self.move_stored_energy();
             }
