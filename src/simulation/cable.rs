@@ -35,6 +35,14 @@ pub struct Block {
     pub stiffness: f64,
 }
 
+impl Block {
+    /// Square of the span at rest [m²].
+    #[inline(always)]
+    pub fn span2(&self) -> f64 {
+        self.span.iter().map(|component| component * component).sum()
+    }
+}
+
 /// All cables of a scene.
 #[derive(Clone, Debug)]
 pub struct Blocks {

@@ -12,8 +12,8 @@ use super::pack::{Aligned, LANES, Pack, Wide};
 pub struct Tension<'a> {
     /// How many cables of the whole scene each element stands for, 0 where there is none (`n_elements`).
     weight: Cow<'a, [f64]>,
-    /// L − L0 when last evaluated, not positive while slack [m] (`n_elements`).
-    stretch: Aligned,
+    /// L² when last evaluated, less its value at rest [m²] (`n_elements`).
+    change: Aligned,
     /// Mean force since the last step × direction from first to second end [N] (3 × `n_elements`); see
     /// [`Self::evaluate`].
     pull: [Aligned; 3],
@@ -42,12 +42,12 @@ pub struct Stress {
 }
 
 impl<'a> Tension<'a> {
-    /// All slack.
+    /// At rest.
     pub fn new(blocks: &'a Blocks) -> Self {
         let elements = blocks.weight.len();
         Self {
             weight: Cow::Borrowed(&blocks.weight),
-            stretch: Aligned::zeros(elements),
+            change: Aligned::zeros(elements),
             pull: std::array::from_fn(|_| Aligned::zeros(elements)),
             state: vec![State::Slack; elements],
         }
@@ -60,7 +60,7 @@ impl<'a> Tension<'a> {
         let [x, y, z] = &mut self.pull;
         Slices {
             weight: &self.weight[..n],
-            stretch: &mut self.stretch[..n],
+            change: &mut self.change[..n],
             pull: [&mut x[..n], &mut y[..n], &mut z[..n]],
             state: &mut self.state[..n],
         }
@@ -68,7 +68,12 @@ impl<'a> Tension<'a> {
 
     /// Force of the cable in the `n`th place of a block when last evaluated [N].
     pub fn force(&self, block: &Block, n: usize) -> f64 {
-        block.stiffness * self.stretch[block.memory + n].max(0.0)
+        let place = block.memory + n;
+        if self.weight[place] == 0.0 {
+            return 0.0;
+        }
+        let length = (self.change[place] + block.span2()).sqrt();
+        block.stiffness * (length - block.rest_length).max(0.0)
     }
 
     /// Takes the cable in the `n`th place of a block away; returns the elastic energy lost with it [J].
@@ -76,7 +81,6 @@ impl<'a> Tension<'a> {
         let (place, force) = (block.memory + n, self.force(block, n));
         let lost = 0.5 * self.weight[place] * force * force / block.stiffness;
         self.weight.to_mut()[place] = 0.0;
-        self.stretch[place] = 0.0;
         // It pulled until now: through the first half of the kick.
         self.pull.iter_mut().for_each(|pull| pull[place] *= 0.5);
         lost
@@ -94,38 +98,36 @@ impl<'a> Tension<'a> {
 /// [`Tension`] during the evaluation of many blocks.
 pub struct Slices<'a> {
     weight: &'a [f64],
-    stretch: &'a mut [f64],
+    change: &'a mut [f64],
     pull: [&'a mut [f64]; 3],
     state: &'a mut [State],
 }
 
 impl Slices<'_> {
-    /// Evaluates every cable of `block` at displacements `u` [m], reached with velocities `v` [m/s] in a `step` [s].
+    /// Evaluates every cable of `block` at displacements `u` [m].
     ///
     /// The force is N = k (L − L0)₊. Kicks weigh it by the trapezoidal rule, which is wrong by O(h²) where a cable becomes
     /// taut or slack inside a step. With stretches s₀ and s₁ of unlike sign at its ends, ∫ k s₊ dt along the line between them
-    /// differs from the trapezoid by −h k |s₀ s₁| / 2(|s₀| + |s₁|); the pull includes it.
+    /// differs from the trapezoid by −h k |s₀ s₁| / 2(|s₀| + |s₁|); the pull includes it. There both are close to 0, so that
+    /// s = (L² − L0²) / (L + L0) with the present L serves both. No branch but the first: they would be taken at random.
     #[inline(always)]
-    pub fn evaluate<S: Simd>(
-        &mut self,
-        simd: S,
-        block: &Block,
-        u: [&[f64]; 3],
-        v: [&[f64]; 3],
-        step: Wide<S>,
-    ) -> Stress {
+    pub fn evaluate<S: Simd>(&mut self, simd: S, block: &Block, u: [&[f64]; 3]) -> Stress {
         let (zero, half) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5));
         let tiny = Wide::splat(simd, f64::MIN_POSITIVE);
         let rest_length = Wide::splat(simd, block.rest_length);
         let stiffness = Wide::splat(simd, block.stiffness);
-        let slack2 = rest_length * rest_length;
         let span = block.span.map(|component| Wide::splat(simd, component));
+        let slack2 = rest_length * rest_length;
+        let half_stiffness = half * stiffness;
+        let span2 = square(span);
+        let excess_at_rest = span2 - slack2;
         // Slices of one length, so that one check of bounds serves them all.
         let room = block.len.next_multiple_of(LANES);
         let places = block.memory..block.memory + room;
-        let at_ends = ends(block, room, u);
+        let at_ends =
+            [block.first, block.second].map(|from| u.map(|component| &component[from..from + room]));
         let weights = &self.weight[places.clone()];
-        let stretches = &mut self.stretch[places.clone()];
+        let changes = &mut self.change[places.clone()];
         let pulls = self.pull.each_mut().map(|pull| &mut pull[places.clone()]);
         let states = &mut self.state[places];
         let (mut energy, mut greatest) = ([0.0; LANES], [0.0; LANES]);
@@ -134,11 +136,14 @@ impl Slices<'_> {
             for c in 0..3 {
                 d[c] = d[c] + span[c];
             }
-            let length2 = d[2].times_plus(d[2], d[1].times_plus(d[1], d[0] * d[0]));
+            let length2 = square(d);
             let weight = Wide::load(simd, weights, at);
-            let longer = slack2.less(length2).and(zero.less(weight));
+            let there = zero.less(weight);
+            let (change, excess) = (length2 - span2, length2 - slack2);
+            let before = Wide::load(simd, changes, at) + excess_at_rest;
+            change.store(changes, at);
             let was = states[at];
-            if longer.any() {
+            if zero.less(excess).and(there).any() {
                 states[at] = State::Taut;
             } else {
                 states[at] = State::Slack;
@@ -153,34 +158,18 @@ impl Slices<'_> {
                     State::Taut => states[at] = State::Slackened,
                 }
             }
-            // What was slack is found from where its tires come, whether it was evaluated or not, so that the result does
-            // not depend on who shares its register.
-            let mut before = Wide::load(simd, stretches, at);
-            let slack_before = before.at_most(zero);
-            if slack_before.and(longer).any() {
-                let velocity = between(simd, ends(block, room, v), at);
-                let mut earlier2 = zero;
-                for c in 0..3 {
-                    let earlier = d[c] - step * velocity[c];
-                    earlier2 = earlier.times_plus(earlier, earlier2);
-                }
-                before = slack_before.select(earlier2.sqrt() - rest_length, before);
-            }
             let length = length2.sqrt();
             // Empty places count as slack.
-            let stretch = zero.less(weight).select(length - rest_length, zero);
-            let positive = stretch.max(zero);
-            let mut force = stiffness * positive;
+            let positive = there.select(length - rest_length, zero).max(zero);
+            let force = stiffness * positive;
             (half * weight * force * positive).add_to(&mut energy, at % LANES);
             force.max(Wide::load(simd, &greatest, at % LANES)).store(&mut greatest, at % LANES);
-            let product = before * stretch;
-            let switches = product.less(zero);
-            if switches.any() {
-                let apart = (stretch - before).abs().max(tiny);
-                force = switches.select(force + half * stiffness * product / apart, force);
-            }
-            stretch.store(stretches, at);
-            let per_length = force / length.max(tiny);
+            let product = before * excess;
+            let switches = product.less(zero).and(there);
+            let apart = (excess - before).abs() * (length + rest_length);
+            let above = switches.select(force.times_plus(apart, half_stiffness * product), force);
+            let below = switches.select(apart * length, length).max(tiny);
+            let per_length = above / below;
             for c in 0..3 {
                 (per_length * d[c]).store(pulls[c], at);
             }
@@ -212,10 +201,9 @@ impl Pulls<'_> {
     }
 }
 
-/// A field at both ends of the first `room` places of a block.
 #[inline(always)]
-fn ends<'f>(block: &Block, room: usize, of: [&'f [f64]; 3]) -> [[&'f [f64]; 3]; 2] {
-    [block.first, block.second].map(|from| of.map(|component| &component[from..from + room]))
+fn square<S: Simd>([x, y, z]: [Wide<S>; 3]) -> Wide<S> {
+    z.times_plus(z, y.times_plus(y, x * x))
 }
 
 /// From the first to the second ends of cables, from `at` on.

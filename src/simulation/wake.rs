@@ -50,12 +50,7 @@ impl Ties {
         Self::new(tires, cables.len(), touches, tied)
     }
 
-    fn new(
-        n_packs: usize,
-        n_blocks: usize,
-        touches: Vec<(u32, u32)>,
-        mut tied: Vec<(u32, u32)>,
-    ) -> Self {
+    fn new(n_packs: usize, n_blocks: usize, touches: Vec<(u32, u32)>, mut tied: Vec<(u32, u32)>) -> Self {
         tied.extend((0..n_packs as u32).map(|pack| (pack, pack)));
         Self { blocks: Lists::new(n_packs, touches), neighbours: Lists::new(n_packs, tied), n_blocks }
     }
@@ -228,7 +223,16 @@ pub mod tests {
     /// All that is counted over what moves, as bits; the order of sums decides the last digits of the rest.
     pub fn exact(run: &Outcome) -> [u64; 8] {
         let [height, force, drift] = [run.height, run.force, run.drift];
-        [height.value, height.at, force.value, force.at, drift.value, drift.at, run.ledger.put_in, run.steps as f64]
-            .map(f64::to_bits)
+        [
+            height.value,
+            height.at,
+            force.value,
+            force.at,
+            drift.value,
+            drift.at,
+            run.ledger.put_in,
+            run.steps as f64,
+        ]
+        .map(f64::to_bits)
     }
 }

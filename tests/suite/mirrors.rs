@@ -72,7 +72,7 @@ proptest! {
         let close = |a: f64, b: f64| (a - b).abs() <= 1e-12 + 1e-9 * b.abs();
         prop_assert!(close(part.height.value, full.height.value), "{} {}", part.height.value, full.height.value);
         prop_assert!(close(part.force.value, full.force.value), "{} {}", part.force.value, full.force.value);
-        prop_assert!(close(part.drift.value, full.drift.value));
+        prop_assert!(close(part.drift.value, full.drift.value), "{} {}", part.drift.value, full.drift.value);
         prop_assert!(close(part.ledger.put_in, full.ledger.put_in));
         prop_assert!((part.ledger.dissipated - full.ledger.dissipated).abs() <= 1e-8 * full.ledger.put_in);
         prop_assert!((part.ledger.greatest_residual - full.ledger.greatest_residual).abs() <= 1e-8 * full.ledger.put_in);

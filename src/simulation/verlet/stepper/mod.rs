@@ -177,7 +177,9 @@ impl<'a> Stepper<'a> {
     fn finish(self, end: End) -> Outcome {
         let [x, y, _] = &self.u.part;
         let mut drift = Peak { at: self.now(), ..Peak::default() };
-        for tire in 0..self.part.quotient.weight.len() {
+        // Images are as they were a step ago.
+        let weights = self.part.quotient.weight.iter().enumerate();
+        for (tire, _) in weights.filter(|&(_, &weight)| weight > 0.0) {
             let shift2 = x[tire] * x[tire] + y[tire] * y[tire];
             if shift2 > drift.value {
                 (drift.value, drift.place) = (shift2, self.part.quotient.tire(tire));

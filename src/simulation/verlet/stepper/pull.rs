@@ -22,14 +22,13 @@ impl Stepper<'_> {
     #[inline(always)]
     fn pull<S: Simd>(&mut self, simd: S) -> Pass {
         self.interpolate_peak();
-        let Self { part, wake, tension, u, v, stored, .. } = self;
+        let Self { part, wake, tension, u, stored, .. } = self;
         let (blocks, stored) = (&part.blocks.blocks[..], &mut stored[..part.blocks.blocks.len()]);
-        let (u, v, mut tension) = (u.slices(), v.slices(), tension.slices());
-        let step = Wide::splat(simd, self.step);
+        let (u, mut tension) = (u.slices(), tension.slices());
         let (mut energy, mut force) = (self.asleep, [0.0; LANES]);
         let (mut greatest, mut hardest) = (Wide::splat(simd, self.record.force.value), None);
         for &n in &wake.blocks {
-            let stress = tension.evaluate(simd, &blocks[n], u, v, step);
+            let stress = tension.evaluate(simd, &blocks[n], u);
             stored[n] = stress.energy;
             let mut harder = false;
             for lane in (0..LANES).step_by(Wide::<S>::LEN) {
