@@ -7,7 +7,7 @@ use super::{Due, Pass, Stepper};
 use crate::outcome::Peak;
 use crate::simulation::contact::Flight;
 use crate::simulation::kick::{Kicked, Tires};
-use crate::simulation::mirror::Quotient;
+use crate::simulation::mirror::{Image, Quotient};
 use crate::simulation::pack::{LANES, Pack, Wide};
 use crate::simulation::record::Record;
 
@@ -94,16 +94,18 @@ impl Stepper<'_> {
 
     /// Reflects kept tires into their images and keeps those on a mirror plane in it.
     pub(super) fn copy_images(&mut self) {
-        let mut fields = [self.u.slices_mut(), self.v.slices_mut()];
-        for image in &self.part.quotient.images {
-            let mut most = 0.0_f64;
-            for (c, part) in fields.iter_mut().flat_map(|field| field.iter_mut().enumerate()) {
-                let value = image.sign[c] * part[image.from];
-                part[image.of] = value;
-                most = most.max(value.abs());
+        let (u, v) = (self.u.slices_mut(), self.v.slices_mut());
+        for &Image { of, from, sign } in &self.part.quotient.images {
+            let mut moved = false;
+            for c in 0..3 {
+                for part in [&mut *u[c], &mut *v[c]] {
+                    let value = sign[c] * part[from];
+                    moved |= part[of] != value;
+                    part[of] = value;
+                }
             }
-            if most > 0.0 {
-                self.wake.set_moving(image.of / LANES, true);
+            if moved {
+                self.wake.set_moving(of / LANES, true);
             }
         }
     }
