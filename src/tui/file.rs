@@ -55,3 +55,29 @@ fn stamp(path: &Path) -> Option<(SystemTime, u64)> {
     let data = path.metadata().ok()?;
     Some((data.modified().ok()?, data.len()))
 }
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+
+    /// A clock set back between two saves makes the later one look older.
+    #[test]
+    fn a_change_is_noticed_whichever_way_the_clock_went() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("plan.toml");
+        std::fs::write(&path, "title = 1").expect("a file");
+        let mut file = PlanFile::new(&path);
+        assert!(file.changed().is_none());
+        for day in [-1_i32, 2, -3] {
+            let file_time = SystemTime::now();
+            let shift = Duration::from_secs(86_400) * day.unsigned_abs();
+            let shifted = if day < 0 { file_time - shift } else { file_time + shift };
+            let written = std::fs::File::options().write(true).open(&path).expect("the file");
+            written.set_modified(shifted).expect("a time");
+            assert!(file.changed().is_some(), "{day} days");
+            assert!(file.changed().is_none());
+        }
+    }
+}

@@ -37,6 +37,24 @@ fn imports_point_one_way() {
     }
 }
 
+/// A clock that is set while a study runs must change nothing: only the date of a report and the times of files are of the
+/// wall clock.
+#[test]
+fn durations_are_of_the_monotonic_clock() {
+    let mut files = Vec::new();
+    collect(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/src")), &mut files);
+    let reads = |text: &str| {
+        ["SystemTime::now", "Zoned::now", "Timestamp::now"].iter().any(|name| text.contains(name))
+    };
+    let product = |text: String| text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default().to_owned();
+    let found: Vec<_> = files
+        .iter()
+        .filter(|file| reads(&product(fs::read_to_string(file).expect("source is readable"))))
+        .collect();
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].ends_with("report/html/mod.rs"), "{found:?}");
+}
+
 fn layer(module: &str) -> usize {
     let found = LAYERS.iter().position(|layer| layer.contains(&module));
     found.unwrap_or_else(|| panic!("module {module} has no layer"))
