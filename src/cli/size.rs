@@ -23,7 +23,7 @@ pub struct Arguments {
     #[arg(long)]
     any_order: bool,
     /// With --any-order: intervals in ms; default: those of the delay options
-    #[arg(long, value_name = "FROM..TO:STEP", value_parser = long::intervals, requires = "any_order")]
+    #[arg(long, value_name = "FROM..TO:STEP", value_parser = long::intervals, requires = "any_order", allow_hyphen_values = true)]
     interval: Option<Intervals>,
     /// 99 % of the samples of every option must pass
     #[arg(long, conflicts_with = "any_order")]

@@ -17,6 +17,7 @@ use std::io::Read;
 use std::path::Path;
 
 pub use diagnostic::Diagnostics;
+pub use read::nearest;
 use serde::{Deserialize, Serialize};
 
 /// Largest plan file read [bytes].

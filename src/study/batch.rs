@@ -108,11 +108,12 @@ pub fn each<J: Sync, T: Send>(
         if progress.flow().is_break() {
             return if progress.stopped() { Err(Failure::Stopped { at: 0.0 }) } else { Ok(None) };
         }
-        let result = work(job);
-        progress.advance();
-        match result {
+        match work(job) {
             Err(Failure::Stopped { .. }) if !progress.stopped() => Ok(None),
-            result => result.map(Some),
+            result => {
+                progress.advance();
+                result.map(Some)
+            }
         }
     };
     let results: Vec<_> = jobs.par_iter().map(one).collect();

@@ -3,6 +3,7 @@
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::app::Screen;
+use crate::plan::nearest;
 
 /// What a key asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -215,11 +216,9 @@ impl Keymap {
         let mut labels = Self::default().labels;
         for (name, keys) in changes {
             let Some(place) = BINDINGS.iter().position(|binding| binding.name == name) else {
-                let near = BINDINGS
-                    .iter()
-                    .max_by(|a, b| strsim::jaro(a.name, &name).total_cmp(&strsim::jaro(b.name, &name)));
-                let near = near.map_or("", |binding| binding.name);
-                return Err(format!("there is no command '{name}'; did you mean '{near}'?"));
+                let near = nearest(&name, BINDINGS.iter().map(|binding| binding.name));
+                let near = near.map_or_else(String::new, |near| format!("; did you mean '{near}'?"));
+                return Err(format!("there is no command '{name}'{near}"));
             };
             labels[place] = keys;
         }

@@ -311,6 +311,7 @@ const COMMANDS: &[&[&str]] = &[
     &["sweep", "plan.toml", "--interval", "0..500:0"],
     &["sweep", "plan.toml", "--interval", "0..1e6:1e-6"],
     &["sweep", "plan.toml", "--interval", "-5..10:1"],
+    &["size", "plan.toml", "--any-order", "--interval", "-5..10:1"],
     &["orders", "plan.toml", "--shard", "3/2"],
     &["orders", "plan.toml", "--shard", "0/2"],
     &["orders", "plan.toml", "--shard", "half"],
