@@ -35,14 +35,6 @@ pub struct Block {
     pub stiffness: f64,
 }
 
-impl Block {
-    /// Square of the span at rest [m²].
-    #[inline(always)]
-    pub fn span2(&self) -> f64 {
-        self.span.iter().map(|component| component * component).sum()
-    }
-}
-
 /// All cables of a scene.
 #[derive(Clone, Debug)]
 pub struct Blocks {
@@ -100,17 +92,19 @@ struct Run {
 }
 
 fn runs(cables: &[Cable]) -> Vec<Run> {
-    let ascending = |&c: &u32| {
-        let cable = cables[c as usize];
+    let ascending = |cable: Cable| {
         let [a, b] = cable.ends;
         if a < b { cable } else { Cable { ends: [b, a], span: -cable.span, ..cable } }
     };
-    let offset = |cable: &Cable| cable.ends[1] - cable.ends[0];
+    let offset = |cable: &Cable| cable.ends[0].abs_diff(cable.ends[1]);
     let mut order: Vec<u32> = (0..cables.len() as u32).collect();
-    order.sort_by_key(|c| (offset(&ascending(c)), ascending(c).ends[0]));
+    order.sort_by_key(|&c| {
+        let cable = &cables[c as usize];
+        (offset(cable), cable.ends[0].min(cable.ends[1]))
+    });
     let mut runs = Vec::<Run>::new();
     for c in order {
-        let new = ascending(&c);
+        let new = ascending(cables[c as usize]);
         let goes_on = runs.last_mut().and_then(|run| {
             let gap = new.ends[0].checked_sub(run.like.ends[0] + run.places.len())?;
             let like = offset(&new) == offset(&run.like)
@@ -170,17 +164,17 @@ impl Ends {
     }
 }
 
-/// Components of a vector field over the tires, with room for one pack more.
+/// Components of a vector field over tires or cables.
 #[derive(Debug)]
 pub struct Field {
-    /// x, y, z (`n_tires` + [`LANES`]).
+    /// x, y, z, of one length.
     pub part: [Aligned; 3],
 }
 
 impl Field {
     /// Zeros.
-    pub fn zeros(tires: usize) -> Self {
-        Self { part: std::array::from_fn(|_| Aligned::zeros(tires + LANES)) }
+    pub fn zeros(len: usize) -> Self {
+        Self { part: std::array::from_fn(|_| Aligned::zeros(len)) }
     }
 
     /// The components, in slices whose lengths the compiler knows to be equal.

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use pulp::Simd;
 
-use super::cable::{Block, Blocks};
+use super::cable::{Block, Blocks, Field};
 use super::pack::{Aligned, LANES, Pack, Wide};
 
 /// What is remembered of every cable from one step to the next, and how it pulls.
@@ -14,9 +14,9 @@ pub struct Tension<'a> {
     weight: Cow<'a, [f64]>,
     /// L² when last evaluated, less its value at rest [m²] (`n_elements`).
     change: Aligned,
-    /// Mean force since the last step × direction from first to second end [N] (3 × `n_elements`); see
-    /// [`Self::evaluate`].
-    pull: [Aligned; 3],
+    /// Mean force since the last step × direction from first to second end [N] (`n_elements`); see
+    /// [`Slices::evaluate`].
+    pull: Field,
     /// Of the cables in one register, at the first of them (`n_elements`).
     state: Vec<State>,
 }
@@ -48,7 +48,7 @@ impl<'a> Tension<'a> {
         Self {
             weight: Cow::Borrowed(&blocks.weight),
             change: Aligned::zeros(elements),
-            pull: std::array::from_fn(|_| Aligned::zeros(elements)),
+            pull: Field::zeros(elements),
             state: vec![State::Slack; elements],
         }
     }
@@ -57,11 +57,10 @@ impl<'a> Tension<'a> {
     #[inline(always)]
     pub fn slices(&mut self) -> Slices<'_> {
         let n = self.weight.len();
-        let [x, y, z] = &mut self.pull;
         Slices {
             weight: &self.weight[..n],
             change: &mut self.change[..n],
-            pull: [&mut x[..n], &mut y[..n], &mut z[..n]],
+            pull: self.pull.slices_mut().map(|part| &mut part[..n]),
             state: &mut self.state[..n],
         }
     }
@@ -72,7 +71,8 @@ impl<'a> Tension<'a> {
         if self.weight[place] == 0.0 {
             return 0.0;
         }
-        let length = (self.change[place] + block.span2()).sqrt();
+        let span2: f64 = block.span.iter().map(|component| component * component).sum();
+        let length = (self.change[place] + span2).sqrt();
         block.stiffness * (length - block.rest_length).max(0.0)
     }
 
@@ -82,16 +82,14 @@ impl<'a> Tension<'a> {
         let lost = 0.5 * self.weight[place] * force * force / block.stiffness;
         self.weight.to_mut()[place] = 0.0;
         // It pulled until now: through the first half of the kick.
-        self.pull.iter_mut().for_each(|pull| pull[place] *= 0.5);
+        self.pull.part.iter_mut().for_each(|pull| pull[place] *= 0.5);
         lost
     }
 
     /// What cables pull with.
     #[inline(always)]
     pub fn pulls(&self) -> Pulls<'_> {
-        let [x, y, z] = &self.pull;
-        let n = x.len();
-        Pulls([&x[..n], &y[..n], &z[..n]])
+        Pulls(self.pull.slices())
     }
 }
 

@@ -86,6 +86,7 @@ impl Stepper<'_> {
         }
     }
 
+    /// Where the tires would be at the end without contact and with constant forces.
     fn predict(&mut self, h: f64) {
         for &tire in &self.wake.awake {
             self.du[tire] = self.v[tire] * h + self.a[tire] * (0.5 * h * h);

@@ -93,8 +93,9 @@ impl<'a> Stepper<'a> {
             firings,
             wake: Wake::new(&part.ties),
             tension: Tension::new(&part.blocks),
-            u: Field::zeros(tires),
-            v: Field::zeros(tires),
+            // A pack more, which the last cables may read.
+            u: Field::zeros(tires + LANES),
+            v: Field::zeros(tires + LANES),
             stored: vec![[0.0; LANES]; part.blocks.blocks.len()],
             asleep: [0.0; LANES],
         }

@@ -69,6 +69,7 @@ impl Stepper<'_> {
     /// Takes away the cables that pull past their breaking force; what they stored is lost.
     #[cold]
     fn cut_broken(&mut self, pass: &mut Pass) {
+        let at = self.now();
         for &n in &self.wake.blocks {
             let block = &self.part.blocks.blocks[n];
             for place in 0..block.len {
@@ -78,7 +79,7 @@ impl Stepper<'_> {
                     pass.energy[place % LANES] -= lost;
                     self.stored[n][place % LANES] -= lost;
                     let cable = self.part.quotient.cable(self.part.blocks.cable(n, place));
-                    self.record.broken.push(Broken { at: self.clock.now(self.step), cable });
+                    self.record.broken.push(Broken { at, cable });
                 }
             }
         }
