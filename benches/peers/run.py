@@ -167,7 +167,7 @@ def print_speed(options):
     results = {}
     if options.shelter:
         runs = [run_shelter(options.shelter, GRID, step, SHELTER_REPEATS)
-                for step in divisors_of_delay(2, 2.5, 3, 4, 5, 8, 10, 20, 40)]
+                for step in divisors_of_delay(2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 10, 14, 20, 40)]
         results["shelter"] = ([(run, []) for run in runs if run], "no run succeeded")
     for peer in all_peers():
         runs = []

@@ -3,9 +3,9 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use super::Case;
 use super::batch::Progress;
 use super::check::start_step;
+use super::{Case, error};
 use crate::outcome::Outcome;
 use crate::plan::{Accuracy, Method, Timing};
 use crate::scene::Shot;
@@ -57,8 +57,8 @@ pub struct Study {
 /// Limits of an error class: height and force, relative.
 pub const CLASSES: [(f64, f64); 2] = [(0.01, 0.02), (0.002, 0.002)];
 
-/// Steps tried per method, each half the one before.
-const STEPS: usize = 11;
+/// Steps tried per method, each [`error::RATIO`] finer than the one before.
+const STEPS: i32 = 15;
 /// How much finer the reference is than the finest level.
 const FINER: f64 = 16.0;
 
@@ -73,13 +73,13 @@ pub fn measure(
         .map(|level| (level, start_step(case, Method::Verlet, level)));
     let reference_step = levels[2].1 / FINER;
     let shot = &case.shots[option];
-    progress.expect(2 * STEPS + levels.len() + 1);
+    progress.expect(2 * STEPS as usize + levels.len() + 1);
     let reference = run(case, shot, Method::Verlet, reference_step, progress)?;
     progress.advance();
     let coarsest = (0.95 * case.scene().critical_step()).min(8e-3);
     let mut rows = Vec::new();
     for method in [Method::Verlet, Method::Newmark] {
-        let mut steps: Vec<f64> = (0..STEPS).map(|n| coarsest * 0.5_f64.powi(n as i32)).collect();
+        let mut steps: Vec<f64> = (0..STEPS).map(|n| coarsest * error::RATIO.powi(-n)).collect();
         if method == Method::Verlet {
             steps.extend(levels.map(|(_, step)| step));
             steps.sort_by(|a, b| b.total_cmp(a));

@@ -5,7 +5,7 @@ mod pull;
 
 use nalgebra::Vector3;
 
-use self::advance::Advance;
+use self::advance::{Advance, Carried};
 use self::pull::Pull;
 use super::Part;
 use crate::outcome::{End, Outcome, Peak};
@@ -65,6 +65,8 @@ pub(super) struct Stepper<'a> {
     /// The cable of the greatest force, if sampled in the step before.
     sampled: Option<Sample>,
     due: Vec<Due>,
+    /// Tires of one register that are carried through the step by themselves.
+    carried: Vec<Carried>,
     wake: Wake<'a>,
     tension: Tension<'a>,
     u: Field,
@@ -91,6 +93,7 @@ impl<'a> Stepper<'a> {
             sampled: None,
             due: Vec::with_capacity(firings.len()),
             firings,
+            carried: Vec::with_capacity(LANES),
             wake: Wake::new(&part.ties),
             tension: Tension::new(&part.blocks),
             // A pack more, which the last cables may read.

@@ -54,6 +54,7 @@ impl Stepper<'_> {
 
     /// A cable of a block pulls harder than any before it.
     fn note_force(&mut self, n: usize) {
+        self.copy_velocities();
         let block = &self.part.blocks.blocks[n];
         for place in 0..block.len {
             let force = self.tension.force(block, place);
