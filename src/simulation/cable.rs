@@ -10,7 +10,7 @@ use super::pack::{Aligned, LANES};
 use crate::scene::{Cable, Scene};
 
 /// Most places in a block.
-const PLACES: usize = 64;
+const PLACES: usize = 32;
 /// Most places left empty between two cables of a run.
 const EMPTY: usize = 4;
 /// The cable of an empty place.

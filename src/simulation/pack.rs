@@ -143,6 +143,12 @@ impl<S: Simd> Mask<S> {
         Self { value: self.simd.and_m64s(self.value, other.value), ..self }
     }
 
+    /// Where one of both holds.
+    #[inline(always)]
+    pub fn differs(self, other: Self) -> Self {
+        Self { value: self.simd.xor_m64s(self.value, other.value), ..self }
+    }
+
     /// `yes` where the condition holds, `no` elsewhere.
     #[inline(always)]
     pub fn select(self, yes: Wide<S>, no: Wide<S>) -> Wide<S> {

@@ -143,7 +143,8 @@ impl Slices<'_> {
             let before = Wide::load(simd, changes, at) + excess_at_rest;
             change.store(changes, at);
             let was = states[at];
-            if zero.less(excess).and(there).any() {
+            let taut = zero.less(excess).and(there);
+            if taut.any() {
                 states[at] = State::Taut;
             } else {
                 states[at] = State::Slack;
@@ -164,7 +165,7 @@ impl Slices<'_> {
             let force = stiffness * positive;
             (half * weight * force * positive).add_to(&mut energy, at % LANES);
             force.max(Wide::load(simd, &greatest, at % LANES)).store(&mut greatest, at % LANES);
-            let switches = (before * excess).less(zero).and(there);
+            let switches = taut.differs(zero.less(before).and(there));
             let apart = (excess - before).abs() * (length + rest_length);
             let sum = excess + before;
             let above = switches.select(force.times_plus(apart, eighth * sum * sum), force);
