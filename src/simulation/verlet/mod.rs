@@ -7,8 +7,9 @@
 //! 3. drift: uₙ₊₁ = uₙ + h v.
 //!
 //! A tire that lands or is fired at inside the step is carried through it phase by phase instead
-//! ([`Flight::through`](super::contact::Flight::through)), so both happen at their own time. The method is of second
-//! order, symplectic between events, and stable for h < 2/ω; ω² ≤ max (2/m) Σ k
+//! ([`Flight::through`](super::contact::Flight::through)), so both happen at their own time. A cable that becomes taut or
+//! slack inside the step pulls as if it did so halfway ([`Slices::evaluate`](super::tension::Slices::evaluate)). The method
+//! is of second order, symplectic between events, and stable for h < 2/ω; ω² ≤ max (2/m) Σ k
 //! ([`Scene::frequency_bound`](crate::scene::Scene::frequency_bound)). It ignores damping in the cables.
 
 mod stepper;

@@ -1,11 +1,13 @@
 //! One run: what changes from step to step, and the step itself.
 
 mod advance;
+mod events;
 mod pull;
 
 use nalgebra::Vector3;
 
-use self::advance::{Advance, Carried};
+use self::advance::Advance;
+use self::events::Carried;
 use self::pull::Pull;
 use super::Part;
 use crate::outcome::{End, Outcome, Peak};
