@@ -18,7 +18,7 @@ use shelter::verdict::{Limits, Verdict};
 
 /// How much finer the reference is than the field step.
 const FINER: f64 = 128.0;
-/// First scene used here; those before were used to fit the estimate's constants.
+/// First scene used here; the estimate's margin was fitted on scenes 30,000 to 30,599.
 const FIRST: u64 = 10_000;
 
 const PLAN: &str = r#"

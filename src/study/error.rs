@@ -6,7 +6,7 @@
 //! error reported is MARGIN · max |sⱼ|: the largest of several is believed, so two runs that agree by luck are not.
 //!
 //! The margin was fitted on 600 random scenes; `cargo bench --bench calibration` measures on others how often the true
-//! error is within the reported one (95 % and more) and how wide that is (5 to 7 times the true one in the median). It
+//! error is within the reported one (19 of 20 times) and how wide that is (5 to 6.5 times the true one in the median). It
 //! estimates the error of the time integration alone: the model, the plan's numbers, and a motion so sensitive that every
 //! step misses the same event alike are beyond it.
 
@@ -14,7 +14,7 @@
 pub const RATIO: f64 = std::f64::consts::SQRT_2;
 /// Neighbours wanted beside the run itself.
 pub const NEIGHBOURS: usize = 4;
-const MARGIN: f64 = 3.0;
+const MARGIN: f64 = 3.05;
 
 /// Estimated error of `value`, computed at `step`, from `(step, value)` of neighbours; 0 without any.
 pub fn estimate(step: f64, value: f64, neighbours: impl IntoIterator<Item = (f64, f64)>) -> f64 {
@@ -35,7 +35,7 @@ mod tests {
 
     #[test]
     fn a_second_order_error_is_found_with_the_margin() {
-        assert!((ladder(|h| 7.0 + 0.01 * h * h) - 0.03).abs() < 1e-12);
+        assert!((ladder(|h| 7.0 + 0.01 * h * h) - 0.01 * MARGIN).abs() < 1e-12);
     }
 
     #[test]
@@ -50,6 +50,6 @@ mod tests {
     #[test]
     fn a_finer_neighbour_serves_as_well() {
         let value = |h: f64| 7.0 + 0.01 * h * h;
-        assert!((estimate(1.0, value(1.0), [(0.5, value(0.5))]) - 0.03).abs() < 1e-12);
+        assert!((estimate(1.0, value(1.0), [(0.5, value(0.5))]) - 0.01 * MARGIN).abs() < 1e-12);
     }
 }
