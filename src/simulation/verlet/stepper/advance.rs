@@ -88,8 +88,7 @@ impl Stepper<'_> {
         pass.dissipated = dissipated;
     }
 
-    /// Reflects kept tires into their images and keeps those on a mirror plane in it. Nobody asks how fast an image moves
-    /// but [`Self::copy_velocities`].
+    /// Reflects kept tires into their images, but for their velocities, and keeps those on a mirror plane in it.
     pub(super) fn copy_images(&mut self) {
         let (u, v) = (self.u.slices_mut(), self.v.slices_mut());
         for &Image { of, from, sign } in &self.part.quotient.images {
@@ -106,7 +105,7 @@ impl Stepper<'_> {
         }
     }
 
-    /// Gives images the velocities of what they are images of, until they are copied next.
+    /// Gives images the velocities of what they are images of, until [`Self::copy_images`].
     pub(super) fn copy_velocities(&mut self) {
         let v = self.v.slices_mut();
         for &Image { of, from, sign } in &self.part.quotient.images {
