@@ -1,8 +1,9 @@
 //! Cables in blocks of equal ones: how they lie in memory, and which of them pull at which tires.
 //!
 //! Cables whose tires follow one another (a row of a mesh) and that share span, length and stiffness form a run: both ends
-//! lie one after the other in memory, so that neighbouring cables are taken together. Where a cable is missing (at the end of a mesh row) its place stays empty, so that a run goes
-//! on from row to row. Long runs are cut into blocks, the unit that sleeps and wakes.
+//! lie one after the other in memory, so that neighbouring cables are taken together. Where a cable is missing (at the end
+//! of a mesh row) its place stays empty, so that a run goes on from row to row. Long runs are cut into blocks, the unit that
+//! sleeps and wakes.
 
 use std::ops::Range;
 

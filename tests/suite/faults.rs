@@ -35,7 +35,8 @@ fn sizing(plan: &Path) -> Command {
     command
 }
 
-/// Killed at fifty moments or more, from its start until it has once come to its end, it leaves the old plan or the new one.
+/// Killed at fifty moments from its start to past its end, and later ones while a loaded machine has not let it come to its
+/// end once, it leaves the old plan or the new one.
 #[test]
 fn a_killed_save_leaves_the_old_plan_or_the_new_one() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -45,7 +46,7 @@ fn a_killed_save_leaves_the_old_plan_or_the_new_one() {
     size(&plan);
     let whole = begun.elapsed();
     let mut seen = [0, 0];
-    for n in 0_u32.. {
+    for n in 0..200 {
         if n >= 50 && seen[1] > 0 {
             break;
         }
@@ -59,7 +60,7 @@ fn a_killed_save_leaves_the_old_plan_or_the_new_one() {
         assert!(left == old || left == new, "after {n}: {} bytes", left.len());
         seen[usize::from(left == new)] += 1;
     }
-    assert!(seen[0] > 0, "{seen:?}");
+    assert!(seen[0] > 0 && seen[1] > 0, "both were seen: {seen:?}");
 }
 
 /// Killed as soon as anything in the folder changes, in the midst of writing a plan of megabytes.

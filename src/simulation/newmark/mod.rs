@@ -4,10 +4,11 @@
 //!
 //! M (4 Δu/h² − 4 v₀/h − a₀) = F(u₀ + Δu).
 //!
-//! Newton–Raphson solves it for a frozen contact region, from Δu = h v₀ + h² a₀/2 on; from Δu = 0 its first iteration would be
-//! the paper's predictor (5). The region implied by the result (2)–(4) is compared with the one assumed and the step repeated,
-//! on from the last Δu, until both agree; only then is the result converged fully, and compared again. A tire that lands stops falling and loses
-//! friction's share of its sideways speed as in [`super::contact`]; holes fire at their exact time, where the step is cut.
+//! Newton–Raphson solves it for a frozen contact region, from Δu = h v₀ + h² a₀/2 on; from Δu = 0 its first iteration
+//! would be the paper's predictor (5). The region implied by the result (2)–(4) is compared with the one assumed and the
+//! step repeated, on from the last Δu, until both agree; only then is the result converged fully, and compared again. A tire
+//! that lands stops falling and loses friction's share of its sideways speed as in [`super::contact`]; holes fire at their
+//! exact time, where the step is cut.
 //! Acceleration is taken from the balance of forces, so that short steps do not amplify rounding.
 //!
 //! Only tires that move and those tied to them are looked at ([`super::wake`]). Within a step motion goes on from tire to
