@@ -8,6 +8,7 @@ mod diagnostic;
 pub mod edit;
 pub mod fields;
 pub mod import;
+mod range;
 mod read;
 pub mod schema;
 pub mod starter;

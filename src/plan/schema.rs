@@ -2,45 +2,50 @@
 //!
 //! It says less than the reader does: names of rows, places and sums are checked there alone.
 
+use std::ops::RangeInclusive;
+
 use serde_json::{Map, Value, json};
 
-use super::validate::shot::{LAUNCH_M_S, TIME_MS};
-use super::validate::{MASS_KG, MOST_TIRES, PLACE_M};
+use super::range;
 use crate::ropes::catalogue;
 
 /// The schema (draft 2020-12).
 pub fn schema() -> Value {
     let ropes: Vec<&str> = catalogue().ropes.iter().map(|rope| rope.name.as_str()).collect();
     let terminations: Vec<&str> = catalogue().terminations.iter().map(|known| known.name.as_str()).collect();
-    let spacing = number(1e-4..=1e5, "centre to centre [m]");
+    let spacing = number(range::SPACING_M, "centre to centre [m]");
     let link = json!({ "enum": ["row", "column", "diagonal"] });
-    let launch = number(LAUNCH_M_S, "launch velocity of the tires [m/s]");
+    let launch = number(range::LAUNCH_M_S, "launch velocity of the tires [m/s]");
     let hole = table(
         "one hole; it launches the nearest tire",
         &["x_m", "y_m", "launch_m_s"],
-        [("x_m", number(PLACE_M, "[m]")), ("y_m", number(PLACE_M, "[m]")), ("launch_m_s", launch.clone())],
+        [
+            ("x_m", number(range::PLACE_M, "[m]")),
+            ("y_m", number(range::PLACE_M, "[m]")),
+            ("launch_m_s", launch.clone()),
+        ],
     );
     let listed_tire = table(
         "one tire",
         &["x_m", "y_m"],
         [
-            ("x_m", number(PLACE_M, "[m]")),
-            ("y_m", number(PLACE_M, "[m]")),
-            ("mass_kg", number(MASS_KG, "instead of that of [tire]")),
+            ("x_m", number(range::PLACE_M, "[m]")),
+            ("y_m", number(range::PLACE_M, "[m]")),
+            ("mass_kg", number(range::MASS_KG, "instead of that of [tire]")),
         ],
     );
     let tire_number = json!({ "type": "integer", "minimum": 1 });
     let listed_cable =
         table("one cable", &["from", "to"], [("from", tire_number.clone()), ("to", tire_number.clone())]);
-    let whole = |least: usize, most: usize, words: &str| json!({ "type": "integer", "minimum": least, "maximum": most, "description": words });
+    let whole = |range: RangeInclusive<usize>, words: &str| json!({ "type": "integer", "minimum": range.start(), "maximum": range.end(), "description": words });
     let shelter = table(
         "tires and the ties between them",
         &["layout"],
         [
             ("layout", json!({ "enum": ["grid", "quincunx", "list"] })),
-            ("rows", whole(1, MOST_TIRES, "along y, numbered from 1")),
-            ("columns", whole(1, MOST_TIRES, "along x, numbered from 1")),
-            ("border_rows", whole(0, 1000, "rows of ballast laid around the mesh, over no hole")),
+            ("rows", whole(1..=range::MOST_TIRES, "along y, numbered from 1")),
+            ("columns", whole(1..=range::MOST_TIRES, "along x, numbered from 1")),
+            ("border_rows", whole(range::BORDER_ROWS, "rows of ballast laid around the mesh, over no hole")),
             (
                 "spacing_m",
                 json!({ "oneOf": [spacing.clone(), table("between rows, between columns [m]", &["row", "column"], [("row", spacing.clone()), ("column", spacing)])] }),
@@ -54,10 +59,10 @@ pub fn schema() -> Value {
         "the tire at every place",
         &["mass_kg"],
         [
-            ("mass_kg", number(MASS_KG, "[kg]")),
+            ("mass_kg", number(range::MASS_KG, "[kg]")),
             (
                 "outer_diameter_m",
-                number(0.0..=1e3, "cables run from rim to rim; 0: from centre to centre [m]"),
+                number(range::DIAMETER_M, "cables run from rim to rim; 0: from centre to centre [m]"),
             ),
         ],
     );
@@ -66,11 +71,14 @@ pub fn schema() -> Value {
         &[],
         [
             ("rope", json!({ "enum": ropes })),
-            ("axial_stiffness_kn", number(1e-6..=1e9, "EA [kN]")),
-            ("breaking_force_kn", number(1e-6..=1e9, "[kN]")),
-            ("slack_percent", number(0.0..=1e3, "length over distance [%]")),
+            ("axial_stiffness_kn", number(range::CABLE_KN, "EA [kN]")),
+            ("breaking_force_kn", number(range::CABLE_KN, "[kN]")),
+            ("slack_percent", number(range::SLACK_PERCENT, "length over distance [%]")),
             ("termination", json!({ "enum": terminations })),
-            ("termination_percent", number(1.0..=100.0, "what it leaves of the breaking force [%]")),
+            (
+                "termination_percent",
+                number(range::TERMINATION_PERCENT, "what it leaves of the breaking force [%]"),
+            ),
             ("on_overload", json!({ "enum": ["report", "break"] })),
         ],
     );
@@ -79,20 +87,20 @@ pub fn schema() -> Value {
         &["name"],
         [
             ("name", json!({ "type": "string" })),
-            ("under_row", number(0.0..=1e7, "launches every tire of this shelter row")),
+            ("under_row", number(range::ROW, "launches every tire of this shelter row")),
             ("under_tires", list(tire_number, "launches these tires")),
             ("holes", list(hole, "one by one")),
             ("launch_m_s", launch),
-            ("free_flight_height_m", number(0.0..=1e5, "seen on a loose test tire [m]")),
+            ("free_flight_height_m", number(range::FREE_FLIGHT_M, "seen on a loose test tire [m]")),
         ],
     );
     let limits = table(
         "what an option must keep to pass",
         &["flight_height_m", "cable_safety_factor"],
         [
-            ("flight_height_m", number(1e-6..=1e6, "[m]")),
-            ("cable_safety_factor", number(1e-3..=1e6, "breaking force / greatest force")),
-            ("drift_m", number(1e-6..=1e6, "greatest horizontal shift of any tire at the end [m]")),
+            ("flight_height_m", number(range::LIMIT_M, "[m]")),
+            ("cable_safety_factor", number(range::SAFETY_FACTOR, "breaking force / greatest force")),
+            ("drift_m", number(range::LIMIT_M, "greatest horizontal shift of any tire at the end [m]")),
         ],
     );
     let delay = table(
@@ -100,19 +108,22 @@ pub fn schema() -> Value {
         &["name"],
         [
             ("name", json!({ "type": "string" })),
-            ("interval_ms", number(TIME_MS, "between successive blast rows [ms]")),
+            ("interval_ms", number(range::TIME_MS, "between successive blast rows [ms]")),
             ("order", list(json!({ "type": "string" }), "names of the blast rows as they fire")),
-            ("at_ms", list(number(TIME_MS, "[ms]"), "firing time of each blast row, in the order listed")),
+            (
+                "at_ms",
+                list(number(range::TIME_MS, "[ms]"), "firing time of each blast row, in the order listed"),
+            ),
         ],
     );
     let simulation = table(
         "how to compute",
         &[],
         [
-            ("duration_s", number(1e-6..=1e6, "default: until every tire is at rest [s]")),
+            ("duration_s", number(range::DURATION_S, "default: until every tire is at rest [s]")),
             ("accuracy", json!({ "enum": ["draft", "field", "reference"] })),
             ("method", json!({ "enum": ["verlet", "newmark"] })),
-            ("gravity_m_s2", number(0.0..=1e3, "[m/s²]")),
+            ("gravity_m_s2", number(range::GRAVITY_M_S2, "[m/s²]")),
         ],
     );
     let scatter = table(
@@ -120,10 +131,10 @@ pub fn schema() -> Value {
         &[],
         [
             ("detonator", json!({ "enum": ["electronic", "pyrotechnic", "pyrotechnic surface"] })),
-            ("delay_sd_ms", number(0.0..=1e6, "standard deviation of firing times [ms]")),
-            ("delay_cv_percent", number(0.0..=100.0, "standard deviation over delay [%]")),
-            ("launch_cv_percent", number(0.0..=100.0, "of launch velocities, lognormal [%]")),
-            ("friction", list(number(0.0..=1e9, "from, to"), "anything between")),
+            ("delay_sd_ms", number(range::SCATTER_MS, "standard deviation of firing times [ms]")),
+            ("delay_cv_percent", number(range::SCATTER_PERCENT, "standard deviation over delay [%]")),
+            ("launch_cv_percent", number(range::SCATTER_PERCENT, "of launch velocities, lognormal [%]")),
+            ("friction", list(number(range::FRICTION, "from, to"), "anything between")),
         ],
     );
     let size = table(
@@ -131,11 +142,11 @@ pub fn schema() -> Value {
         &[],
         [
             ("ropes", json!({ "enum": catalogue().families() })),
-            ("tire_mass_kg", list(number(MASS_KG, "[kg]"), "masses of tires at hand")),
-            ("most_border_rows", whole(0, 100, "rows of ballast")),
+            ("tire_mass_kg", list(number(range::MASS_KG, "[kg]"), "masses of tires at hand")),
+            ("most_border_rows", whole(range::SIZED_BORDER_ROWS, "rows of ballast")),
         ],
     );
-    let ground = table("", &["friction"], [("friction", number(0.0..=1e9, "of a tire on the ground"))]);
+    let ground = table("", &["friction"], [("friction", number(range::FRICTION, "of a tire on the ground"))]);
     let mut schema = table(
         "A blast row, the shelter over it, and the delay options to choose from",
         &["shelter", "tire", "cable", "ground", "blast_row", "limits", "delay"],
@@ -158,7 +169,7 @@ pub fn schema() -> Value {
     schema
 }
 
-fn number(range: std::ops::RangeInclusive<f64>, words: &str) -> Value {
+fn number(range: RangeInclusive<f64>, words: &str) -> Value {
     json!({ "type": "number", "minimum": range.start(), "maximum": range.end(), "description": words })
 }
 

@@ -19,7 +19,64 @@ pub const ROPE: usize = 5;
 /// Most blast rows offered to somebody who has only numbers for them.
 const MOST_ROWS: usize = 50;
 /// Launch velocity until somebody puts in a better one [m/s].
-const LAUNCH_M_S: f64 = 6.0;
+pub(super) const LAUNCH_M_S: f64 = 6.0;
+
+/// A grid of tires over the blast rows, all of one mass and tied with one rope.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shelter<'s> {
+    pub rows: usize,
+    pub columns: usize,
+    pub spacing_m: f64,
+    pub mass_kg: f64,
+    pub rope: &'s str,
+}
+
+/// As the [`QUESTIONS`] offer it.
+pub(super) const USUAL: Shelter<'_> =
+    Shelter { rows: 5, columns: 10, spacing_m: 2.6, mass_kg: 280.0, rope: "GOST 2688-80 14" };
+
+impl Shelter<'_> {
+    /// What a plan says before its blast rows; `place` is a comment on where the tires lie.
+    pub(super) fn sections(&self, title: &str, place: &str) -> String {
+        let quoted = |text: &str| toml_edit::value(text).to_string();
+        let Self { rows, columns, spacing_m, mass_kg, rope } = self;
+        format!(
+            "title = {}
+
+[shelter]{place}
+layout = \"grid\"
+rows = {rows}                # along y, numbered from 1
+columns = {columns}            # along x, numbered from 1
+spacing_m = {spacing_m}         # centre to centre
+
+[tire]
+mass_kg = {mass_kg}
+
+[cable]
+rope = {}         # `shelter ropes` lists the catalogue
+termination = \"mechanical sleeve\"
+slack_percent = 2
+
+[ground]
+friction = 0.5          # rocky soil 0.3 to 0.5
+",
+            quoted(title),
+            quoted(rope)
+        )
+    }
+}
+
+/// The limits of a plan, one of them a height [m].
+pub(super) fn limits(height_m: f64) -> String {
+    format!(
+        "\n[limits]\nflight_height_m = {height_m}\ncable_safety_factor = 1.5   # breaking force / greatest force\n"
+    )
+}
+
+/// A delay option by its interval [ms].
+pub(super) fn delay(interval_ms: f64) -> String {
+    format!("\n[[delay]]\nname = \"{interval_ms} ms\"\ninterval_ms = {interval_ms}\n")
+}
 
 /// The plan, blast rows spread evenly under the shelter; or which answer is no answer.
 ///
@@ -44,30 +101,7 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
         .filter(|interval| !interval.is_empty())
         .map(|interval| number(interval, 7))
         .collect::<Result<_, _>>()?;
-    let quoted = |text: &str| toml_edit::value(text).to_string();
-    let mut text = format!(
-        "title = {}
-
-[shelter]
-layout = \"grid\"
-rows = {rows}                # along y, numbered from 1
-columns = {columns}            # along x, numbered from 1
-spacing_m = {spacing}         # centre to centre
-
-[tire]
-mass_kg = {mass}
-
-[cable]
-rope = {}         # `shelter ropes` lists the catalogue
-termination = \"mechanical sleeve\"
-slack_percent = 2
-
-[ground]
-friction = 0.5          # rocky soil 0.3 to 0.5
-",
-        quoted(title),
-        quoted(rope)
-    );
+    let mut text = Shelter { rows, columns, spacing_m: spacing, mass_kg: mass, rope }.sections(title, "");
     for row in 0..blast_rows {
         let under = (2 * row + 1) * rows / (2 * blast_rows) + 1;
         let name = row + 1;
@@ -76,13 +110,8 @@ friction = 0.5          # rocky soil 0.3 to 0.5
             "\n[[blast_row]]\nname = \"{name}\"\nunder_row = {under}\nlaunch_m_s = {LAUNCH_M_S:?}    # put in yours\n"
         );
     }
-    let _ = write!(
-        text,
-        "\n[limits]\nflight_height_m = {height}\ncable_safety_factor = 1.5   # breaking force / greatest force\n"
-    );
-    for interval in intervals {
-        let _ = write!(text, "\n[[delay]]\nname = \"{interval} ms\"\ninterval_ms = {interval}\n");
-    }
+    text += &limits(height);
+    intervals.into_iter().for_each(|interval| text += &delay(interval));
     Ok(text)
 }
 

@@ -4,9 +4,8 @@ use std::collections::HashSet;
 use std::ops::{Range, RangeInclusive};
 
 use crate::plan::diagnostic::Mistake;
+use crate::plan::range;
 use crate::plan::read::nearest;
-use crate::plan::validate::PLACE_M;
-use crate::plan::validate::shot::{LAUNCH_M_S, TIME_MS};
 
 /// One hole of the list.
 #[derive(Clone, Debug, PartialEq)]
@@ -224,10 +223,11 @@ fn read_hole(
             None => None,
         }
     };
-    let (x_m, y_m) = (value(Column::X, "x", &PLACE_M, true), value(Column::Y, "y", &PLACE_M, true));
-    let fire_ms = value(Column::Fire, "the firing time", &TIME_MS, false);
-    let delay_ms = value(Column::Delay, "the delay", &TIME_MS, false);
-    let launch_m_s = value(Column::Launch, "the launch velocity", &LAUNCH_M_S, false);
+    let (x_m, y_m) =
+        (value(Column::X, "x", &range::PLACE_M, true), value(Column::Y, "y", &range::PLACE_M, true));
+    let fire_ms = value(Column::Fire, "the firing time", &range::TIME_MS, false);
+    let delay_ms = value(Column::Delay, "the delay", &range::TIME_MS, false);
+    let launch_m_s = value(Column::Launch, "the launch velocity", &range::LAUNCH_M_S, false);
     let text = |column: Column| field(column).map(str::to_owned);
     // Kirra writes Pattern:::Hole.
     let from = text(Column::From).map(|from| from.rsplit(":::").next().unwrap_or_default().to_owned());

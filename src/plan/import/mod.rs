@@ -7,16 +7,17 @@ use std::fmt::Write;
 
 use self::holes::{ListedHole, read};
 use self::timing::{Group, groups};
-use super::Diagnostics;
-use super::validate::MOST_TIRES;
+use super::starter::{LAUNCH_M_S, Shelter, USUAL, delay, limits};
+use super::{Diagnostics, range};
 
-/// Tires lie as far apart as the holes where those are this near [m], else [`USUAL_SPACING_M`].
+/// Tires lie as far apart as the holes where those are this near [m], else as in a usual shelter.
 const NEAR_M: std::ops::RangeInclusive<f64> = 1.0..=3.0;
-const USUAL_SPACING_M: f64 = 2.6;
 /// Tires beyond the outermost holes on each side.
 const MARGIN: usize = 1;
-/// Launch velocity of holes for which the list has none [m/s].
-const LAUNCH_M_S: f64 = 6.0;
+/// Flight height allowed until somebody puts in another [m].
+const HEIGHT_M: f64 = 1.8;
+/// Compared where the list has no firing times [ms].
+const INTERVALS_MS: [f64; 3] = [17.0, 25.0, 42.0];
 
 /// The text of a plan for the holes in `text`, a table of values separated by commas, semicolons or tabs; `name` is the
 /// file's.
@@ -30,7 +31,7 @@ pub fn plan_from_holes(name: &str, text: &str) -> Result<String, Diagnostics> {
     let table = read(source).map_err(wrong)?;
     let groups = groups(&table).map_err(wrong)?;
     let layout = Cover::of(&table.holes);
-    if layout.rows.saturating_mul(layout.columns) > MOST_TIRES {
+    if layout.rows.saturating_mul(layout.columns) > range::MOST_TIRES {
         let message = "the holes lie too far apart for one shelter".to_owned();
         return Err(Diagnostics::unreadable(
             name,
@@ -54,7 +55,7 @@ impl Cover {
     fn of(holes: &[ListedHole]) -> Self {
         let nearest = nearest_distance(holes);
         let spacing_m =
-            if NEAR_M.contains(&nearest) { (nearest * 100.0).round() / 100.0 } else { USUAL_SPACING_M };
+            if NEAR_M.contains(&nearest) { (nearest * 100.0).round() / 100.0 } else { USUAL.spacing_m };
         let range = |of: fn(&ListedHole) -> f64| {
             holes.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
         };
@@ -83,33 +84,14 @@ fn nearest_distance(holes: &[ListedHole]) -> f64 {
 }
 
 fn write(name: &str, cover: &Cover, holes: &[ListedHole], groups: &[Group]) -> String {
-    let mut text = String::new();
-    let Cover { rows, columns, spacing_m, origin } = cover;
-    let file = toml_edit::value(format!("Holes of {name}")).to_string();
-    let _ = write!(
-        text,
-        "# Written by `shelter init --from`. Put in your tires, rope, friction and limits, and the launch velocity.
-title = {file}
-
-[shelter]               # tire (1,1) lies at x = {:.3}, y = {:.3} of the list
-layout = \"grid\"
-rows = {rows}                # along y
-columns = {columns}             # along x
-spacing_m = {spacing_m}
-
-[tire]
-mass_kg = 280           # a worn 18.00-25
-
-[cable]
-rope = \"GOST 2688-80 14\"         # `shelter ropes` lists the catalogue
-termination = \"mechanical sleeve\"
-slack_percent = 2
-
-[ground]
-friction = 0.5          # rocky soil 0.3 to 0.5
-",
-        origin[0], origin[1]
-    );
+    let &Cover { rows, columns, spacing_m, origin } = cover;
+    let shelter = Shelter { rows, columns, spacing_m, ..USUAL };
+    let place =
+        format!("               # tire (1,1) lies at x = {:.3}, y = {:.3} of the list", origin[0], origin[1]);
+    let mut text =
+        "# Written by `shelter init --from`. Put in your tires, rope, friction and limits, and the launch velocity.\n"
+            .to_owned();
+    text += &shelter.sections(&format!("Holes of {name}"), &place);
     for group in groups {
         let title = toml_edit::value(group.name.as_str()).to_string();
         let _ = write!(text, "\n[[blast_row]]\nname = {title}\nholes = [\n");
@@ -126,19 +108,14 @@ friction = 0.5          # rocky soil 0.3 to 0.5
         }
         text += "]\n";
     }
-    text +=
-        "\n[limits]\nflight_height_m = 1.8\ncable_safety_factor = 1.5   # breaking force / greatest force\n";
+    text += &limits(HEIGHT_M);
     let times: Option<Vec<String>> =
         groups.iter().map(|group| Some(format!("{:?}", group.fire_ms?))).collect();
     match times {
         Some(times) => {
             let _ = write!(text, "\n[[delay]]\nname = \"as listed\"\nat_ms = [{}]\n", times.join(", "));
         }
-        None => {
-            for interval in [17, 25, 42] {
-                let _ = write!(text, "\n[[delay]]\nname = \"{interval} ms\"\ninterval_ms = {interval}\n");
-            }
-        }
+        None => INTERVALS_MS.into_iter().for_each(|interval| text += &delay(interval)),
     }
     text
 }

@@ -2,9 +2,8 @@
 
 use std::collections::HashSet;
 
-use super::{MASS_KG, MOST_TIRES, PLACE_M};
 use crate::plan::read::{Mistakes, Table};
-use crate::plan::{Layout, Links, ListedTire, Mesh, TireSpec};
+use crate::plan::{Layout, Links, ListedTire, Mesh, TireSpec, range};
 
 #[derive(Clone, Copy)]
 enum Kind {
@@ -30,8 +29,8 @@ pub fn read_layout(table: Table<'_>, mistakes: &Mistakes) -> Option<Layout> {
         Layout::Quincunx(mesh) => mesh.corners().saturating_mul(2),
         Layout::List { tires, .. } => tires.len(),
     };
-    if tires > MOST_TIRES {
-        let message = format!("the shelter has more than {MOST_TIRES} tires");
+    if tires > range::MOST_TIRES {
+        let message = format!("the shelter has more than {} tires", range::MOST_TIRES);
         table.wrong("rows", message, "describe a smaller shelter");
     }
     table.finish();
@@ -39,8 +38,8 @@ pub fn read_layout(table: Table<'_>, mistakes: &Mistakes) -> Option<Layout> {
 }
 
 fn read_mesh(table: &Table<'_>, least: usize, mistakes: &Mistakes) -> Mesh {
-    let rows = table.whole("rows", least..=MOST_TIRES, "5");
-    let columns = table.whole("columns", least..=MOST_TIRES, "10");
+    let rows = table.whole("rows", least..=range::MOST_TIRES, "5");
+    let columns = table.whole("columns", least..=range::MOST_TIRES, "10");
     let (row_spacing_m, column_spacing_m) = read_spacing(table);
     let words = [("row", 0), ("column", 1), ("diagonal", 2)];
     let example = "[\"row\", \"column\", \"diagonal\"]";
@@ -59,22 +58,24 @@ fn read_mesh(table: &Table<'_>, least: usize, mistakes: &Mistakes) -> Mesh {
         }
     }
     let [row, column, diagonal] = tied;
-    let border_rows = if table.has("border_rows") { table.whole("border_rows", 0..=1000, "1") } else { 0 };
+    let border_rows =
+        if table.has("border_rows") { table.whole("border_rows", range::BORDER_ROWS, "1") } else { 0 };
     let links = Links { row, column, diagonal };
     Mesh { rows, columns, row_spacing_m, column_spacing_m, links, border_rows }
 }
 
 fn read_spacing(table: &Table<'_>) -> (f64, f64) {
-    const SPACING_M: std::ops::RangeInclusive<f64> = 1e-4..=1e5;
     match table.inline_table("spacing_m") {
         Some(both) => {
-            let spacing =
-                (both.number("row", None, SPACING_M, "1.5"), both.number("column", None, SPACING_M, "1.6"));
+            let spacing = (
+                both.number("row", None, range::SPACING_M, "1.5"),
+                both.number("column", None, range::SPACING_M, "1.6"),
+            );
             both.finish();
             spacing
         }
         None => {
-            let spacing = table.number("spacing_m", None, SPACING_M, "1.5");
+            let spacing = table.number("spacing_m", None, range::SPACING_M, "1.5");
             (spacing, spacing)
         }
     }
@@ -85,9 +86,9 @@ fn read_list(table: &Table<'_>, mistakes: &Mistakes) -> Layout {
     let mut places = HashSet::new();
     for tire in table.tables("tire") {
         let place = ListedTire {
-            x_m: tire.number("x_m", None, PLACE_M, "0"),
-            y_m: tire.number("y_m", None, PLACE_M, "0"),
-            mass_kg: tire.number_if("mass_kg", MASS_KG, "280"),
+            x_m: tire.number("x_m", None, range::PLACE_M, "0"),
+            y_m: tire.number("y_m", None, range::PLACE_M, "0"),
+            mass_kg: tire.number_if("mass_kg", range::MASS_KG, "280"),
         };
         let bits = [place.x_m + 0.0, place.y_m + 0.0].map(f64::to_bits);
         if !places.insert(bits) {

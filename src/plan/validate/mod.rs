@@ -1,7 +1,7 @@
 //! From TOML text to a valid [`Plan`]: one small function per section, every mistake noted with its remedy.
 
 mod layout;
-pub mod shot;
+mod shot;
 mod study;
 
 use toml::de::DeTable;
@@ -11,15 +11,8 @@ use self::shot::{read_blast_rows, read_delays};
 use self::study::{read_scatter, read_size};
 use super::diagnostic::Diagnostics;
 use super::read::{At, Mistakes, Table};
-use super::{Accuracy, CableSpec, Limits, Method, Plan, SimulationSpec, TireSpec};
+use super::{Accuracy, CableSpec, Limits, Method, Plan, SimulationSpec, TireSpec, range};
 use crate::ropes;
-
-/// Most tires in a shelter.
-pub const MOST_TIRES: usize = 4_000_000;
-
-pub const MASS_KG: std::ops::RangeInclusive<f64> = 1e-3..=1e7;
-pub const PLACE_M: std::ops::RangeInclusive<f64> = -1e7..=1e7;
-const PERCENT: std::ops::RangeInclusive<f64> = 1.0..=100.0;
 
 /// Reads a plan from text; `path` names it in messages.
 pub fn parse(path: &str, text: &str) -> Result<Plan, Diagnostics> {
@@ -53,7 +46,7 @@ fn read_plan(path: &str, text: &str, root: &Table<'_>, mistakes: &Mistakes) -> O
         .and_then(|table| read_layout(table, mistakes));
     let cable = root.table("cable", "rope = \"GOST 2688-80 6.2\"").map(|table| read_cable(table, mistakes));
     let friction = root.table("ground", "friction = 0.5").map(|table| {
-        let friction = table.number("friction", None, 0.0..=1e9, "0.5");
+        let friction = table.number("friction", None, range::FRICTION, "0.5");
         table.finish();
         friction
     });
@@ -94,10 +87,10 @@ fn read_simulation(table: Option<Table<'_>>) -> SimulationSpec {
     let accuracies =
         [("field", Accuracy::Field), ("draft", Accuracy::Draft), ("reference", Accuracy::Reference)];
     let spec = SimulationSpec {
-        duration_s: table.number_if("duration_s", 1e-6..=1e6, "1.5"),
+        duration_s: table.number_if("duration_s", range::DURATION_S, "1.5"),
         accuracy: table.word("accuracy", &accuracies),
         method: table.word("method", &[("verlet", Method::Verlet), ("newmark", Method::Newmark)]),
-        gravity_m_s2: table.number("gravity_m_s2", Some(9.81), 0.0..=1e3, "9.81"),
+        gravity_m_s2: table.number("gravity_m_s2", Some(9.81), range::GRAVITY_M_S2, "9.81"),
     };
     table.finish();
     spec
@@ -105,8 +98,8 @@ fn read_simulation(table: Option<Table<'_>>) -> SimulationSpec {
 
 fn read_tire(table: Table<'_>) -> TireSpec {
     let tire = TireSpec {
-        mass_kg: table.number("mass_kg", None, MASS_KG, "280"),
-        outer_diameter_m: table.number("outer_diameter_m", Some(0.0), 0.0..=1e3, "1.6"),
+        mass_kg: table.number("mass_kg", None, range::MASS_KG, "280"),
+        outer_diameter_m: table.number("outer_diameter_m", Some(0.0), range::DIAMETER_M, "1.6"),
     };
     table.finish();
     tire
@@ -114,9 +107,9 @@ fn read_tire(table: Table<'_>) -> TireSpec {
 
 fn read_limits(table: Table<'_>) -> Limits {
     let limits = Limits {
-        flight_height_m: table.number("flight_height_m", None, 1e-6..=1e6, "1.5"),
-        cable_safety_factor: table.number("cable_safety_factor", None, 1e-3..=1e6, "2.0"),
-        drift_m: table.number_if("drift_m", 1e-6..=1e6, "0.5"),
+        flight_height_m: table.number("flight_height_m", None, range::LIMIT_M, "1.5"),
+        cable_safety_factor: table.number("cable_safety_factor", None, range::SAFETY_FACTOR, "2.0"),
+        drift_m: table.number_if("drift_m", range::LIMIT_M, "0.5"),
     };
     table.finish();
     limits
@@ -124,8 +117,8 @@ fn read_limits(table: Table<'_>) -> Limits {
 
 fn read_cable(table: Table<'_>, mistakes: &Mistakes) -> CableSpec {
     let rope = table.text_if("rope", "\"GOST 2688-80 6.2\"");
-    let stiffness = table.number_if("axial_stiffness_kn", 1e-6..=1e9, "1519");
-    let breaking = table.number_if("breaking_force_kn", 1e-6..=1e9, "20.9");
+    let stiffness = table.number_if("axial_stiffness_kn", range::CABLE_KN, "1519");
+    let breaking = table.number_if("breaking_force_kn", range::CABLE_KN, "20.9");
     let (axial_stiffness_kn, breaking_force_kn) = match (&rope, stiffness, breaking) {
         (None, Some(stiffness), Some(breaking)) => (stiffness, breaking),
         (Some(rope), None, None) => match ropes::catalogue().find(rope.value) {
@@ -161,7 +154,7 @@ fn read_cable(table: Table<'_>, mistakes: &Mistakes) -> CableSpec {
             (1.0, 1.0)
         }
     };
-    let percent = table.number_if("termination_percent", PERCENT, "80");
+    let percent = table.number_if("termination_percent", range::TERMINATION_PERCENT, "80");
     let termination = table.text_if("termination", "\"clips\"");
     let termination_percent = match (termination, percent) {
         (Some(_), Some(_)) => {
@@ -179,7 +172,7 @@ fn read_cable(table: Table<'_>, mistakes: &Mistakes) -> CableSpec {
         rope: rope.map(|rope| rope.value.to_owned()),
         axial_stiffness_kn,
         breaking_force_kn: breaking_force_kn * termination_percent * 1e-2,
-        slack_percent: table.number("slack_percent", Some(0.0), 0.0..=1e3, "2"),
+        slack_percent: table.number("slack_percent", Some(0.0), range::SLACK_PERCENT, "2"),
         termination_percent,
         breaks: table.word("on_overload", &[("report", false), ("break", true)]),
     };

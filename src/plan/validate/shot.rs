@@ -4,12 +4,8 @@ use std::collections::HashMap;
 
 use toml::de::{DeTable, DeValue};
 
-use super::PLACE_M;
 use crate::plan::read::{At, Mistakes, Table, as_number, as_whole, bounded, nearest};
-use crate::plan::{BlastRow, Charge, DelayOption, Hole, Layout, Timing};
-
-pub const LAUNCH_M_S: std::ops::RangeInclusive<f64> = 0.0..=1e4;
-pub const TIME_MS: std::ops::RangeInclusive<f64> = 0.0..=1e9;
+use crate::plan::{BlastRow, Charge, DelayOption, Hole, Layout, Timing, range};
 
 pub fn read_blast_rows(
     root: &Table<'_>,
@@ -56,8 +52,8 @@ fn read_charge(table: &Table<'_>, layout: Option<&Layout>, gravity: f64, mistake
         let read = |hole: At<&DeTable<'_>>| {
             let hole = Table::new("a hole", hole.span, hole.value, mistakes);
             let read = Hole {
-                x_m: hole.number("x_m", None, PLACE_M, "1.5"),
-                y_m: hole.number("y_m", None, PLACE_M, "4.5"),
+                x_m: hole.number("x_m", None, range::PLACE_M, "1.5"),
+                y_m: hole.number("y_m", None, range::PLACE_M, "4.5"),
                 launch_m_s: read_launch(&hole, gravity),
             };
             hole.finish();
@@ -86,7 +82,7 @@ fn read_charge(table: &Table<'_>, layout: Option<&Layout>, gravity: f64, mistake
         let tires = tires.value.into_iter().map(|tire| tire.value.saturating_sub(1)).collect();
         return Charge::UnderTires { tires, launch_m_s };
     }
-    let row = table.number_if("under_row", 0.0..=1e7, "2").unwrap_or(1.0);
+    let row = table.number_if("under_row", range::ROW, "2").unwrap_or(1.0);
     check_row(table, layout, row);
     Charge::UnderRow { row, launch_m_s }
 }
@@ -123,10 +119,10 @@ fn read_launch(table: &Table<'_>, gravity: f64) -> f64 {
             0.0
         }
         (false, true) => {
-            let height = table.number("free_flight_height_m", None, 0.0..=1e5, "1.83");
+            let height = table.number("free_flight_height_m", None, range::FREE_FLIGHT_M, "1.83");
             (2.0 * gravity * height).sqrt()
         }
-        _ => table.number("launch_m_s", None, LAUNCH_M_S, "6.0"),
+        _ => table.number("launch_m_s", None, range::LAUNCH_M_S, "6.0"),
     }
 }
 
@@ -162,7 +158,7 @@ fn read_timing(table: &Table<'_>, rows: &[BlastRow], mistakes: &Mistakes) -> Tim
             mistakes.add(at.span, message, "give one time for each blast row, in the order listed");
         }
         for time in &at.value {
-            if let Some(message) = bounded(time.value, &TIME_MS) {
+            if let Some(message) = bounded(time.value, &range::TIME_MS) {
                 mistakes.add(
                     time.span.clone(),
                     format!("a firing time {message}"),
@@ -172,7 +168,7 @@ fn read_timing(table: &Table<'_>, rows: &[BlastRow], mistakes: &Mistakes) -> Tim
         }
         return Timing::At(at.value.into_iter().map(|time| time.value).collect());
     }
-    let interval_ms = table.number("interval_ms", None, TIME_MS, "20");
+    let interval_ms = table.number("interval_ms", None, range::TIME_MS, "20");
     let names: HashMap<&str, usize> =
         rows.iter().enumerate().map(|(n, row)| (row.name.as_str(), n)).collect();
     let Some(list) =

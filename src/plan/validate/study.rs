@@ -1,8 +1,7 @@
 //! What the studies ask of a plan: how far things scatter, and what `size` may choose from.
 
-use super::MASS_KG;
 use crate::plan::read::{Mistakes, Table, as_number, bounded};
-use crate::plan::{DelayScatter, ScatterSpec, SizeSpec};
+use crate::plan::{DelayScatter, ScatterSpec, SizeSpec, range};
 use crate::ropes;
 
 /// Detonators by kind, with the scatter that domain sources give; see [`DelayScatter`].
@@ -13,10 +12,9 @@ const DETONATORS: [(&str, DelayScatter); 3] = [
 ];
 
 pub fn read_scatter(table: Table<'_>, mistakes: &Mistakes) -> ScatterSpec {
-    const PERCENT: std::ops::RangeInclusive<f64> = 0.0..=100.0;
     let detonator = table.text_if("detonator", "\"electronic\"");
-    let sd_ms = table.number_if("delay_sd_ms", 0.0..=1e6, "0.5");
-    let cv_percent = table.number_if("delay_cv_percent", PERCENT, "2");
+    let sd_ms = table.number_if("delay_sd_ms", range::SCATTER_MS, "0.5");
+    let cv_percent = table.number_if("delay_cv_percent", range::SCATTER_PERCENT, "2");
     let delay = match &detonator {
         Some(name) => {
             for key in ["delay_sd_ms", "delay_cv_percent"] {
@@ -37,7 +35,7 @@ pub fn read_scatter(table: Table<'_>, mistakes: &Mistakes) -> ScatterSpec {
     };
     let spec = ScatterSpec {
         delay,
-        launch_cv_percent: table.number("launch_cv_percent", Some(0.0), PERCENT, "10"),
+        launch_cv_percent: table.number("launch_cv_percent", Some(0.0), range::SCATTER_PERCENT, "10"),
         friction: read_friction(&table, mistakes),
     };
     table.finish();
@@ -47,7 +45,7 @@ pub fn read_scatter(table: Table<'_>, mistakes: &Mistakes) -> ScatterSpec {
 fn read_friction(table: &Table<'_>, mistakes: &Mistakes) -> Option<[f64; 2]> {
     let list = table.list("friction", "[0.3, 0.5]", "a number", as_number)?;
     for value in &list.value {
-        if let Some(message) = bounded(value.value, &(0.0..=1e9)) {
+        if let Some(message) = bounded(value.value, &range::FRICTION) {
             mistakes.add(value.span.clone(), format!("`friction` {message}"), "write it as [0.3, 0.5]");
         }
     }
@@ -65,7 +63,7 @@ pub fn read_size(table: Table<'_>, mistakes: &Mistakes) -> SizeSpec {
     let masses = table.list("tire_mass_kg", "[200, 280, 350]", "a number", as_number);
     let mut tire_mass_kg = Vec::new();
     for mass in masses.map_or_else(Vec::new, |list| list.value) {
-        match bounded(mass.value, &MASS_KG) {
+        match bounded(mass.value, &range::MASS_KG) {
             Some(message) => {
                 mistakes.add(mass.span, format!("`tire_mass_kg` {message}"), "list masses in kg")
             }
@@ -85,7 +83,7 @@ pub fn read_size(table: Table<'_>, mistakes: &Mistakes) -> SizeSpec {
         tire_mass_kg,
         family: family.map(|family| family.value.to_owned()),
         most_border_rows: if table.has("most_border_rows") {
-            table.whole("most_border_rows", 0..=100, "2")
+            table.whole("most_border_rows", range::SIZED_BORDER_ROWS, "2")
         } else {
             0
         },
