@@ -97,26 +97,15 @@ impl Panel {
 
 /// Work and precision: the larger of both errors against the time of a run, both on logarithmic scales.
 pub fn accuracy(study: &Study) -> Option<String> {
-    let series = [Method::Verlet, Method::Newmark].map(|method| (method, work_precision(study, method)));
-    let all = || series.iter().flat_map(|(_, points)| points);
-    let range = |of: fn(&(f64, f64)) -> f64| {
-        let (low, high) = all()
-            .map(of)
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
-        (low.floor()..high.ceil().max(low.floor() + 1.0), low.is_finite())
-    };
-    let ((across, some), (up, _)) = (range(|point| point.0), range(|point| point.1));
-    if !some {
-        return None;
-    }
+    let WorkPrecision { series, time, error } = work_precision(study)?;
     svg(&|area| {
         let mut chart = ChartBuilder::on(area)
             .caption("Error, %, against time of a run, ms", ("sans-serif", 14))
             .margin(6)
             .x_label_area_size(28)
             .y_label_area_size(48)
-            .build_cartesian_2d(across.clone(), up.clone())?;
-        let power = |exponent: &f64| format!("{}", 10_f64.powf(*exponent) as f32);
+            .build_cartesian_2d(time[0]..time[1], error[0]..error[1])?;
+        let power = |exponent: &f64| power(*exponent);
         chart
             .configure_mesh()
             .light_line_style(WHITE)
@@ -137,10 +126,36 @@ pub fn accuracy(study: &Study) -> Option<String> {
     })
 }
 
-/// Of each run: the logarithms to base 10 of its time [ms] and of its larger error [%], coarse to fine.
-pub fn work_precision(study: &Study, method: Method) -> Vec<(f64, f64)> {
-    let runs = study.rows.iter().filter(|row| row.method == method).filter_map(|row| row.result);
-    runs.filter_map(|measured| logarithms(&measured)).collect()
+/// Runs by method, coarse to fine: the logarithms to base 10 of their times [ms] and of their larger errors [%], and the
+/// decades in which those lie.
+pub struct WorkPrecision {
+    /// By method.
+    pub series: [(Method, Vec<(f64, f64)>); 2],
+    /// From and to which power of ten.
+    pub time: [f64; 2],
+    /// See `time`.
+    pub error: [f64; 2],
+}
+
+/// All runs of a study that have a time and an error; `None` where none has.
+pub fn work_precision(study: &Study) -> Option<WorkPrecision> {
+    let of = |method| {
+        let runs = study.rows.iter().filter(|row| row.method == method).filter_map(|row| row.result);
+        (method, runs.filter_map(|measured| logarithms(&measured)).collect::<Vec<_>>())
+    };
+    let series = [Method::Verlet, Method::Newmark].map(of);
+    let decades = |of: fn(&(f64, f64)) -> f64| {
+        let all = series.iter().flat_map(|(_, points)| points).map(of);
+        let low = all.clone().reduce(f64::min)?.floor();
+        Some([low, all.reduce(f64::max)?.ceil().max(low + 1.0)])
+    };
+    let (time, error) = (decades(|point| point.0)?, decades(|point| point.1)?);
+    Some(WorkPrecision { series, time, error })
+}
+
+/// A power of ten, written out.
+pub fn power(exponent: f64) -> String {
+    format!("{}", 10_f64.powf(exponent) as f32)
 }
 
 /// The logarithms to base 10 of a run's time [ms] and of its larger error [%], where they have one.

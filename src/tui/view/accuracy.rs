@@ -5,11 +5,12 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::Style;
 use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Axis, Block, Borders, Chart, Dataset, GraphType, Paragraph, Wrap};
+use ratatui::widgets::{Block, Borders, Dataset, GraphType, Paragraph, Wrap};
 
+use super::chart::{Scale, chart};
 use super::studies::{message, waiting};
 use crate::plan::Method;
-use crate::report::chart::{logarithms, work_precision};
+use crate::report::chart::{WorkPrecision, logarithms, power, work_precision};
 use crate::report::check::method_name;
 use crate::report::table::accuracy_name;
 use crate::study::accuracy::{Measured, Study};
@@ -99,18 +100,10 @@ fn costs(m: Measured, base: Option<Measured>) -> String {
 
 /// The larger error of every run against its time, both axes logarithmic; the levels as large dots.
 fn draw_plot(app: &App, study: &Study, frame: &mut Frame, area: Rect) {
-    let series = [Method::Verlet, Method::Newmark].map(|method| work_precision(study, method));
-    let runs = || series.iter().flatten();
-    let range = |of: fn(&(f64, f64)) -> f64| {
-        let (low, high) = runs()
-            .map(of)
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
-        [low.floor(), high.ceil().max(low.floor() + 1.0)]
-    };
-    if area.height < 4 || runs().next().is_none() {
+    if area.height < 4 {
         return;
     }
-    let (across, up) = (range(|point| point.0), range(|point| point.1));
+    let Some(WorkPrecision { series, time, error }) = work_precision(study) else { return };
     let dots = |data, style: Style, marker, name: &'static str| {
         Dataset::default().data(data).graph_type(GraphType::Line).marker(marker).style(style).name(name)
     };
@@ -124,20 +117,16 @@ fn draw_plot(app: &App, study: &Study, frame: &mut Frame, area: Rect) {
         Dataset::default().data(data).graph_type(GraphType::Scatter).marker(marker).style(style).name(name)
     };
     let sets = vec![
-        dots(&series[1], app.theme.limit(), Marker::Braille, method_name(Method::Newmark)),
-        dots(&series[0], app.theme.curve(), Marker::Braille, method_name(Method::Verlet)),
+        dots(&series[1].1, app.theme.limit(), Marker::Braille, method_name(series[1].0)),
+        dots(&series[0].1, app.theme.curve(), Marker::Braille, method_name(series[0].0)),
         points(&levels, Marker::Dot, "levels"),
         points(&chosen, Marker::Block, "chosen"),
     ];
-    let powers = |[from, to]: [f64; 2]| {
+    let decades = |[from, to]: [f64; 2]| {
         let exponents = from as i32..=to as i32;
-        exponents.map(|exponent| Line::from(format!("{}", 10_f64.powi(exponent) as f32))).collect::<Vec<_>>()
+        Scale::new([from, to], exponents.map(|exponent| power(f64::from(exponent))))
     };
-    let quiet = app.theme.quiet();
-    let chart = Chart::new(sets)
-        .block(Block::new().title(Line::styled("error, %, against the time of a run, ms", quiet).centered()))
-        .style(app.theme.base())
-        .x_axis(Axis::default().bounds(across).labels(powers(across)).style(quiet))
-        .y_axis(Axis::default().bounds(up).labels(powers(up)).style(quiet));
+    let title = "error, %, against the time of a run, ms".to_owned();
+    let chart = chart(app, title, sets, decades(time), decades(error));
     frame.render_widget(chart, area);
 }

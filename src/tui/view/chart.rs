@@ -1,7 +1,7 @@
 //! A quantity over time with its limit and the firing times.
 
 use ratatui::Frame;
-use ratatui::layout::{Alignment, Rect};
+use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::symbols::Marker;
 use ratatui::text::Line;
@@ -79,25 +79,45 @@ impl Curve<'_> {
         sets.push(line(&limit, app.theme.limit(), Marker::Dot));
         sets.push(line(&cursor, app.theme.base(), Marker::Braille));
         sets.push(line(&curve, app.theme.curve(), Marker::Braille));
-        let quiet = app.theme.quiet();
-        let times = [0.0, 0.5 * end, end].map(|time| Line::from(format!("{time:.2} s")));
         let title = format!("{}, {} (dotted: limit)", self.name, self.unit.symbol());
-        let chart = Chart::new(sets)
-            .block(Block::new().title(Line::styled(title, quiet).alignment(Alignment::Center)))
-            .style(app.theme.base())
-            .x_axis(Axis::default().bounds([0.0, end]).labels(times).style(quiet))
-            .y_axis(Axis::default().bounds([0.0, top]).labels([level(0.0), level(top)]).style(quiet))
-            .legend_position(None);
+        let times = [0.0, 0.5 * end, end].map(|time| format!("{time:.2} s"));
+        let chart = chart(app, title, sets, Scale::new([0.0, end], times), Scale::up_to(top));
         frame.render_widget(chart, area);
     }
+}
+
+/// An axis.
+pub struct Scale {
+    bounds: [f64; 2],
+    labels: Vec<String>,
+}
+
+impl Scale {
+    /// From one bound to another, both labelled and perhaps more between; of some length even where they are equal.
+    pub fn new([from, to]: [f64; 2], labels: impl IntoIterator<Item = String>) -> Self {
+        let end = to.max(from + f64::MIN_POSITIVE.max(from.abs() * 1e-9));
+        Self { bounds: [from, end], labels: labels.into_iter().collect() }
+    }
+
+    /// From 0.
+    pub fn up_to(top: f64) -> Self {
+        let level = |value: f64| format!("{value:.4}").chars().take(5).collect();
+        Self::new([0.0, top], [level(0.0), level(top)])
+    }
+}
+
+/// What is drawn between two axes under a title; a legend where it has names.
+pub fn chart<'c>(app: &App, title: String, sets: Vec<Dataset<'c>>, across: Scale, up: Scale) -> Chart<'c> {
+    let quiet = app.theme.quiet();
+    let axis = |Scale { bounds, labels }| Axis::default().bounds(bounds).labels(labels).style(quiet);
+    Chart::new(sets)
+        .block(Block::new().title(Line::styled(title, quiet).centered()))
+        .style(app.theme.base())
+        .x_axis(axis(across))
+        .y_axis(axis(up))
 }
 
 /// A line through points.
 pub fn line(data: &[(f64, f64)], style: Style, marker: Marker) -> Dataset<'_> {
     Dataset::default().data(data).graph_type(GraphType::Line).marker(marker).style(style)
-}
-
-/// A label of the vertical axis.
-pub fn level<'l>(value: f64) -> Line<'l> {
-    Line::from(format!("{value:.4}").chars().take(5).collect::<String>())
 }

@@ -3,10 +3,9 @@
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::symbols::Marker;
-use ratatui::text::Line;
-use ratatui::widgets::{Axis, Block, Chart, Dataset, GraphType};
+use ratatui::widgets::{Dataset, GraphType};
 
-use super::chart::{level, line};
+use super::chart::{Scale, chart, line};
 use crate::study::orders::Orders;
 use crate::study::scatter::Sample;
 use crate::study::size::{Combination, Sizing};
@@ -50,14 +49,8 @@ pub fn draw(app: &App, found: &Found, frame: &mut Frame, area: Rect) {
         points,
         line(&picture.curve, app.theme.curve(), Marker::Braille),
     ];
-    let quiet = app.theme.quiet();
-    let across = [left, right].map(|x| Line::from(format!("{}{}", (x * 10.0).round() / 10.0, picture.unit)));
-    let chart = Chart::new(sets)
-        .block(Block::new().title(Line::styled(picture.title, quiet).centered()))
-        .style(app.theme.base())
-        .x_axis(Axis::default().bounds([left, right.max(left + 1e-9)]).labels(across).style(quiet))
-        .y_axis(Axis::default().bounds([0.0, top]).labels([level(0.0), level(top)]).style(quiet))
-        .legend_position(None);
+    let ends = [left, right].map(|x| format!("{}{}", (x * 10.0).round() / 10.0, picture.unit));
+    let chart = chart(app, picture.title, sets, Scale::new([left, right], ends), Scale::up_to(top));
     frame.render_widget(chart, area);
 }
 

@@ -10,9 +10,9 @@ use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Axis, Block, Borders, Chart, Dataset, Gauge, Paragraph, Wrap};
+use ratatui::widgets::{Block, Borders, Dataset, Gauge, Paragraph, Wrap};
 
-use super::chart::{level, line};
+use super::chart::{Scale, chart, line};
 use super::{Places, spread};
 use crate::report;
 use crate::report::table::Style as Plain;
@@ -180,15 +180,9 @@ fn draw_curve(
     let mut sets: Vec<Dataset> = windows.iter().map(|window| line(window, pass, Marker::Block)).collect();
     sets.push(line(&limit, app.theme.limit(), Marker::Dot));
     sets.push(line(&curve, app.theme.curve(), Marker::Braille));
-    let quiet = app.theme.quiet();
-    let at = [from, 0.5 * (from + to), to].map(|ms| Line::from(units::milliseconds(ms * 1e-3)));
+    let at = [from, 0.5 * (from + to), to].map(|ms| units::milliseconds(ms * 1e-3));
     let name = if unit == Unit::Metre { "flight height, m" } else { "cable force, kN" };
     let title = format!("{name} against the interval (dotted: limit; bar below: passes)");
-    let chart = Chart::new(sets)
-        .block(Block::new().title(Line::styled(title, quiet).centered()))
-        .style(app.theme.base())
-        .x_axis(Axis::default().bounds([from, to.max(from + f64::MIN_POSITIVE)]).labels(at).style(quiet))
-        .y_axis(Axis::default().bounds([0.0, top]).labels([level(0.0), level(top)]).style(quiet))
-        .legend_position(None);
+    let chart = chart(app, title, sets, Scale::new([from, to], at), Scale::up_to(top));
     frame.render_widget(chart, area);
 }
