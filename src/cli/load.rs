@@ -39,7 +39,7 @@ pub fn open(plan: &Path, compute: &Compute, look: &Look) -> io::Result<Status> {
     if !io::stdout().is_terminal() {
         return super::check::print(vec![case], compute, look, &super::check::Output::default());
     }
-    needs_keyboard()?;
+    needs_keyboard(compute)?;
     // Standard input and pipes are read once; only a file can be watched and written.
     let file = plan.is_file().then_some(plan);
     if let Some(file) = file {
@@ -57,7 +57,7 @@ pub fn start(compute: &Compute, look: &Look) -> io::Result<Status> {
         super::print_help()?;
         return Ok(Status::Wrong);
     }
-    needs_keyboard()?;
+    needs_keyboard(compute)?;
     let config = config()?;
     let start = Start::new(Path::new("."), config::recent());
     let (name, text, kept) = match tui::choose(start, config.theme, screen(&config, look))? {
@@ -83,11 +83,15 @@ fn config() -> io::Result<Config> {
     Config::load().map_err(io::Error::other)
 }
 
-fn needs_keyboard() -> io::Result<()> {
-    if io::stdin().is_terminal() {
+fn needs_keyboard(compute: &Compute) -> io::Result<()> {
+    let wrong = if !io::stdin().is_terminal() {
+        "the terminal UI needs a keyboard on standard input; scripts use `shelter check`"
+    } else if compute.timeout.is_some() {
+        "--timeout ends commands such as `shelter check`; in the terminal UI a key ends what computes"
+    } else {
         return Ok(());
-    }
-    Err(io::Error::other("the terminal UI needs a keyboard on standard input; scripts use `shelter check`"))
+    };
+    Err(io::Error::other(wrong))
 }
 
 fn screen(config: &Config, look: &Look) -> tui::Look {

@@ -3,13 +3,14 @@
 use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
+use std::time::Instant;
 
 use clap::Args;
 
 use super::{Compute, FormatArg, Look, Status, load};
 use crate::report;
 use crate::scene::{Scene, TireId};
-use crate::simulation::Settings;
+use crate::simulation::{Failure, Settings};
 use crate::study::check::start_step;
 use crate::study::trace::{Chosen, trace};
 
@@ -51,10 +52,15 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         step: effort.step.unwrap_or_else(|| start_step(&case, effort.method, effort.accuracy)),
         duration: case.plan.simulation.duration_s,
     };
+    let (begun, timeout) = (Instant::now(), arguments.compute.timeout);
+    let in_time = || match timeout {
+        Some(timeout) if begun.elapsed().as_secs_f64() > timeout => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    };
     if chosen == Chosen::default() {
-        match case.model.run(&case.shots[option], &settings, &mut |_| ControlFlow::Continue(())) {
+        match case.model.run(&case.shots[option], &settings, &mut |_| in_time()) {
             Ok(outcome) => chosen = Chosen::of(&outcome),
-            Err(failure) => return load::wrong(&failure.to_string()),
+            Err(failure) => return failed(&failure),
         }
     }
     let mut rows = Rows::begin(arguments.format, report::trace::header(case.scene(), &chosen))?;
@@ -62,11 +68,19 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     let mut written = Ok(());
     let done = trace(&case, option, &settings, &chosen, every, &mut |row| {
         written = rows.row(row);
-        if written.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        if written.is_ok() { in_time() } else { ControlFlow::Break(()) }
     });
     written?;
     rows.end()?;
-    done.map_or_else(|failure| load::wrong(&failure.to_string()), |_| Ok(Status::Pass))
+    done.map_or_else(|failure| failed(&failure), |_| Ok(Status::Pass))
+}
+
+fn failed(failure: &Failure) -> io::Result<Status> {
+    if let Failure::Stopped { at } = failure {
+        eprintln!("the time was up at {at:.3} s of the motion");
+        return Ok(Status::Fail);
+    }
+    load::wrong(&failure.to_string())
 }
 
 /// Writes rows as they come.

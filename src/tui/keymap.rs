@@ -252,6 +252,14 @@ impl Keymap {
         self.keys.iter().find(|(key, _)| *key == pressed).map(|(_, action)| *action)
     }
 
+    /// How to ask for an action, in a sentence: its first key, or what the command palette calls it.
+    pub fn hint(&self, action: Action) -> String {
+        let name = || BINDINGS.iter().find(|binding| binding.action == action).map_or("", |found| found.name);
+        Some(self.label(action, false))
+            .filter(|key| !key.is_empty())
+            .unwrap_or_else(|| format!(":{}", name()))
+    }
+
     /// The keys of an action, the first alone or all.
     pub fn label(&self, action: Action, all: bool) -> String {
         let place = BINDINGS.iter().position(|binding| binding.action == action);
@@ -313,6 +321,9 @@ mod tests {
         assert_eq!(pressed('q', KeyModifiers::CONTROL), Some(Action::Quit));
         assert_eq!(pressed('q', KeyModifiers::NONE), None);
         assert_eq!(keymap.label(Action::Quit, true), "Ctrl-q");
+        assert_eq!(keymap.hint(Action::Quit), "Ctrl-q");
+        let without = Keymap::with([("quit".to_owned(), Vec::new())]).expect("no key");
+        assert_eq!(without.hint(Action::Quit), ":quit");
         assert!(with("qiut", "x").is_err_and(|words| words.contains("'quit'")));
         assert!(with("quit", "j").is_err_and(|words| words.contains("'down'")));
         assert!(with("quit", "nokey").is_err_and(|words| words.contains("is no key")));

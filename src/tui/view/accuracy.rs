@@ -15,6 +15,7 @@ use crate::report::check::method_name;
 use crate::report::table::accuracy_name;
 use crate::study::accuracy::{Measured, Study};
 use crate::tui::app::App;
+use crate::tui::keymap::Action;
 use crate::tui::studies::Progress;
 use crate::units;
 use crate::worker::{Found, Kind};
@@ -31,9 +32,11 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let inside = rule.inner(area);
     frame.render_widget(rule, area);
     let question = Line::styled(QUESTION, app.theme.title());
+    let start = app.keymap.hint(Action::Open);
     match app.studies.progress(Kind::Accuracy) {
         Progress::Idle => {
-            message(app, frame, inside, question, "Enter measures the selected option; it takes seconds.");
+            let words = format!("{start} measures the selected option; it takes seconds.");
+            message(app, frame, inside, question, &words);
         }
         Progress::Failed(words) => message(app, frame, inside, question, words),
         Progress::Running { done, total } => waiting(app, frame, inside, question, (*done, *total)),
@@ -41,7 +44,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
             let Found::Accuracy(study) = found.as_ref() else { return };
             if study.option != app.selected {
                 let other = app.case.plan.delays.get(study.option).map_or("", |delay| &delay.name);
-                let words = format!("Measured for {other}. Enter measures this option instead.");
+                let words = format!("Measured for {other}. {start} measures this option instead.");
                 message(app, frame, inside, question, &words);
             } else {
                 let words = levels(app, study);
@@ -57,9 +60,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
 
 /// Each level with its step, its errors before refinement and its time; that chosen is marked.
 fn levels<'l>(app: &App, study: &Study) -> Vec<Line<'l>> {
+    let [finer, coarser] = [Action::Finer, Action::Coarser].map(|action| app.keymap.hint(action));
     let head = format!(
-        "  {:10} {:>10} {:>11} {:>11} {:>11}  {}",
-        "level", "first step", "height", "force", "one run", "+ and - choose"
+        "  {:10} {:>10} {:>11} {:>11} {:>11}  {finer} and {coarser} choose",
+        "level", "first step", "height", "force", "one run"
     );
     let mut lines = vec![Line::styled(head, app.theme.quiet())];
     let base = measured(study, study.levels[0].1);

@@ -6,7 +6,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Clear, Padding, Paragraph};
 
 use crate::tui::app::App;
-use crate::tui::keymap::{BINDINGS, Binding};
+use crate::tui::keymap::{Action, BINDINGS, Binding};
 
 const WORDS: &[(&str, &str)] = &[
     ("✓ PASS", "height and force, with their errors, are within the limits"),
@@ -42,7 +42,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let [column] = Layout::horizontal([Constraint::Max(width)]).flex(Flex::Center).areas(area);
     let [place] = Layout::vertical([Constraint::Max(rows as u16 + 2)]).flex(Flex::Center).areas(column);
     let more = rows as u16 + 2 > area.height;
-    let title = if more { " Help: Up Down for more " } else { " Help " };
+    let [up, down] = [Action::Up, Action::Down].map(|action| app.keymap.hint(action));
+    let title = if more { format!(" Help: {up} {down} for more ") } else { " Help ".to_owned() };
     let block = Block::bordered().title(title).padding(Padding::horizontal(1)).style(app.theme.base());
     let inside = block.inner(place);
     frame.render_widget(Clear, place);

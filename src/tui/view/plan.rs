@@ -11,6 +11,7 @@ use ratatui::widgets::{Block, Borders, Clear, List, ListState, Paragraph, Wrap};
 use super::{Places, color, table};
 use crate::tui::app::{App, Target};
 use crate::tui::editor::Order;
+use crate::tui::keymap::Action;
 use crate::units;
 
 /// Draws the plan.
@@ -108,7 +109,12 @@ fn draw_message(app: &App, frame: &mut Frame, area: Rect) {
         None if editor.input.is_some() => {
             Line::styled("Enter takes it, Esc leaves it, Ctrl-u clears", app.theme.quiet())
         }
-        None => Line::styled("Enter edits · Left Right step through values and ropes", app.theme.quiet()),
+        None => {
+            let [open, left, right] =
+                [Action::Open, Action::Left, Action::Right].map(|action| app.keymap.hint(action));
+            let words = format!("{open} edits · {left} {right} step through values and ropes");
+            Line::styled(words, app.theme.quiet())
+        }
     };
     frame.render_widget(Paragraph::new(line).wrap(Wrap { trim: true }), area);
 }

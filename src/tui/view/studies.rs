@@ -63,7 +63,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     let kind = app.studies.shown;
     let question = Line::styled(about(kind).1, app.theme.title());
     match app.studies.progress(kind) {
-        Progress::Idle => message(app, frame, inside, question, "Enter starts it."),
+        Progress::Idle => {
+            let words = format!("{} starts it.", app.keymap.hint(Action::Open));
+            message(app, frame, inside, question, &words);
+        }
         Progress::Failed(words) => message(app, frame, inside, question, words),
         Progress::Running { done, total } => {
             waiting(app, frame, inside, question, (*done, *total));
@@ -88,7 +91,7 @@ pub fn waiting(app: &App, frame: &mut Frame, area: Rect, question: Line<'_>, (do
     let [text, bar] = Layout::vertical([Constraint::Length(2), Constraint::Length(1)]).areas(area);
     frame.render_widget(Paragraph::new(question), text);
     let part = if total > 0 { done as f64 / total as f64 } else { 0.0 };
-    let label = format!("{done} of {total} shots · {} cancels", app.keymap.label(Action::Cancel, false));
+    let label = format!("{done} of {total} shots · {} cancels", app.keymap.hint(Action::Cancel));
     let gauge = Gauge::default().ratio(part.clamp(0.0, 1.0)).label(label).gauge_style(app.theme.curve());
     frame.render_widget(gauge, bar);
 }
