@@ -48,7 +48,7 @@ pub fn csv(app: &App) -> Result<String, String> {
 /// The picture on the screen.
 fn svg(app: &App) -> Result<String, String> {
     let pictures = match app.screen {
-        Screen::Plan => vec![report::html::top_view(&app.case, app.selected)],
+        Screen::Plan => vec![report::html::top_view(&app.case, Some(app.selected))],
         Screen::Compare | Screen::Flight => {
             let history = match app.studies.flight(app.selected) {
                 Some(flight) if app.screen == Screen::Flight => &flight.outcome.history,

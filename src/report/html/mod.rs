@@ -59,7 +59,7 @@ pub fn page(case: &Case, results: &Results, date: &str) -> String {
                 section {
                     h2 { "Shelter" }
                     (shelter(case))
-                    div.view { (PreEscaped(top_view(case, 0))) }
+                    div.view { (PreEscaped(top_view(case, None))) }
                 }
                 section {
                     h2 { "Delay options" }
@@ -173,7 +173,7 @@ fn options(case: &Case, results: &Results) -> Markup {
     html! {
         table {
             tr {
-                th { "Option" } th { "Rows fire at" } th { "Verdict" } th.n { "Height, m" } th.n { "Force, kN" } th.n { "Factor" } th.n { "Drift, m" }
+                th { "Option" } th { "Rows fire, as listed, at" } th { "Verdict" } th.n { "Height, m" } th.n { "Force, kN" } th.n { "Factor" } th.n { "Drift, m" }
             }
             @for (delay, result) in case.plan.delays.iter().zip(results) {
                 tr {

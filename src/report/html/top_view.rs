@@ -1,7 +1,10 @@
-//! The shelter from above: tires, cables, and over each blast row's holes the order in which one option fires them.
+//! The shelter from above: tires, cables and holes, with the names of the blast rows or with the times at which one option
+//! fires them.
 
 use plotters::prelude::*;
 
+use crate::plan::BlastRow;
+use crate::scene::Firing;
 use crate::study::Case;
 
 const WIDTH: f64 = 860.0;
@@ -9,18 +12,36 @@ const TALLEST: f64 = 600.0;
 const MARGIN: f64 = 30.0;
 /// Cables of larger shelters would only be a grey area.
 const MOST_CABLES: usize = 5000;
-/// Firing times are written beside so many holes at most.
+/// So much is written into a picture at most.
 const MOST_LABELS: usize = 60;
 const TIRE: RGBColor = RGBColor(120, 120, 120);
 const CABLE: RGBColor = RGBColor(200, 200, 200);
 const HOLE: RGBColor = RGBColor(160, 48, 0);
 
-/// The view; empty if it cannot be drawn.
-pub fn svg(case: &Case, option: usize) -> String {
-    draw(case, option).unwrap_or_default()
+/// The view with the firing times of one option, or the names of the blast rows; empty if it cannot be drawn.
+pub fn svg(case: &Case, option: Option<usize>) -> String {
+    let labels = match option.and_then(|option| case.shots.get(option)) {
+        Some(shot) => {
+            let time = |firing: &Firing| (firing.tire, format!("{:.0}", firing.at * 1e3));
+            shot.firings.iter().map(time).collect()
+        }
+        None => names(case),
+    };
+    draw(case, &labels).unwrap_or_default()
 }
 
-fn draw(case: &Case, option: usize) -> Result<String, Box<dyn std::error::Error>> {
+/// The name of each blast row at its first hole; the other holes have none.
+fn names(case: &Case) -> Vec<(usize, String)> {
+    let row = |row: &BlastRow| {
+        let mut name = row.name.clone();
+        let tires = case.scene().targets(&row.charge).into_iter().map(|(tire, _)| tire);
+        tires.map(|tire| (tire, std::mem::take(&mut name))).collect::<Vec<_>>()
+    };
+    case.plan.blast_rows.iter().flat_map(row).collect()
+}
+
+/// Holes are marked at the labelled tires.
+fn draw(case: &Case, labels: &[(usize, String)]) -> Result<String, Box<dyn std::error::Error>> {
     let scene = case.scene();
     let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
     let (wide, high) = ((right - left).max(1.0), (top - bottom).max(1.0));
@@ -43,17 +64,15 @@ fn draw(case: &Case, option: usize) -> Result<String, Box<dyn std::error::Error>
         for tire in 0..scene.mass.len() {
             area.draw(&Circle::new(at(tire), radius, TIRE.stroke_width(1)))?;
         }
-        let firings = case.shots.get(option).map_or(&[][..], |shot| &shot.firings);
-        for firing in firings {
-            area.draw(&Circle::new(at(firing.tire), (radius / 2).max(1), HOLE.filled()))?;
-            if firings.len() <= MOST_LABELS {
-                let (x, y) = at(firing.tire);
-                let time = format!("{:.0}", firing.at * 1e3);
-                area.draw(&Text::new(
-                    time,
-                    (x + radius + 1, y - radius - 9),
-                    ("sans-serif", 10).into_font().color(&HOLE),
-                ))?;
+        for (tire, _) in labels {
+            area.draw(&Circle::new(at(*tire), (radius / 2).max(1), HOLE.filled()))?;
+        }
+        let written = || labels.iter().filter(|(_, label)| !label.is_empty());
+        if written().count() <= MOST_LABELS {
+            let style = ("sans-serif", 10).into_font().color(&HOLE);
+            for (tire, label) in written() {
+                let (x, y) = at(*tire);
+                area.draw(&Text::new(label.as_str(), (x + radius + 1, y - radius - 9), style.clone()))?;
             }
         }
         area.present()?;
