@@ -106,7 +106,8 @@ impl History {
             merge_neighbours(&mut self.force);
             self.width *= 2.0;
         }
-        let bucket = (at / self.width) as usize;
+        // Not to be rounded into the bucket before the one that it begins.
+        let bucket = (at / self.width + 1e-6) as usize;
         if bucket >= self.height.len() {
             self.height.resize(bucket + 1, 0.0);
             self.force.resize(bucket + 1, 0.0);
@@ -127,6 +128,16 @@ fn merge_neighbours(buckets: &mut Vec<f64>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// 3 × 0.009 / 0.009 is less than 3 in binary.
+    #[test]
+    fn no_bucket_is_passed_over() {
+        for step in [0.009, 0.0011, 1e-3 / 3.0, 0.07] {
+            let mut history = History::new(step);
+            (0..5000).for_each(|n| history.note(n as f64 * step, 1.0, 1.0));
+            assert!(history.height.iter().all(|&height| height == 1.0), "{step}");
+        }
+    }
 
     #[test]
     fn a_history_stays_bounded_and_keeps_its_peaks() {

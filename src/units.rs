@@ -47,7 +47,7 @@ pub fn value_and_error(value: f64, error: f64, unit: Unit) -> String {
     let leading = if error > 0.0 { -error.log10().floor() } else { most as f64 };
     let decimals = leading.clamp(0.0, most as f64) as usize;
     let last = 10_f64.powi(-(decimals as i32));
-    let shown = (error / last - 1e-9).ceil().max(if error > 0.0 { 1.0 } else { 0.0 }) * last;
+    let shown = if error > 0.0 { (error / last - 1e-9).ceil().max(1.0) * last } else { 0.0 };
     format!("{value:.decimals$} ± {shown:.decimals$}")
 }
 
@@ -67,6 +67,11 @@ pub fn milliseconds(time: f64) -> String {
     let digits = if ms == 0.0 { 0.0 } else { 3.0 - ms.abs().log10().floor() - 1.0 };
     let scale = 10_f64.powf(digits.clamp(0.0, 12.0));
     format!("{} ms", (ms * scale).round() / scale)
+}
+
+/// Seconds as milliseconds with all digits that were computed: `30.625 ms`.
+pub fn exact_milliseconds(time: f64) -> String {
+    format!("{} ms", (time * 1e9).round() * 1e-6)
 }
 
 /// A ratio of breaking force to force: `2.11`, or `none` where no cable pulls.
@@ -104,5 +109,7 @@ mod tests {
         assert_eq!(milliseconds(0.0002), "0.2 ms");
         assert_eq!(milliseconds(0.0), "0 ms");
         assert_eq!(milliseconds(1.2), "1200 ms");
+        assert_eq!(exact_milliseconds(0.030625), "30.625 ms");
+        assert_eq!(exact_milliseconds(0.1), "100 ms");
     }
 }

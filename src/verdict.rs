@@ -22,6 +22,15 @@ impl Verdict {
         verdicts.into_iter().max().unwrap_or(Verdict::Pass)
     }
 
+    /// As people read it.
+    pub fn capitals(self) -> &'static str {
+        match self {
+            Verdict::Pass => "PASS",
+            Verdict::Undecided => "OPEN",
+            Verdict::Fail => "FAIL",
+        }
+    }
+
     /// As JSON and scripts spell it.
     pub fn word(self) -> &'static str {
         match self {

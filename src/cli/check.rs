@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::long::Finished;
+use super::long::{Finished, Without};
 use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::report;
 use crate::simulation::Failure;
@@ -80,7 +80,7 @@ pub fn print(cases: Vec<Case>, compute: &Compute, look: &Look, output: &Output) 
 }
 
 /// All options of all cases in parallel; results in the order of plans and options.
-pub fn all(cases: &[Case], compute: &Compute) -> Result<Vec<report::check::Results>, Failure> {
+pub fn all(cases: &[Case], compute: &Compute) -> Result<Vec<report::check::Results>, Without> {
     let jobs: Vec<(usize, usize)> = cases
         .iter()
         .enumerate()

@@ -1,7 +1,6 @@
 //! Running a long study from the command line: on the threads asked for, with a progress bar, ended by a signal.
 
 use std::io::{self, Write};
-use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -9,7 +8,6 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{Compute, Status};
-use crate::plan::edit;
 use crate::simulation::Failure;
 use crate::study::batch::Progress;
 use crate::study::{Intervals, Shard};
@@ -30,11 +28,19 @@ pub struct Finished<T> {
     pub partial: bool,
 }
 
+/// Why a study has no result.
+pub enum Without {
+    /// The time was up.
+    Time,
+    /// A run failed or was stopped by a signal.
+    Failure(Failure),
+}
+
 /// Runs `work`; the bar shows only where standard error is a terminal.
 pub fn run<T: Send>(
     compute: &Compute,
     work: impl FnOnce(&Progress) -> Result<T, Failure> + Send,
-) -> Result<Finished<T>, Failure> {
+) -> Result<Finished<T>, Without> {
     let (progress, signal) = (Progress::default(), Arc::new(AtomicBool::new(false)));
     #[cfg(unix)]
     for number in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM, signal_hook::consts::SIGHUP] {
@@ -70,29 +76,35 @@ pub fn run<T: Send>(
         study.join()
     });
     bar.finish_and_clear();
-    let value = result.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
-    let partial = progress.expired();
+    let value = result.unwrap_or_else(|panic| std::panic::resume_unwind(panic)).map_err(|failure| {
+        let stopped = matches!(failure, Failure::Stopped { .. });
+        if stopped && progress.expired() && !progress.stopped() {
+            Without::Time
+        } else {
+            Without::Failure(failure)
+        }
+    })?;
+    let (done, total) = progress.counts();
+    let partial = progress.expired() && done < total;
     if partial {
-        let (done, total) = progress.counts();
         eprintln!("the time was up after {done} of {total} shots; what follows is partial");
     }
     Ok(Finished { value, partial })
 }
 
 /// What a study without a result says to the shell.
-pub fn failed(failure: &Failure) -> io::Result<Status> {
-    if matches!(failure, Failure::Stopped { .. }) {
-        eprintln!("interrupted before there was a result");
-        return Ok(Status::Interrupted);
+pub fn failed(without: &Without) -> io::Result<Status> {
+    match without {
+        Without::Time => {
+            eprintln!("the time was up before there was a result");
+            Ok(Status::Fail)
+        }
+        Without::Failure(Failure::Stopped { .. }) => {
+            eprintln!("interrupted before there was a result");
+            Ok(Status::Interrupted)
+        }
+        Without::Failure(failure) => super::load::wrong(&failure.to_string()),
     }
-    super::load::wrong(&failure.to_string())
-}
-
-/// Writes a file whole, or says which could not be written.
-pub fn save(path: &Path, text: &str) -> io::Result<()> {
-    let named =
-        |error: io::Error| io::Error::new(error.kind(), format!("{}: {}", path.display(), error.kind()));
-    edit::save(path, text).map_err(named)
 }
 
 /// Writes a finished text to standard output.

@@ -10,9 +10,8 @@ use crate::plan::Plan;
 use crate::report;
 use crate::study::merge::{Findings, Head, Question, SCHEMA, merge};
 use crate::study::orders::Orders;
-use crate::study::scatter::swaps;
+use crate::study::scatter::{holds, swaps};
 use crate::study::{Case, Effort, Shard};
-use crate::verdict::Verdict;
 
 #[derive(Args)]
 pub struct Arguments {
@@ -68,17 +67,17 @@ pub fn print(answer: Answer<'_>, shard: Option<Shard>, format: FormatArg, look: 
                 FormatArg::Text => report::scatter::text(case, &draw, &samples, style),
                 FormatArg::Json => {
                     let swaps = swaps(case, &spec, super::scatter::SWAP);
-                    report::json(&report::scatter::Document::new(case, &draw, &samples, &swaps))
+                    report::json(&report::scatter::Document::new(case, &draw, &samples, &swaps, partial))
                 }
                 FormatArg::Csv => report::csv(report::scatter::lines(case, &samples)),
             };
-            (text, samples.iter().all(|sample| sample.envelope.verdict == Verdict::Pass))
+            (text, holds(case, &draw, &samples))
         }
         (Findings::Orders(tried), Question::Orders { intervals_s }) => {
             let orders = Orders::new(case, tried, intervals_s.len());
             let text = match format {
                 FormatArg::Text => report::orders::text(case, &orders, style),
-                FormatArg::Json => report::json(&report::orders::Document::new(case, &orders)),
+                FormatArg::Json => report::json(&report::orders::Document::new(case, &orders, partial)),
                 FormatArg::Csv => {
                     report::csv(orders.ranked.iter().map(|tried| report::orders::Line::new(case, tried)))
                 }
@@ -95,6 +94,10 @@ pub fn print(answer: Answer<'_>, shard: Option<Shard>, format: FormatArg, look: 
 
 fn write_share(answer: Answer<'_>, shard: Shard) -> io::Result<Status> {
     let Answer { case, question, effort, findings, .. } = answer;
+    let lines = match &findings {
+        Findings::Orders(tried) => tried.len(),
+        Findings::Scatter(samples) => samples.len(),
+    };
     let head = Head {
         schema: SCHEMA.to_owned(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -103,6 +106,7 @@ fn write_share(answer: Answer<'_>, shard: Shard) -> io::Result<Status> {
         plan: case.plan.path.clone(),
         text: case.plan.text.clone(),
         shard,
+        lines,
     };
     let mut out = BufWriter::new(io::stdout().lock());
     let mut line = |text: serde_json::Result<String>| writeln!(out, "{}", text?);

@@ -8,6 +8,7 @@ use clap::Args;
 use super::long::Finished;
 use super::merge::{self, Answer};
 use super::{Compute, FormatArg, Look, Status, load, long};
+use crate::plan::{DelayOption, Timing};
 use crate::study::merge::{Findings, Question};
 use crate::study::orders::{MOST_ROWS, count, is_complete, orders};
 use crate::study::{Intervals, Shard};
@@ -20,7 +21,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FROM..TO:STEP", value_parser = long::intervals, allow_hyphen_values = true)]
     interval: Option<Intervals>,
     /// This machine's share; `shelter merge` joins the shares
-    #[arg(long, value_name = "I/N", value_parser = long::shard, conflicts_with = "timeout")]
+    #[arg(long, value_name = "I/N", value_parser = long::shard, conflicts_with_all = ["timeout", "format"])]
     shard: Option<Shard>,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
@@ -39,6 +40,11 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     let intervals_s = arguments.interval.map_or_else(|| case.intervals(), |interval| interval.values());
     if intervals_s.is_empty() {
         return load::wrong("no delay option has an interval: give --interval FROM..TO:STEP");
+    }
+    let own = |delay: &&DelayOption| matches!(delay.timing, Timing::At(_));
+    let left_out: Vec<&str> = case.plan.delays.iter().filter(own).map(|delay| delay.name.as_str()).collect();
+    if arguments.interval.is_none() && !left_out.is_empty() {
+        eprintln!("note: without an interval of their own, and left out: {}", left_out.join("; "));
     }
     if arguments.shard.is_some() && !is_complete(&case) {
         return load::wrong(&format!(

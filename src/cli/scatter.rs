@@ -20,7 +20,7 @@ pub struct Arguments {
     #[command(flatten)]
     draw: DrawArguments,
     /// This machine's share; `shelter merge` joins the shares
-    #[arg(long, value_name = "I/N", value_parser = long::shard, conflicts_with_all = ["until_certain", "timeout"])]
+    #[arg(long, value_name = "I/N", value_parser = long::shard, conflicts_with_all = ["until_certain", "timeout", "format"])]
     shard: Option<Shard>,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
@@ -38,8 +38,8 @@ pub struct DrawArguments {
     /// Of the random numbers
     #[arg(long, value_name = "N", default_value = "1", allow_negative_numbers = true)]
     seed: u64,
-    /// Stop an option once it certainly fails less, or more, often than this [%]
-    #[arg(long, value_name = "PERCENT", num_args = 0..=1, default_missing_value = "1", value_parser = super::positive)]
+    /// Stop an option once it certainly fails less, or more, often than this [%; 1 where none is given]
+    #[arg(long, value_name = "PERCENT", num_args = 0..=1, default_missing_value = "1", value_parser = percent)]
     until_certain: Option<f64>,
 }
 
@@ -51,6 +51,11 @@ impl DrawArguments {
             certain_at: self.until_certain.map(|percent| percent * 1e-2),
         }
     }
+}
+
+fn percent(text: &str) -> Result<f64, String> {
+    super::positive(text)
+        .and_then(|value| if value < 100.0 { Ok(value) } else { Err("must be less than 100".to_owned()) })
 }
 
 /// What a plan without a section [scatter] is told.

@@ -50,13 +50,16 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     let Some(mut case) = load::cases([&arguments.plan], look).and_then(|mut cases| cases.pop()) else {
         return Ok(Status::Wrong);
     };
+    if arguments.write && case.plan.path == "-" {
+        return load::wrong("--write has no file to write into: give the plan by its name");
+    }
     let demand = match choose(arguments, &mut case) {
         Ok(demand) => demand,
         Err(message) => return load::wrong(&message),
     };
     let effort = arguments.compute.effort(&case.plan);
     let sizing = long::run(&arguments.compute, |progress| size(&case.plan, &demand, &effort, progress));
-    let Finished { value: sizing, partial } = match sizing {
+    let Finished { value: sizing, .. } = match sizing {
         Ok(finished) => finished,
         Err(failure) => return long::failed(&failure),
     };
@@ -66,7 +69,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         FormatArg::Csv => report::csv(sizing.combinations.iter().map(report::size::Line::new)),
     })?;
     match sizing.found() {
-        Some(found) if !partial => {
+        Some(found) if sizing.late == 0 => {
             if arguments.write {
                 write(arguments, &case, found)?;
             }
@@ -117,7 +120,7 @@ fn write(arguments: &Arguments, case: &Case, found: &Combination) -> io::Result<
     }
     let text = edit::write_sizes(&case.plan.text, &found.rope.name, found.tire_mass, found.border_rows)
         .map_err(io::Error::other)?;
-    long::save(&arguments.plan, &text)?;
+    edit::save(&arguments.plan, &text)?;
     eprintln!("written: {}", arguments.plan.display());
     Ok(())
 }

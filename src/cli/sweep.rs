@@ -43,6 +43,9 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
             ));
         }
     };
+    if case.plan.blast_rows.len() < 2 {
+        return load::wrong("a single blast row has no interval to sweep");
+    }
     let effort = arguments.compute.effort(&case.plan);
     let swept = long::run(&arguments.compute, |progress| {
         sweep(&case, &order, &arguments.interval, &effort, progress)
@@ -53,7 +56,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     };
     long::print(&match arguments.format {
         FormatArg::Text => report::sweep::text(&case, &swept, look.style(io::stdout().is_terminal())),
-        FormatArg::Json => report::json(&report::sweep::Document::new(&case, &swept)),
+        FormatArg::Json => report::json(&report::sweep::Document::new(&case, &swept, partial)),
         FormatArg::Csv => report::csv(swept.points.iter().map(report::sweep::Row::new)),
     })?;
     let all = swept.windows().len() == 1 && swept.windows()[0] == swept.range();

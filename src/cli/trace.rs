@@ -130,7 +130,7 @@ fn chosen(scene: &Scene, arguments: &Arguments) -> Result<Chosen, String> {
 }
 
 fn find_tire(scene: &Scene, text: &str) -> Result<usize, String> {
-    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    let numbers: Result<Vec<f64>, _> = text.split([',', ':']).map(|part| part.trim().parse()).collect();
     let numbers = numbers.map_err(|_| format!("'{text}' is no tire: write ROW,COLUMN such as 2,3"))?;
     let found = scene.tire.iter().position(|id: &TireId| id.numbers() == numbers);
     found.ok_or_else(|| format!("no tire {text} in this shelter"))

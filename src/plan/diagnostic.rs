@@ -6,6 +6,9 @@ use std::ops::Range;
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
+/// Most mistakes shown at once; what is no plan at all has thousands.
+const SHOWN: usize = 20;
+
 /// One mistake.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mistake {
@@ -68,7 +71,7 @@ impl Diagnostics {
         let renderer = if color { Renderer::styled() } else { Renderer::plain() };
         let renderer = renderer.decor_style(DecorStyle::Ascii);
         let mut text = String::new();
-        for mistake in &self.mistakes {
+        for mistake in self.mistakes.iter().take(SHOWN) {
             let snippet = (!self.source.is_empty()).then(|| {
                 let annotation = AnnotationKind::Primary.span(self.visible(&mistake.span));
                 Snippet::source(self.source.as_str()).path(self.path.as_str()).annotation(annotation)
@@ -83,6 +86,9 @@ impl Diagnostics {
             }
             text += &renderer.render(&[group]);
             text += "\n\n";
+        }
+        if let Some(more @ 1..) = self.mistakes.len().checked_sub(SHOWN) {
+            text += &format!("and {more} more mistakes in {}\n", self.path);
         }
         text
     }

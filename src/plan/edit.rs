@@ -46,27 +46,62 @@ pub fn write_sizes(
             key.leaf_decor_mut().set_prefix(comment);
         }
     });
-    section(&mut document, "tire", &|tire| set(tire, "mass_kg", tire_mass_kg.into()));
+    section(&mut document, "tire", &|tire| {
+        let now =
+            tire.get("mass_kg").and_then(|mass| mass.as_float().or(mass.as_integer().map(|kg| kg as f64)));
+        if now != Some(tire_mass_kg) {
+            set(tire, "mass_kg", tire_mass_kg.into());
+        }
+    });
     section(&mut document, "shelter", &|shelter| {
         if border_rows > 0 || shelter.contains_key("border_rows") {
             set(shelter, "border_rows", (border_rows as i64).into());
         }
     });
-    Ok(document.to_string())
+    Ok(with_line_ends_of(text, &document))
+}
+
+/// A changed document, its lines ending as they did in the text it was made from.
+pub(super) fn with_line_ends_of(text: &str, document: &DocumentMut) -> String {
+    let new = document.to_string();
+    if text.contains("\r\n") { new.replace("\r\n", "\n").replace('\n', "\r\n") } else { new }
 }
 
 /// Replaces a file with `text` whole: whoever reads it, or a loss of power, finds the old text or the new.
+///
+/// Files that may not be written stay as they are; a device or a pipe is written to, not replaced.
 pub fn save(path: &Path, text: &str) -> io::Result<()> {
     // A link stays a link: what it names is replaced.
     let path = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+    let replaced = match path.metadata() {
+        Ok(old) if !old.is_file() => std::fs::OpenOptions::new()
+            .write(true)
+            .open(&path)
+            .and_then(|mut file| file.write_all(text.as_bytes())),
+        Ok(old) if old.permissions().readonly() => Err(io::ErrorKind::ReadOnlyFilesystem.into()),
+        _ => replace(&path, text),
+    };
+    replaced.map_err(|error| {
+        let words = match error.kind() {
+            io::ErrorKind::NotFound => "there is no such folder".to_owned(),
+            io::ErrorKind::ReadOnlyFilesystem => "it may only be read".to_owned(),
+            io::ErrorKind::PermissionDenied => "it may not be written".to_owned(),
+            io::ErrorKind::StorageFull => "the disk is full".to_owned(),
+            kind => kind.to_string(),
+        };
+        io::Error::new(error.kind(), format!("{}: {words}", path.display()))
+    })
+}
+
+fn replace(path: &Path, text: &str) -> io::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
-    builder.permissions(permissions(&path));
+    builder.permissions(permissions(path));
     let mut new = builder.tempfile_in(folder)?;
     new.write_all(text.as_bytes())?;
     new.as_file().sync_all()?;
-    new.persist(&path)?;
+    new.persist(path)?;
     Ok(())
 }
 
@@ -97,7 +132,11 @@ mod tests {
     #[test]
     fn only_what_was_chosen_changes() {
         let text = "# top\n[shelter] # here\nrows = 5\n\n[tire]\nmass_kg = 280 # worn\n\n[cable]\n# ours\naxial_stiffness_kn = 1519\nbreaking_force_kn = 20.9\nslack_percent = 2\n";
+        let windows = write_sizes(&text.replace('\n', "\r\n"), "GOST 2688-80 8.3", 350.0, 1).expect("TOML");
         let written = write_sizes(text, "GOST 2688-80 8.3", 350.0, 1).expect("TOML");
+        assert_eq!(windows, written.replace('\n', "\r\n"));
+        let same = write_sizes(&written, "GOST 2688-80 8.3", 350.0, 1).expect("TOML");
+        assert_eq!(same, written);
         let expected = "# top\n[shelter] # here\nrows = 5\nborder_rows = 1\n\n[tire]\nmass_kg = 350.0 # worn\n\n[cable]\nslack_percent = 2\n# ours\nrope = \"GOST 2688-80 8.3\"\n";
         assert_eq!(written, expected);
     }

@@ -2,6 +2,8 @@
 
 use toml_edit::{DocumentMut, Item, Value};
 
+use super::edit::with_line_ends_of;
+
 /// One value of a plan's text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Field {
@@ -127,7 +129,7 @@ pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
         table_mut(&mut document, path).ok_or_else(|| format!("the plan has no [{}]", path.section))?;
     if new.trim().is_empty() {
         table.remove(path.key);
-        return Ok(document.to_string());
+        return Ok(with_line_ends_of(text, &document));
     }
     let textual = ["name", "rope", "termination"].contains(&path.key);
     let value = match new.trim().parse::<Value>() {
@@ -136,7 +138,7 @@ pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
         _ => return Err(format!("'{}' is no value: write it as the plan does", new.trim())),
     };
     super::edit::set(table, path.key, value);
-    Ok(document.to_string())
+    Ok(with_line_ends_of(text, &document))
 }
 
 fn table_mut<'d>(document: &'d mut DocumentMut, path: &Path) -> Option<&'d mut dyn toml_edit::TableLike> {
@@ -167,7 +169,7 @@ pub fn copy_delay(text: &str, index: usize) -> Option<String> {
     copy.decor_mut().set_prefix("\n");
     all.insert(index + 1, copy);
     replace(tables, all);
-    Some(document.to_string())
+    Some(with_line_ends_of(text, &document))
 }
 
 /// The text without one delay option; `None` for the last one left.
@@ -175,7 +177,7 @@ pub fn remove_delay(text: &str, index: usize) -> Option<String> {
     let mut document: DocumentMut = text.parse().ok()?;
     let Item::ArrayOfTables(tables) = document.get_mut("delay")? else { return None };
     (tables.len() > 1 && index < tables.len()).then(|| tables.remove(index))?;
-    Some(document.to_string())
+    Some(with_line_ends_of(text, &document))
 }
 
 /// Puts tables in the place of others; each follows the one before it in the text.
@@ -210,6 +212,9 @@ mod tests {
         let new = set(PLAN, &rope.path, "GOST 2688-80 15").expect("a value");
         assert_eq!(new, PLAN.replace("\"GOST 2688-80 14\"  ", "\"GOST 2688-80 15\"  "));
         assert!(set(PLAN, &field.path, "nine").is_err());
+        let windows = PLAN.replace('\n', "\r\n");
+        let new = set(&windows, &field.path, "12.5").expect("a value");
+        assert_eq!(new, windows.replace("interval_ms = 9", "interval_ms = 12.5"));
     }
 
     #[test]

@@ -140,7 +140,11 @@ impl<'s> Table<'s> {
             Some(_) => {
                 let (low, high) = (range.start(), range.end());
                 let message = format!("`{key}` must be from {low} to {high}");
-                self.mistakes.add(value.span(), message, format!("write `{key} = {example}`"));
+                self.mistakes.add(
+                    value.span(),
+                    message,
+                    format!("write a whole number from {low} to {high}"),
+                );
                 *range.start()
             }
             None => {
@@ -157,6 +161,13 @@ impl<'s> Table<'s> {
             self.mistyped(key, value, "a text in quotes", example);
             return None;
         };
+        if text.contains(char::is_control) {
+            self.mistakes.add(
+                value.span(),
+                format!("`{key}` has a line end or another control character"),
+                "write it in one line of letters, digits and signs",
+            );
+        }
         Some(At { value: text, span: value.span() })
     }
 

@@ -31,6 +31,11 @@ pub(super) struct Shelter<'s> {
     pub rope: &'s str,
 }
 
+/// Outer diameter of an 18.00-25 tire [m].
+const DIAMETER_M: f64 = 1.6;
+/// Tires nearer together than this leave no room for cables from rim to rim [m].
+const ROOMY_M: f64 = 2.0;
+
 /// As the [`QUESTIONS`] offer it.
 pub(super) const USUAL: Shelter<'_> =
     Shelter { rows: 5, columns: 10, spacing_m: 2.6, mass_kg: 280.0, rope: "GOST 2688-80 14" };
@@ -40,6 +45,7 @@ impl Shelter<'_> {
     pub(super) fn sections(&self, title: &str, place: &str) -> String {
         let quoted = |text: &str| toml_edit::value(text).to_string();
         let Self { rows, columns, spacing_m, mass_kg, rope } = self;
+        let diameter_m = if *spacing_m >= ROOMY_M { DIAMETER_M } else { 0.0 };
         format!(
             "title = {}
 
@@ -51,6 +57,7 @@ spacing_m = {spacing_m}         # centre to centre
 
 [tire]
 mass_kg = {mass_kg}
+outer_diameter_m = {diameter_m}  # cables run from rim to rim; 0: from centre to centre
 
 [cable]
 rope = {}         # `shelter ropes` lists the catalogue

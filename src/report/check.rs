@@ -1,12 +1,14 @@
 //! The results of `check` as JSON and CSV; schema `shelter.check/1`.
 
 use serde::Serialize;
+use serde_json::Number;
 
+use super::table::accuracy_name;
 use crate::outcome::Broken;
 use crate::plan::Method;
 use crate::scene::{Scene, TireId};
-use crate::study::Case;
-use crate::study::check::{Checked, Quantity, Reason};
+use crate::study::check::{Checked, Quantity, Reason, Still};
+use crate::study::{Case, Effort};
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::{Estimate, Verdict};
 
@@ -19,19 +21,84 @@ pub fn verdict(results: &Results, any: bool) -> Verdict {
     if any { each.min().unwrap_or(Verdict::Pass) } else { Verdict::worst(each) }
 }
 
+/// The address of a tire: whole numbers but for the centres of a quincunx.
+fn address(tire: &TireId) -> Vec<Number> {
+    let number = |n: f64| {
+        if n.fract() == 0.0 { Some(Number::from(n as i64)) } else { Number::from_f64(n) }
+    };
+    tire.numbers().into_iter().filter_map(number).collect()
+}
+
 /// Why an option did not pass, in words.
 pub fn explain(reason: &Reason) -> String {
-    let (name, unit) = match reason.quantity {
+    let (quantity, verdict, estimate, limit) = match reason {
+        Reason::Limit { quantity, verdict, estimate, limit } => (quantity, verdict, estimate, limit),
+        Reason::Early { end, still } => return early(*end, *still),
+    };
+    let (name, unit) = match quantity {
         Quantity::Height => ("flight height", Unit::Metre),
         Quantity::Force => ("cable force", Unit::Kilonewton),
         Quantity::Drift => ("drift", Unit::Metre),
     };
-    let value = value_and_error(reason.estimate.value, reason.estimate.error, unit);
-    let (limit, symbol) = (units::value(reason.limit, unit), unit.symbol());
-    match reason.verdict {
+    let value = value_and_error(estimate.value, estimate.error, unit);
+    let (limit, symbol) = (units::value(*limit, unit), unit.symbol());
+    match verdict {
         Verdict::Fail => format!("{name} {value} {symbol} is over the limit of {limit} {symbol}"),
         _ => format!("{name} {value} {symbol} is too near the limit of {limit} {symbol} to tell"),
     }
+}
+
+/// That a run ends too early, in words.
+fn early(end: f64, still: Still) -> String {
+    let end = units::seconds(end);
+    match still {
+        Still::Unfired(last) => {
+            format!(
+                "the run ends at {end}, before the last hole fires at {}: give a longer duration_s",
+                units::seconds(last)
+            )
+        }
+        Still::Growing => {
+            format!("the run ends at {end} with height or force at its greatest: give a longer duration_s")
+        }
+        Still::Sliding => {
+            format!("tires still slide at {end}, so that their drift is open: give a duration_s")
+        }
+    }
+}
+
+/// How results were asked for: `verlet, field` or `verlet, step 1 ms`.
+pub fn effort(effort: &Effort) -> String {
+    let method = method_name(effort.method);
+    match effort.step {
+        Some(step) => format!("{method}, step {}", units::milliseconds(step)),
+        None => format!("{method}, {}", accuracy_name(effort.accuracy)),
+    }
+}
+
+/// Where and when height and force were greatest.
+pub fn peak(scene: &Scene, checked: &Checked) -> [String; 2] {
+    let Checked { height, force, .. } = checked;
+    let lifted = format!("tire {}, {}", scene.tire[height.place], units::seconds(height.at));
+    let pulled = format!("cable {}, {}", scene.cable_name(force.place), units::seconds(force.at));
+    [
+        if height.value > 0.0 { lifted } else { "no tire lifts".to_owned() },
+        if force.value > 0.0 { pulled } else { "no cable pulls".to_owned() },
+    ]
+}
+
+/// The command that gives these results.
+pub fn command(case: &Case, results: &Results) -> String {
+    let path = &case.plan.path;
+    let mut command = format!("shelter check {}", if path == "-" { "PLAN" } else { path.as_str() });
+    let (asked, of_plan) = (results.iter().flatten().next().map(|c| c.effort), Effort::of(&case.plan));
+    if let Some(Effort { method, accuracy, step }) = asked.filter(|asked| *asked != of_plan) {
+        command += &format!(" --method {} --accuracy {}", method_name(method), accuracy_name(accuracy));
+        if let Some(step) = step {
+            command += &format!(" --dt {step}");
+        }
+    }
+    command
 }
 
 /// As plans and scripts spell a method.
@@ -93,7 +160,7 @@ struct AtTire {
     value: f64,
     error: f64,
     at_s: f64,
-    tire: Vec<f64>,
+    tire: Vec<Number>,
 }
 
 #[derive(Serialize)]
@@ -101,34 +168,34 @@ struct AtCable {
     value: f64,
     error: f64,
     at_s: f64,
-    cable: Option<[Vec<f64>; 2]>,
+    cable: Option<[Vec<Number>; 2]>,
 }
 
 /// A cable that broke.
 #[derive(Serialize)]
 struct BrokenCable {
-    cable: [Vec<f64>; 2],
+    cable: [Vec<Number>; 2],
     at_s: f64,
 }
 
 impl BrokenCable {
     fn new(scene: &Scene, broken: &Broken) -> Self {
         let ends = scene.cables[broken.cable].ends;
-        Self { cable: ends.map(|end| scene.tire[end].numbers()), at_s: broken.at }
+        Self { cable: ends.map(|end| address(&scene.tire[end])), at_s: broken.at }
     }
 }
 
 impl AtTire {
     fn new(scene: &Scene, estimate: &Estimate) -> Self {
         let Estimate { value, error, at, place } = *estimate;
-        Self { value, error, at_s: at, tire: scene.tire.get(place).map(TireId::numbers).unwrap_or_default() }
+        Self { value, error, at_s: at, tire: scene.tire.get(place).map(address).unwrap_or_default() }
     }
 }
 
 impl AtCable {
     fn new(scene: &Scene, estimate: &Estimate) -> Self {
         let Estimate { value, error, at, place } = *estimate;
-        let ends = |cable: &crate::scene::Cable| cable.ends.map(|end| scene.tire[end].numbers());
+        let ends = |cable: &crate::scene::Cable| cable.ends.map(|end| address(&scene.tire[end]));
         Self { value, error, at_s: at, cable: scene.cables.get(place).map(ends) }
     }
 }
@@ -141,7 +208,7 @@ impl Values {
             cable_safety_factor: Some(checked.safety_factor).filter(|factor| factor.is_finite()),
             drift_m: AtTire::new(scene, &checked.drift),
             broken: checked.broken.iter().map(|broken| BrokenCable::new(scene, broken)).collect(),
-            method: method_name(checked.method),
+            method: method_name(checked.effort.method),
             dt_s: checked.step,
             steps: checked.steps,
             energy_residual: checked.energy_residual,
@@ -156,7 +223,8 @@ impl Document {
     /// The results of one plan.
     pub fn new(case: &Case, results: &Results, any: bool) -> Self {
         let (plan, scene) = (&case.plan, case.scene());
-        let method = results.iter().flatten().next().map_or(plan.simulation.method, |checked| checked.method);
+        let method =
+            results.iter().flatten().next().map_or(plan.simulation.method, |checked| checked.effort.method);
         let options = plan.delays.iter().zip(results).map(|(delay, result)| OptionResult {
             name: delay.name.clone(),
             fire_at_s: delay.timing.fire_at_ms().iter().map(|ms| ms * 1e-3).collect(),

@@ -14,6 +14,7 @@ pub struct Document {
     schema: &'static str,
     plan: String,
     title: String,
+    partial: bool,
     limits: super::Limits,
     count: usize,
     complete: bool,
@@ -72,12 +73,13 @@ impl Line {
 
 impl Document {
     /// Of all orders tried.
-    pub fn new(case: &Case, orders: &Orders) -> Self {
+    pub fn new(case: &Case, orders: &Orders, partial: bool) -> Self {
         let row = |tried: &Tried| Row::new(case, tried);
         Self {
             schema: "shelter.orders/1",
             plan: case.plan.path.clone(),
             title: case.plan.title.clone(),
+            partial,
             limits: super::Limits::new(case),
             count: orders.ranked.len(),
             complete: orders.complete,

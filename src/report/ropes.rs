@@ -35,7 +35,7 @@ pub fn text(catalogue: &Catalogue) -> String {
         }
         let area = rope.metallic_area_mm2.map_or_else(|| "-".to_owned(), |area| format!("{area}"));
         text += &format!(
-            "  {:28} {:>7} {area:>8} {:>8.3} {:>8} {:>9.0} {:>9.1}\n",
+            "  {:28} {:>7} {area:>8} {:>8.3} {:>8} {:>9.0} {:>9}\n",
             rope.name,
             rope.diameter_mm,
             rope.mass_kg_per_m,

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::table::Style;
 use crate::study::Case;
-use crate::study::scatter::{Draw, Sample, Summary, Swap, summary};
+use crate::study::scatter::{Draw, Sample, Summary, Swap, holds, summary};
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
@@ -14,6 +14,7 @@ pub struct Document {
     schema: &'static str,
     plan: String,
     title: String,
+    partial: bool,
     limits: super::Limits,
     samples: usize,
     seed: u64,
@@ -28,10 +29,10 @@ pub struct Row {
     samples: usize,
     failures: usize,
     undecided: usize,
-    probability: f64,
+    probability: Option<f64>,
     interval_95: [f64; 2],
-    flight_height_m: Spread,
-    cable_force_n: Spread,
+    flight_height_m: Option<Spread>,
+    cable_force_n: Option<Spread>,
 }
 
 #[derive(Serialize)]
@@ -47,15 +48,15 @@ pub struct Line {
     name: String,
     samples: usize,
     failures: usize,
-    probability: f64,
+    probability: Option<f64>,
     low_95: f64,
     high_95: f64,
-    flight_height_p50_m: f64,
-    flight_height_p95_m: f64,
-    flight_height_max_m: f64,
-    cable_force_p50_n: f64,
-    cable_force_p95_n: f64,
-    cable_force_max_n: f64,
+    flight_height_p50_m: Option<f64>,
+    flight_height_p95_m: Option<f64>,
+    flight_height_max_m: Option<f64>,
+    cable_force_p50_n: Option<f64>,
+    cable_force_p95_n: Option<f64>,
+    cable_force_max_n: Option<f64>,
 }
 
 /// Name and summary of each option.
@@ -64,8 +65,13 @@ fn summaries<'c>(case: &'c Case, samples: &'c [Sample]) -> impl Iterator<Item = 
     names.enumerate().map(|(option, name)| (name, summary(samples, option)))
 }
 
-fn probability(summary: &Summary) -> f64 {
-    if summary.samples == 0 { 0.0 } else { summary.failures as f64 / summary.samples as f64 }
+fn probability(summary: &Summary) -> Option<f64> {
+    sampled(summary, summary.failures as f64 / summary.samples as f64)
+}
+
+/// What a summary says, if it is one of any sample.
+fn sampled<T>(summary: &Summary, value: T) -> Option<T> {
+    (summary.samples > 0).then_some(value)
 }
 
 /// One line of CSV for each option.
@@ -77,18 +83,18 @@ pub fn lines<'c>(case: &'c Case, samples: &'c [Sample]) -> impl Iterator<Item = 
         probability: probability(&summary),
         low_95: summary.interval[0],
         high_95: summary.interval[1],
-        flight_height_p50_m: summary.height[0],
-        flight_height_p95_m: summary.height[1],
-        flight_height_max_m: summary.height[2],
-        cable_force_p50_n: summary.force[0],
-        cable_force_p95_n: summary.force[1],
-        cable_force_max_n: summary.force[2],
+        flight_height_p50_m: sampled(&summary, summary.height[0]),
+        flight_height_p95_m: sampled(&summary, summary.height[1]),
+        flight_height_max_m: sampled(&summary, summary.height[2]),
+        cable_force_p50_n: sampled(&summary, summary.force[0]),
+        cable_force_p95_n: sampled(&summary, summary.force[1]),
+        cable_force_max_n: sampled(&summary, summary.force[2]),
     })
 }
 
 impl Document {
     /// Of all samples.
-    pub fn new(case: &Case, draw: &Draw, samples: &[Sample], swaps: &[Swap]) -> Self {
+    pub fn new(case: &Case, draw: &Draw, samples: &[Sample], swaps: &[Swap], partial: bool) -> Self {
         let spread = |[p50, p95, max]: [f64; 3]| Spread { p50, p95, max };
         let row = |(name, summary): (String, Summary)| Row {
             name,
@@ -97,13 +103,14 @@ impl Document {
             undecided: summary.undecided,
             probability: probability(&summary),
             interval_95: summary.interval,
-            flight_height_m: spread(summary.height),
-            cable_force_n: spread(summary.force),
+            flight_height_m: sampled(&summary, spread(summary.height)),
+            cable_force_n: sampled(&summary, spread(summary.force)),
         };
         Self {
             schema: "shelter.scatter/1",
             plan: case.plan.path.clone(),
             title: case.plan.title.clone(),
+            partial,
             limits: super::Limits::new(case),
             samples: draw.samples,
             seed: draw.seed,
@@ -145,6 +152,10 @@ pub fn text(case: &Case, draw: &Draw, samples: &[Sample], style: Style) -> Strin
         "median · 95 % · max"
     );
     for (name, summary) in summaries(case, samples) {
+        if summary.samples == 0 {
+            text += &format!("{name:width$}  {:>7}\n", "none");
+            continue;
+        }
         let spread = |values: [f64; 3], unit: Unit| values.map(|value| units::value(value, unit)).join(" · ");
         let [low, high] = summary.interval.map(|share| 1e2 * share);
         text += &format!(
@@ -156,9 +167,13 @@ pub fn text(case: &Case, draw: &Draw, samples: &[Sample], style: Style) -> Strin
             spread(summary.force, Unit::Kilonewton),
         );
     }
-    let sure = samples.iter().all(|sample| sample.envelope.verdict == Verdict::Pass);
-    let word = style.word(if sure { Verdict::Pass } else { Verdict::Fail });
+    let word = style.word(if holds(case, draw, samples) { Verdict::Pass } else { Verdict::Fail });
     let failures = samples.iter().filter(|sample| sample.envelope.verdict != Verdict::Pass).count();
-    text += &format!("\n{word}: {failures} of {} samples fail\n", samples.len());
+    text += &format!("\n{word}: {failures} of {} samples fail", samples.len());
+    if let Some(bound) = draw.certain_at {
+        text +=
+            &format!("; what is asked is that every option surely fails less often than {} %", bound * 1e2);
+    }
+    text.push('\n');
     style.plain(text)
 }

@@ -19,6 +19,9 @@ pub struct Document {
     lightest: Option<Row>,
     tried: usize,
     not_tried: usize,
+    partial: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    nearest: Option<Row>,
     frontier: Vec<Row>,
 }
 
@@ -91,6 +94,8 @@ impl Document {
             lightest: found.map(Row::new),
             tried: sizing.tried(),
             not_tried: sizing.combinations.len() - sizing.tried(),
+            partial: sizing.late > 0,
+            nearest: found.is_none().then(|| nearest(sizing)).flatten().map(|(c, _)| Row::new(c)),
             frontier: sizing.frontier().into_iter().map(Row::new).collect(),
         }
     }
@@ -106,14 +111,20 @@ pub fn text(case: &Case, sizing: &Sizing, style: Style) -> String {
     );
     let (tried, all) = (sizing.tried(), sizing.combinations.len());
     text += &format!("{tried} of {all} combinations tried");
-    if tried < all {
-        text +=
-            &format!("; {} have the stiffness of a stronger rope that fails, and move alike", all - tried);
+    let alike = all - tried - sizing.late;
+    if alike > 0 {
+        text += &format!("; {alike} have the stiffness of a stronger rope that fails, and move alike");
+    }
+    if sizing.late > 0 {
+        text += &format!("; for {} the time did not suffice", sizing.late);
     }
     text += "\n\n";
     let frontier = sizing.frontier();
     let Some(found) = sizing.found() else {
-        text += &format!("{}: no combination holds\n", style.word(Verdict::Fail));
+        text += &match sizing.late {
+            0 => format!("{}: no combination holds\n", style.word(Verdict::Fail)),
+            _ => format!("{}: no combination tried so far holds\n", style.word(Verdict::Undecided)),
+        };
         if let Some((combination, trial)) = nearest(sizing) {
             text += &format!("nearest: {}\n", words(combination, &trial));
         }
@@ -140,7 +151,8 @@ pub fn text(case: &Case, sizing: &Sizing, style: Style) -> String {
     }
     let word = style.word(Verdict::Pass);
     if let Some(trial) = &found.trial {
-        text += &format!("\n{word}: lightest {}\n", words(found, trial));
+        let so_far = if sizing.late > 0 { " so far" } else { "" };
+        text += &format!("\n{word}: lightest{so_far} {}\n", words(found, trial));
     }
     style.plain(text)
 }

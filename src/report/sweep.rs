@@ -14,6 +14,7 @@ pub struct Document {
     schema: &'static str,
     plan: String,
     title: String,
+    partial: bool,
     order: Vec<String>,
     limits: super::Limits,
     points: Vec<Row>,
@@ -50,11 +51,12 @@ impl Row {
 
 impl Document {
     /// Of a sweep.
-    pub fn new(case: &Case, sweep: &Sweep) -> Self {
+    pub fn new(case: &Case, sweep: &Sweep, partial: bool) -> Self {
         Self {
             schema: "shelter.sweep/1",
             plan: case.plan.path.clone(),
             title: case.plan.title.clone(),
+            partial,
             order: super::row_names(case, &sweep.order),
             limits: super::Limits::new(case),
             points: sweep.points.iter().map(Row::new).collect(),
@@ -93,7 +95,9 @@ pub fn text(case: &Case, sweep: &Sweep, style: Style) -> String {
     let windows: Vec<String> = sweep
         .windows()
         .iter()
-        .map(|[from, to]| format!("{} to {}", units::milliseconds(*from), units::milliseconds(*to)))
+        .map(|[from, to]| {
+            format!("{} to {}", units::exact_milliseconds(*from), units::exact_milliseconds(*to))
+        })
         .collect();
     text += &match windows.as_slice() {
         [] => format!("\n{}: no interval tried passes\n", style.word(crate::verdict::Verdict::Fail)),

@@ -1,6 +1,6 @@
 //! The results of `check` as a table for reading.
 
-use super::check::{Results, explain, method_name, verdict};
+use super::check::{Results, effort, explain, verdict};
 use super::spark::sparkline;
 use crate::plan::Accuracy;
 use crate::study::Case;
@@ -20,10 +20,11 @@ pub struct Style {
 impl Style {
     /// A verdict, in capitals.
     pub(super) fn word(self, verdict: Verdict) -> String {
-        let (word, code) = match verdict {
-            Verdict::Pass => ("PASS", 32),
-            Verdict::Undecided => ("OPEN", 33),
-            Verdict::Fail => ("FAIL", 31),
+        let word = verdict.capitals();
+        let code = match verdict {
+            Verdict::Pass => 32,
+            Verdict::Undecided => 33,
+            Verdict::Fail => 31,
         };
         if self.color { format!("\x1b[1;{code}m{word}\x1b[0m") } else { word.to_owned() }
     }
@@ -50,8 +51,9 @@ pub fn check(case: &Case, results: &Results, any: bool, style: Style) -> String 
     let plan = &case.plan;
     let mut text = super::heading(case);
     let name_width = plan.delays.iter().map(|delay| delay.name.chars().count()).max().unwrap_or(0).max(6);
+    let drift = if case.limits.drift.is_some() { format!("  {:>17}", "drift, m") } else { String::new() };
     text += &format!(
-        "{:name_width$}  {:4}  {:>17}  {:>17}  {:>6}  {:SPARK$}  {:SPARK$}\n",
+        "{:name_width$}  {:4}  {:>17}  {:>17}  {:>6}{drift}  {:SPARK$}  {:SPARK$}\n",
         "option", "", "height, m", "force, kN", "factor", "height over time", "force over time"
     );
     for (delay, result) in plan.delays.iter().zip(results) {
@@ -66,8 +68,7 @@ pub fn check(case: &Case, results: &Results, any: bool, style: Style) -> String 
     let verdict = style.word(verdict(results, any));
     text += &format!("\n{verdict}: {passed} of {} options pass", results.len());
     if let Some(checked) = results.iter().flatten().next() {
-        let method = method_name(checked.method);
-        text += &format!(" · {method}, {}", accuracy_name(plan.simulation.accuracy));
+        text += &format!(" · {}", effort(&checked.effort));
     }
     text.push('\n');
     style.plain(text)
@@ -76,8 +77,10 @@ pub fn check(case: &Case, results: &Results, any: bool, style: Style) -> String 
 /// Values, sparklines and reasons of one option.
 fn row(case: &Case, checked: &Checked, style: Style) -> String {
     let Checked { height, force, history, .. } = checked;
+    let drift = value_and_error(checked.drift.value, checked.drift.error, Unit::Metre);
+    let drift = if case.limits.drift.is_some() { format!("  {drift:>17}") } else { String::new() };
     let mut text = format!(
-        "  {:>17}  {:>17}  {:>6}  {}  {}\n",
+        "  {:>17}  {:>17}  {:>6}{drift}  {}  {}\n",
         value_and_error(height.value, height.error, Unit::Metre),
         value_and_error(force.value, force.error, Unit::Kilonewton),
         units::factor(checked.safety_factor),

@@ -18,7 +18,7 @@ use crate::verdict::{Estimate, Limits, Verdict};
 pub struct Checked {
     /// Pass, fail, or undecided at the finest step allowed.
     pub verdict: Verdict,
-    /// The limits that were not passed.
+    /// Why it is not a pass.
     pub reasons: Vec<Reason>,
     /// Greatest flight height [m]; `place` is a tire.
     pub height: Estimate,
@@ -32,8 +32,8 @@ pub struct Checked {
     pub broken: Vec<Broken>,
     /// Height and force over time.
     pub history: History,
-    /// Method that gave the values.
-    pub method: Method,
+    /// What was asked for.
+    pub effort: Effort,
     /// Step that gave the values [s].
     pub step: f64,
     /// Steps of that run.
@@ -54,17 +54,67 @@ pub struct Checked {
     pub total_steps: usize,
 }
 
-/// A limit that was not passed.
+/// Why an option does not pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reason {
-    /// Of which quantity.
-    pub quantity: Quantity,
+pub enum Reason {
+    /// A limit is passed, or too near to tell.
+    Limit {
+        /// Of which quantity.
+        quantity: Quantity,
+        /// Fail or undecided.
+        verdict: Verdict,
+        /// What was computed.
+        estimate: Estimate,
+        /// The limit [unit of the quantity].
+        limit: f64,
+    },
+    /// The run ends too early to tell.
+    Early {
+        /// When [s].
+        end: f64,
+        /// What comes after it.
+        still: Still,
+    },
+}
+
+impl Reason {
     /// Fail or undecided.
-    pub verdict: Verdict,
-    /// What was computed.
-    pub estimate: Estimate,
-    /// The limit [unit of the quantity].
-    pub limit: f64,
+    pub fn verdict(&self) -> Verdict {
+        match self {
+            Reason::Limit { verdict, .. } => *verdict,
+            Reason::Early { .. } => Verdict::Undecided,
+        }
+    }
+}
+
+/// What a run that ends too early leaves out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Still {
+    /// The last hole fires at this time [s].
+    Unfired(f64),
+    /// Height or force is greatest at the very end.
+    Growing,
+    /// Tires slide on, and their drift has a limit.
+    Sliding,
+}
+
+/// What the run of a shot leaves out, if it ends too early for a verdict.
+pub fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<Still> {
+    if outcome.end == End::AtRest {
+        return None;
+    }
+    let (end, last) = (outcome.drift.at, shot.firings.last().map_or(0.0, |firing| firing.at));
+    // The greatest of all samples is the last one, or the one before.
+    let grows = |peak: Peak| peak.value > 0.0 && peak.at > end - 2.5 * outcome.step;
+    if last >= case.plan.simulation.duration_s.unwrap_or(f64::INFINITY) {
+        Some(Still::Unfired(last))
+    } else if grows(outcome.height) || grows(outcome.force) {
+        Some(Still::Growing)
+    } else if case.plan.simulation.duration_s.is_none() && case.limits.drift.is_some() {
+        Some(Still::Sliding)
+    } else {
+        None
+    }
 }
 
 /// What a limit is about.
@@ -107,12 +157,15 @@ const FINEST: usize = 12;
 const SURE: f64 = 2.0;
 
 impl Checked {
-    /// Whether the verdict would stand with larger errors.
+    /// Whether what the limits say would stand with larger errors.
     fn is_sure(&self, limits: &Limits) -> bool {
-        let larger = |estimate: Estimate| Estimate { error: SURE * estimate.error, ..estimate };
-        let verdicts = limited(self.height, self.force, self.drift, limits)
-            .map(|(_, estimate, limit)| larger(estimate).against(limit));
-        Verdict::worst(verdicts) == self.verdict && self.verdict != Verdict::Undecided
+        let verdict = |times: f64| {
+            let larger = |estimate: Estimate| Estimate { error: times * estimate.error, ..estimate };
+            let each = limited(self.height, self.force, self.drift, limits)
+                .map(|(_, estimate, limit)| larger(estimate).against(limit));
+            Verdict::worst(each)
+        };
+        verdict(1.0) != Verdict::Undecided && verdict(1.0) == verdict(SURE)
     }
 }
 
@@ -171,7 +224,7 @@ pub fn check_shot(
             add(&mut runs, rung(-finer - 1))?;
             runs.swap(0, 1);
         }
-        let checked = judge(case, effort.method, &runs, begun.elapsed());
+        let checked = judge(case, shot, effort, &runs, begun.elapsed());
         if checked.is_sure(&case.limits) || effort.step.is_some() || finer as usize == FINEST {
             return Ok(checked);
         }
@@ -180,7 +233,13 @@ pub fn check_shot(
 }
 
 /// The verdict of a ladder of runs; the last gives the values.
-fn judge(case: &Case, method: Method, runs: &[(Outcome, Duration)], total_wall: Duration) -> Checked {
+fn judge(
+    case: &Case,
+    shot: &Shot,
+    effort: &Effort,
+    runs: &[(Outcome, Duration)],
+    total_wall: Duration,
+) -> Checked {
     let count = runs.len();
     let (last, before) = (&runs[count - 1], &runs[count.saturating_sub(1 + error::NEIGHBOURS)..count - 1]);
     let estimate = |of: fn(&Outcome) -> Peak| {
@@ -192,17 +251,18 @@ fn judge(case: &Case, method: Method, runs: &[(Outcome, Duration)], total_wall: 
     let force = estimate(|outcome| outcome.force);
     let drift = estimate(|outcome| outcome.drift);
     let limits = &case.limits;
-    let reasons: Vec<Reason> = limited(height, force, drift, limits)
-        .map(|(quantity, estimate, limit)| Reason {
+    let mut reasons: Vec<Reason> = limited(height, force, drift, limits)
+        .map(|(quantity, estimate, limit)| Reason::Limit {
             quantity,
             verdict: estimate.against(limit),
             estimate,
             limit,
         })
-        .filter(|reason| reason.verdict != Verdict::Pass)
+        .filter(|reason| reason.verdict() != Verdict::Pass)
         .collect();
+    reasons.extend(early(case, shot, &last.0).map(|still| Reason::Early { end: last.0.drift.at, still }));
     Checked {
-        verdict: Verdict::worst(reasons.iter().map(|reason| reason.verdict)),
+        verdict: Verdict::worst(reasons.iter().map(Reason::verdict)),
         reasons,
         height,
         force,
@@ -210,7 +270,7 @@ fn judge(case: &Case, method: Method, runs: &[(Outcome, Duration)], total_wall: 
         safety_factor: limits.breaking_force / force.value,
         broken: last.0.broken.clone(),
         history: last.0.history.clone(),
-        method,
+        effort: *effort,
         step: last.0.step,
         steps: last.0.steps,
         energy_residual: last.0.ledger.residual(),

@@ -44,6 +44,8 @@ pub struct Head {
     pub text: String,
     /// Which share.
     pub shard: Shard,
+    /// Lines that follow.
+    pub lines: usize,
 }
 
 /// Results of a study, in the order of one machine.
@@ -82,11 +84,19 @@ pub fn merge(shares: &[(String, String)]) -> Result<(Head, Findings), String> {
                 }
             }
         }
+        let found = text.lines().count() - 1;
+        if found != head.lines {
+            return Err(format!(
+                "{name}: {found} of its {} lines are there; copy the share again",
+                head.lines
+            ));
+        }
         heads.push((name, head));
     }
     let (_, first) = heads.first().cloned().ok_or("no share to merge")?;
     for (name, head) in &heads {
-        let alike = Head { shard: Shard { index: first.shard.index, ..head.shard }, ..head.clone() };
+        let shard = Shard { index: first.shard.index, ..head.shard };
+        let alike = Head { shard, lines: first.lines, ..head.clone() };
         if alike != first {
             return Err(format!("{name}: a share of another study than {}", heads[0].0));
         }

@@ -13,7 +13,7 @@ use rand_distr::{Distribution, LogNormal, Normal};
 use serde::{Deserialize, Serialize};
 
 use super::batch::{Envelope, Progress, each};
-use super::check::{check_shot, start_step};
+use super::check::{check_shot, early, start_step};
 use super::{Case, Effort, Shard};
 use crate::plan::ScatterSpec;
 use crate::scene::{Firing, Shot};
@@ -82,6 +82,9 @@ pub fn scatter(
                 (from..(from + LOOK_EVERY).min(draw.samples)).map(|number| (option, number)).collect();
             samples.extend(each(&jobs, progress, judge_one)?.into_iter().flatten());
         }
+        if progress.expired() && !is_certain(&samples, draw) {
+            progress.expect(draw.samples - samples.len());
+        }
         all.extend(samples);
     }
     Ok(all)
@@ -96,6 +99,14 @@ fn is_certain(samples: &[Sample], draw: &Draw) -> bool {
     let failures = samples.iter().filter(|sample| sample.envelope.verdict != Verdict::Pass).count();
     let [low, high] = wilson(failures, samples.len());
     high < bound || low > bound
+}
+
+/// Whether every option holds: no sample of it fails, or surely fewer than were to be certain.
+pub fn holds(case: &Case, draw: &Draw, samples: &[Sample]) -> bool {
+    (0..case.shots.len()).map(|option| summary(samples, option)).all(|summary| match draw.certain_at {
+        Some(bound) => summary.interval[1] < bound,
+        None => summary.samples > 0 && summary.failures == 0,
+    })
 }
 
 /// One run, or a whole check where it comes too near a limit.
@@ -119,6 +130,9 @@ fn judge_sample(
         pair(outcome.drift.value, relative_error[2]),
     ];
     let verdict = case.limits.judge([height, force, drift]);
+    if verdict == Verdict::Pass && early(case, shot, &outcome).is_some() {
+        return Ok(Envelope { verdict: Verdict::Undecided, height, force, drift });
+    }
     if verdict == Verdict::Undecided && effort.step.is_none() {
         let checked = check_shot(case, shot, effort, &mut |_| progress.flow())?;
         return Ok(Envelope::of(&checked));

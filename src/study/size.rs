@@ -69,6 +69,8 @@ pub struct Trial {
 pub struct Sizing {
     /// By total mass.
     pub combinations: Vec<Combination>,
+    /// How many the time did not suffice for.
+    pub late: usize,
 }
 
 impl Sizing {
@@ -106,7 +108,7 @@ pub fn size(plan: &Plan, demand: &Demand, effort: &Effort, progress: &Progress) 
     let own = [plan.tire.mass_kg];
     let masses = if plan.size.tire_mass_kg.is_empty() { &own[..] } else { &plan.size.tire_mass_kg };
     let most_border = if matches!(plan.layout, Layout::List { .. }) { 0 } else { plan.size.most_border_rows };
-    let mut combinations = Vec::new();
+    let (mut combinations, mut late) = (Vec::new(), 0);
     // The shot at which the last combination failed is the likeliest to fail the next.
     let mut likeliest = 0;
     let stiffnesses =
@@ -124,6 +126,7 @@ pub fn size(plan: &Plan, demand: &Demand, effort: &Effort, progress: &Progress) 
             } else {
                 None
             };
+            late += usize::from(trial.is_none() && progress.expired());
             held = trial.is_some_and(|trial| trial.holds);
             combinations.push(Combination { rope, tire_mass, border_rows, tires, total_mass, trial });
         }
@@ -132,7 +135,7 @@ pub fn size(plan: &Plan, demand: &Demand, effort: &Effort, progress: &Progress) 
         let strength = |c: &Combination| c.rope.breaking_force_kn;
         a.total_mass.total_cmp(&b.total_mass).then(strength(a).total_cmp(&strength(b)))
     });
-    Ok(Sizing { combinations })
+    Ok(Sizing { combinations, late })
 }
 
 fn total_mass(case: &Case, rope: &Rope) -> f64 {

@@ -272,12 +272,20 @@ impl App {
     fn export_name(&self) -> String {
         let plan = Path::new(&self.case.plan.path);
         let stem = plan.file_stem().and_then(|stem| stem.to_str()).unwrap_or("plan");
-        format!("{stem}-{}.csv", self.screen.name().to_lowercase())
+        let screen = self.screen.name().to_lowercase();
+        let numbered = (2..100).map(|n| format!("{stem}-{screen}-{n}.csv"));
+        let mut names = std::iter::once(format!("{stem}-{screen}.csv")).chain(numbered);
+        names.find(|name| !Path::new(name).exists()).unwrap_or_default()
     }
 
-    /// Asks for a file to write the plan to.
+    /// Asks for a file to write the plan to: one that is not there yet.
     pub fn ask_for_file(&mut self) {
-        self.prompt = Some(Prompt::new(Purpose::SaveAs, "plan.toml"));
+        let plan = Path::new(&self.case.plan.path);
+        let stem = if plan.exists() { plan.with_extension("") } else { "plan".into() };
+        let numbered = (2..100).map(|n| format!("{}-{n}.toml", stem.display()));
+        let mut names = std::iter::once(format!("{}.toml", stem.display())).chain(numbered);
+        let free = names.find(|name| !Path::new(name).exists()).unwrap_or_default();
+        self.prompt = Some(Prompt::new(Purpose::SaveAs, &free));
     }
 
     fn cancel(&mut self, kind: Kind) -> Request {
@@ -288,8 +296,12 @@ impl App {
         Request::Cancel(kind)
     }
 
-    /// Escape closes what is open before it leaves.
+    /// Escape closes what is open, and never leaves.
     pub fn escape(&mut self) -> Request {
+        self.warned = false;
+        if self.notice.take().is_some() {
+            return Request::None;
+        }
         if self.help {
             self.help = false;
         } else if let Some(kind) = self.cancellable() {
@@ -302,7 +314,7 @@ impl App {
         } else if self.zoom {
             self.zoom = false;
         } else {
-            return self.quit();
+            self.notice = Some(format!("{} leaves", self.keymap.hint(Action::Quit)));
         }
         Request::None
     }
@@ -323,7 +335,8 @@ impl App {
             return Request::Quit;
         }
         self.warned = true;
-        self.notice = Some("changes are not saved: s saves, quit again leaves without".to_owned());
+        let [save, quit] = [Action::Save, Action::Quit].map(|action| self.keymap.hint(action));
+        self.notice = Some(format!("changes are not saved: {save} saves, {quit} again leaves without"));
         Request::None
     }
 

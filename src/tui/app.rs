@@ -1,7 +1,7 @@
 //! The state of the screen and how news changes it; what keys and clicks do to it is in `act`. No input or output happens
 //! here.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -263,6 +263,12 @@ impl App {
             }
             Err(words) => format!("not saved: {words}"),
         });
+    }
+
+    /// The plan stands in another file now.
+    pub fn rename(&mut self, path: &Path) {
+        self.editor.path = path.display().to_string();
+        Arc::make_mut(&mut self.case).plan.path = self.editor.path.clone();
     }
 
     /// Whether something moves by itself.

@@ -21,7 +21,7 @@ pub enum Edit {
 #[derive(Clone, Debug)]
 pub struct Editor {
     /// Name of the file.
-    path: String,
+    pub path: String,
     /// As it stands.
     pub text: String,
     /// As the file has it.

@@ -1,5 +1,6 @@
 //! The plan's file: noticed when another program changes it, and replaced whole when saved.
 
+use std::io;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -19,9 +20,12 @@ impl PlanFile {
 
     /// The plan in the file, or what is wrong with it, if the file has changed since it was last seen.
     pub fn changed(&mut self) -> Option<Result<Plan, String>> {
-        let now = stamp(&self.path)?;
-        if self.seen.replace(now) == Some(now) {
+        let now = stamp(&self.path);
+        if std::mem::replace(&mut self.seen, now) == now {
             return None;
+        }
+        if now.is_none() {
+            return Some(Err("the file is gone".to_owned()));
         }
         Some(Plan::load(&self.path).map_err(|mistakes| {
             let first = mistakes.iter().next();
@@ -32,15 +36,26 @@ impl PlanFile {
     }
 
     /// Writes `text`, unless the file is no longer the one whose text was `before`.
-    pub fn write(&mut self, before: &str, text: &str) -> Result<(), String> {
-        let now = std::fs::read_to_string(&self.path).map_err(|error| error.to_string())?;
-        if now != before {
-            return Err("another program has changed the file".to_owned());
+    pub fn write(&mut self, before: &str, text: &str) -> Result<(), Refusal> {
+        let failed = |error: io::Error| Refusal::Failed(error.to_string());
+        match std::fs::read_to_string(&self.path) {
+            Ok(now) if now != before => return Err(Refusal::Changed),
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(failed(error)),
+            Ok(_) | Err(_) => {}
         }
-        edit::save(&self.path, text).map_err(|error| error.to_string())?;
+        edit::save(&self.path, text).map_err(failed)?;
         self.seen = stamp(&self.path);
         Ok(())
     }
+}
+
+/// Why a plan was not written.
+#[derive(Debug, PartialEq)]
+pub enum Refusal {
+    /// Another program has changed the file.
+    Changed,
+    /// In words.
+    Failed(String),
 }
 
 /// Writes a new file, never over one that is there.
@@ -48,7 +63,7 @@ pub fn create(path: &Path, text: &str) -> Result<(), String> {
     if path.exists() {
         return Err(format!("{} is there already", path.display()));
     }
-    edit::save(path, text).map_err(|error| format!("{}: {error}", path.display()))
+    edit::save(path, text).map_err(|error| error.to_string())
 }
 
 fn stamp(path: &Path) -> Option<(SystemTime, u64)> {

@@ -40,8 +40,9 @@ use ratatui::layout::Position;
 use ratatui::{Frame, Terminal};
 
 use self::app::{App, Request};
-use self::file::PlanFile;
+use self::file::{PlanFile, Refusal};
 use self::keymap::Action;
+use self::prompt::{Prompt, Purpose};
 use self::start::{Next, Opened, Start};
 use self::theme::Theme;
 use crate::worker::{Errands, Kind, Worker};
@@ -158,17 +159,26 @@ impl Session {
             Request::Run => self.worker.start(&self.app.case, self.app.effort),
             Request::Replaced => self.replace(),
             Request::Save => match &mut self.file {
-                Some(file) => {
-                    let written = file.write(&self.app.editor.saved, &self.app.editor.text);
-                    self.app.written(written.map(|()| self.app.case.plan.path.clone()));
-                }
+                Some(file) => match file.write(&self.app.editor.saved, &self.app.editor.text) {
+                    Ok(()) => self.app.written(Ok(self.app.case.plan.path.clone())),
+                    Err(Refusal::Failed(words)) => self.app.written(Err(words)),
+                    Err(Refusal::Changed) => {
+                        let words = "another program has changed the file; give another name";
+                        self.app.written(Err(words.to_owned()));
+                        self.app.ask_for_file();
+                    }
+                },
                 None => self.app.ask_for_file(),
             },
             Request::SaveAs(path) => self.save_as(&path),
             Request::Export(path) => {
-                let written = export::write(&self.app, &path);
-                self.app.notice =
-                    Some(written.map_or_else(|words| words, |()| format!("wrote {}", path.display())));
+                self.app.notice = Some(match export::write(&self.app, &path) {
+                    Ok(()) => format!("wrote {}", path.display()),
+                    Err(words) => {
+                        self.app.prompt = Some(Prompt::new(Purpose::Export, &path.to_string_lossy()));
+                        words
+                    }
+                });
             }
             Request::Yank => {
                 let copied = export::csv(&self.app).and_then(|text| {
@@ -195,7 +205,10 @@ impl Session {
         let written = file::create(path, &self.app.editor.text);
         if written.is_ok() {
             self.file = Some(PlanFile::new(path));
+            self.app.rename(path);
             config::remember(path);
+        } else {
+            self.app.prompt = Some(Prompt::new(Purpose::SaveAs, &path.to_string_lossy()));
         }
         self.app.written(written.map(|()| path.display().to_string()));
     }

@@ -170,6 +170,7 @@ pub const BAD: &[(&str, &str)] = &[
     ("rope = \"GOST 2688-80 6.2\"", "rope = \"GOST 2688-80 6.2\"\ntermination_percent = 0"),
     ("friction = 0.5", "friction = inf"),
     ("friction = 0.5", "mu = 0.5"),
+    ("name = \"1\"", "name = \"1\\u001b[31m\""),
     ("friction = 0.5", "friction = 0,5"),
     ("under_row = 1\n", "under_row = -1\n"),
     ("under_row = 1\n", "under_row = \"1\"\n"),
@@ -257,7 +258,7 @@ under_row = 1
 launch_m_s = 6
 [[blast_row]]
 name = "2"
-under_tires = [1, 9]
+under_tires = [1, 9, 1]
 launch_m_s = 6
 [limits]
 flight_height_m = 1
@@ -271,6 +272,14 @@ interval_ms = 20
 fn all_mistakes_of_a_plan_are_told_at_once() {
     let mistakes = Plan::parse("list.toml", LIST).expect_err("full of mistakes");
     insta::assert_snapshot!(mistakes.render(false));
+}
+
+#[test]
+fn of_thousands_of_mistakes_the_first_are_shown() {
+    let page = "<p>no plan</p>\n".repeat(1000);
+    let shown = Plan::parse("page.html", &page).expect_err("no plan").render(false);
+    assert!(shown.lines().count() < 200, "{}", shown.lines().count());
+    assert!(shown.contains("more mistakes in page.html"));
 }
 
 #[test]
@@ -322,6 +331,7 @@ const COMMANDS: &[&[&str]] = &[
     &["report", "plan.toml"],
     &["report", "plan.toml", "-o", "none/page.html"],
     &["merge"],
+    &["report", "plan.toml", "-o", "plan.toml"],
     &["merge", "none.jsonl"],
     &["merge", "plan.toml"],
     &["init", "plan.toml"],

@@ -39,6 +39,34 @@ fn the_exit_status_tells_the_verdict() {
     assert_eq!(on("paper-5-tire.toml", &["check", "--accurracy", "field"]).status.code(), Some(2));
 }
 
+/// A run that ends before all has happened passes nothing, though it may fail.
+#[test]
+fn a_run_that_ends_early_is_no_pass() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plan.toml");
+    let text = std::fs::read_to_string(plan("paper-5-tire.toml")).expect("a plan");
+    let (head, _) = text.split_once("[simulation]").unwrap_or((&text, ""));
+    let check = |delay: &str, duration: &str| {
+        let text = format!("{head}\n{delay}\n[simulation]\nduration_s = {duration}\n");
+        std::fs::write(&path, text).expect("written");
+        let output = shelter(&["check", path.to_str().expect("UTF-8"), "--format", "json"]);
+        let document = json(&output);
+        let last = document["options"].as_array().expect("options").last().expect("one").clone();
+        (last["verdict"].clone(), last["reasons"].to_string())
+    };
+    let late = "[[delay]]\nname = \"late\"\nat_ms = [700]\n";
+    // The tire rises until 0.31 s and the hole of the second option fires at 0.7 s.
+    for (delay, duration, reason) in
+        [("", "0.1", "at its greatest"), (late, "0.6", "before the last hole fires at 0.700 s")]
+    {
+        let (verdict, reasons) = check(delay, duration);
+        assert_eq!(verdict, "undecided", "{reasons}");
+        assert!(reasons.contains(reason), "{reasons}");
+    }
+    assert_eq!(check("", "0.6").0, "pass");
+    assert_eq!(check(late, "1.2").0, "pass");
+}
+
 #[test]
 fn an_error_leaves_standard_output_empty() {
     let output = shelter(&["check", "no-such-plan.toml", "--format", "json"]);

@@ -134,6 +134,20 @@ fn links_and_rights_survive_a_save() {
     assert!(link.symlink_metadata().expect("the link").is_symlink());
     assert_eq!(fs::read_to_string(&file).expect("the file"), "new");
     assert_eq!(file.metadata().expect("the file").permissions().mode() & 0o777, 0o640);
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o440)).expect("set");
+    assert!(edit::save(&link, "newer").is_err_and(|error| error.to_string().contains("may only be read")));
+    assert_eq!(fs::read_to_string(&file).expect("the file"), "new");
+}
+
+/// What is no file is written to and not replaced.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_device_stays_one() {
+    use std::os::unix::fs::FileTypeExt;
+    let full = Path::new("/dev/full");
+    assert!(edit::save(full, "text").is_err_and(|error| error.to_string().contains("the disk is full")));
+    assert!(full.metadata().expect("a device").file_type().is_char_device());
+    edit::save(Path::new("/dev/null"), "text").expect("written");
 }
 
 #[cfg(target_os = "linux")]

@@ -67,6 +67,13 @@ fn shares_merge_into_the_whole_byte_for_byte() {
                 assert_eq!(merged.stdout, whole.stdout, "{format} of {of}");
                 assert_eq!(merged.status.code(), whole.status.code());
                 if of > 1 {
+                    let text = std::fs::read_to_string(&files[0]).expect("a share");
+                    let lines: Vec<&str> = text.lines().collect();
+                    std::fs::write(&files[0], lines[..lines.len() - 1].join("\n")).expect("written");
+                    let short = shelter(&merge);
+                    assert_eq!(short.status.code(), Some(2));
+                    assert!(String::from_utf8_lossy(&short.stderr).contains("copy the share again"));
+                    std::fs::write(&files[0], text).expect("written");
                     let missing = shelter(&merge[..merge.len() - 1]);
                     assert_eq!(missing.status.code(), Some(2));
                     assert!(String::from_utf8_lossy(&missing.stderr).contains("is missing"));

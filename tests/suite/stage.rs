@@ -38,7 +38,7 @@ pub fn checked(verdict: Verdict) -> Checked {
     let wave = |n: usize| (n as f64 * 0.05).sin().abs();
     let estimate = |value, error, at, place| Estimate { value, error, at, place };
     let force = estimate(61_234.0, 45.0, 0.123, 3);
-    let limit = Reason { quantity: Quantity::Force, verdict, estimate: force, limit: 61_019.0 };
+    let limit = Reason::Limit { quantity: Quantity::Force, verdict, estimate: force, limit: 61_019.0 };
     Checked {
         broken: Vec::new(),
         verdict,
@@ -52,7 +52,7 @@ pub fn checked(verdict: Verdict) -> Checked {
             height: (0..200).map(wave).collect(),
             force: (0..200).map(|n| 61_234.0 * wave(3 * n)).collect(),
         },
-        method: Method::Verlet,
+        effort: Effort { method: Method::Verlet, accuracy: Accuracy::Field, step: None },
         step: 5e-4,
         steps: 2000,
         energy_residual: 3e-5,
@@ -171,6 +171,6 @@ pub fn spreads(app: &App) -> [(Kind, Found); 3] {
     [
         (Kind::Orders, Found::Orders(Orders::new(&app.case, tried.collect(), 1))),
         (Kind::Scatter, Found::Scatter(draw, samples.collect())),
-        (Kind::Size, Found::Size(Sizing { combinations: combinations.collect() })),
+        (Kind::Size, Found::Size(Sizing { combinations: combinations.collect(), late: 0 })),
     ]
 }

@@ -231,9 +231,22 @@ fn a_plan_is_edited_saved_and_reloaded() {
     std::fs::write(&file, text.replace("flight_height_m = 1.8", "flight_height_m = 2.125")).expect("written");
     watched.until("was read again");
     watched.until("2.125");
+    // Changed here and there: what is here goes to a file of its own.
+    watched.press("\r\x153\r");
+    watched.until("height 3.000 m");
+    std::fs::write(&file, text).expect("written");
+    watched.until("your changes here are not saved");
+    watched.press("s");
+    watched.until("save the plan as");
+    watched.press("\r");
+    watched.until("plan-2.toml");
+    watched.until("saved /");
+    assert_eq!(read(), text);
+    let other = std::fs::read_to_string(folder.path().join("plan-2.toml")).expect("the other plan");
+    assert_eq!(other, text.replace("flight_height_m = 1.8", "flight_height_m = 3"));
     watched.press("q");
     assert_eq!(watched.ends(), 0);
-    assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 1);
+    assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 2);
 }
 
 #[test]

@@ -115,6 +115,7 @@ fn write(name: &str, cover: &Cover, holes: &[ListedHole], groups: &[Group]) -> S
         Some(times) => {
             let _ = write!(text, "\n[[delay]]\nname = \"as listed\"\nat_ms = [{}]\n", times.join(", "));
         }
+        None if groups.len() == 1 => text += &delay(0.0),
         None => INTERVALS_MS.into_iter().for_each(|interval| text += &delay(interval)),
     }
     text

@@ -21,7 +21,11 @@ pub fn parse(path: &str, text: &str) -> Result<Plan, Diagnostics> {
     let mistakes = Mistakes::default();
     for error in errors {
         let span = error.span().unwrap_or(0..0);
-        mistakes.add(span, error.message().to_owned(), "a plan is TOML: `key = value` lines in [sections]");
+        mistakes.add(
+            span,
+            error.message().to_owned(),
+            "a plan is TOML: `key = value` lines in [sections], decimals with a point",
+        );
     }
     if mistakes.count() > 0 {
         return Err(Diagnostics::new(path, source, mistakes.take()));

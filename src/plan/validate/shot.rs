@@ -1,6 +1,6 @@
 //! Blast rows and delay options: what is launched, and when.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use toml::de::{DeTable, DeValue};
 
@@ -78,6 +78,13 @@ fn read_charge(table: &Table<'_>, layout: Option<&Layout>, gravity: f64, mistake
         for tire in tires.value.iter().filter(|tire| tire.value == 0 || tire.value > count) {
             let message = format!("there is no tire {}", tire.value);
             mistakes.add(tire.span.clone(), message, format!("tires are numbered 1 to {count}"));
+        }
+        let mut known = HashSet::new();
+        for tire in &tires.value {
+            if !known.insert(tire.value) {
+                let message = format!("tire {} is launched twice", tire.value);
+                mistakes.add(tire.span.clone(), message, "name each tire once");
+            }
         }
         let tires = tires.value.into_iter().map(|tire| tire.value.saturating_sub(1)).collect();
         return Charge::UnderTires { tires, launch_m_s };

@@ -10,8 +10,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
 use super::chart;
-use super::check::{Results, explain, method_name, verdict};
-use super::table::accuracy_name;
+use super::check::{Results, command, effort, explain, peak, verdict};
 use crate::plan::{Charge, Layout, Plan};
 use crate::study::Case;
 use crate::study::check::Checked;
@@ -84,7 +83,7 @@ pub fn page(case: &Case, results: &Results, date: &str) -> String {
                 }
                 section {
                     h2 { "Reproduce" }
-                    p { "shelter check " (plan.path) }
+                    p { (command(case, results)) }
                     p.quiet { "SHA-256 of the plan: " code { (hash) } }
                 }
             }
@@ -106,7 +105,7 @@ pub fn today() -> String {
 }
 
 fn word(verdict: Verdict) -> Markup {
-    html! { span class=(verdict.word()) { (verdict.word().to_uppercase()) } }
+    html! { span class=(verdict.word()) { (verdict.capitals()) } }
 }
 
 fn passing(results: &Results) -> usize {
@@ -131,7 +130,7 @@ fn shelter(case: &Case) -> Markup {
     ];
     html! {
         table {
-            tr { th { "Tires" } td { (scene.mass.len()) " of " (plan.tire.mass_kg) " kg, " (layout(plan)) } }
+            tr { th { "Tires" } td { (scene.mass.len()) " of " (plan.tire.mass_kg) " kg, " (layout(plan)) ", " (rims(plan.tire.outer_diameter_m)) } }
             tr { th { "Cables" } td { (scene.cables.len()) ", " (cable) ", slack " (plan.cable.slack_percent) " %" } }
             tr { th { "Friction" } td { (plan.friction) } }
             tr { th { "Limits" } td { (limits.into_iter().flatten().collect::<Vec<_>>().join("; ")) } }
@@ -155,6 +154,14 @@ fn layout(plan: &Plan) -> String {
             mesh.rows, mesh.columns, mesh.row_spacing_m, mesh.column_spacing_m
         ),
         Layout::List { .. } => "placed one by one".to_owned(),
+    }
+}
+
+fn rims(diameter_m: f64) -> String {
+    if diameter_m > 0.0 {
+        format!("outer diameter {diameter_m} m: cables from rim to rim")
+    } else {
+        "cables from centre to centre".to_owned()
     }
 }
 
@@ -206,15 +213,10 @@ fn times(ms: &[f64]) -> String {
 }
 
 fn how(case: &Case, checked: &Checked) -> String {
-    let scene = case.scene();
+    let [height, force] = peak(case.scene(), checked);
     format!(
-        "Highest: tire {} at {}; greatest force: cable {} at {}; {}, {}, step {}, {} runs, energy residual {:.0e}",
-        scene.tire[checked.height.place],
-        units::seconds(checked.height.at),
-        scene.cable_name(checked.force.place),
-        units::seconds(checked.force.at),
-        method_name(checked.method),
-        accuracy_name(case.plan.simulation.accuracy),
+        "Highest: {height}; greatest force: {force}; {}, step {}, {} runs, energy residual {:.0e}",
+        effort(&checked.effort),
         units::milliseconds(checked.step),
         checked.runs,
         checked.energy_residual,

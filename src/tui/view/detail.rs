@@ -14,7 +14,7 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::chart;
 use crate::outcome::End;
-use crate::report::check::explain;
+use crate::report::check::{explain, peak};
 use crate::study::check::Checked;
 use crate::tui::app::{App, Row};
 use crate::units::{self, Unit, value_and_error};
@@ -56,15 +56,11 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
 }
 
 fn facts<'a>(app: &App, checked: &Checked) -> Vec<Line<'a>> {
-    let scene = &app.case.scene();
+    let [highest, hardest] = peak(app.case.scene(), checked);
     let peak = format!(
-        "height {} m at tire {}, {} · force {} kN in cable {}, {} · drift {} m",
+        "height {} m, {highest} · force {} kN, {hardest} · drift {} m",
         value_and_error(checked.height.value, checked.height.error, Unit::Metre),
-        scene.tire[checked.height.place],
-        units::seconds(checked.height.at),
         value_and_error(checked.force.value, checked.force.error, Unit::Kilonewton),
-        scene.cable_name(checked.force.place),
-        units::seconds(checked.force.at),
         value_and_error(checked.drift.value, checked.drift.error, Unit::Metre),
     );
     let how = format!(
@@ -81,8 +77,8 @@ fn facts<'a>(app: &App, checked: &Checked) -> Vec<Line<'a>> {
     );
     let mut lines = vec![Line::from(peak), Line::styled(how, app.theme.quiet())];
     for reason in &checked.reasons {
-        let sign = crate::tui::theme::word(reason.verdict).chars().next().unwrap_or(' ');
-        lines.push(Line::styled(format!("{sign} {}", explain(reason)), app.theme.verdict(reason.verdict)));
+        let sign = crate::tui::theme::word(reason.verdict()).chars().next().unwrap_or(' ');
+        lines.push(Line::styled(format!("{sign} {}", explain(reason)), app.theme.verdict(reason.verdict())));
     }
     lines
 }
