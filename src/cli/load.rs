@@ -95,7 +95,7 @@ fn needs_keyboard(compute: &Compute) -> io::Result<()> {
 }
 
 fn screen(config: &Config, look: &Look) -> tui::Look {
-    tui::Look { ascii: look.ascii || config.ascii, color: look.colored(true) }
+    tui::Look { ascii: config.ascii || look.style(true).ascii, color: look.colored(true) }
 }
 
 fn show(

@@ -23,6 +23,9 @@ pub struct Arguments {
     format: FormatArg,
 }
 
+/// Orders printed at each end of the ranking.
+const SHOWN: usize = 8;
+
 pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     let mut shares = Vec::new();
     for file in &arguments.files {
@@ -76,7 +79,7 @@ pub fn print(answer: Answer<'_>, shard: Option<Shard>, format: FormatArg, look: 
         (Findings::Orders(tried), Question::Orders { intervals_s }) => {
             let orders = Orders::new(case, tried, intervals_s.len());
             let text = match format {
-                FormatArg::Text => report::orders::text(case, &orders, style),
+                FormatArg::Text => report::orders::text(case, &orders, SHOWN, style),
                 FormatArg::Json => report::json(&report::orders::Document::new(case, &orders, partial)),
                 FormatArg::Csv => {
                     report::csv(orders.ranked.iter().map(|tried| report::orders::Line::new(case, tried)))

@@ -131,7 +131,7 @@ struct Look {
 impl Look {
     /// Style of texts on a stream that is or is not a terminal.
     fn style(&self, terminal: bool) -> Style {
-        Style { ascii: self.ascii, color: self.colored(terminal) }
+        Style { ascii: self.ascii || terminal && !shows_unicode(), color: self.colored(terminal) }
     }
 
     /// Whether to colour what goes to a stream that is or is not a terminal.
@@ -142,6 +142,14 @@ impl Look {
             ColorArg::Auto => terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
         }
     }
+}
+
+/// Whether the terminal shows more than ASCII, as far as its name and the locale say.
+fn shows_unicode() -> bool {
+    let set = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
+    let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set);
+    let utf8 = |locale: String| locale.to_lowercase().replace('-', "").contains("utf8");
+    set("TERM").as_deref() != Some("dumb") && locale.is_none_or(utf8)
 }
 
 #[derive(Clone, Copy, ValueEnum)]

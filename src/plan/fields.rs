@@ -37,10 +37,17 @@ const SINGLE: &[(&str, &str, &str)] = &[
     ("cable", "axial_stiffness_kn", "axial stiffness EA, kN"),
     ("cable", "breaking_force_kn", "breaking force, kN"),
     ("tire", "mass_kg", "tire mass, kg"),
+    ("tire", "outer_diameter_m", "outer diameter, m"),
     ("ground", "friction", "friction"),
     ("shelter", "rows", "shelter rows"),
     ("shelter", "columns", "shelter columns"),
+    ("shelter", "spacing_m", "spacing, m"),
     ("shelter", "border_rows", "border rows"),
+    ("simulation", "duration_s", "duration, s"),
+    ("scatter", "detonator", "detonators"),
+    ("scatter", "delay_sd_ms", "scatter of times, ms"),
+    ("scatter", "delay_cv_percent", "scatter of times, %"),
+    ("scatter", "launch_cv_percent", "scatter of launches, %"),
 ];
 
 /// The fields of a plan's text; those it leaves out are listed where they may be added.
@@ -50,7 +57,8 @@ pub fn fields(text: &str) -> Vec<Field> {
     let rope = document.get("cable").is_some_and(|cable| cable.get("rope").is_some());
     for &(section, key, label) in SINGLE {
         let value = document.get(section).and_then(|table| table.get(key)).map(words).unwrap_or_default();
-        let offered = ["drift_m", "termination", "slack_percent", "border_rows"].contains(&key)
+        let offered = ["drift_m", "termination", "slack_percent", "outer_diameter_m", "border_rows"]
+            .contains(&key)
             || (key == "rope" && rope);
         if !value.is_empty() || offered {
             fields.push(Field { label: label.to_owned(), path: Path { section, index: None, key }, value });
@@ -61,7 +69,7 @@ pub fn fields(text: &str) -> Vec<Field> {
         ("delay", &["name", "interval_ms", "at_ms", "order"]),
     ] {
         for (n, table) in tables(&document, section).enumerate() {
-            let name = table.get("name").map(words).unwrap_or_default();
+            let name = table.get("name").and_then(Item::as_str).unwrap_or_default();
             for &key in keys {
                 let value = table.get(key).map(words).unwrap_or_default();
                 let offered = key == "order" && table.get("interval_ms").is_some();
@@ -71,7 +79,7 @@ pub fn fields(text: &str) -> Vec<Field> {
                         .replace("_ms", ", ms")
                         .replace("_m", ", m")
                         .replace('_', " ");
-                    let label = format!("{} {name}: {what}", section.replace('_', " "));
+                    let label = format!("{} {name}: {what}", section.trim_start_matches("blast_"));
                     fields.push(Field { label, path: Path { section, index: Some(n), key }, value });
                 }
             }
@@ -131,8 +139,13 @@ pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
         table.remove(path.key);
         return Ok(with_line_ends_of(text, &document));
     }
-    let textual = ["name", "rope", "termination"].contains(&path.key);
-    let value = match new.trim().parse::<Value>() {
+    let textual = ["name", "rope", "termination", "detonator"].contains(&path.key);
+    // A list of numbers may be typed without its brackets.
+    let typed = new.trim().parse::<Value>().or_else(|error| match path.key {
+        "at_ms" => format!("[{}]", new.trim()).parse(),
+        _ => Err(error),
+    });
+    let value = match typed {
         Ok(value) if !textual || value.is_str() => value,
         _ if textual => Value::from(new.trim()),
         _ => return Err(format!("'{}' is no value: write it as the plan does", new.trim())),

@@ -91,11 +91,8 @@ impl Document {
     }
 }
 
-/// Orders shown at each end of the ranking.
-const SHOWN: usize = 8;
-
-/// The ranking for reading.
-pub fn text(case: &Case, orders: &Orders, style: Style) -> String {
+/// The ranking for reading, so many orders at each end of it.
+pub fn text(case: &Case, orders: &Orders, shown: usize, style: Style) -> String {
     let mut text = super::heading(case);
     let all = orders.ranked.len();
     text += &format!(
@@ -113,10 +110,10 @@ pub fn text(case: &Case, orders: &Orders, style: Style) -> String {
         "order", "interval", "", "height, m", "force, kN"
     );
     for (n, tried) in orders.ranked.iter().enumerate() {
-        if n == SHOWN && all > 2 * SHOWN {
-            text += &format!("… {} more\n", all - 2 * SHOWN);
+        if n == shown && all > 2 * shown {
+            text += &format!("… {} more\n", all - 2 * shown);
         }
-        if n < SHOWN || n + SHOWN >= all {
+        if n < shown || n + shown >= all {
             let [[height, height_error], [force, force_error]] =
                 [tried.envelope.height, tried.envelope.force];
             text += &format!(

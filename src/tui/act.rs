@@ -82,8 +82,14 @@ impl App {
             (Purpose::Search, Typed::Left) => self.find("", false),
             (Purpose::Search, Typed::Changed) => self.find(&text, key.code == KeyCode::Down),
             (Purpose::Palette, Typed::Done) => {
-                let chosen = prompt.commands().get(prompt.selected).map(|binding| binding.action);
-                return chosen.map_or(Request::None, |action| self.act(action));
+                let Some(chosen) = prompt.commands().get(prompt.selected).copied() else {
+                    return Request::None;
+                };
+                // A command of another screen is given there.
+                if let Some(&screen) = chosen.on.first().filter(|_| !chosen.is_on(self.screen)) {
+                    self.screen = screen;
+                }
+                return self.act(chosen.action);
             }
             (Purpose::Export, Typed::Done) if !text.is_empty() => return Request::Export(text.into()),
             (Purpose::SaveAs, Typed::Done) if !text.is_empty() => return Request::SaveAs(text.into()),
@@ -158,8 +164,8 @@ impl App {
             }
             Action::Left => self.editor.step(false),
             Action::Right => self.editor.step(true),
-            Action::AddOption => self.editor.copy_option(),
-            Action::RemoveOption => self.editor.remove_option(),
+            Action::AddOption => self.editor.copy_option(self.selected),
+            Action::RemoveOption => self.editor.remove_option(self.selected),
             other => return self.act_anywhere(other),
         };
         self.edited(edit)
@@ -273,8 +279,9 @@ impl App {
         let plan = Path::new(&self.case.plan.path);
         let stem = plan.file_stem().and_then(|stem| stem.to_str()).unwrap_or("plan");
         let screen = self.screen.name().to_lowercase();
-        let numbered = (2..100).map(|n| format!("{stem}-{screen}-{n}.csv"));
-        let mut names = std::iter::once(format!("{stem}-{screen}.csv")).chain(numbered);
+        let ending = if self.screen == Screen::Plan { "svg" } else { "csv" };
+        let numbered = (2..100).map(|n| format!("{stem}-{screen}-{n}.{ending}"));
+        let mut names = std::iter::once(format!("{stem}-{screen}.{ending}")).chain(numbered);
         names.find(|name| !Path::new(name).exists()).unwrap_or_default()
     }
 

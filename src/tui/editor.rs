@@ -249,23 +249,17 @@ impl Editor {
         self.settle(changed)
     }
 
-    /// Copies the selected option.
-    pub fn copy_option(&mut self) -> Edit {
-        self.with_option(fields::copy_delay)
+    /// Copies an option.
+    pub fn copy_option(&mut self, option: usize) -> Edit {
+        self.with_option(option, fields::copy_delay)
     }
 
-    /// Removes the selected option.
-    pub fn remove_option(&mut self) -> Edit {
-        self.with_option(fields::remove_delay)
+    /// Removes an option.
+    pub fn remove_option(&mut self, option: usize) -> Edit {
+        self.with_option(option, fields::remove_delay)
     }
 
-    fn with_option(&mut self, change: fn(&str, usize) -> Option<String>) -> Edit {
-        let option =
-            self.field().filter(|field| field.path.section == "delay").and_then(|field| field.path.index);
-        let Some(option) = option else {
-            self.problem = Some("select a delay option first".to_owned());
-            return Edit::None;
-        };
+    fn with_option(&mut self, option: usize, change: fn(&str, usize) -> Option<String>) -> Edit {
         let changed = change(&self.text, option).ok_or_else(|| "the plan needs a delay option".to_owned());
         let changed = changed.and_then(|text| self.checked(text));
         self.settle(changed)
@@ -310,7 +304,7 @@ mod tests {
     #[test]
     fn rows_are_put_in_order_by_moving_them() {
         let mut editor = editor();
-        editor.find("\"20 ms\": order", false);
+        editor.find("20 ms: order", false);
         editor.begin();
         for code in [KeyCode::Down, KeyCode::Left, KeyCode::Enter] {
             if let Edit::Changed(plan) = editor.type_key(&KeyEvent::new(code, KeyModifiers::NONE)) {

@@ -39,8 +39,10 @@ pub fn csv(app: &App) -> Result<String, String> {
             Found::Flight(_) | Found::Accuracy(_) => String::new(),
         }),
         Screen::Accuracy => match found(app, Kind::Accuracy)? {
-            Found::Accuracy(study) => Ok(report::csv(report::accuracy::rows(study))),
-            _ => Ok(String::new()),
+            Found::Accuracy(study) if study.option == app.selected => {
+                Ok(report::csv(report::accuracy::rows(study)))
+            }
+            _ => Err("the selected option is not measured yet".to_owned()),
         },
     }
 }
@@ -62,8 +64,10 @@ fn svg(app: &App) -> Result<String, String> {
             _ => return Err("this study has no picture; write a .csv file".to_owned()),
         },
         Screen::Accuracy => match found(app, Kind::Accuracy)? {
-            Found::Accuracy(study) => report::chart::accuracy(study).into_iter().collect(),
-            _ => Vec::new(),
+            Found::Accuracy(study) if study.option == app.selected => {
+                report::chart::accuracy(study).into_iter().collect()
+            }
+            _ => return Err("the selected option is not measured yet".to_owned()),
         },
     };
     Ok(report::chart::stack(&pictures))

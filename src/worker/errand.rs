@@ -149,7 +149,7 @@ fn study(kind: Kind, case: &Case, option: usize, effort: &Effort, progress: &Pro
             Ok(Found::Orders(Orders::new(case, tried, intervals.len())))
         }
         Kind::Scatter => {
-            let spec: ScatterSpec = case.plan.scatter.ok_or("the plan has no section [scatter]")?;
+            let spec: ScatterSpec = case.plan.scatter.ok_or("the plan does not say what scatters: add a section [scatter], say with detonator = \"pyrotechnic\"")?;
             let samples = scatter(case, &spec, &DRAW, Shard::WHOLE, effort, progress).map_err(said)?;
             Ok(Found::Scatter(DRAW, samples))
         }

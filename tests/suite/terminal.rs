@@ -35,6 +35,7 @@ impl Watched {
         command.args(arguments);
         command.cwd(folder);
         command.env("TERM", "xterm-256color");
+        command.env("LC_ALL", "C.UTF-8");
         let home = tempfile::tempdir().expect("a folder");
         for place in ["XDG_CONFIG_HOME", "XDG_STATE_HOME", "HOME"] {
             command.env(place, home.path());

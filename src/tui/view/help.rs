@@ -12,7 +12,7 @@ const WORDS: &[(&str, &str)] = &[
     ("✓ PASS", "height and force, with their errors, are within the limits"),
     ("✗ FAIL", "one of them is surely past its limit"),
     ("? OPEN", "too near a limit to tell at the finest step"),
-    ("±", "estimated error of the computation, not of the plan's numbers"),
+    ("±", "estimated error of the computation, not of the plan"),
 ];
 
 /// Lines of two columns, where one would not fit.

@@ -151,8 +151,13 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
         Layout::horizontal([Constraint::Min(0), Constraint::Length(state.width() as u16 + 1)]).areas(first);
     frame.render_widget(title, left);
     frame.render_widget(state, right);
+    let filter = if app.screen == Screen::Studies { &app.studies.filter } else { &app.compare.filter };
     let line = match &app.notice {
         Some(notice) => Line::styled(notice.as_str(), theme.limit()),
+        None if !filter.is_empty() => {
+            let what = if app.screen == Screen::Studies { "lines" } else { "options" };
+            Line::styled(format!("only {what} with '{filter}' are shown; Esc shows all"), theme.limit())
+        }
         None => Line::styled(about, theme.quiet()),
     };
     frame.render_widget(line, second);

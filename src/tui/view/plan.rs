@@ -18,7 +18,8 @@ use crate::units;
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     let [left, right] =
         Layout::horizontal([Constraint::Percentage(55), Constraint::Percentage(45)]).spacing(1).areas(area);
-    let [list, message] = Layout::vertical([Constraint::Min(0), Constraint::Length(2)]).areas(left);
+    let said = if app.editor.problem.is_some() { 4 } else { 2 };
+    let [list, message] = Layout::vertical([Constraint::Min(0), Constraint::Length(said)]).areas(left);
     draw_fields(app, frame, list, places);
     draw_message(app, frame, message);
     let options = (app.listed().len() as u16 + 1).min(right.height / 3);
@@ -36,7 +37,7 @@ fn draw_fields(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
         .border_style(app.theme.quiet())
         .title(Span::styled(title, app.theme.title()));
     let width = editor.fields.iter().map(|field| field.label.chars().count()).max().unwrap_or(0);
-    let width = width.min(36).min(usize::from(area.width) * 3 / 5);
+    let width = width.min(36).min(usize::from(area.width) / 2);
     let rows = editor.fields.iter().enumerate().map(|(n, field)| {
         let selected = n == editor.selected;
         let label = shortened(&field.label, width);
@@ -76,7 +77,9 @@ fn shortened(label: &str, width: usize) -> String {
     if count <= width {
         return label.to_owned();
     }
-    let (name, end) = label.rsplit_once(": ").unwrap_or(("", label));
+    let Some((name, end)) = label.rsplit_once(": ") else {
+        return label.chars().take(width.saturating_sub(1)).chain(['…']).collect();
+    };
     let room = width.saturating_sub(end.chars().count() + 3);
     let start: String = name.chars().take(room).collect();
     format!("{start}…: {end}")
@@ -149,6 +152,10 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
     }
     let others: Vec<(f64, f64)> =
         tires.iter().zip(&fires).filter(|(_, fires)| !**fires).map(|(place, _)| *place).collect();
+    // Characters are put where a point is or to the left of it, points where they are nearest: half a cell between.
+    let inside = block.inner(area);
+    let half = |length: f64, cells: u16| 0.5 * (length + 2.0 * margin) / f64::from(cells.max(2) - 1);
+    let (right_by, down_by) = (half(right - left, inside.width), half(top - bottom, inside.height));
     let canvas = Canvas::default()
         .block(block)
         .background_color(theme.base().bg.unwrap_or(Color::Reset))
@@ -161,7 +168,7 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
             for (turn, (_, holes)) in turns.iter().enumerate() {
                 let style = Style::new().fg(turn_color(app, turn, turns.len())).add_modifier(Modifier::BOLD);
                 for &(x, y) in holes {
-                    context.print(x, y, Span::styled(sign(turn), style));
+                    context.print(x + right_by, y - down_by, Span::styled(sign(turn), style));
                 }
             }
         });

@@ -24,6 +24,9 @@ use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 use crate::worker::{Found, Kind};
 
+/// Orders listed at each end of the ranking.
+const SHOWN: usize = 100;
+
 /// What lines of sparklines contain.
 const BARS: [char; 3] = ['▁', '▄', '▇'];
 
@@ -107,7 +110,7 @@ fn text(app: &App, found: &Found) -> String {
     let (case, style) = (&app.case, Plain::default());
     let whole = match found {
         Found::Sweep(sweep) => report::sweep::text(case, sweep, style),
-        Found::Orders(orders) => report::orders::text(case, orders, style),
+        Found::Orders(orders) => report::orders::text(case, orders, SHOWN, style),
         Found::Scatter(draw, samples) => report::scatter::text(case, draw, samples, style),
         Found::Size(sizing) => report::size::text(case, sizing, style),
         Found::Flight(_) | Found::Accuracy(_) => String::new(),
@@ -117,8 +120,16 @@ fn text(app: &App, found: &Found) -> String {
 
 fn scrolled(app: &App, frame: &mut Frame, area: Rect, text: &str) {
     let kept = |line: &&str| line.to_lowercase().contains(&app.studies.filter.to_lowercase());
-    let lines: Vec<Line> = text.lines().filter(kept).map(|line| with_verdicts(app, line)).collect();
-    let most = (lines.len() as u16).saturating_sub(area.height);
+    // Sentences go on in the next line, rows of a table do not.
+    let width = usize::from(area.width.max(1));
+    let fitted: Vec<String> = text
+        .lines()
+        .filter(kept)
+        .map(|line| if line.contains("  ") { line.chars().take(width).collect() } else { line.to_owned() })
+        .collect();
+    let high: usize = fitted.iter().map(|line| line.chars().count().div_ceil(width).max(1)).sum();
+    let lines: Vec<Line> = fitted.iter().map(|line| with_verdicts(app, line)).collect();
+    let most = (high as u16).saturating_sub(area.height);
     let text = Paragraph::new(lines).wrap(Wrap { trim: false });
     frame.render_widget(text.scroll((app.studies.scroll.min(most), 0)), area);
 }

@@ -66,7 +66,7 @@ const COLUMNS: &[Column] = &[
     Column {
         head: "drift, m",
         sort: SortBy::Drift,
-        width: 14,
+        width: 16,
         from: 130,
         cell: |app, checked| against(app, checked, |checked| checked.drift, Unit::Metre),
     },
@@ -102,13 +102,15 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     let columns: Vec<&Column> = COLUMNS.iter().filter(fits).collect();
     let longest = app.case.plan.delays.iter().map(|delay| delay.name.chars().count()).max().unwrap_or(0);
     let fixed: u16 = columns.iter().map(|column| column.width + 1).sum::<u16>() + VERDICT + 2;
-    let name = (longest.max(6) as u16 + 1).min(area.width.saturating_sub(fixed + 16).max(LEAST_NAME));
+    // Names need their room more than small sparklines.
+    let sparks = if area.width >= 80 { 16 } else { 0 };
+    let name = (longest.max(6) as u16 + 1).min(area.width.saturating_sub(fixed + sparks).max(LEAST_NAME));
     let spark = (area.width.saturating_sub(fixed + name + 2) / 2).min(40);
     let mut heads = vec![("option", SortBy::Name, name), ("", SortBy::Verdict, VERDICT)];
     heads.extend(columns.iter().map(|column| (column.head, column.sort, column.width)));
     if spark >= 4 {
-        heads
-            .extend([("height over time", SortBy::Height, spark), ("force over time", SortBy::Force, spark)]);
+        let names = if spark < 16 { ["h(t)", "F(t)"] } else { ["height over time", "force over time"] };
+        heads.extend([(names[0], SortBy::Height, spark), (names[1], SortBy::Force, spark)]);
     }
     let listed = app.listed();
     let rows = listed.iter().map(|&option| row(app, option, &columns, (name, spark)));
