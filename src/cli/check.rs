@@ -30,10 +30,10 @@ pub struct Arguments {
 pub struct Output {
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
-    format: FormatArg,
+    pub format: FormatArg,
     /// One passing option is enough
     #[arg(long)]
-    any: bool,
+    pub any: bool,
 }
 
 pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
@@ -45,12 +45,21 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
 
 /// Checks every option of every case and prints the results.
 pub fn print(cases: Vec<Case>, compute: &Compute, look: &Look, output: &Output) -> io::Result<Status> {
-    let judged = match all(&cases, compute) {
-        Ok(judged) => judged,
-        Err(failure) => return long::failed(&failure),
-    };
+    match all(&cases, compute) {
+        Ok(judged) => show(&cases, &judged, look, output),
+        Err(without) => long::failed(&without),
+    }
+}
+
+/// Prints results; whether all pass.
+pub fn show(
+    cases: &[Case],
+    judged: &[report::check::Results],
+    look: &Look,
+    output: &Output,
+) -> io::Result<Status> {
     let mut out = io::stdout().lock();
-    let pairs = || cases.iter().zip(&judged);
+    let pairs = || cases.iter().zip(judged);
     match output.format {
         FormatArg::Text => {
             let style = look.style(out.is_terminal());

@@ -130,7 +130,7 @@ fn find_option(case: &Case, name: Option<&str>) -> Result<usize, String> {
     let names: Vec<&str> = case.plan.delays.iter().map(|delay| delay.name.as_str()).collect();
     let Some(name) = name else { return Ok(0) };
     names.iter().position(|&known| known == name).ok_or_else(|| {
-        format!("no delay option '{name}' in {}; it has: {}", case.plan.path, names.join(", "))
+        format!("no delay option '{name}' in {}; it has: {}", case.plan.path, names.join("; "))
     })
 }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Compute, Look, Status, check, load, long};
+use super::{Compute, FormatArg, Look, Status, check, load, long};
 use crate::plan::edit;
 use crate::report;
 use crate::verdict::Verdict;
@@ -17,6 +17,9 @@ pub struct Arguments {
     /// Page to write; `-` writes it to standard output
     #[arg(short, long, value_name = "FILE.html")]
     output: PathBuf,
+    /// Print what `check` prints as well
+    #[arg(long, value_enum)]
+    format: Option<FormatArg>,
     #[command(flatten)]
     compute: Compute,
 }
@@ -28,18 +31,23 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     if same(plan, output) {
         return load::wrong(&format!("{} is the plan itself: give the page another name", output.display()));
     }
-    let mut judged = match check::all(&cases, &arguments.compute) {
+    if output.as_os_str() == "-" && arguments.format.is_some() {
+        return load::wrong("page and results cannot both go to standard output: write the page to a file");
+    }
+    let judged = match check::all(&cases, &arguments.compute) {
         Ok(judged) => judged,
         Err(failure) => return long::failed(&failure),
     };
-    let (case, results) = (&cases[0], judged.remove(0));
-    let page = report::html::page(case, &results, &report::html::today());
+    let page = report::html::page(&cases[0], &judged[0], &report::html::today());
     if output.as_os_str() == "-" {
         long::print(&page)?;
     } else {
         edit::save(output, &page)?;
         eprintln!("wrote {}", output.display());
     }
-    let passed = report::check::verdict(&results, false) == Verdict::Pass;
+    if let Some(format) = arguments.format {
+        return check::show(&cases, &judged, look, &check::Output { format, any: false });
+    }
+    let passed = report::check::verdict(&judged[0], false) == Verdict::Pass;
     Ok(if passed { Status::Pass } else { Status::Fail })
 }

@@ -28,7 +28,7 @@ pub struct Arguments {
     #[arg(long, value_name = "ROW,COLUMN-ROW,COLUMN")]
     cable: Vec<String>,
     /// Milliseconds between rows; default: every step
-    #[arg(long, value_name = "MS", value_parser = super::positive)]
+    #[arg(long, value_name = "MS", value_parser = super::positive, allow_negative_numbers = true)]
     every: Option<f64>,
     /// Output format; `text` is CSV as well
     #[arg(long, value_enum, default_value = "csv")]
@@ -133,7 +133,8 @@ fn find_tire(scene: &Scene, text: &str) -> Result<usize, String> {
     let numbers: Result<Vec<f64>, _> = text.split([',', ':']).map(|part| part.trim().parse()).collect();
     let numbers = numbers.map_err(|_| format!("'{text}' is no tire: write ROW,COLUMN such as 2,3"))?;
     let found = scene.tire.iter().position(|id: &TireId| id.numbers() == numbers);
-    found.ok_or_else(|| format!("no tire {text} in this shelter"))
+    let last = scene.tire.last().map_or_else(String::new, TireId::to_string);
+    found.ok_or_else(|| format!("no tire {text} in this shelter, whose last is {last}"))
 }
 
 fn find_cable(scene: &Scene, text: &str) -> Result<usize, String> {

@@ -49,7 +49,7 @@ pub struct Settings {
 pub enum Failure {
     /// The step is beyond what the method can follow, or none at all.
     #[error(
-        "the step of {step:e} s is outside what {method:?} can follow here, 0 to {limit:e} s: choose a smaller --dt"
+        "the step of {step} s is outside what {method:?} can follow here, 0 to {limit:.3e} s: choose a smaller --dt"
     )]
     Step {
         /// Asked for [s].

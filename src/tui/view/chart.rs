@@ -1,7 +1,7 @@
 //! A quantity over time with its limit and the firing times.
 
 use ratatui::Frame;
-use ratatui::layout::Rect;
+use ratatui::layout::{Constraint, Rect};
 use ratatui::style::Style;
 use ratatui::symbols::Marker;
 use ratatui::text::Line;
@@ -79,7 +79,8 @@ impl Curve<'_> {
         sets.push(line(&limit, app.theme.limit(), Marker::Dot));
         sets.push(line(&cursor, app.theme.base(), Marker::Braille));
         sets.push(line(&curve, app.theme.curve(), Marker::Braille));
-        let title = format!("{}, {} (dotted: limit)", self.name, self.unit.symbol());
+        let key = if area.width < 50 { "dotted: limit" } else { "dotted: limit; ticks: firings" };
+        let title = format!("{}, {} ({key})", self.name, self.unit.symbol());
         let times = [0.0, 0.5 * end, end].map(|time| format!("{time:.2} s"));
         let chart = chart(app, title, sets, Scale::new([0.0, end], times), Scale::up_to(top));
         frame.render_widget(chart, area);
@@ -115,6 +116,7 @@ pub fn chart<'c>(app: &App, title: String, sets: Vec<Dataset<'c>>, across: Scale
         .style(app.theme.base())
         .x_axis(axis(across))
         .y_axis(axis(up))
+        .hidden_legend_constraints((Constraint::Percentage(50), Constraint::Percentage(60)))
 }
 
 /// A line through points.
