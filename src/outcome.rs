@@ -34,7 +34,7 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    /// Greatest residual over the energy put in; 0 for a run nothing was put into.
+    /// Greatest residual over the energy put in; as it is [J] where nothing was put in.
     pub fn residual(&self) -> f64 {
         if self.put_in > 0.0 { self.greatest_residual / self.put_in } else { self.greatest_residual }
     }

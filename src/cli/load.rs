@@ -61,10 +61,10 @@ pub fn start(compute: &Compute, look: &Look) -> io::Result<Status> {
     let config = config()?;
     let start = Start::new(Path::new("."), config::recent());
     let (name, text, kept) = match tui::choose(start, config.theme, screen(&config, look))? {
-        None => return Ok(Status::Pass),
-        Some(Opened::File(path)) => return open(&path, compute, look),
-        Some(Opened::Example(name, text)) => (name, text.to_owned(), true),
-        Some(Opened::New(text)) => ("new plan", text, false),
+        Err(left) => return Ok(status(&left)),
+        Ok(Opened::File(path)) => return open(&path, compute, look),
+        Ok(Opened::Example(name, text)) => (name, text.to_owned(), true),
+        Ok(Opened::New(text)) => ("new plan", text, false),
     };
     match Plan::parse(name, &text) {
         Ok(plan) => {
@@ -107,9 +107,13 @@ fn show(
 ) -> io::Result<Status> {
     let threads = compute.threads.unwrap_or(0).into();
     let (worker, errands) = (Worker::new(threads), Errands::new(threads));
-    match tui::run(app, worker, errands, screen(config, look), file)? {
-        tui::Left::Quit => Ok(Status::Pass),
-        tui::Left::Signal => Ok(Status::Interrupted),
+    tui::run(app, worker, errands, screen(config, look), file).map(|left| status(&left))
+}
+
+fn status(left: &tui::Left) -> Status {
+    match left {
+        tui::Left::Quit => Status::Pass,
+        tui::Left::Signal => Status::Interrupted,
     }
 }
 

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -52,9 +53,13 @@ pub fn run<T: Send>(
     let bar = ProgressBar::new(0).with_style(style);
     let (begun, mut told) = (Instant::now(), false);
     let result = std::thread::scope(|scope| {
-        let study = scope.spawn(|| compute.on_threads(|| work(&progress)));
-        while !study.is_finished() {
-            std::thread::sleep(LOOK);
+        let (ended, end) = std::sync::mpsc::channel::<()>();
+        let study = scope.spawn(|| {
+            // Gone with this thread, whether it returns or panics.
+            let _ended = ended;
+            compute.on_threads(|| work(&progress))
+        });
+        while end.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
             let (done, total) = progress.counts();
             bar.set_length(total as u64);
             bar.set_position(done as u64);

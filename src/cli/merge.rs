@@ -42,6 +42,9 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         Ok(plan) => Case::new(plan),
         Err(mistakes) => return load::wrong(&mistakes.to_string()),
     };
+    if !findings.fit(&case) {
+        return load::wrong("the shares hold what is no result of their plan: one of them is damaged");
+    }
     let Head { question, effort, .. } = head;
     let answer = Answer { case: &case, question, effort, findings, partial: false };
     print(answer, None, arguments.format, look)
@@ -67,7 +70,7 @@ pub fn print(answer: Answer<'_>, shard: Option<Shard>, format: FormatArg, look: 
     let (text, all_pass) = match (findings, question) {
         (Findings::Scatter(samples), Question::Scatter { spec, draw }) => {
             let text = match format {
-                FormatArg::Text => report::scatter::text(case, &draw, &samples, style),
+                FormatArg::Text => report::scatter::text(case, &draw, &samples, partial, style),
                 FormatArg::Json => {
                     let swaps = swaps(case, &spec, super::scatter::SWAP);
                     report::json(&report::scatter::Document::new(case, &draw, &samples, &swaps, partial))
@@ -79,7 +82,7 @@ pub fn print(answer: Answer<'_>, shard: Option<Shard>, format: FormatArg, look: 
         (Findings::Orders(tried), Question::Orders { intervals_s }) => {
             let orders = Orders::new(case, tried, intervals_s.len());
             let text = match format {
-                FormatArg::Text => report::orders::text(case, &orders, SHOWN, style),
+                FormatArg::Text => report::orders::text(case, &orders, SHOWN, partial, style),
                 FormatArg::Json => report::json(&report::orders::Document::new(case, &orders, partial)),
                 FormatArg::Csv => {
                     report::csv(orders.ranked.iter().map(|tried| report::orders::Line::new(case, tried)))

@@ -23,7 +23,7 @@ use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
 use crate::plan::{Accuracy, Method, Plan};
-use crate::report::{Format, table::Style};
+use crate::report::table::Style;
 use crate::study::Effort;
 
 /// Which blasting delay is safe under a shelter of tires and cables.
@@ -165,16 +165,6 @@ enum FormatArg {
     Text,
     Json,
     Csv,
-}
-
-impl From<FormatArg> for Format {
-    fn from(arg: FormatArg) -> Self {
-        match arg {
-            FormatArg::Text => Format::Text,
-            FormatArg::Json => Format::Json,
-            FormatArg::Csv => Format::Csv,
-        }
-    }
 }
 
 #[derive(Clone, Copy, ValueEnum)]

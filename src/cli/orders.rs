@@ -10,7 +10,7 @@ use super::merge::{self, Answer};
 use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::plan::{DelayOption, Timing};
 use crate::study::merge::{Findings, Question};
-use crate::study::orders::{MOST_ROWS, count, is_complete, orders};
+use crate::study::orders::{MOST_ROWS, NO_INTERVAL, count, is_complete, orders};
 use crate::study::{Intervals, Shard};
 
 #[derive(Args)]
@@ -39,7 +39,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     };
     let intervals_s = arguments.interval.map_or_else(|| case.intervals(), |interval| interval.values());
     if intervals_s.is_empty() {
-        return load::wrong("no delay option has an interval: give --interval FROM..TO:STEP");
+        return load::wrong(&format!("{NO_INTERVAL}: give --interval FROM..TO:STEP"));
     }
     let own = |delay: &&DelayOption| matches!(delay.timing, Timing::At(_));
     let left_out: Vec<&str> = case.plan.delays.iter().filter(own).map(|delay| delay.name.as_str()).collect();

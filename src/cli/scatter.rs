@@ -11,7 +11,7 @@ use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::report;
 use crate::study::Shard;
 use crate::study::merge::{Findings, Question};
-use crate::study::scatter::{Draw, scatter, swaps};
+use crate::study::scatter::{Draw, NO_SCATTER, scatter, swaps};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -57,9 +57,6 @@ fn percent(text: &str) -> Result<f64, String> {
     super::positive(text)
         .and_then(|value| if value < 100.0 { Ok(value) } else { Err("must be less than 100".to_owned()) })
 }
-
-/// What a plan without a section [scatter] is told.
-pub const NO_SCATTER: &str = "the plan does not say what scatters: add a section such as\n\n[scatter]\ndetonator = \"pyrotechnic\"\nlaunch_cv_percent = 10";
 
 /// Samples of all options together, some 100 bytes each.
 const MOST_SAMPLES: usize = 20_000_000;

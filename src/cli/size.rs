@@ -6,12 +6,13 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::long::Finished;
-use super::scatter::{DrawArguments, NO_SCATTER};
+use super::scatter::DrawArguments;
 use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::plan::{Layout, edit};
 use crate::report;
 use crate::ropes::catalogue;
-use crate::study::orders::{MOST_ROWS, is_complete};
+use crate::study::orders::{MOST_ROWS, NO_INTERVAL, is_complete};
+use crate::study::scatter::NO_SCATTER;
 use crate::study::size::{Combination, Demand, size};
 use crate::study::{Case, Intervals};
 
@@ -109,7 +110,7 @@ fn choose(arguments: &Arguments, case: &mut Case) -> Result<Demand, String> {
     }
     let intervals = arguments.interval.map_or_else(|| case.intervals(), |interval| interval.values());
     if intervals.is_empty() {
-        return Err("no delay option has an interval: give --interval FROM..TO:STEP".to_owned());
+        return Err(format!("{NO_INTERVAL}: give --interval FROM..TO:STEP"));
     }
     Ok(Demand::AnyOrder(intervals))
 }

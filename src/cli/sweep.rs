@@ -10,7 +10,7 @@ use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::plan::Timing;
 use crate::report;
 use crate::study::Intervals;
-use crate::study::sweep::sweep;
+use crate::study::sweep::{SINGLE_ROW, sweep};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -44,7 +44,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         }
     };
     if case.plan.blast_rows.len() < 2 {
-        return load::wrong("a single blast row has no interval to sweep");
+        return load::wrong(SINGLE_ROW);
     }
     let effort = arguments.compute.effort(&case.plan);
     let swept = long::run(&arguments.compute, |progress| {
@@ -55,7 +55,9 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         Err(failure) => return long::failed(&failure),
     };
     long::print(&match arguments.format {
-        FormatArg::Text => report::sweep::text(&case, &swept, look.style(io::stdout().is_terminal())),
+        FormatArg::Text => {
+            report::sweep::text(&case, &swept, partial, look.style(io::stdout().is_terminal()))
+        }
         FormatArg::Json => report::json(&report::sweep::Document::new(&case, &swept, partial)),
         FormatArg::Csv => report::csv(swept.points.iter().map(report::sweep::Row::new)),
     })?;

@@ -61,8 +61,10 @@ fn early(end: f64, still: Still) -> String {
         Still::Growing => {
             format!("the run ends at {end} with height or force at its greatest: give a longer duration_s")
         }
-        Still::Sliding => {
-            format!("tires still slide at {end}, so that their drift is open: give a duration_s")
+        Still::Moving => {
+            format!(
+                "tires still move at {end}, and their drift has a limit: give a longer duration_s, or none"
+            )
         }
     }
 }
@@ -85,6 +87,24 @@ pub fn peak(scene: &Scene, checked: &Checked) -> [String; 2] {
         if height.value > 0.0 { lifted } else { "no tire lifts".to_owned() },
         if force.value > 0.0 { pulled } else { "no cable pulls".to_owned() },
     ]
+}
+
+/// Broken cables told one by one.
+const BROKEN: usize = 4;
+
+/// The cables that broke, the first ones by name.
+pub fn broken(scene: &Scene, checked: &Checked) -> String {
+    let name =
+        |broken: &Broken| format!("{} at {}", scene.cable_name(broken.cable), units::seconds(broken.at));
+    let names: Vec<String> = checked.broken.iter().take(BROKEN).map(name).collect();
+    let more = checked.broken.len().saturating_sub(BROKEN);
+    let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
+    let count = checked.broken.len();
+    format!(
+        "{count} {}: {}{rest}",
+        if count == 1 { "cable breaks" } else { "cables break" },
+        names.join(", ")
+    )
 }
 
 /// The command that gives these results.
@@ -268,6 +288,7 @@ pub struct Row {
     cable_safety_factor: Option<f64>,
     drift_m: Option<f64>,
     drift_error_m: Option<f64>,
+    broken_cables: Option<usize>,
     dt_s: Option<f64>,
     energy_residual: Option<f64>,
     reasons: String,
@@ -302,6 +323,7 @@ impl Row {
                     cable_safety_factor: Some(checked.safety_factor).filter(|factor| factor.is_finite()),
                     drift_m: Some(checked.drift.value),
                     drift_error_m: Some(checked.drift.error),
+                    broken_cables: Some(checked.broken.len()),
                     dt_s: Some(checked.step),
                     energy_residual: Some(checked.energy_residual),
                     reasons: checked.reasons.iter().map(explain).collect::<Vec<_>>().join("; "),

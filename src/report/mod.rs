@@ -23,18 +23,6 @@ use crate::study::batch::Envelope;
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
-/// Output format of every command that computes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Format {
-    /// For reading.
-    #[default]
-    Text,
-    /// One document.
-    Json,
-    /// One table with a header.
-    Csv,
-}
-
 /// A JSON document with a line end.
 pub fn json(value: &impl Serialize) -> String {
     let mut text = serde_json::to_string_pretty(value).unwrap_or_else(|error| format!("\"{error}\""));

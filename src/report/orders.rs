@@ -92,7 +92,7 @@ impl Document {
 }
 
 /// The ranking for reading, so many orders at each end of it.
-pub fn text(case: &Case, orders: &Orders, shown: usize, style: Style) -> String {
+pub fn text(case: &Case, orders: &Orders, shown: usize, partial: bool, style: Style) -> String {
     let mut text = super::heading(case);
     let all = orders.ranked.len();
     text += &format!(
@@ -126,7 +126,11 @@ pub fn text(case: &Case, orders: &Orders, shown: usize, style: Style) -> String 
             );
         }
     }
-    let verdict = if orders.passing() == all { Verdict::Pass } else { Verdict::Fail };
+    let verdict = match orders.passing() == all {
+        false => Verdict::Fail,
+        true if partial || all == 0 => Verdict::Undecided,
+        true => Verdict::Pass,
+    };
     text += &format!("\n{}: {} of {all} orders pass\n", style.word(verdict), orders.passing());
     style.plain(text)
 }

@@ -132,7 +132,7 @@ pub fn warning(case: &Case, swap: &Swap) -> String {
 }
 
 /// The study for reading.
-pub fn text(case: &Case, draw: &Draw, samples: &[Sample], style: Style) -> String {
+pub fn text(case: &Case, draw: &Draw, samples: &[Sample], partial: bool, style: Style) -> String {
     let mut text = super::heading(case);
     text += &format!("up to {} samples of each option, seed {}\n\n", draw.samples, draw.seed);
     let width = case.plan.delays.iter().map(|delay| delay.name.chars().count()).max().unwrap_or(0).max(6);
@@ -167,8 +167,12 @@ pub fn text(case: &Case, draw: &Draw, samples: &[Sample], style: Style) -> Strin
             spread(summary.force, Unit::Kilonewton),
         );
     }
-    let word = style.word(if holds(case, draw, samples) { Verdict::Pass } else { Verdict::Fail });
     let failures = samples.iter().filter(|sample| sample.envelope.verdict != Verdict::Pass).count();
+    let word = style.word(match holds(case, draw, samples) {
+        true if !partial => Verdict::Pass,
+        false if !partial || failures > 0 && draw.certain_at.is_none() => Verdict::Fail,
+        _ => Verdict::Undecided,
+    });
     text += &format!("\n{word}: {failures} of {} samples fail", samples.len());
     if let Some(bound) = draw.certain_at {
         text +=

@@ -7,6 +7,7 @@ use super::table::Style;
 use crate::study::Case;
 use crate::study::sweep::{Point, Sweep};
 use crate::units::{self, Unit, value_and_error};
+use crate::verdict::Verdict;
 
 /// The document of one sweep.
 #[derive(Serialize)]
@@ -31,7 +32,7 @@ pub struct Row {
     flight_height_error_m: f64,
     cable_force_n: f64,
     cable_force_error_n: f64,
-    verdict: crate::verdict::Verdict,
+    verdict: Verdict,
 }
 
 impl Row {
@@ -71,7 +72,7 @@ impl Document {
 const SPARK: usize = 60;
 
 /// The sweep for reading.
-pub fn text(case: &Case, sweep: &Sweep, style: Style) -> String {
+pub fn text(case: &Case, sweep: &Sweep, partial: bool, style: Style) -> String {
     let mut text = super::heading(case);
     let names = super::row_names(case, &sweep.order).join(", ");
     let ends = |of: fn(&[Point]) -> Option<&Point>| {
@@ -100,8 +101,9 @@ pub fn text(case: &Case, sweep: &Sweep, style: Style) -> String {
         })
         .collect();
     text += &match windows.as_slice() {
-        [] => format!("\n{}: no interval tried passes\n", style.word(crate::verdict::Verdict::Fail)),
-        some => format!("\n{}: {}\n", style.word(crate::verdict::Verdict::Pass), some.join(" · ")),
+        [] if partial => format!("\n{}: no interval tried so far passes\n", style.word(Verdict::Undecided)),
+        [] => format!("\n{}: no interval tried passes\n", style.word(Verdict::Fail)),
+        some => format!("\n{}: {}\n", style.word(Verdict::Pass), some.join(" · ")),
     };
     style.plain(text)
 }

@@ -1,6 +1,6 @@
 //! The results of `check` as a table for reading.
 
-use super::check::{Results, effort, explain, verdict};
+use super::check::{Results, broken, effort, explain, verdict};
 use super::spark::sparkline;
 use crate::plan::Accuracy;
 use crate::study::Case;
@@ -91,21 +91,7 @@ fn row(case: &Case, checked: &Checked, style: Style) -> String {
         text += &format!("    {}\n", explain(reason));
     }
     if !checked.broken.is_empty() {
-        text += &format!("    {}\n", broken(case, checked));
+        text += &format!("    {}\n", broken(case.scene(), checked));
     }
     text
-}
-
-/// Broken cables shown one by one.
-const BROKEN: usize = 4;
-
-/// The cables that broke, the first ones by name.
-fn broken(case: &Case, checked: &Checked) -> String {
-    let name = |broken: &crate::outcome::Broken| {
-        format!("{} at {}", case.scene().cable_name(broken.cable), units::seconds(broken.at))
-    };
-    let names: Vec<String> = checked.broken.iter().take(BROKEN).map(name).collect();
-    let more = checked.broken.len().saturating_sub(BROKEN);
-    let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
-    format!("{} cables break: {}{rest}", checked.broken.len(), names.join(", "))
 }

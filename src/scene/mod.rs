@@ -116,7 +116,7 @@ impl Scene {
 
     /// Greatest natural frequency bound of any tire: ω² ≤ (2/m) Σ k over its cables [rad/s].
     ///
-    /// Gershgorin's bound on M⁻¹K with every cable taut and in line (quality P12).
+    /// Gershgorin's bound on M⁻¹K with every cable taut and in line.
     pub fn frequency_bound(&self) -> f64 {
         let mut stiffness = vec![0.0; self.mass.len()];
         for cable in &self.cables {

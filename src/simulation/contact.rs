@@ -176,7 +176,7 @@ mod tests {
         }
     }
 
-    /// P4: |v_t+| = max(0, |v_t−| − μ |v_n−|) for an inelastic landing.
+    /// |v_t+| = max(0, |v_t−| − μ |v_n−|) for an inelastic landing.
     #[test]
     fn an_oblique_landing_loses_mu_times_its_normal_speed() {
         let (after, normal) = support(Vector3::new(3.0, 0.0, -4.0), 0.5);

@@ -24,6 +24,8 @@ pub struct Quotient {
 
 #[derive(Debug)]
 struct Map {
+    /// What the planes taken out reflect.
+    axes: Vec<usize>,
     tire: Vec<usize>,
     cable: Vec<usize>,
     found: Vec<(usize, [f64; 2])>,
@@ -119,6 +121,7 @@ impl Quotient {
             cable_weight: cables.iter().map(seen).collect(),
             images,
             map: Some(Map {
+                axes: planes.iter().map(|plane| plane.axis).collect(),
                 found: kept.iter().map(|&(source, sign)| (place[source], sign)).collect(),
                 tire,
                 cable: cables,
@@ -145,6 +148,18 @@ impl Quotient {
     /// Index in the whole scene of a cable.
     pub fn cable(&self, cable: usize) -> usize {
         self.map.as_ref().map_or(cable, |map| map.cable[cable])
+    }
+
+    /// Indices in the whole scene of a cable and its images.
+    pub fn cables(&self, scene: &Scene, cable: usize) -> Vec<usize> {
+        let Some(map) = &self.map else { return vec![cable] };
+        let mut all = vec![scene.cables[map.cable[cable]].ends];
+        for plane in scene.mirrors.iter().filter(|plane| map.axes.contains(&plane.axis)) {
+            let reflected: Vec<_> = all.iter().map(|ends| ends.map(|end| plane.image[end])).collect();
+            all.extend(reflected);
+        }
+        let ties = |ends: [usize; 2]| all.contains(&ends) || all.contains(&[ends[1], ends[0]]);
+        (0..scene.cables.len()).filter(|&cable| ties(scene.cables[cable].ends)).collect()
     }
 
     /// Where a tire of the whole scene is found, and the factors of its x and y.

@@ -87,6 +87,8 @@ pub trait Motion {
     fn time(&self) -> f64;
     /// Displacement of a tire from its place at rest [m].
     fn displacement(&self, tire: usize) -> Vector3<f64>;
+    /// Force of a cable, 0 once it is broken [N].
+    fn force(&self, cable: usize) -> f64;
     /// Actual friction force on a tire and its limit μR [N]; both 0 off the ground.
     fn friction(&self, tire: usize) -> (f64, f64);
 }

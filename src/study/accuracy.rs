@@ -182,7 +182,7 @@ pub fn paper_table(case: &Case, method: Method) -> Option<Vec<PaperRow>> {
     if !single || case.shots[0].firings.len() != 1 || scene.mass[0] != 280.0 || scene.friction != 0.5 {
         return None;
     }
-    let diagonal = scene.cables.iter().find(|cable| cable.ends.contains(&centre))?;
+    let diagonal = scene.cables.iter().position(|cable| cable.ends.contains(&centre))?;
     PAPER
         .iter()
         .map(|row| row.0)
@@ -190,8 +190,7 @@ pub fn paper_table(case: &Case, method: Method) -> Option<Vec<PaperRow>> {
             let settings = Settings { method, step, duration: Some(1.0) };
             let (mut late, mut before) = (f64::NAN, (0.0, 0.0));
             let outcome = case.model.run(&case.shots[0], &settings, &mut |motion| {
-                let [a, b] = diagonal.ends.map(|end| motion.displacement(end));
-                let now = (motion.time(), diagonal.force((diagonal.span + (b - a)).norm()));
+                let now = (motion.time(), motion.force(diagonal));
                 if before.0 < 0.16 && now.0 >= 0.16 - 1e-12 {
                     let part = ((0.16 - before.0) / (now.0 - before.0)).clamp(0.0, 1.0);
                     late = before.1 + part * (now.1 - before.1);

@@ -94,27 +94,25 @@ pub enum Still {
     Unfired(f64),
     /// Height or force is greatest at the very end.
     Growing,
-    /// Tires slide on, and their drift has a limit.
-    Sliding,
+    /// Tires move on, and their drift has a limit.
+    Moving,
 }
 
 /// What the run of a shot leaves out, if it ends too early for a verdict.
 pub fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<Still> {
+    let last = shot.firings.last().map_or(0.0, |firing| firing.at);
+    if last >= case.plan.simulation.duration_s.unwrap_or(f64::INFINITY) {
+        return Some(Still::Unfired(last));
+    }
     if outcome.end == End::AtRest {
         return None;
     }
-    let (end, last) = (outcome.drift.at, shot.firings.last().map_or(0.0, |firing| firing.at));
     // The greatest of all samples is the last one, or the one before.
-    let grows = |peak: Peak| peak.value > 0.0 && peak.at > end - 2.5 * outcome.step;
-    if last >= case.plan.simulation.duration_s.unwrap_or(f64::INFINITY) {
-        Some(Still::Unfired(last))
-    } else if grows(outcome.height) || grows(outcome.force) {
-        Some(Still::Growing)
-    } else if case.plan.simulation.duration_s.is_none() && case.limits.drift.is_some() {
-        Some(Still::Sliding)
-    } else {
-        None
+    let grows = |peak: Peak| peak.value > 0.0 && peak.at > outcome.drift.at - 2.5 * outcome.step;
+    if grows(outcome.height) || grows(outcome.force) {
+        return Some(Still::Growing);
     }
+    case.limits.drift.map(|_| Still::Moving)
 }
 
 /// What a limit is about.
@@ -152,7 +150,7 @@ pub fn start_step(case: &Case, method: Method, accuracy: Accuracy) -> f64 {
 /// Rungs a verdict may climb beyond the first that has an error: 64 times finer.
 const FINEST: usize = 12;
 
-/// An error holds in 19 of 20 runs. A verdict should hold in more, so refinement goes on until it would stand with an
+/// An error holds in about 19 of 20 runs. A verdict should hold in more, so refinement goes on until it would stand with an
 /// error this many times larger.
 const SURE: f64 = 2.0;
 
@@ -260,7 +258,8 @@ fn judge(
         })
         .filter(|reason| reason.verdict() != Verdict::Pass)
         .collect();
-    reasons.extend(early(case, shot, &last.0).map(|still| Reason::Early { end: last.0.drift.at, still }));
+    let end = case.plan.simulation.duration_s.unwrap_or(last.0.drift.at);
+    reasons.extend(early(case, shot, &last.0).map(|still| Reason::Early { end, still }));
     Checked {
         verdict: Verdict::worst(reasons.iter().map(Reason::verdict)),
         reasons,

@@ -6,7 +6,7 @@
 //! error reported is MARGIN · max |sⱼ|: the largest of several is believed, so two runs that agree by luck are not.
 //!
 //! The margin was fitted on 600 random scenes; `cargo bench --bench calibration` measures on others how often the true
-//! error is within the reported one (19 of 20 times) and how wide that is (5 to 6.5 times the true one in the median). It
+//! error is within the reported one (about 19 of 20 times) and how wide that is (about 5 to 6.5 times the true one in the median). It
 //! estimates the error of the time integration alone: the model, the plan's numbers, and a motion so sensitive that every
 //! step misses the same event alike are beyond it.
 

@@ -1,10 +1,13 @@
 //! Where every tire is over time, for playing one option back.
 
+use nalgebra::Vector3;
+
 use super::Case;
 use super::Effort;
 use super::batch::Progress;
 use super::check::start_step;
 use crate::outcome::Outcome;
+use crate::scene::{Cable, Scene};
 use crate::simulation::{Failure, Motion, Settings};
 
 /// One option's motion, sampled at even times.
@@ -80,6 +83,21 @@ impl Flight {
     /// When it ends [s].
     pub fn end(&self) -> f64 {
         self.outcome.drift.at
+    }
+
+    /// Which cables of the scene pull at `time` [s] (`n_cables`).
+    pub fn taut(&self, scene: &Scene, time: f64) -> Vec<bool> {
+        let frame = self.at(time);
+        let displacement = |tire: usize| Vector3::from(frame[tire].map(f64::from));
+        let pulls = |cable: &Cable| {
+            let [a, b] = cable.ends.map(displacement);
+            cable.force((cable.span + (b - a)).norm()) > 0.0
+        };
+        let mut taut: Vec<bool> = scene.cables.iter().map(pulls).collect();
+        for broken in self.outcome.broken.iter().filter(|broken| broken.at <= time) {
+            taut[broken.cable] = false;
+        }
+        taut
     }
 
     /// Frames kept.

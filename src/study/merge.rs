@@ -2,11 +2,12 @@
 //!
 //! The first line of a share says what is studied, with the plan itself, so that merging needs no other file.
 
+use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
 use super::orders::Tried;
 use super::scatter::{Draw, Sample};
-use super::{Effort, Shard};
+use super::{Case, Effort, Shard};
 use crate::plan::ScatterSpec;
 
 /// What is studied.
@@ -60,6 +61,23 @@ pub enum Findings {
 /// The schema of shares.
 pub const SCHEMA: &str = "shelter.shard/1";
 
+impl Findings {
+    /// Whether these can be findings of a study of `case`, each once.
+    pub fn fit(&self, case: &Case) -> bool {
+        let rows: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
+        match self {
+            Findings::Orders(tried) => {
+                let complete = |tried: &Tried| tried.order.iter().copied().sorted().eq(rows.iter().copied());
+                tried.iter().all(complete) && tried.iter().map(|tried| tried.number).all_unique()
+            }
+            Findings::Scatter(samples) => {
+                samples.iter().all(|sample| sample.option < case.shots.len())
+                    && samples.iter().map(|sample| (sample.option, sample.number)).all_unique()
+            }
+        }
+    }
+}
+
 /// Joins shares, given as `(name, text)`; says what is wrong with them.
 pub fn merge(shares: &[(String, String)]) -> Result<(Head, Findings), String> {
     let mut heads: Vec<(&str, Head)> = Vec::new();
@@ -90,6 +108,9 @@ pub fn merge(shares: &[(String, String)]) -> Result<(Head, Findings), String> {
                 "{name}: {found} of its {} lines are there; copy the share again",
                 head.lines
             ));
+        }
+        if head.shard.index >= head.shard.of {
+            return Err(wrong(0, &"there is no such share"));
         }
         heads.push((name, head));
     }

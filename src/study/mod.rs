@@ -98,6 +98,17 @@ impl Effort {
     pub fn of(plan: &Plan) -> Self {
         Self { method: plan.simulation.method, accuracy: plan.simulation.accuracy, step: None }
     }
+
+    /// After one plan took the place of another: what was as the old one asks is as the new one asks.
+    pub fn follow(&mut self, old: &Plan, new: &Plan) {
+        let (old, new) = (Self::of(old), Self::of(new));
+        if self.method == old.method {
+            self.method = new.method;
+        }
+        if self.accuracy == old.accuracy {
+            self.accuracy = new.accuracy;
+        }
+    }
 }
 
 /// Intervals between rows to try.

@@ -15,6 +15,9 @@ use crate::scene::Shot;
 use crate::simulation::Failure;
 use crate::verdict::Verdict;
 
+/// Why a plan with firing times alone has no orders to try.
+pub const NO_INTERVAL: &str = "no delay option has an interval";
+
 /// Most blast rows whose orders are all tried: 5,040 of them.
 pub const MOST_ROWS: usize = 7;
 /// Random orders of a search, per interval.

@@ -20,6 +20,9 @@ use crate::scene::{Firing, Shot};
 use crate::simulation::{Failure, Settings};
 use crate::verdict::{Estimate, Verdict};
 
+/// What a plan without a section [scatter] is told.
+pub const NO_SCATTER: &str = "the plan does not say what scatters: add a section such as\n\n[scatter]\ndetonator = \"pyrotechnic\"\nlaunch_cv_percent = 10";
+
 /// One sample of one option.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sample {

@@ -111,8 +111,8 @@ pub fn size(plan: &Plan, demand: &Demand, effort: &Effort, progress: &Progress) 
     let (mut combinations, mut late) = (Vec::new(), 0);
     // The shot at which the last combination failed is the likeliest to fail the next.
     let mut likeliest = 0;
-    let stiffnesses =
-        by_stiffness.into_iter().sorted_by_key(|(stiffness, _)| f64::from_bits(stiffness.0) as u64);
+    // Bits of positive numbers are in the order of the numbers.
+    let stiffnesses = by_stiffness.into_iter().sorted_by_key(|(stiffness, _)| *stiffness);
     for ((_, ropes), &tire_mass, border_rows) in
         itertools::iproduct!(stiffnesses.collect_vec(), masses, 0..=most_border)
     {

@@ -24,6 +24,9 @@ pub struct Sweep {
     pub points: Vec<Point>,
 }
 
+/// Why a plan of one blast row is not swept.
+pub const SINGLE_ROW: &str = "a single blast row has no interval to sweep";
+
 /// Neighbours whose use of the limits differs by more are looked at more closely.
 const JUMP: f64 = 0.1;
 /// How often the distance between neighbours is halved.

@@ -57,9 +57,5 @@ fn fill(row: &mut Vec<f64>, case: &Case, chosen: &Chosen, motion: &dyn Motion) {
         let (friction, limit) = motion.friction(tire);
         row.extend([place.x, place.y, u.z, friction, limit]);
     }
-    for &cable in &chosen.cables {
-        let cable = case.scene().cables[cable];
-        let [a, b] = cable.ends.map(|end| motion.displacement(end));
-        row.push(cable.force((cable.span + (b - a)).norm()));
-    }
+    row.extend(chosen.cables.iter().map(|&cable| motion.force(cable)));
 }

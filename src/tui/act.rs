@@ -64,6 +64,7 @@ impl App {
             Target::Field(field) => {
                 return self.select_field(field as isize - self.editor.selected as isize);
             }
+            Target::Lines(_) => {}
             Target::Study(kind) => self.studies.show(kind),
             Target::Time(end) => {
                 let part = f64::from(at.x - place.x) / f64::from(place.width.saturating_sub(1).max(1));

@@ -78,6 +78,8 @@ pub enum Target {
     Field(usize),
     /// Show a study.
     Study(Kind),
+    /// Lines that can be scrolled at most; no click.
+    Lines(u16),
     /// Show a time, from the left end of the place to its right end [s].
     Time(f64),
 }
@@ -206,6 +208,17 @@ impl App {
         Request::Start(kind)
     }
 
+    /// The screen was drawn, and what it showed where.
+    pub fn drawn(&mut self, places: Vec<(Rect, Target)>) {
+        let scroll = if self.help { &mut self.help_scroll } else { &mut self.studies.scroll };
+        for (_, target) in &places {
+            if let Target::Lines(most) = target {
+                *scroll = (*scroll).min(*most);
+            }
+        }
+        self.places = places;
+    }
+
     /// So much time has passed.
     pub fn pass(&mut self, time: Duration) {
         self.player.advance(time, self.flight_end());
@@ -218,6 +231,7 @@ impl App {
 
     /// Another plan takes the place of the one shown; long studies of the old one are dropped.
     pub(super) fn take(&mut self, plan: Plan) -> Request {
+        self.effort.follow(&self.case.plan, &plan);
         self.case = Arc::new(Case::new(plan));
         self.rows = vec![Row::Waiting; self.case.plan.delays.len()];
         self.selected = self.selected.min(self.rows.len().saturating_sub(1));
@@ -235,15 +249,17 @@ impl App {
     /// The plan's file has changed: another plan, or what is wrong with it.
     pub fn reload(&mut self, read: Result<Plan, String>) -> Request {
         match read {
-            Ok(plan) if plan.text == self.editor.saved => Request::None,
-            Ok(_) if self.editor.unsaved() => {
+            Ok(plan) if plan.text == self.editor.saved => {
+                // As it was before it was gone or wrong.
+                self.notice = None;
+                Request::None
+            }
+            Ok(_) if self.editor.unsaved() || self.editor.typing() => {
                 self.notice = Some("the file has changed; your changes here are not saved".to_owned());
                 Request::None
             }
             Ok(plan) => {
-                let selected = self.editor.selected;
-                self.editor = Editor::new(&plan);
-                self.editor.select(selected as isize);
+                self.editor.reload(&plan);
                 self.notice = Some("the file has changed and was read again".to_owned());
                 self.take(plan)
             }

@@ -4,8 +4,8 @@ use crossterm::event::{Event, KeyCode, KeyEvent};
 use tui_input::Input;
 use tui_input::backend::crossterm::EventHandler;
 
-use crate::plan::Plan;
 use crate::plan::fields::{self, Field};
+use crate::plan::{Layout, Plan};
 use crate::ropes::catalogue;
 
 /// What an edit came to.
@@ -211,6 +211,14 @@ impl Editor {
         Edit::Changed(Box::new(plan))
     }
 
+    /// Another program has changed the file; the way back leads to what stood here.
+    pub fn reload(&mut self, plan: &Plan) {
+        self.done.push(std::mem::replace(&mut self.text, plan.text.clone()));
+        self.undone.clear();
+        self.saved.clone_from(&plan.text);
+        self.refresh();
+    }
+
     fn refresh(&mut self) {
         self.fields = fields::fields(&self.text);
         self.select(0);
@@ -242,6 +250,14 @@ impl Editor {
         let next = match field.path.key {
             "rope" => beside(catalogue().ropes.iter().map(|rope| &rope.name), value, up),
             "termination" => beside(catalogue().terminations.iter().map(|known| &known.name), value, up),
+            "rows" | "columns" | "border_rows" | "under_row" => {
+                let centres = field.path.key == "under_row"
+                    && Plan::parse(&self.path, &self.text)
+                        .is_ok_and(|plan| matches!(plan.layout, Layout::Quincunx(_)));
+                let one = if centres { 0.5 } else { 1.0 };
+                let next = |number: f64| (number + if up { one } else { -one }).max(0.0).to_string();
+                value.parse::<f64>().ok().map(next)
+            }
             _ => value.parse::<f64>().ok().map(|number| stepped(number, up).to_string()),
         };
         let Some(next) = next else { return Edit::None };
@@ -335,6 +351,16 @@ mod tests {
         assert!(!editor.unsaved());
         assert!(matches!(editor.redo(), Edit::Changed(_)));
         assert!(matches!(editor.redo(), Edit::None));
+    }
+
+    #[test]
+    fn whole_numbers_are_stepped_by_one() {
+        let mut editor = editor();
+        for (label, stepped) in [("shelter rows", "6"), ("row 1: under row", "2")] {
+            editor.find(label, false);
+            assert!(matches!(editor.step(true), Edit::Changed(_)), "{:?}", editor.problem);
+            assert_eq!(editor.field().map(|field| field.value.as_str()), Some(stepped));
+        }
     }
 
     #[test]

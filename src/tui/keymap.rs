@@ -191,7 +191,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Last, "last", &["end", "G"], "", "to the last", ALL),
     bind(Action::Help, "help", &["?", "f1"], "", "show or hide the keys", ALL),
     bind(Action::Suspend, "suspend", &["ctrl-z"], "", "back to the shell until `fg`", ALL),
-    bind(Action::Quit, "quit", &["q", "ctrl-c"], "", "leave; Esc only closes what is open", ALL),
+    bind(Action::Quit, "quit", &["q", "ctrl-c"], "", "leave; Esc only closes, cancels or goes back", ALL),
 ];
 
 /// Which key asks for what.

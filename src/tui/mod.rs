@@ -28,8 +28,8 @@ use std::time::{Duration, Instant};
 use crossterm::clipboard::CopyToClipboard;
 use crossterm::cursor::Show;
 use crossterm::event::{
-    self, DisableMouseCapture, EnableMouseCapture, Event, KeyCode, KeyEvent, KeyEventKind, MouseButton,
-    MouseEventKind,
+    self, DisableMouseCapture, EnableMouseCapture, Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers,
+    MouseButton, MouseEventKind,
 };
 use crossterm::terminal::{
     Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
@@ -92,7 +92,7 @@ pub fn run(app: App, worker: Worker, errands: Errands, look: Look, plan: Option<
         if dirty {
             let mut places = Vec::new();
             display.draw(look, |frame| places = view::draw(&session.app, frame))?;
-            session.app.places = places;
+            session.app.drawn(places);
             dirty = false;
         }
         if signals.end.load(Ordering::Relaxed) {
@@ -103,7 +103,10 @@ pub fn run(app: App, worker: Worker, errands: Errands, look: Look, plan: Option<
             Request::Suspend
         } else if event::poll(if busy { FRAME } else { IDLE })? {
             dirty = true;
-            update(&mut session.app, &event::read()?)
+            match update(&mut session.app, &event::read()?) {
+                Request::None => session.app.wanted(),
+                request => request,
+            }
         } else {
             session.app.wanted()
         };
@@ -214,8 +217,8 @@ impl Session {
     }
 }
 
-/// Lets the user choose what to open; `None` when they leave instead.
-pub fn choose(mut start: Start, theme: Theme, look: Look) -> io::Result<Option<Opened>> {
+/// Lets the user choose what to open, or leave.
+pub fn choose(mut start: Start, theme: Theme, look: Look) -> io::Result<Result<Opened, Left>> {
     crossterm::style::force_color_output(true);
     let signals = Signals::register()?;
     restore_on_panic();
@@ -224,13 +227,16 @@ pub fn choose(mut start: Start, theme: Theme, look: Look) -> io::Result<Option<O
         screen.draw(look, |frame| start.draw(theme, frame))?;
         while !event::poll(IDLE)? {
             if signals.end.load(Ordering::Relaxed) {
-                return Ok(None);
+                return Ok(Err(Left::Signal));
+            }
+            if signals.stop.swap(false, Ordering::Relaxed) {
+                screen.suspend()?;
             }
         }
         match start.update(&event::read()?) {
             Next::Wait => {}
-            Next::Open(opened) => return Ok(Some(opened)),
-            Next::Quit => return Ok(None),
+            Next::Open(opened) => return Ok(Ok(opened)),
+            Next::Quit => return Ok(Err(Left::Quit)),
         }
     }
 }
@@ -239,8 +245,8 @@ pub fn choose(mut start: Start, theme: Theme, look: Look) -> io::Result<Option<O
 pub fn update(app: &mut App, event: &Event) -> Request {
     match event {
         Event::Key(key) if key.kind == KeyEventKind::Release => Request::None,
-        Event::Key(key) if app.prompt.is_some() => app.type_in_prompt(key),
-        Event::Key(key) if app.editor.typing() => app.type_key(key),
+        Event::Key(key) if app.prompt.is_some() => app.type_in_prompt(&given_up(key)),
+        Event::Key(key) if app.editor.typing() => app.type_key(&given_up(key)),
         Event::Key(KeyEvent { code: KeyCode::Esc, .. }) => app.escape(),
         Event::Key(key) => app.keymap.action(key).map_or(Request::None, |action| app.act(action)),
         Event::Mouse(_) if app.prompt.is_some() || app.editor.typing() => Request::None,
@@ -252,6 +258,12 @@ pub fn update(app: &mut App, event: &Event) -> Request {
         },
         _ => Request::None,
     }
+}
+
+/// A key while something is typed: Ctrl-C gives it up, as Esc does.
+fn given_up(key: &KeyEvent) -> KeyEvent {
+    let interrupt = key.code == KeyCode::Char('c') && key.modifiers.contains(KeyModifiers::CONTROL);
+    if interrupt { KeyEvent::new(KeyCode::Esc, KeyModifiers::NONE) } else { *key }
 }
 
 /// The terminal while it is ours.

@@ -11,6 +11,7 @@ use ratatui::widgets::{Block, List, ListState, Paragraph, Wrap};
 use tui_input::Input;
 use tui_input::backend::crossterm::EventHandler;
 
+use super::given_up;
 use super::theme::Theme;
 use crate::plan::Plan;
 use crate::plan::starter::{self, QUESTIONS, ROPE};
@@ -109,14 +110,14 @@ impl Start {
         match event {
             Event::Key(key) if key.kind == KeyEventKind::Release => Next::Wait,
             Event::Key(key) => match &mut self.questions {
-                Some(questions) => match questions.key(key) {
+                Some(questions) => match questions.key(&given_up(key)) {
                     Some(next) => next,
                     None => {
                         self.questions = None;
                         Next::Wait
                     }
                 },
-                None => self.key(key),
+                None => self.key(&given_up(key)),
             },
             Event::Mouse(mouse) if self.questions.is_none() => match mouse.kind {
                 MouseEventKind::Down(MouseButton::Left) => {
@@ -142,7 +143,7 @@ impl Start {
             KeyCode::Home | KeyCode::Char('g') => self.select(0),
             KeyCode::End | KeyCode::Char('G') => self.select(usize::MAX),
             KeyCode::Enter => self.open(),
-            KeyCode::Esc | KeyCode::Char('q' | 'c') => Next::Quit,
+            KeyCode::Esc | KeyCode::Char('q') => Next::Quit,
             _ => Next::Wait,
         }
     }

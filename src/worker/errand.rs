@@ -10,10 +10,10 @@ use crate::simulation::Failure;
 use crate::study::accuracy;
 use crate::study::batch::{Progress, guarded};
 use crate::study::flight::{Flight, record};
-use crate::study::orders::{Orders, orders};
-use crate::study::scatter::{Draw, Sample, scatter};
+use crate::study::orders::{NO_INTERVAL, Orders, orders};
+use crate::study::scatter::{Draw, NO_SCATTER, Sample, scatter};
 use crate::study::size::{Demand, Sizing, size};
-use crate::study::sweep::{Sweep, sweep};
+use crate::study::sweep::{SINGLE_ROW, Sweep, sweep};
 use crate::study::{Case, Effort, Intervals, Shard};
 
 /// A long study, with what a screen asks it for.
@@ -136,6 +136,7 @@ impl Drop for Errands {
 fn study(kind: Kind, case: &Case, option: usize, effort: &Effort, progress: &Progress) -> Result {
     let said = |failure: Failure| failure.to_string();
     match kind {
+        Kind::Sweep if case.plan.blast_rows.len() < 2 => Err(SINGLE_ROW.to_owned()),
         Kind::Sweep => {
             let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
             sweep(case, &order, &INTERVALS, effort, progress).map(Found::Sweep).map_err(said)
@@ -143,13 +144,13 @@ fn study(kind: Kind, case: &Case, option: usize, effort: &Effort, progress: &Pro
         Kind::Orders => {
             let intervals = case.intervals();
             if intervals.is_empty() {
-                return Err("no delay option has an interval".to_owned());
+                return Err(NO_INTERVAL.to_owned());
             }
             let tried = orders(case, &intervals, Shard::WHOLE, effort, progress).map_err(said)?;
             Ok(Found::Orders(Orders::new(case, tried, intervals.len())))
         }
         Kind::Scatter => {
-            let spec: ScatterSpec = case.plan.scatter.ok_or("the plan does not say what scatters: add a section [scatter], say with detonator = \"pyrotechnic\"")?;
+            let spec: ScatterSpec = case.plan.scatter.ok_or(NO_SCATTER)?;
             let samples = scatter(case, &spec, &DRAW, Shard::WHOLE, effort, progress).map_err(said)?;
             Ok(Found::Scatter(DRAW, samples))
         }

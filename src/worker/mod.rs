@@ -1,6 +1,6 @@
 //! Checks in the background: a case comes in, small events go out, the newest request wins.
 //!
-//! Each request has a generation number; starting a new one, or dropping the worker, stops the old within a step. A panic
+//! Each request has a generation number; starting a new one, or dropping the worker, stops the old within some steps. A panic
 //! while an option computes becomes that option's failure. The work itself is [`check`], the same that scripts run.
 
 mod errand;

@@ -93,7 +93,7 @@ fn a_cable_pulls_alike_wherever_in_a_step_it_becomes_taut() {
     }
 }
 
-/// P2: launched at v with the cable just taut, tied to a mass so heavy that it does not move.
+/// Launched at v with the cable just taut, tied to a mass so heavy that it does not move.
 #[test]
 fn validates_vertical_cable_to_the_ground_pulls_with_sqrt_mg2_kmv2_minus_mg() {
     let (mass, stiffness) = (280.0_f64, 1.41e6_f64);
@@ -112,7 +112,7 @@ fn validates_vertical_cable_to_the_ground_pulls_with_sqrt_mg2_kmv2_minus_mg() {
     }
 }
 
-/// P3: the source paper's cross with corners held by weight and friction.
+/// The source paper's cross with corners held by weight and friction.
 #[test]
 fn validates_pinned_cross() {
     for (diagonal, slack, height, force) in [
@@ -138,7 +138,7 @@ fn validates_pinned_cross() {
     }
 }
 
-/// P9: a resting tire does not move while the pull stays inside the cone, and moves when it does not. The pull comes from a
+/// A resting tire does not move while the pull stays inside the cone, and moves when it does not. The pull comes from a
 /// weight hung over it: a cable stretched beforehand between a pinned tire and the one that is tested.
 #[test]
 fn validates_static_pull_sticks_below_mu_r_and_slips_above() {
@@ -181,7 +181,7 @@ fn validates_flight_without_cables_changes_momentum_by_gravity_only() {
     }
 }
 
-/// P9: pulled by a cable at an angle, a tire slips at T = μ m g / (cos θ + μ sin θ) and is lifted at T = m g / sin θ.
+/// Pulled by a cable at an angle, a tire slips at T = μ m g / (cos θ + μ sin θ) and is lifted at T = m g / sin θ.
 #[test]
 fn validates_inclined_pull_slips_and_lifts_at_its_thresholds() {
     let weight = 280.0 * GRAVITY;

@@ -128,12 +128,12 @@ fn links_and_rights_survive_a_save() {
     let folder = tempfile::tempdir().expect("a folder");
     let (file, link) = (folder.path().join("file.toml"), folder.path().join("link.toml"));
     fs::write(&file, "old").expect("written");
-    fs::set_permissions(&file, fs::Permissions::from_mode(0o640)).expect("set");
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o664)).expect("set");
     std::os::unix::fs::symlink(&file, &link).expect("linked");
     edit::save(&link, "new").expect("saved");
     assert!(link.symlink_metadata().expect("the link").is_symlink());
     assert_eq!(fs::read_to_string(&file).expect("the file"), "new");
-    assert_eq!(file.metadata().expect("the file").permissions().mode() & 0o777, 0o640);
+    assert_eq!(file.metadata().expect("the file").permissions().mode() & 0o777, 0o664);
     fs::set_permissions(&file, fs::Permissions::from_mode(0o440)).expect("set");
     assert!(edit::save(&link, "newer").is_err_and(|error| error.to_string().contains("may only be read")));
     assert_eq!(fs::read_to_string(&file).expect("the file"), "new");

@@ -210,6 +210,18 @@ fn a_study_is_cancelled_by_x_or_escape_and_escape_then_goes_back() {
     assert_eq!(app.screen, Screen::Compare);
 }
 
+/// The end of a list is as far as one gets: one key back leaves it.
+#[test]
+fn lists_are_scrolled_no_further_than_their_end() {
+    let mut app = finished();
+    key(&mut app, KeyCode::Char('?'));
+    (0..200).for_each(|_| drop(key(&mut app, KeyCode::Down)));
+    let end = text(&draw(&app, 80, 24));
+    app.drawn(draw_places(&app, 80, 24));
+    key(&mut app, KeyCode::Up);
+    assert_ne!(text(&draw(&app, 80, 24)), end);
+}
+
 proptest::proptest! {
     #![proptest_config(proptest::prelude::ProptestConfig { cases: 64, ..Default::default() })]
 

@@ -73,6 +73,11 @@ fn shares_merge_into_the_whole_byte_for_byte() {
                     let short = shelter(&merge);
                     assert_eq!(short.status.code(), Some(2));
                     assert!(String::from_utf8_lossy(&short.stderr).contains("copy the share again"));
+                    let damaged =
+                        text.replace("\"order\":[", "\"order\":[9,").replace("\"option\":0", "\"option\":99");
+                    std::fs::write(&files[0], damaged).expect("written");
+                    let broken = shelter(&merge);
+                    assert_eq!(broken.status.code(), Some(2), "{}", String::from_utf8_lossy(&broken.stderr));
                     std::fs::write(&files[0], text).expect("written");
                     let missing = shelter(&merge[..merge.len() - 1]);
                     assert_eq!(missing.status.code(), Some(2));

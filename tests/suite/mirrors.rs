@@ -48,6 +48,34 @@ fn modelled_tires(scene: &Scene, shot: &Shot) -> usize {
     Model::new(scene.clone()).modelled_tires(Method::Verlet, shot)
 }
 
+/// What breaks in the part that is modelled breaks in its images, too.
+#[test]
+fn cables_break_in_the_images_as_well() {
+    for layout in ["grid", "quincunx"] {
+        let scene = Scene { breaking_force: Some(15e3), ..shelter(layout, 4, 5, 0.5) };
+        let whole = Scene { mirrors: Vec::new(), ..scene.clone() };
+        let row = (5..10).map(|tire| Firing { at: 0.0, tire, launch: 7.0 });
+        let shot = Shot::from_firings(row.collect());
+        let settings = settings(Method::Verlet, 5e-4, Some(0.4));
+        let broken = |scene: &Scene| {
+            let mut cables: Vec<usize> =
+                run(scene, &shot, settings).broken.iter().map(|broken| broken.cable).collect();
+            cables.sort_unstable();
+            cables
+        };
+        assert!(broken(&scene).len() > 2, "{layout}");
+        assert_eq!(broken(&scene), broken(&whole), "{layout}");
+        // What is broken pulls no more.
+        let first = broken(&scene)[0];
+        for scene in [&scene, &whole] {
+            let mut forces = Vec::new();
+            watch(scene, &shot, settings, |motion| forces.push(motion.force(first)));
+            let last = forces.iter().rposition(|&force| force > 0.0).expect("it pulled");
+            assert!(forces[last] < 15e3 && last + 1 < forces.len(), "{layout}: {}", forces[last]);
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 40, ..ProptestConfig::default() })]
 

@@ -1,5 +1,6 @@
 //! Both methods against the event-driven reference answers, and against each other.
 
+use shelter::outcome::End;
 use shelter::plan::Method;
 
 use crate::scenes::{close, fire, fire_rows, grid, quincunx, run, settings};
@@ -61,8 +62,8 @@ fn both_methods_converge_to_one_answer() {
     let newmark = run(&scene, &shot, settings(Method::Newmark, 1e-4, Some(1.0)));
     close(newmark.height.value, verlet.height.value, 5e-4 * verlet.height.value, "height");
     close(newmark.force.value, verlet.force.value, 5e-4 * verlet.force.value, "force");
-    close(verlet.height.value, 1.7655, 5e-4 * 1.7655, "height of an earlier prototype");
-    close(verlet.force.value, 9926.0, 5e-4 * 9926.0, "force of an earlier prototype");
+    close(verlet.height.value, 1.7655, 5e-4 * 1.7655, "height of the reference table");
+    close(verlet.force.value, 9926.0, 5e-4 * 9926.0, "force of the reference table");
 }
 
 /// Halving the step divides the error by four where the motion is smooth: the pinned cross of the closed forms.
@@ -84,12 +85,13 @@ fn both_methods_are_of_second_order() {
     }
 }
 
-/// Fifty by fifty tires: counts work, not time. A step may touch every cable once and nothing else.
+/// Fifty by fifty tires until the last of them lies still.
 #[test]
-fn a_large_shelter_stops_by_itself_and_stays_bounded() {
+fn a_large_shelter_comes_to_rest_and_stays_bounded() {
     let scene = grid(50, 50, 1.5, 1.519e6);
-    let out = run(&scene, &fire_rows(&[23, 24, 25], 50, 0.02), settings(Method::Verlet, 1e-3, Some(1.5)));
-    assert!(out.steps <= 1501);
+    let out = run(&scene, &fire_rows(&[23, 24, 25], 50, 0.02), settings(Method::Verlet, 1e-3, None));
+    assert_eq!(out.end, End::AtRest);
+    assert!(out.drift.at < 10.0, "{} s", out.drift.at);
     assert!(out.history.height.len() <= shelter::outcome::History::CAPACITY);
     // (ωh)² of the elastic part of the energy, with ωh = 2h / critical step.
     let omega_h: f64 = 2e-3 / scene.critical_step();

@@ -23,7 +23,8 @@ fn shipped_plans_are_valid() {
     }
 }
 
-/// Of the wrong plans that are TOML, it finds two thirds: all unknown keys, wrong types and numbers out of range.
+/// Of the wrong plans that are TOML, it finds at least two thirds: it knows keys, types and ranges, but nothing of what stands
+/// elsewhere in the plan.
 #[test]
 fn wrong_plans_are_mostly_found_and_right_ones_never_refused() {
     let check = jsonschema::validator_for(&schema()).expect("a schema");
@@ -40,11 +41,10 @@ fn wrong_plans_are_mostly_found_and_right_ones_never_refused() {
         ("spacing_m = 1.5", "spacing_m = 2\nlinks = []"),
         ("interval_ms = 20", "at_ms = [0, 20.5]"),
         ("interval_ms = 20", "interval_ms = 20\n[size]\ntire_mass_kg = []"),
-        ("under_row = 1\nlaunch_m_s = 6.0", "free_flight_height_m = 1\nunder_tires = [1]"),
+        ("launch_m_s = 6.0", "free_flight_height_m = 1"),
     ] {
         let text = GOOD.replacen(good, other, 1);
-        if Plan::parse("plan.toml", &text).is_ok() {
-            assert!(check.is_valid(&value(&text).expect("TOML")), "{other}");
-        }
+        assert!(Plan::parse("plan.toml", &text).is_ok(), "{other}");
+        assert!(check.is_valid(&value(&text).expect("TOML")), "{other}");
     }
 }

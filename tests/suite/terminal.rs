@@ -86,10 +86,15 @@ impl Watched {
             assert!(start.elapsed() < PATIENCE, "still running:\n{}", self.contents());
             thread::sleep(Duration::from_millis(10));
         };
-        thread::sleep(Duration::from_millis(100));
-        let parser = self.screen.lock().expect("the parser lives");
-        assert!(!parser.screen().alternate_screen(), "the alternate screen is left");
-        assert!(!parser.screen().hide_cursor(), "the cursor is back");
+        // What it wrote last may still be on its way.
+        let restored = || {
+            let parser = self.screen.lock().expect("the parser lives");
+            !parser.screen().alternate_screen() && !parser.screen().hide_cursor()
+        };
+        while !restored() {
+            assert!(start.elapsed() < PATIENCE, "the alternate screen is left and the cursor is back");
+            thread::sleep(Duration::from_millis(10));
+        }
         status.exit_code()
     }
 

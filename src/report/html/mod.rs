@@ -10,7 +10,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
 use super::chart;
-use super::check::{Results, command, effort, explain, peak, verdict};
+use super::check::{Results, broken, command, effort, explain, peak, verdict};
 use crate::plan::{Charge, Layout, Plan};
 use crate::study::Case;
 use crate::study::check::Checked;
@@ -200,6 +200,9 @@ fn options(case: &Case, results: &Results) -> Markup {
                 @if let Ok(checked) = result {
                     @for reason in &checked.reasons {
                         tr { td {} td.quiet colspan="6" { (explain(reason)) } }
+                    }
+                    @if !checked.broken.is_empty() {
+                        tr { td {} td.quiet colspan="6" { (broken(case.scene(), checked)) } }
                     }
                 }
             }

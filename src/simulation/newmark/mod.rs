@@ -126,7 +126,8 @@ impl<'a> Stepper<'a> {
             if !self.moving {
                 match self.shot.firings.get(self.clock.fired) {
                     Some(next) if next.at <= limit => self.clock.jump(next.at),
-                    _ => return Ok(self.finish(End::AtRest)),
+                    Some(_) => return Ok(self.finish(End::TimeLimit)),
+                    None => return Ok(self.finish(End::AtRest)),
                 }
             }
             if self.now() > limit {
@@ -214,6 +215,12 @@ impl Motion for Snapshot<'_, '_> {
 
     fn displacement(&self, tire: usize) -> Vector3<f64> {
         self.stepper.u[tire]
+    }
+
+    fn force(&self, cable: usize) -> f64 {
+        let Stepper { scene, u, .. } = self.stepper;
+        let cable = &scene.cables[cable];
+        cable.force(cable.displaced(u).norm())
     }
 
     fn friction(&self, tire: usize) -> (f64, f64) {

@@ -14,7 +14,7 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::chart;
 use crate::outcome::End;
-use crate::report::check::{explain, peak};
+use crate::report::check::{broken, explain, peak};
 use crate::study::check::Checked;
 use crate::tui::app::{App, Row};
 use crate::units::{self, Unit, value_and_error};
@@ -79,6 +79,9 @@ fn facts<'a>(app: &App, checked: &Checked) -> Vec<Line<'a>> {
     for reason in &checked.reasons {
         let sign = crate::tui::theme::word(reason.verdict()).chars().next().unwrap_or(' ');
         lines.push(Line::styled(format!("{sign} {}", explain(reason)), app.theme.verdict(reason.verdict())));
+    }
+    if !checked.broken.is_empty() {
+        lines.push(Line::styled(broken(app.case.scene(), checked), app.theme.limit()));
     }
     lines
 }

@@ -132,12 +132,7 @@ fn draw_side(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
     };
     let aloft = |tire: usize| frame_of[tire][2] > GROUND;
     let tires: Vec<(f64, f64)> = (0..scene.mass.len()).map(place).collect();
-    let stretched = |cable: &crate::scene::Cable| {
-        let [a, b] = cable.ends.map(|end| frame_of[end].map(f64::from));
-        let between = cable.span + nalgebra::Vector3::from(b) - nalgebra::Vector3::from(a);
-        cable.force(between.norm()) > 0.0
-    };
-    let pulling: Vec<bool> = scene.cables.iter().map(stretched).collect();
+    let pulling = flight.taut(scene, app.player.time);
     let seen = if axis == 0 { "across rows" } else { "along rows" };
     let taut = pulling.iter().filter(|&&pulls| pulls).count();
     let canvas =

@@ -5,7 +5,8 @@ use ratatui::layout::{Constraint, Flex, Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Clear, Padding, Paragraph};
 
-use crate::tui::app::App;
+use super::Places;
+use crate::tui::app::{App, Target};
 use crate::tui::keymap::{Action, BINDINGS, Binding};
 
 const WORDS: &[(&str, &str)] = &[
@@ -19,7 +20,7 @@ const WORDS: &[(&str, &str)] = &[
 const TWO_COLUMNS: u16 = 132;
 
 /// Draws the help over everything else: what this screen knows first, then what all know.
-pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
+pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     let row = |left: String, right: &'static str| {
         Line::from(vec![Span::styled(format!("{left:14} "), app.theme.title()), Span::raw(right)])
     };
@@ -49,8 +50,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     frame.render_widget(Clear, place);
     frame.render_widget(block, place);
     let parts = Layout::horizontal(vec![Constraint::Fill(1); columns]).split(inside);
+    *places = vec![(area, Target::Act(Action::Help))];
     for (part, lines) in parts.iter().zip(lines.chunks(rows)) {
         let over = (lines.len() as u16).saturating_sub(part.height);
+        places.push((Rect::ZERO, Target::Lines(over)));
         frame.render_widget(Paragraph::new(lines.to_vec()).scroll((app.help_scroll.min(over), 0)), *part);
     }
 }

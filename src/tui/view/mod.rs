@@ -70,8 +70,7 @@ pub fn draw(app: &App, frame: &mut Frame) -> Places {
         None => draw_footer(app, frame, footer, &mut places),
     }
     if app.help {
-        help::draw(app, frame, area);
-        places = vec![(area, Target::Act(Action::Help))];
+        help::draw(app, frame, area, &mut places);
     }
     places
 }

@@ -82,7 +82,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
                 let words = (text.lines().count() as u16 + 1).clamp(inside.height / 2, inside.height);
                 let [words, picture] =
                     Layout::vertical([Constraint::Length(words), Constraint::Min(0)]).areas(inside);
-                scrolled(app, frame, words, &text);
+                scrolled(app, frame, words, &text, places);
                 spread::draw(app, found, frame, picture);
             }
         },
@@ -101,7 +101,8 @@ pub fn waiting(app: &App, frame: &mut Frame, area: Rect, question: Line<'_>, (do
 
 /// A question without an answer, and why.
 pub fn message(app: &App, frame: &mut Frame, area: Rect, question: Line<'_>, words: &str) {
-    let lines = vec![question, Line::default(), Line::styled(words.to_owned(), app.theme.base())];
+    let mut lines = vec![question, Line::default()];
+    lines.extend(words.lines().map(|line| Line::styled(line, app.theme.base())));
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), area);
 }
 
@@ -109,16 +110,16 @@ pub fn message(app: &App, frame: &mut Frame, area: Rect, question: Line<'_>, wor
 fn text(app: &App, found: &Found) -> String {
     let (case, style) = (&app.case, Plain::default());
     let whole = match found {
-        Found::Sweep(sweep) => report::sweep::text(case, sweep, style),
-        Found::Orders(orders) => report::orders::text(case, orders, SHOWN, style),
-        Found::Scatter(draw, samples) => report::scatter::text(case, draw, samples, style),
+        Found::Sweep(sweep) => report::sweep::text(case, sweep, false, style),
+        Found::Orders(orders) => report::orders::text(case, orders, SHOWN, false, style),
+        Found::Scatter(draw, samples) => report::scatter::text(case, draw, samples, false, style),
         Found::Size(sizing) => report::size::text(case, sizing, style),
         Found::Flight(_) | Found::Accuracy(_) => String::new(),
     };
     whole.lines().skip(2).skip_while(|line| line.is_empty()).map(|line| format!("{line}\n")).collect()
 }
 
-fn scrolled(app: &App, frame: &mut Frame, area: Rect, text: &str) {
+fn scrolled(app: &App, frame: &mut Frame, area: Rect, text: &str, places: &mut Places) {
     let kept = |line: &&str| line.to_lowercase().contains(&app.studies.filter.to_lowercase());
     // Sentences go on in the next line, rows of a table do not.
     let width = usize::from(area.width.max(1));
@@ -130,6 +131,7 @@ fn scrolled(app: &App, frame: &mut Frame, area: Rect, text: &str) {
     let high: usize = fitted.iter().map(|line| line.chars().count().div_ceil(width).max(1)).sum();
     let lines: Vec<Line> = fitted.iter().map(|line| with_verdicts(app, line)).collect();
     let most = (high as u16).saturating_sub(area.height);
+    places.push((area, Target::Lines(most)));
     let text = Paragraph::new(lines).wrap(Wrap { trim: false });
     frame.render_widget(text.scroll((app.studies.scroll.min(most), 0)), area);
 }

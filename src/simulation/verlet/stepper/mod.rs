@@ -53,6 +53,7 @@ struct Pass {
 }
 
 pub(super) struct Stepper<'a> {
+    scene: &'a Scene,
     part: &'a Part,
     firings: Vec<Firing>,
     step: f64,
@@ -79,10 +80,11 @@ pub(super) struct Stepper<'a> {
 }
 
 impl<'a> Stepper<'a> {
-    pub(super) fn new(part: &'a Part, scene: &Scene, shot: &Shot, settings: &Settings) -> Self {
+    pub(super) fn new(part: &'a Part, scene: &'a Scene, shot: &Shot, settings: &Settings) -> Self {
         let tires = part.quotient.weight.len();
         let firings = part.quotient.firings(shot);
         Self {
+            scene,
             part,
             step: settings.step,
             friction: shot.friction.unwrap_or(scene.friction),
@@ -115,7 +117,8 @@ impl<'a> Stepper<'a> {
             if !self.moving {
                 match self.firings.get(self.clock.fired) {
                     Some(next) if next.at <= self.time_limit => self.clock.jump(next.at),
-                    _ => return Ok(self.finish(End::AtRest)),
+                    Some(_) => return Ok(self.finish(End::TimeLimit)),
+                    None => return Ok(self.finish(End::AtRest)),
                 }
             }
             self.collect_due();
@@ -215,6 +218,16 @@ impl Motion for Snapshot<'_, '_> {
     fn displacement(&self, tire: usize) -> Vector3<f64> {
         let (found, [x, y]) = self.stepper.part.quotient.find(tire);
         self.vector(&self.stepper.u, found).component_mul(&Vector3::new(x, y, 1.0))
+    }
+
+    fn force(&self, cable: usize) -> f64 {
+        let Stepper { scene, record, .. } = self.stepper;
+        if record.broken.iter().any(|broken| broken.cable == cable) {
+            return 0.0;
+        }
+        let cable = &scene.cables[cable];
+        let [a, b] = cable.ends.map(|end| self.displacement(end));
+        cable.force((cable.span + (b - a)).norm())
     }
 
     fn friction(&self, tire: usize) -> (f64, f64) {

@@ -79,8 +79,13 @@ impl Stepper<'_> {
                     self.record.ledger.dissipated += lost;
                     pass.energy[place % LANES] -= lost;
                     self.stored[n][place % LANES] -= lost;
-                    let cable = self.part.quotient.cable(self.part.blocks.cable(n, place));
-                    self.record.broken.push(Broken { at, cable });
+                    let cable = self.part.blocks.cable(n, place);
+                    for cable in self.part.quotient.cables(self.scene, cable) {
+                        // Its image may be modelled and break by itself.
+                        if self.record.broken.iter().all(|broken| broken.cable != cable) {
+                            self.record.broken.push(Broken { at, cable });
+                        }
+                    }
                 }
             }
         }
