@@ -56,6 +56,13 @@ pub fn value(value: f64, unit: Unit) -> String {
     format!("{:.3}", value / unit.size())
 }
 
+/// A value that was written, with the digits that it was written with, six of them at most: `1.8346`.
+pub fn exact(value: f64, unit: Unit) -> String {
+    let value = value / unit.size();
+    let scale = 10_f64.powf((5.0 - value.abs().max(1e-9).log10().floor()).clamp(0.0, 12.0));
+    format!("{}", (value * scale).round() / scale)
+}
+
 /// Seconds at a resolution of a millisecond: `0.602 s`.
 pub fn seconds(time: f64) -> String {
     format!("{time:.3} s")
@@ -101,6 +108,14 @@ mod tests {
     fn an_error_is_never_shown_smaller_than_it_is() {
         assert_eq!(value_and_error(1.0, 1e-9, Unit::Metre), "1.0000 ± 0.0001");
         assert_eq!(value_and_error(1.0, 0.000_11, Unit::Metre), "1.0000 ± 0.0002");
+    }
+
+    #[test]
+    fn limits_keep_their_digits() {
+        assert_eq!(exact(1.8346, Unit::Metre), "1.8346");
+        assert_eq!(exact(0.001_551_14, Unit::Metre), "0.00155114");
+        assert_eq!(exact(61_019.333, Unit::Kilonewton), "61.0193");
+        assert_eq!(exact(2.0, Unit::Metre), "2");
     }
 
     #[test]

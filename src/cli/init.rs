@@ -37,7 +37,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
             }
         }
     };
-    let Some(path) = &arguments.file else {
+    let Some(path) = arguments.file.as_ref().filter(|path| path.as_os_str() != "-") else {
         io::stdout().write_all(text.as_bytes())?;
         return Ok(Status::Pass);
     };

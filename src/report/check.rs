@@ -33,6 +33,8 @@ fn address(tire: &TireId) -> Vec<Number> {
 pub fn explain(reason: &Reason) -> String {
     let (quantity, verdict, estimate, limit) = match reason {
         Reason::Limit { quantity, verdict, estimate, limit } => (quantity, verdict, estimate, limit),
+        Reason::Broken(1) => return "a cable breaks".to_owned(),
+        Reason::Broken(count) => return format!("{count} cables break"),
         Reason::Early { end, still } => return early(*end, *still),
     };
     let (name, unit) = match quantity {
@@ -41,7 +43,7 @@ pub fn explain(reason: &Reason) -> String {
         Quantity::Drift => ("drift", Unit::Metre),
     };
     let value = value_and_error(estimate.value, estimate.error, unit);
-    let (limit, symbol) = (units::value(*limit, unit), unit.symbol());
+    let (limit, symbol) = (units::exact(*limit, unit), unit.symbol());
     match verdict {
         Verdict::Fail => format!("{name} {value} {symbol} is over the limit of {limit} {symbol}"),
         _ => format!("{name} {value} {symbol} is too near the limit of {limit} {symbol} to tell"),
@@ -59,7 +61,7 @@ fn early(end: f64, still: Still) -> String {
             )
         }
         Still::Growing => {
-            format!("the run ends at {end} with height or force at its greatest: give a longer duration_s")
+            format!("the run ends at {end} while height or force may grow: give a longer duration_s")
         }
         Still::Moving => {
             format!(
@@ -99,12 +101,7 @@ pub fn broken(scene: &Scene, checked: &Checked) -> String {
     let names: Vec<String> = checked.broken.iter().take(BROKEN).map(name).collect();
     let more = checked.broken.len().saturating_sub(BROKEN);
     let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
-    let count = checked.broken.len();
-    format!(
-        "{count} {}: {}{rest}",
-        if count == 1 { "cable breaks" } else { "cables break" },
-        names.join(", ")
-    )
+    format!("broken: {}{rest}", names.join(", "))
 }
 
 /// The command that gives these results.

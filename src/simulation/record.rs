@@ -1,5 +1,7 @@
 //! What is kept of a run as it goes: peaks between samples, the ledger, the history.
 
+use nalgebra::Vector3;
+
 use crate::outcome::{Broken, End, History, Ledger, Outcome, Peak};
 use crate::scene::Shot;
 
@@ -57,10 +59,31 @@ impl Record {
         self.ledger.greatest_residual = self.ledger.greatest_residual.max(residual.abs());
     }
 
-    /// The finished run.
-    pub fn finish(self, drift: Peak, steps: usize, end: End) -> Outcome {
+    /// A cable broke at `limit` [N]: no force was greater.
+    pub fn cap(&mut self, limit: f64) {
+        self.force.value = self.force.value.min(limit);
+    }
+
+    /// The finished run, from the tires at its end: index, displacement [m], velocity [m/s]; and when that was [s], after how
+    /// many steps.
+    pub fn finish(
+        self,
+        tires: impl Iterator<Item = (usize, Vector3<f64>, Vector3<f64>)>,
+        gravity: f64,
+        (at, steps): (f64, usize),
+        end: End,
+    ) -> Outcome {
+        let (mut drift, mut reach) = (Peak { at, ..Peak::default() }, 0.0_f64);
+        for (place, displacement, velocity) in tires {
+            let shift = displacement.xy().norm();
+            if shift > drift.value {
+                (drift.value, drift.place) = (shift, place);
+            }
+            let rise = if velocity.z > 0.0 { velocity.z * velocity.z / (2.0 * gravity) } else { 0.0 };
+            reach = reach.max(displacement.z + rise);
+        }
         let Self { height, force, broken, ledger, history, step } = self;
-        Outcome { height, force, drift, broken, ledger, history, step, steps, end }
+        Outcome { height, force, drift, broken, ledger, history, step, steps, end, reach }
     }
 }
 

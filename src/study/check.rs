@@ -68,6 +68,8 @@ pub enum Reason {
         /// The limit [unit of the quantity].
         limit: f64,
     },
+    /// So many cables break.
+    Broken(usize),
     /// The run ends too early to tell.
     Early {
         /// When [s].
@@ -82,6 +84,7 @@ impl Reason {
     pub fn verdict(&self) -> Verdict {
         match self {
             Reason::Limit { verdict, .. } => *verdict,
+            Reason::Broken(_) => Verdict::Fail,
             Reason::Early { .. } => Verdict::Undecided,
         }
     }
@@ -92,7 +95,7 @@ impl Reason {
 pub enum Still {
     /// The last hole fires at this time [s].
     Unfired(f64),
-    /// Height or force is greatest at the very end.
+    /// Height or force is greatest at the very end, or a flight under way may pass the limit.
     Growing,
     /// Tires move on, and their drift has a limit.
     Moving,
@@ -109,7 +112,7 @@ pub fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<Still> {
     }
     // The greatest of all samples is the last one, or the one before.
     let grows = |peak: Peak| peak.value > 0.0 && peak.at > outcome.drift.at - 2.5 * outcome.step;
-    if grows(outcome.height) || grows(outcome.force) {
+    if grows(outcome.height) || grows(outcome.force) || outcome.reach > case.limits.height {
         return Some(Still::Growing);
     }
     case.limits.drift.map(|_| Still::Moving)
@@ -258,6 +261,7 @@ fn judge(
         })
         .filter(|reason| reason.verdict() != Verdict::Pass)
         .collect();
+    reasons.extend((!last.0.broken.is_empty()).then_some(Reason::Broken(last.0.broken.len())));
     let end = case.plan.simulation.duration_s.unwrap_or(last.0.drift.at);
     reasons.extend(early(case, shot, &last.0).map(|still| Reason::Early { end, still }));
     Checked {

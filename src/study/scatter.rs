@@ -133,6 +133,9 @@ fn judge_sample(
         pair(outcome.drift.value, relative_error[2]),
     ];
     let verdict = case.limits.judge([height, force, drift]);
+    if !outcome.broken.is_empty() {
+        return Ok(Envelope { verdict: Verdict::Fail, height, force, drift });
+    }
     if verdict == Verdict::Pass && early(case, shot, &outcome).is_some() {
         return Ok(Envelope { verdict: Verdict::Undecided, height, force, drift });
     }

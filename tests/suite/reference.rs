@@ -3,7 +3,7 @@
 use shelter::outcome::End;
 use shelter::plan::Method;
 
-use crate::scenes::{close, fire, fire_rows, grid, quincunx, run, settings};
+use crate::scenes::{METHODS, close, fire, fire_rows, grid, quincunx, run, settings};
 
 /// Four reference scenes: height [m], force [N]; the digits given end at 5e-6 m and 0.05 N.
 #[test]
@@ -82,6 +82,19 @@ fn both_methods_are_of_second_order() {
         let mean = |h: f64| [0.9, 0.97, 1.0, 1.06, 1.11].map(|part| error(part * h)).iter().sum::<f64>();
         let order = (mean(2e-3) / mean(1e-3)).log2();
         assert!((1.7..2.4).contains(&order), "{method:?}: order {order}");
+    }
+}
+
+/// The end asked for falls between two steps: drift is that of the end, not of the step after it.
+#[test]
+fn drift_is_that_of_the_end_asked_for() {
+    let (scene, shot) = (grid(2, 3, 1.5, 1.4e6), fire_rows(&[0], 3, 0.0));
+    for method in METHODS {
+        let drift = |h: f64| run(&scene, &shot, settings(method, h, Some(0.403))).drift;
+        let (coarse, fine) = (drift(2.7e-4), drift(2e-6));
+        assert!((coarse.at - 0.403).abs() < 1e-12, "{}", coarse.at);
+        // 0.4 of a step later it is further by 4e-4.
+        close(coarse.value, fine.value, 2e-4 * fine.value, "drift");
     }
 }
 

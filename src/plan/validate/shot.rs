@@ -127,6 +127,10 @@ fn read_launch(table: &Table<'_>, gravity: f64) -> f64 {
         }
         (false, true) => {
             let height = table.number("free_flight_height_m", None, range::FREE_FLIGHT_M, "1.83");
+            if gravity == 0.0 {
+                let message = "without gravity no launch velocity follows from a height";
+                table.wrong("free_flight_height_m", message, "give launch_m_s instead");
+            }
             (2.0 * gravity * height).sqrt()
         }
         _ => table.number("launch_m_s", None, range::LAUNCH_M_S, "6.0"),

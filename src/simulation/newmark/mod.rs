@@ -126,12 +126,12 @@ impl<'a> Stepper<'a> {
             if !self.moving {
                 match self.shot.firings.get(self.clock.fired) {
                     Some(next) if next.at <= limit => self.clock.jump(next.at),
-                    Some(_) => return Ok(self.finish(End::TimeLimit)),
-                    None => return Ok(self.finish(End::AtRest)),
+                    Some(_) => return Ok(self.finish(limit, End::TimeLimit)),
+                    None => return Ok(self.finish(limit, End::AtRest)),
                 }
             }
             if self.now() > limit {
-                return Ok(self.finish(End::TimeLimit));
+                return Ok(self.finish(limit, End::TimeLimit));
             }
             self.refresh();
             self.sample();

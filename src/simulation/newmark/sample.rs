@@ -38,13 +38,15 @@ impl Stepper<'_> {
         if force > breaking_force {
             self.cut_broken(breaking_force);
         }
-        self.record.history.note(now, height, force);
+        self.record.history.note(now, height, force.min(breaking_force));
     }
 
     /// Takes away the cables that pull past their breaking force; what they stored is lost, and their tires are let go.
     #[cold]
     fn cut_broken(&mut self, breaking_force: f64) {
         let at = self.now();
+        self.record.cap(breaking_force);
+        self.sampled = None;
         for n in 0..self.wake.blocks.len() {
             let place = self.wake.blocks[n];
             let cable = &mut self.scene.to_mut().cables[place];
@@ -66,13 +68,11 @@ impl Stepper<'_> {
         cable.stiffness * (cable.displaced(u).norm() - cable.rest_length)
     }
 
-    pub(super) fn finish(self, end: End) -> Outcome {
-        let mut drift = Peak { at: self.now(), ..Peak::default() };
-        for (tire, u) in self.u.iter().enumerate() {
-            if u.xy().norm() > drift.value {
-                (drift.value, drift.place) = (u.xy().norm(), tire);
-            }
-        }
-        self.record.finish(drift, self.clock.steps, end)
+    /// The outcome at `limit` [s], which the last step reaches past.
+    pub(super) fn finish(self, limit: f64, end: End) -> Outcome {
+        let (now, past) = (self.now(), (self.now() - limit).max(0.0));
+        let Self { u, v, scene, record, clock, .. } = self;
+        let tires = u.iter().zip(&v).enumerate().map(|(tire, (u, v))| (tire, u - v * past, *v));
+        record.finish(tires, scene.gravity, (now - past, clock.steps), end)
     }
 }

@@ -10,7 +10,7 @@ use self::advance::Advance;
 use self::events::Carried;
 use self::pull::Pull;
 use super::Part;
-use crate::outcome::{End, Outcome, Peak};
+use crate::outcome::{End, Outcome};
 use crate::scene::{Firing, Scene, Shot};
 use crate::simulation::cable::Field;
 use crate::simulation::contact::support;
@@ -184,18 +184,17 @@ impl<'a> Stepper<'a> {
     }
 
     fn finish(self, end: End) -> Outcome {
-        let [x, y, _] = &self.u.part;
-        let mut drift = Peak { at: self.now(), ..Peak::default() };
+        // The last step reaches past the limit.
+        let (now, past) = (self.now(), (self.now() - self.time_limit).max(0.0));
+        let Self { part, u, v, record, clock, gravity, .. } = self;
+        let vector = |of: &Field, tire: usize| Vector3::from_fn(|c, _| of.part[c][tire]);
         // Images are as they were a step ago.
-        let weights = self.part.quotient.weight.iter().enumerate();
-        for (tire, _) in weights.filter(|&(_, &weight)| weight > 0.0) {
-            let shift2 = x[tire] * x[tire] + y[tire] * y[tire];
-            if shift2 > drift.value {
-                (drift.value, drift.place) = (shift2, self.part.quotient.tire(tire));
-            }
-        }
-        drift.value = drift.value.sqrt();
-        self.record.finish(drift, self.clock.steps, end)
+        let kept = part.quotient.weight.iter().enumerate().filter(|&(_, &weight)| weight > 0.0);
+        let tires = kept.map(|(tire, _)| {
+            let velocity = vector(&v, tire);
+            (part.quotient.tire(tire), vector(&u, tire) - velocity * past, velocity)
+        });
+        record.finish(tires, gravity, (now - past, clock.steps), end)
     }
 }
 

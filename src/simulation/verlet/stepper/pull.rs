@@ -71,6 +71,9 @@ impl Stepper<'_> {
     #[cold]
     fn cut_broken(&mut self, pass: &mut Pass) {
         let at = self.now();
+        self.record.cap(self.breaking_force);
+        self.sampled = None;
+        pass.force.iter_mut().for_each(|force| *force = force.min(self.breaking_force));
         for &n in &self.wake.blocks {
             let block = &self.part.blocks.blocks[n];
             for place in 0..block.len {
