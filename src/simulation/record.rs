@@ -75,13 +75,14 @@ impl Record {
     ) -> Outcome {
         let (mut drift, mut reach) = (Peak { at, ..Peak::default() }, 0.0_f64);
         for (place, displacement, velocity) in tires {
-            let shift = displacement.xy().norm();
-            if shift > drift.value {
-                (drift.value, drift.place) = (shift, place);
+            let shift2 = displacement.xy().norm_squared();
+            if shift2 > drift.value {
+                (drift.value, drift.place) = (shift2, place);
             }
             let rise = if velocity.z > 0.0 { velocity.z * velocity.z / (2.0 * gravity) } else { 0.0 };
             reach = reach.max(displacement.z + rise);
         }
+        drift.value = drift.value.sqrt();
         let Self { height, force, broken, ledger, history, step } = self;
         Outcome { height, force, drift, broken, ledger, history, step, steps, end, reach }
     }
