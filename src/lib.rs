@@ -12,6 +12,7 @@
 //! | module | what comes in | what goes out | what it must not know |
 //! |---|---|---|---|
 //! | [`units`] | SI numbers | words | anything else |
+//! | [`file`] | a text | a file, whole or not at all | what is in it |
 //! | [`ropes`] | a data file | the rope catalogue | plans |
 //! | [`plan`] | TOML | a valid [`Plan`](plan::Plan), or every mistake with its remedy | physics |
 //! | [`scene`] | a plan | masses, cables, firings as flat SI arrays | how motion is computed |
@@ -30,9 +31,9 @@
 //! # Rules
 //!
 //! - A [`Scene`](scene::Scene) is never changed once built; everything that moves lives in a stepper.
-//! - Plan units become SI in `scene`, and SI becomes words in `units`. Nothing between converts.
+//! - Plan units become SI where a plan becomes a [`Case`](study::Case): scene, shots and limits. SI becomes words in `units`.
 //! - What goes wrong in a run is a value, never a panic and never a pass.
-//! - The same plan gives the same bytes for any number of threads and lanes.
+//! - The same plan gives the same numbers for any number of threads.
 //!
 //! # Words
 //!
@@ -41,6 +42,7 @@
 //! *taut* or *slack*; a tire on the ground *sticks* or *slips*. Everything else is the vocabulary of contact dynamics.
 
 pub mod cli;
+pub mod file;
 pub mod outcome;
 pub mod plan;
 pub mod report;

@@ -1,12 +1,12 @@
 //! `shelter init`: a commented starter plan.
 
-use std::fs::OpenOptions;
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 
 use clap::Args;
 
 use super::{Look, Status};
+use crate::file;
 use crate::plan::Diagnostics;
 use crate::plan::import::plan_from_holes;
 
@@ -41,19 +41,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         io::stdout().write_all(text.as_bytes())?;
         return Ok(Status::Pass);
     };
-    let written = OpenOptions::new()
-        .write(true)
-        .create_new(true)
-        .open(path)
-        .and_then(|mut file| file.write_all(text.as_bytes()));
-    match written {
-        Ok(()) => {
-            eprintln!("wrote {0}; open it with: shelter {0}", path.display());
-            Ok(Status::Pass)
-        }
-        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-            Err(io::Error::other(format!("{} is there already and is not overwritten", path.display())))
-        }
-        Err(error) => Err(io::Error::new(error.kind(), format!("{}: {error}", path.display()))),
-    }
+    file::create(path, &text)?;
+    eprintln!("wrote {0}; open it with: shelter {0}", path.display());
+    Ok(Status::Pass)
 }

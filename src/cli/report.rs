@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::{Compute, FormatArg, Look, Status, check, load, long};
-use crate::plan::edit;
+use crate::file;
 use crate::report;
 use crate::verdict::Verdict;
 
@@ -42,7 +42,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     if output.as_os_str() == "-" {
         long::print(&page)?;
     } else {
-        edit::save(output, &page)?;
+        file::save(output, &page)?;
         eprintln!("wrote {}", output.display());
     }
     if let Some(format) = arguments.format {

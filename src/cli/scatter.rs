@@ -32,12 +32,12 @@ pub struct Arguments {
 /// How many samples, from which seed.
 #[derive(Args, Clone, Copy)]
 pub struct DrawArguments {
-    /// Samples of every option
-    #[arg(long, value_name = "N", default_value = "1000", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
-    samples: u32,
-    /// Of the random numbers
-    #[arg(long, value_name = "N", default_value = "1", allow_negative_numbers = true)]
-    seed: u64,
+    /// Samples of every option; default: 1000
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
+    samples: Option<u32>,
+    /// Of the random numbers; default: 1
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    seed: Option<u64>,
     /// Stop an option once it certainly fails less, or more, often than this [%; 1 where none is given]
     #[arg(long, value_name = "PERCENT", num_args = 0..=1, default_missing_value = "1", value_parser = percent)]
     until_certain: Option<f64>,
@@ -46,10 +46,15 @@ pub struct DrawArguments {
 impl DrawArguments {
     pub fn draw(self) -> Draw {
         Draw {
-            samples: self.samples as usize,
-            seed: self.seed,
+            samples: self.samples.unwrap_or(1000) as usize,
+            seed: self.seed.unwrap_or(1),
             certain_at: self.until_certain.map(|percent| percent * 1e-2),
         }
+    }
+
+    /// Whether any of it was asked for.
+    pub fn is_given(self) -> bool {
+        self.samples.is_some() || self.seed.is_some() || self.until_certain.is_some()
     }
 }
 

@@ -8,6 +8,7 @@ use clap::Args;
 use super::long::Finished;
 use super::scatter::DrawArguments;
 use super::{Compute, FormatArg, Look, Status, load, long};
+use crate::file;
 use crate::plan::{Layout, edit};
 use crate::report;
 use crate::ropes::catalogue;
@@ -102,6 +103,9 @@ fn choose(arguments: &Arguments, case: &mut Case) -> Result<Demand, String> {
         let spec = case.plan.scatter.ok_or(NO_SCATTER)?;
         return Ok(Demand::Samples(spec, arguments.draw.draw()));
     }
+    if arguments.draw.is_given() {
+        return Err("--samples, --seed and --until-certain are of --scatter: add it".to_owned());
+    }
     if !arguments.any_order {
         return Ok(Demand::Options);
     }
@@ -121,7 +125,7 @@ fn write(arguments: &Arguments, case: &Case, found: &Combination) -> io::Result<
     }
     let text = edit::write_sizes(&case.plan.text, &found.rope.name, found.tire_mass, found.border_rows)
         .map_err(io::Error::other)?;
-    edit::save(&arguments.plan, &text)?;
+    file::save(&arguments.plan, &text)?;
     eprintln!("written: {}", arguments.plan.display());
     Ok(())
 }

@@ -1,8 +1,5 @@
 //! Changes to the text of a plan that leave everything else, comments and formatting, as it was.
 
-use std::io::{self, Write};
-use std::path::Path;
-
 use toml_edit::{DocumentMut, Item, Table, value};
 
 use super::Plan;
@@ -65,47 +62,6 @@ pub fn write_sizes(
 pub(super) fn with_line_ends_of(text: &str, document: &DocumentMut) -> String {
     let new = document.to_string();
     if text.contains("\r\n") { new.replace("\r\n", "\n").replace('\n', "\r\n") } else { new }
-}
-
-/// Replaces a file with `text` whole: whoever reads it, or a loss of power, finds the old text or the new.
-///
-/// Files that may not be written stay as they are; a device or a pipe is written to, not replaced.
-pub fn save(path: &Path, text: &str) -> io::Result<()> {
-    // A link stays a link: what it names is replaced.
-    let path = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
-    let replaced = match path.metadata() {
-        Ok(old) if !old.is_file() => std::fs::OpenOptions::new()
-            .write(true)
-            .open(&path)
-            .and_then(|mut file| file.write_all(text.as_bytes())),
-        Ok(old) if old.permissions().readonly() => Err(io::ErrorKind::ReadOnlyFilesystem.into()),
-        _ => replace(&path, text),
-    };
-    replaced.map_err(|error| {
-        let words = match error.kind() {
-            io::ErrorKind::NotFound => "there is no such folder".to_owned(),
-            io::ErrorKind::ReadOnlyFilesystem => "it may only be read".to_owned(),
-            io::ErrorKind::PermissionDenied => "it may not be written".to_owned(),
-            io::ErrorKind::StorageFull => "the disk is full".to_owned(),
-            kind => kind.to_string(),
-        };
-        io::Error::new(error.kind(), format!("{}: {words}", path.display()))
-    })
-}
-
-fn replace(path: &Path, text: &str) -> io::Result<()> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut new = builder.tempfile_in(folder)?;
-    if let Ok(old) = path.metadata() {
-        new.as_file().set_permissions(old.permissions())?;
-    }
-    new.write_all(text.as_bytes())?;
-    new.as_file().sync_all()?;
-    new.persist(path)?;
-    Ok(())
 }
 
 /// Puts a value where the old one stood, with the comment beside it.

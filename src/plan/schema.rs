@@ -11,20 +11,31 @@ use crate::ropes::catalogue;
 
 /// The schema (draft 2020-12).
 pub fn schema() -> Value {
-    let ropes: Vec<&str> = catalogue().ropes.iter().map(|rope| rope.name.as_str()).collect();
-    let terminations: Vec<&str> = catalogue().terminations.iter().map(|known| known.name.as_str()).collect();
-    let spacing = number(range::SPACING_M, "centre to centre [m]");
-    let link = json!({ "enum": ["row", "column", "diagonal"] });
-    let launch = number(range::LAUNCH_M_S, "launch velocity of the tires [m/s]");
-    let hole = table(
-        "one hole; it launches the nearest tire",
-        &["x_m", "y_m", "launch_m_s"],
+    let mut schema = table(
+        "A blast row, the shelter over it, and the delay options to choose from",
+        &["shelter", "tire", "cable", "ground", "blast_row", "limits", "delay"],
         [
-            ("x_m", number(range::PLACE_M, "[m]")),
-            ("y_m", number(range::PLACE_M, "[m]")),
-            ("launch_m_s", launch.clone()),
+            ("title", json!({ "type": "string" })),
+            ("shelter", shelter()),
+            ("tire", tire()),
+            ("cable", cable()),
+            ("ground", ground()),
+            ("blast_row", list(blast_row(), "in the order listed")),
+            ("limits", limits()),
+            ("delay", list(delay(), "options to compare")),
+            ("simulation", simulation()),
+            ("scatter", scatter()),
+            ("size", size()),
         ],
     );
+    schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
+    schema["title"] = json!("Plan of shelter");
+    schema
+}
+
+fn shelter() -> Value {
+    let spacing = number(range::SPACING_M, "centre to centre [m]");
+    let link = json!({ "enum": ["row", "column", "diagonal"] });
     let listed_tire = table(
         "one tire",
         &["x_m", "y_m"],
@@ -34,11 +45,8 @@ pub fn schema() -> Value {
             ("mass_kg", number(range::MASS_KG, "instead of that of [tire]")),
         ],
     );
-    let tire_number = json!({ "type": "integer", "minimum": 1 });
-    let listed_cable =
-        table("one cable", &["from", "to"], [("from", tire_number.clone()), ("to", tire_number.clone())]);
-    let whole = |range: RangeInclusive<usize>, words: &str| json!({ "type": "integer", "minimum": range.start(), "maximum": range.end(), "description": words });
-    let shelter = table(
+    let listed_cable = table("one cable", &["from", "to"], [("from", tire_number()), ("to", tire_number())]);
+    table(
         "tires and the ties between them",
         &["layout"],
         [
@@ -54,8 +62,11 @@ pub fn schema() -> Value {
             ("tire", list(listed_tire, "of a list")),
             ("cable", list(listed_cable, "of a list")),
         ],
-    );
-    let tire = table(
+    )
+}
+
+fn tire() -> Value {
+    table(
         "the tire at every place",
         &["mass_kg"],
         [
@@ -65,8 +76,13 @@ pub fn schema() -> Value {
                 number(range::DIAMETER_M, "cables run from rim to rim; 0: from centre to centre [m]"),
             ),
         ],
-    );
-    let cable = table(
+    )
+}
+
+fn cable() -> Value {
+    let ropes: Vec<&str> = catalogue().ropes.iter().map(|rope| rope.name.as_str()).collect();
+    let terminations: Vec<&str> = catalogue().terminations.iter().map(|known| known.name.as_str()).collect();
+    table(
         "the rope of every tie: from the catalogue, or stiffness and breaking force",
         &[],
         [
@@ -81,20 +97,40 @@ pub fn schema() -> Value {
             ),
             ("on_overload", json!({ "enum": ["report", "break"] })),
         ],
+    )
+}
+
+fn ground() -> Value {
+    table("", &["friction"], [("friction", number(range::FRICTION, "of a tire on the ground"))])
+}
+
+fn blast_row() -> Value {
+    let launch = number(range::LAUNCH_M_S, "launch velocity of the tires [m/s]");
+    let hole = table(
+        "one hole; it launches the nearest tire",
+        &["x_m", "y_m", "launch_m_s"],
+        [
+            ("x_m", number(range::PLACE_M, "[m]")),
+            ("y_m", number(range::PLACE_M, "[m]")),
+            ("launch_m_s", launch.clone()),
+        ],
     );
-    let blast_row = table(
+    table(
         "holes that fire together",
         &["name"],
         [
             ("name", json!({ "type": "string" })),
             ("under_row", number(range::ROW, "launches every tire of this shelter row")),
-            ("under_tires", list(tire_number, "launches these tires")),
+            ("under_tires", list(tire_number(), "launches these tires")),
             ("holes", list(hole, "one by one")),
             ("launch_m_s", launch),
             ("free_flight_height_m", number(range::FREE_FLIGHT_M, "seen on a loose test tire [m]")),
         ],
-    );
-    let limits = table(
+    )
+}
+
+fn limits() -> Value {
+    table(
         "what an option must keep to pass",
         &["flight_height_m", "cable_safety_factor"],
         [
@@ -102,8 +138,11 @@ pub fn schema() -> Value {
             ("cable_safety_factor", number(range::SAFETY_FACTOR, "breaking force / greatest force")),
             ("drift_m", number(range::LIMIT_M, "greatest horizontal shift of any tire at the end [m]")),
         ],
-    );
-    let delay = table(
+    )
+}
+
+fn delay() -> Value {
+    table(
         "one delay option",
         &["name"],
         [
@@ -115,8 +154,11 @@ pub fn schema() -> Value {
                 list(number(range::TIME_MS, "[ms]"), "firing time of each blast row, in the order listed"),
             ),
         ],
-    );
-    let simulation = table(
+    )
+}
+
+fn simulation() -> Value {
+    table(
         "how to compute",
         &[],
         [
@@ -125,8 +167,11 @@ pub fn schema() -> Value {
             ("method", json!({ "enum": ["verlet", "newmark"] })),
             ("gravity_m_s2", number(range::GRAVITY_M_S2, "[m/s²]")),
         ],
-    );
-    let scatter = table(
+    )
+}
+
+fn scatter() -> Value {
+    table(
         "what scatters from shot to shot",
         &[],
         [
@@ -136,8 +181,11 @@ pub fn schema() -> Value {
             ("launch_cv_percent", number(range::SCATTER_PERCENT, "of launch velocities, lognormal [%]")),
             ("friction", list(number(range::FRICTION, "from, to"), "anything between")),
         ],
-    );
-    let size = table(
+    )
+}
+
+fn size() -> Value {
+    table(
         "what `shelter size` may choose from",
         &[],
         [
@@ -145,28 +193,16 @@ pub fn schema() -> Value {
             ("tire_mass_kg", list(number(range::MASS_KG, "[kg]"), "masses of tires at hand")),
             ("most_border_rows", whole(range::SIZED_BORDER_ROWS, "rows of ballast")),
         ],
-    );
-    let ground = table("", &["friction"], [("friction", number(range::FRICTION, "of a tire on the ground"))]);
-    let mut schema = table(
-        "A blast row, the shelter over it, and the delay options to choose from",
-        &["shelter", "tire", "cable", "ground", "blast_row", "limits", "delay"],
-        [
-            ("title", json!({ "type": "string" })),
-            ("shelter", shelter),
-            ("tire", tire),
-            ("cable", cable),
-            ("ground", ground),
-            ("blast_row", list(blast_row, "in the order listed")),
-            ("limits", limits),
-            ("delay", list(delay, "options to compare")),
-            ("simulation", simulation),
-            ("scatter", scatter),
-            ("size", size),
-        ],
-    );
-    schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
-    schema["title"] = json!("Plan of shelter");
-    schema
+    )
+}
+
+/// Of a list layout.
+fn tire_number() -> Value {
+    json!({ "type": "integer", "minimum": 1 })
+}
+
+fn whole(range: RangeInclusive<usize>, words: &str) -> Value {
+    json!({ "type": "integer", "minimum": range.start(), "maximum": range.end(), "description": words })
 }
 
 fn number(range: RangeInclusive<f64>, words: &str) -> Value {

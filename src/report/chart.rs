@@ -32,7 +32,7 @@ struct Panel {
 }
 
 /// Height and force over time, one chart each; a chart that cannot be drawn is left out.
-pub fn history(case: &Case, history: &History, fire_at_ms: &[f64]) -> Vec<String> {
+pub fn history(case: &Case, history: &History, fire_at_s: &[f64]) -> Vec<String> {
     let panel = |name, unit: Unit, values: &[f64], limit: f64| Panel {
         name,
         across: "s",
@@ -43,7 +43,7 @@ pub fn history(case: &Case, history: &History, fire_at_ms: &[f64]) -> Vec<String
             .map(|(n, value)| ((n as f64 + 0.5) * history.width, value / unit.size()))
             .collect(),
         limit: limit / unit.size(),
-        marks: fire_at_ms.iter().map(|ms| ms * 1e-3).collect(),
+        marks: fire_at_s.to_vec(),
         windows: Vec::new(),
     };
     let height = panel(HEIGHT, Unit::Metre, &history.height, case.limits.height);
@@ -57,7 +57,13 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<String> {
         name,
         across: "interval, ms",
         range: sweep.range().map(|interval| interval * 1e3),
-        curve: sweep.points.iter().map(|point| (point.interval * 1e3, of(point) / unit.size())).collect(),
+        // A run that failed has no value.
+        curve: sweep
+            .points
+            .iter()
+            .filter(|point| of(point).is_finite())
+            .map(|point| (point.interval * 1e3, of(point) / unit.size()))
+            .collect(),
         limit: limit / unit.size(),
         marks: Vec::new(),
         windows: sweep.windows().iter().map(|window| window.map(|interval| interval * 1e3)).collect(),

@@ -6,7 +6,7 @@ use serde_json::Number;
 use super::table::accuracy_name;
 use crate::outcome::Broken;
 use crate::plan::Method;
-use crate::scene::{Scene, TireId};
+use crate::scene::{Scene, TireId, fire_at_s};
 use crate::study::check::{Checked, Quantity, Reason, Still};
 use crate::study::{Case, Effort};
 use crate::units::{self, Unit, value_and_error};
@@ -244,7 +244,7 @@ impl Document {
             results.iter().flatten().next().map_or(plan.simulation.method, |checked| checked.effort.method);
         let options = plan.delays.iter().zip(results).map(|(delay, result)| OptionResult {
             name: delay.name.clone(),
-            fire_at_s: delay.timing.fire_at_ms().iter().map(|ms| ms * 1e-3).collect(),
+            fire_at_s: fire_at_s(&delay.timing),
             verdict: result.as_ref().map_or(Verdict::Undecided, |c| c.verdict).word(),
             reasons: match result {
                 Ok(checked) => checked.reasons.iter().map(explain).collect(),

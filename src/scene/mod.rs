@@ -10,7 +10,7 @@ mod shot;
 use nalgebra::Vector3;
 
 pub use mirror::Mirror;
-pub use shot::{Firing, Shot};
+pub use shot::{Firing, Shot, fire_at_s};
 
 /// What lies on the ground before anything fires.
 #[derive(Clone, Debug)]

@@ -3,6 +3,11 @@
 use super::{Scene, TireId};
 use crate::plan::{BlastRow, Charge, Timing};
 
+/// Firing time of each blast row [s] (`n_blast_rows`).
+pub fn fire_at_s(timing: &Timing) -> Vec<f64> {
+    timing.fire_at_ms().iter().map(|ms| ms * 1e-3).collect()
+}
+
 /// One hole's impulse on one tire.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Firing {
@@ -26,9 +31,8 @@ pub struct Shot {
 impl Shot {
     /// The shot of blast rows fired at `timing` under `scene`.
     pub fn new(scene: &Scene, rows: &[BlastRow], timing: &Timing) -> Self {
-        let at: Vec<f64> = timing.fire_at_ms().iter().map(|ms| ms * 1e-3).collect();
         let targets: Vec<_> = rows.iter().map(|row| scene.targets(&row.charge)).collect();
-        Self::from_targets(&targets, &at)
+        Self::from_targets(&targets, &fire_at_s(timing))
     }
 
     /// The shot of rows with known targets `(tire, launch [m/s])` fired at `at` [s] (`n_rows`).

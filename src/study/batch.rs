@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::check::{Checked, check_shot};
 use super::{Case, Effort};
@@ -70,14 +70,30 @@ pub struct Envelope {
     /// Pass, fail or undecided.
     pub verdict: Verdict,
     /// Greatest flight height and its error [m].
+    #[serde(deserialize_with = "or_infinite")]
     pub height: [f64; 2],
     /// Greatest cable force and its error [N].
+    #[serde(deserialize_with = "or_infinite")]
     pub force: [f64; 2],
     /// Greatest drift and its error [m].
+    #[serde(deserialize_with = "or_infinite")]
     pub drift: [f64; 2],
 }
 
+/// JSON has no infinity: it is written as null.
+fn or_infinite<'d, D: Deserializer<'d>>(from: D) -> Result<[f64; 2], D::Error> {
+    <[Option<f64>; 2]>::deserialize(from).map(|pair| pair.map(|value| value.unwrap_or(f64::INFINITY)))
+}
+
 impl Envelope {
+    /// Of a run that failed.
+    pub const UNKNOWN: Self = Self {
+        verdict: Verdict::Undecided,
+        height: [f64::INFINITY; 2],
+        force: [f64::INFINITY; 2],
+        drift: [f64::INFINITY; 2],
+    };
+
     /// Of a checked shot.
     pub fn of(checked: &Checked) -> Self {
         let pair = |estimate: Estimate| [estimate.value, estimate.error];
@@ -139,14 +155,45 @@ pub fn judge(
     effort: &Effort,
     progress: &Progress,
 ) -> Result<Vec<Option<Envelope>>, Failure> {
-    each(shots, progress, |shot| {
+    envelopes(shots, progress, |shot| {
         check_shot(case, shot, effort, &mut |_| progress.flow()).map(|checked| Envelope::of(&checked))
     })
+}
+
+/// The envelope of every job, like [`each`]. A few runs that fail are no reason for the others to have no result: theirs is
+/// open, its values unknown. Where every run fails, that is told instead.
+pub fn envelopes<J: Sync>(
+    jobs: &[J],
+    progress: &Progress,
+    work: impl Fn(&J) -> Result<Envelope, Failure> + Sync,
+) -> Result<Vec<Option<Envelope>>, Failure> {
+    let done = each(jobs, progress, |job| match work(job) {
+        Err(stopped @ Failure::Stopped { .. }) => Err(stopped),
+        result => Ok(result),
+    })?;
+    if done.iter().flatten().all(Result::is_err)
+        && let Some(Err(failure)) = done.iter().flatten().next()
+    {
+        return Err(failure.clone());
+    }
+    Ok(done.into_iter().map(|result| result.map(|envelope| envelope.unwrap_or(Envelope::UNKNOWN))).collect())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_run_that_fails_is_open_unless_all_fail() {
+        let failure = Failure::Diverged { at: 1.0 };
+        let good = Envelope { verdict: Verdict::Pass, height: [1.0, 0.1], ..Envelope::UNKNOWN };
+        let work = |&job: &i32| if job == 2 { Err(failure.clone()) } else { Ok(good) };
+        let some = envelopes(&[1, 2], &Progress::default(), work).expect("one of them is good");
+        assert_eq!(some, [Some(good), Some(Envelope::UNKNOWN)]);
+        assert_eq!(envelopes(&[2, 2], &Progress::default(), work), Err(failure.clone()));
+        let text = serde_json::to_string(&Envelope::UNKNOWN).expect("JSON");
+        assert_eq!(serde_json::from_str::<Envelope>(&text).expect("read again"), Envelope::UNKNOWN);
+    }
 
     #[test]
     fn a_panic_is_told_and_the_others_go_on() {

@@ -12,11 +12,11 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, LogNormal, Normal};
 use serde::{Deserialize, Serialize};
 
-use super::batch::{Envelope, Progress, each};
+use super::batch::{Envelope, Progress, each, envelopes};
 use super::check::{check_shot, early, start_step};
 use super::{Case, Effort, Shard};
 use crate::plan::ScatterSpec;
-use crate::scene::{Firing, Shot};
+use crate::scene::{Firing, Shot, fire_at_s};
 use crate::simulation::{Failure, Settings};
 use crate::verdict::{Estimate, Verdict};
 
@@ -68,22 +68,26 @@ pub fn scatter(
     let Some(errors) = errors.into_iter().collect::<Option<Vec<_>>>() else { return Ok(Vec::new()) };
     let judge_one = |&(option, number): &(usize, usize)| {
         let shot = drawn(&case.shots[option], spec, draw.seed, option, number);
-        let envelope = judge_sample(case, &shot, &errors[option], effort, progress)?;
-        Ok(Sample { option, number, envelope })
+        judge_sample(case, &shot, &errors[option], effort, progress)
+    };
+    let judge = |jobs: Vec<(usize, usize)>| -> Result<Vec<Sample>, Failure> {
+        let envelopes = envelopes(&jobs, progress, judge_one)?;
+        let sample = |((option, number), envelope): (_, Option<Envelope>)| {
+            envelope.map(|envelope| Sample { option, number, envelope })
+        };
+        Ok(jobs.into_iter().zip(envelopes).filter_map(sample).collect())
     };
     if draw.certain_at.is_none() {
         let all = itertools::iproduct!(options, 0..draw.samples);
-        let jobs: Vec<_> = all.filter(|&(_, number)| shard.has(number)).collect();
-        return Ok(each(&jobs, progress, judge_one)?.into_iter().flatten().collect());
+        return judge(all.filter(|&(_, number)| shard.has(number)).collect());
     }
     let mut all = Vec::new();
     for option in options {
         let mut samples: Vec<Sample> = Vec::new();
         while samples.len() < draw.samples && !is_certain(&samples, draw) && !progress.expired() {
             let from = samples.len();
-            let jobs: Vec<_> =
-                (from..(from + LOOK_EVERY).min(draw.samples)).map(|number| (option, number)).collect();
-            samples.extend(each(&jobs, progress, judge_one)?.into_iter().flatten());
+            let next = from..(from + LOOK_EVERY).min(draw.samples);
+            samples.extend(judge(next.map(|number| (option, number)).collect())?);
         }
         if progress.expired() && !is_certain(&samples, draw) {
             progress.expect(draw.samples - samples.len());
@@ -243,7 +247,7 @@ pub fn swaps(case: &Case, spec: &ScatterSpec, least: f64) -> Vec<Swap> {
     let mut swaps = Vec::new();
     for (option, delay) in case.plan.delays.iter().enumerate() {
         let mut rows: Vec<(f64, usize)> =
-            delay.timing.fire_at_ms().into_iter().enumerate().map(|(row, ms)| (ms * 1e-3, row)).collect();
+            fire_at_s(&delay.timing).into_iter().enumerate().map(|(row, at)| (at, row)).collect();
         rows.sort_by(|a, b| a.0.total_cmp(&b.0));
         for pair in rows.windows(2) {
             let [(early, first), (late, second)] = [pair[0], pair[1]];

@@ -122,7 +122,12 @@ pub fn size(plan: &Plan, demand: &Demand, effort: &Effort, progress: &Progress) 
             let case = Case::new(plan.with(rope, tire_mass, border_rows));
             let (tires, total_mass) = (case.scene().mass.len(), total_mass(&case, rope));
             let trial = if held && !progress.expired() {
-                try_out(&case, demand, effort, &mut likeliest, progress)?
+                match try_out(&case, demand, effort, &mut likeliest, progress) {
+                    Err(stopped @ Failure::Stopped { .. }) => return Err(stopped),
+                    // What cannot be followed is not relied on.
+                    Err(_) => Some(trial(&case, &[Envelope::UNKNOWN], false)),
+                    Ok(trial) => trial,
+                }
             } else {
                 None
             };

@@ -103,7 +103,7 @@ pub fn remember(plan: &Path) {
     let lines: Vec<&str> = plans.iter().filter_map(|plan| plan.to_str()).collect();
     let folder = path.parent().map(fs::create_dir_all);
     if matches!(folder, Some(Ok(()))) {
-        let _ = crate::plan::edit::save(&path, &(lines.join("\n") + "\n"));
+        let _ = crate::file::save(&path, &(lines.join("\n") + "\n"));
     }
 }
 

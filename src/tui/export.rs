@@ -3,10 +3,12 @@
 use std::path::Path;
 
 use super::app::{App, Row, Screen};
-use super::file;
+
 use super::studies::Progress;
+use crate::file;
 use crate::report;
 use crate::report::check::Results;
+use crate::scene::fire_at_s;
 use crate::worker::{Found, Kind};
 
 /// Writes what is shown to a new file; its ending says how. Or why not, in words.
@@ -18,7 +20,7 @@ pub fn write(app: &App, path: &Path) -> Result<(), String> {
         "html" => report::html::page(&app.case, &results(app)?, &report::html::today()),
         _ => return Err("the name must end in .csv, .svg or .html".to_owned()),
     };
-    file::create(path, &text)
+    file::create(path, &text).map_err(|error| error.to_string())
 }
 
 /// The table on the screen.
@@ -57,7 +59,7 @@ fn svg(app: &App) -> Result<String, String> {
                 _ => &app.checked(app.selected).ok_or("the selected option has no result yet")?.history,
             };
             let delay = &app.case.plan.delays[app.selected];
-            report::chart::history(&app.case, history, &delay.timing.fire_at_ms())
+            report::chart::history(&app.case, history, &fire_at_s(&delay.timing))
         }
         Screen::Studies => match found(app, app.studies.shown)? {
             Found::Sweep(sweep) => report::chart::sweep(&app.case, sweep),

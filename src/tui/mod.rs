@@ -9,8 +9,8 @@ pub mod compare;
 pub mod config;
 pub mod editor;
 mod export;
-mod file;
 pub mod keymap;
+mod plan_file;
 pub mod player;
 pub mod prompt;
 pub mod start;
@@ -40,8 +40,8 @@ use ratatui::layout::Position;
 use ratatui::{Frame, Terminal};
 
 use self::app::{App, Request};
-use self::file::{PlanFile, Refusal};
 use self::keymap::Action;
+use self::plan_file::{PlanFile, Refusal};
 use self::prompt::{Prompt, Purpose};
 use self::start::{Next, Opened, Start};
 use self::theme::Theme;
@@ -205,7 +205,7 @@ impl Session {
 
     /// Writes the plan to a new file, which is then the one shown.
     fn save_as(&mut self, path: &Path) {
-        let written = file::create(path, &self.app.editor.text);
+        let written = crate::file::create(path, &self.app.editor.text).map_err(|error| error.to_string());
         if written.is_ok() {
             self.file = Some(PlanFile::new(path));
             self.app.rename(path);

@@ -332,6 +332,7 @@ const COMMANDS: &[&[&str]] = &[
     &["report", "plan.toml", "-o", "none/page.html"],
     &["merge"],
     &["report", "plan.toml", "-o", "plan.toml"],
+    &["size", "plan.toml", "--samples", "10"],
     &["merge", "none.jsonl"],
     &["merge", "plan.toml"],
     &["init", "plan.toml"],

@@ -7,7 +7,7 @@ use std::process::{Command, Output, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use shelter::plan::edit;
+use shelter::file;
 
 const SHELTER: &str = env!("CARGO_BIN_EXE_shelter");
 
@@ -115,8 +115,8 @@ fn a_folder_that_cannot_be_written_leaves_nothing() {
     let file = folder.path().join("file");
     fs::write(&file, "text").expect("written");
     // A file where a folder should be.
-    assert!(edit::save(&file.join("plan.toml"), "new").is_err());
-    assert!(edit::save(&folder.path().join("none/plan.toml"), "new").is_err());
+    assert!(file::save(&file.join("plan.toml"), "new").is_err());
+    assert!(file::save(&folder.path().join("none/plan.toml"), "new").is_err());
     assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 1);
 }
 
@@ -130,12 +130,12 @@ fn links_and_rights_survive_a_save() {
     fs::write(&file, "old").expect("written");
     fs::set_permissions(&file, fs::Permissions::from_mode(0o664)).expect("set");
     std::os::unix::fs::symlink(&file, &link).expect("linked");
-    edit::save(&link, "new").expect("saved");
+    file::save(&link, "new").expect("saved");
     assert!(link.symlink_metadata().expect("the link").is_symlink());
     assert_eq!(fs::read_to_string(&file).expect("the file"), "new");
     assert_eq!(file.metadata().expect("the file").permissions().mode() & 0o777, 0o664);
     fs::set_permissions(&file, fs::Permissions::from_mode(0o440)).expect("set");
-    assert!(edit::save(&link, "newer").is_err_and(|error| error.to_string().contains("may only be read")));
+    assert!(file::save(&link, "newer").is_err_and(|error| error.to_string().contains("may only be read")));
     assert_eq!(fs::read_to_string(&file).expect("the file"), "new");
 }
 
@@ -145,9 +145,9 @@ fn links_and_rights_survive_a_save() {
 fn a_device_stays_one() {
     use std::os::unix::fs::FileTypeExt;
     let full = Path::new("/dev/full");
-    assert!(edit::save(full, "text").is_err_and(|error| error.to_string().contains("the disk is full")));
+    assert!(file::save(full, "text").is_err_and(|error| error.to_string().contains("the disk is full")));
     assert!(full.metadata().expect("a device").file_type().is_char_device());
-    edit::save(Path::new("/dev/null"), "text").expect("written");
+    file::save(Path::new("/dev/null"), "text").expect("written");
 }
 
 #[cfg(target_os = "linux")]

@@ -12,6 +12,7 @@ use sha2::{Digest, Sha256};
 use super::chart;
 use super::check::{Results, broken, command, effort, explain, peak, verdict};
 use crate::plan::{Charge, Layout, Plan};
+use crate::scene::fire_at_s;
 use crate::study::Case;
 use crate::study::check::Checked;
 use crate::units::{self, Unit, value_and_error};
@@ -70,7 +71,7 @@ pub fn page(case: &Case, results: &Results, date: &str) -> String {
                             h2 { (delay.name) " " (word(checked.verdict)) }
                             p.quiet { (how(case, checked)) }
                             div.charts {
-                                @for curve in chart::history(case, &checked.history, &delay.timing.fire_at_ms()) {
+                                @for curve in chart::history(case, &checked.history, &fire_at_s(&delay.timing)) {
                                     div { (PreEscaped(curve)) }
                                 }
                             }

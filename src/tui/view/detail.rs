@@ -15,6 +15,7 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use super::chart;
 use crate::outcome::End;
 use crate::report::check::{broken, explain, peak};
+use crate::scene::fire_at_s;
 use crate::study::check::Checked;
 use crate::tui::app::{App, Row};
 use crate::units::{self, Unit, value_and_error};
@@ -35,8 +36,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
             return frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inside);
         }
         Row::Waiting | Row::Running { .. } => {
-            let fires: Vec<_> =
-                delay.timing.fire_at_ms().iter().map(|ms| units::milliseconds(ms * 1e-3)).collect();
+            let fires: Vec<_> = fire_at_s(&delay.timing).into_iter().map(units::milliseconds).collect();
             let text = format!("Rows fire at {}. Computing…", fires.join(", "));
             return frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inside);
         }
@@ -49,7 +49,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
             .areas(inside);
     frame.render_widget(Paragraph::new(facts).wrap(Wrap { trim: true }), text);
     let [left, right] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(charts);
-    let fires: Vec<f64> = delay.timing.fire_at_ms().iter().map(|ms| ms * 1e-3).collect();
+    let fires = fire_at_s(&delay.timing);
     let [height, force] = chart::curves(&app.case.limits, &checked.history, &fires, None);
     height.draw(app, frame, left);
     force.draw(app, frame, right);

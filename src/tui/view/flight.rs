@@ -15,6 +15,7 @@ use ratatui::widgets::canvas::{Canvas, Line as Stroke, Points};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::{Places, chart, color};
+use crate::scene::fire_at_s;
 use crate::study::flight::Flight;
 use crate::tui::app::{App, Target};
 use crate::tui::studies::Progress;
@@ -45,7 +46,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     draw_above(app, flight, frame, above);
     draw_side(app, flight, frame, side);
     draw_bar(app, flight, frame, bar, places);
-    let fires: Vec<f64> = delay.timing.fire_at_ms().iter().map(|ms| ms * 1e-3).collect();
+    let fires: Vec<f64> = fire_at_s(&delay.timing);
     let history = &flight.outcome.history;
     for (place, curve) in Layout::horizontal([Constraint::Fill(1); 2])
         .spacing(1)

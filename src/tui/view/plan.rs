@@ -9,6 +9,7 @@ use ratatui::widgets::canvas::{Canvas, Points};
 use ratatui::widgets::{Block, Borders, Clear, List, ListState, Paragraph, Wrap};
 
 use super::{Places, color, table};
+use crate::scene::fire_at_s;
 use crate::tui::app::{App, Target};
 use crate::tui::editor::Order;
 use crate::tui::keymap::Action;
@@ -126,13 +127,13 @@ fn draw_message(app: &App, frame: &mut Frame, area: Rect) {
 fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
     let (case, theme) = (&app.case, app.theme);
     let Some(delay) = case.plan.delays.get(app.selected) else { return };
-    let times = delay.timing.fire_at_ms();
+    let times = fire_at_s(&delay.timing);
     let fires: Vec<String> = case
         .plan
         .blast_rows
         .iter()
         .zip(&times)
-        .map(|(row, ms)| format!("{}: {}", row.name, units::milliseconds(ms * 1e-3)))
+        .map(|(row, &at)| format!("{}: {}", row.name, units::milliseconds(at)))
         .collect();
     let title = Line::styled(format!(" {} · {} ", delay.name, fires.join(", ")), theme.title());
     let block = Block::new().borders(Borders::TOP).border_style(theme.quiet()).title(title);

@@ -179,9 +179,10 @@ fn draw_curve(
         return;
     }
     let (size, [from, to]) = (unit.size(), sweep.range().map(|interval| interval * 1e3));
-    let curve: Vec<(f64, f64)> =
-        sweep.points.iter().map(|point| (point.interval * 1e3, of(point) / size)).collect();
-    let top = sweep.points.iter().map(of).fold(limit, f64::max) / size * 1.08;
+    // A run that failed has no value.
+    let known = || sweep.points.iter().filter(|point| of(point).is_finite());
+    let curve: Vec<(f64, f64)> = known().map(|point| (point.interval * 1e3, of(point) / size)).collect();
+    let top = known().map(of).fold(limit, f64::max) / size * 1.08;
     let limit = [(from, limit / size), (to, limit / size)];
     let windows: Vec<Vec<(f64, f64)>> = sweep
         .windows()

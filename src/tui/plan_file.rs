@@ -4,7 +4,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use crate::plan::{Plan, edit};
+use crate::file;
+use crate::plan::Plan;
 
 /// A plan's file and how it was last seen.
 pub struct PlanFile {
@@ -43,7 +44,7 @@ impl PlanFile {
             Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(failed(error)),
             Ok(_) | Err(_) => {}
         }
-        edit::save(&self.path, text).map_err(failed)?;
+        file::save(&self.path, text).map_err(failed)?;
         self.seen = stamp(&self.path);
         Ok(())
     }
@@ -56,14 +57,6 @@ pub enum Refusal {
     Changed,
     /// In words.
     Failed(String),
-}
-
-/// Writes a new file, never over one that is there.
-pub fn create(path: &Path, text: &str) -> Result<(), String> {
-    if path.exists() {
-        return Err(format!("{} is there already", path.display()));
-    }
-    edit::save(path, text).map_err(|error| error.to_string())
 }
 
 fn stamp(path: &Path) -> Option<(SystemTime, u64)> {
