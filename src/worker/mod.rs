@@ -79,7 +79,7 @@ impl Worker {
         self.generation += 1;
         let next = Arc::new(AtomicUsize::new(0));
         for _ in 0..self.threads.min(case.shots.len()) {
-            let errand = Errand {
+            let checker = Checker {
                 case: Arc::clone(case),
                 effort,
                 generation: self.generation,
@@ -87,7 +87,7 @@ impl Worker {
                 next: Arc::clone(&next),
                 sender: self.sender.clone(),
             };
-            thread::spawn(move || errand.run());
+            thread::spawn(move || checker.run());
         }
     }
 
@@ -105,7 +105,7 @@ impl Drop for Worker {
 }
 
 /// What one thread of a request needs.
-struct Errand {
+struct Checker {
     case: Arc<Case>,
     effort: Effort,
     generation: usize,
@@ -114,7 +114,7 @@ struct Errand {
     sender: Sender<(usize, Event)>,
 }
 
-impl Errand {
+impl Checker {
     fn run(&self) {
         while !self.stopped() {
             let option = self.next.fetch_add(1, Ordering::Relaxed);
