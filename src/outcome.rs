@@ -70,8 +70,8 @@ pub struct Outcome {
     pub steps: usize,
     /// How it ended; when is `drift.at`.
     pub end: End,
-    /// Height to which the highest flight under way at the end would go on, were there no cables [m].
-    pub reach: f64,
+    /// Whether a tire is in the air at the end.
+    pub aloft: bool,
 }
 
 /// Greatest height and force of any tire and cable in successive buckets of time.

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use clap::Args;
 
+use super::long::Finished;
 use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::report;
 use crate::study::accuracy::measure;
@@ -33,8 +34,8 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         return Ok(Status::Wrong);
     };
     let measured = long::run(&arguments.compute, |progress| measure(&case, option, PATIENCE, progress));
-    let study = match measured {
-        Ok(finished) => finished.value,
+    let Finished { value: study, partial } = match measured {
+        Ok(finished) => finished,
         Err(failure) => return long::failed(&failure),
     };
     let text = match arguments.format {
@@ -43,5 +44,5 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         FormatArg::Csv => report::csv(report::accuracy::rows(&study)),
     };
     long::print(&text)?;
-    Ok(Status::Pass)
+    Ok(if partial { Status::Fail } else { Status::Pass })
 }

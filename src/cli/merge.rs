@@ -10,8 +10,9 @@ use crate::plan::Plan;
 use crate::report;
 use crate::study::merge::{Findings, Head, Question, SCHEMA, merge};
 use crate::study::orders::Orders;
-use crate::study::scatter::{holds, swaps};
+use crate::study::scatter::{swaps, verdict};
 use crate::study::{Case, Effort, Shard};
+use crate::verdict::Verdict;
 
 #[derive(Args)]
 pub struct Arguments {
@@ -77,7 +78,7 @@ pub fn print(answer: Answer<'_>, shard: Option<Shard>, format: FormatArg, look: 
                 }
                 FormatArg::Csv => report::csv(report::scatter::lines(case, &samples)),
             };
-            (text, holds(case, &draw, &samples))
+            (text, verdict(case, &draw, &samples) == Verdict::Pass)
         }
         (Findings::Orders(tried), Question::Orders { intervals_s }) => {
             let orders = Orders::new(case, tried, intervals_s.len());

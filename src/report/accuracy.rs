@@ -112,6 +112,9 @@ pub fn text(case: &Case, option: usize, study: &Study) -> String {
                     let (step, wall) = (units::milliseconds(step), units::milliseconds(wall.as_secs_f64()));
                     text += &format!(" {name} at {step} in {wall};");
                 }
+                None if study.rows.iter().all(|row| method_name(row.method) != name) => {
+                    text += &format!(" {name} not measured;");
+                }
                 None => text += &format!(" {name} not reached;"),
             }
         }

@@ -60,8 +60,11 @@ fn early(end: f64, still: Still) -> String {
                 units::seconds(last)
             )
         }
+        Still::Aloft => {
+            format!("the run ends at {end} with tires in the air: give a longer duration_s, or none")
+        }
         Still::Growing => {
-            format!("the run ends at {end} while height or force may grow: give a longer duration_s")
+            format!("the run ends at {end} with force at its greatest: give a longer duration_s, or none")
         }
         Still::Moving => {
             format!(
@@ -104,10 +107,20 @@ pub fn broken(scene: &Scene, checked: &Checked) -> String {
     format!("broken: {}{rest}", names.join(", "))
 }
 
+/// A path as a shell takes it; one of standard input by a word in its place.
+fn quoted(path: &str) -> String {
+    let plain = |letter: char| letter.is_alphanumeric() || "/._-+".contains(letter);
+    match path {
+        "-" => "PLAN".to_owned(),
+        _ if path.starts_with('-') => quoted(&format!("./{path}")),
+        _ if path.chars().all(plain) => path.to_owned(),
+        _ => format!("'{}'", path.replace('\'', "'\\''")),
+    }
+}
+
 /// The command that gives these results.
 pub fn command(case: &Case, results: &Results) -> String {
-    let path = &case.plan.path;
-    let mut command = format!("shelter check {}", if path == "-" { "PLAN" } else { path.as_str() });
+    let mut command = format!("shelter check {}", quoted(&case.plan.path));
     let (asked, of_plan) = (results.iter().flatten().next().map(|c| c.effort), Effort::of(&case.plan));
     if let Some(Effort { method, accuracy, step }) = asked.filter(|asked| *asked != of_plan) {
         command += &format!(" --method {} --accuracy {}", method_name(method), accuracy_name(accuracy));

@@ -106,5 +106,8 @@ fn heading(case: &Case) -> String {
     if let Some(drift) = case.limits.drift {
         text += &format!(", drift {} m", units::value(drift, Unit::Metre));
     }
+    if let Some(duration) = plan.simulation.duration_s {
+        text += &format!(" · followed for {duration} s at most");
+    }
     text + "\n\n"
 }

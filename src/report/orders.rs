@@ -126,11 +126,8 @@ pub fn text(case: &Case, orders: &Orders, shown: usize, partial: bool, style: St
             );
         }
     }
-    let verdict = match orders.passing() == all {
-        false => Verdict::Fail,
-        true if partial || all == 0 => Verdict::Undecided,
-        true => Verdict::Pass,
-    };
+    let worst = Verdict::worst(orders.ranked.iter().map(|tried| tried.envelope.verdict));
+    let verdict = if worst == Verdict::Pass && (partial || all == 0) { Verdict::Undecided } else { worst };
     text += &format!("\n{}: {} of {all} orders pass\n", style.word(verdict), orders.passing());
     style.plain(text)
 }

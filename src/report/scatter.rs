@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::table::Style;
 use crate::study::Case;
-use crate::study::scatter::{Draw, Sample, Summary, Swap, holds, summary};
+use crate::study::scatter::{Draw, Sample, Summary, Swap, summary, verdict};
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
@@ -168,10 +168,9 @@ pub fn text(case: &Case, draw: &Draw, samples: &[Sample], partial: bool, style: 
         );
     }
     let failures = samples.iter().filter(|sample| sample.envelope.verdict != Verdict::Pass).count();
-    let word = style.word(match holds(case, draw, samples) {
-        true if !partial => Verdict::Pass,
-        false if !partial || failures > 0 && draw.certain_at.is_none() => Verdict::Fail,
-        _ => Verdict::Undecided,
+    let word = style.word(match verdict(case, draw, samples) {
+        Verdict::Pass if partial => Verdict::Undecided,
+        verdict => verdict,
     });
     text += &format!("\n{word}: {failures} of {} samples fail", samples.len());
     if let Some(bound) = draw.certain_at {

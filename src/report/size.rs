@@ -111,17 +111,20 @@ pub fn text(case: &Case, sizing: &Sizing, style: Style) -> String {
     );
     let (tried, all) = (sizing.tried(), sizing.combinations.len());
     text += &format!("{tried} of {all} combinations tried");
-    let alike = all - tried - sizing.late;
+    let alike = all - tried - sizing.late - sizing.unstable;
     if alike > 0 {
         text += &format!("; {alike} have the stiffness of a stronger rope that fails, and move alike");
     }
     if sizing.late > 0 {
         text += &format!("; for {} the time did not suffice", sizing.late);
     }
+    if sizing.unstable > 0 {
+        text += &format!("; {} cannot be followed at this step: choose a smaller --dt", sizing.unstable);
+    }
     text += "\n\n";
     let frontier = sizing.frontier();
     let Some(found) = sizing.found() else {
-        text += &match sizing.late {
+        text += &match sizing.late + sizing.unstable {
             0 => format!("{}: no combination holds\n", style.word(Verdict::Fail)),
             _ => format!("{}: no combination tried so far holds\n", style.word(Verdict::Undecided)),
         };

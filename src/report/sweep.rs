@@ -100,9 +100,11 @@ pub fn text(case: &Case, sweep: &Sweep, partial: bool, style: Style) -> String {
             format!("{} to {}", units::exact_milliseconds(*from), units::exact_milliseconds(*to))
         })
         .collect();
+    let fails = sweep.points.iter().any(|point| point.envelope.verdict == Verdict::Fail);
     text += &match windows.as_slice() {
-        [] if partial => format!("\n{}: no interval tried so far passes\n", style.word(Verdict::Undecided)),
-        [] => format!("\n{}: no interval tried passes\n", style.word(Verdict::Fail)),
+        [] if fails && !partial => format!("\n{}: no interval tried passes\n", style.word(Verdict::Fail)),
+        [] => format!("\n{}: no interval tried surely passes\n", style.word(Verdict::Undecided)),
+        some if partial => format!("\n{}: so far {}\n", style.word(Verdict::Undecided), some.join(" · ")),
         some => format!("\n{}: {}\n", style.word(Verdict::Pass), some.join(" · ")),
     };
     style.plain(text)

@@ -14,6 +14,8 @@ pub struct Record {
     pub force: Peak,
     /// Cables that broke so far.
     pub broken: Vec<Broken>,
+    /// Where and when the first of them did.
+    first_broken: Option<Peak>,
     /// Energies so far [J].
     pub ledger: Ledger,
     /// Height and force over time.
@@ -28,6 +30,7 @@ impl Record {
             height: Peak::default(),
             force: Peak::default(),
             broken: Vec::new(),
+            first_broken: None,
             ledger: Ledger::default(),
             history: History::new(step),
             step,
@@ -59,32 +62,30 @@ impl Record {
         self.ledger.greatest_residual = self.ledger.greatest_residual.max(residual.abs());
     }
 
-    /// A cable broke at `limit` [N]: no force was greater.
+    /// A cable broke at `limit` [N]: no force was greater, and the first to break was first.
     pub fn cap(&mut self, limit: f64) {
-        self.force.value = self.force.value.min(limit);
+        let first = *self.first_broken.get_or_insert(Peak { value: limit, ..self.force });
+        self.force = first;
     }
 
-    /// The finished run, from the tires at its end: index, displacement [m], velocity [m/s]; and when that was [s], after how
-    /// many steps.
+    /// The finished run, from the tires at its end: index and displacement [m]; and when that was [s], after how many steps.
     pub fn finish(
         self,
-        tires: impl Iterator<Item = (usize, Vector3<f64>, Vector3<f64>)>,
-        gravity: f64,
+        tires: impl Iterator<Item = (usize, Vector3<f64>)>,
         (at, steps): (f64, usize),
         end: End,
     ) -> Outcome {
-        let (mut drift, mut reach) = (Peak { at, ..Peak::default() }, 0.0_f64);
-        for (place, displacement, velocity) in tires {
+        let (mut drift, mut aloft) = (Peak { at, ..Peak::default() }, false);
+        for (place, displacement) in tires {
             let shift2 = displacement.xy().norm_squared();
             if shift2 > drift.value {
                 (drift.value, drift.place) = (shift2, place);
             }
-            let rise = if velocity.z > 0.0 { velocity.z * velocity.z / (2.0 * gravity) } else { 0.0 };
-            reach = reach.max(displacement.z + rise);
+            aloft |= displacement.z > 0.0;
         }
         drift.value = drift.value.sqrt();
-        let Self { height, force, broken, ledger, history, step } = self;
-        Outcome { height, force, drift, broken, ledger, history, step, steps, end, reach }
+        let Self { height, force, broken, ledger, history, step, .. } = self;
+        Outcome { height, force, drift, broken, ledger, history, step, steps, end, aloft }
     }
 }
 

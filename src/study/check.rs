@@ -95,7 +95,9 @@ impl Reason {
 pub enum Still {
     /// The last hole fires at this time [s].
     Unfired(f64),
-    /// Height or force is greatest at the very end, or a flight under way may pass the limit.
+    /// Tires are in the air: they rise, or will pull at cables as they fall.
+    Aloft,
+    /// Force is greatest at the very end.
     Growing,
     /// Tires move on, and their drift has a limit.
     Moving,
@@ -112,7 +114,10 @@ pub fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<Still> {
     }
     // The greatest of all samples is the last one, or the one before.
     let grows = |peak: Peak| peak.value > 0.0 && peak.at > outcome.drift.at - 2.5 * outcome.step;
-    if grows(outcome.height) || grows(outcome.force) || outcome.reach > case.limits.height {
+    if outcome.aloft {
+        return Some(Still::Aloft);
+    }
+    if grows(outcome.force) {
         return Some(Still::Growing);
     }
     case.limits.drift.map(|_| Still::Moving)

@@ -108,12 +108,19 @@ fn is_certain(samples: &[Sample], draw: &Draw) -> bool {
     high < bound || low > bound
 }
 
-/// Whether every option holds: no sample of it fails, or surely fewer than were to be certain.
-pub fn holds(case: &Case, draw: &Draw, samples: &[Sample]) -> bool {
-    (0..case.shots.len()).map(|option| summary(samples, option)).all(|summary| match draw.certain_at {
-        Some(bound) => summary.interval[1] < bound,
-        None => summary.samples > 0 && summary.failures == 0,
-    })
+/// The verdict on all options: whether no sample fails, or surely fewer than were to be certain.
+pub fn verdict(case: &Case, draw: &Draw, samples: &[Sample]) -> Verdict {
+    Verdict::worst((0..case.shots.len()).map(|option| summary(samples, option)).map(|summary| {
+        let [passes, fails] = match draw.certain_at {
+            Some(bound) => [summary.interval[1] < bound, summary.interval[0] > bound],
+            None => [summary.samples > 0 && summary.failures == 0, summary.failures > summary.undecided],
+        };
+        match (passes, fails) {
+            (true, _) => Verdict::Pass,
+            (_, true) => Verdict::Fail,
+            _ => Verdict::Undecided,
+        }
+    }))
 }
 
 /// One run, or a whole check where it comes too near a limit.

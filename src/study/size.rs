@@ -71,6 +71,8 @@ pub struct Sizing {
     pub combinations: Vec<Combination>,
     /// How many the time did not suffice for.
     pub late: usize,
+    /// How many could not be followed at the step asked for.
+    pub unstable: usize,
 }
 
 impl Sizing {
@@ -108,7 +110,7 @@ pub fn size(plan: &Plan, demand: &Demand, effort: &Effort, progress: &Progress) 
     let own = [plan.tire.mass_kg];
     let masses = if plan.size.tire_mass_kg.is_empty() { &own[..] } else { &plan.size.tire_mass_kg };
     let most_border = if matches!(plan.layout, Layout::List { .. }) { 0 } else { plan.size.most_border_rows };
-    let (mut combinations, mut late) = (Vec::new(), 0);
+    let (mut combinations, mut late, mut unstable) = (Vec::new(), 0, 0);
     // The shot at which the last combination failed is the likeliest to fail the next.
     let mut likeliest = 0;
     // Bits of positive numbers are in the order of the numbers.
@@ -124,8 +126,10 @@ pub fn size(plan: &Plan, demand: &Demand, effort: &Effort, progress: &Progress) 
             let trial = if held && !progress.expired() {
                 match try_out(&case, demand, effort, &mut likeliest, progress) {
                     Err(stopped @ Failure::Stopped { .. }) => return Err(stopped),
-                    // What cannot be followed is not relied on.
-                    Err(_) => Some(trial(&case, &[Envelope::UNKNOWN], false)),
+                    Err(_) => {
+                        unstable += 1;
+                        None
+                    }
                     Ok(trial) => trial,
                 }
             } else {
@@ -140,7 +144,7 @@ pub fn size(plan: &Plan, demand: &Demand, effort: &Effort, progress: &Progress) 
         let strength = |c: &Combination| c.rope.breaking_force_kn;
         a.total_mass.total_cmp(&b.total_mass).then(strength(a).total_cmp(&strength(b)))
     });
-    Ok(Sizing { combinations, late })
+    Ok(Sizing { combinations, late, unstable })
 }
 
 fn total_mass(case: &Case, rope: &Rope) -> f64 {

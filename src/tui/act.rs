@@ -45,6 +45,8 @@ impl App {
             Action::Down => 1,
             Action::PageUp => -(PAGE as i16),
             Action::PageDown => PAGE as i16,
+            Action::First => i16::MIN,
+            Action::Last => i16::MAX,
             _ => return false,
         };
         self.help_scroll = self.help_scroll.saturating_add_signed(lines).min(BINDINGS.len() as u16);

@@ -121,6 +121,8 @@ pub struct App {
     pub places: Vec<(Rect, Target)>,
     /// News of the plan's file.
     pub notice: Option<String>,
+    /// Whether the file has changed and was not read again, because of changes here.
+    pub behind: bool,
     /// Whether leaving was refused once, because of changes that are not saved.
     pub warned: bool,
 }
@@ -189,6 +191,7 @@ impl App {
             prompt: None,
             places: Vec::new(),
             notice: None,
+            behind: false,
             warned: false,
         }
     }
@@ -254,7 +257,8 @@ impl App {
                 self.notice = None;
                 Request::None
             }
-            Ok(_) if self.editor.unsaved() || self.editor.typing() => {
+            Ok(_) if self.is_changing() => {
+                self.behind = true;
                 self.notice = Some("the file has changed; your changes here are not saved".to_owned());
                 Request::None
             }
@@ -270,11 +274,17 @@ impl App {
         }
     }
 
+    /// Whether the plan here is another than was saved, or about to be.
+    pub fn is_changing(&self) -> bool {
+        self.editor.unsaved() || self.editor.typing()
+    }
+
     /// The plan was written to `path`, or why not.
     pub fn written(&mut self, result: Result<String, String>) {
         self.notice = Some(match result {
             Ok(path) => {
                 self.editor.saved = self.editor.text.clone();
+                self.behind = false;
                 format!("saved {path}")
             }
             Err(words) => format!("not saved: {words}"),

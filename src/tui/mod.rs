@@ -146,6 +146,10 @@ impl Session {
                 heard |= self.app.studies.advance(kind, counts);
             }
         }
+        if self.app.behind && !self.app.is_changing() {
+            self.app.behind = false;
+            self.file.iter_mut().for_each(PlanFile::forget);
+        }
         if let Some(read) = self.file.as_mut().and_then(PlanFile::changed) {
             if self.app.reload(read) == Request::Replaced {
                 self.replace();

@@ -36,6 +36,11 @@ impl PlanFile {
         }))
     }
 
+    /// The next look will find it changed.
+    pub fn forget(&mut self) {
+        self.seen = None;
+    }
+
     /// Writes `text`, unless the file is no longer the one whose text was `before`.
     pub fn write(&mut self, before: &str, text: &str) -> Result<(), Refusal> {
         let failed = |error: io::Error| Refusal::Failed(error.to_string());

@@ -171,6 +171,6 @@ pub fn spreads(app: &App) -> [(Kind, Found); 3] {
     [
         (Kind::Orders, Found::Orders(Orders::new(&app.case, tried.collect(), 1))),
         (Kind::Scatter, Found::Scatter(draw, samples.collect())),
-        (Kind::Size, Found::Size(Sizing { combinations: combinations.collect(), late: 0 })),
+        (Kind::Size, Found::Size(Sizing { combinations: combinations.collect(), late: 0, unstable: 0 })),
     ]
 }

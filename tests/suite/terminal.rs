@@ -237,6 +237,14 @@ fn a_plan_is_edited_saved_and_reloaded() {
     std::fs::write(&file, text.replace("flight_height_m = 1.8", "flight_height_m = 2.125")).expect("written");
     watched.until("was read again");
     watched.until("2.125");
+    // A change here that is taken back stands in the way no more.
+    watched.press("\r\x157\r");
+    watched.until("height 7.000 m");
+    std::fs::write(&file, text.replace("flight_height_m = 1.8", "flight_height_m = 2.25")).expect("written");
+    watched.until("your changes here are not saved");
+    watched.press("u");
+    watched.until("was read again");
+    watched.until("2.25 ");
     // Changed here and there: what is here goes to a file of its own.
     watched.press("\r\x153\r");
     watched.until("height 3.000 m");

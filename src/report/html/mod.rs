@@ -132,7 +132,7 @@ fn shelter(case: &Case) -> Markup {
     html! {
         table {
             tr { th { "Tires" } td { (scene.mass.len()) " of " (plan.tire.mass_kg) " kg, " (layout(plan)) ", " (rims(plan.tire.outer_diameter_m)) } }
-            tr { th { "Cables" } td { (scene.cables.len()) ", " (cable) ", slack " (plan.cable.slack_percent) " %" } }
+            tr { th { "Cables" } td { (scene.cables.len()) ", " (cable) ", slack " (plan.cable.slack_percent) " %" (if plan.cable.breaks { "; past its breaking force a cable is gone" } else { "" }) } }
             tr { th { "Friction" } td { (plan.friction) } }
             tr { th { "Limits" } td { (limits.into_iter().flatten().collect::<Vec<_>>().join("; ")) } }
             @for row in &plan.blast_rows {

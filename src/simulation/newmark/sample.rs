@@ -71,8 +71,8 @@ impl Stepper<'_> {
     /// The outcome at `limit` [s], which the last step reaches past.
     pub(super) fn finish(self, limit: f64, end: End) -> Outcome {
         let (now, past) = (self.now(), (self.now() - limit).max(0.0));
-        let Self { u, v, scene, record, clock, .. } = self;
-        let tires = u.iter().zip(&v).enumerate().map(|(tire, (u, v))| (tire, u - v * past, *v));
-        record.finish(tires, scene.gravity, (now - past, clock.steps), end)
+        let Self { u, v, record, clock, .. } = self;
+        let tires = u.iter().zip(&v).enumerate().map(|(tire, (u, v))| (tire, u - v * past));
+        record.finish(tires, (now - past, clock.steps), end)
     }
 }

@@ -186,15 +186,13 @@ impl<'a> Stepper<'a> {
     fn finish(self, end: End) -> Outcome {
         // The last step reaches past the limit.
         let (now, past) = (self.now(), (self.now() - self.time_limit).max(0.0));
-        let Self { part, u, v, record, clock, gravity, .. } = self;
+        let Self { part, u, v, record, clock, .. } = self;
         let vector = |of: &Field, tire: usize| Vector3::from_fn(|c, _| of.part[c][tire]);
         // Images are as they were a step ago.
         let kept = part.quotient.weight.iter().enumerate().filter(|&(_, &weight)| weight > 0.0);
-        let tires = kept.map(|(tire, _)| {
-            let velocity = vector(&v, tire);
-            (part.quotient.tire(tire), vector(&u, tire) - velocity * past, velocity)
-        });
-        record.finish(tires, gravity, (now - past, clock.steps), end)
+        let tires =
+            kept.map(|(tire, _)| (part.quotient.tire(tire), vector(&u, tire) - vector(&v, tire) * past));
+        record.finish(tires, (now - past, clock.steps), end)
     }
 }
 
