@@ -1,5 +1,6 @@
 //! Writing text files: whole or not at all.
 
+use std::fs::OpenOptions;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 
@@ -11,25 +12,36 @@ use tempfile::NamedTempFile;
 pub fn save(path: &Path, text: &str) -> io::Result<()> {
     // A link stays a link: what it names is replaced.
     let path = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
-    let saved = match path.metadata() {
-        Ok(old) if !old.is_file() => std::fs::OpenOptions::new()
-            .write(true)
-            .open(&path)
-            .and_then(|mut file| file.write_all(text.as_bytes())),
-        Ok(old) if old.permissions().readonly() => Err(ErrorKind::ReadOnlyFilesystem.into()),
-        Ok(old) => beside(&path, text).and_then(|new| {
-            new.as_file().set_permissions(old.permissions())?;
-            Ok(new.persist(&path).map(drop)?)
-        }),
-        Err(_) => beside(&path, text).and_then(|new| Ok(new.persist(&path).map(drop)?)),
-    };
-    saved.map_err(|error| named(&path, &error))
+    replace(&path, text).map_err(|error| named(&path, &error))
+}
+
+fn replace(path: &Path, text: &str) -> io::Result<()> {
+    let old = path.metadata().ok();
+    if old.as_ref().is_some_and(|old| !old.is_file()) {
+        return OpenOptions::new().write(true).open(path)?.write_all(text.as_bytes());
+    }
+    if old.as_ref().is_some_and(|old| old.permissions().readonly()) {
+        return Err(ErrorKind::ReadOnlyFilesystem.into());
+    }
+    let new = beside(path, text)?;
+    if let Some(old) = old {
+        new.as_file().set_permissions(old.permissions())?;
+    }
+    new.persist(path)?;
+    Ok(())
 }
 
 /// Writes a new file whole, never over one that is there.
 pub fn create(path: &Path, text: &str) -> io::Result<()> {
     let created = beside(path, text).and_then(|new| Ok(new.persist_noclobber(path).map(drop)?));
     created.map_err(|error| named(path, &error))
+}
+
+/// A name ending in `ending` that no file has: the stem, or the stem with a number.
+pub fn free(stem: &str, ending: &str) -> String {
+    let numbered = (2..100).map(|n| format!("{stem}-{n}.{ending}"));
+    let mut names = std::iter::once(format!("{stem}.{ending}")).chain(numbered);
+    names.find(|name| !Path::new(name).exists()).unwrap_or_default()
 }
 
 /// The text in a file without a name of its own yet, in the folder of `path`.

@@ -80,17 +80,6 @@ pub struct Limits {
     pub breaking_force: f64,
 }
 
-impl Limits {
-    /// The verdict on height, force and drift, each with its error.
-    pub fn judge(&self, [height, force, drift]: [[f64; 2]; 3]) -> Verdict {
-        let against = |[value, error]: [f64; 2], limit: f64| {
-            Estimate { value, error, ..Estimate::default() }.against(limit)
-        };
-        let drift = self.drift.map(|limit| against(drift, limit));
-        Verdict::worst([against(height, self.height), against(force, self.force)].into_iter().chain(drift))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -89,7 +89,7 @@ pub fn print(answer: Answer<'_>, shard: Option<Shard>, format: FormatArg, look: 
                     report::csv(orders.ranked.iter().map(|tried| report::orders::Line::new(case, tried)))
                 }
             };
-            (text, orders.passing() == orders.ranked.len())
+            (text, orders.verdict() == Verdict::Pass)
         }
         (Findings::Scatter(_), Question::Orders { .. }) | (Findings::Orders(_), Question::Scatter { .. }) => {
             return load::wrong("the shares do not fit together");

@@ -14,7 +14,7 @@ use crate::report;
 use crate::ropes::catalogue;
 use crate::study::orders::{MOST_ROWS, NO_INTERVAL, is_complete};
 use crate::study::scatter::NO_SCATTER;
-use crate::study::size::{Combination, Demand, size};
+use crate::study::size::{Combination, Demand, Untried, size};
 use crate::study::{Case, Intervals};
 
 #[derive(Args)]
@@ -71,7 +71,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         FormatArg::Csv => report::csv(sizing.combinations.iter().map(report::size::Line::new)),
     })?;
     match sizing.found() {
-        Some(found) if sizing.late == 0 => {
+        Some(found) if sizing.untried(Untried::Late) == 0 => {
             if arguments.write {
                 write(arguments, &case, found)?;
             }

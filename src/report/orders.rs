@@ -126,8 +126,10 @@ pub fn text(case: &Case, orders: &Orders, shown: usize, partial: bool, style: St
             );
         }
     }
-    let worst = Verdict::worst(orders.ranked.iter().map(|tried| tried.envelope.verdict));
-    let verdict = if worst == Verdict::Pass && (partial || all == 0) { Verdict::Undecided } else { worst };
+    let verdict = match orders.verdict() {
+        Verdict::Pass if partial => Verdict::Undecided,
+        verdict => verdict,
+    };
     text += &format!("\n{}: {} of {all} orders pass\n", style.word(verdict), orders.passing());
     style.plain(text)
 }

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::table::Style;
 use crate::study::Case;
-use crate::study::size::{Combination, Sizing, Trial};
+use crate::study::size::{Combination, Sizing, Trial, Untried};
 use crate::units::{Unit, value_and_error};
 use crate::verdict::Verdict;
 
@@ -59,8 +59,8 @@ impl Row {
             border_rows: *border_rows,
             tires: *tires,
             total_mass_kg: *total_mass,
-            use_of_limits: trial.map(|trial| trial.use_of_limits),
-            worst: trial.map(|trial| super::Values::new(&trial.worst)),
+            use_of_limits: trial.ok().map(|trial| trial.use_of_limits),
+            worst: trial.ok().map(|trial| super::Values::new(&trial.worst)),
         }
     }
 }
@@ -75,8 +75,8 @@ impl Line {
             border_rows: row.border_rows,
             tires: row.tires,
             total_mass_kg: row.total_mass_kg,
-            holds: combination.trial.is_some_and(|trial| trial.holds),
-            tried: combination.trial.is_some(),
+            holds: combination.trial.is_ok_and(|trial| trial.holds),
+            tried: combination.trial.is_ok(),
             use_of_limits: row.use_of_limits,
         }
     }
@@ -94,7 +94,7 @@ impl Document {
             lightest: found.map(Row::new),
             tried: sizing.tried(),
             not_tried: sizing.combinations.len() - sizing.tried(),
-            partial: sizing.late > 0,
+            partial: sizing.untried(Untried::Late) > 0,
             nearest: found.is_none().then(|| nearest(sizing)).flatten().map(|(c, _)| Row::new(c)),
             frontier: sizing.frontier().into_iter().map(Row::new).collect(),
         }
@@ -111,20 +111,21 @@ pub fn text(case: &Case, sizing: &Sizing, style: Style) -> String {
     );
     let (tried, all) = (sizing.tried(), sizing.combinations.len());
     text += &format!("{tried} of {all} combinations tried");
-    let alike = all - tried - sizing.late - sizing.unstable;
+    let [alike, late, unstable] =
+        [Untried::Alike, Untried::Late, Untried::Unstable].map(|why| sizing.untried(why));
     if alike > 0 {
         text += &format!("; {alike} have the stiffness of a stronger rope that fails, and move alike");
     }
-    if sizing.late > 0 {
-        text += &format!("; for {} the time did not suffice", sizing.late);
+    if late > 0 {
+        text += &format!("; for {late} the time did not suffice");
     }
-    if sizing.unstable > 0 {
-        text += &format!("; {} cannot be followed at this step: choose a smaller --dt", sizing.unstable);
+    if unstable > 0 {
+        text += &format!("; {unstable} cannot be followed at this step: choose a smaller --dt");
     }
     text += "\n\n";
     let frontier = sizing.frontier();
     let Some(found) = sizing.found() else {
-        text += &match sizing.late + sizing.unstable {
+        text += &match late + unstable {
             0 => format!("{}: no combination holds\n", style.word(Verdict::Fail)),
             _ => format!("{}: no combination tried so far holds\n", style.word(Verdict::Undecided)),
         };
@@ -138,7 +139,7 @@ pub fn text(case: &Case, sizing: &Sizing, style: Style) -> String {
         "rope", "tire kg", "border", "tires", "total t", "margin", "height, m", "force, kN"
     );
     for combination in frontier {
-        let Some(trial) = combination.trial else { continue };
+        let Ok(trial) = combination.trial else { continue };
         let [[height, height_error], [force, force_error]] = [trial.worst.height, trial.worst.force];
         text += &format!(
             "{:26}  {:>7}  {:>6}  {:>5}  {:>9.2}  {:>4.0} %  {:>17}  {:>17}\n",
@@ -153,8 +154,8 @@ pub fn text(case: &Case, sizing: &Sizing, style: Style) -> String {
         );
     }
     let word = style.word(Verdict::Pass);
-    if let Some(trial) = &found.trial {
-        let so_far = if sizing.late > 0 { " so far" } else { "" };
+    if let Ok(trial) = &found.trial {
+        let so_far = if late > 0 { " so far" } else { "" };
         text += &format!("\n{word}: lightest{so_far} {}\n", words(found, trial));
     }
     style.plain(text)
@@ -162,7 +163,7 @@ pub fn text(case: &Case, sizing: &Sizing, style: Style) -> String {
 
 /// The combination that uses least of the limits, of those that fail.
 fn nearest(sizing: &Sizing) -> Option<(&Combination, Trial)> {
-    let trials = sizing.combinations.iter().filter_map(|c| Some((c, c.trial?)));
+    let trials = sizing.combinations.iter().filter_map(|c| Some((c, c.trial.ok()?)));
     trials.min_by(|a, b| a.1.use_of_limits.total_cmp(&b.1.use_of_limits))
 }
 

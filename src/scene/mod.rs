@@ -90,7 +90,12 @@ pub struct Cable {
 impl Cable {
     /// The cable's span when its tires are displaced [m].
     pub fn displaced(&self, displacement: &[Vector3<f64>]) -> Vector3<f64> {
-        self.span + (displacement[self.ends[1]] - displacement[self.ends[0]])
+        self.between(self.ends.map(|end| displacement[end]))
+    }
+
+    /// The cable's span between tires displaced by `a` and `b` [m].
+    pub fn between(&self, [a, b]: [Vector3<f64>; 2]) -> Vector3<f64> {
+        self.span + (b - a)
     }
 
     /// Cable force N at a given length [N].

@@ -7,6 +7,9 @@
 
 use std::borrow::Cow;
 
+use itertools::Itertools;
+use rustc_hash::{FxHashMap, FxHashSet};
+
 use crate::scene::{Firing, Mirror, Scene, Shot};
 
 /// What a part of a scene stands for.
@@ -150,16 +153,25 @@ impl Quotient {
         self.map.as_ref().map_or(cable, |map| map.cable[cable])
     }
 
-    /// Indices in the whole scene of a cable and its images.
-    pub fn cables(&self, scene: &Scene, cable: usize) -> Vec<usize> {
-        let Some(map) = &self.map else { return vec![cable] };
-        let mut all = vec![scene.cables[map.cable[cable]].ends];
-        for plane in scene.mirrors.iter().filter(|plane| map.axes.contains(&plane.axis)) {
-            let reflected: Vec<_> = all.iter().map(|ends| ends.map(|end| plane.image[end])).collect();
-            all.extend(reflected);
-        }
-        let ties = |ends: [usize; 2]| all.contains(&ends) || all.contains(&[ends[1], ends[0]]);
-        (0..scene.cables.len()).filter(|&cable| ties(scene.cables[cable].ends)).collect()
+    /// Indices in the whole scene of cables and their images, one cable after the other; looks through the scene once.
+    pub fn cables(&self, scene: &Scene, cables: &[usize]) -> Vec<usize> {
+        let Some(map) = &self.map else { return cables.to_vec() };
+        let key = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
+        let orbit = |&cable: &usize| {
+            let mut all = vec![scene.cables[map.cable[cable]].ends];
+            for plane in scene.mirrors.iter().filter(|plane| map.axes.contains(&plane.axis)) {
+                let reflected: Vec<_> = all.iter().map(|ends| ends.map(|end| plane.image[end])).collect();
+                all.extend(reflected);
+            }
+            all.into_iter().map(key).sorted_unstable().dedup().collect::<Vec<_>>()
+        };
+        let orbits: Vec<_> = cables.iter().map(orbit).collect();
+        let wanted: FxHashSet<_> = orbits.iter().flatten().copied().collect();
+        let ends = scene.cables.iter().map(|cable| key(cable.ends)).zip(0..);
+        let found: FxHashMap<_, usize> = ends.filter(|(ends, _)| wanted.contains(ends)).collect();
+        let there =
+            |orbit: &Vec<_>| orbit.iter().filter_map(|ends| found.get(ends).copied()).sorted_unstable();
+        orbits.iter().flat_map(there).collect()
     }
 
     /// Where a tire of the whole scene is found, and the factors of its x and y.

@@ -96,13 +96,13 @@ impl Envelope {
 
     /// Of a checked shot.
     pub fn of(checked: &Checked) -> Self {
-        let pair = |estimate: Estimate| [estimate.value, estimate.error];
-        Self {
-            verdict: checked.verdict,
-            height: pair(checked.height),
-            force: pair(checked.force),
-            drift: pair(checked.drift),
-        }
+        Self::new(checked.verdict, [checked.height, checked.force, checked.drift])
+    }
+
+    /// Of a verdict on height, force and drift.
+    pub fn new(verdict: Verdict, estimates: [Estimate; 3]) -> Self {
+        let [height, force, drift] = estimates.map(|estimate| [estimate.value, estimate.error]);
+        Self { verdict, height, force, drift }
     }
 
     /// The greatest share of any limit: above 1 the shot fails.

@@ -104,7 +104,7 @@ pub enum Still {
 }
 
 /// What the run of a shot leaves out, if it ends too early for a verdict.
-pub fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<Still> {
+fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<Still> {
     let last = shot.firings.last().map_or(0.0, |firing| firing.at);
     if last >= case.plan.simulation.duration_s.unwrap_or(f64::INFINITY) {
         return Some(Still::Unfired(last));
@@ -112,12 +112,11 @@ pub fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<Still> {
     if outcome.end == End::AtRest {
         return None;
     }
-    // The greatest of all samples is the last one, or the one before.
-    let grows = |peak: Peak| peak.value > 0.0 && peak.at > outcome.drift.at - 2.5 * outcome.step;
     if outcome.aloft {
         return Some(Still::Aloft);
     }
-    if grows(outcome.force) {
+    // The greatest of all samples is the last one, or the one before.
+    if outcome.force.value > 0.0 && outcome.force.at > outcome.drift.at - 2.5 * outcome.step {
         return Some(Still::Growing);
     }
     case.limits.drift.map(|_| Still::Moving)
@@ -132,6 +131,23 @@ pub enum Quantity {
     Force,
     /// Drift at the end [m].
     Drift,
+}
+
+/// Why a run of a shot with these estimates of height, force and drift does not pass.
+pub fn reasons(
+    case: &Case,
+    shot: &Shot,
+    outcome: &Outcome,
+    [height, force, drift]: [Estimate; 3],
+) -> Vec<Reason> {
+    let limits = limited(height, force, drift, &case.limits).map(|(quantity, estimate, limit)| {
+        Reason::Limit { quantity, verdict: estimate.against(limit), estimate, limit }
+    });
+    let broken = Some(outcome.broken.len()).filter(|&count| count > 0).map(Reason::Broken);
+    let end = case.plan.simulation.duration_s.unwrap_or(outcome.drift.at);
+    let early = early(case, shot, outcome).map(|still| Reason::Early { end, still });
+    let all = limits.chain(broken).chain(early);
+    all.filter(|reason| reason.verdict() != Verdict::Pass).collect()
 }
 
 /// How far along a check is.
@@ -256,26 +272,14 @@ fn judge(
     let height = estimate(|outcome| outcome.height);
     let force = estimate(|outcome| outcome.force);
     let drift = estimate(|outcome| outcome.drift);
-    let limits = &case.limits;
-    let mut reasons: Vec<Reason> = limited(height, force, drift, limits)
-        .map(|(quantity, estimate, limit)| Reason::Limit {
-            quantity,
-            verdict: estimate.against(limit),
-            estimate,
-            limit,
-        })
-        .filter(|reason| reason.verdict() != Verdict::Pass)
-        .collect();
-    reasons.extend((!last.0.broken.is_empty()).then_some(Reason::Broken(last.0.broken.len())));
-    let end = case.plan.simulation.duration_s.unwrap_or(last.0.drift.at);
-    reasons.extend(early(case, shot, &last.0).map(|still| Reason::Early { end, still }));
+    let reasons = reasons(case, shot, &last.0, [height, force, drift]);
     Checked {
         verdict: Verdict::worst(reasons.iter().map(Reason::verdict)),
         reasons,
         height,
         force,
         drift,
-        safety_factor: limits.breaking_force / force.value,
+        safety_factor: case.limits.breaking_force / force.value,
         broken: last.0.broken.clone(),
         history: last.0.history.clone(),
         effort: *effort,

@@ -89,10 +89,7 @@ impl Flight {
     pub fn taut(&self, scene: &Scene, time: f64) -> Vec<bool> {
         let frame = self.at(time);
         let displacement = |tire: usize| Vector3::from(frame[tire].map(f64::from));
-        let pulls = |cable: &Cable| {
-            let [a, b] = cable.ends.map(displacement);
-            cable.force((cable.span + (b - a)).norm()) > 0.0
-        };
+        let pulls = |cable: &Cable| cable.force(cable.between(cable.ends.map(displacement)).norm()) > 0.0;
         let mut taut: Vec<bool> = scene.cables.iter().map(pulls).collect();
         for broken in self.outcome.broken.iter().filter(|broken| broken.at <= time) {
             taut[broken.cable] = false;

@@ -56,6 +56,12 @@ impl Orders {
         Self { ranked: tried, complete }
     }
 
+    /// The verdict on all of them; open where there are none.
+    pub fn verdict(&self) -> Verdict {
+        let worst = Verdict::worst(self.ranked.iter().map(|tried| tried.envelope.verdict));
+        if self.ranked.is_empty() { Verdict::Undecided } else { worst }
+    }
+
     /// How many pass.
     pub fn passing(&self) -> usize {
         self.ranked.iter().filter(|tried| tried.envelope.verdict == Verdict::Pass).count()

@@ -13,8 +13,9 @@ use rand_distr::{Distribution, LogNormal, Normal};
 use serde::{Deserialize, Serialize};
 
 use super::batch::{Envelope, Progress, each, envelopes};
-use super::check::{check_shot, early, start_step};
+use super::check::{Reason, check_shot, reasons, start_step};
 use super::{Case, Effort, Shard};
+use crate::outcome::Peak;
 use crate::plan::ScatterSpec;
 use crate::scene::{Firing, Shot, fire_at_s};
 use crate::simulation::{Failure, Settings};
@@ -137,24 +138,21 @@ fn judge_sample(
         duration: case.plan.simulation.duration_s,
     };
     let outcome = case.model.run(shot, &settings, &mut |_| progress.flow())?;
-    let pair = |value: f64, relative: f64| [value, value * relative];
-    let [height, force, drift] = [
-        pair(outcome.height.value, relative_error[0]),
-        pair(outcome.force.value, relative_error[1]),
-        pair(outcome.drift.value, relative_error[2]),
-    ];
-    let verdict = case.limits.judge([height, force, drift]);
-    if !outcome.broken.is_empty() {
-        return Ok(Envelope { verdict: Verdict::Fail, height, force, drift });
-    }
-    if verdict == Verdict::Pass && early(case, shot, &outcome).is_some() {
-        return Ok(Envelope { verdict: Verdict::Undecided, height, force, drift });
-    }
-    if verdict == Verdict::Undecided && effort.step.is_none() {
+    let estimate = |peak: Peak, relative: f64| {
+        let Peak { value, at, place } = peak;
+        Estimate { value, error: value * relative, at, place }
+    };
+    let [height, force, drift] = *relative_error;
+    let estimates =
+        [estimate(outcome.height, height), estimate(outcome.force, force), estimate(outcome.drift, drift)];
+    let reasons = reasons(case, shot, &outcome, estimates);
+    let verdict = Verdict::worst(reasons.iter().map(Reason::verdict));
+    let too_near = |reason: &Reason| matches!(reason, Reason::Limit { verdict: Verdict::Undecided, .. });
+    if verdict == Verdict::Undecided && reasons.iter().any(too_near) && effort.step.is_none() {
         let checked = check_shot(case, shot, effort, &mut |_| progress.flow())?;
         return Ok(Envelope::of(&checked));
     }
-    Ok(Envelope { verdict, height, force, drift })
+    Ok(Envelope::new(verdict, estimates))
 }
 
 /// Sample `number` of a nominal shot.

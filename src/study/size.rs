@@ -46,9 +46,19 @@ pub struct Combination {
     pub tires: usize,
     /// Tires and cables [kg].
     pub total_mass: f64,
-    /// What its trial says; `None`: not tried, because a stronger rope of the same stiffness fails or the
-    /// time was up.
-    pub trial: Option<Trial>,
+    /// What its trial says, or why there is none.
+    pub trial: Result<Trial, Untried>,
+}
+
+/// Why a combination was not tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Untried {
+    /// A stronger rope of the same stiffness fails.
+    Alike,
+    /// The time did not suffice.
+    Late,
+    /// It cannot be followed at the step asked for.
+    Unstable,
 }
 
 /// What a combination came to.
@@ -69,23 +79,19 @@ pub struct Trial {
 pub struct Sizing {
     /// By total mass.
     pub combinations: Vec<Combination>,
-    /// How many the time did not suffice for.
-    pub late: usize,
-    /// How many could not be followed at the step asked for.
-    pub unstable: usize,
 }
 
 impl Sizing {
     /// The lightest that holds; of several as light the one with the weakest rope.
     pub fn found(&self) -> Option<&Combination> {
-        self.combinations.iter().find(|c| c.trial.is_some_and(|trial| trial.holds))
+        self.combinations.iter().find(|c| c.trial.is_ok_and(|trial| trial.holds))
     }
 
     /// Combinations that hold with more margin than any lighter one.
     pub fn frontier(&self) -> Vec<&Combination> {
         let mut least = f64::INFINITY;
         let better = |c: &&Combination| {
-            let used = c.trial.filter(|trial| trial.holds).map(|trial| trial.use_of_limits);
+            let used = c.trial.ok().filter(|trial| trial.holds).map(|trial| trial.use_of_limits);
             let better = used.is_some_and(|used| used < least);
             least = used.unwrap_or(least).min(least);
             better
@@ -95,7 +101,12 @@ impl Sizing {
 
     /// Combinations that were run.
     pub fn tried(&self) -> usize {
-        self.combinations.iter().filter(|c| c.trial.is_some()).count()
+        self.combinations.iter().filter(|c| c.trial.is_ok()).count()
+    }
+
+    /// Combinations that were not, for this reason.
+    pub fn untried(&self, why: Untried) -> usize {
+        self.combinations.iter().filter(|c| c.trial.is_err_and(|untried| untried == why)).count()
     }
 }
 
@@ -110,7 +121,7 @@ pub fn size(plan: &Plan, demand: &Demand, effort: &Effort, progress: &Progress) 
     let own = [plan.tire.mass_kg];
     let masses = if plan.size.tire_mass_kg.is_empty() { &own[..] } else { &plan.size.tire_mass_kg };
     let most_border = if matches!(plan.layout, Layout::List { .. }) { 0 } else { plan.size.most_border_rows };
-    let (mut combinations, mut late, mut unstable) = (Vec::new(), 0, 0);
+    let mut combinations = Vec::new();
     // The shot at which the last combination failed is the likeliest to fail the next.
     let mut likeliest = 0;
     // Bits of positive numbers are in the order of the numbers.
@@ -123,20 +134,18 @@ pub fn size(plan: &Plan, demand: &Demand, effort: &Effort, progress: &Progress) 
         for rope in ropes {
             let case = Case::new(plan.with(rope, tire_mass, border_rows));
             let (tires, total_mass) = (case.scene().mass.len(), total_mass(&case, rope));
-            let trial = if held && !progress.expired() {
+            let trial = if progress.expired() {
+                Err(Untried::Late)
+            } else if held {
                 match try_out(&case, demand, effort, &mut likeliest, progress) {
                     Err(stopped @ Failure::Stopped { .. }) => return Err(stopped),
-                    Err(_) => {
-                        unstable += 1;
-                        None
-                    }
-                    Ok(trial) => trial,
+                    Err(_) => Err(Untried::Unstable),
+                    Ok(trial) => trial.ok_or(Untried::Late),
                 }
             } else {
-                None
+                Err(Untried::Alike)
             };
-            late += usize::from(trial.is_none() && progress.expired());
-            held = trial.is_some_and(|trial| trial.holds);
+            held = trial.is_ok_and(|trial| trial.holds);
             combinations.push(Combination { rope, tire_mass, border_rows, tires, total_mass, trial });
         }
     }
@@ -144,7 +153,7 @@ pub fn size(plan: &Plan, demand: &Demand, effort: &Effort, progress: &Progress) 
         let strength = |c: &Combination| c.rope.breaking_force_kn;
         a.total_mass.total_cmp(&b.total_mass).then(strength(a).total_cmp(&strength(b)))
     });
-    Ok(Sizing { combinations, late, unstable })
+    Ok(Sizing { combinations })
 }
 
 fn total_mass(case: &Case, rope: &Rope) -> f64 {

@@ -11,6 +11,7 @@ use super::keymap::{Action, BINDINGS};
 use super::player::Player;
 use super::prompt::{Prompt, Purpose, Typed};
 use super::studies::Progress;
+use crate::file;
 use crate::plan::Accuracy;
 use crate::worker::Kind;
 
@@ -283,18 +284,14 @@ impl App {
         let stem = plan.file_stem().and_then(|stem| stem.to_str()).unwrap_or("plan");
         let screen = self.screen.name().to_lowercase();
         let ending = if self.screen == Screen::Plan { "svg" } else { "csv" };
-        let numbered = (2..100).map(|n| format!("{stem}-{screen}-{n}.{ending}"));
-        let mut names = std::iter::once(format!("{stem}-{screen}.{ending}")).chain(numbered);
-        names.find(|name| !Path::new(name).exists()).unwrap_or_default()
+        file::free(&format!("{stem}-{screen}"), ending)
     }
 
     /// Asks for a file to write the plan to: one that is not there yet.
     pub fn ask_for_file(&mut self) {
         let plan = Path::new(&self.case.plan.path);
         let stem = if plan.exists() { plan.with_extension("") } else { "plan".into() };
-        let numbered = (2..100).map(|n| format!("{}-{n}.toml", stem.display()));
-        let mut names = std::iter::once(format!("{}.toml", stem.display())).chain(numbered);
-        let free = names.find(|name| !Path::new(name).exists()).unwrap_or_default();
+        let free = file::free(&stem.to_string_lossy(), "toml");
         self.prompt = Some(Prompt::new(Purpose::SaveAs, &free));
     }
 

@@ -216,6 +216,7 @@ impl Editor {
         self.done.push(std::mem::replace(&mut self.text, plan.text.clone()));
         self.undone.clear();
         self.saved.clone_from(&plan.text);
+        self.leave();
         self.refresh();
     }
 

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use super::app::{App, Row, Screen};
-
 use super::studies::Progress;
 use crate::file;
 use crate::report;

@@ -164,13 +164,13 @@ pub fn spreads(app: &App) -> [(Kind, Found); 3] {
     let combinations = catalogue().ropes.iter().take(8).enumerate().map(|(n, rope)| {
         let share = 1.5 - 0.1 * n as f64;
         let trial = Trial { holds: share < 1.0, worst: envelope(share), use_of_limits: share, shots: 7 };
-        let (total_mass, trial) = (14_000.0 + 100.0 * n as f64, Some(trial));
+        let (total_mass, trial) = (14_000.0 + 100.0 * n as f64, Ok(trial));
         Combination { rope, tire_mass: 280.0, border_rows: 0, tires: 50, total_mass, trial }
     });
     let draw = Draw { samples: 100, seed: 1, certain_at: None };
     [
         (Kind::Orders, Found::Orders(Orders::new(&app.case, tried.collect(), 1))),
         (Kind::Scatter, Found::Scatter(draw, samples.collect())),
-        (Kind::Size, Found::Size(Sizing { combinations: combinations.collect(), late: 0, unstable: 0 })),
+        (Kind::Size, Found::Size(Sizing { combinations: combinations.collect() })),
     ]
 }

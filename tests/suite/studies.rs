@@ -135,7 +135,8 @@ fn the_lightest_shelter_is_that_of_brute_force() {
     let found = sizing.found().map_or(f64::INFINITY, |found| found.total_mass);
     assert!((found - lightest).abs() <= 1e-9 * lightest || found == lightest, "{found} {lightest}");
     assert!(lightest.is_finite(), "the test sizes nothing");
-    let margins: Vec<f64> = sizing.frontier().iter().filter_map(|c| Some(c.trial?.use_of_limits)).collect();
+    let margins: Vec<f64> =
+        sizing.frontier().iter().filter_map(|c| Some(c.trial.ok()?.use_of_limits)).collect();
     assert!(margins.windows(2).all(|pair| pair[1] < pair[0]), "{margins:?}");
 }
 

@@ -84,7 +84,7 @@ fn of_samples(app: &App, samples: &[Sample]) -> Picture {
 /// All combinations tried, and those that no lighter one beats.
 fn of_sizes(sizing: &Sizing) -> Picture {
     let point = |combination: &Combination| {
-        Some((combination.total_mass * 1e-3, 100.0 * combination.trial?.use_of_limits))
+        Some((combination.total_mass * 1e-3, 100.0 * combination.trial.ok()?.use_of_limits))
     };
     Picture {
         title: "use of the limits, %, against mass, t (line: lightest that hold; dotted: limit)".to_owned(),

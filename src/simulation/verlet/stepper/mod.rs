@@ -223,8 +223,7 @@ impl Motion for Snapshot<'_, '_> {
             return 0.0;
         }
         let cable = &scene.cables[cable];
-        let [a, b] = cable.ends.map(|end| self.displacement(end));
-        cable.force((cable.span + (b - a)).norm())
+        cable.force(cable.between(cable.ends.map(|end| self.displacement(end))).norm())
     }
 
     fn friction(&self, tire: usize) -> (f64, f64) {

@@ -1,6 +1,7 @@
 //! The first pass of a step: every cable that needs it is evaluated.
 
 use pulp::Simd;
+use rustc_hash::FxHashSet;
 
 use super::{Pass, Sample, Stepper};
 use crate::outcome::{Broken, Peak};
@@ -70,7 +71,7 @@ impl Stepper<'_> {
     /// Takes away the cables that pull past their breaking force; what they stored is lost.
     #[cold]
     fn cut_broken(&mut self, pass: &mut Pass) {
-        let at = self.now();
+        let (at, mut cut) = (self.now(), Vec::new());
         self.record.cap(self.breaking_force);
         self.sampled = None;
         pass.force.iter_mut().for_each(|force| *force = force.min(self.breaking_force));
@@ -82,16 +83,15 @@ impl Stepper<'_> {
                     self.record.ledger.dissipated += lost;
                     pass.energy[place % LANES] -= lost;
                     self.stored[n][place % LANES] -= lost;
-                    let cable = self.part.blocks.cable(n, place);
-                    for cable in self.part.quotient.cables(self.scene, cable) {
-                        // Its image may be modelled and break by itself.
-                        if self.record.broken.iter().all(|broken| broken.cable != cable) {
-                            self.record.broken.push(Broken { at, cable });
-                        }
-                    }
+                    cut.push(self.part.blocks.cable(n, place));
                 }
             }
         }
+        // An image may be modelled, too, and break by itself.
+        let mut known: FxHashSet<usize> = self.record.broken.iter().map(|broken| broken.cable).collect();
+        let new =
+            self.part.quotient.cables(self.scene, &cut).into_iter().filter(|&cable| known.insert(cable));
+        self.record.broken.extend(new.map(|cable| Broken { at, cable }));
     }
 
     /// Finds the top of the greatest force between the samples around it.
