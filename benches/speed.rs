@@ -4,7 +4,8 @@ use std::ops::ControlFlow;
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use shelter::plan::{DelayScatter, Method, Plan, ScatterSpec};
+use shelter::choice::Method;
+use shelter::plan::{DelayScatter, Plan, ScatterSpec};
 use shelter::simulation::{Model, Settings};
 use shelter::study::batch::Progress;
 use shelter::study::batch::each;
@@ -106,7 +107,7 @@ fn ten_options_checked(bencher: Bencher) {
     let plan = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("plans/large-50x50.toml");
     let case = Case::new(Plan::load(&plan).unwrap_or_else(|mistakes| panic!("{mistakes}")));
     let effort = shelter::study::Effort {
-        accuracy: shelter::plan::Accuracy::Draft,
+        accuracy: shelter::choice::Accuracy::Draft,
         ..shelter::study::Effort::of(&case.plan)
     };
     let options: Vec<usize> = (0..case.shots.len()).collect();

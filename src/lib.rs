@@ -13,6 +13,7 @@
 //! |---|---|---|---|
 //! | [`units`] | SI numbers | words | anything else |
 //! | [`file`] | a text | a file, whole or not at all | what is in it |
+//! | [`choice`] | a name | method, accuracy level and other named choices of a plan | what a choice does |
 //! | [`ropes`] | a data file | the rope catalogue | plans |
 //! | [`plan`] | TOML | a valid [`Plan`](plan::Plan), or every mistake with its remedy | physics |
 //! | [`scene`] | a plan | masses, cables, firings as flat SI arrays | how motion is computed |
@@ -41,6 +42,7 @@
 //! their *order*, makes a *delay option*. A *shelter* is tires (point masses) tied by *cables* that only pull. A cable is
 //! *taut* or *slack*; a tire on the ground *sticks* or *slips*. Everything else is the vocabulary of contact dynamics.
 
+pub mod choice;
 pub mod cli;
 pub mod file;
 pub mod outcome;

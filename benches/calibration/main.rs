@@ -9,8 +9,9 @@ mod scenes;
 use std::ops::ControlFlow;
 
 use rayon::prelude::*;
+use shelter::choice::{Accuracy, Method};
 use shelter::outcome::Outcome;
-use shelter::plan::{Accuracy, Method, Plan};
+use shelter::plan::Plan;
 use shelter::simulation::{Model, Settings};
 use shelter::study::check::{check, start_step};
 use shelter::study::{Case, Effort};

@@ -4,7 +4,8 @@
 use std::ops::ControlFlow;
 
 use libfuzzer_sys::fuzz_target;
-use shelter::plan::{Layout, Method, Plan};
+use shelter::choice::Method;
+use shelter::plan::{Layout, Plan};
 use shelter::simulation::{Failure, Settings};
 use shelter::study::Case;
 

@@ -18,11 +18,14 @@ mod trace;
 use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::str::FromStr;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
-use crate::plan::{Accuracy, Method, Plan};
+use crate::choice::{Accuracy, Method, UnknownName};
+use crate::plan::Plan;
 use crate::report::table::Style;
 use crate::study::Effort;
 
@@ -81,11 +84,11 @@ enum Command {
 #[derive(Args, Clone)]
 struct Compute {
     /// How finely the refinement starts
-    #[arg(long, value_enum)]
-    accuracy: Option<AccuracyArg>,
+    #[arg(long, value_parser = named::<Accuracy>(Accuracy::NAMES))]
+    accuracy: Option<Accuracy>,
     /// Time integration method
-    #[arg(long, value_enum)]
-    method: Option<MethodArg>,
+    #[arg(long, value_parser = named::<Method>(Method::NAMES))]
+    method: Option<Method>,
     /// Exactly this step, never refined
     #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
     dt: Option<f64>,
@@ -102,8 +105,8 @@ impl Compute {
     fn effort(&self, plan: &Plan) -> Effort {
         let asked = Effort::of(plan);
         Effort {
-            method: self.method.map_or(asked.method, Into::into),
-            accuracy: self.accuracy.map_or(asked.accuracy, Into::into),
+            method: self.method.unwrap_or(asked.method),
+            accuracy: self.accuracy.unwrap_or(asked.accuracy),
             step: self.dt,
         }
     }
@@ -167,36 +170,12 @@ enum FormatArg {
     Csv,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum AccuracyArg {
-    Draft,
-    Field,
-    Reference,
-}
-
-impl From<AccuracyArg> for Accuracy {
-    fn from(arg: AccuracyArg) -> Self {
-        match arg {
-            AccuracyArg::Draft => Accuracy::Draft,
-            AccuracyArg::Field => Accuracy::Field,
-            AccuracyArg::Reference => Accuracy::Reference,
-        }
-    }
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum MethodArg {
-    Verlet,
-    Newmark,
-}
-
-impl From<MethodArg> for Method {
-    fn from(arg: MethodArg) -> Self {
-        match arg {
-            MethodArg::Verlet => Method::Verlet,
-            MethodArg::Newmark => Method::Newmark,
-        }
-    }
+/// A parser that takes the names of a choice, and shows them in the help.
+fn named<T>(names: &'static [&'static str]) -> impl TypedValueParser<Value = T>
+where
+    T: FromStr<Err = UnknownName> + Clone + Send + Sync + 'static,
+{
+    PossibleValuesParser::new(names).try_map(|name| name.parse())
 }
 
 /// The help, where a command is missing.

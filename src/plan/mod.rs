@@ -21,6 +21,8 @@ pub use diagnostic::Diagnostics;
 pub use read::nearest;
 use serde::{Deserialize, Serialize};
 
+use crate::choice::{Accuracy, Method};
+
 /// Largest plan file read [bytes].
 const MOST_BYTES: u64 = 64 << 20;
 
@@ -337,28 +339,4 @@ pub struct SimulationSpec {
     pub method: Method,
     /// Gravity [m/s²].
     pub gravity_m_s2: f64,
-}
-
-/// How fine a verdict starts and ends; what each level costs is measured by `shelter accuracy`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Accuracy {
-    /// For a first look.
-    Draft,
-    /// For the decision.
-    #[default]
-    Field,
-    /// For the record.
-    Reference,
-}
-
-/// Time integration method.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Method {
-    /// Explicit, contact in closed form.
-    #[default]
-    Verlet,
-    /// Implicit, the source paper's.
-    Newmark,
 }

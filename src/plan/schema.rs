@@ -7,6 +7,7 @@ use std::ops::RangeInclusive;
 use serde_json::{Map, Value, json};
 
 use super::range;
+use crate::choice::{Accuracy, Method};
 use crate::ropes::catalogue;
 
 /// The schema (draft 2020-12).
@@ -163,8 +164,8 @@ fn simulation() -> Value {
         &[],
         [
             ("duration_s", number(range::DURATION_S, "default: until every tire is at rest [s]")),
-            ("accuracy", json!({ "enum": ["draft", "field", "reference"] })),
-            ("method", json!({ "enum": ["verlet", "newmark"] })),
+            ("accuracy", json!({ "enum": Accuracy::NAMES })),
+            ("method", json!({ "enum": Method::NAMES })),
             ("gravity_m_s2", number(range::GRAVITY_M_S2, "[m/s²]")),
         ],
     )

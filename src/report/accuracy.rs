@@ -2,9 +2,7 @@
 
 use serde::Serialize;
 
-use super::check::method_name;
-use super::table::accuracy_name;
-use crate::plan::Method;
+use crate::choice::Method;
 use crate::study::Case;
 use crate::study::accuracy::{CLASSES, Measured, PAPER, PaperRow, Study, paper_table};
 use crate::units;
@@ -53,7 +51,7 @@ pub fn rows(study: &Study) -> Vec<Row> {
     let row = |row: &crate::study::accuracy::Row| {
         let result = row.result.as_ref();
         Row {
-            method: method_name(row.method),
+            method: row.method.name(),
             dt_s: row.step,
             steps: result.map(|m| m.steps),
             stable: result.is_some(),
@@ -71,7 +69,7 @@ pub fn rows(study: &Study) -> Vec<Row> {
 impl Document {
     /// The results of one option.
     pub fn new(case: &Case, option: usize, study: &Study) -> Self {
-        let choice = |dt_s| Choice { method: method_name(Method::Verlet), dt_s };
+        let choice = |dt_s| Choice { method: Method::Verlet.name(), dt_s };
         let [draft, field, reference] = study.levels.map(|(_, step)| choice(step));
         Self {
             schema: "shelter.accuracy/1",
@@ -98,8 +96,8 @@ pub fn text(case: &Case, option: usize, study: &Study) -> String {
     );
     for row in &study.rows {
         let level = study.levels.iter().find(|(_, step)| *step == row.step && row.method == Method::Verlet);
-        let level = level.map_or("", |(level, _)| accuracy_name(*level));
-        text += &format!("{:8} {:>11} ", method_name(row.method), units::milliseconds(row.step));
+        let level = level.map_or("", |(level, _)| level.name());
+        text += &format!("{:8} {:>11} ", row.method.name(), units::milliseconds(row.step));
         text += &row.result.as_ref().map_or_else(|| "not stable\n".to_owned(), |m| measured(m, level));
     }
     text += &plot(study);
@@ -112,7 +110,7 @@ pub fn text(case: &Case, option: usize, study: &Study) -> String {
                     let (step, wall) = (units::milliseconds(step), units::milliseconds(wall.as_secs_f64()));
                     text += &format!(" {name} at {step} in {wall};");
                 }
-                None if study.rows.iter().all(|row| method_name(row.method) != name) => {
+                None if study.rows.iter().all(|row| row.method.name() != name) => {
                     text += &format!(" {name} not measured;");
                 }
                 None => text += &format!(" {name} not reached;"),
@@ -186,7 +184,7 @@ fn plot(study: &Study) -> String {
 fn paper(method: Method, ours: &[PaperRow]) -> String {
     let mut text = format!(
         "\nTable 1 of the source paper, ours ({}) beside it\n{:>10}  {:^23}  {:^23}  {:^23}\n",
-        method_name(method),
+        method.name(),
         "step, s",
         "height, m",
         "greatest force, kN",

@@ -3,9 +3,8 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::check::method_name;
+use crate::choice::Method;
 use crate::outcome::History;
-use crate::plan::Method;
 use crate::study::Case;
 use crate::study::accuracy::{Measured, Study};
 use crate::study::sweep::{Point, Sweep};
@@ -121,7 +120,7 @@ pub fn accuracy(study: &Study) -> Option<String> {
             .y_label_formatter(&power)
             .draw()?;
         for ((method, points), color) in series.iter().zip([CURVE, LIMIT]) {
-            let name = method_name(*method);
+            let name = method.name();
             chart
                 .draw_series(LineSeries::new(points.iter().copied(), color.stroke_width(1)).point_size(2))?
                 .label(name)

@@ -3,9 +3,7 @@
 use serde::Serialize;
 use serde_json::Number;
 
-use super::table::accuracy_name;
 use crate::outcome::Broken;
-use crate::plan::Method;
 use crate::scene::{Scene, TireId, fire_at_s};
 use crate::study::check::{Checked, Quantity, Reason, Still};
 use crate::study::{Case, Effort};
@@ -76,10 +74,10 @@ fn early(end: f64, still: Still) -> String {
 
 /// How results were asked for: `verlet, field` or `verlet, step 1 ms`.
 pub fn effort(effort: &Effort) -> String {
-    let method = method_name(effort.method);
+    let method = effort.method.name();
     match effort.step {
         Some(step) => format!("{method}, step {}", units::milliseconds(step)),
-        None => format!("{method}, {}", accuracy_name(effort.accuracy)),
+        None => format!("{method}, {}", effort.accuracy.name()),
     }
 }
 
@@ -123,20 +121,12 @@ pub fn command(case: &Case, results: &Results) -> String {
     let mut command = format!("shelter check {}", quoted(&case.plan.path));
     let (asked, of_plan) = (results.iter().flatten().next().map(|c| c.effort), Effort::of(&case.plan));
     if let Some(Effort { method, accuracy, step }) = asked.filter(|asked| *asked != of_plan) {
-        command += &format!(" --method {} --accuracy {}", method_name(method), accuracy_name(accuracy));
+        command += &format!(" --method {} --accuracy {}", method.name(), accuracy.name());
         if let Some(step) = step {
             command += &format!(" --dt {step}");
         }
     }
     command
-}
-
-/// As plans and scripts spell a method.
-pub fn method_name(method: Method) -> &'static str {
-    match method {
-        Method::Verlet => "verlet",
-        Method::Newmark => "newmark",
-    }
 }
 
 /// The document of one plan.
@@ -238,7 +228,7 @@ impl Values {
             cable_safety_factor: Some(checked.safety_factor).filter(|factor| factor.is_finite()),
             drift_m: AtTire::new(scene, &checked.drift),
             broken: checked.broken.iter().map(|broken| BrokenCable::new(scene, broken)).collect(),
-            method: method_name(checked.effort.method),
+            method: checked.effort.method.name(),
             dt_s: checked.step,
             steps: checked.steps,
             energy_residual: checked.energy_residual,

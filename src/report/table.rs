@@ -2,7 +2,6 @@
 
 use super::check::{Results, broken, effort, explain, verdict};
 use super::spark::sparkline;
-use crate::plan::Accuracy;
 use crate::study::Case;
 use crate::study::check::Checked;
 use crate::units::{self, Unit, value_and_error};
@@ -31,15 +30,6 @@ impl Style {
 
     pub(super) fn plain(self, text: String) -> String {
         if self.ascii { text.replace(" ± ", " +- ").replace('·', "|") } else { text }
-    }
-}
-
-/// As plans and scripts spell an accuracy.
-pub fn accuracy_name(accuracy: Accuracy) -> &'static str {
-    match accuracy {
-        Accuracy::Draft => "draft",
-        Accuracy::Field => "field",
-        Accuracy::Reference => "reference",
     }
 }
 

@@ -26,8 +26,8 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 
+use crate::choice::Method;
 use crate::outcome::Outcome;
-use crate::plan::Method;
 use crate::scene::{Scene, Shot};
 
 /// Simulated time after the last firing at which a shelter that never settles is given up [s].

@@ -6,8 +6,9 @@ use std::time::{Duration, Instant};
 use super::batch::Progress;
 use super::check::start_step;
 use super::{Case, error};
+use crate::choice::{Accuracy, Method};
 use crate::outcome::Outcome;
-use crate::plan::{Accuracy, Method, Timing};
+use crate::plan::Timing;
 use crate::scene::Shot;
 use crate::simulation::{Failure, Settings};
 

@@ -7,8 +7,8 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use super::{Case, Effort, error};
+use crate::choice::{Accuracy, Method};
 use crate::outcome::{Broken, End, History, Outcome, Peak};
-use crate::plan::{Accuracy, Method};
 use crate::scene::Shot;
 use crate::simulation::{Failure, Settings};
 use crate::verdict::{Estimate, Limits, Verdict};

@@ -17,7 +17,8 @@ pub mod trace;
 
 use serde::{Deserialize, Serialize};
 
-use crate::plan::{Accuracy, Method, Plan, Timing};
+use crate::choice::{Accuracy, Method};
+use crate::plan::{Plan, Timing};
 use crate::scene::{Scene, Shot};
 use crate::simulation::Model;
 use crate::verdict::Limits;

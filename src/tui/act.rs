@@ -11,8 +11,8 @@ use super::keymap::{Action, BINDINGS};
 use super::player::Player;
 use super::prompt::{Prompt, Purpose, Typed};
 use super::studies::Progress;
+use crate::choice::Accuracy;
 use crate::file;
-use crate::plan::Accuracy;
 use crate::worker::Kind;
 
 /// Options a page key moves.

@@ -1,6 +1,6 @@
 //! Cables that break are gone, and take their energy with them.
 
-use shelter::plan::Method;
+use shelter::choice::Method;
 use shelter::scene::Scene;
 
 use crate::scenes::{GRAVITY, METHODS, close, fire, fire_rows, grid, run, settings, tie, tires};

@@ -5,7 +5,7 @@ mod scenes;
 
 use std::ops::ControlFlow;
 
-use shelter::plan::{Accuracy, Method};
+use shelter::choice::{Accuracy, Method};
 use shelter::simulation::{Settings, simulate};
 use shelter::study::error::{NEIGHBOURS, RATIO, estimate};
 

@@ -2,7 +2,7 @@
 //! quantity, or rounding where the method is exact.
 
 use nalgebra::Vector3;
-use shelter::plan::Method;
+use shelter::choice::Method;
 
 use crate::scenes::{GRAVITY, METHODS, close, fire, quincunx, run, settings, tie, tires, watch};
 

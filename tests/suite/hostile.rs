@@ -3,7 +3,8 @@
 use std::ops::ControlFlow;
 
 use proptest::prelude::*;
-use shelter::plan::{Layout, Method, Plan};
+use shelter::choice::Method;
+use shelter::plan::{Layout, Plan};
 use shelter::simulation::{Failure, Settings};
 use shelter::study::Case;
 use shelter::tui::config::{self, Config};

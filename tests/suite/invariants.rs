@@ -1,7 +1,7 @@
 //! What must hold whatever the shelter: balance, similarity, and changes that must change nothing.
 
 use proptest::prelude::*;
-use shelter::plan::Method;
+use shelter::choice::Method;
 use shelter::scene::{Cable, Firing, Shot};
 
 use super::properties::{shelter, step};

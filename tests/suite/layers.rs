@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// Modules from the lowest layer to the highest; those on a line do not know each other.
 const LAYERS: &[&[&str]] = &[
-    &["units", "file", "ropes"],
+    &["units", "file", "choice", "ropes"],
     &["plan"],
     &["scene"],
     &["outcome"],

@@ -1,7 +1,8 @@
 //! Half and quarter shelters are the whole ones.
 
 use proptest::prelude::*;
-use shelter::plan::{Method, Plan};
+use shelter::choice::Method;
+use shelter::plan::Plan;
 use shelter::scene::{Firing, Scene, Shot};
 use shelter::simulation::Model;
 

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
-use shelter::plan::Method;
+use shelter::choice::Method;
 use shelter::scene::{Firing, Scene, Shot};
 
 use super::scenes::{GRAVITY, run, settings, tie, tires};

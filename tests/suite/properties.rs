@@ -1,7 +1,7 @@
 //! Invariants over random small shelters, both methods.
 
 use proptest::prelude::*;
-use shelter::plan::Method;
+use shelter::choice::Method;
 use shelter::scene::{Firing, Scene, Shot};
 use shelter::simulation::Model;
 use std::ops::ControlFlow;

@@ -1,7 +1,7 @@
 //! Both methods against the event-driven reference answers, and against each other.
 
+use shelter::choice::Method;
 use shelter::outcome::End;
-use shelter::plan::Method;
 
 use crate::scenes::{METHODS, close, fire, fire_rows, grid, quincunx, run, settings};
 

@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use nalgebra::Vector3;
+use shelter::choice::Method;
 use shelter::outcome::Outcome;
-use shelter::plan::Method;
 use shelter::scene::{Cable, Firing, Scene, Shot, TireId};
 use shelter::simulation::{Failure, Motion, Settings, simulate};
 

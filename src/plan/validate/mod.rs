@@ -11,7 +11,8 @@ use self::shot::{read_blast_rows, read_delays};
 use self::study::{read_scatter, read_size};
 use super::diagnostic::Diagnostics;
 use super::read::{At, Mistakes, Table};
-use super::{Accuracy, CableSpec, Limits, Method, Plan, SimulationSpec, TireSpec, range};
+use super::{CableSpec, Limits, Plan, SimulationSpec, TireSpec, range};
+use crate::choice::{Accuracy, Method};
 use crate::ropes;
 
 /// Reads a plan from text; `path` names it in messages.

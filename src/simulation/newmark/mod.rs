@@ -30,8 +30,8 @@ use self::system::System;
 use super::record::{Clock, Record};
 use super::wake::{Ties, Wake};
 use super::{Failure, Motion, Settings, Watcher, time_limit};
+use crate::choice::Method;
 use crate::outcome::{End, Outcome};
-use crate::plan::Method;
 use crate::scene::{Scene, Shot};
 
 /// A scene made ready for many runs.

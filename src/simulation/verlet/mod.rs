@@ -22,8 +22,8 @@ use super::mirror::Quotient;
 use super::pack::LANES;
 use super::wake::Ties;
 use super::{Failure, Settings, Watcher};
+use crate::choice::Method;
 use crate::outcome::Outcome;
-use crate::plan::Method;
 use crate::scene::{Mirror, Scene, Shot};
 
 /// A scene made ready for many runs: the whole, and what each choice of its mirror planes leaves of it.

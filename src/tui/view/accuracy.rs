@@ -9,10 +9,8 @@ use ratatui::widgets::{Block, Borders, Dataset, GraphType, Paragraph, Wrap};
 
 use super::chart::{Scale, chart};
 use super::studies::{message, waiting};
-use crate::plan::Method;
+use crate::choice::Method;
 use crate::report::chart::{WorkPrecision, logarithms, power, work_precision};
-use crate::report::check::method_name;
-use crate::report::table::accuracy_name;
 use crate::study::accuracy::{Measured, Study};
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
@@ -72,7 +70,7 @@ fn levels<'l>(app: &App, study: &Study) -> Vec<Line<'l>> {
         let start = format!(
             "{} {:10} {:>10} ",
             if chosen { ">" } else { " " },
-            accuracy_name(level),
+            level.name(),
             units::milliseconds(step)
         );
         let words = measured(study, step).map_or_else(|| "not stable".to_owned(), |m| costs(m, base));
@@ -121,8 +119,8 @@ fn draw_plot(app: &App, study: &Study, frame: &mut Frame, area: Rect) {
         Dataset::default().data(data).graph_type(GraphType::Scatter).marker(marker).style(style).name(name)
     };
     let sets = vec![
-        dots(&series[1].1, app.theme.limit(), Marker::Braille, method_name(series[1].0)),
-        dots(&series[0].1, app.theme.curve(), Marker::Braille, method_name(series[0].0)),
+        dots(&series[1].1, app.theme.limit(), Marker::Braille, series[1].0.name()),
+        dots(&series[0].1, app.theme.curve(), Marker::Braille, series[0].0.name()),
         points(&levels, Marker::Dot, "levels"),
         points(&chosen, Marker::Block, "chosen"),
     ];

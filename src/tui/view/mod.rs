@@ -29,8 +29,6 @@ use ratatui::widgets::{Block, Paragraph, Wrap};
 use super::app::{App, Row, Screen, Target};
 use super::keymap::{Action, BINDINGS};
 use super::prompt::{Prompt, Purpose};
-use crate::report::check::method_name;
-use crate::report::table::accuracy_name;
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
@@ -134,9 +132,9 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
     }
     let level = match app.effort.step {
         Some(step) => format!("step {}", units::milliseconds(step)),
-        None => accuracy_name(app.effort.accuracy).to_owned(),
+        None => app.effort.accuracy.name().to_owned(),
     };
-    about += &format!(" · {}, {level}", method_name(app.effort.method));
+    about += &format!(" · {}, {level}", app.effort.method.name());
     about += &format!(" · {} tires, {} cables", case.scene().mass.len(), case.scene().cables.len());
     let unsaved = if app.editor.unsaved() { " *not saved*" } else { "" };
     let title = Line::from(vec![

@@ -12,8 +12,8 @@ mod firing;
 use std::ops::ControlFlow;
 
 use nalgebra::Vector3;
+use shelter::choice::Method;
 use shelter::outcome::{End, Outcome};
-use shelter::plan::Method;
 use shelter::scene::{Firing, Scene, Shot};
 use shelter::simulation::{Failure, simulate};
 

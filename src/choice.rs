@@ -1,0 +1,108 @@
+//! The named choices of a plan and of the command line; each enum owns its names.
+//!
+//! The plan reader, the schema, the command line and every text take the names from here.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+/// A name that none of the choices has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownName {
+    /// The name as written.
+    pub name: String,
+    /// The names that exist.
+    pub known: &'static [&'static str],
+}
+
+impl fmt::Display for UnknownName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "'{}' is none of {}", self.name, self.known.join(", "))
+    }
+}
+
+impl std::error::Error for UnknownName {}
+
+/// Declares an enum whose variants have one name each; serde, `Display` and `FromStr` use these names.
+macro_rules! choice {
+    (
+        $(#[$about:meta])*
+        $choice:ident { $( $(#[$about_variant:meta])* $variant:ident = $name:literal, )+ }
+    ) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+        pub enum $choice {
+            $( $(#[$about_variant])* #[serde(rename = $name)] $variant, )+
+        }
+
+        impl $choice {
+            /// Every choice, in the order of declaration.
+            pub const ALL: &'static [Self] = &[$(Self::$variant),+];
+            /// Names of all choices, in the same order.
+            pub const NAMES: &'static [&'static str] = &[$($name),+];
+
+            /// The name in plans, on the command line and in results.
+            pub const fn name(self) -> &'static str {
+                match self { $(Self::$variant => $name),+ }
+            }
+        }
+
+        impl fmt::Display for $choice {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.pad(self.name())
+            }
+        }
+
+        impl FromStr for $choice {
+            type Err = UnknownName;
+
+            fn from_str(name: &str) -> Result<Self, UnknownName> {
+                let found = Self::ALL.iter().copied().find(|choice| choice.name() == name);
+                found.ok_or_else(|| UnknownName { name: name.to_owned(), known: Self::NAMES })
+            }
+        }
+    };
+}
+
+choice! {
+    /// How fine a verdict starts and ends; `shelter accuracy` measures what each level costs.
+    Accuracy {
+        /// For a first look.
+        Draft = "draft",
+        /// For the decision.
+        #[default]
+        Field = "field",
+        /// For the record.
+        Reference = "reference",
+    }
+}
+
+choice! {
+    /// Time integration method.
+    Method {
+        /// Explicit; contact in closed form.
+        #[default]
+        Verlet = "verlet",
+        /// Implicit; the method of the source paper.
+        Newmark = "newmark",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_choice_has_one_name_for_serde_display_and_parsing() {
+        for &accuracy in Accuracy::ALL {
+            assert_eq!(accuracy.name().parse(), Ok(accuracy));
+            assert_eq!(accuracy.to_string(), accuracy.name());
+            let json = serde_json::to_value(accuracy).expect("a text");
+            assert_eq!(json, accuracy.name());
+            assert_eq!(serde_json::from_value::<Accuracy>(json).ok(), Some(accuracy));
+        }
+        let unknown = "fine".parse::<Accuracy>().expect_err("unknown");
+        assert_eq!(unknown.to_string(), "'fine' is none of draft, field, reference");
+    }
+}
