@@ -43,6 +43,7 @@
 //! *taut* or *slack*; a tire on the ground *sticks* or *slips*. Everything else is the vocabulary of contact dynamics.
 
 pub mod choice;
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod file;
 pub mod outcome;
@@ -52,6 +53,7 @@ pub mod ropes;
 pub mod scene;
 pub mod simulation;
 pub mod study;
+#[cfg(feature = "tui")]
 pub mod tui;
 pub mod units;
 pub mod verdict;

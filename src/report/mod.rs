@@ -4,8 +4,10 @@
 //! scripts depend on.
 
 pub mod accuracy;
+#[cfg(feature = "page")]
 pub mod chart;
 pub mod check;
+#[cfg(feature = "page")]
 pub mod html;
 pub mod orders;
 pub mod ropes;

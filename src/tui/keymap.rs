@@ -269,14 +269,59 @@ impl Keymap {
     }
 }
 
-/// A key as written: a single character as it is, others by name.
+/// The key that `written` names: a single character as it stands, or a name after any of `ctrl-`, `alt-`, `shift-`, `cmd-`.
 fn parse(written: &str) -> Option<(KeyCode, KeyModifiers)> {
     let mut letters = written.chars();
     if let (Some(letter), None) = (letters.next(), letters.next()) {
         return (!letter.is_control()).then_some((KeyCode::Char(letter), KeyModifiers::NONE));
     }
-    let key = crokey::parse(written).ok()?;
-    Some((*key.codes.first(), key.modifiers - KeyModifiers::SHIFT))
+    let written = written.to_ascii_lowercase();
+    let (mut name, mut modifiers) = (written.as_str(), KeyModifiers::NONE);
+    while let Some((rest, modifier)) =
+        MODIFIERS.iter().find_map(|(prefix, modifier)| Some((name.strip_prefix(prefix)?, *modifier)))
+    {
+        (name, modifiers) = (rest, modifiers | modifier);
+    }
+    let code = key_code(name, modifiers.contains(KeyModifiers::SHIFT))?;
+    Some((code, modifiers - KeyModifiers::SHIFT))
+}
+
+const MODIFIERS: &[(&str, KeyModifiers)] = &[
+    ("ctrl-", KeyModifiers::CONTROL),
+    ("alt-", KeyModifiers::ALT),
+    ("shift-", KeyModifiers::SHIFT),
+    ("cmd-", KeyModifiers::SUPER),
+];
+
+/// The key of a name in lower case; Shift makes a letter a capital.
+fn key_code(name: &str, shift: bool) -> Option<KeyCode> {
+    let code = match name {
+        "esc" => KeyCode::Esc,
+        "enter" => KeyCode::Enter,
+        "left" => KeyCode::Left,
+        "right" => KeyCode::Right,
+        "up" => KeyCode::Up,
+        "down" => KeyCode::Down,
+        "home" => KeyCode::Home,
+        "end" => KeyCode::End,
+        "pageup" => KeyCode::PageUp,
+        "pagedown" => KeyCode::PageDown,
+        "backtab" => KeyCode::BackTab,
+        "backspace" => KeyCode::Backspace,
+        "del" | "delete" => KeyCode::Delete,
+        "ins" | "insert" => KeyCode::Insert,
+        "space" => KeyCode::Char(' '),
+        "hyphen" | "minus" => KeyCode::Char('-'),
+        "tab" => KeyCode::Tab,
+        _ => match (name.strip_prefix('f').and_then(|number| number.parse().ok()), name.as_bytes()) {
+            (Some(number @ 1..=24), _) => KeyCode::F(number),
+            (_, &[letter]) => {
+                KeyCode::Char(char::from(if shift { letter.to_ascii_uppercase() } else { letter }))
+            }
+            _ => return None,
+        },
+    };
+    Some(code)
 }
 
 /// As keyboards name it: `Enter`, `PgUp`, `Ctrl-s`.
@@ -304,6 +349,26 @@ mod tests {
                 let (code, modifiers) = parse(key).expect("a key");
                 assert_eq!(keymap.action(&KeyEvent::new(code, modifiers)), Some(binding.action), "{key}");
             }
+        }
+    }
+
+    #[test]
+    fn keys_are_named_with_their_modifiers() {
+        let none = KeyModifiers::NONE;
+        for (written, key) in [
+            ("G", (KeyCode::Char('G'), none)),
+            ("-", (KeyCode::Char('-'), none)),
+            ("PageUp", (KeyCode::PageUp, none)),
+            ("F24", (KeyCode::F(24), none)),
+            ("shift-q", (KeyCode::Char('Q'), none)),
+            ("ctrl-Q", (KeyCode::Char('q'), KeyModifiers::CONTROL)),
+            ("alt--", (KeyCode::Char('-'), KeyModifiers::ALT)),
+            ("ctrl-alt-minus", (KeyCode::Char('-'), KeyModifiers::CONTROL | KeyModifiers::ALT)),
+        ] {
+            assert_eq!(parse(written), Some(key), "{written}");
+        }
+        for written in ["", "ctrl-", "f0", "f25", "a-b", "nokey"] {
+            assert_eq!(parse(written), None, "{written}");
         }
     }
 
