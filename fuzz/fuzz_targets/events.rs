@@ -8,7 +8,7 @@ use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, Mous
 use libfuzzer_sys::fuzz_target;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
-use shelter::plan::Plan;
+use shelter::plan::PlanSource;
 use shelter::study::{Case, Effort};
 use shelter::tui::app::App;
 use shelter::tui::config::Config;
@@ -17,8 +17,9 @@ use shelter::tui::{update, view};
 fn case() -> Arc<Case> {
     static CASE: OnceLock<Arc<Case>> = OnceLock::new();
     let read = || {
-        let plan = Plan::parse("plan.toml", include_str!("../../plans/amur-three-rows.toml"));
-        Arc::new(Case::new(plan.unwrap_or_else(|mistakes| panic!("{mistakes}"))))
+        let text = include_str!("../../plans/amur-three-rows.toml").to_owned();
+        let case = Case::parse(PlanSource { path: "plan.toml".to_owned(), text });
+        Arc::new(case.unwrap_or_else(|mistakes| panic!("{mistakes}")))
     };
     Arc::clone(CASE.get_or_init(read))
 }

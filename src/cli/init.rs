@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::{Look, Status};
 use crate::file;
-use crate::plan::Diagnostics;
+use crate::plan::PlanSource;
 use crate::plan::import::plan_from_holes;
 
 /// The starter plan.
@@ -26,8 +26,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     let text = match &arguments.from {
         None => STARTER.to_owned(),
         Some(list) => {
-            let read =
-                Diagnostics::read(list).and_then(|text| plan_from_holes(&list.display().to_string(), &text));
+            let read = PlanSource::read(list).and_then(|list| plan_from_holes(&list.path, &list.text));
             match read {
                 Ok(text) => text,
                 Err(mistakes) => {

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::{Compute, Look, Status};
-use crate::plan::Plan;
+use crate::plan::PlanSource;
 use crate::study::Case;
 use crate::tui::config::{self, Config};
 use crate::tui::start::{Opened, Start};
@@ -16,10 +16,10 @@ use crate::worker::{Errands, Worker};
 pub fn cases<'a>(paths: impl IntoIterator<Item = &'a std::path::PathBuf>, look: &Look) -> Option<Vec<Case>> {
     let mut cases = Some(Vec::new());
     for path in paths {
-        match Plan::load(path) {
-            Ok(plan) => {
+        match Case::load(path) {
+            Ok(case) => {
                 if let Some(cases) = &mut cases {
-                    cases.push(Case::new(plan));
+                    cases.push(case);
                 }
             }
             Err(diagnostics) => {
@@ -66,10 +66,10 @@ pub fn start(compute: &Compute, look: &Look) -> io::Result<Status> {
         Ok(Opened::Example(name, text)) => (name, text.to_owned(), true),
         Ok(Opened::New(text)) => ("new plan", text, false),
     };
-    match Plan::parse(name, &text) {
-        Ok(plan) => {
-            let effort = compute.effort(&plan);
-            let mut app = App::new(Arc::new(Case::new(plan)), effort, &config);
+    match Case::parse(PlanSource { path: name.to_owned(), text }) {
+        Ok(case) => {
+            let effort = compute.effort(&case.plan);
+            let mut app = App::new(Arc::new(case), effort, &config);
             if !kept {
                 app.editor.saved.clear();
             }
@@ -134,7 +134,7 @@ fn find_option(case: &Case, name: Option<&str>) -> Result<usize, String> {
     let names: Vec<&str> = case.plan.delays.iter().map(|delay| delay.name.as_str()).collect();
     let Some(name) = name else { return Ok(0) };
     names.iter().position(|&known| known == name).ok_or_else(|| {
-        format!("no delay option '{name}' in {}; it has: {}", case.plan.path, names.join("; "))
+        format!("no delay option '{name}' in {}; it has: {}", case.source.path, names.join("; "))
     })
 }
 

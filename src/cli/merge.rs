@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{FormatArg, Look, Status, load, long};
-use crate::plan::Plan;
+use crate::plan::PlanSource;
 use crate::report;
 use crate::study::merge::{Findings, Head, Question, SCHEMA, merge};
 use crate::study::orders::Orders;
@@ -39,8 +39,8 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         Ok(merged) => merged,
         Err(message) => return load::wrong(&message),
     };
-    let case = match Plan::parse(&head.plan, &head.text) {
-        Ok(plan) => Case::new(plan),
+    let case = match Case::parse(PlanSource { path: head.plan.clone(), text: head.text.clone() }) {
+        Ok(case) => case,
         Err(mistakes) => return load::wrong(&mistakes.to_string()),
     };
     if !findings.fit(&case) {
@@ -110,8 +110,8 @@ fn write_share(answer: Answer<'_>, shard: Shard) -> io::Result<Status> {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         question,
         effort,
-        plan: case.plan.path.clone(),
-        text: case.plan.text.clone(),
+        plan: case.source.path.clone(),
+        text: case.source.text.clone(),
         shard,
         lines,
     };

@@ -52,7 +52,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     let Some(mut case) = load::cases([&arguments.plan], look).and_then(|mut cases| cases.pop()) else {
         return Ok(Status::Wrong);
     };
-    if arguments.write && case.plan.path == "-" {
+    if arguments.write && case.source.path == "-" {
         return load::wrong("--write has no file to write into: give the plan by its name");
     }
     let demand = match choose(arguments, &mut case) {
@@ -120,10 +120,10 @@ fn choose(arguments: &Arguments, case: &mut Case) -> Result<Demand, String> {
 }
 
 fn write(arguments: &Arguments, case: &Case, found: &Combination) -> io::Result<()> {
-    if std::fs::read_to_string(&arguments.plan)? != case.plan.text {
+    if std::fs::read_to_string(&arguments.plan)? != case.source.text {
         return Err(io::Error::other("the plan has changed meanwhile; nothing was written"));
     }
-    let text = edit::write_sizes(&case.plan.text, &found.rope.name, found.tire_mass, found.border_rows)
+    let text = edit::write_sizes(&case.source.text, &found.rope.name, found.tire_mass, found.border_rows)
         .map_err(io::Error::other)?;
     file::save(&arguments.plan, &text)?;
     eprintln!("written: {}", arguments.plan.display());

@@ -11,30 +11,24 @@ pub mod import;
 mod range;
 mod read;
 pub mod schema;
+mod source;
 pub mod starter;
 mod validate;
 
-use std::io::Read;
 use std::path::Path;
 
 pub use diagnostic::Diagnostics;
 pub use read::nearest;
 use serde::{Deserialize, Serialize};
+pub use source::PlanSource;
 
 use crate::choice::{Accuracy, Method};
-
-/// Largest plan file read [bytes].
-const MOST_BYTES: u64 = 64 << 20;
 
 /// A blast row, the shelter over it, and the delay options to choose from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// Where the plan came from, as the user named it (`-` for standard input).
-    pub path: String,
-    /// As written.
-    pub text: String,
-    /// Free text shown above every view; the file name when the plan has none.
-    pub title: String,
+    /// Free text shown above every view.
+    pub title: Option<String>,
     /// Tires and the ties between them.
     pub layout: Layout,
     /// The tire every place of the layout gets.
@@ -98,54 +92,13 @@ pub struct SizeSpec {
 impl Plan {
     /// Reads and validates a plan file; `-` is standard input.
     pub fn load(path: &Path) -> Result<Self, Diagnostics> {
-        Self::parse(&path.display().to_string(), &Diagnostics::read(path)?)
+        PlanSource::read(path)?.plan()
     }
 
-    /// Validates the text of a plan; `name` stands for the file in messages.
-    pub fn parse(name: &str, text: &str) -> Result<Self, Diagnostics> {
-        validate::parse(name, text)
+    /// Validates the text of a plan; messages name the file `path`.
+    pub fn parse(path: &str, text: &str) -> Result<Self, Diagnostics> {
+        validate::parse(path, text)
     }
-}
-
-impl Diagnostics {
-    /// The text of a file; `-` is standard input.
-    pub fn read(path: &Path) -> Result<String, Self> {
-        let name = path.display().to_string();
-        read_text(path).map_err(|(message, remedy)| Self::unreadable(&name, message, remedy))
-    }
-}
-
-/// The text of a file, or what is wrong with it and the remedy.
-fn read_text(path: &Path) -> Result<String, (String, &'static str)> {
-    let cannot = |error: std::io::Error| {
-        let remedy = match error.kind() {
-            std::io::ErrorKind::NotFound => {
-                "check the path, or write a starter plan with `shelter init FILE`"
-            }
-            std::io::ErrorKind::IsADirectory => "name a plan file inside it",
-            _ => "check the path and its permissions",
-        };
-        (format!("cannot read the file: {error}"), remedy)
-    };
-    let mut bytes = Vec::new();
-    let read = if path.as_os_str() == "-" {
-        std::io::stdin().lock().take(MOST_BYTES + 1).read_to_end(&mut bytes)
-    } else {
-        std::fs::File::open(path).and_then(|file| file.take(MOST_BYTES + 1).read_to_end(&mut bytes))
-    };
-    read.map_err(cannot)?;
-    if bytes.len() as u64 > MOST_BYTES {
-        return Err((
-            format!("the file is larger than {} MB", MOST_BYTES >> 20),
-            "a plan is a short text: check the path",
-        ));
-    }
-    String::from_utf8(bytes).map_err(|error| {
-        (
-            format!("the file is not UTF-8 text from byte {} on", error.utf8_error().valid_up_to()),
-            "save it as UTF-8",
-        )
-    })
 }
 
 /// How the tires lie and which neighbours are tied.

@@ -73,7 +73,7 @@ impl Document {
         let [draft, field, reference] = study.levels.map(|(_, step)| choice(step));
         Self {
             schema: "shelter.accuracy/1",
-            plan: case.plan.path.clone(),
+            plan: case.source.path.clone(),
             option: case.plan.delays[option].name.clone(),
             rows: rows(study),
             reference: choice(study.reference_step),
@@ -86,7 +86,7 @@ impl Document {
 pub fn text(case: &Case, option: usize, study: &Study) -> String {
     let mut text = format!(
         "{}, option {}\nerrors against verlet at {}; times on this machine, one thread\n\n",
-        case.plan.title,
+        case.title(),
         case.plan.delays[option].name,
         units::milliseconds(study.reference_step)
     );

@@ -118,7 +118,7 @@ fn quoted(path: &str) -> String {
 
 /// The command that gives these results.
 pub fn command(case: &Case, results: &Results) -> String {
-    let mut command = format!("shelter check {}", quoted(&case.plan.path));
+    let mut command = format!("shelter check {}", quoted(&case.source.path));
     let (asked, of_plan) = (results.iter().flatten().next().map(|c| c.effort), Effort::of(&case.plan));
     if let Some(Effort { method, accuracy, step }) = asked.filter(|asked| *asked != of_plan) {
         command += &format!(" --method {} --accuracy {}", method.name(), accuracy.name());
@@ -257,8 +257,8 @@ impl Document {
         });
         Self {
             schema: "shelter.check/1",
-            plan: plan.path.clone(),
-            title: plan.title.clone(),
+            plan: case.source.path.clone(),
+            title: case.title().to_owned(),
             verdict: verdict(results, any).word(),
             scene: SceneSize {
                 tires: scene.mass.len(),
@@ -299,7 +299,7 @@ impl Row {
     pub fn of(case: &Case, results: &Results) -> Vec<Self> {
         let scene = case.scene();
         let row = |(delay, result): (&crate::plan::DelayOption, &Result<Checked, String>)| {
-            let (plan, option) = (case.plan.path.clone(), delay.name.clone());
+            let (plan, option) = (case.source.path.clone(), delay.name.clone());
             match result {
                 Err(words) => Self {
                     plan,

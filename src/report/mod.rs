@@ -96,8 +96,8 @@ fn heading(case: &Case) -> String {
     let (plan, scene) = (&case.plan, case.scene());
     let mut text = format!(
         "{} · {}\n{} tires, {} cables · limits: height {} m, cable force {} kN (breaking force {} kN / {})",
-        plan.title,
-        plan.path,
+        case.title(),
+        case.source.path,
         scene.mass.len(),
         scene.cables.len(),
         units::value(case.limits.height, Unit::Metre),

@@ -77,8 +77,8 @@ impl Document {
         let row = |tried: &Tried| Row::new(case, tried);
         Self {
             schema: "shelter.orders/1",
-            plan: case.plan.path.clone(),
-            title: case.plan.title.clone(),
+            plan: case.source.path.clone(),
+            title: case.title().to_owned(),
             partial,
             limits: super::Limits::new(case),
             count: orders.ranked.len(),

@@ -108,8 +108,8 @@ impl Document {
         };
         Self {
             schema: "shelter.scatter/1",
-            plan: case.plan.path.clone(),
-            title: case.plan.title.clone(),
+            plan: case.source.path.clone(),
+            title: case.title().to_owned(),
             partial,
             limits: super::Limits::new(case),
             samples: draw.samples,

@@ -88,8 +88,8 @@ impl Document {
         let found = sizing.found();
         Self {
             schema: "shelter.size/1",
-            plan: case.plan.path.clone(),
-            title: case.plan.title.clone(),
+            plan: case.source.path.clone(),
+            title: case.title().to_owned(),
             found: found.is_some(),
             lightest: found.map(Row::new),
             tried: sizing.tried(),
@@ -104,7 +104,7 @@ impl Document {
 /// The frontier for reading.
 pub fn text(case: &Case, sizing: &Sizing, style: Style) -> String {
     let plan = &case.plan;
-    let mut text = format!("{} · {}\n", plan.title, plan.path);
+    let mut text = format!("{} · {}\n", case.title(), case.source.path);
     text += &format!(
         "limits: height {} m, breaking force / {}\n",
         plan.limits.flight_height_m, plan.limits.cable_safety_factor

@@ -55,8 +55,8 @@ impl Document {
     pub fn new(case: &Case, sweep: &Sweep, partial: bool) -> Self {
         Self {
             schema: "shelter.sweep/1",
-            plan: case.plan.path.clone(),
-            title: case.plan.title.clone(),
+            plan: case.source.path.clone(),
+            title: case.title().to_owned(),
             partial,
             order: super::row_names(case, &sweep.order),
             limits: super::Limits::new(case),

@@ -15,10 +15,12 @@ pub mod size;
 pub mod sweep;
 pub mod trace;
 
+use std::path::Path;
+
 use serde::{Deserialize, Serialize};
 
 use crate::choice::{Accuracy, Method};
-use crate::plan::{Plan, Timing};
+use crate::plan::{Diagnostics, Plan, PlanSource, Timing};
 use crate::scene::{Scene, Shot};
 use crate::simulation::Model;
 use crate::verdict::Limits;
@@ -26,7 +28,9 @@ use crate::verdict::Limits;
 /// A plan made ready to run.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// As loaded.
+    /// File and text of the plan; empty where the program made the plan.
+    pub source: PlanSource,
+    /// Values of the plan.
     pub plan: Plan,
     /// Its shelter, made ready.
     pub model: Model,
@@ -37,7 +41,18 @@ pub struct Case {
 }
 
 impl Case {
-    /// Builds scene, shots and limits of a plan.
+    /// Reads, validates and builds a plan; `-` is standard input.
+    pub fn load(path: &Path) -> Result<Self, Diagnostics> {
+        Self::parse(PlanSource::read(path)?)
+    }
+
+    /// Validates and builds a plan from its text.
+    pub fn parse(source: PlanSource) -> Result<Self, Diagnostics> {
+        let plan = source.plan()?;
+        Ok(Self { source, ..Self::new(plan) })
+    }
+
+    /// Builds scene, shots and limits of a plan that has no file.
     pub fn new(plan: Plan) -> Self {
         let scene = Scene::build(&plan);
         let shots =
@@ -49,11 +64,14 @@ impl Case {
             drift: plan.limits.drift_m,
             breaking_force,
         };
-        Self { plan, model: Model::new(scene), shots, limits }
+        Self { source: PlanSource::default(), plan, model: Model::new(scene), shots, limits }
     }
-}
 
-impl Case {
+    /// Title of the plan; the path of its file where the plan has no title.
+    pub fn title(&self) -> &str {
+        self.plan.title.as_deref().unwrap_or(&self.source.path)
+    }
+
     /// The shot of blast rows fired in `order`, `interval` [s] apart.
     pub fn shot(&self, order: &[usize], interval: f64) -> Shot {
         let timing = Timing::Interval { order: order.to_vec(), interval_ms: interval * 1e3 };

@@ -198,7 +198,7 @@ impl App {
     fn edited(&mut self, edit: Edit) -> Request {
         match edit {
             Edit::None => Request::None,
-            Edit::Changed(plan) => self.take(*plan),
+            Edit::Changed(plan) => self.take_edited(*plan),
         }
     }
 
@@ -280,7 +280,7 @@ impl App {
 
     /// The file offered for what is shown.
     fn export_name(&self) -> String {
-        let plan = Path::new(&self.case.plan.path);
+        let plan = Path::new(&self.case.source.path);
         let stem = plan.file_stem().and_then(|stem| stem.to_str()).unwrap_or("plan");
         let screen = self.screen.name().to_lowercase();
         let ending = if self.screen == Screen::Plan { "svg" } else { "csv" };
@@ -289,7 +289,7 @@ impl App {
 
     /// Asks for a file to write the plan to: one that is not there yet.
     pub fn ask_for_file(&mut self) {
-        let plan = Path::new(&self.case.plan.path);
+        let plan = Path::new(&self.case.source.path);
         let stem = if plan.exists() { plan.with_extension("") } else { "plan".into() };
         let free = file::free(&stem.to_string_lossy(), "toml");
         self.prompt = Some(Prompt::new(Purpose::SaveAs, &free));

@@ -15,7 +15,7 @@ use super::player::Player;
 use super::prompt::Prompt;
 use super::studies::{Progress, Studies};
 use super::theme::Theme;
-use crate::plan::Plan;
+use crate::plan::{Plan, PlanSource};
 use crate::study::check::Checked;
 use crate::study::{Case, Effort, error};
 use crate::worker::{Event, Found, Kind, News};
@@ -172,7 +172,7 @@ impl App {
     /// Nothing computed yet.
     pub fn new(case: Arc<Case>, effort: Effort, config: &Config) -> Self {
         let rows = vec![Row::Waiting; case.plan.delays.len()];
-        let editor = Editor::new(&case.plan);
+        let editor = Editor::new(&case.source.text);
         Self {
             case,
             effort,
@@ -233,14 +233,20 @@ impl App {
     }
 
     /// Another plan takes the place of the one shown; long studies of the old one are dropped.
-    pub(super) fn take(&mut self, plan: Plan) -> Request {
-        self.effort.follow(&self.case.plan, &plan);
-        self.case = Arc::new(Case::new(plan));
+    fn take(&mut self, case: Case) -> Request {
+        self.effort.follow(&self.case.plan, &case.plan);
+        self.case = Arc::new(case);
         self.rows = vec![Row::Waiting; self.case.plan.delays.len()];
         self.selected = self.selected.min(self.rows.len().saturating_sub(1));
         self.compare.baseline = None;
         self.forget();
         Request::Replaced
+    }
+
+    /// The plan that the editor's text says takes the place of the one shown.
+    pub(super) fn take_edited(&mut self, plan: Plan) -> Request {
+        let source = PlanSource { path: self.case.source.path.clone(), text: self.editor.text.clone() };
+        self.take(Case { source, ..Case::new(plan) })
     }
 
     /// Drops what the long studies found.
@@ -250,9 +256,9 @@ impl App {
     }
 
     /// The plan's file has changed: another plan, or what is wrong with it.
-    pub fn reload(&mut self, read: Result<Plan, String>) -> Request {
+    pub fn reload(&mut self, read: Result<Case, String>) -> Request {
         match read {
-            Ok(plan) if plan.text == self.editor.saved => {
+            Ok(case) if case.source.text == self.editor.saved => {
                 // As it was before it was gone or wrong.
                 self.notice = None;
                 Request::None
@@ -262,10 +268,10 @@ impl App {
                 self.notice = Some("the file has changed; your changes here are not saved".to_owned());
                 Request::None
             }
-            Ok(plan) => {
-                self.editor.reload(&plan);
+            Ok(case) => {
+                self.editor.reload(&case.source.text);
                 self.notice = Some("the file has changed and was read again".to_owned());
-                self.take(plan)
+                self.take(case)
             }
             Err(words) => {
                 self.notice = Some(format!("{words}; the last good plan is shown"));
@@ -293,8 +299,7 @@ impl App {
 
     /// The plan stands in another file now.
     pub fn rename(&mut self, path: &Path) {
-        self.editor.path = path.display().to_string();
-        Arc::make_mut(&mut self.case).plan.path = self.editor.path.clone();
+        Arc::make_mut(&mut self.case).source.path = path.display().to_string();
     }
 
     /// Whether something moves by itself.

@@ -20,8 +20,6 @@ pub enum Edit {
 /// The text of a plan and its history.
 #[derive(Clone, Debug)]
 pub struct Editor {
-    /// Name of the file.
-    pub path: String,
     /// As it stands.
     pub text: String,
     /// As the file has it.
@@ -70,15 +68,14 @@ impl Order {
 }
 
 impl Editor {
-    /// Of a plan as loaded.
-    pub fn new(plan: &Plan) -> Self {
+    /// Of a plan's text as loaded.
+    pub fn new(text: &str) -> Self {
         Self {
-            path: plan.path.clone(),
-            text: plan.text.clone(),
-            saved: plan.text.clone(),
+            text: text.to_owned(),
+            saved: text.to_owned(),
             undone: Vec::new(),
             done: Vec::new(),
-            fields: fields::fields(&plan.text),
+            fields: fields::fields(text),
             selected: 0,
             input: None,
             order: None,
@@ -171,12 +168,12 @@ impl Editor {
             (None, Some(input)) => input.value().to_owned(),
             (None, None) => return Err("nothing is typed".to_owned()),
         };
-        self.checked(fields::set(&self.text, &field.path, &typed)?)
+        Self::checked(fields::set(&self.text, &field.path, &typed)?)
     }
 
     /// A text with its plan, or the first thing wrong with it.
-    fn checked(&self, text: String) -> Result<(String, Plan), String> {
-        match Plan::parse(&self.path, &text) {
+    fn checked(text: String) -> Result<(String, Plan), String> {
+        match Plan::parse("", &text) {
             Ok(plan) => Ok((text, plan)),
             Err(mistakes) => Err(mistakes.first()),
         }
@@ -212,10 +209,10 @@ impl Editor {
     }
 
     /// Another program has changed the file; the way back leads to what stood here.
-    pub fn reload(&mut self, plan: &Plan) {
-        self.done.push(std::mem::replace(&mut self.text, plan.text.clone()));
+    pub fn reload(&mut self, text: &str) {
+        self.done.push(std::mem::replace(&mut self.text, text.to_owned()));
         self.undone.clear();
-        self.saved.clone_from(&plan.text);
+        text.clone_into(&mut self.saved);
         self.leave();
         self.refresh();
     }
@@ -241,7 +238,7 @@ impl Editor {
 
     fn restored(&mut self) -> Edit {
         self.refresh();
-        Plan::parse(&self.path, &self.text).map_or(Edit::None, |plan| Edit::Changed(Box::new(plan)))
+        Plan::parse("", &self.text).map_or(Edit::None, |plan| Edit::Changed(Box::new(plan)))
     }
 
     /// The next smaller or larger choice: a rope of the catalogue, or a number a tenth of its size away.
@@ -253,7 +250,7 @@ impl Editor {
             "termination" => beside(catalogue().terminations.iter().map(|known| &known.name), value, up),
             "rows" | "columns" | "border_rows" | "under_row" => {
                 let centres = field.path.key == "under_row"
-                    && Plan::parse(&self.path, &self.text)
+                    && Plan::parse("", &self.text)
                         .is_ok_and(|plan| matches!(plan.layout, Layout::Quincunx(_)));
                 let one = if centres { 0.5 } else { 1.0 };
                 let next = |number: f64| (number + if up { one } else { -one }).max(0.0).to_string();
@@ -262,7 +259,7 @@ impl Editor {
             _ => value.parse::<f64>().ok().map(|number| stepped(number, up).to_string()),
         };
         let Some(next) = next else { return Edit::None };
-        let changed = fields::set(&self.text, &field.path, &next).and_then(|text| self.checked(text));
+        let changed = fields::set(&self.text, &field.path, &next).and_then(|text| Self::checked(text));
         self.settle(changed)
     }
 
@@ -278,7 +275,7 @@ impl Editor {
 
     fn with_option(&mut self, option: usize, change: fn(&str, usize) -> Option<String>) -> Edit {
         let changed = change(&self.text, option).ok_or_else(|| "the plan needs a delay option".to_owned());
-        let changed = changed.and_then(|text| self.checked(text));
+        let changed = changed.and_then(|text| Self::checked(text));
         self.settle(changed)
     }
 }
@@ -308,8 +305,7 @@ mod tests {
     use super::*;
 
     fn editor() -> Editor {
-        let text = include_str!("../../plans/amur-three-rows.toml");
-        Editor::new(&Plan::parse("plan.toml", text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
+        Editor::new(include_str!("../../plans/amur-three-rows.toml"))
     }
 
     fn type_text(editor: &mut Editor, text: &str) {

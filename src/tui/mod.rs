@@ -167,7 +167,7 @@ impl Session {
             Request::Replaced => self.replace(),
             Request::Save => match &mut self.file {
                 Some(file) => match file.write(&self.app.editor.saved, &self.app.editor.text) {
-                    Ok(()) => self.app.written(Ok(self.app.case.plan.path.clone())),
+                    Ok(()) => self.app.written(Ok(self.app.case.source.path.clone())),
                     Err(Refusal::Failed(words)) => self.app.written(Err(words)),
                     Err(Refusal::Changed) => {
                         let words = "another program has changed the file; give another name";

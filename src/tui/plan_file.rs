@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use crate::file;
-use crate::plan::Plan;
+use crate::study::Case;
 
 /// A plan's file and how it was last seen.
 pub struct PlanFile {
@@ -20,7 +20,7 @@ impl PlanFile {
     }
 
     /// The plan in the file, or what is wrong with it, if the file has changed since it was last seen.
-    pub fn changed(&mut self) -> Option<Result<Plan, String>> {
+    pub fn changed(&mut self) -> Option<Result<Case, String>> {
         let now = stamp(&self.path);
         if std::mem::replace(&mut self.seen, now) == now {
             return None;
@@ -28,7 +28,7 @@ impl PlanFile {
         if now.is_none() {
             return Some(Err("the file is gone".to_owned()));
         }
-        Some(Plan::load(&self.path).map_err(|mistakes| {
+        Some(Case::load(&self.path).map_err(|mistakes| {
             let first = mistakes.iter().next();
             first.map_or_else(String::new, |(line, column, message, _)| {
                 format!("line {line}:{column}: {message}")

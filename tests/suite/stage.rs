@@ -10,7 +10,6 @@ use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use shelter::choice::{Accuracy, Method};
 use shelter::outcome::{End, History};
-use shelter::plan::Plan;
 use shelter::ropes::catalogue;
 use shelter::study::accuracy::{Measured, Row, Study};
 use shelter::study::batch::Envelope;
@@ -28,10 +27,10 @@ use shelter::worker::{Found, Kind};
 
 pub fn app() -> App {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("plans/amur-three-rows.toml");
-    let mut plan = Plan::load(&path).expect("a shipped plan");
-    plan.path = "plans/amur-three-rows.toml".to_owned();
-    let effort = Effort::of(&plan);
-    App::new(Arc::new(Case::new(plan)), effort, &Config::default())
+    let mut case = Case::load(&path).expect("a shipped plan");
+    case.source.path = "plans/amur-three-rows.toml".to_owned();
+    let effort = Effort::of(&case.plan);
+    App::new(Arc::new(case), effort, &Config::default())
 }
 
 /// A result with round numbers, so that a snapshot changes with the screen and not with the physics.

@@ -32,7 +32,7 @@ pub fn parse(path: &str, text: &str) -> Result<Plan, Diagnostics> {
         return Err(Diagnostics::new(path, source, mistakes.take()));
     }
     let root = Table::new("the plan", 0..0, document.get_ref(), &mistakes);
-    let plan = read_plan(path, text, &root, &mistakes);
+    let plan = read_plan(&root, &mistakes);
     root.finish();
     if mistakes.count() > 0 {
         return Err(Diagnostics::new(path, source, mistakes.take()));
@@ -41,9 +41,8 @@ pub fn parse(path: &str, text: &str) -> Result<Plan, Diagnostics> {
     plan.ok_or_else(|| Diagnostics::unreadable(path, "the plan is incomplete".to_owned(), ""))
 }
 
-fn read_plan(path: &str, text: &str, root: &Table<'_>, mistakes: &Mistakes) -> Option<Plan> {
-    let title =
-        root.text_if("title", "\"…\"").map_or_else(|| path.to_owned(), |title| title.value.to_owned());
+fn read_plan(root: &Table<'_>, mistakes: &Mistakes) -> Option<Plan> {
+    let title = root.text_if("title", "\"…\"").map(|title| title.value.to_owned());
     let simulation = read_simulation(root.table_if("simulation"));
     let tire = root.table("tire", "mass_kg = 280").map(read_tire);
     let layout = root
@@ -64,8 +63,6 @@ fn read_plan(path: &str, text: &str, root: &Table<'_>, mistakes: &Mistakes) -> O
     let scatter = root.table_if("scatter").map(|table| read_scatter(table, mistakes));
     let size = root.table_if("size").map(|table| read_size(table, mistakes)).unwrap_or_default();
     Some(Plan {
-        path: path.to_owned(),
-        text: text.to_owned(),
         title,
         layout: layout?,
         tire: tire?,

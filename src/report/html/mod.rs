@@ -42,20 +42,20 @@ const ASSUMPTIONS: &[&str] = &[
 /// The page of one plan; `date` is printed as given.
 pub fn page(case: &Case, results: &Results, date: &str) -> String {
     let plan = &case.plan;
-    let hash = Sha256::digest(plan.text.as_bytes());
+    let hash = Sha256::digest(case.source.text.as_bytes());
     let hash: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
     let page = html! {
         (DOCTYPE)
         html lang="en" {
             head {
                 meta charset="utf-8";
-                title { (plan.title) }
+                title { (case.title()) }
                 style { (PreEscaped(STYLE)) }
             }
             body {
-                h1 { (plan.title) }
+                h1 { (case.title()) }
                 p { (word(verdict(results, false))) " · " (passing(results)) " of " (results.len()) " delay options pass" }
-                p.quiet { "Plan " (plan.path) " · " (date) " · shelter " (env!("CARGO_PKG_VERSION")) }
+                p.quiet { "Plan " (case.source.path) " · " (date) " · shelter " (env!("CARGO_PKG_VERSION")) }
                 section {
                     h2 { "Shelter" }
                     (shelter(case))

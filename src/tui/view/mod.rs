@@ -138,8 +138,8 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
     about += &format!(" · {} tires, {} cables", case.scene().mass.len(), case.scene().cables.len());
     let unsaved = if app.editor.unsaved() { " *not saved*" } else { "" };
     let title = Line::from(vec![
-        Span::styled(case.plan.title.as_str(), theme.title()),
-        Span::styled(format!("  {}", case.plan.path), theme.quiet()),
+        Span::styled(case.title(), theme.title()),
+        Span::styled(format!("  {}", case.source.path), theme.quiet()),
         Span::styled(unsaved, theme.limit()),
     ]);
     let state = Line::from(summary(app)).right_aligned().style(theme.title());

@@ -1,0 +1,67 @@
+//! The file that a plan, or a list of holes, was read from: its path and its text.
+
+use std::io::Read;
+use std::path::Path;
+
+use super::{Diagnostics, Plan, validate};
+
+/// Largest plan file read [bytes].
+const MOST_BYTES: u64 = 64 << 20;
+
+/// The path and the text of a plan or of a list of holes; both empty where the program made the plan.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct PlanSource {
+    /// The file as the user named it; `-` is standard input.
+    pub path: String,
+    /// The text as written.
+    pub text: String,
+}
+
+impl PlanSource {
+    /// Reads a file; `-` is standard input.
+    pub fn read(path: &Path) -> Result<Self, Diagnostics> {
+        let name = path.display().to_string();
+        match read_text(path) {
+            Ok(text) => Ok(Self { path: name, text }),
+            Err((message, remedy)) => Err(Diagnostics::unreadable(&name, message, remedy)),
+        }
+    }
+
+    /// The values of the plan, or every mistake in its text.
+    pub fn plan(&self) -> Result<Plan, Diagnostics> {
+        validate::parse(&self.path, &self.text)
+    }
+}
+
+/// The text of a file, or a message with its remedy.
+fn read_text(path: &Path) -> Result<String, (String, &'static str)> {
+    let cannot = |error: std::io::Error| {
+        let remedy = match error.kind() {
+            std::io::ErrorKind::NotFound => {
+                "check the path, or write a starter plan with `shelter init FILE`"
+            }
+            std::io::ErrorKind::IsADirectory => "name a plan file inside it",
+            _ => "check the path and its permissions",
+        };
+        (format!("cannot read the file: {error}"), remedy)
+    };
+    let mut bytes = Vec::new();
+    let read = if path.as_os_str() == "-" {
+        std::io::stdin().lock().take(MOST_BYTES + 1).read_to_end(&mut bytes)
+    } else {
+        std::fs::File::open(path).and_then(|file| file.take(MOST_BYTES + 1).read_to_end(&mut bytes))
+    };
+    read.map_err(cannot)?;
+    if bytes.len() as u64 > MOST_BYTES {
+        return Err((
+            format!("the file is larger than {} MB", MOST_BYTES >> 20),
+            "a plan is a short text: check the path",
+        ));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        (
+            format!("the file is not UTF-8 text from byte {} on", error.utf8_error().valid_up_to()),
+            "save it as UTF-8",
+        )
+    })
+}
