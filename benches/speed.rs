@@ -7,10 +7,10 @@ use divan::counter::ItemsCount;
 use shelter::choice::Method;
 use shelter::plan::{DelayScatter, Plan, ScatterSpec};
 use shelter::simulation::{Model, Settings};
-use shelter::study::batch::Progress;
+use shelter::study::Progress;
 use shelter::study::batch::each;
 use shelter::study::scatter::drawn;
-use shelter::study::{Case, check};
+use shelter::study::{Case, NoResult, check};
 
 fn main() {
     divan::main();
@@ -95,7 +95,7 @@ fn scattered(bencher: Bencher, (rows, columns, samples): (usize, usize, usize)) 
     let settings = Settings { method: Method::Verlet, step: 2e-3, duration: Some(1.5) };
     let run = || {
         each(&shots, &Progress::default(), |shot| {
-            case.model.run(shot, &settings, &mut |_| ControlFlow::Continue(()))
+            case.model.run(shot, &settings, &mut |_| ControlFlow::Continue(())).map_err(NoResult::Failed)
         })
     };
     bencher.counter(ItemsCount::new(samples * case.scene().cables.len() * 750)).bench_local(run);
@@ -106,14 +106,15 @@ fn scattered(bencher: Bencher, (rows, columns, samples): (usize, usize, usize)) 
 fn ten_options_checked(bencher: Bencher) {
     let plan = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("plans/large-50x50.toml");
     let case = Case::new(Plan::load(&plan).unwrap_or_else(|mistakes| panic!("{mistakes}")));
-    let effort = shelter::study::Effort {
+    let compute = shelter::study::ComputeSettings {
         accuracy: shelter::choice::Accuracy::Draft,
-        ..shelter::study::Effort::of(&case.plan)
+        ..shelter::study::ComputeSettings::of(&case.plan)
     };
     let options: Vec<usize> = (0..case.shots.len()).collect();
     bencher.bench_local(|| {
         each(&options, &Progress::default(), |&option| {
-            check::check(&case, option, &effort, &mut |_| ControlFlow::Continue(()))
+            check::check(&case, option, &compute, &mut |_| ControlFlow::Continue(()))
+                .map_err(NoResult::Failed)
         })
     });
 }

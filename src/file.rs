@@ -38,7 +38,7 @@ pub fn create(path: &Path, text: &str) -> io::Result<()> {
 }
 
 /// A name ending in `ending` that no file has: the stem, or the stem with a number.
-pub fn free(stem: &str, ending: &str) -> String {
+pub fn unused_path(stem: &str, ending: &str) -> String {
     let numbered = (2..100).map(|n| format!("{stem}-{n}.{ending}"));
     let mut names = std::iter::once(format!("{stem}.{ending}")).chain(numbered);
     names.find(|name| !Path::new(name).exists()).unwrap_or_default()

@@ -23,7 +23,7 @@ impl Verdict {
     }
 
     /// As people read it.
-    pub fn capitals(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
             Verdict::Pass => "PASS",
             Verdict::Undecided => "OPEN",
@@ -32,7 +32,7 @@ impl Verdict {
     }
 
     /// As JSON and scripts spell it.
-    pub fn word(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Verdict::Pass => "pass",
             Verdict::Undecided => "undecided",

@@ -14,7 +14,7 @@ use shelter::outcome::Outcome;
 use shelter::plan::Plan;
 use shelter::simulation::{Model, Settings};
 use shelter::study::check::{check, start_step};
-use shelter::study::{Case, Effort};
+use shelter::study::{Case, ComputeSettings};
 use shelter::verdict::{Limits, Verdict};
 
 /// How much finer the reference is than the field step.
@@ -89,15 +89,15 @@ fn compare(n: u64, accuracy: Accuracy) -> Tried {
     };
     let (height, force) = (near(truth.height.value), near(truth.force.value).max(1.0));
     case.limits = Limits { height, force, drift: None, breaking_force: force };
-    let mut effort = Effort { method: Method::Verlet, accuracy, step: None };
-    let judge = |effort: &Effort| {
-        check(&case, 0, effort, &mut |_| ControlFlow::Continue(()))
+    let mut compute = ComputeSettings { method: Method::Verlet, accuracy, step: None };
+    let judge = |compute: &ComputeSettings| {
+        check(&case, 0, compute, &mut |_| ControlFlow::Continue(()))
             .unwrap_or_else(|failure| panic!("scene {n}: {failure}"))
     };
-    let judged = judge(&effort);
+    let judged = judge(&compute);
     // The errors of the level's own step, before any refinement.
-    effort.step = Some(start_step(&case, Method::Verlet, accuracy));
-    let first = judge(&effort);
+    compute.step = Some(start_step(&case, Method::Verlet, accuracy));
+    let first = judge(&compute);
     let relative = |value: f64, of: f64| (value / of.max(f64::MIN_POSITIVE)).abs();
     let (h, f) = (truth.height.value, truth.force.value);
     let fails = h > height || f > force;

@@ -9,7 +9,7 @@ use libfuzzer_sys::fuzz_target;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use shelter::plan::PlanSource;
-use shelter::study::{Case, Effort};
+use shelter::study::{Case, ComputeSettings};
 use shelter::tui::app::App;
 use shelter::tui::config::Config;
 use shelter::tui::{update, view};
@@ -60,8 +60,8 @@ fn event(first: u8, second: u8) -> Event {
 
 fuzz_target!(|bytes: &[u8]| {
     let case = case();
-    let effort = Effort::of(&case.plan);
-    let mut app = App::new(case, effort, &Config::default());
+    let compute = ComputeSettings::of(&case.plan);
+    let mut app = App::new(case, compute, &Config::default());
     for (n, pair) in bytes.chunks_exact(2).take(60).enumerate() {
         update(&mut app, &event(pair[0], pair[1]));
         app.wanted();

@@ -5,13 +5,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::long::{Finished, Without};
 use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::report;
-use crate::simulation::Failure;
-use crate::study::Case;
-use crate::study::batch::{each, guarded};
-use crate::study::check::check;
+use crate::study::plans::{Results, check_plans, verdict};
+use crate::study::{Case, NoResult};
 use crate::verdict::Verdict;
 
 #[derive(Args)]
@@ -47,17 +44,12 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
 pub fn print(cases: Vec<Case>, compute: &Compute, look: &Look, output: &Output) -> io::Result<Status> {
     match all(&cases, compute) {
         Ok(judged) => show(&cases, &judged, look, output),
-        Err(without) => long::failed(&without),
+        Err(no_result) => long::failed(&no_result),
     }
 }
 
 /// Prints results; whether all pass.
-pub fn show(
-    cases: &[Case],
-    judged: &[report::check::Results],
-    look: &Look,
-    output: &Output,
-) -> io::Result<Status> {
+pub fn show(cases: &[Case], judged: &[Results], look: &Look, output: &Output) -> io::Result<Status> {
     let mut out = io::stdout().lock();
     let pairs = || cases.iter().zip(judged);
     match output.format {
@@ -83,29 +75,13 @@ pub fn show(
         }
     }
     out.flush()?;
-    let verdicts = judged.iter().map(|results| report::check::verdict(results, output.any));
+    let verdicts = judged.iter().map(|results| verdict(results, output.any));
     let passed = Verdict::worst(verdicts) == Verdict::Pass;
     Ok(if passed { Status::Pass } else { Status::Fail })
 }
 
 /// All options of all cases in parallel; results in the order of plans and options.
-pub fn all(cases: &[Case], compute: &Compute) -> Result<Vec<report::check::Results>, Without> {
-    let jobs: Vec<(usize, usize)> = cases
-        .iter()
-        .enumerate()
-        .flat_map(|(n, case)| (0..case.shots.len()).map(move |option| (n, option)))
-        .collect();
-    let Finished { value: results, .. } = long::run(compute, |progress| {
-        each(&jobs, progress, |&(n, option)| {
-            let effort = compute.effort(&cases[n].plan);
-            // An option without a result is no reason for the others to have none, unless all are to end.
-            let checked = guarded(|| check(&cases[n], option, &effort, &mut |_| progress.flow()));
-            if progress.flow().is_break() { Err(Failure::Stopped { at: 0.0 }) } else { Ok(checked) }
-        })
-    })?;
-    let mut judged: Vec<report::check::Results> = cases.iter().map(|_| Vec::new()).collect();
-    for ((n, _), checked) in jobs.into_iter().zip(results) {
-        judged[n].push(checked.unwrap_or_else(|| Err("not computed: the time was up".to_owned())));
-    }
-    Ok(judged)
+pub fn all(cases: &[Case], compute: &Compute) -> Result<Vec<Results>, NoResult> {
+    let cases: Vec<_> = cases.iter().map(|case| (case, compute.settings(&case.plan))).collect();
+    Ok(long::run(compute, |progress| check_plans(&cases, progress))?.value)
 }

@@ -45,9 +45,9 @@ pub fn open(plan: &Path, compute: &Compute, look: &Look) -> io::Result<Status> {
     if let Some(file) = file {
         config::remember(file);
     }
-    let effort = compute.effort(&case.plan);
+    let settings = compute.settings(&case.plan);
     let config = config()?;
-    let app = App::new(Arc::new(case), effort, &config);
+    let app = App::new(Arc::new(case), settings, &config);
     show(app, file, &config, compute, look)
 }
 
@@ -61,15 +61,15 @@ pub fn start(compute: &Compute, look: &Look) -> io::Result<Status> {
     let config = config()?;
     let start = Start::new(Path::new("."), config::recent());
     let (name, text, kept) = match tui::choose(start, config.theme, screen(&config, look))? {
-        Err(left) => return Ok(status(&left)),
+        Err(exit) => return Ok(status(&exit)),
         Ok(Opened::File(path)) => return open(&path, compute, look),
         Ok(Opened::Example(name, text)) => (name, text.to_owned(), true),
         Ok(Opened::New(text)) => ("new plan", text, false),
     };
     match Case::parse(PlanSource { path: name.to_owned(), text }) {
         Ok(case) => {
-            let effort = compute.effort(&case.plan);
-            let mut app = App::new(Arc::new(case), effort, &config);
+            let settings = compute.settings(&case.plan);
+            let mut app = App::new(Arc::new(case), settings, &config);
             if !kept {
                 app.editor.saved.clear();
             }
@@ -107,13 +107,13 @@ fn show(
 ) -> io::Result<Status> {
     let threads = compute.threads.unwrap_or(0).into();
     let (worker, errands) = (Worker::new(threads), Errands::new(threads));
-    tui::run(app, worker, errands, screen(config, look), file).map(|left| status(&left))
+    tui::run(app, worker, errands, screen(config, look), file).map(|exit| status(&exit))
 }
 
-fn status(left: &tui::Left) -> Status {
-    match left {
-        tui::Left::Quit => Status::Pass,
-        tui::Left::Signal => Status::Interrupted,
+fn status(exit: &tui::Exit) -> Status {
+    match exit {
+        tui::Exit::Quit => Status::Pass,
+        tui::Exit::Signal => Status::Interrupted,
     }
 }
 

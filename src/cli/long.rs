@@ -9,9 +9,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{Compute, Status};
-use crate::simulation::Failure;
-use crate::study::batch::Progress;
-use crate::study::{Intervals, Shard};
+use crate::study::{Intervals, NoResult, Progress, Shard};
 
 /// How often the bar is drawn and signals are looked for.
 const LOOK: Duration = Duration::from_millis(50);
@@ -29,19 +27,11 @@ pub struct Finished<T> {
     pub partial: bool,
 }
 
-/// Why a study has no result.
-pub enum Without {
-    /// The time was up.
-    Time,
-    /// A run failed or was stopped by a signal.
-    Failure(Failure),
-}
-
 /// Runs `work`; the bar shows only where standard error is a terminal.
 pub fn run<T: Send>(
     compute: &Compute,
-    work: impl FnOnce(&Progress) -> Result<T, Failure> + Send,
-) -> Result<Finished<T>, Without> {
+    work: impl FnOnce(&Progress) -> Result<T, NoResult> + Send,
+) -> Result<Finished<T>, NoResult> {
     let (progress, signal) = (Progress::default(), Arc::new(AtomicBool::new(false)));
     #[cfg(unix)]
     for number in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM, signal_hook::consts::SIGHUP] {
@@ -81,14 +71,7 @@ pub fn run<T: Send>(
         study.join()
     });
     bar.finish_and_clear();
-    let value = result.unwrap_or_else(|panic| std::panic::resume_unwind(panic)).map_err(|failure| {
-        let stopped = matches!(failure, Failure::Stopped { .. });
-        if stopped && progress.expired() && !progress.stopped() {
-            Without::Time
-        } else {
-            Without::Failure(failure)
-        }
-    })?;
+    let value = result.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
     let (done, total) = progress.counts();
     let partial = progress.expired() && done < total;
     if partial {
@@ -98,17 +81,18 @@ pub fn run<T: Send>(
 }
 
 /// What a study without a result says to the shell.
-pub fn failed(without: &Without) -> io::Result<Status> {
-    match without {
-        Without::Time => {
+pub fn failed(no_result: &NoResult) -> io::Result<Status> {
+    match no_result {
+        NoResult::OutOfTime => {
             eprintln!("the time was up before there was a result");
             Ok(Status::Fail)
         }
-        Without::Failure(Failure::Stopped { .. }) => {
-            eprintln!("interrupted before there was a result");
+        NoResult::Stopped => {
+            eprintln!("{no_result}");
             Ok(Status::Interrupted)
         }
-        Without::Failure(failure) => super::load::wrong(&failure.to_string()),
+        NoResult::NoInterval => super::load::wrong(&format!("{no_result}: give --interval FROM..TO:STEP")),
+        no_result => super::load::wrong(&no_result.to_string()),
     }
 }
 

@@ -11,7 +11,7 @@ use crate::report;
 use crate::study::merge::{Findings, Head, Question, SCHEMA, merge};
 use crate::study::orders::Orders;
 use crate::study::scatter::{swaps, verdict};
-use crate::study::{Case, Effort, Shard};
+use crate::study::{Case, ComputeSettings, Shard};
 use crate::verdict::Verdict;
 
 #[derive(Args)]
@@ -46,8 +46,8 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     if !findings.fit(&case) {
         return load::wrong("the shares hold what is no result of their plan: one of them is damaged");
     }
-    let Head { question, effort, .. } = head;
-    let answer = Answer { case: &case, question, effort, findings, partial: false };
+    let Head { question, compute, .. } = head;
+    let answer = Answer { case: &case, question, settings: compute, findings, partial: false };
     print(answer, None, arguments.format, look)
 }
 
@@ -55,7 +55,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
 pub struct Answer<'a> {
     pub case: &'a Case,
     pub question: Question,
-    pub effort: Effort,
+    pub settings: ComputeSettings,
     pub findings: Findings,
     /// Whether the time did not suffice for all.
     pub partial: bool,
@@ -100,7 +100,7 @@ pub fn print(answer: Answer<'_>, shard: Option<Shard>, format: FormatArg, look: 
 }
 
 fn write_share(answer: Answer<'_>, shard: Shard) -> io::Result<Status> {
-    let Answer { case, question, effort, findings, .. } = answer;
+    let Answer { case, question, settings, findings, .. } = answer;
     let lines = match &findings {
         Findings::Orders(tried) => tried.len(),
         Findings::Scatter(samples) => samples.len(),
@@ -109,7 +109,7 @@ fn write_share(answer: Answer<'_>, shard: Shard) -> io::Result<Status> {
         schema: SCHEMA.to_owned(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         question,
-        effort,
+        compute: settings,
         plan: case.source.path.clone(),
         text: case.source.text.clone(),
         shard,

@@ -27,7 +27,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use crate::choice::{Accuracy, Method, UnknownName};
 use crate::plan::Plan;
 use crate::report::table::Style;
-use crate::study::Effort;
+use crate::study::ComputeSettings;
 
 /// Which blasting delay is safe under a shelter of tires and cables.
 ///
@@ -102,9 +102,9 @@ struct Compute {
 
 impl Compute {
     /// As the plan asks, with what the command line overrides.
-    fn effort(&self, plan: &Plan) -> Effort {
-        let asked = Effort::of(plan);
-        Effort {
+    fn settings(&self, plan: &Plan) -> ComputeSettings {
+        let asked = ComputeSettings::of(plan);
+        ComputeSettings {
             method: self.method.unwrap_or(asked.method),
             accuracy: self.accuracy.unwrap_or(asked.accuracy),
             step: self.dt,

@@ -10,7 +10,7 @@ use super::merge::{self, Answer};
 use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::plan::{DelayOption, Timing};
 use crate::study::merge::{Findings, Question};
-use crate::study::orders::{MOST_ROWS, NO_INTERVAL, count, is_complete, orders};
+use crate::study::orders::{MOST_ROWS, count, is_complete, orders};
 use crate::study::{Intervals, Shard};
 
 #[derive(Args)]
@@ -38,9 +38,6 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         return Ok(Status::Wrong);
     };
     let intervals_s = arguments.interval.map_or_else(|| case.intervals(), |interval| interval.values());
-    if intervals_s.is_empty() {
-        return load::wrong(&format!("{NO_INTERVAL}: give --interval FROM..TO:STEP"));
-    }
     let own = |delay: &&DelayOption| matches!(delay.timing, Timing::At(_));
     let left_out: Vec<&str> = case.plan.delays.iter().filter(own).map(|delay| delay.name.as_str()).collect();
     if arguments.interval.is_none() && !left_out.is_empty() {
@@ -57,14 +54,15 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         );
         return load::wrong(&words);
     }
-    let (effort, shard) = (arguments.compute.effort(&case.plan), arguments.shard.unwrap_or(Shard::WHOLE));
+    let (settings, shard) = (arguments.compute.settings(&case.plan), arguments.shard.unwrap_or(Shard::WHOLE));
     let tried =
-        long::run(&arguments.compute, |progress| orders(&case, &intervals_s, shard, &effort, progress));
+        long::run(&arguments.compute, |progress| orders(&case, &intervals_s, shard, &settings, progress));
     match tried {
         Err(failure) => long::failed(&failure),
         Ok(Finished { value: tried, partial }) => {
             let question = Question::Orders { intervals_s };
-            let answer = Answer { case: &case, question, effort, findings: Findings::Orders(tried), partial };
+            let answer =
+                Answer { case: &case, question, settings, findings: Findings::Orders(tried), partial };
             merge::print(answer, arguments.shard, arguments.format, look)
         }
     }

@@ -8,6 +8,7 @@ use clap::Args;
 use super::{Compute, FormatArg, Look, Status, check, load, long};
 use crate::file;
 use crate::report;
+use crate::study::plans::verdict;
 use crate::verdict::Verdict;
 
 #[derive(Args)]
@@ -48,6 +49,6 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     if let Some(format) = arguments.format {
         return check::show(&cases, &judged, look, &check::Output { format, any: false });
     }
-    let passed = report::check::verdict(&judged[0], false) == Verdict::Pass;
+    let passed = verdict(&judged[0], false) == Verdict::Pass;
     Ok(if passed { Status::Pass } else { Status::Fail })
 }

@@ -9,9 +9,9 @@ use super::long::Finished;
 use super::merge::{self, Answer};
 use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::report;
-use crate::study::Shard;
 use crate::study::merge::{Findings, Question};
-use crate::study::scatter::{Draw, NO_SCATTER, scatter, swaps};
+use crate::study::scatter::{Draw, scatter, swaps};
+use crate::study::{NoResult, Shard};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -73,7 +73,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     let Some(case) = load::cases([&arguments.plan], look).and_then(|mut cases| cases.pop()) else {
         return Ok(Status::Wrong);
     };
-    let Some(spec) = case.plan.scatter else { return load::wrong(NO_SCATTER) };
+    let Some(spec) = case.plan.scatter else { return long::failed(&NoResult::NoScatter) };
     for swap in swaps(&case, &spec, SWAP) {
         eprintln!("warning: {}", report::scatter::warning(&case, &swap));
     }
@@ -83,15 +83,15 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
             format!("more than {MOST_SAMPLES} samples of all options do not fit into memory: take fewer");
         return load::wrong(&words);
     }
-    let (effort, shard) = (arguments.compute.effort(&case.plan), arguments.shard.unwrap_or(Shard::WHOLE));
+    let (settings, shard) = (arguments.compute.settings(&case.plan), arguments.shard.unwrap_or(Shard::WHOLE));
     let samples =
-        long::run(&arguments.compute, |progress| scatter(&case, &spec, &draw, shard, &effort, progress));
+        long::run(&arguments.compute, |progress| scatter(&case, &spec, &draw, shard, &settings, progress));
     match samples {
         Err(failure) => long::failed(&failure),
         Ok(Finished { value: samples, partial }) => {
             let question = Question::Scatter { spec, draw };
             let answer =
-                Answer { case: &case, question, effort, findings: Findings::Scatter(samples), partial };
+                Answer { case: &case, question, settings, findings: Findings::Scatter(samples), partial };
             merge::print(answer, arguments.shard, arguments.format, look)
         }
     }

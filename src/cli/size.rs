@@ -12,10 +12,9 @@ use crate::file;
 use crate::plan::{Layout, edit};
 use crate::report;
 use crate::ropes::catalogue;
-use crate::study::orders::{MOST_ROWS, NO_INTERVAL, is_complete};
-use crate::study::scatter::NO_SCATTER;
+use crate::study::orders::{MOST_ROWS, is_complete};
 use crate::study::size::{Combination, Demand, Untried, size};
-use crate::study::{Case, Intervals};
+use crate::study::{Case, Intervals, NoResult};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -59,8 +58,8 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         Ok(demand) => demand,
         Err(message) => return load::wrong(&message),
     };
-    let effort = arguments.compute.effort(&case.plan);
-    let sizing = long::run(&arguments.compute, |progress| size(&case.plan, &demand, &effort, progress));
+    let settings = arguments.compute.settings(&case.plan);
+    let sizing = long::run(&arguments.compute, |progress| size(&case.plan, &demand, &settings, progress));
     let Finished { value: sizing, .. } = match sizing {
         Ok(finished) => finished,
         Err(failure) => return long::failed(&failure),
@@ -71,7 +70,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         FormatArg::Csv => report::csv(sizing.combinations.iter().map(report::size::Line::new)),
     })?;
     match sizing.found() {
-        Some(found) if sizing.untried(Untried::Late) == 0 => {
+        Some(found) if sizing.untried(Untried::OutOfTime) == 0 => {
             if arguments.write {
                 write(arguments, &case, found)?;
             }
@@ -100,7 +99,7 @@ fn choose(arguments: &Arguments, case: &mut Case) -> Result<Demand, String> {
         return Err("a list layout has no border rows: leave them out".to_owned());
     }
     if arguments.scatter {
-        let spec = case.plan.scatter.ok_or(NO_SCATTER)?;
+        let spec = case.plan.scatter.ok_or(NoResult::NoScatter.to_string())?;
         return Ok(Demand::Samples(spec, arguments.draw.draw()));
     }
     if arguments.draw.is_given() {
@@ -114,7 +113,7 @@ fn choose(arguments: &Arguments, case: &mut Case) -> Result<Demand, String> {
     }
     let intervals = arguments.interval.map_or_else(|| case.intervals(), |interval| interval.values());
     if intervals.is_empty() {
-        return Err(format!("{NO_INTERVAL}: give --interval FROM..TO:STEP"));
+        return Err(format!("{}: give --interval FROM..TO:STEP", NoResult::NoInterval));
     }
     Ok(Demand::AnyOrder(intervals))
 }

@@ -10,7 +10,7 @@ use super::{Compute, FormatArg, Look, Status, load, long};
 use crate::plan::Timing;
 use crate::report;
 use crate::study::Intervals;
-use crate::study::sweep::{SINGLE_ROW, sweep};
+use crate::study::sweep::sweep;
 
 #[derive(Args)]
 pub struct Arguments {
@@ -43,12 +43,9 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
             ));
         }
     };
-    if case.plan.blast_rows.len() < 2 {
-        return load::wrong(SINGLE_ROW);
-    }
-    let effort = arguments.compute.effort(&case.plan);
+    let settings = arguments.compute.settings(&case.plan);
     let swept = long::run(&arguments.compute, |progress| {
-        sweep(&case, &order, &arguments.interval, &effort, progress)
+        sweep(&case, &order, &arguments.interval, &settings, progress)
     });
     let Finished { value: swept, partial } = match swept {
         Ok(finished) => finished,

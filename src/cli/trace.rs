@@ -46,10 +46,10 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         Ok(chosen) => chosen,
         Err(message) => return load::wrong(&message),
     };
-    let effort = arguments.compute.effort(&case.plan);
+    let compute = arguments.compute.settings(&case.plan);
     let settings = Settings {
-        method: effort.method,
-        step: effort.step.unwrap_or_else(|| start_step(&case, effort.method, effort.accuracy)),
+        method: compute.method,
+        step: compute.step.unwrap_or_else(|| start_step(&case, compute.method, compute.accuracy)),
         duration: case.plan.simulation.duration_s,
     };
     let (begun, timeout) = (Instant::now(), arguments.compute.timeout);

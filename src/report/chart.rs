@@ -67,8 +67,8 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<String> {
         marks: Vec::new(),
         windows: sweep.windows().iter().map(|window| window.map(|interval| interval * 1e3)).collect(),
     };
-    let height = panel(HEIGHT, Unit::Metre, |point| point.envelope.height[0], case.limits.height);
-    let force = panel(FORCE, Unit::Kilonewton, |point| point.envelope.force[0], case.limits.force);
+    let height = panel(HEIGHT, Unit::Metre, |point| point.envelope.height.value, case.limits.height);
+    let force = panel(FORCE, Unit::Kilonewton, |point| point.envelope.force.value, case.limits.force);
     [height, force].iter().filter_map(|panel| svg(&|area| panel.draw(area))).collect()
 }
 

@@ -5,19 +5,11 @@ use serde_json::Number;
 
 use crate::outcome::Broken;
 use crate::scene::{Scene, TireId, fire_at_s};
-use crate::study::check::{Checked, Quantity, Reason, Still};
-use crate::study::{Case, Effort};
+use crate::study::check::{Checked, EarlyEnd, Quantity, Reason};
+use crate::study::plans::{Results, verdict};
+use crate::study::{Case, ComputeSettings, NoResult};
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::{Estimate, Verdict};
-
-/// One plan's results, in the order of its options.
-pub type Results = Vec<Result<Checked, String>>;
-
-/// The verdict on a plan: the worst of its options, or the best where one passing option is enough.
-pub fn verdict(results: &Results, any: bool) -> Verdict {
-    let each = results.iter().map(|result| result.as_ref().map_or(Verdict::Undecided, |c| c.verdict));
-    if any { each.min().unwrap_or(Verdict::Pass) } else { Verdict::worst(each) }
-}
 
 /// The address of a tire: whole numbers but for the centres of a quincunx.
 fn address(tire: &TireId) -> Vec<Number> {
@@ -33,7 +25,7 @@ pub fn explain(reason: &Reason) -> String {
         Reason::Limit { quantity, verdict, estimate, limit } => (quantity, verdict, estimate, limit),
         Reason::Broken(1) => return "a cable breaks".to_owned(),
         Reason::Broken(count) => return format!("{count} cables break"),
-        Reason::Early { end, still } => return early(*end, *still),
+        Reason::EndsEarly { end, open } => return ends_early(*end, *open),
     };
     let (name, unit) = match quantity {
         Quantity::Height => ("flight height", Unit::Metre),
@@ -49,22 +41,22 @@ pub fn explain(reason: &Reason) -> String {
 }
 
 /// That a run ends too early, in words.
-fn early(end: f64, still: Still) -> String {
+fn ends_early(end: f64, open: EarlyEnd) -> String {
     let end = units::seconds(end);
-    match still {
-        Still::Unfired(last) => {
+    match open {
+        EarlyEnd::HolesUnfired(last) => {
             format!(
                 "the run ends at {end}, before the last hole fires at {}: give a longer duration_s",
                 units::seconds(last)
             )
         }
-        Still::Aloft => {
+        EarlyEnd::TiresInAir => {
             format!("the run ends at {end} with tires in the air: give a longer duration_s, or none")
         }
-        Still::Growing => {
+        EarlyEnd::ForceGrowing => {
             format!("the run ends at {end} with force at its greatest: give a longer duration_s, or none")
         }
-        Still::Moving => {
+        EarlyEnd::TiresMoving => {
             format!(
                 "tires still move at {end}, and their drift has a limit: give a longer duration_s, or none"
             )
@@ -73,11 +65,11 @@ fn early(end: f64, still: Still) -> String {
 }
 
 /// How results were asked for: `verlet, field` or `verlet, step 1 ms`.
-pub fn effort(effort: &Effort) -> String {
-    let method = effort.method.name();
-    match effort.step {
+pub fn compute_label(compute: &ComputeSettings) -> String {
+    let method = compute.method.name();
+    match compute.step {
         Some(step) => format!("{method}, step {}", units::milliseconds(step)),
-        None => format!("{method}, {}", effort.accuracy.name()),
+        None => format!("{method}, {}", compute.accuracy.name()),
     }
 }
 
@@ -119,8 +111,9 @@ fn quoted(path: &str) -> String {
 /// The command that gives these results.
 pub fn command(case: &Case, results: &Results) -> String {
     let mut command = format!("shelter check {}", quoted(&case.source.path));
-    let (asked, of_plan) = (results.iter().flatten().next().map(|c| c.effort), Effort::of(&case.plan));
-    if let Some(Effort { method, accuracy, step }) = asked.filter(|asked| *asked != of_plan) {
+    let (asked, of_plan) =
+        (results.iter().flatten().next().map(|c| c.compute), ComputeSettings::of(&case.plan));
+    if let Some(ComputeSettings { method, accuracy, step }) = asked.filter(|asked| *asked != of_plan) {
         command += &format!(" --method {} --accuracy {}", method.name(), accuracy.name());
         if let Some(step) = step {
             command += &format!(" --dt {step}");
@@ -228,7 +221,7 @@ impl Values {
             cable_safety_factor: Some(checked.safety_factor).filter(|factor| factor.is_finite()),
             drift_m: AtTire::new(scene, &checked.drift),
             broken: checked.broken.iter().map(|broken| BrokenCable::new(scene, broken)).collect(),
-            method: checked.effort.method.name(),
+            method: checked.compute.method.name(),
             dt_s: checked.step,
             steps: checked.steps,
             energy_residual: checked.energy_residual,
@@ -244,14 +237,14 @@ impl Document {
     pub fn new(case: &Case, results: &Results, any: bool) -> Self {
         let (plan, scene) = (&case.plan, case.scene());
         let method =
-            results.iter().flatten().next().map_or(plan.simulation.method, |checked| checked.effort.method);
+            results.iter().flatten().next().map_or(plan.simulation.method, |checked| checked.compute.method);
         let options = plan.delays.iter().zip(results).map(|(delay, result)| OptionResult {
             name: delay.name.clone(),
             fire_at_s: fire_at_s(&delay.timing),
-            verdict: result.as_ref().map_or(Verdict::Undecided, |c| c.verdict).word(),
+            verdict: result.as_ref().map_or(Verdict::Undecided, |c| c.verdict).name(),
             reasons: match result {
                 Ok(checked) => checked.reasons.iter().map(explain).collect(),
-                Err(words) => vec![words.clone()],
+                Err(no_result) => vec![no_result.to_string()],
             },
             values: result.as_ref().ok().map(|checked| Values::new(scene, checked)),
         });
@@ -259,7 +252,7 @@ impl Document {
             schema: "shelter.check/1",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
-            verdict: verdict(results, any).word(),
+            verdict: verdict(results, any).name(),
             scene: SceneSize {
                 tires: scene.mass.len(),
                 cables: scene.cables.len(),
@@ -298,20 +291,20 @@ impl Row {
     /// The rows of one plan.
     pub fn of(case: &Case, results: &Results) -> Vec<Self> {
         let scene = case.scene();
-        let row = |(delay, result): (&crate::plan::DelayOption, &Result<Checked, String>)| {
+        let row = |(delay, result): (&crate::plan::DelayOption, &Result<Checked, NoResult>)| {
             let (plan, option) = (case.source.path.clone(), delay.name.clone());
             match result {
-                Err(words) => Self {
+                Err(no_result) => Self {
                     plan,
                     option,
-                    verdict: Verdict::Undecided.word(),
-                    reasons: words.clone(),
+                    verdict: Verdict::Undecided.name(),
+                    reasons: no_result.to_string(),
                     ..Self::default()
                 },
                 Ok(checked) => Self {
                     plan,
                     option,
-                    verdict: checked.verdict.word(),
+                    verdict: checked.verdict.name(),
                     flight_height_m: Some(checked.height.value),
                     flight_height_error_m: Some(checked.height.error),
                     flight_height_at_s: Some(checked.height.at),

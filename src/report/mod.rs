@@ -21,7 +21,7 @@ pub mod trace;
 use serde::Serialize;
 
 use crate::study::Case;
-use crate::study::batch::Envelope;
+use crate::study::Envelope;
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
@@ -77,10 +77,10 @@ struct Values {
 impl Values {
     fn new(envelope: &Envelope) -> Self {
         Self {
-            flight_height_m: envelope.height[0],
-            flight_height_error_m: envelope.height[1],
-            cable_force_n: envelope.force[0],
-            cable_force_error_n: envelope.force[1],
+            flight_height_m: envelope.height.value,
+            flight_height_error_m: envelope.height.error,
+            cable_force_n: envelope.force.value,
+            cable_force_error_n: envelope.force.error,
             verdict: envelope.verdict,
         }
     }

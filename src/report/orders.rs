@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::table::Style;
-use crate::study::Case;
 use crate::study::orders::{Orders, Tried};
+use crate::study::{Case, Envelope};
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::Verdict;
 
@@ -63,10 +63,10 @@ impl Line {
             order: super::row_names(case, &tried.order).join(" "),
             interval_s: tried.interval,
             verdict: envelope.verdict,
-            flight_height_m: envelope.height[0],
-            flight_height_error_m: envelope.height[1],
-            cable_force_n: envelope.force[0],
-            cable_force_error_n: envelope.force[1],
+            flight_height_m: envelope.height.value,
+            flight_height_error_m: envelope.height.error,
+            cable_force_n: envelope.force.value,
+            cable_force_error_n: envelope.force.error,
         }
     }
 }
@@ -114,15 +114,14 @@ pub fn text(case: &Case, orders: &Orders, shown: usize, partial: bool, style: St
             text += &format!("… {} more\n", all - 2 * shown);
         }
         if n < shown || n + shown >= all {
-            let [[height, height_error], [force, force_error]] =
-                [tried.envelope.height, tried.envelope.force];
+            let Envelope { height, force, .. } = tried.envelope;
             text += &format!(
                 "{:width$}  {:>8}  {}  {:>17}  {:>17}\n",
                 names(tried),
                 units::milliseconds(tried.interval),
-                style.word(tried.envelope.verdict),
-                value_and_error(height, height_error, Unit::Metre),
-                value_and_error(force, force_error, Unit::Kilonewton),
+                style.verdict(tried.envelope.verdict),
+                value_and_error(height.value, height.error, Unit::Metre),
+                value_and_error(force.value, force.error, Unit::Kilonewton),
             );
         }
     }
@@ -130,6 +129,6 @@ pub fn text(case: &Case, orders: &Orders, shown: usize, partial: bool, style: St
         Verdict::Pass if partial => Verdict::Undecided,
         verdict => verdict,
     };
-    text += &format!("\n{}: {} of {all} orders pass\n", style.word(verdict), orders.passing());
+    text += &format!("\n{}: {} of {all} orders pass\n", style.verdict(verdict), orders.passing());
     style.plain(text)
 }

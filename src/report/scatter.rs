@@ -168,7 +168,7 @@ pub fn text(case: &Case, draw: &Draw, samples: &[Sample], partial: bool, style: 
         );
     }
     let failures = samples.iter().filter(|sample| sample.envelope.verdict != Verdict::Pass).count();
-    let word = style.word(match verdict(case, draw, samples) {
+    let word = style.verdict(match verdict(case, draw, samples) {
         Verdict::Pass if partial => Verdict::Undecided,
         verdict => verdict,
     });

@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::table::Style;
-use crate::study::Case;
 use crate::study::size::{Combination, Sizing, Trial, Untried};
+use crate::study::{Case, Envelope};
 use crate::units::{Unit, value_and_error};
 use crate::verdict::Verdict;
 
@@ -33,7 +33,7 @@ pub struct Row {
     border_rows: usize,
     tires: usize,
     total_mass_kg: f64,
-    use_of_limits: Option<f64>,
+    utilization: Option<f64>,
     worst: Option<super::Values>,
 }
 
@@ -47,7 +47,7 @@ pub struct Line {
     total_mass_kg: f64,
     holds: bool,
     tried: bool,
-    use_of_limits: Option<f64>,
+    utilization: Option<f64>,
 }
 
 impl Row {
@@ -59,7 +59,7 @@ impl Row {
             border_rows: *border_rows,
             tires: *tires,
             total_mass_kg: *total_mass,
-            use_of_limits: trial.ok().map(|trial| trial.use_of_limits),
+            utilization: trial.ok().map(|trial| trial.utilization),
             worst: trial.ok().map(|trial| super::Values::new(&trial.worst)),
         }
     }
@@ -77,7 +77,7 @@ impl Line {
             total_mass_kg: row.total_mass_kg,
             holds: combination.trial.is_ok_and(|trial| trial.holds),
             tried: combination.trial.is_ok(),
-            use_of_limits: row.use_of_limits,
+            utilization: row.utilization,
         }
     }
 }
@@ -94,7 +94,7 @@ impl Document {
             lightest: found.map(Row::new),
             tried: sizing.tried(),
             not_tried: sizing.combinations.len() - sizing.tried(),
-            partial: sizing.untried(Untried::Late) > 0,
+            partial: sizing.untried(Untried::OutOfTime) > 0,
             nearest: found.is_none().then(|| nearest(sizing)).flatten().map(|(c, _)| Row::new(c)),
             frontier: sizing.frontier().into_iter().map(Row::new).collect(),
         }
@@ -111,13 +111,14 @@ pub fn text(case: &Case, sizing: &Sizing, style: Style) -> String {
     );
     let (tried, all) = (sizing.tried(), sizing.combinations.len());
     text += &format!("{tried} of {all} combinations tried");
-    let [alike, late, unstable] =
-        [Untried::Alike, Untried::Late, Untried::Unstable].map(|why| sizing.untried(why));
-    if alike > 0 {
-        text += &format!("; {alike} have the stiffness of a stronger rope that fails, and move alike");
+    let [same_stiffness, out_of_time, unstable] =
+        [Untried::SameStiffnessFails, Untried::OutOfTime, Untried::Unstable].map(|why| sizing.untried(why));
+    if same_stiffness > 0 {
+        text +=
+            &format!("; {same_stiffness} have the stiffness of a stronger rope that fails, and move alike");
     }
-    if late > 0 {
-        text += &format!("; for {late} the time did not suffice");
+    if out_of_time > 0 {
+        text += &format!("; for {out_of_time} the time did not suffice");
     }
     if unstable > 0 {
         text += &format!("; {unstable} cannot be followed at this step: choose a smaller --dt");
@@ -125,9 +126,9 @@ pub fn text(case: &Case, sizing: &Sizing, style: Style) -> String {
     text += "\n\n";
     let frontier = sizing.frontier();
     let Some(found) = sizing.found() else {
-        text += &match late + unstable {
-            0 => format!("{}: no combination holds\n", style.word(Verdict::Fail)),
-            _ => format!("{}: no combination tried so far holds\n", style.word(Verdict::Undecided)),
+        text += &match out_of_time + unstable {
+            0 => format!("{}: no combination holds\n", style.verdict(Verdict::Fail)),
+            _ => format!("{}: no combination tried so far holds\n", style.verdict(Verdict::Undecided)),
         };
         if let Some((combination, trial)) = nearest(sizing) {
             text += &format!("nearest: {}\n", words(combination, &trial));
@@ -140,7 +141,7 @@ pub fn text(case: &Case, sizing: &Sizing, style: Style) -> String {
     );
     for combination in frontier {
         let Ok(trial) = combination.trial else { continue };
-        let [[height, height_error], [force, force_error]] = [trial.worst.height, trial.worst.force];
+        let Envelope { height, force, .. } = trial.worst;
         text += &format!(
             "{:26}  {:>7}  {:>6}  {:>5}  {:>9.2}  {:>4.0} %  {:>17}  {:>17}\n",
             combination.rope.name,
@@ -148,14 +149,14 @@ pub fn text(case: &Case, sizing: &Sizing, style: Style) -> String {
             combination.border_rows,
             combination.tires,
             combination.total_mass * 1e-3,
-            1e2 * (1.0 - trial.use_of_limits),
-            value_and_error(height, height_error, Unit::Metre),
-            value_and_error(force, force_error, Unit::Kilonewton),
+            1e2 * (1.0 - trial.utilization),
+            value_and_error(height.value, height.error, Unit::Metre),
+            value_and_error(force.value, force.error, Unit::Kilonewton),
         );
     }
-    let word = style.word(Verdict::Pass);
+    let word = style.verdict(Verdict::Pass);
     if let Ok(trial) = &found.trial {
-        let so_far = if late > 0 { " so far" } else { "" };
+        let so_far = if out_of_time > 0 { " so far" } else { "" };
         text += &format!("\n{word}: lightest{so_far} {}\n", words(found, trial));
     }
     style.plain(text)
@@ -164,7 +165,7 @@ pub fn text(case: &Case, sizing: &Sizing, style: Style) -> String {
 /// The combination that uses least of the limits, of those that fail.
 fn nearest(sizing: &Sizing) -> Option<(&Combination, Trial)> {
     let trials = sizing.combinations.iter().filter_map(|c| Some((c, c.trial.ok()?)));
-    trials.min_by(|a, b| a.1.use_of_limits.total_cmp(&b.1.use_of_limits))
+    trials.min_by(|a, b| a.1.utilization.total_cmp(&b.1.utilization))
 }
 
 fn words(combination: &Combination, trial: &Trial) -> String {
@@ -174,7 +175,7 @@ fn words(combination: &Combination, trial: &Trial) -> String {
         combination.tire_mass,
         combination.border_rows,
         combination.total_mass * 1e-3,
-        1e2 * trial.use_of_limits,
+        1e2 * trial.utilization,
         trial.shots,
     )
 }

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::spark::sparkline;
 use super::table::Style;
-use crate::study::Case;
 use crate::study::sweep::{Point, Sweep};
+use crate::study::{Case, Envelope};
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::Verdict;
 
@@ -41,10 +41,10 @@ impl Row {
         let Point { interval, envelope } = *point;
         Self {
             interval_s: interval,
-            flight_height_m: envelope.height[0],
-            flight_height_error_m: envelope.height[1],
-            cable_force_n: envelope.force[0],
-            cable_force_error_n: envelope.force[1],
+            flight_height_m: envelope.height.value,
+            flight_height_error_m: envelope.height.error,
+            cable_force_n: envelope.force.value,
+            cable_force_error_n: envelope.force.error,
             verdict: envelope.verdict,
         }
     }
@@ -84,8 +84,8 @@ pub fn text(case: &Case, sweep: &Sweep, partial: bool, style: Style) -> String {
         let bars = sparkline(&evenly(&sweep.points, of), SPARK, limit, style.ascii);
         format!("{name:>8}  {from} {bars} {to}\n")
     };
-    text += &line("height", |point| point.envelope.height[0], case.limits.height);
-    text += &line("force", |point| point.envelope.force[0], case.limits.force);
+    text += &line("height", |point| point.envelope.height.value, case.limits.height);
+    text += &line("force", |point| point.envelope.force.value, case.limits.force);
     text.push('\n');
     for (name, point) in [("worst", sweep.worst(case)), ("best", sweep.best(case))] {
         if let Some(point) = point {
@@ -102,21 +102,21 @@ pub fn text(case: &Case, sweep: &Sweep, partial: bool, style: Style) -> String {
         .collect();
     let fails = sweep.points.iter().any(|point| point.envelope.verdict == Verdict::Fail);
     text += &match windows.as_slice() {
-        [] if fails && !partial => format!("\n{}: no interval tried passes\n", style.word(Verdict::Fail)),
-        [] => format!("\n{}: no interval tried surely passes\n", style.word(Verdict::Undecided)),
-        some if partial => format!("\n{}: so far {}\n", style.word(Verdict::Undecided), some.join(" · ")),
-        some => format!("\n{}: {}\n", style.word(Verdict::Pass), some.join(" · ")),
+        [] if fails && !partial => format!("\n{}: no interval tried passes\n", style.verdict(Verdict::Fail)),
+        [] => format!("\n{}: no interval tried surely passes\n", style.verdict(Verdict::Undecided)),
+        some if partial => format!("\n{}: so far {}\n", style.verdict(Verdict::Undecided), some.join(" · ")),
+        some => format!("\n{}: {}\n", style.verdict(Verdict::Pass), some.join(" · ")),
     };
     style.plain(text)
 }
 
 fn values(point: &Point, style: Style) -> String {
-    let [[height, height_error], [force, force_error]] = [point.envelope.height, point.envelope.force];
+    let Envelope { height, force, .. } = point.envelope;
     format!(
         "{}  height {} m  force {} kN",
-        style.word(point.envelope.verdict),
-        value_and_error(height, height_error, Unit::Metre),
-        value_and_error(force, force_error, Unit::Kilonewton),
+        style.verdict(point.envelope.verdict),
+        value_and_error(height.value, height.error, Unit::Metre),
+        value_and_error(force.value, force.error, Unit::Kilonewton),
     )
 }
 

@@ -1,9 +1,10 @@
 //! The results of `check` as a table for reading.
 
-use super::check::{Results, broken, effort, explain, verdict};
+use super::check::{broken, compute_label, explain};
 use super::spark::sparkline;
 use crate::study::Case;
 use crate::study::check::Checked;
+use crate::study::plans::{Results, verdict};
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::Verdict;
 
@@ -18,8 +19,8 @@ pub struct Style {
 
 impl Style {
     /// A verdict, in capitals.
-    pub(super) fn word(self, verdict: Verdict) -> String {
-        let word = verdict.capitals();
+    pub(super) fn verdict(self, verdict: Verdict) -> String {
+        let word = verdict.label();
         let code = match verdict {
             Verdict::Pass => 32,
             Verdict::Undecided => 33,
@@ -48,17 +49,17 @@ pub fn check(case: &Case, results: &Results, any: bool, style: Style) -> String 
     );
     for (delay, result) in plan.delays.iter().zip(results) {
         let verdict = result.as_ref().map_or(Verdict::Undecided, |checked| checked.verdict);
-        text += &format!("{:name_width$}  {}", delay.name, style.word(verdict));
+        text += &format!("{:name_width$}  {}", delay.name, style.verdict(verdict));
         match result {
             Err(failure) => text += &format!("  {failure}\n"),
             Ok(checked) => text += &row(case, checked, style),
         }
     }
     let passed = results.iter().flatten().filter(|checked| checked.verdict == Verdict::Pass).count();
-    let verdict = style.word(verdict(results, any));
+    let verdict = style.verdict(verdict(results, any));
     text += &format!("\n{verdict}: {passed} of {} options pass", results.len());
     if let Some(checked) = results.iter().flatten().next() {
-        text += &format!(" · {}", effort(&checked.effort));
+        text += &format!(" · {}", compute_label(&checked.compute));
     }
     text.push('\n');
     style.plain(text)

@@ -3,9 +3,8 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use super::batch::Progress;
 use super::check::start_step;
-use super::{Case, error};
+use super::{Case, NoResult, Progress, error};
 use crate::choice::{Accuracy, Method};
 use crate::outcome::Outcome;
 use crate::plan::Timing;
@@ -69,7 +68,7 @@ pub fn measure(
     option: usize,
     patience: Duration,
     progress: &Progress,
-) -> Result<Study, Failure> {
+) -> Result<Study, NoResult> {
     let levels = [Accuracy::Draft, Accuracy::Field, Accuracy::Reference]
         .map(|level| (level, start_step(case, Method::Verlet, level)));
     let reference_step = levels[2].1 / FINER;
@@ -91,7 +90,7 @@ pub fn measure(
                 break;
             }
             let result = match run(case, shot, method, step, progress) {
-                Err(Failure::Stopped { .. }) if progress.expired() => break,
+                Err(NoResult::OutOfTime) => break,
                 result => result?,
             };
             progress.advance();
@@ -122,7 +121,7 @@ fn run(
     method: Method,
     step: f64,
     progress: &Progress,
-) -> Result<Option<(Outcome, Duration)>, Failure> {
+) -> Result<Option<(Outcome, Duration)>, NoResult> {
     let settings = Settings { method, step, duration: case.plan.simulation.duration_s };
     let mut best: Option<(Outcome, Duration)> = None;
     let begun = Instant::now();
@@ -130,7 +129,7 @@ fn run(
         let start = Instant::now();
         let outcome = match case.model.run(shot, &settings, &mut |_| progress.flow()) {
             Ok(outcome) => outcome,
-            Err(stopped @ Failure::Stopped { .. }) => return Err(stopped),
+            Err(stopped @ Failure::Stopped { .. }) => return Err(progress.reason(stopped)),
             Err(_) => return Ok(None),
         };
         let wall = start.elapsed();

@@ -6,7 +6,7 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use super::{Case, Effort, error};
+use super::{Case, ComputeSettings, error};
 use crate::choice::{Accuracy, Method};
 use crate::outcome::{Broken, End, History, Outcome, Peak};
 use crate::scene::Shot;
@@ -33,7 +33,7 @@ pub struct Checked {
     /// Height and force over time.
     pub history: History,
     /// What was asked for.
-    pub effort: Effort,
+    pub compute: ComputeSettings,
     /// Step that gave the values [s].
     pub step: f64,
     /// Steps of that run.
@@ -71,11 +71,11 @@ pub enum Reason {
     /// So many cables break.
     Broken(usize),
     /// The run ends too early to tell.
-    Early {
-        /// When [s].
+    EndsEarly {
+        /// End of the run [s].
         end: f64,
-        /// What comes after it.
-        still: Still,
+        /// What the run leaves open.
+        open: EarlyEnd,
     },
 }
 
@@ -85,41 +85,41 @@ impl Reason {
         match self {
             Reason::Limit { verdict, .. } => *verdict,
             Reason::Broken(_) => Verdict::Fail,
-            Reason::Early { .. } => Verdict::Undecided,
+            Reason::EndsEarly { .. } => Verdict::Undecided,
         }
     }
 }
 
 /// What a run that ends too early leaves out.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Still {
+pub enum EarlyEnd {
     /// The last hole fires at this time [s].
-    Unfired(f64),
+    HolesUnfired(f64),
     /// Tires are in the air: they rise, or will pull at cables as they fall.
-    Aloft,
-    /// Force is greatest at the very end.
-    Growing,
+    TiresInAir,
+    /// The force is greatest at the very end.
+    ForceGrowing,
     /// Tires move on, and their drift has a limit.
-    Moving,
+    TiresMoving,
 }
 
 /// What the run of a shot leaves out, if it ends too early for a verdict.
-fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<Still> {
+fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<EarlyEnd> {
     let last = shot.firings.last().map_or(0.0, |firing| firing.at);
     if last >= case.plan.simulation.duration_s.unwrap_or(f64::INFINITY) {
-        return Some(Still::Unfired(last));
+        return Some(EarlyEnd::HolesUnfired(last));
     }
     if outcome.end == End::AtRest {
         return None;
     }
     if outcome.aloft {
-        return Some(Still::Aloft);
+        return Some(EarlyEnd::TiresInAir);
     }
     // The greatest of all samples is the last one, or the one before.
     if outcome.force.value > 0.0 && outcome.force.at > outcome.drift.at - 2.5 * outcome.step {
-        return Some(Still::Growing);
+        return Some(EarlyEnd::ForceGrowing);
     }
-    case.limits.drift.map(|_| Still::Moving)
+    case.limits.drift.map(|_| EarlyEnd::TiresMoving)
 }
 
 /// What a limit is about.
@@ -145,7 +145,7 @@ pub fn reasons(
     });
     let broken = Some(outcome.broken.len()).filter(|&count| count > 0).map(Reason::Broken);
     let end = case.plan.simulation.duration_s.unwrap_or(outcome.drift.at);
-    let early = early(case, shot, outcome).map(|still| Reason::Early { end, still });
+    let early = early(case, shot, outcome).map(|open| Reason::EndsEarly { end, open });
     let all = limits.chain(broken).chain(early);
     all.filter(|reason| reason.verdict() != Verdict::Pass).collect()
 }
@@ -206,25 +206,25 @@ fn limited(
 pub fn check(
     case: &Case,
     option: usize,
-    effort: &Effort,
+    compute: &ComputeSettings,
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Checked, Failure> {
-    check_shot(case, &case.shots[option], effort, watch)
+    check_shot(case, &case.shots[option], compute, watch)
 }
 
 /// Judges any shot under the shelter of a case.
 pub fn check_shot(
     case: &Case,
     shot: &Shot,
-    effort: &Effort,
+    compute: &ComputeSettings,
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Checked, Failure> {
     let begun = Instant::now();
     let mut runs: Vec<(Outcome, Duration)> = Vec::new();
-    let first = effort.step.unwrap_or_else(|| start_step(case, effort.method, effort.accuracy));
+    let first = compute.step.unwrap_or_else(|| start_step(case, compute.method, compute.accuracy));
     let rung = |n: i32| first * error::RATIO.powi(n);
     let mut add = |runs: &mut Vec<(Outcome, Duration)>, step: f64| -> Result<(), Failure> {
-        let settings = Settings { method: effort.method, step, duration: case.plan.simulation.duration_s };
+        let settings = Settings { method: compute.method, step, duration: case.plan.simulation.duration_s };
         let (done, start) = (runs.len(), Instant::now());
         let outcome = case
             .model
@@ -246,8 +246,8 @@ pub fn check_shot(
             add(&mut runs, rung(-finer - 1))?;
             runs.swap(0, 1);
         }
-        let checked = judge(case, shot, effort, &runs, begun.elapsed());
-        if checked.is_sure(&case.limits) || effort.step.is_some() || finer as usize == FINEST {
+        let checked = judge(case, shot, compute, &runs, begun.elapsed());
+        if checked.is_sure(&case.limits) || compute.step.is_some() || finer as usize == FINEST {
             return Ok(checked);
         }
         finer += 1;
@@ -258,7 +258,7 @@ pub fn check_shot(
 fn judge(
     case: &Case,
     shot: &Shot,
-    effort: &Effort,
+    compute: &ComputeSettings,
     runs: &[(Outcome, Duration)],
     total_wall: Duration,
 ) -> Checked {
@@ -282,7 +282,7 @@ fn judge(
         safety_factor: case.limits.breaking_force / force.value,
         broken: last.0.broken.clone(),
         history: last.0.history.clone(),
-        effort: *effort,
+        compute: *compute,
         step: last.0.step,
         steps: last.0.steps,
         energy_residual: last.0.ledger.residual(),

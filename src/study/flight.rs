@@ -2,13 +2,11 @@
 
 use nalgebra::Vector3;
 
-use super::Case;
-use super::Effort;
-use super::batch::Progress;
 use super::check::start_step;
+use super::{Case, ComputeSettings, NoResult, Progress};
 use crate::outcome::Outcome;
 use crate::scene::{Cable, Scene};
-use crate::simulation::{Failure, Motion, Settings};
+use crate::simulation::{Motion, Settings};
 
 /// One option's motion, sampled at even times.
 #[derive(Clone, Debug)]
@@ -32,9 +30,14 @@ const FRAMES: [usize; 2] = [16, 1024];
 /// Runs one option once, at the step its accuracy starts from or at `step` [s], and keeps its frames.
 ///
 /// However long the run, memory is bounded: full recordings drop every second frame.
-pub fn record(case: &Case, option: usize, effort: &Effort, progress: &Progress) -> Result<Flight, Failure> {
-    let step = effort.step.unwrap_or_else(|| start_step(case, effort.method, effort.accuracy));
-    let settings = Settings { method: effort.method, step, duration: case.plan.simulation.duration_s };
+pub fn record(
+    case: &Case,
+    option: usize,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<Flight, NoResult> {
+    let step = compute.step.unwrap_or_else(|| start_step(case, compute.method, compute.accuracy));
+    let settings = Settings { method: compute.method, step, duration: case.plan.simulation.duration_s };
     let tires = case.scene().mass.len();
     let most = (MOST_KEPT / tires.max(1)).clamp(FRAMES[0], FRAMES[1]) / 2 * 2;
     let (mut times, mut displacements) = (Vec::new(), Vec::new());
@@ -56,7 +59,8 @@ pub fn record(case: &Case, option: usize, effort: &Effort, progress: &Progress) 
             displacements.extend_from_slice(&latest);
         }
         progress.flow()
-    })?;
+    });
+    let outcome = outcome.map_err(|failure| progress.reason(failure))?;
     if times.last().is_some_and(|&last| last < now) {
         times.push(now);
         displacements.extend_from_slice(&latest);

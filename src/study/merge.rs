@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::orders::Tried;
 use super::scatter::{Draw, Sample};
-use super::{Case, Effort, Shard};
+use super::{Case, ComputeSettings, Shard};
 use crate::plan::ScatterSpec;
 
 /// What is studied.
@@ -38,7 +38,7 @@ pub struct Head {
     /// What is studied.
     pub question: Question,
     /// How finely.
-    pub effort: Effort,
+    pub compute: ComputeSettings,
     /// Name of the plan.
     pub plan: String,
     /// Its text.

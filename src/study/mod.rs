@@ -6,10 +6,14 @@
 pub mod accuracy;
 pub mod batch;
 pub mod check;
+mod envelope;
 pub mod error;
 pub mod flight;
 pub mod merge;
+mod no_result;
 pub mod orders;
+pub mod plans;
+mod progress;
 pub mod scatter;
 pub mod size;
 pub mod sweep;
@@ -17,6 +21,9 @@ pub mod trace;
 
 use std::path::Path;
 
+pub use envelope::{Bounded, Envelope};
+pub use no_result::{NoResult, guarded};
+pub use progress::Progress;
 use serde::{Deserialize, Serialize};
 
 use crate::choice::{Accuracy, Method};
@@ -103,7 +110,7 @@ impl Case {
 
 /// How finely to compute; from the plan, with what the command line overrides.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Effort {
+pub struct ComputeSettings {
     /// Which method.
     pub method: Method,
     /// Where refinement starts.
@@ -112,7 +119,7 @@ pub struct Effort {
     pub step: Option<f64>,
 }
 
-impl Effort {
+impl ComputeSettings {
     /// As the plan asks.
     pub fn of(plan: &Plan) -> Self {
         Self { method: plan.simulation.method, accuracy: plan.simulation.accuracy, step: None }

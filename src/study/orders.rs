@@ -9,14 +9,10 @@ use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
-use super::batch::{Envelope, Progress, judge};
-use super::{Case, Effort, Shard};
+use super::batch::judge;
+use super::{Case, ComputeSettings, Envelope, NoResult, Progress, Shard};
 use crate::scene::Shot;
-use crate::simulation::Failure;
 use crate::verdict::Verdict;
-
-/// Why a plan with firing times alone has no orders to try.
-pub const NO_INTERVAL: &str = "no delay option has an interval";
 
 /// Most blast rows whose orders are all tried: 5,040 of them.
 pub const MOST_ROWS: usize = 7;
@@ -51,7 +47,7 @@ impl Orders {
     /// Ranks what was tried at so many intervals, by one machine or many.
     pub fn new(case: &Case, mut tried: Vec<Tried>, intervals: usize) -> Self {
         let complete = is_complete(case) && tried.len() == count(case, intervals);
-        let share = |tried: &Tried| tried.envelope.use_of_limits(&case.limits);
+        let share = |tried: &Tried| tried.envelope.utilization(&case.limits);
         tried.sort_by(|a, b| share(b).total_cmp(&share(a)).then(a.number.cmp(&b.number)));
         Self { ranked: tried, complete }
     }
@@ -83,18 +79,21 @@ pub fn orders(
     case: &Case,
     intervals: &[f64],
     shard: Shard,
-    effort: &Effort,
+    compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Vec<Tried>, Failure> {
+) -> Result<Vec<Tried>, NoResult> {
+    if intervals.is_empty() {
+        return Err(NoResult::NoInterval);
+    }
     let rows = case.plan.blast_rows.len();
     if !is_complete(case) {
-        return search(case, intervals, effort, progress);
+        return search(case, intervals, compute, progress);
     }
     let all = intervals
         .iter()
         .flat_map(|&interval| (0..rows).permutations(rows).map(move |order| (order, interval)));
     let jobs: Vec<_> = all.enumerate().filter(|(number, _)| shard.has(*number)).collect();
-    judge_orders(case, jobs, effort, progress)
+    judge_orders(case, jobs, compute, progress)
 }
 
 type Job = (usize, (Vec<usize>, f64));
@@ -102,11 +101,11 @@ type Job = (usize, (Vec<usize>, f64));
 fn judge_orders(
     case: &Case,
     jobs: Vec<Job>,
-    effort: &Effort,
+    compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Vec<Tried>, Failure> {
+) -> Result<Vec<Tried>, NoResult> {
     let shots: Vec<Shot> = jobs.iter().map(|(_, (order, interval))| case.shot(order, *interval)).collect();
-    let envelopes = judge(case, &shots, effort, progress)?;
+    let envelopes = judge(case, &shots, compute, progress)?;
     let tried = |((number, (order, interval)), envelope): (Job, Option<Envelope>)| {
         envelope.map(|envelope| Tried { number, order, interval, envelope })
     };
@@ -116,9 +115,9 @@ fn judge_orders(
 fn search(
     case: &Case,
     intervals: &[f64],
-    effort: &Effort,
+    compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Vec<Tried>, Failure> {
+) -> Result<Vec<Tried>, NoResult> {
     let rows: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
     let mut tried: Vec<Tried> = Vec::new();
     for (n, &interval) in intervals.iter().enumerate() {
@@ -130,9 +129,9 @@ fn search(
             order
         }));
         let first = tried.len();
-        add(case, &mut tried, starts, interval, effort, progress)?;
+        add(case, &mut tried, starts, interval, compute, progress)?;
         for sign in [1.0, -1.0] {
-            let rank = |tried: &Tried| sign * tried.envelope.use_of_limits(&case.limits);
+            let rank = |tried: &Tried| sign * tried.envelope.utilization(&case.limits);
             for _ in 0..ROUNDS {
                 let here = tried[first..].iter().max_by(|a, b| rank(a).total_cmp(&rank(b))).cloned();
                 let Some(here) = here else { break };
@@ -142,7 +141,7 @@ fn search(
                     order
                 });
                 let before = tried.len();
-                add(case, &mut tried, exchanged.collect(), interval, effort, progress)?;
+                add(case, &mut tried, exchanged.collect(), interval, compute, progress)?;
                 if !tried[before..].iter().any(|next| rank(next) > rank(&here)) {
                     break;
                 }
@@ -158,14 +157,14 @@ fn add(
     tried: &mut Vec<Tried>,
     orders: Vec<Vec<usize>>,
     interval: f64,
-    effort: &Effort,
+    compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<(), Failure> {
+) -> Result<(), NoResult> {
     let known: std::collections::HashSet<&[usize]> =
         tried.iter().filter(|t| t.interval == interval).map(|t| t.order.as_slice()).collect();
     let new = orders.into_iter().unique().filter(|order| !known.contains(order.as_slice()));
     let jobs = new.enumerate().map(|(n, order)| (tried.len() + n, (order, interval))).collect();
-    let judged = judge_orders(case, jobs, effort, progress)?;
+    let judged = judge_orders(case, jobs, compute, progress)?;
     tried.extend(judged);
     Ok(())
 }

@@ -12,17 +12,14 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, LogNormal, Normal};
 use serde::{Deserialize, Serialize};
 
-use super::batch::{Envelope, Progress, each, envelopes};
+use super::batch::{each, envelopes};
 use super::check::{Reason, check_shot, reasons, start_step};
-use super::{Case, Effort, Shard};
+use super::{Case, ComputeSettings, Envelope, NoResult, Progress, Shard};
 use crate::outcome::Peak;
 use crate::plan::ScatterSpec;
 use crate::scene::{Firing, Shot, fire_at_s};
-use crate::simulation::{Failure, Settings};
+use crate::simulation::Settings;
 use crate::verdict::{Estimate, Verdict};
-
-/// What a plan without a section [scatter] is told.
-pub const NO_SCATTER: &str = "the plan does not say what scatters: add a section such as\n\n[scatter]\ndetonator = \"pyrotechnic\"\nlaunch_cv_percent = 10";
 
 /// One sample of one option.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -55,23 +52,24 @@ pub fn scatter(
     spec: &ScatterSpec,
     draw: &Draw,
     shard: Shard,
-    effort: &Effort,
+    compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Vec<Sample>, Failure> {
+) -> Result<Vec<Sample>, NoResult> {
     let options: Vec<usize> = (0..case.shots.len()).collect();
     let errors = each(&options, progress, |&option| {
-        let checked = check_shot(case, &case.shots[option], effort, &mut |_| progress.flow())?;
+        let checked = check_shot(case, &case.shots[option], compute, &mut |_| progress.flow())
+            .map_err(|failure| progress.reason(failure))?;
         // Its error grew less than the step's square from the first step to the last.
-        let coarser = (start(case, effort) / checked.step).powi(2).max(1.0);
+        let coarser = (start(case, compute) / checked.step).powi(2).max(1.0);
         let relative = |of: Estimate| if of.value > 0.0 { of.error / of.value * coarser } else { 0.0 };
         Ok([relative(checked.height), relative(checked.force), relative(checked.drift)])
     })?;
     let Some(errors) = errors.into_iter().collect::<Option<Vec<_>>>() else { return Ok(Vec::new()) };
     let judge_one = |&(option, number): &(usize, usize)| {
         let shot = drawn(&case.shots[option], spec, draw.seed, option, number);
-        judge_sample(case, &shot, &errors[option], effort, progress)
+        judge_sample(case, &shot, &errors[option], compute, progress)
     };
-    let judge = |jobs: Vec<(usize, usize)>| -> Result<Vec<Sample>, Failure> {
+    let judge = |jobs: Vec<(usize, usize)>| -> Result<Vec<Sample>, NoResult> {
         let envelopes = envelopes(&jobs, progress, judge_one)?;
         let sample = |((option, number), envelope): (_, Option<Envelope>)| {
             envelope.map(|envelope| Sample { option, number, envelope })
@@ -98,8 +96,8 @@ pub fn scatter(
     Ok(all)
 }
 
-fn start(case: &Case, effort: &Effort) -> f64 {
-    effort.step.unwrap_or_else(|| start_step(case, effort.method, effort.accuracy))
+fn start(case: &Case, compute: &ComputeSettings) -> f64 {
+    compute.step.unwrap_or_else(|| start_step(case, compute.method, compute.accuracy))
 }
 
 fn is_certain(samples: &[Sample], draw: &Draw) -> bool {
@@ -129,15 +127,16 @@ fn judge_sample(
     case: &Case,
     shot: &Shot,
     relative_error: &[f64; 3],
-    effort: &Effort,
+    compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Envelope, Failure> {
+) -> Result<Envelope, NoResult> {
     let settings = Settings {
-        method: effort.method,
-        step: start(case, effort),
+        method: compute.method,
+        step: start(case, compute),
         duration: case.plan.simulation.duration_s,
     };
-    let outcome = case.model.run(shot, &settings, &mut |_| progress.flow())?;
+    let reason = |failure| progress.reason(failure);
+    let outcome = case.model.run(shot, &settings, &mut |_| progress.flow()).map_err(reason)?;
     let estimate = |peak: Peak, relative: f64| {
         let Peak { value, at, place } = peak;
         Estimate { value, error: value * relative, at, place }
@@ -148,8 +147,8 @@ fn judge_sample(
     let reasons = reasons(case, shot, &outcome, estimates);
     let verdict = Verdict::worst(reasons.iter().map(Reason::verdict));
     let too_near = |reason: &Reason| matches!(reason, Reason::Limit { verdict: Verdict::Undecided, .. });
-    if verdict == Verdict::Undecided && reasons.iter().any(too_near) && effort.step.is_none() {
-        let checked = check_shot(case, shot, effort, &mut |_| progress.flow())?;
+    if verdict == Verdict::Undecided && reasons.iter().any(too_near) && compute.step.is_none() {
+        let checked = check_shot(case, shot, compute, &mut |_| progress.flow()).map_err(reason)?;
         return Ok(Envelope::of(&checked));
     }
     Ok(Envelope::new(verdict, estimates))
@@ -220,8 +219,8 @@ pub fn summary(samples: &[Sample], option: usize) -> Summary {
         failures,
         undecided: count(Verdict::Undecided),
         interval: wilson(failures, mine.len()),
-        height: percentiles(mine.iter().map(|envelope| envelope.height[0]).collect()),
-        force: percentiles(mine.iter().map(|envelope| envelope.force[0]).collect()),
+        height: percentiles(mine.iter().map(|envelope| envelope.height.value).collect()),
+        force: percentiles(mine.iter().map(|envelope| envelope.force.value).collect()),
     }
 }
 

@@ -7,13 +7,12 @@
 
 use itertools::Itertools;
 
-use super::batch::{Envelope, Progress, judge};
+use super::batch::judge;
 use super::scatter::{Draw, Sample, scatter};
-use super::{Case, Effort, Shard};
+use super::{Bounded, Case, ComputeSettings, Envelope, NoResult, Progress, Shard};
 use crate::plan::{Layout, Plan, ScatterSpec};
 use crate::ropes::{Rope, catalogue};
 use crate::scene::Shot;
-use crate::simulation::Failure;
 use crate::verdict::Verdict;
 
 /// What a shelter must hold.
@@ -54,9 +53,9 @@ pub struct Combination {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Untried {
     /// A stronger rope of the same stiffness fails.
-    Alike,
+    SameStiffnessFails,
     /// The time did not suffice.
-    Late,
+    OutOfTime,
     /// It cannot be followed at the step asked for.
     Unstable,
 }
@@ -69,7 +68,7 @@ pub struct Trial {
     /// The worst shot judged; where the combination fails, others may be worse.
     pub worst: Envelope,
     /// Its greatest share of any limit.
-    pub use_of_limits: f64,
+    pub utilization: f64,
     /// Shots judged.
     pub shots: usize,
 }
@@ -91,7 +90,7 @@ impl Sizing {
     pub fn frontier(&self) -> Vec<&Combination> {
         let mut least = f64::INFINITY;
         let better = |c: &&Combination| {
-            let used = c.trial.ok().filter(|trial| trial.holds).map(|trial| trial.use_of_limits);
+            let used = c.trial.ok().filter(|trial| trial.holds).map(|trial| trial.utilization);
             let better = used.is_some_and(|used| used < least);
             least = used.unwrap_or(least).min(least);
             better
@@ -111,7 +110,12 @@ impl Sizing {
 }
 
 /// Tries the combinations that the plan allows, as far as the time suffices.
-pub fn size(plan: &Plan, demand: &Demand, effort: &Effort, progress: &Progress) -> Result<Sizing, Failure> {
+pub fn size(
+    plan: &Plan,
+    demand: &Demand,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<Sizing, NoResult> {
     let family = |rope: &&Rope| plan.size.family.as_ref().is_none_or(|family| *family == rope.family);
     let by_stiffness = catalogue()
         .ropes
@@ -135,15 +139,15 @@ pub fn size(plan: &Plan, demand: &Demand, effort: &Effort, progress: &Progress) 
             let case = Case::new(plan.with(rope, tire_mass, border_rows));
             let (tires, total_mass) = (case.scene().mass.len(), total_mass(&case, rope));
             let trial = if progress.expired() {
-                Err(Untried::Late)
+                Err(Untried::OutOfTime)
             } else if held {
-                match try_out(&case, demand, effort, &mut likeliest, progress) {
-                    Err(stopped @ Failure::Stopped { .. }) => return Err(stopped),
-                    Err(_) => Err(Untried::Unstable),
-                    Ok(trial) => trial.ok_or(Untried::Late),
+                match try_out(&case, demand, compute, &mut likeliest, progress) {
+                    Err(NoResult::Failed(_)) => Err(Untried::Unstable),
+                    Err(ended) => return Err(ended),
+                    Ok(trial) => trial.ok_or(Untried::OutOfTime),
                 }
             } else {
-                Err(Untried::Alike)
+                Err(Untried::SameStiffnessFails)
             };
             held = trial.is_ok_and(|trial| trial.holds);
             combinations.push(Combination { rope, tire_mass, border_rows, tires, total_mass, trial });
@@ -165,15 +169,15 @@ fn total_mass(case: &Case, rope: &Rope) -> f64 {
 fn try_out(
     case: &Case,
     demand: &Demand,
-    effort: &Effort,
+    compute: &ComputeSettings,
     likeliest: &mut usize,
     progress: &Progress,
-) -> Result<Option<Trial>, Failure> {
+) -> Result<Option<Trial>, NoResult> {
     let shots = match demand {
         Demand::Options => case.shots.clone(),
         Demand::AnyOrder(intervals) => all_orders(case, intervals),
         Demand::Samples(spec, draw) => {
-            let samples = scatter(case, spec, draw, Shard::WHOLE, effort, progress)?;
+            let samples = scatter(case, spec, draw, Shard::WHOLE, compute, progress)?;
             return Ok((!progress.expired()).then(|| most_hold(case, &samples)));
         }
     };
@@ -184,7 +188,7 @@ fn try_out(
     let mut judged: Vec<Envelope> = Vec::new();
     for chunk in order.chunks(AT_ONCE) {
         let part: Vec<Shot> = chunk.iter().map(|&n| shots[n].clone()).collect();
-        let envelopes = judge(case, &part, effort, progress)?;
+        let envelopes = judge(case, &part, compute, progress)?;
         let Some(envelopes) = envelopes.into_iter().collect::<Option<Vec<_>>>() else { return Ok(None) };
         let failed = envelopes.iter().position(|envelope| envelope.verdict != Verdict::Pass);
         judged.extend(envelopes);
@@ -210,7 +214,7 @@ fn most_hold(case: &Case, samples: &[Sample]) -> Trial {
         failures as f64 <= MAY_FAIL * mine().count() as f64
     });
     let mut envelopes: Vec<Envelope> = samples.iter().map(|sample| sample.envelope).collect();
-    let share = |envelope: &Envelope| envelope.use_of_limits(&case.limits);
+    let share = |envelope: &Envelope| envelope.utilization(&case.limits);
     envelopes.sort_by(|a, b| share(a).total_cmp(&share(b)));
     // The worst of those that count.
     let counting = ((1.0 - MAY_FAIL) * envelopes.len() as f64).ceil() as usize;
@@ -218,8 +222,9 @@ fn most_hold(case: &Case, samples: &[Sample]) -> Trial {
 }
 
 fn trial(case: &Case, judged: &[Envelope], holds: bool) -> Trial {
-    let none = Envelope { verdict: Verdict::Pass, height: [0.0; 2], force: [0.0; 2], drift: [0.0; 2] };
-    let share = |envelope: &Envelope| envelope.use_of_limits(&case.limits);
+    let zero = Bounded::default();
+    let none = Envelope { verdict: Verdict::Pass, height: zero, force: zero, drift: zero };
+    let share = |envelope: &Envelope| envelope.utilization(&case.limits);
     let worst = judged.iter().copied().max_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or(none);
-    Trial { holds, worst, use_of_limits: share(&worst), shots: judged.len() }
+    Trial { holds, worst, utilization: share(&worst), shots: judged.len() }
 }

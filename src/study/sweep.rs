@@ -1,9 +1,8 @@
 //! Height and force against the interval between rows, and the intervals that pass.
 
-use super::batch::{Envelope, Progress, judge};
-use super::{Case, Effort, Intervals};
+use super::batch::judge;
+use super::{Case, ComputeSettings, Envelope, Intervals, NoResult, Progress};
 use crate::scene::Shot;
-use crate::simulation::Failure;
 use crate::verdict::Verdict;
 
 /// One interval.
@@ -24,9 +23,6 @@ pub struct Sweep {
     pub points: Vec<Point>,
 }
 
-/// Why a plan of one blast row is not swept.
-pub const SINGLE_ROW: &str = "a single blast row has no interval to sweep";
-
 /// Neighbours whose use of the limits differs by more are looked at more closely.
 const JUMP: f64 = 0.1;
 /// How often the distance between neighbours is halved.
@@ -37,12 +33,15 @@ pub fn sweep(
     case: &Case,
     order: &[usize],
     intervals: &Intervals,
-    effort: &Effort,
+    compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Sweep, Failure> {
-    let judged = |intervals: Vec<f64>| -> Result<Vec<Point>, Failure> {
+) -> Result<Sweep, NoResult> {
+    if case.plan.blast_rows.len() < 2 {
+        return Err(NoResult::SingleRow);
+    }
+    let judged = |intervals: Vec<f64>| -> Result<Vec<Point>, NoResult> {
         let shots: Vec<Shot> = intervals.iter().map(|&interval| case.shot(order, interval)).collect();
-        let envelopes = judge(case, &shots, effort, progress)?;
+        let envelopes = judge(case, &shots, compute, progress)?;
         let point = |(interval, envelope): (f64, Option<_>)| Some(Point { interval, envelope: envelope? });
         // Where the time did not suffice, only up to the first interval without a result: windows have no gaps.
         Ok(intervals.into_iter().zip(envelopes).map_while(point).collect())
@@ -61,7 +60,7 @@ pub fn sweep(
 }
 
 fn jumps(case: &Case, a: &Point, b: &Point) -> bool {
-    let share = |point: &Point| point.envelope.use_of_limits(&case.limits);
+    let share = |point: &Point| point.envelope.utilization(&case.limits);
     a.envelope.verdict != b.envelope.verdict || (share(a) - share(b)).abs() > JUMP
 }
 
@@ -94,6 +93,6 @@ impl Sweep {
 }
 
 fn by_use(case: &Case, a: &Point, b: &Point) -> std::cmp::Ordering {
-    let share = |point: &Point| point.envelope.use_of_limits(&case.limits);
+    let share = |point: &Point| point.envelope.utilization(&case.limits);
     share(a).total_cmp(&share(b))
 }

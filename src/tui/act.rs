@@ -83,7 +83,7 @@ impl App {
         let typed = prompt.key(key);
         let text = prompt.input.value().to_owned();
         match (prompt.purpose, typed) {
-            (Purpose::Search, Typed::Left) => self.find("", false),
+            (Purpose::Search, Typed::Cancelled) => self.find("", false),
             (Purpose::Search, Typed::Changed) => self.find(&text, key.code == KeyCode::Down),
             (Purpose::Palette, Typed::Done) => {
                 let Some(chosen) = prompt.commands().get(prompt.selected).copied() else {
@@ -268,9 +268,9 @@ impl App {
                 self.help = !self.help;
                 self.help_scroll = 0;
             }
-            Action::Rerun => return self.rerun(self.effort.accuracy),
-            Action::Finer => return self.rerun(finer(self.effort.accuracy)),
-            Action::Coarser => return self.rerun(coarser(self.effort.accuracy)),
+            Action::Rerun => return self.rerun(self.compute.accuracy),
+            Action::Finer => return self.rerun(finer(self.compute.accuracy)),
+            Action::Coarser => return self.rerun(coarser(self.compute.accuracy)),
             Action::Suspend => return Request::Suspend,
             Action::Quit => return self.quit(),
             _ => {}
@@ -284,14 +284,14 @@ impl App {
         let stem = plan.file_stem().and_then(|stem| stem.to_str()).unwrap_or("plan");
         let screen = self.screen.name().to_lowercase();
         let ending = if self.screen == Screen::Plan { "svg" } else { "csv" };
-        file::free(&format!("{stem}-{screen}"), ending)
+        file::unused_path(&format!("{stem}-{screen}"), ending)
     }
 
     /// Asks for a file to write the plan to: one that is not there yet.
     pub fn ask_for_file(&mut self) {
         let plan = Path::new(&self.case.source.path);
         let stem = if plan.exists() { plan.with_extension("") } else { "plan".into() };
-        let free = file::free(&stem.to_string_lossy(), "toml");
+        let free = file::unused_path(&stem.to_string_lossy(), "toml");
         self.prompt = Some(Prompt::new(Purpose::SaveAs, &free));
     }
 
@@ -348,7 +348,7 @@ impl App {
     }
 
     fn rerun(&mut self, accuracy: Accuracy) -> Request {
-        self.effort.accuracy = accuracy;
+        self.compute.accuracy = accuracy;
         self.rows.fill(Row::Waiting);
         self.player.option = None;
         Request::Run

@@ -17,7 +17,7 @@ use super::studies::{Progress, Studies};
 use super::theme::Theme;
 use crate::plan::{Plan, PlanSource};
 use crate::study::check::Checked;
-use crate::study::{Case, Effort, error};
+use crate::study::{Case, ComputeSettings, NoResult, error};
 use crate::worker::{Event, Found, Kind, News};
 
 /// What one delay option has come to.
@@ -35,7 +35,7 @@ pub enum Row {
     /// Judged.
     Done(Box<Checked>),
     /// Without a result.
-    Failed(String),
+    Failed(NoResult),
 }
 
 /// What the event loop must do after an update.
@@ -90,7 +90,7 @@ pub struct App {
     /// The plan.
     pub case: Arc<Case>,
     /// How finely it is computed.
-    pub effort: Effort,
+    pub compute: ComputeSettings,
     /// One per delay option.
     pub rows: Vec<Row>,
     /// Index of the selected option.
@@ -170,12 +170,12 @@ const USUAL_FLIGHT: f64 = 1.6;
 
 impl App {
     /// Nothing computed yet.
-    pub fn new(case: Arc<Case>, effort: Effort, config: &Config) -> Self {
+    pub fn new(case: Arc<Case>, compute: ComputeSettings, config: &Config) -> Self {
         let rows = vec![Row::Waiting; case.plan.delays.len()];
         let editor = Editor::new(&case.source.text);
         Self {
             case,
-            effort,
+            compute,
             rows,
             selected: 0,
             zoom: false,
@@ -234,7 +234,7 @@ impl App {
 
     /// Another plan takes the place of the one shown; long studies of the old one are dropped.
     fn take(&mut self, case: Case) -> Request {
-        self.effort.follow(&self.case.plan, &case.plan);
+        self.compute.follow(&self.case.plan, &case.plan);
         self.case = Arc::new(case);
         self.rows = vec![Row::Waiting; self.case.plan.delays.len()];
         self.selected = self.selected.min(self.rows.len().saturating_sub(1));
@@ -317,15 +317,15 @@ impl App {
         *row = match event.news {
             News::Progress { runs, .. } => Row::Running { runs, done },
             News::Done(checked) => Row::Done(checked),
-            News::Failed(message) => Row::Failed(message),
+            News::Failed(no_result) => Row::Failed(no_result),
         };
     }
 
     /// A long study has a result.
-    pub fn learn(&mut self, kind: Kind, result: Result<Found, String>) {
+    pub fn learn(&mut self, kind: Kind, result: Result<Found, NoResult>) {
         let progress = match result {
             Ok(found) => Progress::Done(Arc::new(found)),
-            Err(words) => Progress::Failed(words),
+            Err(no_result) => Progress::Failed(no_result),
         };
         self.studies.set(kind, progress);
     }

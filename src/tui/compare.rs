@@ -82,7 +82,7 @@ impl App {
 
     fn is_listed(&self, option: usize) -> bool {
         let asked = self.compare.filter.to_lowercase();
-        let verdict = self.checked(option).map_or("", |checked| checked.verdict.word());
+        let verdict = self.checked(option).map_or("", |checked| checked.verdict.name());
         let name = self.case.plan.delays[option].name.to_lowercase();
         name.contains(&asked) || verdict.contains(&asked)
     }

@@ -6,8 +6,8 @@ use super::app::{App, Row, Screen};
 use super::studies::Progress;
 use crate::file;
 use crate::report;
-use crate::report::check::Results;
 use crate::scene::fire_at_s;
+use crate::study::plans::Results;
 use crate::worker::{Found, Kind};
 
 /// Writes what is shown to a new file; its ending says how. Or why not, in words.

@@ -58,7 +58,7 @@ pub struct Look {
 
 /// How the user left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Left {
+pub enum Exit {
     /// By a key.
     Quit,
     /// By a signal.
@@ -73,14 +73,14 @@ const IDLE: Duration = Duration::from_millis(250);
 /// Shows the app until the user leaves.
 ///
 /// `plan` is the file shown, if it is one: it is read again when it changes.
-pub fn run(app: App, worker: Worker, errands: Errands, look: Look, plan: Option<&Path>) -> io::Result<Left> {
+pub fn run(app: App, worker: Worker, errands: Errands, look: Look, plan: Option<&Path>) -> io::Result<Exit> {
     // Without this, crossterm under NO_COLOR resets bold and reverse as well; colours are taken out in `draw`.
     crossterm::style::force_color_output(true);
     let signals = Signals::register()?;
     restore_on_panic();
     let mut display = Display::open()?;
     let mut session = Session { app, worker, errands, file: plan.map(PlanFile::new) };
-    session.worker.start(&session.app.case, session.app.effort);
+    session.worker.start(&session.app.case, session.app.compute);
     let (mut dirty, mut drawn) = (true, Instant::now());
     loop {
         dirty |= session.listen();
@@ -96,7 +96,7 @@ pub fn run(app: App, worker: Worker, errands: Errands, look: Look, plan: Option<
             dirty = false;
         }
         if signals.end.load(Ordering::Relaxed) {
-            return Ok(Left::Signal);
+            return Ok(Exit::Signal);
         }
         let busy = session.app.busy() || session.app.moving();
         let request = if signals.stop.swap(false, Ordering::Relaxed) {
@@ -111,7 +111,7 @@ pub fn run(app: App, worker: Worker, errands: Errands, look: Look, plan: Option<
             session.app.wanted()
         };
         match request {
-            Request::Quit => return Ok(Left::Quit),
+            Request::Quit => return Ok(Exit::Quit),
             Request::Suspend => {
                 display.suspend()?;
                 dirty = true;
@@ -163,7 +163,7 @@ impl Session {
     fn serve(&mut self, request: Request) {
         match request {
             Request::None | Request::Quit | Request::Suspend => {}
-            Request::Run => self.worker.start(&self.app.case, self.app.effort),
+            Request::Run => self.worker.start(&self.app.case, self.app.compute),
             Request::Replaced => self.replace(),
             Request::Save => match &mut self.file {
                 Some(file) => match file.write(&self.app.editor.saved, &self.app.editor.text) {
@@ -195,7 +195,7 @@ impl Session {
                 self.app.notice = Some(copied.map_or_else(|words| words, |()| "copied as CSV".to_owned()));
             }
             Request::Start(kind) => {
-                self.errands.start(kind, &self.app.case, self.app.selected, self.app.effort);
+                self.errands.start(kind, &self.app.case, self.app.selected, self.app.compute);
             }
             Request::Cancel(kind) => self.errands.cancel(kind),
         }
@@ -204,7 +204,7 @@ impl Session {
     /// Computes another plan; results of the old one would say nothing of it.
     fn replace(&mut self) {
         Kind::ALL.into_iter().for_each(|kind| self.errands.cancel(kind));
-        self.worker.start(&self.app.case, self.app.effort);
+        self.worker.start(&self.app.case, self.app.compute);
     }
 
     /// Writes the plan to a new file, which is then the one shown.
@@ -222,7 +222,7 @@ impl Session {
 }
 
 /// Lets the user choose what to open, or leave.
-pub fn choose(mut start: Start, theme: Theme, look: Look) -> io::Result<Result<Opened, Left>> {
+pub fn choose(mut start: Start, theme: Theme, look: Look) -> io::Result<Result<Opened, Exit>> {
     crossterm::style::force_color_output(true);
     let signals = Signals::register()?;
     restore_on_panic();
@@ -231,7 +231,7 @@ pub fn choose(mut start: Start, theme: Theme, look: Look) -> io::Result<Result<O
         screen.draw(look, |frame| start.draw(theme, frame))?;
         while !event::poll(IDLE)? {
             if signals.end.load(Ordering::Relaxed) {
-                return Ok(Err(Left::Signal));
+                return Ok(Err(Exit::Signal));
             }
             if signals.stop.swap(false, Ordering::Relaxed) {
                 screen.suspend()?;
@@ -240,7 +240,7 @@ pub fn choose(mut start: Start, theme: Theme, look: Look) -> io::Result<Result<O
         match start.update(&event::read()?) {
             Next::Wait => {}
             Next::Open(opened) => return Ok(Ok(opened)),
-            Next::Quit => return Ok(Err(Left::Quit)),
+            Next::Quit => return Ok(Err(Exit::Quit)),
         }
     }
 }

@@ -40,7 +40,7 @@ pub enum Typed {
     /// It is complete.
     Done,
     /// It is given up.
-    Left,
+    Cancelled,
 }
 
 impl Prompt {
@@ -53,7 +53,7 @@ impl Prompt {
     pub fn key(&mut self, key: &KeyEvent) -> Typed {
         match key.code {
             KeyCode::Enter => return Typed::Done,
-            KeyCode::Esc => return Typed::Left,
+            KeyCode::Esc => return Typed::Cancelled,
             KeyCode::Up => self.selected = self.selected.saturating_sub(1),
             KeyCode::Down => self.selected = (self.selected + 1).min(self.commands().len().saturating_sub(1)),
             _ => {

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
+use crate::study::NoResult;
 use crate::study::flight::Flight;
 use crate::worker::{Found, Kind};
 
@@ -22,7 +23,7 @@ pub enum Progress {
     /// Its result, kept while one looks elsewhere.
     Done(Arc<Found>),
     /// Without a result.
-    Failed(String),
+    Failed(NoResult),
 }
 
 impl fmt::Display for Progress {

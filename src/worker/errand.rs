@@ -6,15 +6,13 @@ use std::thread;
 use std::time::Duration;
 
 use crate::plan::ScatterSpec;
-use crate::simulation::Failure;
 use crate::study::accuracy;
-use crate::study::batch::{Progress, guarded};
 use crate::study::flight::{Flight, record};
-use crate::study::orders::{NO_INTERVAL, Orders, orders};
-use crate::study::scatter::{Draw, NO_SCATTER, Sample, scatter};
+use crate::study::orders::{Orders, orders};
+use crate::study::scatter::{Draw, Sample, scatter};
 use crate::study::size::{Demand, Sizing, size};
-use crate::study::sweep::{SINGLE_ROW, Sweep, sweep};
-use crate::study::{Case, Effort, Intervals, Shard};
+use crate::study::sweep::{Sweep, sweep};
+use crate::study::{Case, ComputeSettings, Intervals, NoResult, Progress, Shard, guarded};
 
 /// A long study, with what a screen asks it for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,7 +63,7 @@ const INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: 5e-3 };
 /// Longest run that [`Kind::Accuracy`] makes.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-type Result = std::result::Result<Found, String>;
+type Result = std::result::Result<Found, NoResult>;
 
 /// Long studies under way.
 pub struct Errands {
@@ -85,16 +83,16 @@ impl Errands {
     /// Begins a study; one of its kind that was under way ends without a result.
     ///
     /// `option` is that of a study of a single one.
-    pub fn start(&mut self, kind: Kind, case: &Arc<Case>, option: usize, effort: Effort) {
+    pub fn start(&mut self, kind: Kind, case: &Arc<Case>, option: usize, compute: ComputeSettings) {
         self.cancel(kind);
         let progress = Arc::new(Progress::default());
         self.under_way[kind as usize] = Some(Arc::clone(&progress));
         let (case, sender, threads) = (Arc::clone(case), self.sender.clone(), self.threads);
         thread::spawn(move || {
-            let study = || guarded(|| study(kind, &case, option, &effort, &progress));
+            let study = || guarded(|| study(kind, &case, option, &compute, &progress));
             let result = match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
                 Ok(pool) => pool.install(study),
-                Err(error) => Err(error.to_string()),
+                Err(error) => Err(NoResult::NoThreads(error.to_string())),
             };
             // A receiver that is gone has quit: nobody is left to tell.
             let _ = sender.send((kind, progress, result));
@@ -133,31 +131,24 @@ impl Drop for Errands {
     }
 }
 
-fn study(kind: Kind, case: &Case, option: usize, effort: &Effort, progress: &Progress) -> Result {
-    let said = |failure: Failure| failure.to_string();
+fn study(kind: Kind, case: &Case, option: usize, compute: &ComputeSettings, progress: &Progress) -> Result {
     match kind {
-        Kind::Sweep if case.plan.blast_rows.len() < 2 => Err(SINGLE_ROW.to_owned()),
         Kind::Sweep => {
             let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
-            sweep(case, &order, &INTERVALS, effort, progress).map(Found::Sweep).map_err(said)
+            sweep(case, &order, &INTERVALS, compute, progress).map(Found::Sweep)
         }
         Kind::Orders => {
             let intervals = case.intervals();
-            if intervals.is_empty() {
-                return Err(NO_INTERVAL.to_owned());
-            }
-            let tried = orders(case, &intervals, Shard::WHOLE, effort, progress).map_err(said)?;
+            let tried = orders(case, &intervals, Shard::WHOLE, compute, progress)?;
             Ok(Found::Orders(Orders::new(case, tried, intervals.len())))
         }
         Kind::Scatter => {
-            let spec: ScatterSpec = case.plan.scatter.ok_or(NO_SCATTER)?;
-            let samples = scatter(case, &spec, &DRAW, Shard::WHOLE, effort, progress).map_err(said)?;
+            let spec: ScatterSpec = case.plan.scatter.ok_or(NoResult::NoScatter)?;
+            let samples = scatter(case, &spec, &DRAW, Shard::WHOLE, compute, progress)?;
             Ok(Found::Scatter(DRAW, samples))
         }
-        Kind::Size => size(&case.plan, &Demand::Options, effort, progress).map(Found::Size).map_err(said),
-        Kind::Flight => record(case, option, effort, progress).map(Found::Flight).map_err(said),
-        Kind::Accuracy => {
-            accuracy::measure(case, option, PATIENCE, progress).map(Found::Accuracy).map_err(said)
-        }
+        Kind::Size => size(&case.plan, &Demand::Options, compute, progress).map(Found::Size),
+        Kind::Flight => record(case, option, compute, progress).map(Found::Flight),
+        Kind::Accuracy => accuracy::measure(case, option, PATIENCE, progress).map(Found::Accuracy),
     }
 }

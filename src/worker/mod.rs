@@ -15,9 +15,8 @@ use std::time::{Duration, Instant};
 pub use errand::{Errands, Found, Kind};
 
 use crate::simulation::Failure;
-use crate::study::batch::guarded;
 use crate::study::check::{Checked, check};
-use crate::study::{Case, Effort};
+use crate::study::{Case, ComputeSettings, NoResult, guarded};
 
 /// News of one option.
 #[derive(Debug)]
@@ -41,7 +40,7 @@ pub enum News {
     /// It is judged.
     Done(Box<Checked>),
     /// It has no result.
-    Failed(String),
+    Failed(NoResult),
 }
 
 /// Computes in the background.
@@ -73,7 +72,7 @@ impl Worker {
     }
 
     /// Begins to check every option of `case`; whatever was computing stops.
-    pub fn start(&mut self, case: &Arc<Case>, effort: Effort) {
+    pub fn start(&mut self, case: &Arc<Case>, compute: ComputeSettings) {
         self.stop.store(true, Ordering::Relaxed);
         self.stop = Arc::default();
         self.generation += 1;
@@ -81,7 +80,7 @@ impl Worker {
         for _ in 0..self.threads.min(case.shots.len()) {
             let checker = Checker {
                 case: Arc::clone(case),
-                effort,
+                compute,
                 generation: self.generation,
                 stop: Arc::clone(&self.stop),
                 next: Arc::clone(&next),
@@ -107,7 +106,7 @@ impl Drop for Worker {
 /// What one thread of a request needs.
 struct Checker {
     case: Arc<Case>,
-    effort: Effort,
+    compute: ComputeSettings,
     generation: usize,
     stop: Arc<AtomicBool>,
     next: Arc<AtomicUsize>,
@@ -121,7 +120,7 @@ impl Checker {
             if option >= self.case.shots.len() {
                 return;
             }
-            let judged = guarded(|| self.judge(option));
+            let judged = guarded(|| self.judge(option).map_err(NoResult::Failed));
             self.send(option, judged.map_or_else(News::Failed, |checked| News::Done(Box::new(checked))));
         }
     }
@@ -137,7 +136,7 @@ impl Checker {
 
     fn judge(&self, option: usize) -> Result<Checked, Failure> {
         let (mut steps, mut told) = (0_usize, Instant::now());
-        check(&self.case, option, &self.effort, &mut |progress| {
+        check(&self.case, option, &self.compute, &mut |progress| {
             steps += 1;
             if steps.is_multiple_of(STEPS_PER_LOOK) {
                 if self.stopped() {

@@ -54,14 +54,14 @@ fn reported_errors_hold_and_are_not_too_wide() {
 fn only_open_verdicts_cost_more() {
     use shelter::plan::Plan;
     use shelter::study::check::check;
-    use shelter::study::{Case, Effort};
+    use shelter::study::{Case, ComputeSettings};
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("plans/amur-three-rows.toml");
     let mut case = Case::new(Plan::load(&path).expect("a shipped plan"));
-    let effort = Effort { accuracy: Accuracy::Draft, ..Effort::of(&case.plan) };
+    let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
     let mut judge = |height: f64| {
         case.limits.height = height;
         case.limits.force = 1e9;
-        check(&case, 4, &effort, &mut |_| ControlFlow::Continue(())).expect("the run has an outcome")
+        check(&case, 4, &compute, &mut |_| ControlFlow::Continue(())).expect("the run has an outcome")
     };
     let far = judge(3.0);
     assert_eq!(far.runs, 1 + NEIGHBOURS);

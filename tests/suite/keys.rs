@@ -2,6 +2,7 @@
 
 use crossterm::event::{Event, KeyCode, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::Position;
+use shelter::study::NoResult;
 use shelter::tui::app::{App, Request, Row, Screen};
 use shelter::tui::compare::SortBy;
 use shelter::tui::config::Config;
@@ -151,7 +152,7 @@ fn what_is_shown_is_offered_for_export() {
 fn keys_of_a_configuration_count() {
     let config =
         Config::parse("theme = \"light\"\n[keys]\nquit = [\"ctrl-q\"]\nsort = [\"S\"]").expect("right");
-    let mut app = App::new(finished().case, finished().effort, &config);
+    let mut app = App::new(finished().case, finished().compute, &config);
     assert_eq!(press(&mut app, "q"), Request::None);
     press(&mut app, "S");
     assert_eq!(app.compare.sort, SortBy::Name);
@@ -235,7 +236,7 @@ proptest::proptest! {
         app.learn(Kind::Sweep, Ok(swept()));
         let flight = recorded(&app, 0);
         app.learn(Kind::Flight, Ok(flight));
-        app.learn(Kind::Scatter, Err("the plan has no section [scatter]".to_owned()));
+        app.learn(Kind::Scatter, Err(NoResult::NoScatter));
         for (n, letter) in keys {
             let codes = [
                 KeyCode::Up, KeyCode::Down, KeyCode::Left, KeyCode::Right, KeyCode::Enter, KeyCode::Esc,

@@ -3,6 +3,8 @@
 use crossterm::event::KeyCode;
 use ratatui::buffer::Buffer;
 use ratatui::style::Style;
+use shelter::simulation::Failure;
+use shelter::study::NoResult;
 use shelter::tui::app::{Request, Row, Screen};
 use shelter::tui::studies::Progress;
 use shelter::tui::theme::{self, Theme};
@@ -23,7 +25,7 @@ fn computing_failed_and_enlarged() {
     let mut app = app();
     app.rows[0] = Row::Done(Box::new(checked(Verdict::Pass)));
     app.rows[1] = Row::Running { runs: 2, done: 0.45 };
-    app.rows[2] = Row::Failed("the motion is no longer finite at 0.3 s: choose a smaller --dt".to_owned());
+    app.rows[2] = Row::Failed(NoResult::Failed(Failure::Diverged { at: 0.3 }));
     app.selected = 1;
     insta::assert_snapshot!("computing", text(&draw(&app, 100, 30)));
     app.selected = 2;

@@ -12,13 +12,13 @@ use shelter::choice::{Accuracy, Method};
 use shelter::outcome::{End, History};
 use shelter::ropes::catalogue;
 use shelter::study::accuracy::{Measured, Row, Study};
-use shelter::study::batch::Envelope;
 use shelter::study::check::{Checked, Quantity, Reason};
 use shelter::study::orders::{Orders, Tried};
 use shelter::study::scatter::{Draw, Sample};
 use shelter::study::size::{Combination, Sizing, Trial};
 use shelter::study::sweep::{Point, Sweep};
-use shelter::study::{Case, Effort, flight};
+use shelter::study::{Bounded, Envelope};
+use shelter::study::{Case, ComputeSettings, flight};
 use shelter::tui::app::{self, App, Request};
 use shelter::tui::config::Config;
 use shelter::tui::{update, view};
@@ -29,8 +29,8 @@ pub fn app() -> App {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("plans/amur-three-rows.toml");
     let mut case = Case::load(&path).expect("a shipped plan");
     case.source.path = "plans/amur-three-rows.toml".to_owned();
-    let effort = Effort::of(&case.plan);
-    App::new(Arc::new(case), effort, &Config::default())
+    let compute = ComputeSettings::of(&case.plan);
+    App::new(Arc::new(case), compute, &Config::default())
 }
 
 /// A result with round numbers, so that a snapshot changes with the screen and not with the physics.
@@ -52,7 +52,7 @@ pub fn checked(verdict: Verdict) -> Checked {
             height: (0..200).map(wave).collect(),
             force: (0..200).map(|n| 61_234.0 * wave(3 * n)).collect(),
         },
-        effort: Effort { method: Method::Verlet, accuracy: Accuracy::Field, step: None },
+        compute: ComputeSettings { method: Method::Verlet, accuracy: Accuracy::Field, step: None },
         step: 5e-4,
         steps: 2000,
         energy_residual: 3e-5,
@@ -106,8 +106,12 @@ pub fn swept() -> Found {
     let point = |n: usize| {
         let share = (n as f64 * 0.3).sin().abs();
         let verdict = if share < 0.8 { Verdict::Pass } else { Verdict::Fail };
-        let [height, force] = [[2.0 * share, 0.01], [76_000.0 * share, 250.0]];
-        Point { interval: n as f64 * 0.01, envelope: Envelope { verdict, height, force, drift: [0.0; 2] } }
+        let height = Bounded { value: 2.0 * share, error: 0.01 };
+        let force = Bounded { value: 76_000.0 * share, error: 250.0 };
+        Point {
+            interval: n as f64 * 0.01,
+            envelope: Envelope { verdict, height, force, drift: Bounded::default() },
+        }
     };
     Found::Sweep(Sweep { order: vec![0, 1, 2], points: (0..51).map(point).collect() })
 }
@@ -139,14 +143,19 @@ pub fn measured() -> Found {
 
 /// The motion of an option, at a fixed step.
 pub fn recorded(app: &App, option: usize) -> Found {
-    let effort = Effort { step: Some(5e-4), ..app.effort };
-    Found::Flight(flight::record(&app.case, option, &effort, &Default::default()).expect("a flight"))
+    let compute = ComputeSettings { step: Some(5e-4), ..app.compute };
+    Found::Flight(flight::record(&app.case, option, &compute, &Default::default()).expect("a flight"))
 }
 
 /// What is kept of a shot that uses so much of its limits.
 fn envelope(share: f64) -> Envelope {
     let verdict = if share < 1.0 { Verdict::Pass } else { Verdict::Fail };
-    Envelope { verdict, height: [1.8 * share, 0.01], force: [61_000.0 * share, 250.0], drift: [0.0; 2] }
+    Envelope {
+        verdict,
+        height: Bounded { value: 1.8 * share, error: 0.01 },
+        force: Bounded { value: 61_000.0 * share, error: 250.0 },
+        drift: Bounded::default(),
+    }
 }
 
 /// Orders, samples and sizes with round numbers.
@@ -163,7 +172,7 @@ pub fn spreads(app: &App) -> [(Kind, Found); 3] {
     });
     let combinations = catalogue().ropes.iter().take(8).enumerate().map(|(n, rope)| {
         let share = 1.5 - 0.1 * n as f64;
-        let trial = Trial { holds: share < 1.0, worst: envelope(share), use_of_limits: share, shots: 7 };
+        let trial = Trial { holds: share < 1.0, worst: envelope(share), utilization: share, shots: 7 };
         let (total_mass, trial) = (14_000.0 + 100.0 * n as f64, Ok(trial));
         Combination { rope, tire_mass: 280.0, border_rows: 0, tires: 50, total_mass, trial }
     });

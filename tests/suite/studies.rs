@@ -4,13 +4,13 @@ use std::ops::ControlFlow;
 
 use shelter::plan::{DelayScatter, Plan, ScatterSpec};
 use shelter::ropes::catalogue;
-use shelter::study::batch::{Envelope, Progress};
 use shelter::study::check::{check, check_shot};
 use shelter::study::orders::{Orders, orders};
 use shelter::study::scatter::{Draw, drawn, scatter, summary, swaps};
 use shelter::study::size::{Demand, size};
 use shelter::study::sweep::sweep;
-use shelter::study::{Case, Effort, Intervals, Shard};
+use shelter::study::{Case, ComputeSettings, Intervals, Shard};
+use shelter::study::{Envelope, Progress};
 use shelter::verdict::Verdict;
 
 use crate::scenes::GRAVITY;
@@ -42,9 +42,9 @@ fn case(rows: usize, more: &str) -> Case {
 }
 
 fn judged(case: &Case, order: &[usize], interval: f64) -> Envelope {
-    let effort = Effort::of(&case.plan);
+    let compute = ComputeSettings::of(&case.plan);
     let shot = case.shot(order, interval);
-    let checked = check_shot(case, &shot, &effort, &mut |_| ControlFlow::Continue(()));
+    let checked = check_shot(case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
     Envelope::of(&checked.expect("a result"))
 }
 
@@ -52,7 +52,7 @@ fn judged(case: &Case, order: &[usize], interval: f64) -> Envelope {
 fn a_sweep_is_the_check_of_every_interval() {
     let case = case(3, "");
     let intervals = Intervals { from: 0.0, to: 0.12, step: 0.01 };
-    let swept = sweep(&case, &[0, 1, 2], &intervals, &Effort::of(&case.plan), &Progress::default());
+    let swept = sweep(&case, &[0, 1, 2], &intervals, &ComputeSettings::of(&case.plan), &Progress::default());
     let swept = swept.expect("a result");
     assert!(swept.points.len() >= 13, "{}", swept.points.len());
     for point in &swept.points {
@@ -60,8 +60,8 @@ fn a_sweep_is_the_check_of_every_interval() {
         let inside = swept.windows().iter().any(|[from, to]| (*from..=*to).contains(&point.interval));
         assert_eq!(inside, point.envelope.verdict == Verdict::Pass, "{}", point.interval);
     }
-    let shares: Vec<f64> = swept.points.iter().map(|p| p.envelope.use_of_limits(&case.limits)).collect();
-    let worst = swept.worst(&case).expect("points").envelope.use_of_limits(&case.limits);
+    let shares: Vec<f64> = swept.points.iter().map(|p| p.envelope.utilization(&case.limits)).collect();
+    let worst = swept.worst(&case).expect("points").envelope.utilization(&case.limits);
     assert_eq!(worst, shares.iter().copied().fold(0.0, f64::max));
     // Where the verdict changes, neighbours are an eighth of the step apart.
     for pair in swept.points.windows(2).filter(|pair| pair[0].envelope.verdict != pair[1].envelope.verdict) {
@@ -73,10 +73,10 @@ fn a_sweep_is_the_check_of_every_interval() {
 fn all_orders_are_tried_and_ranked() {
     let case = case(3, "");
     let intervals = [0.02, 0.045];
-    let effort = Effort::of(&case.plan);
-    let tried = orders(&case, &intervals, Shard::WHOLE, &effort, &Progress::default()).expect("a result");
+    let compute = ComputeSettings::of(&case.plan);
+    let tried = orders(&case, &intervals, Shard::WHOLE, &compute, &Progress::default()).expect("a result");
     let ranked = Orders::new(&case, tried, intervals.len()).ranked;
-    let share = |envelope: &Envelope| envelope.use_of_limits(&case.limits);
+    let share = |envelope: &Envelope| envelope.utilization(&case.limits);
     let all = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     let mut brute: Vec<f64> = intervals
         .iter()
@@ -102,7 +102,7 @@ fn many_rows_are_searched() {
     }
     plan.delays.clear();
     let case = Case::new(plan);
-    let tried = orders(&case, &[0.002], Shard::WHOLE, &Effort::of(&case.plan), &Progress::default());
+    let tried = orders(&case, &[0.002], Shard::WHOLE, &ComputeSettings::of(&case.plan), &Progress::default());
     let tried = tried.expect("a result");
     assert!(tried.len() > 1000);
     let different: std::collections::HashSet<&[usize]> = tried.iter().map(|t| t.order.as_slice()).collect();
@@ -115,14 +115,14 @@ fn the_lightest_shelter_is_that_of_brute_force() {
     let family = catalogue().families()[0];
     let more = size_keys.replace("FAMILY", family) + "\ncable = { rope = \"GOST 2688-80 6.2\" }";
     let plan = plan(2, &more);
-    let effort = Effort::of(&plan);
-    let sizing = size(&plan, &Demand::Options, &effort, &Progress::default()).expect("a result");
+    let compute = ComputeSettings::of(&plan);
+    let sizing = size(&plan, &Demand::Options, &compute, &Progress::default()).expect("a result");
     let mut lightest = f64::INFINITY;
     for rope in catalogue().ropes.iter().filter(|rope| rope.family == family) {
         for (mass, border) in [(150.0, 0), (150.0, 1), (400.0, 0), (400.0, 1)] {
             let case = Case::new(plan.with(rope, mass, border));
             let holds = (0..case.shots.len()).all(|option| {
-                let checked = check(&case, option, &effort, &mut |_| ControlFlow::Continue(()));
+                let checked = check(&case, option, &compute, &mut |_| ControlFlow::Continue(()));
                 checked.expect("a result").verdict == Verdict::Pass
             });
             let length: f64 = case.scene().cables.iter().map(|cable| cable.rest_length).sum();
@@ -136,7 +136,7 @@ fn the_lightest_shelter_is_that_of_brute_force() {
     assert!((found - lightest).abs() <= 1e-9 * lightest || found == lightest, "{found} {lightest}");
     assert!(lightest.is_finite(), "the test sizes nothing");
     let margins: Vec<f64> =
-        sizing.frontier().iter().filter_map(|c| Some(c.trial.ok()?.use_of_limits)).collect();
+        sizing.frontier().iter().filter_map(|c| Some(c.trial.ok()?.utilization)).collect();
     assert!(margins.windows(2).all(|pair| pair[1] < pair[0]), "{margins:?}");
 }
 
@@ -165,11 +165,11 @@ simulation = { accuracy = "draft" }
     let step = 1e-4;
     let exact: f64 = (0..100_000).map(|n| density(normal + (n as f64 + 0.5) * step) * step).sum();
     assert!((0.2..0.8).contains(&exact), "{exact}");
-    let effort = Effort::of(&case.plan);
+    let compute = ComputeSettings::of(&case.plan);
     let covered = (0..300)
         .filter(|&seed| {
             let draw = Draw { samples: 100, seed, certain_at: None };
-            let samples = scatter(&case, &spec, &draw, Shard::WHOLE, &effort, &Progress::default());
+            let samples = scatter(&case, &spec, &draw, Shard::WHOLE, &compute, &Progress::default());
             let [low, high] = summary(&samples.expect("a result"), 0).interval;
             (low..=high).contains(&exact)
         })
@@ -225,5 +225,5 @@ fn a_stopped_study_has_no_result() {
     let case = case(3, "");
     let progress = Progress::default();
     progress.stop();
-    assert!(orders(&case, &[0.02], Shard::WHOLE, &Effort::of(&case.plan), &progress).is_err());
+    assert!(orders(&case, &[0.02], Shard::WHOLE, &ComputeSettings::of(&case.plan), &progress).is_err());
 }

@@ -10,11 +10,12 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
 use super::chart;
-use super::check::{Results, broken, command, effort, explain, peak, verdict};
+use super::check::{broken, command, compute_label, explain, peak};
 use crate::plan::{Charge, Layout, Plan};
 use crate::scene::fire_at_s;
 use crate::study::Case;
 use crate::study::check::Checked;
+use crate::study::plans::{Results, verdict};
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::Verdict;
 
@@ -106,7 +107,7 @@ pub fn today() -> String {
 }
 
 fn word(verdict: Verdict) -> Markup {
-    html! { span class=(verdict.word()) { (verdict.capitals()) } }
+    html! { span class=(verdict.name()) { (verdict.label()) } }
 }
 
 fn passing(results: &Results) -> usize {
@@ -220,7 +221,7 @@ fn how(case: &Case, checked: &Checked) -> String {
     let [height, force] = peak(case.scene(), checked);
     format!(
         "Highest: {height}; greatest force: {force}; {}, step {}, {} runs, energy residual {:.0e}",
-        effort(&checked.effort),
+        compute_label(&checked.compute),
         units::milliseconds(checked.step),
         checked.runs,
         checked.energy_residual,

@@ -36,7 +36,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
             let words = format!("{start} measures the selected option; it takes seconds.");
             message(app, frame, inside, question, &words);
         }
-        Progress::Failed(words) => message(app, frame, inside, question, words),
+        Progress::Failed(no_result) => message(app, frame, inside, question, &no_result.to_string()),
         Progress::Running { done, total } => waiting(app, frame, inside, question, (*done, *total)),
         Progress::Done(found) => {
             let Found::Accuracy(study) = found.as_ref() else { return };
@@ -66,7 +66,7 @@ fn levels<'l>(app: &App, study: &Study) -> Vec<Line<'l>> {
     let mut lines = vec![Line::styled(head, app.theme.quiet())];
     let base = measured(study, study.levels[0].1);
     for (level, step) in study.levels {
-        let chosen = level == app.effort.accuracy && app.effort.step.is_none();
+        let chosen = level == app.compute.accuracy && app.compute.step.is_none();
         let start = format!(
             "{} {:10} {:>10} ",
             if chosen { ">" } else { " " },
@@ -111,7 +111,7 @@ fn draw_plot(app: &App, study: &Study, frame: &mut Frame, area: Rect) {
     };
     let levels: Vec<(f64, f64)> =
         study.levels.iter().filter_map(|(_, step)| logarithms(&measured(study, *step)?)).collect();
-    let chosen = study.levels.iter().find(|(level, _)| *level == app.effort.accuracy);
+    let chosen = study.levels.iter().find(|(level, _)| *level == app.compute.accuracy);
     let chosen: Vec<(f64, f64)> =
         chosen.and_then(|(_, step)| logarithms(&measured(study, *step)?)).into_iter().collect();
     let points = |data, marker, name: &'static str| {

@@ -130,11 +130,11 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
     if let Some(drift) = case.limits.drift {
         about += &format!(", drift {} m", units::value(drift, Unit::Metre));
     }
-    let level = match app.effort.step {
+    let level = match app.compute.step {
         Some(step) => format!("step {}", units::milliseconds(step)),
-        None => app.effort.accuracy.name().to_owned(),
+        None => app.compute.accuracy.name().to_owned(),
     };
-    about += &format!(" · {}, {level}", app.effort.method.name());
+    about += &format!(" · {}, {level}", app.compute.method.name());
     about += &format!(" · {} tires, {} cables", case.scene().mass.len(), case.scene().cables.len());
     let unsaved = if app.editor.unsaved() { " *not saved*" } else { "" };
     let title = Line::from(vec![

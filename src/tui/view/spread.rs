@@ -56,7 +56,7 @@ pub fn draw(app: &App, found: &Found, frame: &mut Frame, area: Rect) {
 
 /// From the worst to the best.
 fn of_orders(app: &App, orders: &Orders) -> Picture {
-    let share = |tried: &crate::study::orders::Tried| 100.0 * tried.envelope.use_of_limits(&app.case.limits);
+    let share = |tried: &crate::study::orders::Tried| 100.0 * tried.envelope.utilization(&app.case.limits);
     Picture {
         title: "use of the limits, %, from the worst order to the best (dotted: limit)".to_owned(),
         unit: "",
@@ -69,7 +69,7 @@ fn of_orders(app: &App, orders: &Orders) -> Picture {
 fn of_samples(app: &App, samples: &[Sample]) -> Picture {
     let mine = samples.iter().filter(|sample| sample.option == app.selected);
     let mut shares: Vec<f64> =
-        mine.map(|sample| 100.0 * sample.envelope.use_of_limits(&app.case.limits)).collect();
+        mine.map(|sample| 100.0 * sample.envelope.utilization(&app.case.limits)).collect();
     shares.sort_by(f64::total_cmp);
     let count = shares.len().max(1) as f64;
     let name = app.case.plan.delays.get(app.selected).map_or("", |delay| &delay.name);
@@ -84,7 +84,7 @@ fn of_samples(app: &App, samples: &[Sample]) -> Picture {
 /// All combinations tried, and those that no lighter one beats.
 fn of_sizes(sizing: &Sizing) -> Picture {
     let point = |combination: &Combination| {
-        Some((combination.total_mass * 1e-3, 100.0 * combination.trial.ok()?.use_of_limits))
+        Some((combination.total_mass * 1e-3, 100.0 * combination.trial.ok()?.utilization))
     };
     Picture {
         title: "use of the limits, %, against mass, t (line: lightest that hold; dotted: limit)".to_owned(),

@@ -70,7 +70,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
             let words = format!("{} starts it.", app.keymap.hint(Action::Open));
             message(app, frame, inside, question, &words);
         }
-        Progress::Failed(words) => message(app, frame, inside, question, words),
+        Progress::Failed(no_result) => message(app, frame, inside, question, &no_result.to_string()),
         Progress::Running { done, total } => {
             waiting(app, frame, inside, question, (*done, *total));
         }
@@ -161,8 +161,8 @@ fn draw_sweep(app: &App, sweep: &Sweep, frame: &mut Frame, area: Rect) {
     .areas(area);
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: false }), words);
     let limits = &app.case.limits;
-    draw_curve(app, sweep, |point| point.envelope.height[0], limits.height, Unit::Metre, frame, left);
-    draw_curve(app, sweep, |point| point.envelope.force[0], limits.force, Unit::Kilonewton, frame, right);
+    draw_curve(app, sweep, |point| point.envelope.height.value, limits.height, Unit::Metre, frame, left);
+    draw_curve(app, sweep, |point| point.envelope.force.value, limits.force, Unit::Kilonewton, frame, right);
 }
 
 /// A quantity against the interval; stretches that pass lie under a line along the bottom.

@@ -160,7 +160,7 @@ fn row<'r>(app: &'r App, option: usize, columns: &[&Column], (name, spark): (u16
         }
         Row::Failed(message) => {
             cells.push(verdict(app, Verdict::Undecided));
-            cells.push(Line::from(message.as_str()));
+            cells.push(Line::from(message.to_string()));
         }
         Row::Waiting => cells.push(Line::styled("waits", app.theme.quiet())),
         Row::Running { runs, done } => {

@@ -1,0 +1,84 @@
+//! The numbers that a study keeps of each judged shot.
+
+use serde::{Deserialize, Deserializer, Serialize};
+
+use super::check::Checked;
+use crate::verdict::{Estimate, Limits, Verdict};
+
+/// A computed value and its estimated error, one-sided, both in the same SI unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Bounded {
+    /// The value.
+    #[serde(deserialize_with = "or_infinite")]
+    pub value: f64,
+    /// The error.
+    #[serde(deserialize_with = "or_infinite")]
+    pub error: f64,
+}
+
+/// Reads null as infinity: JSON has no infinity and writes null instead.
+fn or_infinite<'d, D: Deserializer<'d>>(from: D) -> Result<f64, D::Error> {
+    Option::<f64>::deserialize(from).map(|value| value.unwrap_or(f64::INFINITY))
+}
+
+impl Bounded {
+    /// Of a run that failed.
+    const UNKNOWN: Self = Self { value: f64::INFINITY, error: f64::INFINITY };
+}
+
+impl From<Estimate> for Bounded {
+    fn from(Estimate { value, error, .. }: Estimate) -> Self {
+        Self { value, error }
+    }
+}
+
+/// Verdict and greatest values of a judged shot.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Envelope {
+    /// Pass, fail or undecided.
+    pub verdict: Verdict,
+    /// Greatest flight height [m].
+    pub height: Bounded,
+    /// Greatest cable force [N].
+    pub force: Bounded,
+    /// Greatest drift at the end [m].
+    pub drift: Bounded,
+}
+
+impl Envelope {
+    /// Of a run that failed.
+    pub const UNKNOWN: Self = Self {
+        verdict: Verdict::Undecided,
+        height: Bounded::UNKNOWN,
+        force: Bounded::UNKNOWN,
+        drift: Bounded::UNKNOWN,
+    };
+
+    /// Of a checked shot.
+    pub fn of(checked: &Checked) -> Self {
+        Self::new(checked.verdict, [checked.height, checked.force, checked.drift])
+    }
+
+    /// Of a verdict on height, force and drift.
+    pub fn new(verdict: Verdict, estimates: [Estimate; 3]) -> Self {
+        let [height, force, drift] = estimates.map(Bounded::from);
+        Self { verdict, height, force, drift }
+    }
+
+    /// Utilization: the greatest value over its limit; above 1 the shot fails.
+    pub fn utilization(&self, limits: &Limits) -> f64 {
+        let drift = limits.drift.map_or(0.0, |limit| self.drift.value / limit);
+        (self.height.value / limits.height).max(self.force.value / limits.force).max(drift)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_that_are_unknown_survive_a_file() {
+        let text = serde_json::to_string(&Envelope::UNKNOWN).expect("JSON");
+        assert_eq!(serde_json::from_str::<Envelope>(&text).expect("read again"), Envelope::UNKNOWN);
+    }
+}

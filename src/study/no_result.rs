@@ -1,0 +1,45 @@
+//! Why an option or a study has no result: typed up to the face that tells it.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use crate::simulation::Failure;
+
+/// Why an option or a study has no result.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum NoResult {
+    /// A run failed.
+    #[error(transparent)]
+    Failed(#[from] Failure),
+    /// The user or a signal ended the study.
+    #[error("interrupted before there was a result")]
+    Stopped,
+    /// The time was up.
+    #[error("not computed: the time was up")]
+    OutOfTime,
+    /// The program panicked; the text is that of the panic.
+    #[error("internal error: {0}")]
+    Panicked(String),
+    /// The system refused threads to compute on.
+    #[error("no threads to compute on: {0}")]
+    NoThreads(String),
+    /// A plan of one blast row has no interval to sweep.
+    #[error("a single blast row has no interval to sweep")]
+    SingleRow,
+    /// A plan whose options have firing times of their own has no interval to try orders at.
+    #[error("no delay option has an interval")]
+    NoInterval,
+    /// The plan does not say what scatters.
+    #[error(
+        "the plan does not say what scatters: add a section such as\n\n[scatter]\ndetonator = \"pyrotechnic\"\nlaunch_cv_percent = 10"
+    )]
+    NoScatter,
+}
+
+/// Does one piece of work; turns a panic into [`NoResult::Panicked`], so that other work goes on.
+pub fn guarded<T>(work: impl FnOnce() -> Result<T, NoResult>) -> Result<T, NoResult> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
+        let message = panic.downcast_ref::<String>().map(String::as_str);
+        let message = message.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("unknown cause");
+        Err(NoResult::Panicked(message.to_owned()))
+    })
+}
