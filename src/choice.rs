@@ -28,15 +28,17 @@ impl std::error::Error for UnknownName {}
 macro_rules! choice {
     (
         $(#[$about:meta])*
-        $choice:ident { $( $(#[$about_variant:meta])* $variant:ident = $name:literal, )+ }
+        $choice:ident, default $default:ident { $( $(#[$about_variant:meta])* $variant:ident = $name:literal, )+ }
     ) => {
         $(#[$about])*
-        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
         pub enum $choice {
             $( $(#[$about_variant])* #[serde(rename = $name)] $variant, )+
         }
 
         impl $choice {
+            /// The choice where a plan says nothing.
+            pub const DEFAULT: Self = Self::$default;
             /// Every choice, in the order of declaration.
             pub const ALL: &'static [Self] = &[$(Self::$variant),+];
             /// Names of all choices, in the same order.
@@ -45,6 +47,12 @@ macro_rules! choice {
             /// The name in plans, on the command line and in results.
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$variant => $name),+ }
+            }
+        }
+
+        impl Default for $choice {
+            fn default() -> Self {
+                Self::DEFAULT
             }
         }
 
@@ -67,11 +75,10 @@ macro_rules! choice {
 
 choice! {
     /// How fine a verdict starts and ends; `shelter accuracy` measures what each level costs.
-    Accuracy {
+    Accuracy, default Field {
         /// For a first look.
         Draft = "draft",
         /// For the decision.
-        #[default]
         Field = "field",
         /// For the record.
         Reference = "reference",
@@ -80,12 +87,57 @@ choice! {
 
 choice! {
     /// Time integration method.
-    Method {
+    Method, default Verlet {
         /// Explicit; contact in closed form.
-        #[default]
         Verlet = "verlet",
         /// Implicit; the method of the source paper.
         Newmark = "newmark",
+    }
+}
+
+choice! {
+    /// How the tires of a shelter lie.
+    LayoutKind, default Grid {
+        /// Rows and columns.
+        Grid = "grid",
+        /// Rows and columns of corner tires, and one tire at the centre of every cell.
+        Quincunx = "quincunx",
+        /// Tires and cables one by one.
+        List = "list",
+    }
+}
+
+choice! {
+    /// Neighbours that a cable may tie.
+    Link, default Row {
+        /// Neighbours within a row (along x).
+        Row = "row",
+        /// Neighbours within a column (along y).
+        Column = "column",
+        /// Diagonal neighbours; in a quincunx a centre tire and its corners.
+        Diagonal = "diagonal",
+    }
+}
+
+choice! {
+    /// Effect of a force past the breaking force of a cable.
+    OnOverload, default Report {
+        /// The cable is reported and pulls on.
+        Report = "report",
+        /// The cable is gone from then on.
+        Break = "break",
+    }
+}
+
+choice! {
+    /// Kind of detonator; each kind has its own scatter of firing times.
+    Detonator, default Electronic {
+        /// Electronic.
+        Electronic = "electronic",
+        /// Pyrotechnic, in the hole.
+        Pyrotechnic = "pyrotechnic",
+        /// Pyrotechnic, between the holes at the surface.
+        PyrotechnicSurface = "pyrotechnic surface",
     }
 }
 

@@ -1,105 +1,93 @@
-//! The values of a plan that are often changed, as its text has them: to be shown, and to be replaced one by one.
+//! The values of a plan that are often changed, as written in its text: shown, and replaced one by one.
 
-use toml_edit::{DocumentMut, Item, Value};
+use toml_edit::{DocumentMut, Item, TableLike, Value};
 
 use super::edit::with_line_ends_of;
+use super::keys::{Key, Kind, Offered, delay, plan};
 
 /// One value of a plan's text.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct Field {
-    /// What it is, in words.
+    /// Label beside the value.
     pub label: String,
-    /// Where it stands.
+    /// Position in the text.
     pub path: Path,
-    /// As the text has it; empty where the plan leaves it out.
+    /// The value as written; empty where the plan leaves the key out.
     pub value: String,
 }
 
-/// Where a value stands: a section, which of several, and a key.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// Position of a value: a section, and a key in it.
+#[derive(Clone, Debug)]
 pub struct Path {
     /// Name of the section.
     pub section: &'static str,
-    /// Which of several sections of that name, from 0.
+    /// Index of the section among several of its name.
     pub index: Option<usize>,
     /// The key.
-    pub key: &'static str,
+    pub key: &'static Key,
 }
 
-/// Single sections: section, key, label.
-const SINGLE: &[(&str, &str, &str)] = &[
-    ("limits", "flight_height_m", "limit of flight height, m"),
-    ("limits", "cable_safety_factor", "cable safety factor"),
-    ("limits", "drift_m", "limit of drift, m"),
-    ("cable", "rope", "rope"),
-    ("cable", "termination", "termination"),
-    ("cable", "slack_percent", "slack, %"),
-    ("cable", "axial_stiffness_kn", "axial stiffness EA, kN"),
-    ("cable", "breaking_force_kn", "breaking force, kN"),
-    ("tire", "mass_kg", "tire mass, kg"),
-    ("tire", "outer_diameter_m", "outer diameter, m"),
-    ("ground", "friction", "friction"),
-    ("shelter", "rows", "shelter rows"),
-    ("shelter", "columns", "shelter columns"),
-    ("shelter", "spacing_m", "spacing, m"),
-    ("shelter", "border_rows", "border rows"),
-    ("simulation", "duration_s", "duration, s"),
-    ("scatter", "detonator", "detonators"),
-    ("scatter", "delay_sd_ms", "scatter of times, ms"),
-    ("scatter", "delay_cv_percent", "scatter of times, %"),
-    ("scatter", "launch_cv_percent", "scatter of launches, %"),
+/// Sections in the order of the editor: those most often changed first.
+const SECTIONS: [&Key; 9] = [
+    &plan::LIMITS,
+    &plan::CABLE,
+    &plan::TIRE,
+    &plan::GROUND,
+    &plan::SHELTER,
+    &plan::SIMULATION,
+    &plan::SCATTER,
+    &plan::BLAST_ROW,
+    &plan::DELAY,
 ];
 
-/// The fields of a plan's text; those it leaves out are listed where they may be added.
+/// The fields of a plan's text, with those that the plan leaves out and the editor offers.
 pub fn fields(text: &str) -> Vec<Field> {
     let Ok(document) = text.parse::<DocumentMut>() else { return Vec::new() };
     let mut fields = Vec::new();
-    let rope = document.get("cable").is_some_and(|cable| cable.get("rope").is_some());
-    for &(section, key, label) in SINGLE {
-        let value = document.get(section).and_then(|table| table.get(key)).map(words).unwrap_or_default();
-        let offered = ["drift_m", "termination", "slack_percent", "outer_diameter_m", "border_rows"]
-            .contains(&key)
-            || (key == "rope" && rope);
-        if !value.is_empty() || offered {
-            fields.push(Field { label: label.to_owned(), path: Path { section, index: None, key }, value });
-        }
-    }
-    for (section, keys) in [
-        ("blast_row", &["launch_m_s", "free_flight_height_m", "under_row"][..]),
-        ("delay", &["name", "interval_ms", "at_ms", "order"]),
-    ] {
-        for (n, table) in tables(&document, section).enumerate() {
-            let name = table.get("name").and_then(Item::as_str).unwrap_or_default();
-            for &key in keys {
-                let value = table.get(key).map(words).unwrap_or_default();
-                let offered = key == "order" && table.get("interval_ms").is_some();
-                if !value.is_empty() || offered {
-                    let what = key
-                        .replace("_m_s", ", m/s")
-                        .replace("_ms", ", ms")
-                        .replace("_m", ", m")
-                        .replace('_', " ");
-                    let label = format!("{} {name}: {what}", section.trim_start_matches("blast_"));
-                    fields.push(Field { label, path: Path { section, index: Some(n), key }, value });
-                }
+    for section in SECTIONS {
+        if matches!(section.kind, Kind::Sections(_)) {
+            for (n, table) in tables(&document, section.name).enumerate() {
+                let name = table.get("name").and_then(Item::as_str).unwrap_or_default();
+                let prefix = format!("{} {name}: ", section.name.trim_start_matches("blast_"));
+                fields.extend(of_section(section, Some(n), Some(table), &prefix));
             }
+        } else {
+            let table = document.get(section.name).and_then(Item::as_table_like);
+            fields.extend(of_section(section, None, table, ""));
         }
     }
     fields
 }
 
-fn tables<'d>(
-    document: &'d DocumentMut,
-    section: &str,
-) -> Box<dyn Iterator<Item = &'d dyn toml_edit::TableLike> + 'd> {
+/// The fields of one section.
+fn of_section(
+    section: &'static Key,
+    index: Option<usize>,
+    table: Option<&dyn TableLike>,
+    prefix: &str,
+) -> Vec<Field> {
+    let written = |name: &str| table.and_then(|table| table.get(name));
+    let field = |key: &&'static Key| {
+        let edit = key.edit?;
+        let value = written(key.name).map(value_text).unwrap_or_default();
+        let offered = match edit.offered {
+            Offered::Never => false,
+            Offered::Always => true,
+            Offered::Beside(other) => written(other).is_some(),
+        };
+        let path = Path { section: section.name, index, key };
+        let label = format!("{prefix}{}", edit.label);
+        (offered || !value.is_empty()).then_some(Field { label, path, value })
+    };
+    let keys = section.kind.section().map_or(&[][..], |section| section.keys);
+    keys.iter().filter_map(field).collect()
+}
+
+fn tables<'d>(document: &'d DocumentMut, section: &str) -> Box<dyn Iterator<Item = &'d dyn TableLike> + 'd> {
     match document.get(section) {
-        Some(Item::ArrayOfTables(tables)) => {
-            Box::new(tables.iter().map(|table| table as &dyn toml_edit::TableLike))
-        }
+        Some(Item::ArrayOfTables(tables)) => Box::new(tables.iter().map(|table| table as &dyn TableLike)),
         Some(Item::Value(Value::Array(list))) => Box::new(
-            list.iter()
-                .filter_map(|value| value.as_inline_table())
-                .map(|table| table as &dyn toml_edit::TableLike),
+            list.iter().filter_map(|value| value.as_inline_table()).map(|table| table as &dyn TableLike),
         ),
         _ => Box::new(std::iter::empty()),
     }
@@ -108,18 +96,19 @@ fn tables<'d>(
 /// Names of the blast rows in the order of firing that a delay option's field has, or in that of the plan.
 pub fn order(text: &str, path: &Path) -> Vec<String> {
     let Ok(document) = text.parse::<DocumentMut>() else { return Vec::new() };
-    let written =
-        path.index.and_then(|index| tables(&document, path.section).nth(index)?.get("order")?.as_array());
+    let written = path
+        .index
+        .and_then(|index| tables(&document, path.section).nth(index)?.get(delay::ORDER.name)?.as_array());
     let names = |list: &toml_edit::Array| list.iter().filter_map(Value::as_str).map(str::to_owned).collect();
     let all = || {
-        let name = |row: &dyn toml_edit::TableLike| Some(row.get("name")?.as_str()?.to_owned());
-        tables(&document, "blast_row").filter_map(name).collect()
+        let name = |row: &dyn TableLike| Some(row.get("name")?.as_str()?.to_owned());
+        tables(&document, plan::BLAST_ROW.name).filter_map(name).collect()
     };
     written.map_or_else(all, names)
 }
 
-/// A value without what stands around it.
-fn words(item: &Item) -> String {
+/// A value as written, without spaces and comments around it.
+fn value_text(item: &Item) -> String {
     let mut value = item.as_value().cloned();
     if let Some(value) = &mut value {
         value.decor_mut().clear();
@@ -136,13 +125,13 @@ pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
     let table =
         table_mut(&mut document, path).ok_or_else(|| format!("the plan has no [{}]", path.section))?;
     if new.trim().is_empty() {
-        table.remove(path.key);
+        table.remove(path.key.name);
         return Ok(with_line_ends_of(text, &document));
     }
-    let textual = ["name", "rope", "termination", "detonator"].contains(&path.key);
-    // A list of numbers may be typed without its brackets.
-    let typed = new.trim().parse::<Value>().or_else(|error| match path.key {
-        "at_ms" => format!("[{}]", new.trim()).parse(),
+    let textual = path.key.kind.is_text();
+    // A list may be typed without its brackets.
+    let typed = new.trim().parse::<Value>().or_else(|error| match path.key.kind {
+        Kind::List(_) | Kind::RowNames | Kind::Range(_) => format!("[{}]", new.trim()).parse(),
         _ => Err(error),
     });
     let value = match typed {
@@ -150,19 +139,17 @@ pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
         _ if textual => Value::from(new.trim()),
         _ => return Err(format!("'{}' is no value: write it as the plan does", new.trim())),
     };
-    super::edit::set(table, path.key, value);
+    super::edit::set(table, path.key.name, value);
     Ok(with_line_ends_of(text, &document))
 }
 
-fn table_mut<'d>(document: &'d mut DocumentMut, path: &Path) -> Option<&'d mut dyn toml_edit::TableLike> {
+fn table_mut<'d>(document: &'d mut DocumentMut, path: &Path) -> Option<&'d mut dyn TableLike> {
     let item = document.get_mut(path.section)?;
     let Some(index) = path.index else { return item.as_table_like_mut() };
     match item {
-        Item::ArrayOfTables(tables) => {
-            tables.get_mut(index).map(|table| table as &mut dyn toml_edit::TableLike)
-        }
+        Item::ArrayOfTables(tables) => tables.get_mut(index).map(|table| table as &mut dyn TableLike),
         Item::Value(Value::Array(list)) => {
-            list.get_mut(index)?.as_inline_table_mut().map(|table| table as &mut dyn toml_edit::TableLike)
+            list.get_mut(index)?.as_inline_table_mut().map(|table| table as &mut dyn TableLike)
         }
         _ => None,
     }
@@ -211,7 +198,7 @@ mod tests {
 
     fn find(text: &str, section: &str, index: Option<usize>, key: &str) -> Field {
         let mut all = fields(text).into_iter();
-        all.find(|f| f.path.section == section && f.path.index == index && f.path.key == key)
+        all.find(|f| f.path.section == section && f.path.index == index && f.path.key.name == key)
             .expect("a field")
     }
 

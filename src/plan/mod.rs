@@ -8,7 +8,7 @@ mod diagnostic;
 pub mod edit;
 pub mod fields;
 pub mod import;
-mod range;
+pub mod keys;
 mod read;
 pub mod schema;
 mod source;
@@ -22,7 +22,7 @@ pub use read::nearest;
 use serde::{Deserialize, Serialize};
 pub use source::PlanSource;
 
-use crate::choice::{Accuracy, Method};
+use crate::choice::{Accuracy, Detonator, Link, Method, OnOverload};
 
 /// A blast row, the shelter over it, and the delay options to choose from.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,9 +72,19 @@ pub struct DelayScatter {
 }
 
 impl DelayScatter {
-    /// Standard deviation at a nominal delay, both in the same unit as `millisecond`, which is one millisecond in it.
-    pub fn deviation(&self, nominal: f64, millisecond: f64) -> f64 {
-        (self.sd_ms * millisecond).max(self.cv_percent * 1e-2 * nominal)
+    /// Scatter of a kind of detonator: the upper ends of published figures.
+    pub fn of(detonator: Detonator) -> Self {
+        let (sd_ms, cv_percent) = match detonator {
+            Detonator::Electronic => (0.1, 0.01),
+            Detonator::Pyrotechnic => (0.0, 2.0),
+            Detonator::PyrotechnicSurface => (0.0, 4.0),
+        };
+        Self { sd_ms, cv_percent }
+    }
+
+    /// Standard deviation [s] of a firing planned at `nominal` [s].
+    pub fn deviation(&self, nominal: f64) -> f64 {
+        (self.sd_ms * 1e-3).max(self.cv_percent * 1e-2 * nominal)
     }
 }
 
@@ -129,7 +139,7 @@ pub struct Mesh {
     /// Distance between columns [m].
     pub column_spacing_m: f64,
     /// Which neighbours are tied.
-    pub links: Links,
+    pub links: Vec<Link>,
     /// Rows of ballast laid around the mesh on each side; no blast row lies under them, and tire (1,1) stays where it is.
     pub border_rows: usize,
 }
@@ -140,17 +150,6 @@ impl Mesh {
         let with_border = |n: usize| n.saturating_add(2 * self.border_rows);
         with_border(self.rows).saturating_mul(with_border(self.columns))
     }
-}
-
-/// Which neighbours of a regular layout are tied.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Links {
-    /// Neighbours within a row (along x).
-    pub row: bool,
-    /// Neighbours within a column (along y).
-    pub column: bool,
-    /// Diagonal neighbours; from centre to corner in a quincunx.
-    pub diagonal: bool,
 }
 
 /// One tire of a `list` layout.
@@ -186,8 +185,8 @@ pub struct CableSpec {
     pub slack_percent: f64,
     /// Efficiency of the termination [%], 100 when the plan has none.
     pub termination_percent: f64,
-    /// Whether a cable past its breaking force is gone, or only reported.
-    pub breaks: bool,
+    /// Effect of a force past the breaking force.
+    pub on_overload: OnOverload,
 }
 
 /// Holes that fire together.
@@ -195,13 +194,13 @@ pub struct CableSpec {
 pub struct BlastRow {
     /// How delay options address it.
     pub name: String,
-    /// What it launches.
-    pub charge: Charge,
+    /// Tires launched by the row.
+    pub targets: LaunchTargets,
 }
 
-/// What a blast row launches.
+/// Tires launched by a blast row, and how fast.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Charge {
+pub enum LaunchTargets {
     /// Every tire of one shelter row; half numbers address the centres of a quincunx.
     UnderRow {
         /// Row number, from 1, in steps of one half.

@@ -3,7 +3,8 @@
 use nalgebra::Vector3;
 
 use super::{Cable, Scene, TireId};
-use crate::plan::{Layout, Links, Mesh, Plan};
+use crate::choice::{Link, OnOverload};
+use crate::plan::{Layout, Mesh, Plan};
 
 /// Two tied tires and the vector between their centres [m].
 struct Tie {
@@ -21,7 +22,8 @@ impl Scene {
             cables: Vec::new(),
             friction: plan.friction,
             gravity: plan.simulation.gravity_m_s2,
-            breaking_force: plan.cable.breaks.then_some(plan.cable.breaking_force_kn * 1e3),
+            breaking_force: (plan.cable.on_overload == OnOverload::Break)
+                .then_some(plan.cable.breaking_force_kn * 1e3),
             mirrors: Vec::new(),
         };
         let ties = match &plan.layout {
@@ -81,7 +83,8 @@ impl Scene {
     fn lay_grid(&mut self, mesh: &Mesh) -> Vec<Tie> {
         let [rows, columns] = [mesh.rows, mesh.columns].map(|n| n + 2 * mesh.border_rows);
         self.lay_tires(mesh, 0.0, rows, columns);
-        let Links { row, column, diagonal } = mesh.links;
+        let [row, column, diagonal] =
+            [Link::Row, Link::Column, Link::Diagonal].map(|link| mesh.links.contains(&link));
         let (dx, dy) = (mesh.column_spacing_m, mesh.row_spacing_m);
         let at = |r: usize, c: usize| r * columns + c;
         let mut ties = Vec::new();
@@ -103,8 +106,9 @@ impl Scene {
     }
 
     fn lay_quincunx(&mut self, mesh: &Mesh) -> Vec<Tie> {
-        let diagonal = mesh.links.diagonal;
-        let corners = Mesh { links: Links { diagonal: false, ..mesh.links }, ..mesh.clone() };
+        let diagonal = mesh.links.contains(&Link::Diagonal);
+        let mut corners = mesh.clone();
+        corners.links.retain(|link| *link != Link::Diagonal);
         let mut ties = self.lay_grid(&corners);
         let [rows, columns] = [mesh.rows, mesh.columns].map(|n| n + 2 * mesh.border_rows);
         let first_centre = self.position.len();

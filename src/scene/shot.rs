@@ -1,7 +1,7 @@
 //! What fires when: the firing times of one delay option, per tire.
 
 use super::{Scene, TireId};
-use crate::plan::{BlastRow, Charge, Timing};
+use crate::plan::{BlastRow, LaunchTargets, Timing};
 
 /// Firing time of each blast row [s] (`n_blast_rows`).
 pub fn fire_at_s(timing: &Timing) -> Vec<f64> {
@@ -31,7 +31,7 @@ pub struct Shot {
 impl Shot {
     /// The shot of blast rows fired at `timing` under `scene`.
     pub fn new(scene: &Scene, rows: &[BlastRow], timing: &Timing) -> Self {
-        let targets: Vec<_> = rows.iter().map(|row| scene.targets(&row.charge)).collect();
+        let targets: Vec<_> = rows.iter().map(|row| scene.targets(&row.targets)).collect();
         Self::from_targets(&targets, &fire_at_s(timing))
     }
 
@@ -58,17 +58,17 @@ impl Shot {
 
 impl Scene {
     /// Tires that `charge` launches, each with its launch velocity [m/s].
-    pub fn targets(&self, charge: &Charge) -> Vec<(usize, f64)> {
-        match charge {
-            Charge::UnderRow { row, launch_m_s } => {
+    pub fn targets(&self, targets: &LaunchTargets) -> Vec<(usize, f64)> {
+        match targets {
+            LaunchTargets::UnderRow { row, launch_m_s } => {
                 let over = |&n: &usize| matches!(self.tire[n], TireId::Cell { row: r, .. } if r == *row);
                 let tires = (0..self.tire.len()).filter(over);
                 tires.map(|tire| (tire, *launch_m_s)).collect()
             }
-            Charge::UnderTires { tires, launch_m_s } => {
+            LaunchTargets::UnderTires { tires, launch_m_s } => {
                 tires.iter().map(|&tire| (tire, *launch_m_s)).collect()
             }
-            Charge::Holes(holes) => holes
+            LaunchTargets::Holes(holes) => holes
                 .iter()
                 .filter_map(|hole| Some((self.nearest(hole.x_m, hole.y_m)?, hole.launch_m_s)))
                 .collect(),

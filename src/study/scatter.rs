@@ -165,7 +165,7 @@ pub fn drawn(nominal: &Shot, spec: &ScatterSpec, seed: u64, option: usize, numbe
         .firings
         .iter()
         .map(|firing| {
-            let late = Normal::new(0.0, spec.delay.deviation(firing.at, 1e-3)).ok();
+            let late = Normal::new(0.0, spec.delay.deviation(firing.at)).ok();
             let late = late.map_or(0.0, |late| late.sample(&mut random));
             let factor = launch.map_or(1.0, |launch| launch.sample(&mut random));
             Firing { at: firing.at + late, launch: firing.launch * factor, ..*firing }
@@ -255,7 +255,7 @@ pub fn swaps(case: &Case, spec: &ScatterSpec, least: f64) -> Vec<Swap> {
         rows.sort_by(|a, b| a.0.total_cmp(&b.0));
         for pair in rows.windows(2) {
             let [(early, first), (late, second)] = [pair[0], pair[1]];
-            let deviation = spec.delay.deviation(early, 1e-3).hypot(spec.delay.deviation(late, 1e-3));
+            let deviation = spec.delay.deviation(early).hypot(spec.delay.deviation(late));
             if late > early && deviation > 0.0 {
                 let probability = 0.5 * libm::erfc((late - early) / (deviation * std::f64::consts::SQRT_2));
                 if probability >= least {

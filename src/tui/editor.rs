@@ -5,8 +5,8 @@ use tui_input::Input;
 use tui_input::backend::crossterm::EventHandler;
 
 use crate::plan::fields::{self, Field};
+use crate::plan::keys::Kind;
 use crate::plan::{Layout, Plan};
-use crate::ropes::catalogue;
 
 /// What an edit came to.
 #[derive(Clone, Debug)]
@@ -120,7 +120,7 @@ impl Editor {
     pub fn begin(&mut self) {
         self.problem = None;
         let Some(field) = self.field() else { return };
-        if field.path.key == "order" {
+        if matches!(field.path.key.kind, Kind::RowNames) {
             let names = fields::order(&self.text, &field.path);
             self.order = (!names.is_empty()).then_some(Order { names, selected: 0 });
         } else {
@@ -245,21 +245,21 @@ impl Editor {
     pub fn step(&mut self, up: bool) -> Edit {
         let Some(field) = self.field() else { return Edit::None };
         let value = field.value.trim_matches('"');
-        let next = match field.path.key {
-            "rope" => beside(catalogue().ropes.iter().map(|rope| &rope.name), value, up),
-            "termination" => beside(catalogue().terminations.iter().map(|known| &known.name), value, up),
-            "rows" | "columns" | "border_rows" | "under_row" => {
-                let centres = field.path.key == "under_row"
-                    && Plan::parse("", &self.text)
-                        .is_ok_and(|plan| matches!(plan.layout, Layout::Quincunx(_)));
-                let one = if centres { 0.5 } else { 1.0 };
-                let next = |number: f64| (number + if up { one } else { -one }).max(0.0).to_string();
-                value.parse::<f64>().ok().map(next)
+        let next = match &field.path.key.kind {
+            Kind::Whole(_) => moved(value, if up { 1.0 } else { -1.0 }),
+            Kind::ShelterRow(_) => {
+                let plan = Plan::parse("", &self.text);
+                let centres = plan.is_ok_and(|plan| matches!(plan.layout, Layout::Quincunx(_)));
+                let step = if centres { 0.5 } else { 1.0 };
+                moved(value, if up { step } else { -step })
             }
-            _ => value.parse::<f64>().ok().map(|number| stepped(number, up).to_string()),
+            Kind::Number { .. } | Kind::NumberOrSection(..) => {
+                value.parse().ok().map(|number| stepped(number, up).to_string())
+            }
+            kind => beside(&kind.names(), value, up),
         };
         let Some(next) = next else { return Edit::None };
-        let changed = fields::set(&self.text, &field.path, &next).and_then(|text| Self::checked(text));
+        let changed = fields::set(&self.text, &field.path, &next).and_then(Self::checked);
         self.settle(changed)
     }
 
@@ -275,16 +275,21 @@ impl Editor {
 
     fn with_option(&mut self, option: usize, change: fn(&str, usize) -> Option<String>) -> Edit {
         let changed = change(&self.text, option).ok_or_else(|| "the plan needs a delay option".to_owned());
-        let changed = changed.and_then(|text| Self::checked(text));
+        let changed = changed.and_then(Self::checked);
         self.settle(changed)
     }
 }
 
-/// The name before or behind one in a list; the first for a name that is not in it.
-fn beside<'n>(mut names: impl Iterator<Item = &'n String> + Clone, name: &str, up: bool) -> Option<String> {
-    let at = names.clone().position(|known| known == name);
-    let next = at.map_or(0, |at| at.saturating_add_signed(if up { 1 } else { -1 }));
-    names.nth(next).cloned()
+/// The name before or after `name` in a list; the first where the list has no such name.
+fn beside(names: &[&str], name: &str, up: bool) -> Option<String> {
+    let index = names.iter().position(|known| *known == name);
+    let next = index.map_or(0, |index| index.saturating_add_signed(if up { 1 } else { -1 }));
+    names.get(next).map(|name| (*name).to_owned())
+}
+
+/// A number moved by `step`, at least 0.
+fn moved(number: &str, step: f64) -> Option<String> {
+    number.parse::<f64>().ok().map(|number| (number + step).max(0.0).to_string())
 }
 
 /// A tenth of the leading digit's place further: 20 to 21, 6 to 6.1, 280 to 290.

@@ -1,7 +1,7 @@
 //! Plans from lists of holes: the formats that load, and what is said of those that do not.
 
 use shelter::plan::import::plan_from_holes;
-use shelter::plan::{Charge, Plan, Timing};
+use shelter::plan::{LaunchTargets, Plan, Timing};
 use shelter::study::Case;
 
 fn imported(list: &str) -> Plan {
@@ -11,8 +11,9 @@ fn imported(list: &str) -> Plan {
 
 /// Names of the blast rows with their number of holes, and the firing times.
 fn rows_and_times(plan: &Plan) -> (Vec<(&str, usize)>, Vec<f64>) {
-    let holes = |charge: &Charge| if let Charge::Holes(holes) = charge { holes.len() } else { 0 };
-    let rows = plan.blast_rows.iter().map(|row| (row.name.as_str(), holes(&row.charge))).collect();
+    let holes =
+        |targets: &LaunchTargets| if let LaunchTargets::Holes(holes) = targets { holes.len() } else { 0 };
+    let rows = plan.blast_rows.iter().map(|row| (row.name.as_str(), holes(&row.targets))).collect();
     (rows, plan.delays[0].timing.fire_at_ms())
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use proptest::prelude::*;
-use shelter::plan::{Charge, Layout, Plan, Timing};
+use shelter::plan::{LaunchTargets, Layout, Plan, Timing};
 use shelter::scene::TireId;
 use shelter::study::Case;
 
@@ -87,7 +87,7 @@ interval_ms = 25
 fn a_list_layout_names_tires_by_number_and_holes_launch_the_nearest() {
     let plan = Plan::parse("list.toml", LIST).unwrap_or_else(|mistakes| panic!("{mistakes}"));
     assert!(matches!(&plan.layout, Layout::List { tires, .. } if tires.len() == 2));
-    let Charge::UnderTires { launch_m_s, .. } = plan.blast_rows[0].charge else {
+    let LaunchTargets::UnderTires { launch_m_s, .. } = plan.blast_rows[0].targets else {
         panic!("row a lists tires")
     };
     assert!((launch_m_s - 6.0).abs() < 1e-12, "V0 = √(2 g h)");

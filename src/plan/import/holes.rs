@@ -1,10 +1,10 @@
 //! Reading the table: which column is what, and every mistake in it.
 
 use std::collections::HashSet;
-use std::ops::{Range, RangeInclusive};
+use std::ops::Range;
 
 use crate::plan::diagnostic::Mistake;
-use crate::plan::range;
+use crate::plan::keys::{Key, delay, hole};
 use crate::plan::read::nearest;
 
 /// One hole of the list.
@@ -201,7 +201,8 @@ fn read_hole(
             |field: &&str| !["", "na", "nan", "null", "none"].contains(&field.to_lowercase().as_str());
         record.get(n).filter(empty)
     };
-    let mut value = |column: Column, word: &str, range: &RangeInclusive<f64>, must: bool| {
+    let mut value = |column: Column, word: &str, key: &Key, must: bool| {
+        let range = key.kind.range();
         let found = field(column);
         match found.map(|text| (text, number(text))) {
             Some((_, Some(number))) if range.contains(&number) => Some(number),
@@ -223,11 +224,10 @@ fn read_hole(
             None => None,
         }
     };
-    let (x_m, y_m) =
-        (value(Column::X, "x", &range::PLACE_M, true), value(Column::Y, "y", &range::PLACE_M, true));
-    let fire_ms = value(Column::Fire, "the firing time", &range::TIME_MS, false);
-    let delay_ms = value(Column::Delay, "the delay", &range::TIME_MS, false);
-    let launch_m_s = value(Column::Launch, "the launch velocity", &range::LAUNCH_M_S, false);
+    let (x_m, y_m) = (value(Column::X, "x", &hole::X_M, true), value(Column::Y, "y", &hole::Y_M, true));
+    let fire_ms = value(Column::Fire, "the firing time", &delay::INTERVAL_MS, false);
+    let delay_ms = value(Column::Delay, "the delay", &delay::INTERVAL_MS, false);
+    let launch_m_s = value(Column::Launch, "the launch velocity", &hole::LAUNCH_M_S, false);
     let text = |column: Column| field(column).map(str::to_owned);
     // Kirra writes Pattern:::Hole.
     let from = text(Column::From).map(|from| from.rsplit(":::").next().unwrap_or_default().to_owned());

@@ -7,8 +7,9 @@ use std::fmt::Write;
 
 use self::holes::{ListedHole, read};
 use self::timing::{Group, groups};
+use super::Diagnostics;
+use super::keys::MOST_TIRES;
 use super::starter::{LAUNCH_M_S, Shelter, USUAL, delay, limits};
-use super::{Diagnostics, range};
 
 /// Tires lie as far apart as the holes where those are this near [m], else as in a usual shelter.
 const NEAR_M: std::ops::RangeInclusive<f64> = 1.0..=3.0;
@@ -31,7 +32,7 @@ pub fn plan_from_holes(name: &str, text: &str) -> Result<String, Diagnostics> {
     let table = read(source).map_err(wrong)?;
     let groups = groups(&table).map_err(wrong)?;
     let layout = Cover::of(&table.holes);
-    if layout.rows.saturating_mul(layout.columns) > range::MOST_TIRES {
+    if layout.rows.saturating_mul(layout.columns) > MOST_TIRES {
         let message = "the holes lie too far apart for one shelter".to_owned();
         return Err(Diagnostics::unreadable(
             name,

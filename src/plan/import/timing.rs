@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::holes::{Holes, ListedHole};
 use crate::plan::diagnostic::Mistake;
-use crate::plan::range;
+use crate::plan::keys::delay;
 
 /// Holes that fire together.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,7 +56,7 @@ fn times(holes: &[ListedHole]) -> Result<Option<Vec<f64>>, Vec<Mistake>> {
     let mut times = if absolute { firing_times(holes)? } else { chained_times(holes)? };
     let first = times.iter().copied().fold(f64::INFINITY, f64::min);
     times.iter_mut().for_each(|time| *time -= first);
-    match times.iter().position(|time| !range::TIME_MS.contains(time)) {
+    match times.iter().position(|time| !delay::AT_MS.kind.range().contains(time)) {
         None => Ok(Some(times)),
         Some(late) => {
             let message = format!("hole {} fires {} ms after the first", holes[late].id, times[late]);

@@ -2,100 +2,70 @@
 
 use std::collections::HashSet;
 
+use crate::choice::{LayoutKind, Link};
+use crate::plan::keys::{MOST_TIRES, listed_cable, listed_tire, plan, shelter, spacing, tire};
 use crate::plan::read::{Mistakes, Table};
-use crate::plan::{Layout, Links, ListedTire, Mesh, TireSpec, range};
-
-#[derive(Clone, Copy)]
-enum Kind {
-    Grid,
-    Quincunx,
-    List,
-}
+use crate::plan::{Layout, ListedTire, Mesh, TireSpec};
 
 pub fn read_layout(table: Table<'_>, mistakes: &Mistakes) -> Option<Layout> {
     let before = mistakes.count();
-    if !table.has("layout") {
-        table.text("layout", "\"grid\"");
-    }
-    let kinds = [("grid", Kind::Grid), ("quincunx", Kind::Quincunx), ("list", Kind::List)];
-    let kind = table.word("layout", &kinds);
-    let layout = match kind {
-        Kind::List => read_list(&table, mistakes),
-        Kind::Grid => Layout::Grid(read_mesh(&table, 1, mistakes)),
-        Kind::Quincunx => Layout::Quincunx(read_mesh(&table, 2, mistakes)),
+    let layout = match table.choice(&shelter::LAYOUT) {
+        LayoutKind::List => read_list(&table, mistakes),
+        LayoutKind::Grid => Layout::Grid(read_mesh(&table, 1)),
+        LayoutKind::Quincunx => Layout::Quincunx(read_mesh(&table, 2)),
     };
     let tires = match &layout {
         Layout::Grid(mesh) => mesh.corners(),
         Layout::Quincunx(mesh) => mesh.corners().saturating_mul(2),
         Layout::List { tires, .. } => tires.len(),
     };
-    if tires > range::MOST_TIRES {
-        let message = format!("the shelter has more than {} tires", range::MOST_TIRES);
-        table.wrong("rows", message, "describe a smaller shelter");
+    if tires > MOST_TIRES {
+        let message = format!("the shelter has more than {MOST_TIRES} tires");
+        table.wrong(&shelter::ROWS, message, "describe a smaller shelter");
     }
     table.finish();
     (mistakes.count() == before).then_some(layout)
 }
 
-fn read_mesh(table: &Table<'_>, least: usize, mistakes: &Mistakes) -> Mesh {
-    let rows = table.whole("rows", least..=range::MOST_TIRES, "5");
-    let columns = table.whole("columns", least..=range::MOST_TIRES, "10");
+fn read_mesh(table: &Table<'_>, least: usize) -> Mesh {
+    let rows = table.whole_within(&shelter::ROWS, least..=MOST_TIRES);
+    let columns = table.whole_within(&shelter::COLUMNS, least..=MOST_TIRES);
     let (row_spacing_m, column_spacing_m) = read_spacing(table);
-    let words = [("row", 0), ("column", 1), ("diagonal", 2)];
-    let example = "[\"row\", \"column\", \"diagonal\"]";
-    let mut tied = [true; 3];
-    if let Some(list) = table.list("links", example, "a text in quotes", |item| item.as_str()) {
-        tied = [false; 3];
-        for item in list.value {
-            match words.iter().find(|(word, _)| *word == item.value) {
-                Some(&(_, n)) => tied[n] = true,
-                None => mistakes.add(
-                    item.span,
-                    format!("\"{}\" names no neighbours", item.value),
-                    "write any of \"row\", \"column\", \"diagonal\"",
-                ),
-            }
-        }
-    }
-    let [row, column, diagonal] = tied;
-    let border_rows =
-        if table.has("border_rows") { table.whole("border_rows", range::BORDER_ROWS, "1") } else { 0 };
-    let links = Links { row, column, diagonal };
+    let links = table.choices(&shelter::LINKS).unwrap_or_else(|| Link::ALL.to_vec());
+    let border_rows = table.whole(&shelter::BORDER_ROWS);
     Mesh { rows, columns, row_spacing_m, column_spacing_m, links, border_rows }
 }
 
+/// Distances between rows and between columns [m].
 fn read_spacing(table: &Table<'_>) -> (f64, f64) {
-    match table.inline_table("spacing_m") {
+    match table.inline_section(&shelter::SPACING_M) {
         Some(both) => {
-            let spacing = (
-                both.number("row", None, range::SPACING_M, "1.5"),
-                both.number("column", None, range::SPACING_M, "1.6"),
-            );
+            let distances = (both.number(&spacing::ROW), both.number(&spacing::COLUMN));
             both.finish();
-            spacing
+            distances
         }
         None => {
-            let spacing = table.number("spacing_m", None, range::SPACING_M, "1.5");
-            (spacing, spacing)
+            let distance = table.number(&shelter::SPACING_M);
+            (distance, distance)
         }
     }
 }
 
 fn read_list(table: &Table<'_>, mistakes: &Mistakes) -> Layout {
     let mut tires = Vec::new();
-    let mut places = HashSet::new();
-    for tire in table.tables("tire") {
-        let place = ListedTire {
-            x_m: tire.number("x_m", None, range::PLACE_M, "0"),
-            y_m: tire.number("y_m", None, range::PLACE_M, "0"),
-            mass_kg: tire.number_if("mass_kg", range::MASS_KG, "280"),
+    let mut positions = HashSet::new();
+    for tire in table.sections(&shelter::TIRE) {
+        let listed = ListedTire {
+            x_m: tire.number(&listed_tire::X_M),
+            y_m: tire.number(&listed_tire::Y_M),
+            mass_kg: tire.number_if(&listed_tire::MASS_KG),
         };
-        let bits = [place.x_m + 0.0, place.y_m + 0.0].map(f64::to_bits);
-        if !places.insert(bits) {
+        let bits = [listed.x_m + 0.0, listed.y_m + 0.0].map(f64::to_bits);
+        if !positions.insert(bits) {
             let message = format!("tire {} lies where another one does", tires.len() + 1);
             mistakes.add(tire.span.clone(), message, "move or remove one of them");
         }
-        tires.push(place);
+        tires.push(listed);
         tire.finish();
     }
     if tires.is_empty() {
@@ -104,13 +74,18 @@ fn read_list(table: &Table<'_>, mistakes: &Mistakes) -> Layout {
     }
     let mut cables = Vec::new();
     let mut known = HashSet::new();
-    for cable in table.tables("cable") {
+    for cable in table.sections(&shelter::CABLE) {
         let most = tires.len().max(1);
         let before = mistakes.count();
-        let (from, to) = (cable.whole("from", 1..=most, "1"), cable.whole("to", 1..=most, "2"));
+        let from = cable.whole_within(&listed_cable::FROM, 1..=most);
+        let to = cable.whole_within(&listed_cable::TO, 1..=most);
         if mistakes.count() == before {
             if from == to {
-                cable.wrong("to", format!("a cable from tire {from} to itself"), "name another tire");
+                cable.wrong(
+                    &listed_cable::TO,
+                    format!("a cable from tire {from} to itself"),
+                    "name another tire",
+                );
             } else if !known.insert((from.min(to), from.max(to))) {
                 let message = format!("tires {from} and {to} are tied twice");
                 mistakes.add(cable.span.clone(), message, "remove one of the two cables");
@@ -130,12 +105,12 @@ pub fn check_gaps(layout: &Layout, tire: &TireSpec, root: &Table<'_>, mistakes: 
             let (x, y) = (mesh.column_spacing_m, mesh.row_spacing_m);
             let half = if matches!(layout, Layout::Quincunx(_)) { 0.5 } else { 1.0 };
             let mut gaps = vec![f64::INFINITY];
-            gaps.extend(mesh.links.row.then_some(x).filter(|_| mesh.columns > 1));
-            gaps.extend(mesh.links.column.then_some(y).filter(|_| mesh.rows > 1));
-            let diagonal = half * x.hypot(y);
-            gaps.extend(
-                mesh.links.diagonal.then_some(diagonal).filter(|_| mesh.rows > 1 && mesh.columns > 1),
-            );
+            let (some_rows, some_columns) = (mesh.rows > 1, mesh.columns > 1);
+            gaps.extend(mesh.links.iter().filter_map(|link| match link {
+                Link::Row => some_columns.then_some(x),
+                Link::Column => some_rows.then_some(y),
+                Link::Diagonal => (some_rows && some_columns).then_some(half * x.hypot(y)),
+            }));
             gaps.into_iter().fold(f64::INFINITY, f64::min)
         }
         Layout::List { tires, cables } => cables
@@ -148,7 +123,7 @@ pub fn check_gaps(layout: &Layout, tire: &TireSpec, root: &Table<'_>, mistakes: 
         let message =
             format!("centres {least} m apart leave no room for a cable between tires of {diameter} m");
         let remedy = "a larger spacing, or a smaller outer_diameter_m (0: cables run from centre to centre)";
-        let place = root.table_if("tire").map_or(0..0, |table| table.span_of("outer_diameter_m"));
-        mistakes.add(place, message, remedy);
+        let span = root.section_if(&plan::TIRE).map_or(0..0, |table| table.span_of(&tire::OUTER_DIAMETER_M));
+        mistakes.add(span, message, remedy);
     }
 }

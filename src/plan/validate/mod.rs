@@ -10,10 +10,10 @@ use self::layout::{check_gaps, read_layout};
 use self::shot::{read_blast_rows, read_delays};
 use self::study::{read_scatter, read_size};
 use super::diagnostic::Diagnostics;
+use super::keys::{self, cable, ground, limits, simulation, tire};
 use super::read::{At, Mistakes, Table};
-use super::{CableSpec, Limits, Plan, SimulationSpec, TireSpec, range};
-use crate::choice::{Accuracy, Method};
-use crate::ropes;
+use super::{CableSpec, Limits, Plan, SimulationSpec, TireSpec};
+use crate::ropes::catalogue;
 
 /// Reads a plan from text; `path` names it in messages.
 pub fn parse(path: &str, text: &str) -> Result<Plan, Diagnostics> {
@@ -31,7 +31,7 @@ pub fn parse(path: &str, text: &str) -> Result<Plan, Diagnostics> {
     if mistakes.count() > 0 {
         return Err(Diagnostics::new(path, source, mistakes.take()));
     }
-    let root = Table::new("the plan", 0..0, document.get_ref(), &mistakes);
+    let root = Table::new(&keys::plan::SECTION, 0..0, document.get_ref(), &mistakes);
     let plan = read_plan(&root, &mistakes);
     root.finish();
     if mistakes.count() > 0 {
@@ -42,26 +42,21 @@ pub fn parse(path: &str, text: &str) -> Result<Plan, Diagnostics> {
 }
 
 fn read_plan(root: &Table<'_>, mistakes: &Mistakes) -> Option<Plan> {
-    let title = root.text_if("title", "\"…\"").map(|title| title.value.to_owned());
-    let simulation = read_simulation(root.table_if("simulation"));
-    let tire = root.table("tire", "mass_kg = 280").map(read_tire);
-    let layout = root
-        .table("shelter", "layout, rows, columns and spacing_m")
-        .and_then(|table| read_layout(table, mistakes));
-    let cable = root.table("cable", "rope = \"GOST 2688-80 6.2\"").map(|table| read_cable(table, mistakes));
-    let friction = root.table("ground", "friction = 0.5").map(|table| {
-        let friction = table.number("friction", None, range::FRICTION, "0.5");
-        table.finish();
-        friction
-    });
+    use keys::plan::{CABLE, GROUND, LIMITS, SCATTER, SHELTER, SIMULATION, SIZE, TIRE, TITLE};
+    let title = root.text_if(&TITLE).map(|title| title.value.to_owned());
+    let simulation = read_simulation(root.section_or_empty(&SIMULATION));
+    let tire = root.section(&TIRE).map(read_tire);
+    let layout = root.section(&SHELTER).and_then(|table| read_layout(table, mistakes));
+    let cable = root.section(&CABLE).map(|table| read_cable(table, mistakes));
+    let friction = root.section(&GROUND).map(read_friction);
     if let (Some(layout), Some(tire)) = (&layout, &tire) {
         check_gaps(layout, tire, root, mistakes);
     }
     let blast_rows = read_blast_rows(root, layout.as_ref(), simulation.gravity_m_s2, mistakes);
-    let limits = root.table("limits", "flight_height_m and cable_safety_factor").map(read_limits);
+    let limits = root.section(&LIMITS).map(read_limits);
     let delays = read_delays(root, &blast_rows, mistakes);
-    let scatter = root.table_if("scatter").map(|table| read_scatter(table, mistakes));
-    let size = root.table_if("size").map(|table| read_size(table, mistakes)).unwrap_or_default();
+    let scatter = root.section_if(&SCATTER).map(read_scatter);
+    let size = read_size(root.section_or_empty(&SIZE));
     Some(Plan {
         title,
         layout: layout?,
@@ -77,72 +72,80 @@ fn read_plan(root: &Table<'_>, mistakes: &Mistakes) -> Option<Plan> {
     })
 }
 
-fn read_simulation(table: Option<Table<'_>>) -> SimulationSpec {
-    let Some(table) = table else {
-        return SimulationSpec {
-            duration_s: None,
-            accuracy: Accuracy::default(),
-            method: Method::default(),
-            gravity_m_s2: 9.81,
-        };
-    };
-    let accuracies =
-        [("field", Accuracy::Field), ("draft", Accuracy::Draft), ("reference", Accuracy::Reference)];
+fn read_simulation(table: Table<'_>) -> SimulationSpec {
     let spec = SimulationSpec {
-        duration_s: table.number_if("duration_s", range::DURATION_S, "1.5"),
-        accuracy: table.word("accuracy", &accuracies),
-        method: table.word("method", &[("verlet", Method::Verlet), ("newmark", Method::Newmark)]),
-        gravity_m_s2: table.number("gravity_m_s2", Some(9.81), range::GRAVITY_M_S2, "9.81"),
+        duration_s: table.number_if(&simulation::DURATION_S),
+        accuracy: table.choice(&simulation::ACCURACY),
+        method: table.choice(&simulation::METHOD),
+        gravity_m_s2: table.number(&simulation::GRAVITY_M_S2),
     };
     table.finish();
     spec
 }
 
 fn read_tire(table: Table<'_>) -> TireSpec {
-    let tire = TireSpec {
-        mass_kg: table.number("mass_kg", None, range::MASS_KG, "280"),
-        outer_diameter_m: table.number("outer_diameter_m", Some(0.0), range::DIAMETER_M, "1.6"),
+    let spec = TireSpec {
+        mass_kg: table.number(&tire::MASS_KG),
+        outer_diameter_m: table.number(&tire::OUTER_DIAMETER_M),
     };
     table.finish();
-    tire
+    spec
+}
+
+fn read_friction(table: Table<'_>) -> f64 {
+    let friction = table.number(&ground::FRICTION);
+    table.finish();
+    friction
 }
 
 fn read_limits(table: Table<'_>) -> Limits {
-    let limits = Limits {
-        flight_height_m: table.number("flight_height_m", None, range::LIMIT_M, "1.5"),
-        cable_safety_factor: table.number("cable_safety_factor", None, range::SAFETY_FACTOR, "2.0"),
-        drift_m: table.number_if("drift_m", range::LIMIT_M, "0.5"),
+    let spec = Limits {
+        flight_height_m: table.number(&limits::FLIGHT_HEIGHT_M),
+        cable_safety_factor: table.number(&limits::CABLE_SAFETY_FACTOR),
+        drift_m: table.number_if(&limits::DRIFT_M),
     };
     table.finish();
-    limits
+    spec
 }
 
 fn read_cable(table: Table<'_>, mistakes: &Mistakes) -> CableSpec {
-    let rope = table.text_if("rope", "\"GOST 2688-80 6.2\"");
-    let stiffness = table.number_if("axial_stiffness_kn", range::CABLE_KN, "1519");
-    let breaking = table.number_if("breaking_force_kn", range::CABLE_KN, "20.9");
-    let (axial_stiffness_kn, breaking_force_kn) = match (&rope, stiffness, breaking) {
-        (None, Some(stiffness), Some(breaking)) => (stiffness, breaking),
-        (Some(rope), None, None) => match ropes::catalogue().find(rope.value) {
-            Some(found) => (found.axial_stiffness_kn, found.breaking_force_kn),
+    let rope = table.text_if(&cable::ROPE);
+    let (axial_stiffness_kn, breaking_force_kn) = read_rope(&table, rope.as_ref(), mistakes);
+    let termination_percent = read_termination(&table);
+    let spec = CableSpec {
+        rope: rope.map(|rope| rope.value.to_owned()),
+        axial_stiffness_kn,
+        breaking_force_kn: breaking_force_kn * termination_percent * 1e-2,
+        slack_percent: table.number(&cable::SLACK_PERCENT),
+        termination_percent,
+        on_overload: table.choice(&cable::ON_OVERLOAD),
+    };
+    table.finish();
+    spec
+}
+
+/// Axial stiffness and breaking force of the rope [kN]: from the catalogue, or as the plan says.
+fn read_rope(table: &Table<'_>, rope: Option<&At<&str>>, mistakes: &Mistakes) -> (f64, f64) {
+    let stiffness = table.number_if(&cable::AXIAL_STIFFNESS_KN);
+    let breaking = table.number_if(&cable::BREAKING_FORCE_KN);
+    match (rope, stiffness, breaking) {
+        (None, Some(stiffness), Some(breaking)) => return (stiffness, breaking),
+        (Some(rope), None, None) => match catalogue().find(rope.value) {
+            Some(found) => return (found.axial_stiffness_kn, found.breaking_force_kn),
             None => {
-                let near = ropes::catalogue().suggest(rope.value);
-                let remedy = near.map_or_else(
+                let remedy = catalogue().suggest(rope.value).map_or_else(
                     || "`shelter ropes` lists the catalogue".to_owned(),
                     |near| format!("did you mean \"{near}\"? `shelter ropes` lists the catalogue"),
                 );
-                mistakes.add(
-                    rope.span.clone(),
-                    format!("no rope \"{}\" in the catalogue", rope.value),
-                    remedy,
-                );
-                (1.0, 1.0)
+                let message = format!("no rope \"{}\" in the catalogue", rope.value);
+                mistakes.add(rope.span.clone(), message, remedy);
             }
         },
         (Some(_), ..) => {
-            let key = if stiffness.is_some() { "axial_stiffness_kn" } else { "breaking_force_kn" };
-            table.wrong(key, format!("`{key}` stands beside `rope`, which gives it too"), "keep one of them");
-            (1.0, 1.0)
+            let both =
+                if stiffness.is_some() { &cable::AXIAL_STIFFNESS_KN } else { &cable::BREAKING_FORCE_KN };
+            let message = format!("`{}` stands beside `rope`, which gives it too", both.name);
+            table.wrong(both, message, "keep one of them");
         }
         (None, ..) => {
             let missing = match (stiffness, breaking) {
@@ -153,42 +156,22 @@ fn read_cable(table: Table<'_>, mistakes: &Mistakes) -> CableSpec {
             let remedy =
                 "add `rope = \"GOST 2688-80 6.2\"`, or both axial_stiffness_kn and breaking_force_kn";
             mistakes.add(table.span.clone(), format!("[cable] has no {missing}"), remedy);
-            (1.0, 1.0)
         }
-    };
-    let percent = table.number_if("termination_percent", range::TERMINATION_PERCENT, "80");
-    let termination = table.text_if("termination", "\"clips\"");
-    let termination_percent = match (termination, percent) {
-        (Some(_), Some(_)) => {
-            table.wrong(
-                "termination_percent",
-                "`termination_percent` stands beside `termination`",
-                "keep one of them",
-            );
-            100.0
-        }
-        (Some(name), None) => find_termination(&name, mistakes),
-        (None, percent) => percent.unwrap_or(100.0),
-    };
-    let spec = CableSpec {
-        rope: rope.map(|rope| rope.value.to_owned()),
-        axial_stiffness_kn,
-        breaking_force_kn: breaking_force_kn * termination_percent * 1e-2,
-        slack_percent: table.number("slack_percent", Some(0.0), range::SLACK_PERCENT, "2"),
-        termination_percent,
-        breaks: table.word("on_overload", &[("report", false), ("break", true)]),
-    };
-    table.finish();
-    spec
+    }
+    (1.0, 1.0)
 }
 
-fn find_termination(name: &At<&str>, mistakes: &Mistakes) -> f64 {
-    let all = &ropes::catalogue().terminations;
-    if let Some(found) = all.iter().find(|termination| termination.name == name.value) {
-        return found.efficiency_percent;
+/// Share of the rope's breaking force that the termination holds [%].
+fn read_termination(table: &Table<'_>) -> f64 {
+    let name = table.name_if(&cable::TERMINATION);
+    if name.is_some() && table.has(&cable::TERMINATION_PERCENT) {
+        let message = "`termination_percent` stands beside `termination`";
+        table.wrong(&cable::TERMINATION_PERCENT, message, "keep one of them");
     }
-    let names: Vec<_> = all.iter().map(|termination| format!("\"{}\"", termination.name)).collect();
-    let message = format!("no termination \"{}\"", name.value);
-    mistakes.add(name.span.clone(), message, format!("write one of {}", names.join(", ")));
-    100.0
+    let percent = table.number(&cable::TERMINATION_PERCENT);
+    let known = catalogue()
+        .terminations
+        .iter()
+        .find(|known| name.as_ref().is_some_and(|name| known.name == name.value));
+    known.map_or(percent, |known| known.efficiency_percent)
 }

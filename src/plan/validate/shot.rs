@@ -2,10 +2,9 @@
 
 use std::collections::{HashMap, HashSet};
 
-use toml::de::{DeTable, DeValue};
-
-use crate::plan::read::{At, Mistakes, Table, as_number, as_whole, bounded, nearest};
-use crate::plan::{BlastRow, Charge, DelayOption, Hole, Layout, Timing, range};
+use crate::plan::keys::{blast_row, delay, hole, plan};
+use crate::plan::read::{Mistakes, Table, nearest};
+use crate::plan::{BlastRow, DelayOption, Hole, LaunchTargets, Layout, Timing};
 
 pub fn read_blast_rows(
     root: &Table<'_>,
@@ -14,28 +13,28 @@ pub fn read_blast_rows(
     mistakes: &Mistakes,
 ) -> Vec<BlastRow> {
     let mut rows: Vec<BlastRow> = Vec::new();
-    let tables = root.tables("blast_row");
-    if tables.is_empty() && !root.has("blast_row") {
-        let remedy = "add a section [[blast_row]] with name, under_row and launch_m_s";
-        mistakes.add(0..0, "the plan has no [[blast_row]]", remedy);
-    }
-    for table in tables {
-        let name = table.text("name", "\"1\"");
+    for table in root.sections(&plan::BLAST_ROW) {
+        let name = table.text(&blast_row::NAME);
         if rows.iter().any(|row| row.name == name.value) && !name.value.is_empty() {
             let message = format!("two blast rows are named \"{}\"", name.value);
             mistakes.add(name.span.clone(), message, "give each its own name");
         }
-        let charge = read_charge(&table, layout, gravity, mistakes);
-        rows.push(BlastRow { name: name.value.to_owned(), charge });
+        let targets = read_targets(&table, layout, gravity, mistakes);
+        rows.push(BlastRow { name: name.value.to_owned(), targets });
         table.finish();
     }
     rows
 }
 
-fn read_charge(table: &Table<'_>, layout: Option<&Layout>, gravity: f64, mistakes: &Mistakes) -> Charge {
-    let ways = ["under_row", "under_tires", "holes"].map(|key| table.has(key));
-    if ways.iter().filter(|&&way| way).count() != 1 {
-        let message = if ways.contains(&true) {
+fn read_targets(
+    table: &Table<'_>,
+    layout: Option<&Layout>,
+    gravity: f64,
+    mistakes: &Mistakes,
+) -> LaunchTargets {
+    let given = [&blast_row::UNDER_ROW, &blast_row::UNDER_TIRES, &blast_row::HOLES].map(|key| table.has(key));
+    if given.iter().filter(|&&given| given).count() != 1 {
+        let message = if given.contains(&true) {
             "a blast row says twice what it launches"
         } else {
             "a blast row launches no tire"
@@ -43,31 +42,20 @@ fn read_charge(table: &Table<'_>, layout: Option<&Layout>, gravity: f64, mistake
         let remedy = "give it exactly one of under_row, under_tires, holes";
         mistakes.add(table.span.clone(), message, remedy);
     }
-    if let Some(holes) =
-        table.list("holes", "[{ x_m = 1.5, y_m = 4.5, launch_m_s = 6.0 }]", "a table", DeValue::as_table)
-    {
-        if holes.value.is_empty() {
-            mistakes.add(holes.span, "a blast row without a hole", "list its holes, or remove the row");
-        }
-        let read = |hole: At<&DeTable<'_>>| {
-            let hole = Table::new("a hole", hole.span, hole.value, mistakes);
-            let read = Hole {
-                x_m: hole.number("x_m", None, range::PLACE_M, "1.5"),
-                y_m: hole.number("y_m", None, range::PLACE_M, "4.5"),
-                launch_m_s: read_launch(&hole, gravity),
-            };
-            hole.finish();
-            read
-        };
-        return Charge::Holes(holes.value.into_iter().map(read).collect());
+    if table.has(&blast_row::HOLES) {
+        return LaunchTargets::Holes(read_holes(table, gravity));
     }
     let launch_m_s = read_launch(table, gravity);
-    if let Some(tires) = table.list("under_tires", "[3, 4]", "a tire number", as_whole) {
+    if let Some(tires) = table.wholes(&blast_row::UNDER_TIRES) {
         let count = match layout {
             Some(Layout::List { tires, .. }) => tires.len(),
             Some(_) => {
                 let remedy = "use under_row, or holes, in a grid or quincunx";
-                table.wrong("under_tires", "`under_tires` numbers the tires of a list layout", remedy);
+                table.wrong(
+                    &blast_row::UNDER_TIRES,
+                    "`under_tires` numbers the tires of a list layout",
+                    remedy,
+                );
                 usize::MAX
             }
             None => usize::MAX,
@@ -87,20 +75,37 @@ fn read_charge(table: &Table<'_>, layout: Option<&Layout>, gravity: f64, mistake
             }
         }
         let tires = tires.value.into_iter().map(|tire| tire.value.saturating_sub(1)).collect();
-        return Charge::UnderTires { tires, launch_m_s };
+        return LaunchTargets::UnderTires { tires, launch_m_s };
     }
-    let row = table.number_if("under_row", range::ROW, "2").unwrap_or(1.0);
+    let row = table.number_if(&blast_row::UNDER_ROW).unwrap_or(1.0);
     check_row(table, layout, row);
-    Charge::UnderRow { row, launch_m_s }
+    LaunchTargets::UnderRow { row, launch_m_s }
+}
+
+fn read_holes(table: &Table<'_>, gravity: f64) -> Vec<Hole> {
+    let holes = table.sections(&blast_row::HOLES);
+    if holes.is_empty() {
+        table.wrong(&blast_row::HOLES, "a blast row without a hole", "list its holes, or remove the row");
+    }
+    let read = |hole: Table<'_>| {
+        let read = Hole {
+            x_m: hole.number(&hole::X_M),
+            y_m: hole.number(&hole::Y_M),
+            launch_m_s: read_launch(&hole, gravity),
+        };
+        hole.finish();
+        read
+    };
+    holes.into_iter().map(read).collect()
 }
 
 fn check_row(table: &Table<'_>, layout: Option<&Layout>, row: f64) {
     let (rows, halves) = match layout {
         Some(Layout::Grid(mesh)) => (mesh.rows, false),
         Some(Layout::Quincunx(mesh)) => (mesh.rows, true),
-        Some(Layout::List { .. }) if table.has("under_row") => {
+        Some(Layout::List { .. }) if table.has(&blast_row::UNDER_ROW) => {
             return table.wrong(
-                "under_row",
+                &blast_row::UNDER_ROW,
                 "a list layout has no rows",
                 "use under_tires = [1, 2], or holes",
             );
@@ -111,41 +116,36 @@ fn check_row(table: &Table<'_>, layout: Option<&Layout>, row: f64) {
     if !(whole && row >= 1.0 && row <= rows as f64) {
         let centres = if halves { ", centres between them at halves such as 1.5" } else { "" };
         let remedy = format!("shelter rows are numbered 1 to {rows}{centres}");
-        table.wrong("under_row", format!("there is no shelter row {row}"), remedy);
+        table.wrong(&blast_row::UNDER_ROW, format!("there is no shelter row {row}"), remedy);
     }
 }
 
 fn read_launch(table: &Table<'_>, gravity: f64) -> f64 {
-    match (table.has("launch_m_s"), table.has("free_flight_height_m")) {
+    match (table.has(&blast_row::LAUNCH_M_S), table.has(&blast_row::FREE_FLIGHT_HEIGHT_M)) {
         (true, true) => {
             table.wrong(
-                "free_flight_height_m",
+                &blast_row::FREE_FLIGHT_HEIGHT_M,
                 "`free_flight_height_m` stands beside `launch_m_s`",
                 "keep one of them",
             );
             0.0
         }
         (false, true) => {
-            let height = table.number("free_flight_height_m", None, range::FREE_FLIGHT_M, "1.83");
+            let height = table.number(&blast_row::FREE_FLIGHT_HEIGHT_M);
             if gravity == 0.0 {
                 let message = "without gravity no launch velocity follows from a height";
-                table.wrong("free_flight_height_m", message, "give launch_m_s instead");
+                table.wrong(&blast_row::FREE_FLIGHT_HEIGHT_M, message, "give launch_m_s instead");
             }
             (2.0 * gravity * height).sqrt()
         }
-        _ => table.number("launch_m_s", None, range::LAUNCH_M_S, "6.0"),
+        _ => table.number(&blast_row::LAUNCH_M_S),
     }
 }
 
 pub fn read_delays(root: &Table<'_>, rows: &[BlastRow], mistakes: &Mistakes) -> Vec<DelayOption> {
     let mut delays: Vec<DelayOption> = Vec::new();
-    let tables = root.tables("delay");
-    if tables.is_empty() && !root.has("delay") {
-        let remedy = "add a section [[delay]] with name and interval_ms";
-        mistakes.add(0..0, "the plan has no delay option", remedy);
-    }
-    for table in tables {
-        let name = table.text("name", "\"20 ms\"");
+    for table in root.sections(&plan::DELAY) {
+        let name = table.text(&delay::NAME);
         if delays.iter().any(|delay| delay.name == name.value) && !name.value.is_empty() {
             let message = format!("two delay options are named \"{}\"", name.value);
             mistakes.add(name.span.clone(), message, "give each its own name");
@@ -158,33 +158,22 @@ pub fn read_delays(root: &Table<'_>, rows: &[BlastRow], mistakes: &Mistakes) -> 
 }
 
 fn read_timing(table: &Table<'_>, rows: &[BlastRow], mistakes: &Mistakes) -> Timing {
-    if let Some(at) = table.list("at_ms", "[0, 20, 40]", "a number", as_number) {
-        for key in ["interval_ms", "order"] {
+    if let Some(at) = table.numbers(&delay::AT_MS) {
+        for key in [&delay::INTERVAL_MS, &delay::ORDER] {
             if table.has(key) {
-                table.wrong(key, format!("`{key}` stands beside `at_ms`"), "keep one of them");
+                table.wrong(key, format!("`{}` stands beside `at_ms`", key.name), "keep one of them");
             }
         }
         if at.value.len() != rows.len() {
             let message = format!("{} firing times for {} blast rows", at.value.len(), rows.len());
             mistakes.add(at.span, message, "give one time for each blast row, in the order listed");
         }
-        for time in &at.value {
-            if let Some(message) = bounded(time.value, &range::TIME_MS) {
-                mistakes.add(
-                    time.span.clone(),
-                    format!("a firing time {message}"),
-                    "write 0 ms or later, up to 1e9",
-                );
-            }
-        }
         return Timing::At(at.value.into_iter().map(|time| time.value).collect());
     }
-    let interval_ms = table.number("interval_ms", None, range::TIME_MS, "20");
+    let interval_ms = table.number(&delay::INTERVAL_MS);
     let names: HashMap<&str, usize> =
         rows.iter().enumerate().map(|(n, row)| (row.name.as_str(), n)).collect();
-    let Some(list) =
-        table.list("order", "[\"2\", \"1\"]", "the name of a blast row in quotes", |item| item.as_str())
-    else {
+    let Some(list) = table.texts(&delay::ORDER) else {
         return Timing::Interval { order: (0..rows.len()).collect(), interval_ms };
     };
     let mut order = Vec::new();

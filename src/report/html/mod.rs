@@ -11,7 +11,8 @@ use sha2::{Digest, Sha256};
 
 use super::chart;
 use super::check::{broken, command, compute_label, explain, peak};
-use crate::plan::{Charge, Layout, Plan};
+use crate::choice::OnOverload;
+use crate::plan::{LaunchTargets, Layout, Plan};
 use crate::scene::fire_at_s;
 use crate::study::Case;
 use crate::study::check::Checked;
@@ -133,11 +134,11 @@ fn shelter(case: &Case) -> Markup {
     html! {
         table {
             tr { th { "Tires" } td { (scene.mass.len()) " of " (plan.tire.mass_kg) " kg, " (layout(plan)) ", " (rims(plan.tire.outer_diameter_m)) } }
-            tr { th { "Cables" } td { (scene.cables.len()) ", " (cable) ", slack " (plan.cable.slack_percent) " %" (if plan.cable.breaks { "; past its breaking force a cable is gone" } else { "" }) } }
+            tr { th { "Cables" } td { (scene.cables.len()) ", " (cable) ", slack " (plan.cable.slack_percent) " %" (if plan.cable.on_overload == OnOverload::Break { "; past its breaking force a cable is gone" } else { "" }) } }
             tr { th { "Friction" } td { (plan.friction) } }
             tr { th { "Limits" } td { (limits.into_iter().flatten().collect::<Vec<_>>().join("; ")) } }
             @for row in &plan.blast_rows {
-                tr { th { "Blast row " (row.name) } td { (charge(&row.charge)) } }
+                tr { th { "Blast row " (row.name) } td { (launched(&row.targets)) } }
             }
         }
     }
@@ -167,14 +168,16 @@ fn rims(diameter_m: f64) -> String {
     }
 }
 
-fn charge(charge: &Charge) -> String {
-    match charge {
-        Charge::UnderRow { row, launch_m_s } => format!("under shelter row {row}, launch {launch_m_s} m/s"),
-        Charge::UnderTires { tires, launch_m_s } => {
+fn launched(targets: &LaunchTargets) -> String {
+    match targets {
+        LaunchTargets::UnderRow { row, launch_m_s } => {
+            format!("under shelter row {row}, launch {launch_m_s} m/s")
+        }
+        LaunchTargets::UnderTires { tires, launch_m_s } => {
             let numbers: Vec<String> = tires.iter().map(|tire| (tire + 1).to_string()).collect();
             format!("under tires {}, launch {launch_m_s} m/s", numbers.join(", "))
         }
-        Charge::Holes(holes) => format!("{} holes", holes.len()),
+        LaunchTargets::Holes(holes) => format!("{} holes", holes.len()),
     }
 }
 

@@ -1,0 +1,191 @@
+//! The table of keys: one row for each key of a plan.
+//!
+//! Sections stand in the order of a plan, the keys of a section in the order of the terminal's editor. A row names the key,
+//! the kind of its value, a right value, and what the value is; then follow, where they apply, the default, the label in
+//! the editor, and whether the editor offers the key in plans that leave it out. A new key is one row here, one field of
+//! the plan, and the line that reads it.
+
+use std::ops::RangeInclusive;
+
+use super::{Key, Kind, Section, key, number, section};
+use crate::choice::{Accuracy, Detonator, LayoutKind, Link, Method, OnOverload};
+use crate::ropes::catalogue;
+
+/// Most tires in a shelter.
+pub const MOST_TIRES: usize = 4_000_000;
+
+const POSITION: Kind = number("m", -1e7..=1e7);
+const SPACING: RangeInclusive<f64> = 1e-4..=1e5;
+const MASS: Kind = number("kg", 1e-3..=1e7);
+const CABLE_FORCE: Kind = number("kN", 1e-6..=1e9);
+const FRICTION_RANGE: RangeInclusive<f64> = 0.0..=1e9;
+const LIMIT: Kind = number("m", 1e-6..=1e6);
+const TIME: Kind = number("ms", 0.0..=1e9);
+const PERCENT: Kind = number("%", 0.0..=100.0);
+const TIRE_NUMBER: Kind = Kind::Whole(1..=MOST_TIRES);
+
+fn rope_names() -> Vec<&'static str> {
+    catalogue().ropes.iter().map(|rope| rope.name.as_str()).collect()
+}
+
+fn termination_names() -> Vec<&'static str> {
+    catalogue().terminations.iter().map(|termination| termination.name.as_str()).collect()
+}
+
+/// Declares sections: for each a module with a constant for every key, and the [`Section`] that lists the keys.
+macro_rules! sections {
+    ($( $section:ident $title:literal $doc:literal { $( $key:ident = $value:expr; )+ } )+) => { $(
+        #[doc = concat!("Keys of ", $title, ".")]
+        #[allow(missing_docs)]
+        pub mod $section {
+            use super::*;
+            $( pub const $key: Key = $value; )+
+            pub const SECTION: Section = Section { title: $title, doc: $doc, keys: &[$(&$key),+] };
+        }
+    )+ };
+}
+
+sections! {
+    plan "the plan" "A blast row, the shelter over it, and the delay options to choose from" {
+        TITLE = key("title", Kind::Text, "\"…\"", "free text above every view").described("path of the file");
+        SHELTER = section("shelter", &shelter::SECTION, "layout, rows, columns and spacing_m").required();
+        TIRE = section("tire", &tire::SECTION, "mass_kg = 280").required();
+        CABLE = section("cable", &cable::SECTION, "rope = \"GOST 2688-80 6.2\"").required();
+        GROUND = section("ground", &ground::SECTION, "friction = 0.5").required();
+        BLAST_ROW = key("blast_row", Kind::Sections(&blast_row::SECTION), "name, under_row and launch_m_s",
+            "in the order listed").required();
+        LIMITS = section("limits", &limits::SECTION, "flight_height_m and cable_safety_factor").required();
+        DELAY = key("delay", Kind::Sections(&delay::SECTION), "name and interval_ms", "options to compare")
+            .required();
+        SIMULATION = section("simulation", &simulation::SECTION, "accuracy = \"field\"");
+        SCATTER = section("scatter", &scatter::SECTION, "detonator = \"electronic\"");
+        SIZE = section("size", &size::SECTION, "most_border_rows = 1");
+    }
+
+    shelter "[shelter]" "tires and the ties between them" {
+        LAYOUT = key("layout", Kind::Choice(LayoutKind::NAMES), "\"grid\"", "how the tires lie").required();
+        ROWS = key("rows", Kind::Whole(1..=MOST_TIRES), "5", "along y, numbered from 1").edit("shelter rows");
+        COLUMNS = key("columns", Kind::Whole(1..=MOST_TIRES), "10", "along x, numbered from 1")
+            .edit("shelter columns");
+        SPACING_M = key("spacing_m", Kind::NumberOrSection(&number("m", SPACING), &spacing::SECTION), "1.5",
+            "centre to centre").edit("spacing, m");
+        LINKS = key("links", Kind::List(&Kind::Choice(Link::NAMES)), "[\"row\", \"column\", \"diagonal\"]",
+            "which neighbours are tied").described("all");
+        BORDER_ROWS = key("border_rows", Kind::Whole(0..=1000), "1", "rows of ballast laid around it, over no hole")
+            .default(0.0).edit("border rows").offered();
+        TIRE = key("tire", Kind::Sections(&listed_tire::SECTION), "x_m and y_m", "of a list");
+        CABLE = key("cable", Kind::Sections(&listed_cable::SECTION), "from and to", "of a list");
+    }
+
+    spacing "[shelter.spacing_m]" "between rows, between columns" {
+        ROW = key("row", number("m", SPACING), "1.5", "between rows").required();
+        COLUMN = key("column", number("m", SPACING), "1.6", "between columns").required();
+    }
+
+    listed_tire "[[shelter.tire]]" "one tire" {
+        X_M = key("x_m", POSITION, "0", "along the rows").required();
+        Y_M = key("y_m", POSITION, "0", "across the rows").required();
+        MASS_KG = key("mass_kg", MASS, "280", "instead of that of [tire]");
+    }
+
+    listed_cable "[[shelter.cable]]" "one cable" {
+        FROM = key("from", TIRE_NUMBER, "1", "number of a tire, from 1").required();
+        TO = key("to", TIRE_NUMBER, "2", "number of a tire, from 1").required();
+    }
+
+    tire "[tire]" "the tire at every position" {
+        MASS_KG = key("mass_kg", MASS, "280", "").required().edit("tire mass, kg");
+        OUTER_DIAMETER_M = key("outer_diameter_m", number("m", 0.0..=1e3), "1.6",
+            "cables run from rim to rim; 0: from centre to centre").default(0.0).edit("outer diameter, m").offered();
+    }
+
+    cable "[cable]" "the rope of every tie: from the catalogue, or stiffness and breaking force" {
+        ROPE = key("rope", Kind::Catalogue(rope_names), "\"GOST 2688-80 6.2\"", "`shelter ropes` lists the catalogue")
+            .edit("rope");
+        TERMINATION = key("termination", Kind::Catalogue(termination_names), "\"clips\"",
+            "the breaking force used is rope × termination").edit("termination").offered();
+        TERMINATION_PERCENT = key("termination_percent", number("%", 1.0..=100.0), "80",
+            "share of the breaking force that the termination holds").default(100.0);
+        SLACK_PERCENT = key("slack_percent", number("%", 0.0..=1e3), "2", "length over distance").default(0.0)
+            .edit("slack, %").offered();
+        AXIAL_STIFFNESS_KN = key("axial_stiffness_kn", CABLE_FORCE, "1519", "EA").edit("axial stiffness EA, kN");
+        BREAKING_FORCE_KN = key("breaking_force_kn", CABLE_FORCE, "20.9", "").edit("breaking force, kN");
+        ON_OVERLOAD = key("on_overload", Kind::Choice(OnOverload::NAMES), "\"report\"",
+            "whether a cable past its breaking force is reported and pulls on, or is gone")
+            .named(OnOverload::DEFAULT.name());
+    }
+
+    ground "[ground]" "the ground under the tires" {
+        FRICTION = key("friction", number("", FRICTION_RANGE), "0.5", "of a tire on the ground; rocky soil 0.3 to 0.5")
+            .required().edit("friction");
+    }
+
+    blast_row "[[blast_row]]" "holes that fire together" {
+        NAME = key("name", Kind::Text, "\"1\"", "delay options address the row by it").required();
+        LAUNCH_M_S = key("launch_m_s", number("m/s", 0.0..=1e4), "6.0", "launch velocity of the tires")
+            .edit("launch, m/s");
+        FREE_FLIGHT_HEIGHT_M = key("free_flight_height_m", number("m", 0.0..=1e5), "1.83",
+            "seen on a loose test tire, instead of launch_m_s").edit("free flight height, m");
+        UNDER_ROW = key("under_row", Kind::ShelterRow(0.0..=1e7), "2", "launches every tire of this shelter row")
+            .edit("under row");
+        UNDER_TIRES = key("under_tires", Kind::List(&TIRE_NUMBER), "[3, 4]", "launches these tires of a list");
+        HOLES = key("holes", Kind::Sections(&hole::SECTION), "[{ x_m = 1.5, y_m = 4.5, launch_m_s = 6.0 }]",
+            "one by one");
+    }
+
+    hole "a hole" "one hole; it launches the nearest tire" {
+        X_M = key("x_m", POSITION, "1.5", "along the rows").required();
+        Y_M = key("y_m", POSITION, "4.5", "across the rows").required();
+        LAUNCH_M_S = blast_row::LAUNCH_M_S;
+        FREE_FLIGHT_HEIGHT_M = blast_row::FREE_FLIGHT_HEIGHT_M;
+    }
+
+    limits "[limits]" "what an option must keep to pass" {
+        FLIGHT_HEIGHT_M = key("flight_height_m", LIMIT, "1.5", "greatest flight height of any tire").required()
+            .edit("limit of flight height, m");
+        CABLE_SAFETY_FACTOR = key("cable_safety_factor", number("", 1e-3..=1e6), "2.0",
+            "breaking force / greatest force").required().edit("cable safety factor");
+        DRIFT_M = key("drift_m", LIMIT, "0.5", "greatest horizontal shift of any tire at the end")
+            .edit("limit of drift, m").offered();
+    }
+
+    delay "[[delay]]" "one delay option" {
+        NAME = key("name", Kind::Text, "\"20 ms\"", "name in every view").required().edit("name");
+        INTERVAL_MS = key("interval_ms", TIME, "20", "between successive blast rows").edit("interval, ms");
+        AT_MS = key("at_ms", Kind::List(&TIME), "[0, 20, 40]", "firing time of each blast row, in the order listed")
+            .edit("at, ms");
+        ORDER = key("order", Kind::RowNames, "[\"2\", \"1\"]", "names of the blast rows as they fire")
+            .described("as listed").edit("order").offered_beside(INTERVAL_MS.name);
+    }
+
+    simulation "[simulation]" "how to compute" {
+        DURATION_S = key("duration_s", number("s", 1e-6..=1e6), "1.5", "end of the run")
+            .described("until every tire is at rest").edit("duration, s");
+        ACCURACY = key("accuracy", Kind::Choice(Accuracy::NAMES), "\"field\"", "how fine a verdict starts and ends")
+            .named(Accuracy::DEFAULT.name());
+        METHOD = key("method", Kind::Choice(Method::NAMES), "\"verlet\"", "time integration method")
+            .named(Method::DEFAULT.name());
+        GRAVITY_M_S2 = key("gravity_m_s2", number("m/s²", 0.0..=1e3), "9.81", "gravity").default(9.81);
+    }
+
+    scatter "[scatter]" "what scatters from shot to shot" {
+        DETONATOR = key("detonator", Kind::Choice(Detonator::NAMES), "\"electronic\"", "gives the scatter of firing times")
+            .edit("detonators");
+        DELAY_SD_MS = key("delay_sd_ms", number("ms", 0.0..=1e6), "0.5", "standard deviation of firing times")
+            .default(0.0).edit("scatter of times, ms");
+        DELAY_CV_PERCENT = key("delay_cv_percent", PERCENT, "2", "standard deviation over delay").default(0.0)
+            .edit("scatter of times, %");
+        LAUNCH_CV_PERCENT = key("launch_cv_percent", PERCENT, "10", "of launch velocities, lognormal").default(0.0)
+            .edit("scatter of launches, %");
+        FRICTION = key("friction", Kind::Range(&number("", FRICTION_RANGE)), "[0.3, 0.5]", "anything between")
+            .described("that of [ground]");
+    }
+
+    size "[size]" "what `shelter size` may choose from" {
+        ROPES = key("ropes", Kind::Catalogue(|| catalogue().families()), "\"GOST 2688-80\"", "a family of ropes")
+            .described("the whole catalogue");
+        TIRE_MASS_KG = key("tire_mass_kg", Kind::List(&MASS), "[200, 280, 350]", "masses of tires at hand")
+            .described("that of [tire]");
+        MOST_BORDER_ROWS = key("most_border_rows", Kind::Whole(0..=100), "2", "rows of ballast").default(0.0);
+    }
+}
