@@ -9,6 +9,16 @@ pub enum Unit {
     Metre,
     /// From newtons.
     Kilonewton,
+    /// From seconds.
+    Second,
+    /// From seconds.
+    Millisecond,
+    /// From kilograms.
+    Tonne,
+    /// From shares of 1.
+    Percent,
+    /// Counts and pure numbers.
+    One,
 }
 
 impl Unit {
@@ -17,22 +27,31 @@ impl Unit {
         match self {
             Unit::Metre => "m",
             Unit::Kilonewton => "kN",
+            Unit::Second => "s",
+            Unit::Millisecond => "ms",
+            Unit::Tonne => "t",
+            Unit::Percent => "%",
+            Unit::One => "",
         }
     }
 
     /// How many SI units it holds.
     pub fn size(self) -> f64 {
         match self {
-            Unit::Metre => 1.0,
-            Unit::Kilonewton => 1e3,
+            Unit::Metre | Unit::Second | Unit::One => 1.0,
+            Unit::Kilonewton | Unit::Tonne => 1e3,
+            Unit::Millisecond => 1e-3,
+            Unit::Percent => 1e-2,
         }
     }
 
-    /// Most decimals worth reading: a tenth of a millimetre, a newton.
+    /// Most decimals worth reading: a tenth of a millimetre, a newton, a hundred kilograms of a shelter.
     fn most_decimals(self) -> usize {
         match self {
             Unit::Metre => 4,
-            Unit::Kilonewton => 3,
+            Unit::Kilonewton | Unit::Second => 3,
+            Unit::Tonne => 1,
+            Unit::Millisecond | Unit::Percent | Unit::One => 0,
         }
     }
 }
@@ -54,6 +73,36 @@ pub fn value_and_error(value: f64, error: f64, unit: Unit) -> String {
 /// A value without an error: `1.500`.
 pub fn value(value: f64, unit: Unit) -> String {
     format!("{:.3}", value / unit.size())
+}
+
+/// A value whose error stands elsewhere, with one digit more than an error ever has: `0.75732`.
+pub fn computed(value: f64, unit: Unit) -> String {
+    rounded(value / unit.size(), unit.most_decimals() + 1)
+}
+
+/// A number with so many decimals: `0.122`.
+pub fn rounded(number: f64, decimals: usize) -> String {
+    format!("{number:.decimals$}")
+}
+
+/// A share of 1 as percent with so many decimals: `52 %`.
+pub fn percent(share: f64, decimals: usize) -> String {
+    format!("{} %", rounded(100.0 * share, decimals))
+}
+
+/// An interval of a probability, without the sign of percent: `88.65 to 100.00`.
+pub fn probabilities([low, high]: [f64; 2]) -> String {
+    format!("{} to {}", rounded(100.0 * low, 2), rounded(100.0 * high, 2))
+}
+
+/// An energy residual over the energy put in, at one digit: `1e-5`.
+pub fn residual(share: f64) -> String {
+    format!("{share:.0e}")
+}
+
+/// A power of ten, written out: `0.001`.
+pub fn power_of_ten(exponent: f64) -> String {
+    format!("{}", 10_f64.powf(exponent) as f32)
 }
 
 /// A value that was written, with the digits that it was written with, six of them at most: `1.8346`.

@@ -4,12 +4,17 @@
 //! scripts depend on.
 
 pub mod accuracy;
+pub mod ascii;
 #[cfg(feature = "page")]
 pub mod chart;
 pub mod check;
 #[cfg(feature = "page")]
 pub mod html;
+mod label;
+pub mod model;
+pub mod no_result;
 pub mod orders;
+pub mod palette;
 pub mod ropes;
 pub mod scatter;
 pub mod size;

@@ -1,16 +1,14 @@
-//! Sparklines: a series as one line of bars, the tallest of each stretch kept.
+//! Sparklines: a series as one line of bars; of each stretch the tallest bar is kept.
 
 // No full block: rows of sparklines would run into one another.
-const UNICODE: [char; 7] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇'];
-const ASCII: [char; 7] = ['_', '.', ':', '-', '=', '+', '*'];
+const BARS: [char; 7] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇'];
 
-/// `width` bars for `series`, scaled so that `top` (or the greatest value, if that is more) is a full bar.
-pub fn sparkline(series: &[f64], width: usize, top: f64, ascii: bool) -> String {
-    let bars = if ascii { ASCII } else { UNICODE };
+/// `width` bars for `series`, scaled so that `top` fills a bar, or the greatest value where that is more.
+pub fn sparkline(series: &[f64], width: usize, top: f64) -> String {
     let full = series.iter().copied().fold(top, f64::max);
     let bar = |value: f64| {
-        let level = if full > 0.0 { value / full * bars.len() as f64 } else { 0.0 };
-        bars[(level as usize).min(bars.len() - 1)]
+        let level = if full > 0.0 { value / full * BARS.len() as f64 } else { 0.0 };
+        BARS[(level as usize).min(BARS.len() - 1)]
     };
     resample(series, width).into_iter().map(bar).collect()
 }
@@ -33,14 +31,14 @@ mod tests {
     fn a_narrow_sparkline_keeps_the_peak() {
         let mut series = vec![0.0; 1000];
         series[613] = 1.0;
-        assert_eq!(sparkline(&series, 10, 0.0, false), "▁▁▁▁▁▁▇▁▁▁");
-        assert_eq!(sparkline(&series, 10, 2.0, true), "______-___");
+        assert_eq!(sparkline(&series, 10, 0.0), "▁▁▁▁▁▁▇▁▁▁");
+        assert_eq!(sparkline(&series, 10, 2.0), "▁▁▁▁▁▁▄▁▁▁");
     }
 
     #[test]
     fn short_empty_and_zero_series_have_bars_too() {
-        assert_eq!(sparkline(&[0.0, 1.0], 4, 0.0, false), "▁▁▇▇");
-        assert_eq!(sparkline(&[], 3, 0.0, false), "▁▁▁");
-        assert_eq!(sparkline(&[0.0], 0, 0.0, false), "");
+        assert_eq!(sparkline(&[0.0, 1.0], 4, 0.0), "▁▁▇▇");
+        assert_eq!(sparkline(&[], 3, 0.0), "▁▁▁");
+        assert_eq!(sparkline(&[0.0], 0, 0.0), "");
     }
 }

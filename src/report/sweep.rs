@@ -81,7 +81,7 @@ pub fn text(case: &Case, sweep: &Sweep, partial: bool, style: Style) -> String {
     let (from, to) = (ends(<[Point]>::first), ends(<[Point]>::last));
     text += &format!("interval between rows {names}: {from} to {to}, {} tried\n\n", sweep.points.len());
     let line = |name: &str, of: fn(&Point) -> f64, limit: f64| {
-        let bars = sparkline(&evenly(&sweep.points, of), SPARK, limit, style.ascii);
+        let bars = sparkline(&evenly(&sweep.points, of), SPARK, limit);
         format!("{name:>8}  {from} {bars} {to}\n")
     };
     text += &line("height", |point| point.envelope.height.value, case.limits.height);

@@ -30,7 +30,7 @@ impl Style {
     }
 
     pub(super) fn plain(self, text: String) -> String {
-        if self.ascii { text.replace(" ± ", " +- ").replace('·', "|") } else { text }
+        if self.ascii { super::ascii::to_ascii(&text) } else { text }
     }
 }
 
@@ -52,7 +52,7 @@ pub fn check(case: &Case, results: &Results, any: bool, style: Style) -> String 
         text += &format!("{:name_width$}  {}", delay.name, style.verdict(verdict));
         match result {
             Err(failure) => text += &format!("  {failure}\n"),
-            Ok(checked) => text += &row(case, checked, style),
+            Ok(checked) => text += &row(case, checked),
         }
     }
     let passed = results.iter().flatten().filter(|checked| checked.verdict == Verdict::Pass).count();
@@ -66,7 +66,7 @@ pub fn check(case: &Case, results: &Results, any: bool, style: Style) -> String 
 }
 
 /// Values, sparklines and reasons of one option.
-fn row(case: &Case, checked: &Checked, style: Style) -> String {
+fn row(case: &Case, checked: &Checked) -> String {
     let Checked { height, force, history, .. } = checked;
     let drift = value_and_error(checked.drift.value, checked.drift.error, Unit::Metre);
     let drift = if case.limits.drift.is_some() { format!("  {drift:>17}") } else { String::new() };
@@ -75,8 +75,8 @@ fn row(case: &Case, checked: &Checked, style: Style) -> String {
         value_and_error(height.value, height.error, Unit::Metre),
         value_and_error(force.value, force.error, Unit::Kilonewton),
         units::factor(checked.safety_factor),
-        sparkline(&history.height, SPARK, case.limits.height, style.ascii),
-        sparkline(&history.force, SPARK, case.limits.force, style.ascii),
+        sparkline(&history.height, SPARK, case.limits.height),
+        sparkline(&history.force, SPARK, case.limits.force),
     );
     for reason in &checked.reasons {
         text += &format!("    {}\n", explain(reason));

@@ -153,8 +153,7 @@ fn row<'r>(app: &'r App, option: usize, columns: &[&Column], (name, spark): (u16
                 .extend(columns.iter().map(|column| Line::from((column.cell)(app, checked)).right_aligned()));
             let width = usize::from(spark);
             let (history, limits) = (&checked.history, &app.case.limits);
-            let spark =
-                |series, limit| Line::styled(sparkline(series, width, limit, false), app.theme.curve());
+            let spark = |series, limit| Line::styled(sparkline(series, width, limit), app.theme.curve());
             cells.push(spark(&history.height, limits.height));
             cells.push(spark(&history.force, limits.force));
         }

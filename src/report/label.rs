@@ -1,0 +1,73 @@
+//! Words of cells, headings and axes, the same in text, page and terminal.
+
+use super::model::{Axis, Cell, Column, Scale};
+use super::spark::sparkline;
+use crate::units;
+
+impl Cell {
+    /// The cell as people read it; a series of `bars` bars.
+    pub fn label(&self, bars: usize) -> String {
+        match self {
+            Cell::Nothing => String::new(),
+            Cell::Text(text) => text.clone(),
+            Cell::Verdict(verdict) => verdict.label().to_owned(),
+            Cell::Flag(flag) => (if *flag { "yes" } else { "no" }).to_owned(),
+            Cell::Count(count) => count.to_string(),
+            Cell::Number(number) => number.to_string(),
+            Cell::Rounded(number, decimals) => units::rounded(*number, *decimals),
+            Cell::Estimate { value, error, unit } => units::value_and_error(*value, *error, *unit),
+            Cell::Value(value, unit) => units::computed(*value, *unit),
+            Cell::Spread(values, unit) => values.map(|value| units::value(value, *unit)).join(" · "),
+            Cell::Time(time) => units::milliseconds(*time),
+            Cell::Factor(factor) => units::factor(*factor),
+            Cell::Utilization(share) => units::percent(*share, 0),
+            Cell::RelativeError(share) => units::percent(*share, 4),
+            Cell::Probability(interval) => units::probabilities(*interval),
+            Cell::Residual(share) => units::residual(*share),
+            Cell::Sparkline { series, top } => sparkline(series, bars, *top),
+        }
+    }
+}
+
+impl Column {
+    /// Heading with unit: `height, m`.
+    pub fn label(&self) -> String {
+        with_unit(self.heading, self.unit)
+    }
+}
+
+impl Axis {
+    /// Name with unit: `interval, ms`.
+    pub fn label(&self) -> String {
+        with_unit(self.name, self.unit)
+    }
+
+    /// Coordinate of a value: the number in the unit of the axis, or its logarithm to base 10.
+    pub fn coordinate(&self, value: f64) -> f64 {
+        let number = value / self.unit.size();
+        match self.scale {
+            Scale::Linear => number,
+            Scale::Logarithmic => number.log10(),
+        }
+    }
+
+    /// Number that stands at a coordinate.
+    pub fn mark(&self, coordinate: f64) -> String {
+        match self.scale {
+            Scale::Linear => coordinate.to_string(),
+            Scale::Logarithmic => units::power_of_ten(coordinate),
+        }
+    }
+
+    /// Coordinates of both ends.
+    pub fn ends(&self) -> [f64; 2] {
+        self.range.map(|value| self.coordinate(value))
+    }
+}
+
+fn with_unit(name: &str, unit: units::Unit) -> String {
+    match unit.symbol() {
+        "" => name.to_owned(),
+        symbol => format!("{name}, {symbol}"),
+    }
+}

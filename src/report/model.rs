@@ -1,0 +1,227 @@
+//! A result as data: what was found, ready to be drawn by every face.
+//!
+//! Numbers stay numbers, SI, beside the unit in which people read them. A report holds no widths, colours, escapes or
+//! rounded numbers: faces choose the first three, [`units`](crate::units) words the last.
+
+use crate::units::Unit;
+use crate::verdict::Verdict;
+
+/// What a study found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Report {
+    /// Title and file of the plan; empty where the report is about no plan.
+    pub title: String,
+    /// Facts of the plan that hold for all results: size, limits.
+    pub facts: Vec<String>,
+    /// Results, from top to bottom.
+    pub blocks: Vec<Block>,
+    /// What the results come to; always the last line.
+    pub conclusion: Option<Conclusion>,
+}
+
+/// A verdict and its reason: `FAIL: 1 of 7 options pass`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Conclusion {
+    /// The verdict on everything asked for.
+    pub verdict: Verdict,
+    /// The reason, without the verdict.
+    pub text: String,
+}
+
+/// A part of a report.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Block {
+    /// Sentences that belong together, one a line.
+    Text(Vec<String>),
+    /// Rows of cells.
+    Table(Table),
+    /// A chart that every face draws; text draws bars or marks.
+    Chart(Chart),
+    /// A chart for faces that draw pictures; text leaves it out.
+    Picture(Chart),
+}
+
+/// Rows of cells under columns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// From left to right (`n_columns`).
+    pub columns: Vec<Column>,
+    /// From top to bottom.
+    pub rows: Vec<Row>,
+    /// Whether rows run from the worst to the best, so that a face short of room shows both ends.
+    pub ranked: bool,
+}
+
+/// A column of a table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Column {
+    /// Names of its numbers in CSV, with their SI unit: what scripts read. A value with an error has two names; a column
+    /// that scripts do not read has none.
+    pub keys: &'static [&'static str],
+    /// Heading for people, without the unit.
+    pub heading: &'static str,
+    /// Second line of the heading; empty where there is none.
+    pub subheading: &'static str,
+    /// Unit in which people read the column.
+    pub unit: Unit,
+    /// Side on which cells stand.
+    pub align: Align,
+    /// Who sees the column.
+    pub shown: Shown,
+}
+
+/// Side of a column on which its cells stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Align {
+    /// Names and sentences.
+    Left,
+    /// Numbers.
+    Right,
+}
+
+/// Who sees a column, besides the scripts that read its keys.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shown {
+    /// Readers of text, terminal and page.
+    People,
+    /// Readers of text and terminal.
+    Text,
+    /// Readers of the page.
+    Page,
+    /// No reader: the column is for scripts.
+    Scripts,
+}
+
+/// A row of a table.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Row {
+    /// One cell a column (`n_columns`).
+    pub cells: Vec<Cell>,
+    /// Why the row has no values; stands in their place.
+    pub missing: Option<String>,
+    /// Sentences below the row.
+    pub details: Vec<Detail>,
+}
+
+/// A sentence below a row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Detail {
+    /// The verdict that the sentence explains.
+    pub verdict: Verdict,
+    /// The sentence.
+    pub text: String,
+}
+
+/// One entry of a table; numbers are SI.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    /// No value.
+    Nothing,
+    /// A name, or words.
+    Text(String),
+    /// Pass, open or fail.
+    Verdict(Verdict),
+    /// Yes or no.
+    Flag(bool),
+    /// How many.
+    Count(usize),
+    /// A number as the plan or the catalogue gives it.
+    Number(f64),
+    /// A number at so many decimals.
+    Rounded(f64, usize),
+    /// A value with its error, one-sided.
+    Estimate {
+        /// The value.
+        value: f64,
+        /// The error.
+        error: f64,
+        /// Unit for people.
+        unit: Unit,
+    },
+    /// A value whose error stands elsewhere, at the finest digits worth reading.
+    Value(f64, Unit),
+    /// Median, 95th percentile and greatest value.
+    Spread([f64; 3], Unit),
+    /// A stretch of time [s].
+    Time(f64),
+    /// Breaking force over force; infinite where no cable pulls.
+    Factor(f64),
+    /// Greatest value over its limit.
+    Utilization(f64),
+    /// Error over value.
+    RelativeError(f64),
+    /// Interval of a probability.
+    Probability([f64; 2]),
+    /// Energy residual over the energy put in.
+    Residual(f64),
+    /// A series over even stretches of time, as bars.
+    Sparkline {
+        /// Greatest value of each stretch.
+        series: Vec<f64>,
+        /// Value that fills a bar.
+        top: f64,
+    },
+}
+
+/// Series over two axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chart {
+    /// What is drawn: `flight height against the interval`.
+    pub title: String,
+    /// Across.
+    pub x: Axis,
+    /// Upwards.
+    pub y: Axis,
+    /// Drawn in this order.
+    pub series: Vec<Series>,
+    /// Limit of the quantity on the upward axis.
+    pub limit: Option<f64>,
+    /// Stretches of the axis across that pass.
+    pub windows: Vec<[f64; 2]>,
+    /// Firing times on the axis across.
+    pub firings: Vec<f64>,
+}
+
+/// An axis; its numbers are SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axis {
+    /// Quantity.
+    pub name: &'static str,
+    /// Unit in which people read it.
+    pub unit: Unit,
+    /// Even distances or even ratios.
+    pub scale: Scale,
+    /// Both ends; powers of ten where the scale is logarithmic.
+    pub range: [f64; 2],
+}
+
+/// How numbers lie on an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// At even distances.
+    Linear,
+    /// At even ratios.
+    Logarithmic,
+}
+
+/// Points of one kind.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// Name in a legend.
+    pub name: &'static str,
+    /// What the points are.
+    pub kind: SeriesKind,
+    /// Across and upwards.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// What the points of a series are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SeriesKind {
+    /// The quantity that the chart is about: a line.
+    Curve,
+    /// What the curve is compared with: a line.
+    Comparison,
+    /// Single results: points.
+    Points,
+}

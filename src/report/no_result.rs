@@ -1,0 +1,34 @@
+//! Why an option or a study has no result, in words, with the remedy on the command line.
+
+use crate::simulation::Failure;
+use crate::study::NoResult;
+
+/// Reason of a missing result, followed by the remedy if there is one.
+pub fn message(no_result: &NoResult) -> String {
+    match remedy(no_result) {
+        Some(remedy) => format!("{no_result}: {remedy}"),
+        None => no_result.to_string(),
+    }
+}
+
+/// Remedy for a run that failed by itself.
+fn remedy(no_result: &NoResult) -> Option<&'static str> {
+    match no_result {
+        NoResult::Failed(Failure::Step { .. } | Failure::Diverged { .. } | Failure::Unsettled { .. }) => {
+            Some("choose a smaller --dt")
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_run_that_failed_by_itself_has_a_remedy() {
+        let diverged = message(&Failure::Diverged { at: 0.3 }.into());
+        assert_eq!(diverged, "the motion is no longer finite at 0.3 s: choose a smaller --dt");
+        assert_eq!(message(&Failure::Stopped { at: 0.3 }.into()), "stopped at 0.3 s before the end");
+    }
+}
