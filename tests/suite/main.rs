@@ -18,6 +18,7 @@ mod long_studies;
 mod mirrors;
 mod oracle;
 mod page;
+mod plan_keys;
 mod plans;
 mod properties;
 mod reference;
