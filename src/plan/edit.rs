@@ -3,6 +3,10 @@
 use toml_edit::{DocumentMut, Item, Table, value};
 
 use super::Plan;
+use super::keys::cable::{AXIAL_STIFFNESS_KN, BREAKING_FORCE_KN, ROPE};
+use super::keys::shelter::BORDER_ROWS;
+use super::keys::tire::MASS_KG;
+use super::keys::{Key, plan};
 use crate::ropes::Rope;
 
 impl Plan {
@@ -28,31 +32,32 @@ pub fn write_sizes(
     border_rows: usize,
 ) -> Result<String, toml_edit::TomlError> {
     let mut document: DocumentMut = text.parse()?;
-    let section = |document: &mut DocumentMut, name: &str, change: &dyn Fn(&mut dyn toml_edit::TableLike)| {
-        let item = document.entry(name).or_insert(Item::Table(Table::new()));
+    let section = |document: &mut DocumentMut, key: &Key, change: &dyn Fn(&mut dyn toml_edit::TableLike)| {
+        let item = document.entry(key.name).or_insert(Item::Table(Table::new()));
         if let Some(table) = item.as_table_like_mut() {
             change(table);
         }
     };
-    section(&mut document, "cable", &|cable| {
-        let comment = cable.key("axial_stiffness_kn").and_then(|key| key.leaf_decor().prefix().cloned());
-        cable.remove("axial_stiffness_kn");
-        cable.remove("breaking_force_kn");
-        set(cable, "rope", rope.into());
-        if let (Some(comment), Some(mut key)) = (comment, cable.key_mut("rope")) {
+    section(&mut document, &plan::CABLE, &|cable| {
+        let first = cable.key(AXIAL_STIFFNESS_KN.name);
+        let comment = first.and_then(|key| key.leaf_decor().prefix().cloned());
+        cable.remove(AXIAL_STIFFNESS_KN.name);
+        cable.remove(BREAKING_FORCE_KN.name);
+        set(cable, ROPE.name, rope.into());
+        if let (Some(comment), Some(mut key)) = (comment, cable.key_mut(ROPE.name)) {
             key.leaf_decor_mut().set_prefix(comment);
         }
     });
-    section(&mut document, "tire", &|tire| {
+    section(&mut document, &plan::TIRE, &|tire| {
         let now =
-            tire.get("mass_kg").and_then(|mass| mass.as_float().or(mass.as_integer().map(|kg| kg as f64)));
+            tire.get(MASS_KG.name).and_then(|mass| mass.as_float().or(mass.as_integer().map(|kg| kg as f64)));
         if now != Some(tire_mass_kg) {
-            set(tire, "mass_kg", tire_mass_kg.into());
+            set(tire, MASS_KG.name, tire_mass_kg.into());
         }
     });
-    section(&mut document, "shelter", &|shelter| {
-        if border_rows > 0 || shelter.contains_key("border_rows") {
-            set(shelter, "border_rows", (border_rows as i64).into());
+    section(&mut document, &plan::SHELTER, &|shelter| {
+        if border_rows > 0 || shelter.contains_key(BORDER_ROWS.name) {
+            set(shelter, BORDER_ROWS.name, (border_rows as i64).into());
         }
     });
     Ok(with_line_ends_of(text, &document))

@@ -1,8 +1,11 @@
-//! The text of a plan from a few answers.
+//! The text of a starter plan, from a few answers.
 
-use std::fmt::Write;
+use std::fmt::Display;
 
-/// What is asked of somebody with a new shelter; as typed.
+use super::keys::{Key, Section, blast_row, cable, delay, ground, limits, plan, shelter, tire};
+use crate::choice::LayoutKind;
+
+/// Questions for a new shelter, each with the answer offered.
 pub const QUESTIONS: [(&str, &str); 9] = [
     ("title", "New shelter"),
     ("shelter rows (along the depth of the blast)", "5"),
@@ -14,11 +17,11 @@ pub const QUESTIONS: [(&str, &str); 9] = [
     ("intervals to compare, ms", "0, 9, 20, 25, 42, 67, 109"),
     ("flight height allowed, m", "1.8"),
 ];
-/// Which of the [`QUESTIONS`] asks for a rope.
+/// Index of the question for a rope in [`QUESTIONS`].
 pub const ROPE: usize = 5;
-/// Most blast rows offered to somebody who has only numbers for them.
+/// Most blast rows of a starter plan.
 const MOST_ROWS: usize = 50;
-/// Launch velocity until somebody puts in a better one [m/s].
+/// Launch velocity of a starter plan [m/s]; the user replaces it.
 pub(super) const LAUNCH_M_S: f64 = 6.0;
 
 /// A grid of tires over the blast rows, all of one mass and tied with one rope.
@@ -33,61 +36,77 @@ pub(super) struct Shelter<'s> {
 
 /// Outer diameter of an 18.00-25 tire [m].
 const DIAMETER_M: f64 = 1.6;
-/// Tires nearer together than this leave no room for cables from rim to rim [m].
+/// Smallest spacing that leaves room for cables from rim to rim [m].
 const ROOMY_M: f64 = 2.0;
 
-/// As the [`QUESTIONS`] offer it.
+/// The shelter that the [`QUESTIONS`] offer.
 pub(super) const USUAL: Shelter<'_> =
     Shelter { rows: 5, columns: 10, spacing_m: 2.6, mass_kg: 280.0, rope: "GOST 2688-80 14" };
 
 impl Shelter<'_> {
-    /// What a plan says before its blast rows; `place` is a comment on where the tires lie.
-    pub(super) fn sections(&self, title: &str, place: &str) -> String {
-        let quoted = |text: &str| toml_edit::value(text).to_string();
-        let Self { rows, columns, spacing_m, mass_kg, rope } = self;
-        let diameter_m = if *spacing_m >= ROOMY_M { DIAMETER_M } else { 0.0 };
-        format!(
-            "title = {}
-
-[shelter]{place}
-layout = \"grid\"
-rows = {rows}                # along y, numbered from 1
-columns = {columns}            # along x, numbered from 1
-spacing_m = {spacing_m}         # centre to centre
-
-[tire]
-mass_kg = {mass_kg}
-outer_diameter_m = {diameter_m}  # cables run from rim to rim; 0: from centre to centre
-
-[cable]
-rope = {}         # `shelter ropes` lists the catalogue
-termination = \"mechanical sleeve\"
-slack_percent = 2
-
-[ground]
-friction = 0.5          # rocky soil 0.3 to 0.5
-",
-            quoted(title),
-            quoted(rope)
-        )
+    /// The text of a plan before its blast rows; `remark` is a comment behind the header of the shelter.
+    pub(super) fn sections(&self, title: &str, remark: &str) -> String {
+        let diameter_m = if self.spacing_m >= ROOMY_M { DIAMETER_M } else { 0.0 };
+        [
+            line(&plan::TITLE, quoted(title)),
+            format!("\n{}{remark}\n", shelter::SECTION.title),
+            line(&shelter::LAYOUT, quoted(LayoutKind::Grid.name())),
+            explained(&shelter::ROWS, self.rows),
+            explained(&shelter::COLUMNS, self.columns),
+            explained(&shelter::SPACING_M, self.spacing_m),
+            header(&tire::SECTION),
+            line(&tire::MASS_KG, self.mass_kg),
+            explained(&tire::OUTER_DIAMETER_M, diameter_m),
+            header(&cable::SECTION),
+            explained(&cable::ROPE, quoted(self.rope)),
+            line(&cable::TERMINATION, quoted("mechanical sleeve")),
+            line(&cable::SLACK_PERCENT, 2),
+            header(&ground::SECTION),
+            explained(&ground::FRICTION, 0.5),
+        ]
+        .concat()
     }
 }
 
-/// The limits of a plan, one of them a height [m].
+/// An empty line and the header of a section.
+pub(super) fn header(section: &Section) -> String {
+    format!("\n{}\n", section.title)
+}
+
+/// A key with its value.
+pub(super) fn line(key: &Key, value: impl Display) -> String {
+    format!("{} = {value}\n", key.name)
+}
+
+/// A key with its value, and its description as a comment.
+fn explained(key: &Key, value: impl Display) -> String {
+    format!("{:<24}# {}\n", format!("{} = {value}", key.name), key.doc)
+}
+
+/// A text in quotes, as TOML writes it.
+pub(super) fn quoted(text: &str) -> String {
+    toml_edit::value(text).to_string()
+}
+
+/// The limits of a plan, with its limit of flight height [m].
 pub(super) fn limits(height_m: f64) -> String {
-    format!(
-        "\n[limits]\nflight_height_m = {height_m}\ncable_safety_factor = 1.5   # breaking force / greatest force\n"
-    )
+    [
+        header(&limits::SECTION),
+        line(&limits::FLIGHT_HEIGHT_M, height_m),
+        explained(&limits::CABLE_SAFETY_FACTOR, 1.5),
+    ]
+    .concat()
 }
 
-/// A delay option by its interval [ms].
+/// A delay option with its interval [ms].
 pub(super) fn delay(interval_ms: f64) -> String {
-    format!("\n[[delay]]\nname = \"{interval_ms} ms\"\ninterval_ms = {interval_ms}\n")
+    let name = line(&delay::NAME, quoted(&format!("{interval_ms} ms")));
+    header(&delay::SECTION) + &name + &line(&delay::INTERVAL_MS, interval_ms)
 }
 
-/// The plan, blast rows spread evenly under the shelter; or which answer is no answer.
+/// The text of the plan, with blast rows spread evenly under the shelter; or a message that names a wrong answer.
 ///
-/// What is wrong with a number in itself is told when the plan is read.
+/// Ranges of numbers are checked when the plan is read.
 pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
     let [title, rows, columns, spacing, mass, rope, blast_rows, intervals, height] = answers.map(str::trim);
     let number = |text: &str, question: usize| {
@@ -112,10 +131,10 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
     for row in 0..blast_rows {
         let under = (2 * row + 1) * rows / (2 * blast_rows) + 1;
         let name = row + 1;
-        let _ = write!(
-            text,
-            "\n[[blast_row]]\nname = \"{name}\"\nunder_row = {under}\nlaunch_m_s = {LAUNCH_M_S:?}    # put in yours\n"
-        );
+        text += &header(&blast_row::SECTION);
+        text += &line(&blast_row::NAME, quoted(&name.to_string()));
+        text += &line(&blast_row::UNDER_ROW, under);
+        text += &line(&blast_row::LAUNCH_M_S, format!("{LAUNCH_M_S:?}    # put in yours"));
     }
     text += &limits(height);
     intervals.into_iter().for_each(|interval| text += &delay(interval));
@@ -135,11 +154,11 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_answer_is_named() {
+    fn a_wrong_answer_is_named() {
         for (question, answer) in [(1, "many"), (6, "9"), (7, "soon"), (8, "")] {
             let mut answers = QUESTIONS.map(|(_, answer)| answer);
             answers[question] = answer;
-            assert!(plan(&answers).is_err_and(|words| words.starts_with(QUESTIONS[question].0)));
+            assert!(plan(&answers).is_err_and(|message| message.starts_with(QUESTIONS[question].0)));
         }
     }
 }

@@ -8,8 +8,8 @@ use std::fmt::Write;
 use self::holes::{ListedHole, read};
 use self::timing::{Group, groups};
 use super::Diagnostics;
-use super::keys::MOST_TIRES;
-use super::starter::{LAUNCH_M_S, Shelter, USUAL, delay, limits};
+use super::keys::{MOST_TIRES, blast_row, delay, hole};
+use super::starter::{self, LAUNCH_M_S, Shelter, USUAL, header, line, quoted};
 
 /// Tires lie as far apart as the holes where those are this near [m], else as in a usual shelter.
 const NEAR_M: std::ops::RangeInclusive<f64> = 1.0..=3.0;
@@ -87,37 +87,43 @@ fn nearest_distance(holes: &[ListedHole]) -> f64 {
 fn write(name: &str, cover: &Cover, holes: &[ListedHole], groups: &[Group]) -> String {
     let &Cover { rows, columns, spacing_m, origin } = cover;
     let shelter = Shelter { rows, columns, spacing_m, ..USUAL };
-    let place =
+    let remark =
         format!("               # tire (1,1) lies at x = {:.3}, y = {:.3} of the list", origin[0], origin[1]);
     let mut text =
         "# Written by `shelter init --from`. Put in your tires, rope, friction and limits, and the launch velocity.\n"
             .to_owned();
-    text += &shelter.sections(&format!("Holes of {name}"), &place);
+    text += &shelter.sections(&format!("Holes of {name}"), &remark);
     for group in groups {
-        let title = toml_edit::value(group.name.as_str()).to_string();
-        let _ = write!(text, "\n[[blast_row]]\nname = {title}\nholes = [\n");
+        text += &header(&blast_row::SECTION);
+        text += &line(&blast_row::NAME, quoted(&group.name));
+        let _ = writeln!(text, "{} = [", blast_row::HOLES.name);
         for &hole in &group.holes {
             let hole = &holes[hole];
             let _ = writeln!(
                 text,
-                "    {{ x_m = {:.3}, y_m = {:.3}, launch_m_s = {:?} }}, # {}",
+                "    {{ {} = {:.3}, {} = {:.3}, {} = {:?} }}, # {}",
+                hole::X_M.name,
                 hole.x_m - origin[0],
+                hole::Y_M.name,
                 hole.y_m - origin[1],
+                hole::LAUNCH_M_S.name,
                 hole.launch_m_s.unwrap_or(LAUNCH_M_S),
                 hole.id.replace(char::is_control, " "),
             );
         }
         text += "]\n";
     }
-    text += &limits(HEIGHT_M);
+    text += &starter::limits(HEIGHT_M);
     let times: Option<Vec<String>> =
         groups.iter().map(|group| Some(format!("{:?}", group.fire_ms?))).collect();
     match times {
         Some(times) => {
-            let _ = write!(text, "\n[[delay]]\nname = \"as listed\"\nat_ms = [{}]\n", times.join(", "));
+            text += &header(&delay::SECTION);
+            text += &line(&delay::NAME, quoted("as listed"));
+            text += &line(&delay::AT_MS, format!("[{}]", times.join(", ")));
         }
-        None if groups.len() == 1 => text += &delay(0.0),
-        None => INTERVALS_MS.into_iter().for_each(|interval| text += &delay(interval)),
+        None if groups.len() == 1 => text += &starter::delay(0.0),
+        None => INTERVALS_MS.into_iter().for_each(|interval| text += &starter::delay(interval)),
     }
     text
 }

@@ -50,7 +50,7 @@ pub struct At<T> {
 }
 
 /// One section being read.
-pub struct Table<'s> {
+pub struct SectionReader<'s> {
     section: &'static Section,
     /// Bytes of its header.
     pub span: Range<usize>,
@@ -60,7 +60,7 @@ pub struct Table<'s> {
     mistakes: &'s Mistakes,
 }
 
-impl<'s> Table<'s> {
+impl<'s> SectionReader<'s> {
     /// A section found at `span`.
     pub fn new(
         section: &'static Section,

@@ -7,10 +7,10 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::value::as_whole;
-use super::{At, Table};
+use super::{At, SectionReader};
 use crate::plan::keys::{Key, Kind};
 
-impl<'s> Table<'s> {
+impl<'s> SectionReader<'s> {
     /// A list of choices, if the plan has the key.
     pub fn choices<T: FromStr>(&self, key: &Key) -> Option<Vec<T>> {
         let names = self.texts(key)?.value;
@@ -74,7 +74,7 @@ impl<'s> Table<'s> {
     }
 
     /// A section within this one; `None` where the plan has none, or no table in its place.
-    pub fn section_if(&self, key: &Key) -> Option<Table<'s>> {
+    pub fn section_if(&self, key: &Key) -> Option<SectionReader<'s>> {
         let (value, section) = (self.get(key)?, key.kind.section()?);
         let Some(entries) = value.get_ref().as_table() else {
             self.mistakes.add(
@@ -84,11 +84,11 @@ impl<'s> Table<'s> {
             );
             return None;
         };
-        Some(Table::new(section, value.span(), entries, self.mistakes))
+        Some(SectionReader::new(section, value.span(), entries, self.mistakes))
     }
 
     /// A section within this one; its absence is a mistake.
-    pub fn section(&self, key: &Key) -> Option<Table<'s>> {
+    pub fn section(&self, key: &Key) -> Option<SectionReader<'s>> {
         if !self.has(key) {
             self.missing_section(key);
         }
@@ -96,8 +96,8 @@ impl<'s> Table<'s> {
     }
 
     /// A section within this one; where the plan has none, a section without a key.
-    pub fn section_or_empty(&self, key: &Key) -> Table<'s> {
-        self.section_if(key).unwrap_or_else(|| Table {
+    pub fn section_or_empty(&self, key: &Key) -> SectionReader<'s> {
+        self.section_if(key).unwrap_or_else(|| SectionReader {
             section: key.kind.section().unwrap_or(self.section),
             span: self.span.clone(),
             entries: None,
@@ -107,12 +107,12 @@ impl<'s> Table<'s> {
     }
 
     /// A section where a plain value may stand as well, such as `spacing_m = { row = 1.5, column = 1.6 }`.
-    pub fn inline_section(&self, key: &Key) -> Option<Table<'s>> {
+    pub fn inline_section(&self, key: &Key) -> Option<SectionReader<'s>> {
         self.get(key).filter(|value| value.get_ref().is_table()).and_then(|_| self.section_if(key))
     }
 
     /// Sections of one kind; where the key is required, their absence is a mistake.
-    pub fn sections(&self, key: &Key) -> Vec<Table<'s>> {
+    pub fn sections(&self, key: &Key) -> Vec<SectionReader<'s>> {
         let (Some(value), Some(section)) = (self.get(key), key.kind.section()) else {
             if key.required {
                 self.missing_section(key);
@@ -131,14 +131,16 @@ impl<'s> Table<'s> {
         if key.required && items.is_empty() {
             self.missing_section(key);
         }
-        let mut tables = Vec::new();
+        let mut sections = Vec::new();
         for item in items.iter() {
             match item.get_ref().as_table() {
-                Some(entries) => tables.push(Table::new(section, item.span(), entries, self.mistakes)),
+                Some(entries) => {
+                    sections.push(SectionReader::new(section, item.span(), entries, self.mistakes))
+                }
                 None => self.mistyped(key, item, "a table"),
             }
         }
-        tables
+        sections
     }
 
     fn missing_section(&self, key: &Key) {

@@ -4,15 +4,15 @@ use std::collections::HashSet;
 
 use crate::choice::{LayoutKind, Link};
 use crate::plan::keys::{MOST_TIRES, listed_cable, listed_tire, plan, shelter, spacing, tire};
-use crate::plan::read::{Mistakes, Table};
+use crate::plan::read::{Mistakes, SectionReader};
 use crate::plan::{Layout, ListedTire, Mesh, TireSpec};
 
-pub fn read_layout(table: Table<'_>, mistakes: &Mistakes) -> Option<Layout> {
+pub fn read_layout(section: SectionReader<'_>, mistakes: &Mistakes) -> Option<Layout> {
     let before = mistakes.count();
-    let layout = match table.choice(&shelter::LAYOUT) {
-        LayoutKind::List => read_list(&table, mistakes),
-        LayoutKind::Grid => Layout::Grid(read_mesh(&table, 1)),
-        LayoutKind::Quincunx => Layout::Quincunx(read_mesh(&table, 2)),
+    let layout = match section.choice(&shelter::LAYOUT) {
+        LayoutKind::List => read_list(&section, mistakes),
+        LayoutKind::Grid => Layout::Grid(read_mesh(&section, 1)),
+        LayoutKind::Quincunx => Layout::Quincunx(read_mesh(&section, 2)),
     };
     let tires = match &layout {
         Layout::Grid(mesh) => mesh.corners(),
@@ -21,40 +21,40 @@ pub fn read_layout(table: Table<'_>, mistakes: &Mistakes) -> Option<Layout> {
     };
     if tires > MOST_TIRES {
         let message = format!("the shelter has more than {MOST_TIRES} tires");
-        table.wrong(&shelter::ROWS, message, "describe a smaller shelter");
+        section.wrong(&shelter::ROWS, message, "describe a smaller shelter");
     }
-    table.finish();
+    section.finish();
     (mistakes.count() == before).then_some(layout)
 }
 
-fn read_mesh(table: &Table<'_>, least: usize) -> Mesh {
-    let rows = table.whole_within(&shelter::ROWS, least..=MOST_TIRES);
-    let columns = table.whole_within(&shelter::COLUMNS, least..=MOST_TIRES);
-    let (row_spacing_m, column_spacing_m) = read_spacing(table);
-    let links = table.choices(&shelter::LINKS).unwrap_or_else(|| Link::ALL.to_vec());
-    let border_rows = table.whole(&shelter::BORDER_ROWS);
+fn read_mesh(section: &SectionReader<'_>, least: usize) -> Mesh {
+    let rows = section.whole_within(&shelter::ROWS, least..=MOST_TIRES);
+    let columns = section.whole_within(&shelter::COLUMNS, least..=MOST_TIRES);
+    let (row_spacing_m, column_spacing_m) = read_spacing(section);
+    let links = section.choices(&shelter::LINKS).unwrap_or_else(|| Link::ALL.to_vec());
+    let border_rows = section.whole(&shelter::BORDER_ROWS);
     Mesh { rows, columns, row_spacing_m, column_spacing_m, links, border_rows }
 }
 
 /// Distances between rows and between columns [m].
-fn read_spacing(table: &Table<'_>) -> (f64, f64) {
-    match table.inline_section(&shelter::SPACING_M) {
+fn read_spacing(section: &SectionReader<'_>) -> (f64, f64) {
+    match section.inline_section(&shelter::SPACING_M) {
         Some(both) => {
             let distances = (both.number(&spacing::ROW), both.number(&spacing::COLUMN));
             both.finish();
             distances
         }
         None => {
-            let distance = table.number(&shelter::SPACING_M);
+            let distance = section.number(&shelter::SPACING_M);
             (distance, distance)
         }
     }
 }
 
-fn read_list(table: &Table<'_>, mistakes: &Mistakes) -> Layout {
+fn read_list(section: &SectionReader<'_>, mistakes: &Mistakes) -> Layout {
     let mut tires = Vec::new();
     let mut positions = HashSet::new();
-    for tire in table.sections(&shelter::TIRE) {
+    for tire in section.sections(&shelter::TIRE) {
         let listed = ListedTire {
             x_m: tire.number(&listed_tire::X_M),
             y_m: tire.number(&listed_tire::Y_M),
@@ -70,11 +70,11 @@ fn read_list(table: &Table<'_>, mistakes: &Mistakes) -> Layout {
     }
     if tires.is_empty() {
         let remedy = "add a section [[shelter.tire]] with x_m and y_m for each tire";
-        mistakes.add(table.span.clone(), "the shelter has no tire", remedy);
+        mistakes.add(section.span.clone(), "the shelter has no tire", remedy);
     }
     let mut cables = Vec::new();
     let mut known = HashSet::new();
-    for cable in table.sections(&shelter::CABLE) {
+    for cable in section.sections(&shelter::CABLE) {
         let most = tires.len().max(1);
         let before = mistakes.count();
         let from = cable.whole_within(&listed_cable::FROM, 1..=most);
@@ -98,7 +98,7 @@ fn read_list(table: &Table<'_>, mistakes: &Mistakes) -> Layout {
 }
 
 /// Tied tires must lie further apart than a diameter, or there is no room for a cable.
-pub fn check_gaps(layout: &Layout, tire: &TireSpec, root: &Table<'_>, mistakes: &Mistakes) {
+pub fn check_gaps(layout: &Layout, tire: &TireSpec, root: &SectionReader<'_>, mistakes: &Mistakes) {
     let diameter = tire.outer_diameter_m;
     let least = match layout {
         Layout::Grid(mesh) | Layout::Quincunx(mesh) => {
@@ -123,7 +123,8 @@ pub fn check_gaps(layout: &Layout, tire: &TireSpec, root: &Table<'_>, mistakes: 
         let message =
             format!("centres {least} m apart leave no room for a cable between tires of {diameter} m");
         let remedy = "a larger spacing, or a smaller outer_diameter_m (0: cables run from centre to centre)";
-        let span = root.section_if(&plan::TIRE).map_or(0..0, |table| table.span_of(&tire::OUTER_DIAMETER_M));
+        let span =
+            root.section_if(&plan::TIRE).map_or(0..0, |section| section.span_of(&tire::OUTER_DIAMETER_M));
         mistakes.add(span, message, remedy);
     }
 }

@@ -11,7 +11,7 @@ use self::shot::{read_blast_rows, read_delays};
 use self::study::{read_scatter, read_size};
 use super::diagnostic::Diagnostics;
 use super::keys::{self, cable, ground, limits, simulation, tire};
-use super::read::{At, Mistakes, Table};
+use super::read::{At, Mistakes, SectionReader};
 use super::{CableSpec, Limits, Plan, SimulationSpec, TireSpec};
 use crate::ropes::catalogue;
 
@@ -31,7 +31,7 @@ pub fn parse(path: &str, text: &str) -> Result<Plan, Diagnostics> {
     if mistakes.count() > 0 {
         return Err(Diagnostics::new(path, source, mistakes.take()));
     }
-    let root = Table::new(&keys::plan::SECTION, 0..0, document.get_ref(), &mistakes);
+    let root = SectionReader::new(&keys::plan::SECTION, 0..0, document.get_ref(), &mistakes);
     let plan = read_plan(&root, &mistakes);
     root.finish();
     if mistakes.count() > 0 {
@@ -41,13 +41,13 @@ pub fn parse(path: &str, text: &str) -> Result<Plan, Diagnostics> {
     plan.ok_or_else(|| Diagnostics::unreadable(path, "the plan is incomplete".to_owned(), ""))
 }
 
-fn read_plan(root: &Table<'_>, mistakes: &Mistakes) -> Option<Plan> {
+fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
     use keys::plan::{CABLE, GROUND, LIMITS, SCATTER, SHELTER, SIMULATION, SIZE, TIRE, TITLE};
     let title = root.text_if(&TITLE).map(|title| title.value.to_owned());
     let simulation = read_simulation(root.section_or_empty(&SIMULATION));
     let tire = root.section(&TIRE).map(read_tire);
-    let layout = root.section(&SHELTER).and_then(|table| read_layout(table, mistakes));
-    let cable = root.section(&CABLE).map(|table| read_cable(table, mistakes));
+    let layout = root.section(&SHELTER).and_then(|section| read_layout(section, mistakes));
+    let cable = root.section(&CABLE).map(|section| read_cable(section, mistakes));
     let friction = root.section(&GROUND).map(read_friction);
     if let (Some(layout), Some(tire)) = (&layout, &tire) {
         check_gaps(layout, tire, root, mistakes);
@@ -72,62 +72,62 @@ fn read_plan(root: &Table<'_>, mistakes: &Mistakes) -> Option<Plan> {
     })
 }
 
-fn read_simulation(table: Table<'_>) -> SimulationSpec {
+fn read_simulation(section: SectionReader<'_>) -> SimulationSpec {
     let spec = SimulationSpec {
-        duration_s: table.number_if(&simulation::DURATION_S),
-        accuracy: table.choice(&simulation::ACCURACY),
-        method: table.choice(&simulation::METHOD),
-        gravity_m_s2: table.number(&simulation::GRAVITY_M_S2),
+        duration_s: section.number_if(&simulation::DURATION_S),
+        accuracy: section.choice(&simulation::ACCURACY),
+        method: section.choice(&simulation::METHOD),
+        gravity_m_s2: section.number(&simulation::GRAVITY_M_S2),
     };
-    table.finish();
+    section.finish();
     spec
 }
 
-fn read_tire(table: Table<'_>) -> TireSpec {
+fn read_tire(section: SectionReader<'_>) -> TireSpec {
     let spec = TireSpec {
-        mass_kg: table.number(&tire::MASS_KG),
-        outer_diameter_m: table.number(&tire::OUTER_DIAMETER_M),
+        mass_kg: section.number(&tire::MASS_KG),
+        outer_diameter_m: section.number(&tire::OUTER_DIAMETER_M),
     };
-    table.finish();
+    section.finish();
     spec
 }
 
-fn read_friction(table: Table<'_>) -> f64 {
-    let friction = table.number(&ground::FRICTION);
-    table.finish();
+fn read_friction(section: SectionReader<'_>) -> f64 {
+    let friction = section.number(&ground::FRICTION);
+    section.finish();
     friction
 }
 
-fn read_limits(table: Table<'_>) -> Limits {
+fn read_limits(section: SectionReader<'_>) -> Limits {
     let spec = Limits {
-        flight_height_m: table.number(&limits::FLIGHT_HEIGHT_M),
-        cable_safety_factor: table.number(&limits::CABLE_SAFETY_FACTOR),
-        drift_m: table.number_if(&limits::DRIFT_M),
+        flight_height_m: section.number(&limits::FLIGHT_HEIGHT_M),
+        cable_safety_factor: section.number(&limits::CABLE_SAFETY_FACTOR),
+        drift_m: section.number_if(&limits::DRIFT_M),
     };
-    table.finish();
+    section.finish();
     spec
 }
 
-fn read_cable(table: Table<'_>, mistakes: &Mistakes) -> CableSpec {
-    let rope = table.text_if(&cable::ROPE);
-    let (axial_stiffness_kn, breaking_force_kn) = read_rope(&table, rope.as_ref(), mistakes);
-    let termination_percent = read_termination(&table);
+fn read_cable(section: SectionReader<'_>, mistakes: &Mistakes) -> CableSpec {
+    let rope = section.text_if(&cable::ROPE);
+    let (axial_stiffness_kn, breaking_force_kn) = read_rope(&section, rope.as_ref(), mistakes);
+    let termination_percent = read_termination(&section);
     let spec = CableSpec {
         rope: rope.map(|rope| rope.value.to_owned()),
         axial_stiffness_kn,
         breaking_force_kn: breaking_force_kn * termination_percent * 1e-2,
-        slack_percent: table.number(&cable::SLACK_PERCENT),
+        slack_percent: section.number(&cable::SLACK_PERCENT),
         termination_percent,
-        on_overload: table.choice(&cable::ON_OVERLOAD),
+        on_overload: section.choice(&cable::ON_OVERLOAD),
     };
-    table.finish();
+    section.finish();
     spec
 }
 
 /// Axial stiffness and breaking force of the rope [kN]: from the catalogue, or as the plan says.
-fn read_rope(table: &Table<'_>, rope: Option<&At<&str>>, mistakes: &Mistakes) -> (f64, f64) {
-    let stiffness = table.number_if(&cable::AXIAL_STIFFNESS_KN);
-    let breaking = table.number_if(&cable::BREAKING_FORCE_KN);
+fn read_rope(section: &SectionReader<'_>, rope: Option<&At<&str>>, mistakes: &Mistakes) -> (f64, f64) {
+    let stiffness = section.number_if(&cable::AXIAL_STIFFNESS_KN);
+    let breaking = section.number_if(&cable::BREAKING_FORCE_KN);
     match (rope, stiffness, breaking) {
         (None, Some(stiffness), Some(breaking)) => return (stiffness, breaking),
         (Some(rope), None, None) => match catalogue().find(rope.value) {
@@ -145,7 +145,7 @@ fn read_rope(table: &Table<'_>, rope: Option<&At<&str>>, mistakes: &Mistakes) ->
             let both =
                 if stiffness.is_some() { &cable::AXIAL_STIFFNESS_KN } else { &cable::BREAKING_FORCE_KN };
             let message = format!("`{}` stands beside `rope`, which gives it too", both.name);
-            table.wrong(both, message, "keep one of them");
+            section.wrong(both, message, "keep one of them");
         }
         (None, ..) => {
             let missing = match (stiffness, breaking) {
@@ -155,20 +155,20 @@ fn read_rope(table: &Table<'_>, rope: Option<&At<&str>>, mistakes: &Mistakes) ->
             };
             let remedy =
                 "add `rope = \"GOST 2688-80 6.2\"`, or both axial_stiffness_kn and breaking_force_kn";
-            mistakes.add(table.span.clone(), format!("[cable] has no {missing}"), remedy);
+            mistakes.add(section.span.clone(), format!("[cable] has no {missing}"), remedy);
         }
     }
     (1.0, 1.0)
 }
 
 /// Share of the rope's breaking force that the termination holds [%].
-fn read_termination(table: &Table<'_>) -> f64 {
-    let name = table.name_if(&cable::TERMINATION);
-    if name.is_some() && table.has(&cable::TERMINATION_PERCENT) {
+fn read_termination(section: &SectionReader<'_>) -> f64 {
+    let name = section.name_if(&cable::TERMINATION);
+    if name.is_some() && section.has(&cable::TERMINATION_PERCENT) {
         let message = "`termination_percent` stands beside `termination`";
-        table.wrong(&cable::TERMINATION_PERCENT, message, "keep one of them");
+        section.wrong(&cable::TERMINATION_PERCENT, message, "keep one of them");
     }
-    let percent = table.number(&cable::TERMINATION_PERCENT);
+    let percent = section.number(&cable::TERMINATION_PERCENT);
     let known = catalogue()
         .terminations
         .iter()

@@ -3,36 +3,37 @@
 use std::collections::{HashMap, HashSet};
 
 use crate::plan::keys::{blast_row, delay, hole, plan};
-use crate::plan::read::{Mistakes, Table, nearest};
+use crate::plan::read::{Mistakes, SectionReader, nearest};
 use crate::plan::{BlastRow, DelayOption, Hole, LaunchTargets, Layout, Timing};
 
 pub fn read_blast_rows(
-    root: &Table<'_>,
+    root: &SectionReader<'_>,
     layout: Option<&Layout>,
     gravity: f64,
     mistakes: &Mistakes,
 ) -> Vec<BlastRow> {
     let mut rows: Vec<BlastRow> = Vec::new();
-    for table in root.sections(&plan::BLAST_ROW) {
-        let name = table.text(&blast_row::NAME);
+    for section in root.sections(&plan::BLAST_ROW) {
+        let name = section.text(&blast_row::NAME);
         if rows.iter().any(|row| row.name == name.value) && !name.value.is_empty() {
             let message = format!("two blast rows are named \"{}\"", name.value);
             mistakes.add(name.span.clone(), message, "give each its own name");
         }
-        let targets = read_targets(&table, layout, gravity, mistakes);
+        let targets = read_targets(&section, layout, gravity, mistakes);
         rows.push(BlastRow { name: name.value.to_owned(), targets });
-        table.finish();
+        section.finish();
     }
     rows
 }
 
 fn read_targets(
-    table: &Table<'_>,
+    section: &SectionReader<'_>,
     layout: Option<&Layout>,
     gravity: f64,
     mistakes: &Mistakes,
 ) -> LaunchTargets {
-    let given = [&blast_row::UNDER_ROW, &blast_row::UNDER_TIRES, &blast_row::HOLES].map(|key| table.has(key));
+    let given =
+        [&blast_row::UNDER_ROW, &blast_row::UNDER_TIRES, &blast_row::HOLES].map(|key| section.has(key));
     if given.iter().filter(|&&given| given).count() != 1 {
         let message = if given.contains(&true) {
             "a blast row says twice what it launches"
@@ -40,18 +41,18 @@ fn read_targets(
             "a blast row launches no tire"
         };
         let remedy = "give it exactly one of under_row, under_tires, holes";
-        mistakes.add(table.span.clone(), message, remedy);
+        mistakes.add(section.span.clone(), message, remedy);
     }
-    if table.has(&blast_row::HOLES) {
-        return LaunchTargets::Holes(read_holes(table, gravity));
+    if section.has(&blast_row::HOLES) {
+        return LaunchTargets::Holes(read_holes(section, gravity));
     }
-    let launch_m_s = read_launch(table, gravity);
-    if let Some(tires) = table.wholes(&blast_row::UNDER_TIRES) {
+    let launch_m_s = read_launch(section, gravity);
+    if let Some(tires) = section.wholes(&blast_row::UNDER_TIRES) {
         let count = match layout {
             Some(Layout::List { tires, .. }) => tires.len(),
             Some(_) => {
                 let remedy = "use under_row, or holes, in a grid or quincunx";
-                table.wrong(
+                section.wrong(
                     &blast_row::UNDER_TIRES,
                     "`under_tires` numbers the tires of a list layout",
                     remedy,
@@ -77,17 +78,17 @@ fn read_targets(
         let tires = tires.value.into_iter().map(|tire| tire.value.saturating_sub(1)).collect();
         return LaunchTargets::UnderTires { tires, launch_m_s };
     }
-    let row = table.number_if(&blast_row::UNDER_ROW).unwrap_or(1.0);
-    check_row(table, layout, row);
+    let row = section.number_if(&blast_row::UNDER_ROW).unwrap_or(1.0);
+    check_row(section, layout, row);
     LaunchTargets::UnderRow { row, launch_m_s }
 }
 
-fn read_holes(table: &Table<'_>, gravity: f64) -> Vec<Hole> {
-    let holes = table.sections(&blast_row::HOLES);
+fn read_holes(section: &SectionReader<'_>, gravity: f64) -> Vec<Hole> {
+    let holes = section.sections(&blast_row::HOLES);
     if holes.is_empty() {
-        table.wrong(&blast_row::HOLES, "a blast row without a hole", "list its holes, or remove the row");
+        section.wrong(&blast_row::HOLES, "a blast row without a hole", "list its holes, or remove the row");
     }
-    let read = |hole: Table<'_>| {
+    let read = |hole: SectionReader<'_>| {
         let read = Hole {
             x_m: hole.number(&hole::X_M),
             y_m: hole.number(&hole::Y_M),
@@ -99,12 +100,12 @@ fn read_holes(table: &Table<'_>, gravity: f64) -> Vec<Hole> {
     holes.into_iter().map(read).collect()
 }
 
-fn check_row(table: &Table<'_>, layout: Option<&Layout>, row: f64) {
+fn check_row(section: &SectionReader<'_>, layout: Option<&Layout>, row: f64) {
     let (rows, halves) = match layout {
         Some(Layout::Grid(mesh)) => (mesh.rows, false),
         Some(Layout::Quincunx(mesh)) => (mesh.rows, true),
-        Some(Layout::List { .. }) if table.has(&blast_row::UNDER_ROW) => {
-            return table.wrong(
+        Some(Layout::List { .. }) if section.has(&blast_row::UNDER_ROW) => {
+            return section.wrong(
                 &blast_row::UNDER_ROW,
                 "a list layout has no rows",
                 "use under_tires = [1, 2], or holes",
@@ -116,14 +117,14 @@ fn check_row(table: &Table<'_>, layout: Option<&Layout>, row: f64) {
     if !(whole && row >= 1.0 && row <= rows as f64) {
         let centres = if halves { ", centres between them at halves such as 1.5" } else { "" };
         let remedy = format!("shelter rows are numbered 1 to {rows}{centres}");
-        table.wrong(&blast_row::UNDER_ROW, format!("there is no shelter row {row}"), remedy);
+        section.wrong(&blast_row::UNDER_ROW, format!("there is no shelter row {row}"), remedy);
     }
 }
 
-fn read_launch(table: &Table<'_>, gravity: f64) -> f64 {
-    match (table.has(&blast_row::LAUNCH_M_S), table.has(&blast_row::FREE_FLIGHT_HEIGHT_M)) {
+fn read_launch(section: &SectionReader<'_>, gravity: f64) -> f64 {
+    match (section.has(&blast_row::LAUNCH_M_S), section.has(&blast_row::FREE_FLIGHT_HEIGHT_M)) {
         (true, true) => {
-            table.wrong(
+            section.wrong(
                 &blast_row::FREE_FLIGHT_HEIGHT_M,
                 "`free_flight_height_m` stands beside `launch_m_s`",
                 "keep one of them",
@@ -131,37 +132,37 @@ fn read_launch(table: &Table<'_>, gravity: f64) -> f64 {
             0.0
         }
         (false, true) => {
-            let height = table.number(&blast_row::FREE_FLIGHT_HEIGHT_M);
+            let height = section.number(&blast_row::FREE_FLIGHT_HEIGHT_M);
             if gravity == 0.0 {
                 let message = "without gravity no launch velocity follows from a height";
-                table.wrong(&blast_row::FREE_FLIGHT_HEIGHT_M, message, "give launch_m_s instead");
+                section.wrong(&blast_row::FREE_FLIGHT_HEIGHT_M, message, "give launch_m_s instead");
             }
             (2.0 * gravity * height).sqrt()
         }
-        _ => table.number(&blast_row::LAUNCH_M_S),
+        _ => section.number(&blast_row::LAUNCH_M_S),
     }
 }
 
-pub fn read_delays(root: &Table<'_>, rows: &[BlastRow], mistakes: &Mistakes) -> Vec<DelayOption> {
+pub fn read_delays(root: &SectionReader<'_>, rows: &[BlastRow], mistakes: &Mistakes) -> Vec<DelayOption> {
     let mut delays: Vec<DelayOption> = Vec::new();
-    for table in root.sections(&plan::DELAY) {
-        let name = table.text(&delay::NAME);
+    for section in root.sections(&plan::DELAY) {
+        let name = section.text(&delay::NAME);
         if delays.iter().any(|delay| delay.name == name.value) && !name.value.is_empty() {
             let message = format!("two delay options are named \"{}\"", name.value);
             mistakes.add(name.span.clone(), message, "give each its own name");
         }
-        let timing = read_timing(&table, rows, mistakes);
+        let timing = read_timing(&section, rows, mistakes);
         delays.push(DelayOption { name: name.value.to_owned(), timing });
-        table.finish();
+        section.finish();
     }
     delays
 }
 
-fn read_timing(table: &Table<'_>, rows: &[BlastRow], mistakes: &Mistakes) -> Timing {
-    if let Some(at) = table.numbers(&delay::AT_MS) {
+fn read_timing(section: &SectionReader<'_>, rows: &[BlastRow], mistakes: &Mistakes) -> Timing {
+    if let Some(at) = section.numbers(&delay::AT_MS) {
         for key in [&delay::INTERVAL_MS, &delay::ORDER] {
-            if table.has(key) {
-                table.wrong(key, format!("`{}` stands beside `at_ms`", key.name), "keep one of them");
+            if section.has(key) {
+                section.wrong(key, format!("`{}` stands beside `at_ms`", key.name), "keep one of them");
             }
         }
         if at.value.len() != rows.len() {
@@ -170,10 +171,10 @@ fn read_timing(table: &Table<'_>, rows: &[BlastRow], mistakes: &Mistakes) -> Tim
         }
         return Timing::At(at.value.into_iter().map(|time| time.value).collect());
     }
-    let interval_ms = table.number(&delay::INTERVAL_MS);
+    let interval_ms = section.number(&delay::INTERVAL_MS);
     let names: HashMap<&str, usize> =
         rows.iter().enumerate().map(|(n, row)| (row.name.as_str(), n)).collect();
-    let Some(list) = table.texts(&delay::ORDER) else {
+    let Some(list) = section.texts(&delay::ORDER) else {
         return Timing::Interval { order: (0..rows.len()).collect(), interval_ms };
     };
     let mut order = Vec::new();
