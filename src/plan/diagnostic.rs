@@ -1,4 +1,4 @@
-//! Mistakes in a plan, each with its place and its remedy, drawn the way compilers do.
+//! Mistakes in a plan, each with line, column and remedy, drawn as compilers draw them.
 
 use std::fmt;
 use std::ops::Range;
@@ -6,21 +6,21 @@ use std::ops::Range;
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
-/// Most mistakes shown at once; what is no plan at all has thousands.
+/// Most mistakes shown at once; a file that is no plan has thousands.
 const SHOWN: usize = 20;
 
 /// One mistake.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mistake {
-    /// Bytes of the source it is about.
+    /// Bytes of the source that are wrong.
     pub span: Range<usize>,
-    /// What is wrong.
+    /// Says what is wrong.
     pub message: String,
-    /// What would be right; empty where the message says it.
+    /// Says what would be right; empty where the message does.
     pub remedy: String,
 }
 
-/// Everything wrong with one plan, in the order of its lines.
+/// All mistakes of one plan, in the order of its lines.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostics {
     path: String,
@@ -29,34 +29,34 @@ pub struct Diagnostics {
 }
 
 impl Diagnostics {
-    /// Mistakes in the text of a plan.
+    /// Mistakes in `source`, the text of the file `path`.
     pub(super) fn new(path: &str, source: &str, mut mistakes: Vec<Mistake>) -> Self {
         mistakes.sort_by_key(|mistake| (mistake.span.start, mistake.span.end));
         Self { path: path.to_owned(), source: source.to_owned(), mistakes }
     }
 
-    /// A plan that could not be read at all.
+    /// One mistake of a file that cannot be read.
     pub(super) fn unreadable(path: &str, message: String, remedy: &str) -> Self {
         Self::new(path, "", vec![Mistake { span: 0..0, message, remedy: remedy.to_owned() }])
     }
 
-    /// How many there are; never 0.
+    /// Number of mistakes; never 0.
     pub fn len(&self) -> usize {
         self.mistakes.len()
     }
 
-    /// Whether there are none.
+    /// Whether there is no mistake.
     pub fn is_empty(&self) -> bool {
         self.mistakes.is_empty()
     }
 
-    /// Message and remedy of the first, for views that show one line.
+    /// Message and remedy of the first mistake, in one line.
     pub fn first(&self) -> String {
         let first = self.mistakes.first();
         first.map_or_else(String::new, |mistake| format!("{}; {}", mistake.message, mistake.remedy))
     }
 
-    /// Line and column, from 1, message and remedy of each.
+    /// Line and column (from 1), message and remedy of each mistake.
     pub fn iter(&self) -> impl Iterator<Item = (usize, usize, &str, &str)> {
         self.mistakes.iter().map(|mistake| {
             let before = self.source.get(..mistake.span.start).unwrap_or("");
@@ -66,7 +66,7 @@ impl Diagnostics {
         })
     }
 
-    /// All of them with file, line, column, the line itself and the remedy.
+    /// All mistakes with file, line, column, the line itself and the remedy.
     pub fn render(&self, color: bool) -> String {
         let renderer = if color { Renderer::styled() } else { Renderer::plain() };
         let renderer = renderer.decor_style(DecorStyle::Ascii);
@@ -93,7 +93,7 @@ impl Diagnostics {
         text
     }
 
-    /// The part of a span on its first line, never empty inside the source.
+    /// The part of a span on its first line.
     fn visible(&self, span: &Range<usize>) -> Range<usize> {
         let start = span.start.min(self.source.len());
         let rest = self.source.get(start..).unwrap_or("");

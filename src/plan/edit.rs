@@ -1,4 +1,4 @@
-//! Changes to the text of a plan that leave everything else, comments and formatting, as it was.
+//! Changes to the text of a plan. Everything else in the text stays, comments and formatting too.
 
 use toml_edit::{DocumentMut, Item, Table, value};
 
@@ -10,7 +10,7 @@ use super::keys::{Key, plan};
 use crate::ropes::Rope;
 
 impl Plan {
-    /// The plan with another rope, tire mass and border; what else it says stays.
+    /// The plan with another rope, tire mass and border; all other values stay.
     pub fn with(&self, rope: &Rope, tire_mass_kg: f64, border_rows: usize) -> Plan {
         let mut plan = self.clone();
         plan.cable.rope = Some(rope.name.clone());
@@ -63,13 +63,13 @@ pub fn write_sizes(
     Ok(with_line_ends_of(text, &document))
 }
 
-/// A changed document, its lines ending as they did in the text it was made from.
+/// The text of a changed document, with the line ends of the text before the change.
 pub(super) fn with_line_ends_of(text: &str, document: &DocumentMut) -> String {
     let new = document.to_string();
     if text.contains("\r\n") { new.replace("\r\n", "\n").replace('\n', "\r\n") } else { new }
 }
 
-/// Puts a value where the old one stood, with the comment beside it.
+/// Sets the value of a key; the comment beside an old value stays.
 pub(super) fn set(table: &mut dyn toml_edit::TableLike, key: &str, mut new: toml_edit::Value) {
     match table.get_mut(key).and_then(Item::as_value_mut) {
         Some(old) => {
@@ -87,7 +87,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_what_was_chosen_changes() {
+    fn only_the_chosen_values_change() {
         let text = "# top\n[shelter] # here\nrows = 5\n\n[tire]\nmass_kg = 280 # worn\n\n[cable]\n# ours\naxial_stiffness_kn = 1519\nbreaking_force_kn = 20.9\nslack_percent = 2\n";
         let windows = write_sizes(&text.replace('\n', "\r\n"), "GOST 2688-80 8.3", 350.0, 1).expect("TOML");
         let written = write_sizes(text, "GOST 2688-80 8.3", 350.0, 1).expect("TOML");

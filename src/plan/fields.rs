@@ -1,4 +1,4 @@
-//! The values of a plan that are often changed, as written in its text: shown, and replaced one by one.
+//! The values that the terminal's editor shows: listed from the text of a plan, and replaced one by one.
 
 use toml_edit::{DocumentMut, Item, TableLike, Value};
 
@@ -93,7 +93,7 @@ fn tables<'d>(document: &'d DocumentMut, section: &str) -> Box<dyn Iterator<Item
     }
 }
 
-/// Names of the blast rows in the order of firing that a delay option's field has, or in that of the plan.
+/// Names of the blast rows in the firing order of a delay option; in the plan's order where the option has none.
 pub fn order(text: &str, path: &Path) -> Vec<String> {
     let Ok(document) = text.parse::<DocumentMut>() else { return Vec::new() };
     let written = path
@@ -116,9 +116,9 @@ fn value_text(item: &Item) -> String {
     value.map_or_else(String::new, |value| value.to_string())
 }
 
-/// The text with one value replaced, added, or, where `new` is empty, removed; or why `new` is no value.
+/// The text of the plan with another value at `path`, or a message that says why `new` is no value.
 ///
-/// A text need not be quoted. Comments and formatting stay.
+/// An empty `new` removes the key. A text may be typed without quotes, a list without brackets. Comments and formatting stay.
 pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
     let mut document: DocumentMut =
         text.parse().map_err(|error: toml_edit::TomlError| error.message().to_owned())?;
@@ -129,7 +129,6 @@ pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
         return Ok(with_line_ends_of(text, &document));
     }
     let textual = path.key.kind.is_text();
-    // A list may be typed without its brackets.
     let typed = new.trim().parse::<Value>().or_else(|error| match path.key.kind {
         Kind::List(_) | Kind::RowNames | Kind::Range(_) => format!("[{}]", new.trim()).parse(),
         _ => Err(error),
@@ -155,7 +154,7 @@ fn table_mut<'d>(document: &'d mut DocumentMut, path: &Path) -> Option<&'d mut d
     }
 }
 
-/// The text with a copy of one delay option behind it, under a name of its own.
+/// The text with a copy of one delay option, which follows the option and has a new name.
 pub fn copy_delay(text: &str, index: usize) -> Option<String> {
     let mut document: DocumentMut = text.parse().ok()?;
     let Item::ArrayOfTables(tables) = document.get_mut("delay")? else { return None };
@@ -172,7 +171,7 @@ pub fn copy_delay(text: &str, index: usize) -> Option<String> {
     Some(with_line_ends_of(text, &document))
 }
 
-/// The text without one delay option; `None` for the last one left.
+/// The text without one delay option; `None` where the plan has no other option.
 pub fn remove_delay(text: &str, index: usize) -> Option<String> {
     let mut document: DocumentMut = text.parse().ok()?;
     let Item::ArrayOfTables(tables) = document.get_mut("delay")? else { return None };
@@ -180,7 +179,7 @@ pub fn remove_delay(text: &str, index: usize) -> Option<String> {
     Some(with_line_ends_of(text, &document))
 }
 
-/// Puts tables in the place of others; each follows the one before it in the text.
+/// Replaces all tables; each follows the one before in the text.
 fn replace(tables: &mut toml_edit::ArrayOfTables, all: Vec<toml_edit::Table>) {
     let first = tables.iter().filter_map(toml_edit::Table::position).min();
     tables.clear();

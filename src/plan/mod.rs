@@ -1,8 +1,8 @@
-//! What the user wrote: a validated blast plan, in the units of its keys.
+//! A validated blast plan, in the units of its keys.
 //!
-//! [`Plan::load`] reads TOML and reports every mistake at once, each with file, line, column and
-//! remedy ([`Diagnostics`]). A `Plan` that exists is valid: later stages never re-check it.
-//! This module knows no physics and no units but those of the plan's own keys.
+//! [`Plan::load`] reads TOML and reports every mistake at once, each with file, line, column and remedy
+//! ([`Diagnostics`]). A [`Plan`] that exists is valid: later stages never check it again. [`keys`] holds the table of all keys.
+//! This module knows no physics, and no units except those of the keys.
 
 mod diagnostic;
 pub mod edit;
@@ -31,43 +31,43 @@ pub struct Plan {
     pub title: Option<String>,
     /// Tires and the ties between them.
     pub layout: Layout,
-    /// The tire every place of the layout gets.
+    /// The tire at every position of the layout.
     pub tire: TireSpec,
-    /// The rope every tie is made of.
+    /// The rope of every tie.
     pub cable: CableSpec,
     /// Coefficient of friction between tire and ground.
     pub friction: f64,
     /// Blast rows in the order listed.
     pub blast_rows: Vec<BlastRow>,
-    /// What an option must keep to pass.
+    /// Limits that an option must keep to pass.
     pub limits: Limits,
     /// Delay options in the order listed; never empty.
     pub delays: Vec<DelayOption>,
-    /// How to simulate.
+    /// Settings of the simulation.
     pub simulation: SimulationSpec,
-    /// What scatters from shot to shot, if the plan says.
+    /// Scatter from shot to shot; `None` where the plan has no `[scatter]`.
     pub scatter: Option<ScatterSpec>,
-    /// What `size` may choose from.
+    /// Choices of `shelter size`.
     pub size: SizeSpec,
 }
 
-/// What scatters from shot to shot.
+/// Scatter from shot to shot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ScatterSpec {
-    /// Of every detonator.
+    /// Scatter of every detonator.
     pub delay: DelayScatter,
     /// Coefficient of variation of the launch velocity, lognormal [%].
     pub launch_cv_percent: f64,
-    /// Range of the coefficient of friction.
+    /// Smallest and largest coefficient of friction; `None`: the plan's own.
     pub friction: Option<[f64; 2]>,
 }
 
-/// Standard deviation of a firing time: the greater of a fixed one and a share of the nominal delay.
+/// Scatter of a firing time: the greater of a fixed standard deviation and a share of the nominal delay.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DelayScatter {
-    /// Fixed [ms].
+    /// Fixed standard deviation [ms].
     pub sd_ms: f64,
-    /// Share of the nominal delay [%].
+    /// Standard deviation over nominal delay [%].
     pub cv_percent: f64,
 }
 
@@ -88,10 +88,10 @@ impl DelayScatter {
     }
 }
 
-/// What `size` may choose from.
+/// Choices of `shelter size`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SizeSpec {
-    /// Masses of the tires to be had [kg]; empty: that of `[tire]`.
+    /// Masses of the tires at hand [kg]; empty: only the mass of `[tire]`.
     pub tire_mass_kg: Vec<f64>,
     /// Family of ropes; `None`: the whole catalogue.
     pub family: Option<String>,
@@ -111,12 +111,12 @@ impl Plan {
     }
 }
 
-/// How the tires lie and which neighbours are tied.
+/// Positions of the tires, and the neighbours that are tied.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Layout {
     /// `rows` × `columns` tires.
     Grid(Mesh),
-    /// `rows` × `columns` corner tires and one more at the centre of every cell.
+    /// `rows` × `columns` corner tires, and one more tire at the centre of every cell.
     Quincunx(Mesh),
     /// Tires and cables one by one.
     List {
@@ -138,14 +138,14 @@ pub struct Mesh {
     pub row_spacing_m: f64,
     /// Distance between columns [m].
     pub column_spacing_m: f64,
-    /// Which neighbours are tied.
+    /// Neighbours that are tied.
     pub links: Vec<Link>,
-    /// Rows of ballast laid around the mesh on each side; no blast row lies under them, and tire (1,1) stays where it is.
+    /// Rows of ballast around the mesh, on each side. No blast row lies under them; tire (1,1) stays at the origin.
     pub border_rows: usize,
 }
 
 impl Mesh {
-    /// Tires of a grid, or at the corners of a quincunx, with the border.
+    /// Number of tires of a grid, or at the corners of a quincunx, with the border.
     pub fn corners(&self) -> usize {
         let with_border = |n: usize| n.saturating_add(2 * self.border_rows);
         with_border(self.rows).saturating_mul(with_border(self.columns))
@@ -159,7 +159,7 @@ pub struct ListedTire {
     pub x_m: f64,
     /// Across the rows [m].
     pub y_m: f64,
-    /// Its own mass, where it differs from `[tire]` [kg].
+    /// Mass [kg]; `None`: that of `[tire]`.
     pub mass_kg: Option<f64>,
 }
 
@@ -168,22 +168,22 @@ pub struct ListedTire {
 pub struct TireSpec {
     /// Mass [kg].
     pub mass_kg: f64,
-    /// 0: cables run from centre to centre; otherwise from rim to rim [m].
+    /// Outer diameter [m]: cables run from rim to rim. 0: cables run from centre to centre.
     pub outer_diameter_m: f64,
 }
 
-/// The cable between two tires, with the catalogue already looked up.
+/// The cable between two tires, with the figures of the catalogue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CableSpec {
-    /// Name in the rope catalogue, if the plan gave one.
+    /// Name in the rope catalogue; `None` where the plan gives stiffness and breaking force.
     pub rope: Option<String>,
     /// Axial stiffness EA [kN].
     pub axial_stiffness_kn: f64,
-    /// Breaking force in use: that of the rope × the termination's efficiency [kN].
+    /// Breaking force used [kN]: that of the rope × the efficiency of the termination.
     pub breaking_force_kn: f64,
-    /// Unstretched length over distance at rest, less one [%].
+    /// Slack [%]: unstretched length over distance at rest, less one.
     pub slack_percent: f64,
-    /// Efficiency of the termination [%], 100 when the plan has none.
+    /// Efficiency of the termination [%]; 100 where the plan has none.
     pub termination_percent: f64,
     /// Effect of a force past the breaking force.
     pub on_overload: OnOverload,
@@ -192,7 +192,7 @@ pub struct CableSpec {
 /// Holes that fire together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BlastRow {
-    /// How delay options address it.
+    /// Name; delay options address the row by it.
     pub name: String,
     /// Tires launched by the row.
     pub targets: LaunchTargets,
@@ -203,7 +203,7 @@ pub struct BlastRow {
 pub enum LaunchTargets {
     /// Every tire of one shelter row; half numbers address the centres of a quincunx.
     UnderRow {
-        /// Row number, from 1, in steps of one half.
+        /// Number of the shelter row, from 1, in steps of one half.
         row: f64,
         /// Launch velocity [m/s].
         launch_m_s: f64,
@@ -235,7 +235,7 @@ pub struct Hole {
 pub struct Limits {
     /// Greatest flight height of any tire [m].
     pub flight_height_m: f64,
-    /// Least breaking force over greatest force.
+    /// Smallest ratio of breaking force to greatest force.
     pub cable_safety_factor: f64,
     /// Greatest horizontal shift of any tire at the end [m].
     pub drift_m: Option<f64>,
@@ -244,23 +244,23 @@ pub struct Limits {
 /// One delay option.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DelayOption {
-    /// Its name in every view; unique.
+    /// Name in every view; unique.
     pub name: String,
-    /// When the rows fire.
+    /// Firing times of the rows.
     pub timing: Timing,
 }
 
-/// When the blast rows fire.
+/// Firing times of the blast rows.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Timing {
-    /// One after another.
+    /// The rows fire one after another.
     Interval {
         /// Indices of the blast rows in firing order.
         order: Vec<usize>,
-        /// Between successive rows [ms].
+        /// Time between successive rows [ms].
         interval_ms: f64,
     },
-    /// Each at its own time, in the order of the blast rows [ms].
+    /// Firing time of each blast row [ms], in the order of the plan (`n_blast_rows`).
     At(Vec<f64>),
 }
 
@@ -280,14 +280,14 @@ impl Timing {
     }
 }
 
-/// How to simulate.
+/// Settings of the simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SimulationSpec {
     /// End of the run [s]; `None`: until every tire is at rest.
     pub duration_s: Option<f64>,
-    /// How fine.
+    /// Accuracy level.
     pub accuracy: Accuracy,
-    /// Which method.
+    /// Time integration method.
     pub method: Method,
     /// Gravity [m/s²].
     pub gravity_m_s2: f64,

@@ -1,7 +1,7 @@
 //! The rope catalogue: diameters, masses, stiffness and breaking forces with their standard and source.
 //!
-//! The figures are data in `ropes.toml`, compiled in. A bare name such as `GOST 2688-80 6.2` means the lowest grade of
-//! wire listed, because overstating strength is the dangerous direction; `GOST 2688-80 6.2 1770` names a grade.
+//! The figures are data: `ropes.toml` is compiled into the program. A name without a grade, such as `GOST 2688-80 6.2`, means
+//! the lowest grade of wire listed, because a strength overstated is a danger; `GOST 2688-80 6.2 1770` names a grade.
 
 use std::sync::LazyLock;
 
@@ -10,24 +10,24 @@ use serde::{Deserialize, Serialize};
 /// All ropes and terminations.
 #[derive(Clone, Debug, Default)]
 pub struct Catalogue {
-    /// By family, diameter and grade; the lowest grade of a diameter first.
+    /// Ropes by family, diameter and grade; the lowest grade of a diameter comes first.
     pub ropes: Vec<Rope>,
-    /// What fastenings leave of a rope's strength.
+    /// Ways to fasten the end of a rope, each with its efficiency.
     pub terminations: Vec<Termination>,
 }
 
 /// A rope or chain of one diameter and grade.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Rope {
-    /// As plans name it.
+    /// Name in plans.
     pub name: String,
-    /// Family it belongs to.
+    /// Name of the family.
     pub family: String,
     /// Standard.
     pub standard: String,
     /// Construction.
     pub construction: String,
-    /// Grade of wire [N/mm²]; 0 where there is none.
+    /// Grade of wire [N/mm²]; 0 where the rope has no grade.
     pub grade: u32,
     /// Diameter [mm].
     pub diameter_mm: f64,
@@ -39,20 +39,20 @@ pub struct Rope {
     pub axial_stiffness_kn: f64,
     /// Breaking force [kN].
     pub breaking_force_kn: f64,
-    /// Where the figures come from.
+    /// Source of the figures.
     pub source: String,
-    /// Whether they are typical values, not read in the standard's own text.
+    /// Whether the figures are typical values and not read in the text of the standard.
     pub typical: bool,
 }
 
-/// A way to fasten a rope's end.
+/// A way to fasten the end of a rope.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Termination {
-    /// As plans name it.
+    /// Name in plans.
     pub name: String,
-    /// Part of the rope's breaking force it holds [%].
+    /// Share of the rope's breaking force that the termination holds [%].
     pub efficiency_percent: f64,
-    /// Where the figure comes from.
+    /// Source of the figure.
     pub source: String,
 }
 
@@ -134,13 +134,13 @@ impl Family {
 }
 
 impl Catalogue {
-    /// The rope of this name; the lowest grade may be named too.
+    /// The rope with this name; the name of a lowest grade may end with the grade or not.
     pub fn find(&self, name: &str) -> Option<&Rope> {
         let named = |rope: &&Rope| rope.name == name || format!("{} {}", rope.name, rope.grade) == name;
         self.ropes.iter().find(named)
     }
 
-    /// The name most like `name`.
+    /// The name in the catalogue that is most like `name`, if one is alike.
     pub fn suggest(&self, name: &str) -> Option<&str> {
         let likeness = |rope: &&Rope| strsim::jaro_winkler(&rope.name, name);
         let near = self.ropes.iter().filter(|rope| likeness(rope) > 0.7);
@@ -171,7 +171,7 @@ mod tests {
         assert_eq!(catalogue().find("GOST 2688-80 6.2 1570"), Some(rope));
     }
 
-    /// Breaking force over area and grade is 0.80 to 0.85 for every GOST rope: a slip of a digit would show.
+    /// The ratio of breaking force to area × grade is 0.80 to 0.85 for every GOST rope; a wrong digit changes it.
     #[test]
     fn breaking_forces_fit_area_and_grade() {
         for rope in catalogue().ropes.iter().filter(|rope| rope.family == "GOST 2688-80") {

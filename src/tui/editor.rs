@@ -1,4 +1,4 @@
-//! The plan being edited: its text, what is selected, what is being typed, and the way back.
+//! The plan being edited: its text, the selected field, the value being typed, and the changes to undo.
 
 use crossterm::event::{Event, KeyCode, KeyEvent};
 use tui_input::Input;
@@ -8,42 +8,42 @@ use crate::plan::fields::{self, Field};
 use crate::plan::keys::Kind;
 use crate::plan::{Layout, Plan};
 
-/// What an edit came to.
+/// Outcome of an edit.
 #[derive(Clone, Debug)]
 pub enum Edit {
-    /// Nothing new.
+    /// The plan stays.
     None,
-    /// Another plan.
+    /// The plan after the edit.
     Changed(Box<Plan>),
 }
 
 /// The text of a plan and its history.
 #[derive(Clone, Debug)]
 pub struct Editor {
-    /// As it stands.
+    /// The text with all edits.
     pub text: String,
-    /// As the file has it.
+    /// The text of the file.
     pub saved: String,
     undone: Vec<String>,
     done: Vec<String>,
-    /// What can be changed.
+    /// Fields of the text.
     pub fields: Vec<Field>,
     /// Index of the selected field.
     pub selected: usize,
-    /// What is being typed in its place.
+    /// The text being typed in place of the selected value.
     pub input: Option<Input>,
     /// Blast rows being put in order, in place of the selected value.
     pub order: Option<Order>,
-    /// What is wrong with it, or with the last change.
+    /// Message about the text being typed, or about the last edit.
     pub problem: Option<String>,
 }
 
-/// Blast rows in their order of firing.
+/// A firing order being edited.
 #[derive(Clone, Debug)]
 pub struct Order {
-    /// Their names.
+    /// Names of the blast rows in their order of firing.
     pub names: Vec<String>,
-    /// Index of the selected one.
+    /// Index of the selected row.
     pub selected: usize,
 }
 
@@ -53,14 +53,14 @@ impl Order {
         self.selected = self.selected.saturating_add_signed(if down { 1 } else { -1 }).min(last);
     }
 
-    /// Moves the selected row one place.
+    /// Moves the selected row one turn earlier or later.
     fn shift(&mut self, later: bool) {
         let from = self.selected;
         self.select(later);
         self.names.swap(from, self.selected);
     }
 
-    /// As a plan writes it.
+    /// The order as a plan writes it.
     fn text(&self) -> String {
         let names: Vec<String> = self.names.iter().map(|name| format!("{name:?}")).collect();
         format!("[{}]", names.join(", "))
@@ -68,7 +68,7 @@ impl Order {
 }
 
 impl Editor {
-    /// Of a plan's text as loaded.
+    /// An editor of the text of a file.
     pub fn new(text: &str) -> Self {
         Self {
             text: text.to_owned(),
@@ -83,15 +83,15 @@ impl Editor {
         }
     }
 
-    /// Whether the file has another text.
+    /// Whether the text differs from the file.
     pub fn unsaved(&self) -> bool {
         self.text != self.saved
     }
 
-    /// Selects a field so many places further.
-    pub fn select(&mut self, places: isize) {
+    /// Moves the selection by `steps` fields.
+    pub fn select(&mut self, steps: isize) {
         let last = self.fields.len().saturating_sub(1);
-        self.selected = self.selected.saturating_add_signed(places).min(last);
+        self.selected = self.selected.saturating_add_signed(steps).min(last);
         self.problem = None;
     }
 
@@ -100,7 +100,8 @@ impl Editor {
         self.fields.get(self.selected)
     }
 
-    /// Selects the first field whose label or value contains a text, from the selected one on or from that behind it.
+    /// Selects the first field whose label or value contains `text`, from the selected field on; with `next`, from the field
+    /// after it.
     pub fn find(&mut self, text: &str, next: bool) {
         let text = text.to_lowercase();
         let has = |field: &Field| {
@@ -111,12 +112,12 @@ impl Editor {
         self.selected = round.find(|(_, field)| has(field)).map_or(self.selected, |(n, _)| n);
     }
 
-    /// Whether keys go into a value.
+    /// Whether the user types a value or orders rows.
     pub fn typing(&self) -> bool {
         self.input.is_some() || self.order.is_some()
     }
 
-    /// Begins to type in place of the selected value, or to put the rows in order.
+    /// Begins to edit the selected value: by typing, or by moving rows where the value is a firing order.
     pub fn begin(&mut self) {
         self.problem = None;
         let Some(field) = self.field() else { return };
@@ -128,11 +129,11 @@ impl Editor {
         }
     }
 
-    /// A key while typing; the value is checked at every one.
+    /// Handles a key while the user types; checks the value after every key.
     pub fn type_key(&mut self, key: &KeyEvent) -> Edit {
         match key.code {
             KeyCode::Esc => {
-                self.leave();
+                self.end_typing();
                 return Edit::None;
             }
             KeyCode::Enter => return self.commit(),
@@ -154,13 +155,13 @@ impl Editor {
         Edit::None
     }
 
-    fn leave(&mut self) {
+    fn end_typing(&mut self) {
         self.input = None;
         self.order = None;
         self.problem = None;
     }
 
-    /// The text and plan with what is typed.
+    /// Text and plan with the typed value.
     fn candidate(&self) -> Result<(String, Plan), String> {
         let Some(field) = self.field() else { return Err("no value is selected".to_owned()) };
         let typed = match (&self.order, &self.input) {
@@ -171,7 +172,7 @@ impl Editor {
         Self::checked(fields::set(&self.text, &field.path, &typed)?)
     }
 
-    /// A text with its plan, or the first thing wrong with it.
+    /// A text with its plan, or the first mistake.
     fn checked(text: String) -> Result<(String, Plan), String> {
         match Plan::parse("", &text) {
             Ok(plan) => Ok((text, plan)),
@@ -182,12 +183,12 @@ impl Editor {
     fn commit(&mut self) -> Edit {
         let candidate = self.candidate();
         if candidate.is_ok() {
-            self.leave();
+            self.end_typing();
         }
         self.settle(candidate)
     }
 
-    /// Takes a checked text, or keeps what stands against it.
+    /// Takes a checked text, or keeps its mistake as the problem.
     fn settle(&mut self, checked: Result<(String, Plan), String>) -> Edit {
         match checked {
             Ok((text, plan)) => self.replace(text, plan),
@@ -208,12 +209,12 @@ impl Editor {
         Edit::Changed(Box::new(plan))
     }
 
-    /// Another program has changed the file; the way back leads to what stood here.
+    /// Takes the text of the file after another program changed the file; undo restores the text before.
     pub fn reload(&mut self, text: &str) {
         self.done.push(std::mem::replace(&mut self.text, text.to_owned()));
         self.undone.clear();
         text.clone_into(&mut self.saved);
-        self.leave();
+        self.end_typing();
         self.refresh();
     }
 
@@ -222,14 +223,14 @@ impl Editor {
         self.select(0);
     }
 
-    /// Takes the last change back.
+    /// Undoes the last change.
     pub fn undo(&mut self) -> Edit {
         let Some(before) = self.done.pop() else { return Edit::None };
         self.undone.push(std::mem::replace(&mut self.text, before));
         self.restored()
     }
 
-    /// Makes the last change taken back again.
+    /// Redoes the last change undone.
     pub fn redo(&mut self) -> Edit {
         let Some(after) = self.undone.pop() else { return Edit::None };
         self.done.push(std::mem::replace(&mut self.text, after));
@@ -241,7 +242,8 @@ impl Editor {
         Plan::parse("", &self.text).map_or(Edit::None, |plan| Edit::Changed(Box::new(plan)))
     }
 
-    /// The next smaller or larger choice: a rope of the catalogue, or a number a tenth of its size away.
+    /// Sets the selected value one step up or down: the next name of a list, the next whole number, or a number about a tenth
+    /// away.
     pub fn step(&mut self, up: bool) -> Edit {
         let Some(field) = self.field() else { return Edit::None };
         let value = field.value.trim_matches('"');
@@ -263,12 +265,12 @@ impl Editor {
         self.settle(changed)
     }
 
-    /// Copies an option.
+    /// Copies a delay option.
     pub fn copy_option(&mut self, option: usize) -> Edit {
         self.with_option(option, fields::copy_delay)
     }
 
-    /// Removes an option.
+    /// Removes a delay option.
     pub fn remove_option(&mut self, option: usize) -> Edit {
         self.with_option(option, fields::remove_delay)
     }
@@ -292,15 +294,15 @@ fn moved(number: &str, step: f64) -> Option<String> {
     number.parse::<f64>().ok().map(|number| (number + step).max(0.0).to_string())
 }
 
-/// A tenth of the leading digit's place further: 20 to 21, 6 to 6.1, 280 to 290.
+/// The number moved by one unit of its second digit: 20 to 21, 6 to 6.1, 280 to 290.
 fn stepped(number: f64, up: bool) -> f64 {
     if number == 0.0 {
         return if up { 1.0 } else { 0.0 };
     }
-    let place = 10_f64.powf(number.abs().log10().floor() - 1.0);
-    let steps = (number / place).round() + if up { 1.0 } else { -1.0 };
-    // Not through `place`, which may have no exact value.
-    if place < 1.0 { steps / (1.0 / place).round() } else { steps * place }
+    let unit = 10_f64.powf(number.abs().log10().floor() - 1.0);
+    let steps = (number / unit).round() + if up { 1.0 } else { -1.0 };
+    // A unit below 1 has no exact value; its reciprocal has.
+    if unit < 1.0 { steps / (1.0 / unit).round() } else { steps * unit }
 }
 
 #[cfg(test)]

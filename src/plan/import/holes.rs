@@ -1,4 +1,4 @@
-//! Reading the table: which column is what, and every mistake in it.
+//! Reads a list of holes: finds the columns, reads the lines, and collects every mistake.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -14,13 +14,13 @@ pub struct ListedHole {
     pub x_m: f64,
     pub y_m: f64,
     pub row: Option<String>,
-    /// Counted from the first hole of the blast [ms].
+    /// Firing time, counted from the first hole of the blast [ms].
     pub fire_ms: Option<f64>,
-    /// After the hole `from` [ms].
+    /// Delay after the hole `from` [ms].
     pub delay_ms: Option<f64>,
     pub from: Option<String>,
     pub launch_m_s: Option<f64>,
-    /// Its line in the source.
+    /// Bytes of the line in the source.
     pub span: Range<usize>,
 }
 
@@ -42,7 +42,7 @@ enum Column {
     Launch,
 }
 
-/// Headers, in small letters without anything between them.
+/// Names of the columns in a header, in small letters and without signs or spaces.
 const HEADERS: &[(Column, &[&str])] = &[
     (Column::Id, &["id", "hole", "holeid", "holename", "holeno", "holenumber", "number", "no", "name"]),
     (
@@ -73,7 +73,7 @@ const HEADERS: &[(Column, &[&str])] = &[
     (Column::Launch, &["launch", "launchms", "launchmpers", "launchvelocity", "v0"]),
 ];
 
-/// Kirra's tables without a header: how many columns, and where what we need stands.
+/// Lists that Kirra writes without a header: the number of columns, and the index of each column that is read.
 const KIRRA: &[(usize, &[(Column, usize)])] = &[
     (4, &[(Column::Id, 0), (Column::X, 1), (Column::Y, 2)]),
     (7, &[(Column::Id, 0), (Column::X, 1), (Column::Y, 2)]),
@@ -89,7 +89,7 @@ fn mistake(span: Range<usize>, message: impl Into<String>, remedy: impl Into<Str
     Mistake { span, message: message.into(), remedy: remedy.into() }
 }
 
-/// Reads every hole, or says everything that is wrong.
+/// All holes of the list, or all its mistakes.
 pub fn read(source: &str) -> Result<Holes, Vec<Mistake>> {
     let first = source.lines().next().unwrap_or_default();
     let separator =
@@ -119,9 +119,9 @@ pub fn read(source: &str) -> Result<Holes, Vec<Mistake>> {
     for record in records.iter().skip(usize::from(named)) {
         holes.extend(read_hole(record, &columns, source, &mut mistakes));
     }
-    let mut places = HashSet::new();
+    let mut positions = HashSet::new();
     for hole in &holes {
-        if !places.insert([hole.x_m + 0.0, hole.y_m + 0.0].map(f64::to_bits)) {
+        if !positions.insert([hole.x_m + 0.0, hole.y_m + 0.0].map(f64::to_bits)) {
             let message = format!("hole {} lies where another does", hole.id);
             mistakes.push(mistake(hole.span.clone(), message, "correct its x and y, or remove the line"));
         }
@@ -140,14 +140,14 @@ fn span(record: &csv::StringRecord, source: &str) -> Range<usize> {
     start + skipped..start + skipped + end
 }
 
-/// Where every column stands, by the header or, without one, by their number.
+/// Index of every column that is read: from the header, or without a header from the number of columns.
 fn columns(head: &csv::StringRecord, source: &str) -> Result<Vec<(Column, usize)>, Vec<Mistake>> {
-    let place = span(head, source);
+    let line = span(head, source);
     if head.iter().any(|field| number(field).is_some()) {
         let known = KIRRA.iter().find(|(count, _)| *count == head.len());
         return known.map(|(_, columns)| columns.to_vec()).ok_or_else(|| {
             let message = format!("a table of {} columns without a header", head.len());
-            vec![mistake(place, message, REMEDY)]
+            vec![mistake(line, message, REMEDY)]
         });
     }
     let plain = |field: &str| field.to_lowercase().replace(|c: char| !c.is_alphanumeric(), "");
@@ -161,7 +161,7 @@ fn columns(head: &csv::StringRecord, source: &str) -> Result<Vec<(Column, usize)
         if found.iter().any(|(known, _)| known == column) {
             let message =
                 format!("two columns are a hole's {column:?}; the second is `{field}`").to_lowercase();
-            mistakes.push(mistake(place.clone(), message, "rename or remove one of them"));
+            mistakes.push(mistake(line.clone(), message, "rename or remove one of them"));
         }
         found.push((*column, n));
     }
@@ -172,17 +172,17 @@ fn columns(head: &csv::StringRecord, source: &str) -> Result<Vec<(Column, usize)
             let near = nearest(word, all.iter().map(String::as_str))
                 .map(|near| format!("is it `{near}`? "))
                 .unwrap_or_default();
-            mistakes.push(mistake(place.clone(), format!("no column is {word}"), format!("{near}{REMEDY}")));
+            mistakes.push(mistake(line.clone(), format!("no column is {word}"), format!("{near}{REMEDY}")));
         }
     }
     if has(Column::Delay) && !has(Column::From) && !has(Column::Fire) {
         let remedy = "call it fire_ms if it counts from the first hole; if it counts from another hole, add a column `from` that names it";
-        mistakes.push(mistake(place, "a delay without saying after what", remedy));
+        mistakes.push(mistake(line, "a delay without saying after what", remedy));
     }
     if mistakes.is_empty() { Ok(found) } else { Err(mistakes) }
 }
 
-/// A number; a decimal comma counts where commas do not separate columns.
+/// A number, with a decimal point or a decimal comma.
 fn number(field: &str) -> Option<f64> {
     field.parse().or_else(|_| field.replace(',', ".").parse()).ok().filter(|number: &f64| number.is_finite())
 }
@@ -194,7 +194,7 @@ fn read_hole(
     mistakes: &mut Vec<Mistake>,
 ) -> Option<ListedHole> {
     let before = mistakes.len();
-    let place = span(record, source);
+    let line = span(record, source);
     let field = |column: Column| {
         let n = columns.iter().find(|(known, _)| *known == column)?.1;
         let empty =
@@ -209,16 +209,12 @@ fn read_hole(
             Some((text, _)) => {
                 let message = format!("{word} is `{text}`");
                 let remedy = format!("write a number from {} to {}", range.start(), range.end());
-                mistakes.push(mistake(place.clone(), message, remedy));
+                mistakes.push(mistake(line.clone(), message, remedy));
                 None
             }
             None if must => {
                 let message = format!("the line has no {word}");
-                mistakes.push(mistake(
-                    place.clone(),
-                    message,
-                    "write a number in metres, or remove the line",
-                ));
+                mistakes.push(mistake(line.clone(), message, "write a number in metres, or remove the line"));
                 None
             }
             None => None,
@@ -229,10 +225,10 @@ fn read_hole(
     let delay_ms = value(Column::Delay, "the delay", &delay::INTERVAL_MS, false);
     let launch_m_s = value(Column::Launch, "the launch velocity", &hole::LAUNCH_M_S, false);
     let text = |column: Column| field(column).map(str::to_owned);
-    // Kirra writes Pattern:::Hole.
+    // Kirra writes `Pattern:::Hole`.
     let from = text(Column::From).map(|from| from.rsplit(":::").next().unwrap_or_default().to_owned());
-    let line = record.position().map_or(0, csv::Position::line);
-    let id = text(Column::Id).unwrap_or_else(|| line.to_string());
+    let number = record.position().map_or(0, csv::Position::line);
+    let id = text(Column::Id).unwrap_or_else(|| number.to_string());
     if mistakes.len() > before {
         return None;
     }
@@ -245,6 +241,6 @@ fn read_hole(
         delay_ms,
         from,
         launch_m_s,
-        span: place,
+        span: line,
     })
 }

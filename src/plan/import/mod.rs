@@ -11,21 +11,20 @@ use super::Diagnostics;
 use super::keys::{MOST_TIRES, blast_row, delay, hole};
 use super::starter::{self, LAUNCH_M_S, Shelter, USUAL, header, line, quoted};
 
-/// Tires lie as far apart as the holes where those are this near [m], else as in a usual shelter.
+/// Distances of holes [m] at which the tires lie as far apart as the holes; else the spacing is the usual one.
 const NEAR_M: std::ops::RangeInclusive<f64> = 1.0..=3.0;
-/// Tires beyond the outermost holes on each side.
+/// Rows of tires beyond the outermost holes, on each side.
 const MARGIN: usize = 1;
-/// Flight height allowed until somebody puts in another [m].
+/// Limit of flight height in the plan written [m]; the user replaces it.
 const HEIGHT_M: f64 = 1.8;
-/// Compared where the list has no firing times [ms].
+/// Intervals of the delay options where the list has no firing times [ms].
 const INTERVALS_MS: [f64; 3] = [17.0, 25.0, 42.0];
 
-/// The text of a plan for the holes in `text`, a table of values separated by commas, semicolons or tabs; `name` is the
-/// file's.
+/// The text of a plan for a list of holes: `text` holds values separated by commas, semicolons or tabs, `name` is the file.
 ///
-/// Columns are known by their header: hole, x and y in metres, and a row, or a firing time (`fire_ms`, counted from the
-/// first), or a delay after another hole (`delay_ms` and `from`). Tables without a header are taken for Kirra's of 4, 7, 9,
-/// 12 or 14 columns.
+/// The header names the columns: hole, x and y in metres, and one of: a row; a firing time (`fire_ms`, counted from the
+/// first hole); a delay after another hole (`delay_ms` and `from`). A list without a header is read as one of Kirra's, which
+/// have 4, 7, 9, 12 or 14 columns.
 pub fn plan_from_holes(name: &str, text: &str) -> Result<String, Diagnostics> {
     let source = text.strip_prefix('\u{feff}').unwrap_or(text);
     let wrong = |mistakes| Diagnostics::new(name, source, mistakes);
@@ -48,7 +47,7 @@ struct Cover {
     rows: usize,
     columns: usize,
     spacing_m: f64,
-    /// Where tire (1,1) lies in the list's coordinates [m].
+    /// Position of tire (1,1) in the coordinates of the list [m].
     origin: [f64; 2],
 }
 
@@ -72,7 +71,7 @@ impl Cover {
     }
 }
 
-/// Median distance of a hole to its nearest [m]; of the first thousand holes.
+/// Median distance of a hole to the nearest other hole [m], over the first thousand holes.
 fn nearest_distance(holes: &[ListedHole]) -> f64 {
     let some = &holes[..holes.len().min(1000)];
     let nearest = |hole: &ListedHole| {

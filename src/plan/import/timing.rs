@@ -1,4 +1,4 @@
-//! Which holes fire together, and when: from firing times, from delays after other holes, or from rows.
+//! Groups of holes that fire together, from firing times, from delays after other holes, or from rows.
 
 use std::collections::{HashMap, HashSet};
 
@@ -12,11 +12,11 @@ pub struct Group {
     pub name: String,
     /// Indices of the holes.
     pub holes: Vec<usize>,
-    /// From the first of the blast [ms]; `None` where the list has no times.
+    /// Firing time after the first hole of the blast [ms]; `None` where the list has no times.
     pub fire_ms: Option<f64>,
 }
 
-/// Groups the holes of a list, in the order in which they fire or, without times, in which their rows are listed.
+/// The groups of a list, in the order of their firing times; without times, in the order of the list.
 pub fn groups(table: &Holes) -> Result<Vec<Group>, Vec<Mistake>> {
     let times = times(&table.holes)?;
     let (mut groups, mut known): (Vec<Group>, HashMap<String, usize>) = (Vec::new(), HashMap::new());
@@ -27,11 +27,11 @@ pub fn groups(table: &Holes) -> Result<Vec<Group>, Vec<Mistake>> {
             (None, Some(row)) => row.clone(),
             (None, None) => "1".to_owned(),
         };
-        let place = *known.entry(name.clone()).or_insert_with(|| {
+        let group = *known.entry(name.clone()).or_insert_with(|| {
             groups.push(Group { name, holes: Vec::new(), fire_ms });
             groups.len() - 1
         });
-        groups[place].holes.push(n);
+        groups[group].holes.push(n);
     }
     groups.sort_by(|a, b| a.fire_ms.unwrap_or(0.0).total_cmp(&b.fire_ms.unwrap_or(0.0)));
     let rows: Option<Vec<String>> = groups.iter().map(|group| one_row(&table.holes, group)).collect();
@@ -41,13 +41,13 @@ pub fn groups(table: &Holes) -> Result<Vec<Group>, Vec<Mistake>> {
     Ok(groups)
 }
 
-/// The row that all holes of a group are of.
+/// The row of a group, where all its holes are of one row.
 fn one_row(holes: &[ListedHole], group: &Group) -> Option<String> {
     let row = holes[group.holes[0]].row.clone()?;
     group.holes.iter().all(|&hole| holes[hole].row.as_ref() == Some(&row)).then_some(row)
 }
 
-/// When every hole fires [ms], the first at 0; `None` where the list does not say.
+/// Firing time of every hole [ms], the first at 0 (n_holes); `None` where the list has no times.
 fn times(holes: &[ListedHole]) -> Result<Option<Vec<f64>>, Vec<Mistake>> {
     let absolute = holes.iter().any(|hole| hole.fire_ms.is_some());
     if !absolute && holes.iter().all(|hole| hole.delay_ms.is_none()) {
@@ -82,7 +82,8 @@ fn firing_times(holes: &[ListedHole]) -> Result<Vec<f64>, Vec<Mistake>> {
     }
 }
 
-/// Sums delays along the chains of holes; a hole that follows itself, or none, begins a chain.
+/// Firing time of every hole [ms]: the sum of the delays along its chain. A hole that follows itself, or no hole, begins a
+/// chain.
 fn chained_times(holes: &[ListedHole]) -> Result<Vec<f64>, Vec<Mistake>> {
     let by_id: HashMap<&str, usize> =
         holes.iter().enumerate().map(|(n, hole)| (hole.id.as_str(), n)).collect();

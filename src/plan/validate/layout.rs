@@ -1,4 +1,4 @@
-//! The shelter's section: layout, spacing, links, or tires and cables one by one.
+//! Reads `[shelter]`: layout, spacing and links, or tires and cables one by one.
 
 use std::collections::HashSet;
 
@@ -97,7 +97,7 @@ fn read_list(section: &SectionReader<'_>, mistakes: &Mistakes) -> Layout {
     Layout::List { tires, cables }
 }
 
-/// Tied tires must lie further apart than a diameter, or there is no room for a cable.
+/// Notes a mistake where tied tires lie no further apart than a diameter: a cable would have no room.
 pub fn check_gaps(layout: &Layout, tire: &TireSpec, root: &SectionReader<'_>, mistakes: &Mistakes) {
     let diameter = tire.outer_diameter_m;
     let least = match layout {

@@ -1,4 +1,4 @@
-//! From TOML text to a valid [`Plan`]: one small function per section, every mistake noted with its remedy.
+//! From TOML text to a valid [`Plan`]: one function reads each section and notes every mistake with its remedy.
 
 mod layout;
 mod shot;
@@ -15,7 +15,7 @@ use super::read::{At, Mistakes, SectionReader};
 use super::{CableSpec, Limits, Plan, SimulationSpec, TireSpec};
 use crate::ropes::catalogue;
 
-/// Reads a plan from text; `path` names it in messages.
+/// The plan of a text, or all mistakes; messages name the file `path`.
 pub fn parse(path: &str, text: &str) -> Result<Plan, Diagnostics> {
     let source = text.strip_prefix('\u{feff}').unwrap_or(text);
     let (document, errors) = DeTable::parse_recoverable(source);
@@ -37,7 +37,7 @@ pub fn parse(path: &str, text: &str) -> Result<Plan, Diagnostics> {
     if mistakes.count() > 0 {
         return Err(Diagnostics::new(path, source, mistakes.take()));
     }
-    // Without a mistake every section was there.
+    // A plan without a mistake has every section.
     plan.ok_or_else(|| Diagnostics::unreadable(path, "the plan is incomplete".to_owned(), ""))
 }
 

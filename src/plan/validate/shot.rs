@@ -1,4 +1,4 @@
-//! Blast rows and delay options: what is launched, and when.
+//! Reads blast rows and delay options: the tires launched, and the firing times.
 
 use std::collections::{HashMap, HashSet};
 

@@ -1,4 +1,4 @@
-//! The sections of the studies: scatter from shot to shot, and what `size` may choose from.
+//! Reads the sections of studies: scatter from shot to shot, and the choices of `shelter size`.
 
 use crate::plan::keys::{Key, scatter, size};
 use crate::plan::read::SectionReader;
