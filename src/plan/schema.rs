@@ -34,6 +34,9 @@ fn property(key: &Key) -> Value {
         description = format!("{description} [{}]", key.kind.unit()).trim_start().to_owned();
     }
     match key.default {
+        Some(DefaultValue::Number(number)) if matches!(key.kind, Kind::Whole(_)) => {
+            schema["default"] = json!(number as usize);
+        }
         Some(DefaultValue::Number(number)) => schema["default"] = json!(number),
         Some(DefaultValue::Name(name)) => schema["default"] = json!(name),
         Some(DefaultValue::Described(default)) => description += &format!("; default: {default}"),

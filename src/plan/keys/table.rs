@@ -71,7 +71,7 @@ sections! {
             "centre to centre").edit("spacing, m");
         LINKS = key("links", Kind::List(&Kind::Choice(Link::NAMES)), "[\"row\", \"column\", \"diagonal\"]",
             "which neighbours are tied").described("all");
-        BORDER_ROWS = key("border_rows", Kind::Whole(0..=1000), "1", "rows of ballast laid around it, over no hole")
+        BORDER_ROWS = key("border_rows", Kind::Whole(0..=1000), "1", "rows of ballast around the mesh, over no hole")
             .default(0.0).edit("border rows").offered();
         TIRE = key("tire", Kind::Sections(&listed_tire::SECTION), "x_m and y_m", "of a list");
         CABLE = key("cable", Kind::Sections(&listed_cable::SECTION), "from and to", "of a list");
