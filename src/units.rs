@@ -62,11 +62,12 @@ pub fn value_and_error(value: f64, error: f64, unit: Unit) -> String {
     if !(value.is_finite() && error.is_finite()) {
         return format!("{value} ± {error}");
     }
-    let most = unit.most_decimals();
-    let leading = if error > 0.0 { -error.log10().floor() } else { most as f64 };
-    let decimals = leading.clamp(0.0, most as f64) as usize;
-    let last = 10_f64.powi(-(decimals as i32));
+    let most = unit.most_decimals() as f64;
+    // Decimals of the error's first digit; negative for tens, hundreds and more.
+    let digit = if error > 0.0 { (-error.log10().floor()).min(most) } else { most };
+    let last = 10_f64.powf(-digit);
     let shown = if error > 0.0 { (error / last - 1e-9).ceil().max(1.0) * last } else { 0.0 };
+    let decimals = digit.max(0.0) as usize;
     format!("{value:.decimals$} ± {shown:.decimals$}")
 }
 
@@ -150,6 +151,8 @@ mod tests {
         assert_eq!(value_and_error(1.76549, 0.03, Unit::Metre), "1.77 ± 0.03");
         assert_eq!(value_and_error(9926.5, 4.0, Unit::Kilonewton), "9.927 ± 0.004");
         assert_eq!(value_and_error(26750.4, 1200.0, Unit::Kilonewton), "27 ± 2");
+        assert_eq!(value_and_error(81_400.0, 12_300.0, Unit::Kilonewton), "81 ± 20");
+        assert_eq!(value_and_error(27_000.0, 26_028e3, Unit::Kilonewton), "27 ± 30000");
         assert_eq!(value_and_error(0.0, 0.0, Unit::Metre), "0.0000 ± 0.0000");
     }
 

@@ -1,6 +1,6 @@
 //! `shelter merge`: shares of a study joined; and the printing of what it and a single machine find.
 
-use std::io::{self, BufWriter, IsTerminal, Write};
+use std::io::{self, IsTerminal};
 use std::path::PathBuf;
 
 use clap::Args;
@@ -8,7 +8,7 @@ use clap::Args;
 use super::{FormatArg, Look, Status, load, long};
 use crate::plan::PlanSource;
 use crate::report;
-use crate::study::merge::{Findings, Head, Question, SCHEMA, merge};
+use crate::study::merge::{Findings, Head, Question, merge, write_share};
 use crate::study::orders::Orders;
 use crate::study::scatter::{swaps, verdict};
 use crate::study::{Case, ComputeSettings, Shard};
@@ -64,7 +64,9 @@ pub struct Answer<'a> {
 /// Prints all that was found, or this machine's share of it.
 pub fn print(answer: Answer<'_>, shard: Option<Shard>, format: FormatArg, look: &Look) -> io::Result<Status> {
     if let Some(shard) = shard {
-        return write_share(answer, shard);
+        let Answer { case, question, settings, findings, .. } = answer;
+        long::print(&write_share(case, question, settings, shard, &findings)?)?;
+        return Ok(Status::Pass);
     }
     let Answer { case, question, findings, partial, .. } = answer;
     let style = look.style(io::stdout().is_terminal());
@@ -97,31 +99,4 @@ pub fn print(answer: Answer<'_>, shard: Option<Shard>, format: FormatArg, look: 
     };
     long::print(&text)?;
     Ok(if all_pass && !partial { Status::Pass } else { Status::Fail })
-}
-
-fn write_share(answer: Answer<'_>, shard: Shard) -> io::Result<Status> {
-    let Answer { case, question, settings, findings, .. } = answer;
-    let lines = match &findings {
-        Findings::Orders(tried) => tried.len(),
-        Findings::Scatter(samples) => samples.len(),
-    };
-    let head = Head {
-        schema: SCHEMA.to_owned(),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        question,
-        compute: settings,
-        plan: case.source.path.clone(),
-        text: case.source.text.clone(),
-        shard,
-        lines,
-    };
-    let mut out = BufWriter::new(io::stdout().lock());
-    let mut line = |text: serde_json::Result<String>| writeln!(out, "{}", text?);
-    line(serde_json::to_string(&head))?;
-    match findings {
-        Findings::Orders(tried) => tried.iter().try_for_each(|one| line(serde_json::to_string(one)))?,
-        Findings::Scatter(samples) => samples.iter().try_for_each(|one| line(serde_json::to_string(one)))?,
-    }
-    out.flush()?;
-    Ok(Status::Pass)
 }

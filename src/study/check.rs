@@ -171,8 +171,8 @@ pub fn start_step(case: &Case, method: Method, accuracy: Accuracy) -> f64 {
     implicit * longest.min(fraction * case.scene().critical_step())
 }
 
-/// Rungs a verdict may climb beyond the first that has an error: 64 times finer.
-const FINEST: usize = 12;
+/// Rungs a verdict may climb below the first: to a step 64 times finer.
+const FINEST: i32 = 12;
 
 /// An error holds in about 19 of 20 runs. A verdict should hold in more, so refinement goes on until it would stand with an
 /// error this many times larger.
@@ -220,38 +220,58 @@ pub fn check_shot(
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Checked, Failure> {
     let begun = Instant::now();
-    let mut runs: Vec<(Outcome, Duration)> = Vec::new();
     let first = compute.step.unwrap_or_else(|| start_step(case, compute.method, compute.accuracy));
-    let rung = |n: i32| first * error::RATIO.powi(n);
-    let mut add = |runs: &mut Vec<(Outcome, Duration)>, step: f64| -> Result<(), Failure> {
+    let mut done = 0;
+    let run = |step: f64| {
         let settings = Settings { method: compute.method, step, duration: case.plan.simulation.duration_s };
-        let (done, start) = (runs.len(), Instant::now());
+        let start = Instant::now();
         let outcome = case
             .model
             .run(shot, &settings, &mut |motion| watch(Progress { runs: done, time: motion.time() }))?;
-        runs.push((outcome, start.elapsed()));
-        Ok(())
+        done += 1;
+        Ok((outcome, start.elapsed()))
     };
+    let mut checked = None;
+    climb(first, compute.step.is_some(), run, |runs| {
+        let judged = judge(case, shot, compute, runs, begun.elapsed());
+        let sure = judged.is_sure(&case.limits);
+        checked = Some(judged);
+        sure
+    })?;
+    checked.ok_or(Failure::Stopped { at: 0.0 })
+}
+
+/// Runs a ladder of steps, the coarsest first: the neighbours of `first`, then `first`, then finer steps until `is_sure`
+/// says so of all runs so far. Where `fixed`, no step is finer than `first`, except where `first` has no other neighbour.
+///
+/// `is_sure` sees the run that gives the values last. No step is run twice.
+fn climb<R>(
+    first: f64,
+    fixed: bool,
+    mut run: impl FnMut(f64) -> Result<R, Failure>,
+    mut is_sure: impl FnMut(&[R]) -> bool,
+) -> Result<(), Failure> {
+    let rung = |n: i32| first * error::RATIO.powi(n);
+    let mut runs = Vec::new();
     for n in (1..=error::NEIGHBOURS as i32).rev() {
-        match add(&mut runs, rung(n)) {
-            Err(Failure::Step { .. } | Failure::Diverged { .. } | Failure::Unsettled { .. }) | Ok(()) => {}
+        match run(rung(n)) {
+            Ok(coarser) => runs.push(coarser),
+            Err(Failure::Step { .. } | Failure::Diverged { .. } | Failure::Unsettled { .. }) => {}
             Err(stopped) => return Err(stopped),
         }
     }
-    let mut finer = 0;
-    loop {
-        add(&mut runs, rung(-finer))?;
-        if runs.len() < 2 {
-            // No coarser run can be had: a finer one tells the error, the values stay at the step asked for.
-            add(&mut runs, rung(-finer - 1))?;
-            runs.swap(0, 1);
+    for finer in 0..=FINEST {
+        runs.push(run(rung(-finer))?);
+        if runs.len() < 2 && fixed {
+            // The finer run tells the error; the values stay at the step asked for.
+            runs.insert(0, run(rung(-1))?);
         }
-        let checked = judge(case, shot, compute, &runs, begun.elapsed());
-        if checked.is_sure(&case.limits) || compute.step.is_some() || finer as usize == FINEST {
-            return Ok(checked);
+        // A single run has no error: its neighbour is the next finer run.
+        if runs.len() >= 2 && (is_sure(&runs) || fixed) {
+            break;
         }
-        finer += 1;
     }
+    Ok(())
 }
 
 /// The verdict of a ladder of runs; the last gives the values.
@@ -292,5 +312,54 @@ fn judge(
         total_wall,
         runs: count,
         total_steps: runs.iter().map(|(outcome, _)| outcome.steps).sum(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Steps that `climb` asks for where steps above `coarsest` fail, and the step that gives the values.
+    fn climbed(coarsest: f64, fixed: bool, sure_at: f64) -> (Vec<f64>, f64) {
+        let (mut asked, mut values) = (Vec::new(), f64::NAN);
+        let run = |step: f64| {
+            asked.push(step);
+            let failure = Failure::Unsettled { what: "contact region", at: 0.0 };
+            if step > coarsest { Err(failure) } else { Ok(step) }
+        };
+        let is_sure = |runs: &[f64]| {
+            values = runs[runs.len() - 1];
+            values <= sure_at
+        };
+        climb(1.0, fixed, run, is_sure).expect("fine steps work");
+        (asked, values)
+    }
+
+    #[test]
+    fn no_step_is_run_twice() {
+        for coarsest in [4.0, 2.0, 1.0] {
+            for fixed in [false, true] {
+                for sure_at in [1.0, 0.5, 1e-9] {
+                    let (mut asked, _) = climbed(coarsest, fixed, sure_at);
+                    let count = asked.len();
+                    asked.dedup();
+                    asked.sort_by(f64::total_cmp);
+                    asked.dedup();
+                    assert_eq!(asked.len(), count, "{coarsest} {fixed} {sure_at}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn values_come_from_the_step_asked_for_or_from_the_finest() {
+        assert_eq!(climbed(4.0, true, 1e-9).1, 1.0);
+        assert_eq!(climbed(1.0, true, 1e-9).1, 1.0, "though its only neighbour is finer");
+        assert_eq!(climbed(4.0, false, 1.0).1, 1.0);
+        assert!(
+            (climbed(1.0, false, 1.0).1 * error::RATIO - 1.0).abs() < 1e-12,
+            "no error without a neighbour"
+        );
+        assert!((climbed(4.0, false, 0.0).1 * 64.0 - 1.0).abs() < 1e-12, "the finest step allowed");
     }
 }

@@ -1,16 +1,19 @@
-//! A study spread over several machines: each writes its share as lines of JSON, merged into what one would have found.
+//! A study spread over several machines: each machine writes its share of the results, and `merge` joins the shares.
 //!
-//! The first line of a share says what is studied, with the plan itself, so that merging needs no other file.
+//! A share is lines of JSON. The first line is the [`Head`]: the question, and the plan itself, so that merging needs no
+//! other file. Each further line is one result. The last line is the SHA-256 checksum of all lines before it.
 
 use itertools::Itertools;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
 
 use super::orders::Tried;
 use super::scatter::{Draw, Sample};
 use super::{Case, ComputeSettings, Shard};
 use crate::plan::ScatterSpec;
 
-/// What is studied.
+/// The question that a study answers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "study", rename_all = "lowercase")]
 pub enum Question {
@@ -21,9 +24,9 @@ pub enum Question {
     },
     /// Samples of every option.
     Scatter {
-        /// What scatters.
+        /// Scatter of detonators, launches and friction.
         spec: ScatterSpec,
-        /// How many.
+        /// Number of samples and seed.
         draw: Draw,
     },
 }
@@ -31,22 +34,27 @@ pub enum Question {
 /// The first line of a share.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Head {
-    /// `shelter.shard/1`.
+    /// [`SCHEMA`].
     pub schema: String,
-    /// Version of the program.
+    /// Version of the program that wrote the share.
     pub version: String,
-    /// What is studied.
+    /// The question.
     pub question: Question,
-    /// How finely.
+    /// Method and accuracy.
     pub compute: ComputeSettings,
-    /// Name of the plan.
+    /// Path of the plan.
     pub plan: String,
-    /// Its text.
+    /// Text of the plan.
     pub text: String,
-    /// Which share.
+    /// Which share this is.
     pub shard: Shard,
-    /// Lines that follow.
-    pub lines: usize,
+}
+
+/// The last line of a share.
+#[derive(Serialize, Deserialize)]
+struct Foot {
+    /// SHA-256 of all lines before, in hexadecimal digits.
+    sha256: String,
 }
 
 /// Results of a study, in the order of one machine.
@@ -58,8 +66,10 @@ pub enum Findings {
     Scatter(Vec<Sample>),
 }
 
-/// The schema of shares.
-pub const SCHEMA: &str = "shelter.shard/1";
+/// Name of this format of shares.
+const SCHEMA: &str = "shelter.shard/2";
+/// Version of this program.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 impl Findings {
     /// Whether these can be findings of a study of `case`, each once.
@@ -76,6 +86,93 @@ impl Findings {
             }
         }
     }
+
+    /// One line of JSON for each result.
+    fn lines(&self) -> serde_json::Result<String> {
+        fn lines<T: Serialize>(results: &[T]) -> serde_json::Result<String> {
+            results.iter().map(|result| Ok(serde_json::to_string(result)? + "\n")).collect()
+        }
+        match self {
+            Findings::Orders(tried) => lines(tried),
+            Findings::Scatter(samples) => lines(samples),
+        }
+    }
+}
+
+/// Text of a share of the study of `case`.
+pub fn write_share(
+    case: &Case,
+    question: Question,
+    compute: ComputeSettings,
+    shard: Shard,
+    findings: &Findings,
+) -> serde_json::Result<String> {
+    let head = Head {
+        schema: SCHEMA.to_owned(),
+        version: VERSION.to_owned(),
+        question,
+        compute,
+        plan: case.source.path.clone(),
+        text: case.source.text.clone(),
+        shard,
+    };
+    let text = serde_json::to_string(&head)? + "\n" + &findings.lines()?;
+    let foot = Foot { sha256: checksum(&text) };
+    Ok(text + &serde_json::to_string(&foot)? + "\n")
+}
+
+/// SHA-256 of a text, in hexadecimal digits.
+fn checksum(text: &str) -> String {
+    Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Reads a share; says what is wrong with it. `name` stands for the file in messages.
+fn read_share(name: &str, text: &str) -> Result<(Head, Findings), String> {
+    let wrong = |line: usize, error: &dyn std::fmt::Display| {
+        format!("{name}:{line}: {error}; a share is what `shelter orders` or `scatter` wrote with --shard")
+    };
+    let (first, rest) = text.split_once('\n').ok_or_else(|| wrong(1, &"the file has no second line"))?;
+    let Kind { schema, version } = serde_json::from_str(first).map_err(|error| wrong(1, &error))?;
+    if schema != SCHEMA || version != VERSION {
+        return Err(format!(
+            "{name}: a share of format {schema}, version {version}, but this is {SCHEMA}, version {VERSION}: compute all shares and merge them with one version"
+        ));
+    }
+    let body = text.trim_end_matches('\n');
+    let (before, last) = body.rsplit_once('\n').unwrap_or((body, ""));
+    let foot: Foot = serde_json::from_str(last)
+        .map_err(|_| format!("{name}: the last line, a checksum, is missing; copy the share again"))?;
+    if foot.sha256 != checksum(&format!("{before}\n")) {
+        return Err(format!(
+            "{name}: the share is not as it was written: its checksum differs; copy it again"
+        ));
+    }
+    let head: Head = serde_json::from_str(first).map_err(|error| wrong(1, &error))?;
+    if head.shard.index >= head.shard.of {
+        return Err(wrong(1, &"there is no such share"));
+    }
+    fn results<T: DeserializeOwned>(
+        lines: &[&str],
+        wrong: impl Fn(usize, &dyn std::fmt::Display) -> String,
+    ) -> Result<Vec<T>, String> {
+        let read =
+            |(n, line): (usize, &&str)| serde_json::from_str(line).map_err(|error| wrong(n + 2, &error));
+        lines.iter().enumerate().map(read).collect()
+    }
+    let mut lines: Vec<&str> = rest.lines().collect();
+    lines.pop();
+    let findings = match head.question {
+        Question::Orders { .. } => Findings::Orders(results(&lines, wrong)?),
+        Question::Scatter { .. } => Findings::Scatter(results(&lines, wrong)?),
+    };
+    Ok((head, findings))
+}
+
+/// What the first line of any version says.
+#[derive(Deserialize)]
+struct Kind {
+    schema: String,
+    version: String,
 }
 
 /// Joins shares, given as `(name, text)`; says what is wrong with them.
@@ -83,42 +180,17 @@ pub fn merge(shares: &[(String, String)]) -> Result<(Head, Findings), String> {
     let mut heads: Vec<(&str, Head)> = Vec::new();
     let (mut orders, mut samples) = (Vec::new(), Vec::new());
     for (name, text) in shares {
-        let mut lines = text.lines().enumerate();
-        let wrong = |line: usize, error: &dyn std::fmt::Display| {
-            format!(
-                "{name}:{}: {error}; a share is what `shelter orders` or `scatter` wrote with --shard",
-                line + 1
-            )
-        };
-        let (_, first) = lines.next().ok_or_else(|| wrong(0, &"the file is empty"))?;
-        let head: Head = serde_json::from_str(first).map_err(|error| wrong(0, &error))?;
-        for (n, line) in lines {
-            match head.question {
-                Question::Orders { .. } => {
-                    orders.push(serde_json::from_str(line).map_err(|error| wrong(n, &error))?);
-                }
-                Question::Scatter { .. } => {
-                    samples.push(serde_json::from_str(line).map_err(|error| wrong(n, &error))?);
-                }
-            }
-        }
-        let found = text.lines().count() - 1;
-        if found != head.lines {
-            return Err(format!(
-                "{name}: {found} of its {} lines are there; copy the share again",
-                head.lines
-            ));
-        }
-        if head.shard.index >= head.shard.of {
-            return Err(wrong(0, &"there is no such share"));
+        let (head, findings) = read_share(name, text)?;
+        match findings {
+            Findings::Orders(tried) => orders.extend(tried),
+            Findings::Scatter(drawn) => samples.extend(drawn),
         }
         heads.push((name, head));
     }
     let (_, first) = heads.first().cloned().ok_or("no share to merge")?;
     for (name, head) in &heads {
         let shard = Shard { index: first.shard.index, ..head.shard };
-        let alike = Head { shard, lines: first.lines, ..head.clone() };
-        if alike != first {
+        if (Head { shard, ..head.clone() }) != first {
             return Err(format!("{name}: a share of another study than {}", heads[0].0));
         }
     }

@@ -5,6 +5,7 @@ use std::process::Output;
 
 use assert_cmd::Command;
 use serde_json::Value;
+use sha2::{Digest, Sha256};
 
 fn amur() -> String {
     let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("plans/amur-three-rows.toml");
@@ -42,6 +43,55 @@ fn sweep_has_the_fields_scripts_read() {
     assert_eq!(csv.status.code(), Some(1));
 }
 
+/// A share that is cut off, edited, or of another version is refused, whatever was changed in it.
+#[test]
+fn a_share_that_is_not_as_it_was_written_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let study = ["scatter", &amur(), "--accuracy", "draft", "--samples", "2"];
+    let share = |index: usize| {
+        let share = shelter(&[&study[..], &["--shard", &format!("{index}/2")]].concat());
+        String::from_utf8(share.stdout).expect("UTF-8")
+    };
+    let (first, second) = (share(1), share(2));
+    let merged = |text: &str| {
+        let files = [("a", text), ("b", second.as_str())].map(|(name, text)| {
+            let file = folder.path().join(name);
+            std::fs::write(&file, text).expect("written");
+            file.to_str().expect("UTF-8").to_owned()
+        });
+        let merged = shelter(&["merge", &files[0], &files[1]]);
+        (merged.status.code(), String::from_utf8_lossy(&merged.stderr).into_owned())
+    };
+    let signed_again = |text: &str| {
+        let body: String =
+            text.lines().take(text.lines().count() - 1).map(|line| format!("{line}\n")).collect();
+        let digits: String = Sha256::digest(body.as_bytes()).iter().map(|b| format!("{b:02x}")).collect();
+        format!("{body}{{\"sha256\":\"{digits}\"}}\n")
+    };
+    assert_eq!(signed_again(&first), first, "the checksum is that of the lines before it");
+    assert_eq!(merged(&first).0, Some(1), "as written: some samples fail");
+    let lines: Vec<&str> = first.lines().collect();
+    let cases = [
+        (lines[..lines.len() - 1].join("\n"), "copy the share again"),
+        (lines[..1].join("\n"), "no second line"),
+        (String::new(), "no second line"),
+        // Values altered within their types: a fail that became a pass.
+        (first.replace("\"fail\"", "\"pass\""), "its checksum differs"),
+        (first.replacen("\"value\":1", "\"value\":2", 1), "its checksum differs"),
+        (signed_again(&first.replace("shelter.shard/2", "shelter.shard/1")), "with one version"),
+        (signed_again(&first.replacen("\"version\":\"", "\"version\":\"9", 1)), "with one version"),
+        (signed_again(&first.replacen("\"seed\":1", "\"seed\":2", 1)), "another study"),
+        (signed_again(&first.replacen("\"option\":0", "\"option\":99", 1)), "damaged"),
+        (signed_again(&first.replacen("\"option\":0", "\"option\":\"0\"", 1)), "a:2:"),
+    ];
+    for (text, message) in cases {
+        assert_ne!(text, first);
+        let (status, said) = merged(&text);
+        assert_eq!(status, Some(2), "{message}: {said}");
+        assert!(said.contains(message), "{message}: {said}");
+    }
+}
+
 #[test]
 fn shares_merge_into_the_whole_byte_for_byte() {
     let plan = amur();
@@ -67,18 +117,6 @@ fn shares_merge_into_the_whole_byte_for_byte() {
                 assert_eq!(merged.stdout, whole.stdout, "{format} of {of}");
                 assert_eq!(merged.status.code(), whole.status.code());
                 if of > 1 {
-                    let text = std::fs::read_to_string(&files[0]).expect("a share");
-                    let lines: Vec<&str> = text.lines().collect();
-                    std::fs::write(&files[0], lines[..lines.len() - 1].join("\n")).expect("written");
-                    let short = shelter(&merge);
-                    assert_eq!(short.status.code(), Some(2));
-                    assert!(String::from_utf8_lossy(&short.stderr).contains("copy the share again"));
-                    let damaged =
-                        text.replace("\"order\":[", "\"order\":[9,").replace("\"option\":0", "\"option\":99");
-                    std::fs::write(&files[0], damaged).expect("written");
-                    let broken = shelter(&merge);
-                    assert_eq!(broken.status.code(), Some(2), "{}", String::from_utf8_lossy(&broken.stderr));
-                    std::fs::write(&files[0], text).expect("written");
                     let missing = shelter(&merge[..merge.len() - 1]);
                     assert_eq!(missing.status.code(), Some(2));
                     assert!(String::from_utf8_lossy(&missing.stderr).contains("is missing"));
