@@ -1,6 +1,6 @@
-//! What a value with its error says about a limit.
+//! The verdict on a value with an error, given a limit.
 //!
-//! Numbers with one-sided errors and limits come in, a [`Verdict`] goes out; where they come from is not known here.
+//! Values, one-sided errors and limits come in; a [`Verdict`] goes out. This module does not know where they come from.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub enum Verdict {
     /// Value + error is within every limit.
     Pass,
-    /// Neither, at the finest step allowed.
+    /// Neither a pass nor a fail at the finest step allowed.
     Undecided,
     /// Value − error is past some limit.
     Fail,
@@ -22,7 +22,7 @@ impl Verdict {
         verdicts.into_iter().max().unwrap_or(Verdict::Pass)
     }
 
-    /// As people read it.
+    /// The verdict as people read it: PASS, OPEN or FAIL.
     pub fn label(self) -> &'static str {
         match self {
             Verdict::Pass => "PASS",
@@ -31,7 +31,7 @@ impl Verdict {
         }
     }
 
-    /// As JSON and scripts spell it.
+    /// The verdict as JSON and scripts spell it.
     pub fn name(self) -> &'static str {
         match self {
             Verdict::Pass => "pass",
@@ -41,21 +41,21 @@ impl Verdict {
     }
 }
 
-/// A computed value with its estimated discretisation error, where and when it was reached.
+/// A computed value with its estimated discretisation error, its time, and its tire or cable.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Estimate {
-    /// The value [unit of the quantity].
+    /// The value [SI unit of the quantity].
     pub value: f64,
     /// Estimated error, one-sided [same unit].
     pub error: f64,
-    /// When [s].
+    /// Time at which the value is reached [s].
     pub at: f64,
     /// Index of the tire or cable.
     pub place: usize,
 }
 
 impl Estimate {
-    /// What this estimate says of an upper limit.
+    /// The verdict on this estimate for an upper limit.
     pub fn against(&self, limit: f64) -> Verdict {
         if self.value + self.error <= limit {
             Verdict::Pass
@@ -67,7 +67,7 @@ impl Estimate {
     }
 }
 
-/// Limits of a passing option, SI.
+/// The limits that an option must keep to pass, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Greatest flight height [m].

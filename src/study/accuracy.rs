@@ -1,4 +1,6 @@
-//! What a step buys on this plan and this machine: both methods over a range of steps against a converged run.
+//! Error and computing time against the step, for both methods, on this plan and this machine.
+//!
+//! The errors are differences from a converged run.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -14,18 +16,18 @@ use crate::simulation::{Failure, Settings};
 /// One method at one step.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// Method.
+    /// Time integration method.
     pub method: Method,
     /// Step [s].
     pub step: f64,
-    /// What came out; `None` where the method could not follow.
+    /// Result; `None` where the method is not stable at this step.
     pub result: Option<Measured>,
 }
 
-/// What a run gave and cost.
+/// Result and cost of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Measured {
-    /// Steps made.
+    /// Number of steps.
     pub steps: usize,
     /// Greatest height [m].
     pub height: f64,
@@ -37,32 +39,32 @@ pub struct Measured {
     pub force_error: f64,
     /// Ledger residual over the energy put in.
     pub energy_residual: f64,
-    /// Least time of a few runs.
+    /// Least computing time of a few runs.
     pub wall: Duration,
 }
 
 /// Speed against accuracy of one option.
 #[derive(Clone, Debug)]
 pub struct Study {
-    /// Index of the option.
+    /// Index of the delay option.
     pub option: usize,
-    /// Both methods, coarse to fine.
+    /// Rows of both methods, each from the longest step to the shortest.
     pub rows: Vec<Row>,
-    /// Step of the converged run, made by `verlet` [s].
+    /// Step of the converged run [s]; its method is `verlet`.
     pub reference_step: f64,
-    /// What the accuracy levels use: level and step [s].
+    /// Accuracy levels, each with its first step [s].
     pub levels: [(Accuracy, f64); 3],
 }
 
-/// Limits of an error class: height and force, relative.
+/// Classes of accuracy: greatest relative error of height and of force.
 pub const CLASSES: [(f64, f64); 2] = [(0.01, 0.02), (0.002, 0.002)];
 
-/// Steps tried per method, each [`error::RATIO`] finer than the one before.
+/// Number of steps tried per method; each step is [`error::RATIO`] times shorter than the one before.
 const STEPS: i32 = 15;
-/// How much finer the reference is than the finest level.
+/// First step of the finest accuracy level over the step of the converged run.
 const FINER: f64 = 16.0;
 
-/// Measures one option; runs of a method that are expected to take longer than `patience` are left out.
+/// Measures one option. A run that is expected to take longer than `patience` is left out.
 pub fn measure(
     case: &Case,
     option: usize,
@@ -106,7 +108,7 @@ pub fn measure(
 }
 
 impl Study {
-    /// The largest step of a method that is within a class together with every finer one, and what it costs.
+    /// The longest step of a method at which this step and all shorter steps are within a class; with its computing time.
     pub fn cheapest(&self, method: Method, class: (f64, f64)) -> Option<(f64, Duration)> {
         let within = |row: &&Row| {
             let good = |m: &Measured| m.height_error <= class.0 && m.force_error <= class.1;
@@ -117,7 +119,7 @@ impl Study {
     }
 }
 
-/// One run, repeated while it is short so that its time means something; `None` where the method cannot follow.
+/// Runs a shot; short runs are repeated, so that their least time means something. `None` where the method is not stable.
 fn run(
     case: &Case,
     shot: &Shot,
@@ -165,7 +167,7 @@ fn compared(outcome: &Outcome, wall: Duration, reference: Option<&(Outcome, Dura
 /// A row of the source paper's Table 1: step [s], height [m], greatest force and force at 0.16 s [N].
 pub type PaperRow = (f64, f64, f64, f64);
 
-/// Table 1 as printed; NaN where it has a dash.
+/// Table 1 of the source paper as printed; NaN where the table has a dash.
 pub const PAPER: [PaperRow; 6] = [
     (5e-4, 0.705, 17_668.0, 9_265.0),
     (2.5e-4, 0.707, 17_687.0, 8_284.0),
@@ -175,7 +177,7 @@ pub const PAPER: [PaperRow; 6] = [
     (5e-5, f64::NAN, f64::NAN, 7_452.0),
 ];
 
-/// The same table by one of our methods, if the plan is the paper's shelter: five tires of 280 kg over one hole.
+/// Table 1 computed by `method`, where the plan is the shelter of the paper: five tires of 280 kg over one hole.
 pub fn paper_table(case: &Case, method: Method) -> Option<Vec<PaperRow>> {
     let scene = case.scene();
     let single =

@@ -1,7 +1,7 @@
-//! Pass or fail of one delay option, refined until it is sure.
+//! The verdict on one delay option, refined until the verdict is sure.
 //!
-//! Runs climb a ladder of steps, each rung [`error::RATIO`] finer than the last. The finest run gives the values, the
-//! rungs before it their errors. While the verdict is open, another rung is added.
+//! The option is run at a ladder of steps; each step is [`error::RATIO`] times finer than the one before. The finest run
+//! gives the values. The coarser runs give the errors. While the verdict is open, a finer run is added.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -18,59 +18,59 @@ use crate::verdict::{Estimate, Limits, Verdict};
 pub struct Checked {
     /// Pass, fail, or undecided at the finest step allowed.
     pub verdict: Verdict,
-    /// Why it is not a pass.
+    /// Why the verdict is not a pass; empty for a pass.
     pub reasons: Vec<Reason>,
-    /// Greatest flight height [m]; `place` is a tire.
+    /// Greatest flight height of any tire [m].
     pub height: Estimate,
-    /// Greatest cable force [N]; `place` is a cable.
+    /// Greatest force of any cable [N].
     pub force: Estimate,
-    /// Greatest drift at the end [m]; `place` is a tire.
+    /// Greatest drift of any tire at the end [m].
     pub drift: Estimate,
-    /// Breaking force over greatest force; infinite when no cable pulls.
+    /// Breaking force over greatest force; infinite where no cable pulls.
     pub safety_factor: f64,
-    /// Cables that broke, in order of time; none where the plan only reports overload.
+    /// Broken cables in order of time; empty where the plan lets no cable break.
     pub broken: Vec<Broken>,
     /// Height and force over time.
     pub history: History,
-    /// What was asked for.
+    /// Method and accuracy that were asked for.
     pub compute: ComputeSettings,
-    /// Step that gave the values [s].
+    /// Step of the run that gave the values [s].
     pub step: f64,
-    /// Steps of that run.
+    /// Number of steps of that run.
     pub steps: usize,
-    /// Ledger residual over the energy put in.
+    /// Energy residual of that run over the energy that the holes put in.
     pub energy_residual: f64,
     /// End of the run [s].
     pub end: f64,
-    /// Why it ended.
+    /// Why the run ended.
     pub ended: End,
-    /// Time the run that gave the values took.
+    /// Computing time of the run that gave the values.
     pub wall: Duration,
-    /// Time all runs took.
+    /// Computing time of all runs.
     pub total_wall: Duration,
-    /// Runs behind the verdict.
+    /// Number of runs behind the verdict.
     pub runs: usize,
-    /// Steps of all of them.
+    /// Number of steps of all runs.
     pub total_steps: usize,
 }
 
 /// Why an option does not pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reason {
-    /// A limit is passed, or too near to tell.
+    /// A value is past its limit, or too near to the limit to tell.
     Limit {
-        /// Of which quantity.
+        /// The quantity.
         quantity: Quantity,
         /// Fail or undecided.
         verdict: Verdict,
-        /// What was computed.
+        /// The computed value with its error.
         estimate: Estimate,
-        /// The limit [unit of the quantity].
+        /// The limit [SI unit of the quantity].
         limit: f64,
     },
-    /// So many cables break.
+    /// Cables break; their number.
     Broken(usize),
-    /// The run ends too early to tell.
+    /// The run ends too early for a verdict.
     EndsEarly {
         /// End of the run [s].
         end: f64,
@@ -80,7 +80,7 @@ pub enum Reason {
 }
 
 impl Reason {
-    /// Fail or undecided.
+    /// The verdict that this reason leads to: fail or undecided.
     pub fn verdict(&self) -> Verdict {
         match self {
             Reason::Limit { verdict, .. } => *verdict,
@@ -90,7 +90,7 @@ impl Reason {
     }
 }
 
-/// What a run that ends too early leaves out.
+/// What a run that ends too early leaves open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EarlyEnd {
     /// The last hole fires at this time [s].
@@ -103,7 +103,7 @@ pub enum EarlyEnd {
     TiresMoving,
 }
 
-/// What the run of a shot leaves out, if it ends too early for a verdict.
+/// What the run of a shot leaves open, where the run ends too early for a verdict.
 fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<EarlyEnd> {
     let last = shot.firings.last().map_or(0.0, |firing| firing.at);
     if last >= case.plan.simulation.duration_s.unwrap_or(f64::INFINITY) {
@@ -122,7 +122,7 @@ fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<EarlyEnd> {
     case.limits.drift.map(|_| EarlyEnd::TiresMoving)
 }
 
-/// What a limit is about.
+/// A quantity that has a limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Flight height [m].
@@ -133,7 +133,7 @@ pub enum Quantity {
     Drift,
 }
 
-/// Why a run of a shot with these estimates of height, force and drift does not pass.
+/// Why a run of a shot does not pass, given its height, force and drift with their errors; empty for a pass.
 pub fn reasons(
     case: &Case,
     shot: &Shot,
@@ -150,17 +150,17 @@ pub fn reasons(
     all.filter(|reason| reason.verdict() != Verdict::Pass).collect()
 }
 
-/// How far along a check is.
+/// Progress of a check.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// Runs finished.
+    /// Number of finished runs.
     pub runs: usize,
-    /// Time the present run has reached [s].
+    /// Simulated time that the present run has reached [s].
     pub time: f64,
 }
 
-/// Step the refinement starts at [s]: a fraction of the explicit stability limit, and never longer than what resolves a
-/// landing.
+/// Step at which refinement starts [s]: a fraction of the explicit stability limit, and at most the step that resolves
+/// a landing.
 pub fn start_step(case: &Case, method: Method, accuracy: Accuracy) -> f64 {
     let (fraction, longest): (f64, f64) = match accuracy {
         Accuracy::Draft => (0.2, 2e-3),
@@ -174,12 +174,12 @@ pub fn start_step(case: &Case, method: Method, accuracy: Accuracy) -> f64 {
 /// Rungs a verdict may climb below the first: to a step 64 times finer.
 const FINEST: i32 = 12;
 
-/// An error holds in about 19 of 20 runs. A verdict should hold in more, so refinement goes on until it would stand with an
-/// error this many times larger.
+/// Factor on the error with which a verdict must still stand. The error itself holds in about 19 of 20 runs; a verdict
+/// should hold in more.
 const SURE: f64 = 2.0;
 
 impl Checked {
-    /// Whether what the limits say would stand with larger errors.
+    /// Whether the verdict of the limits would stand with errors [`SURE`] times larger.
     fn is_sure(&self, limits: &Limits) -> bool {
         let verdict = |times: f64| {
             let larger = |estimate: Estimate| Estimate { error: times * estimate.error, ..estimate };
@@ -191,7 +191,7 @@ impl Checked {
     }
 }
 
-/// The estimates that have a limit.
+/// The quantities that have a limit, each with its estimate and its limit.
 fn limited(
     height: Estimate,
     force: Estimate,
@@ -202,7 +202,7 @@ fn limited(
     always.into_iter().chain(limits.drift.map(|limit| (Quantity::Drift, drift, limit)))
 }
 
-/// Judges one delay option. `watch` sees the progress and may stop.
+/// Judges one delay option. `watch` sees the progress and may stop the check.
 pub fn check(
     case: &Case,
     option: usize,
@@ -274,7 +274,7 @@ fn climb<R>(
     Ok(())
 }
 
-/// The verdict of a ladder of runs; the last gives the values.
+/// Judges a shot by a ladder of runs; the last run gives the values.
 fn judge(
     case: &Case,
     shot: &Shot,

@@ -1,22 +1,27 @@
-//! How far a value at one step is from the converged one, judged from the same run at neighbouring steps.
+//! The error of a value computed at one step, estimated from runs of the same shot at neighbouring steps.
 //!
-//! The method is of second order: a run at step r h differs from one at h by (r² − 1) times the error at h, so every
-//! neighbour j gives an estimate sⱼ = (vⱼ − v) / (rⱼ² − 1) of it. Where the motion is smooth in the step they agree. Where
-//! tires land and are launched anew, cables go slack and snap, the value jumps between nearby steps and they do not. The
-//! error reported is MARGIN · max |sⱼ|: the largest of several is believed, so two runs that agree by luck are not.
+//! 1. Symbols: h the step, v the value at h, vⱼ the value at the neighbouring step rⱼ h.
+//! 2. The method is of second order: the run at r h differs from the run at h by (r² − 1) times the error at h.
+//! 3. So each neighbour j gives an estimate of the error at h: sⱼ = (vⱼ − v) / (rⱼ² − 1).
+//! 4. The reported error is MARGIN · max |sⱼ|.
 //!
-//! The margin was fitted on 600 random scenes; `cargo bench --bench calibration` measures on others how often the true
-//! error is within the reported one (about 19 of 20 times) and how wide that is (about 5 to 6.5 times the true one in the median). It
-//! estimates the error of the time integration alone: the model, the plan's numbers, and a motion so sensitive that every
-//! step misses the same event alike are beyond it.
+//! Where the motion is smooth in the step, the estimates agree. Where tires land and are launched anew, or cables go slack
+//! and snap, the value jumps between nearby steps, and the estimates differ. The largest estimate counts, so two runs that
+//! agree by luck are not believed.
+//!
+//! MARGIN was fitted on 600 random scenes. `cargo bench --bench calibration` measures on other scenes how often the true
+//! error is within the reported error (about 19 of 20 times) and how large the reported error is (in the median about 5 to
+//! 6.5 times the true error). The estimate covers the time integration alone. It does not cover the model, the numbers of
+//! the plan, or a motion so sensitive that all steps miss the same event.
 
-/// How many times coarser each neighbour is than the one before.
+/// Ratio of neighbouring steps.
 pub const RATIO: f64 = std::f64::consts::SQRT_2;
-/// Neighbours wanted beside the run itself.
+/// Number of neighbours wanted beside the run itself.
 pub const NEIGHBOURS: usize = 4;
+/// Reported error over the largest estimate.
 const MARGIN: f64 = 3.05;
 
-/// Estimated error of `value`, computed at `step`, from `(step, value)` of neighbours; 0 without any.
+/// Estimated error of `value`, computed at `step`, from `(step, value)` of its neighbours; 0 without neighbours.
 pub fn estimate(step: f64, value: f64, neighbours: impl IntoIterator<Item = (f64, f64)>) -> f64 {
     let estimates = neighbours.into_iter().map(|(other, near)| {
         let ratio = other / step;

@@ -1,4 +1,4 @@
-//! Where every tire is over time, for playing one option back.
+//! Position of every tire over time, for playing one option back.
 
 use nalgebra::Vector3;
 
@@ -8,28 +8,28 @@ use crate::outcome::Outcome;
 use crate::scene::{Cable, Scene};
 use crate::simulation::{Motion, Settings};
 
-/// One option's motion, sampled at even times.
+/// Motion of one option, sampled at even times.
 #[derive(Clone, Debug)]
 pub struct Flight {
-    /// Index of the option.
+    /// Index of the delay option.
     pub option: usize,
-    /// What the run gave.
+    /// Outcome of the run.
     pub outcome: Outcome,
     tires: usize,
-    /// When each frame was taken [s].
+    /// Time of each frame [s] (`n_frames`).
     times: Vec<f64>,
-    /// Displacement of each tire from its place at rest, frame after frame [m].
+    /// Displacement of each tire from its position at rest [m] (`n_frames` × `n_tires`).
     displacements: Vec<[f32; 3]>,
 }
 
-/// Displacements kept, of all tires and frames: 60 MB.
+/// Greatest number of displacements kept, of all tires and frames: 60 MB.
 const MOST_KEPT: usize = 5_000_000;
-/// Fewest and most frames kept, whatever the shelter; a power of two each, because full recordings are halved.
+/// Least and greatest number of frames kept; powers of two, because a full recording is halved.
 const FRAMES: [usize; 2] = [16, 1024];
 
-/// Runs one option once, at the step its accuracy starts from or at `step` [s], and keeps its frames.
+/// Runs one option once, at its first step, and records frames.
 ///
-/// However long the run, memory is bounded: full recordings drop every second frame.
+/// Memory is bounded for runs of any length: a full recording drops every second frame.
 pub fn record(
     case: &Case,
     option: usize,
@@ -84,12 +84,12 @@ fn halve(times: &mut Vec<f64>, displacements: &mut Vec<[f32; 3]>, tires: usize) 
 }
 
 impl Flight {
-    /// When it ends [s].
+    /// End of the run [s].
     pub fn end(&self) -> f64 {
         self.outcome.drift.at
     }
 
-    /// Which cables of the scene pull at `time` [s] (`n_cables`).
+    /// Whether each cable of the scene pulls at `time` [s] (`n_cables`).
     pub fn taut(&self, scene: &Scene, time: f64) -> Vec<bool> {
         let frame = self.at(time);
         let displacement = |tire: usize| Vector3::from(frame[tire].map(f64::from));
@@ -101,12 +101,12 @@ impl Flight {
         taut
     }
 
-    /// Frames kept.
+    /// Number of frames.
     pub fn frames(&self) -> usize {
         self.times.len()
     }
 
-    /// Displacements of all tires at `time` [s], `(n_tires)` of (x, y, height) [m]: those of the last frame before.
+    /// Displacements x, y and height [m] of all tires (`n_tires`) in the last frame up to `time` [s].
     pub fn at(&self, time: f64) -> &[[f32; 3]] {
         let after = self.times.partition_point(|&taken| taken <= time + 1e-9);
         let frame = after.saturating_sub(1);

@@ -1,7 +1,7 @@
-//! Judgement: what is run, how often and how finely, to answer a user's question about a plan.
+//! Studies: which shots of a plan are run, how often and how finely, to answer one question of the user.
 //!
-//! A [`Case`] is a plan made ready to run; each study takes one and returns a plain result that every view draws.
-//! Nothing here prints, parses or computes physics.
+//! A [`Case`] is a plan made ready to run. Each study takes a case and returns plain data, which every face draws.
+//! Studies do not print, do not parse and do not compute physics.
 
 pub mod accuracy;
 pub mod batch;
@@ -39,11 +39,11 @@ pub struct Case {
     pub source: PlanSource,
     /// Values of the plan.
     pub plan: Plan,
-    /// Its shelter, made ready.
+    /// The shelter, made ready for many runs.
     pub model: Model,
-    /// What fires when, per delay option (`n_options`).
+    /// Firing time and launch velocity of every hole, per delay option (`n_options`).
     pub shots: Vec<Shot>,
-    /// Its limits, SI.
+    /// Limits in SI units.
     pub limits: Limits,
 }
 
@@ -85,7 +85,7 @@ impl Case {
         Shot::new(self.scene(), &self.plan.blast_rows, &timing)
     }
 
-    /// Intervals of the delay options [s], each once.
+    /// Intervals of the delay options [s], ascending, without repetitions.
     pub fn intervals(&self) -> Vec<f64> {
         let interval = |timing: &Timing| match timing {
             Timing::Interval { interval_ms, .. } => Some(interval_ms * 1e-3),
@@ -97,35 +97,36 @@ impl Case {
         all
     }
 
-    /// Its shelter.
+    /// The shelter.
     pub fn scene(&self) -> &Scene {
         self.model.scene()
     }
 
-    /// Tires that `method` integrates, the most of any option: fewer than all where mirror planes halve the shelter.
+    /// Number of tires that `method` integrates: the greatest of all options. Mirror planes of shelter and shot make it
+    /// smaller than the number of tires.
     pub fn modelled_tires(&self, method: Method) -> usize {
         self.shots.iter().map(|shot| self.model.modelled_tires(method, shot)).max().unwrap_or(0)
     }
 }
 
-/// How finely to compute; from the plan, with what the command line overrides.
+/// Method and accuracy of a computation: those of the plan, unless the user overrides them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ComputeSettings {
-    /// Which method.
+    /// Time integration method.
     pub method: Method,
-    /// Where refinement starts.
+    /// Accuracy level; it sets the step at which refinement starts.
     pub accuracy: Accuracy,
-    /// Exactly this step, never refined [s].
+    /// Fixed step [s]; `None`: the step follows from the accuracy and is refined.
     pub step: Option<f64>,
 }
 
 impl ComputeSettings {
-    /// As the plan asks.
+    /// The settings that a plan asks for.
     pub fn of(plan: &Plan) -> Self {
         Self { method: plan.simulation.method, accuracy: plan.simulation.accuracy, step: None }
     }
 
-    /// After one plan took the place of another: what was as the old one asks is as the new one asks.
+    /// Follows a change of plan from `old` to `new`: a setting that the user has not overridden takes its value from `new`.
     pub fn follow(&mut self, old: &Plan, new: &Plan) {
         let (old, new) = (Self::of(old), Self::of(new));
         if self.method == old.method {
@@ -137,39 +138,39 @@ impl ComputeSettings {
     }
 }
 
-/// Intervals between rows to try.
+/// Evenly spaced intervals between rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Intervals {
-    /// First [s].
+    /// First interval [s].
     pub from: f64,
-    /// Last [s].
+    /// Last interval [s].
     pub to: f64,
-    /// Apart [s].
+    /// Distance between neighbours [s].
     pub step: f64,
 }
 
 impl Intervals {
-    /// Each of them [s].
+    /// All intervals [s].
     pub fn values(&self) -> Vec<f64> {
         let count = ((self.to - self.from) / self.step + 1e-9).floor() as usize;
         (0..=count).map(|n| self.from + n as f64 * self.step).collect()
     }
 }
 
-/// One of several machines' share of a study.
+/// The share of one machine in a study spread over several machines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shard {
-    /// Which, from 0.
+    /// Number of the share, from 0.
     pub index: usize,
-    /// Of how many.
+    /// Number of shares.
     pub of: usize,
 }
 
 impl Shard {
-    /// All the work.
+    /// The whole study.
     pub const WHOLE: Shard = Shard { index: 0, of: 1 };
 
-    /// Whether a piece of work falls to it.
+    /// Whether the share holds piece `number` of the work.
     pub fn has(self, number: usize) -> bool {
         number % self.of == self.index
     }

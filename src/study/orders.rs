@@ -1,7 +1,8 @@
-//! Every order in which the blast rows can fire: the worst, the best.
+//! The orders in which the blast rows can fire, ranked from the worst to the best.
 //!
-//! Up to [`MOST_ROWS`] rows all orders are tried. Beyond that orders are searched: random ones, and from the worst and the
-//! best of them exchanges of two rows while they lead on. A search may miss the worst order, and its result says so.
+//! Up to [`MOST_ROWS`] rows all orders are tried. With more rows the orders are searched: random orders first; then, from
+//! the worst and from the best order found, exchanges of two rows as long as an exchange leads further. A search may miss
+//! the worst order; its result says so.
 
 use itertools::Itertools;
 use rand::SeedableRng;
@@ -14,37 +15,37 @@ use super::{Case, ComputeSettings, Envelope, NoResult, Progress, Shard};
 use crate::scene::Shot;
 use crate::verdict::Verdict;
 
-/// Most blast rows whose orders are all tried: 5,040 of them.
+/// Greatest number of blast rows whose orders are all tried: 5,040 orders.
 pub const MOST_ROWS: usize = 7;
-/// Random orders of a search, per interval.
+/// Number of random orders of a search, per interval.
 const RANDOM: usize = 1000;
-/// Rounds of exchanges of a search, per interval and direction.
+/// Greatest number of rounds of exchanges, per interval and direction (toward the worst, toward the best).
 const ROUNDS: usize = 8;
 
 /// One order at one interval.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tried {
-    /// Its place among all that were to be tried.
+    /// Number of this trial, in the order in which one machine tries them.
     pub number: usize,
     /// Blast rows in firing order.
     pub order: Vec<usize>,
-    /// Between successive rows [s].
+    /// Interval between successive rows [s].
     pub interval: f64,
-    /// What it gives.
+    /// Verdict, height, force and drift.
     pub envelope: Envelope,
 }
 
-/// All orders tried.
+/// Result of trying orders.
 #[derive(Clone, Debug)]
 pub struct Orders {
     /// From the worst to the best.
     pub ranked: Vec<Tried>,
-    /// Whether these are all there are.
+    /// Whether all possible orders were tried.
     pub complete: bool,
 }
 
 impl Orders {
-    /// Ranks what was tried at so many intervals, by one machine or many.
+    /// Ranks the orders that one or many machines tried, at `intervals` intervals.
     pub fn new(case: &Case, mut tried: Vec<Tried>, intervals: usize) -> Self {
         let complete = is_complete(case) && tried.len() == count(case, intervals);
         let share = |tried: &Tried| tried.envelope.utilization(&case.limits);
@@ -52,29 +53,29 @@ impl Orders {
         Self { ranked: tried, complete }
     }
 
-    /// The verdict on all of them; open where there are none.
+    /// The verdict on all orders; undecided where none was tried.
     pub fn verdict(&self) -> Verdict {
         let worst = Verdict::worst(self.ranked.iter().map(|tried| tried.envelope.verdict));
         if self.ranked.is_empty() { Verdict::Undecided } else { worst }
     }
 
-    /// How many pass.
+    /// Number of orders that pass.
     pub fn passing(&self) -> usize {
         self.ranked.iter().filter(|tried| tried.envelope.verdict == Verdict::Pass).count()
     }
 }
 
-/// How many orders there are at so many intervals.
+/// Number of possible orders, times the number of intervals.
 pub fn count(case: &Case, intervals: usize) -> usize {
     (1..=case.plan.blast_rows.len()).product::<usize>().saturating_mul(intervals)
 }
 
-/// Whether all orders of a plan are tried.
+/// Whether the plan has few enough rows that all orders are tried.
 pub fn is_complete(case: &Case) -> bool {
     case.plan.blast_rows.len() <= MOST_ROWS
 }
 
-/// Tries the orders at every interval [s]; of them only those in `shard`.
+/// Tries the orders at every interval [s]; only the share `shard` of them.
 pub fn orders(
     case: &Case,
     intervals: &[f64],
@@ -151,7 +152,7 @@ fn search(
     Ok(tried)
 }
 
-/// Judges the orders not yet tried at this interval.
+/// Judges the orders that have not been tried at this interval, and adds them to `tried`.
 fn add(
     case: &Case,
     tried: &mut Vec<Tried>,

@@ -1,11 +1,11 @@
-//! Detonators, launches and friction scatter from shot to shot: how often does each option fail?
+//! How often each option fails when detonators, launches and friction scatter from shot to shot.
 //!
-//! Every sample draws the firing time of every hole (normal about its nominal time), every launch velocity (lognormal, its
-//! mean as planned) and the friction (uniform over its range). Holes are independent. A sample's numbers come from the
-//! seed, its option and its number alone, so they are the same for any number of threads and any sharding.
+//! A sample draws the firing time of every hole (normal about the nominal time), every launch velocity (lognormal, with the
+//! planned mean) and the friction (uniform over its range). Holes are independent. The numbers of a sample follow from the
+//! seed, its option and its number alone, so they do not depend on threads or shares.
 //!
-//! A sample is run once, at the step the accuracy level starts from. The nominal shot, refined as `check` does, tells how
-//! wrong such a run may be; a sample that comes that near a limit is judged as `check` does, too.
+//! A sample is run once, at the first step of the accuracy level. The nominal shot is refined as `check` does; its error
+//! stands for the error of the samples. A sample nearer to a limit than this error is refined as `check` does, too.
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -24,29 +24,30 @@ use crate::verdict::{Estimate, Verdict};
 /// One sample of one option.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
-    /// Index of the option.
+    /// Index of the delay option.
     pub option: usize,
-    /// Number of the sample.
+    /// Number of the sample, from 0.
     pub number: usize,
-    /// What it gives.
+    /// Verdict, height, force and drift.
     pub envelope: Envelope,
 }
 
-/// How many samples, from which seed.
+/// Number of samples, and their seed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Draw {
-    /// Of every option.
+    /// Number of samples of each option.
     pub samples: usize,
-    /// Of the random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// Stop an option once its verdict is certain: the interval of its failure probability lies on one side of this.
+    /// Bound on the failure probability; an option stops once its 95 % interval lies on one side of the bound. `None`: all
+    /// samples are drawn.
     pub certain_at: Option<f64>,
 }
 
-/// Samples between two looks at whether an option's verdict is certain.
+/// Number of samples between two tests whether the verdict of an option is certain.
 const LOOK_EVERY: usize = 200;
 
-/// Draws and judges the samples of every option; of them only those in `shard`.
+/// Draws and judges the samples of every option; only the share `shard` of them.
 pub fn scatter(
     case: &Case,
     spec: &ScatterSpec,
@@ -59,7 +60,7 @@ pub fn scatter(
     let errors = each(&options, progress, |&option| {
         let checked = check_shot(case, &case.shots[option], compute, &mut |_| progress.flow())
             .map_err(|failure| progress.reason(failure))?;
-        // Its error grew less than the step's square from the first step to the last.
+        // From the first step to the last, the error falls at least with the square of the step.
         let coarser = (start(case, compute) / checked.step).powi(2).max(1.0);
         let relative = |of: Estimate| if of.value > 0.0 { of.error / of.value * coarser } else { 0.0 };
         Ok([relative(checked.height), relative(checked.force), relative(checked.drift)])
@@ -107,7 +108,7 @@ fn is_certain(samples: &[Sample], draw: &Draw) -> bool {
     high < bound || low > bound
 }
 
-/// The verdict on all options: whether no sample fails, or surely fewer than were to be certain.
+/// The verdict on all options: a pass where no sample fails, or where surely fewer fail than `draw.certain_at`.
 pub fn verdict(case: &Case, draw: &Draw, samples: &[Sample]) -> Verdict {
     Verdict::worst((0..case.shots.len()).map(|option| summary(samples, option)).map(|summary| {
         let [passes, fails] = match draw.certain_at {
@@ -122,7 +123,7 @@ pub fn verdict(case: &Case, draw: &Draw, samples: &[Sample]) -> Verdict {
     }))
 }
 
-/// One run, or a whole check where it comes too near a limit.
+/// Judges a sample by one run, or by a whole check where the run is too near to a limit.
 fn judge_sample(
     case: &Case,
     shot: &Shot,
@@ -154,7 +155,7 @@ fn judge_sample(
     Ok(Envelope::new(verdict, estimates))
 }
 
-/// Sample `number` of a nominal shot.
+/// Draws sample `number` of a nominal shot.
 pub fn drawn(nominal: &Shot, spec: &ScatterSpec, seed: u64, option: usize, number: usize) -> Shot {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(((option as u64) << 40) | number as u64);
@@ -171,13 +172,13 @@ pub fn drawn(nominal: &Shot, spec: &ScatterSpec, seed: u64, option: usize, numbe
             Firing { at: firing.at + late, launch: firing.launch * factor, ..*firing }
         })
         .collect();
-    // Only differences of time matter; none may be before the start.
+    // No firing may be before the start; only differences of firing times matter.
     let first = firings.iter().map(|firing| firing.at).fold(0.0, f64::min);
     firings.iter_mut().for_each(|firing| firing.at -= first);
     Shot { friction, ..Shot::from_firings(firings) }
 }
 
-/// The 95 % Wilson interval of a probability seen `hits` times in `trials`.
+/// The 95 % Wilson interval of a probability, from `hits` in `trials`.
 pub fn wilson(hits: usize, trials: usize) -> [f64; 2] {
     const Z: f64 = 1.959_963_984_540_054;
     let (k, n) = (hits as f64, trials as f64);
@@ -191,14 +192,14 @@ pub fn wilson(hits: usize, trials: usize) -> [f64; 2] {
     [low, high]
 }
 
-/// Samples of one option, summed up.
+/// Summary of the samples of one option.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
-    /// Samples.
+    /// Number of samples.
     pub samples: usize,
-    /// Of them, those that do not pass.
+    /// Number of samples that do not pass.
     pub failures: usize,
-    /// Of these, those that stay undecided.
+    /// Number of those failures that stay undecided.
     pub undecided: usize,
     /// 95 % interval of the failure probability.
     pub interval: [f64; 2],
@@ -208,7 +209,7 @@ pub struct Summary {
     pub force: [f64; 3],
 }
 
-/// Sums up the samples of one option, in any order.
+/// Summarises the samples of one option; `samples` may be in any order.
 pub fn summary(samples: &[Sample], option: usize) -> Summary {
     let mine: Vec<&Envelope> =
         samples.iter().filter(|sample| sample.option == option).map(|sample| &sample.envelope).collect();
@@ -233,20 +234,20 @@ fn percentiles(mut values: Vec<f64>) -> [f64; 3] {
     [at(0.5), at(0.95), at(1.0)]
 }
 
-/// Blast rows planned one after another that may fire the other way round.
+/// Two successive blast rows that may fire in the reverse order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Swap {
     /// Index of the option.
     pub option: usize,
-    /// Indices of the blast rows, planned in this order.
+    /// Indices of the blast rows, in the planned order.
     pub rows: [usize; 2],
-    /// Planned between them [s].
+    /// Planned interval between the rows [s].
     pub interval: f64,
-    /// Probability that a hole of the second fires before one of the first.
+    /// Probability that a hole of the second row fires before a hole of the first.
     pub probability: f64,
 }
 
-/// Pairs of successive rows that the scatter of their detonators may swap with a probability of at least `least`.
+/// Pairs of successive rows that fire in the reverse order with a probability of at least `least`.
 pub fn swaps(case: &Case, spec: &ScatterSpec, least: f64) -> Vec<Swap> {
     let mut swaps = Vec::new();
     for (option, delay) in case.plan.delays.iter().enumerate() {

@@ -1,9 +1,9 @@
 //! The lightest rope, tires and border with which a shelter holds.
 //!
-//! Every combination of rope, tire mass and border rows is a shelter of its own: a stiffer rope pulls harder, a heavier tire
-//! flies lower and pulls longer, so nothing is known of one from another, with one exception. The motion depends on a rope's
-//! stiffness alone, so of ropes equally stiff a stronger one holds wherever a weaker one does. Of each stiffness the
-//! strongest is tried first, and where it fails the others are not tried.
+//! Each combination of rope, tire mass and border rows is a shelter of its own. A stiffer rope pulls harder; a heavier tire
+//! flies lower and pulls longer; so one combination says nothing about another, with one exception: ropes of equal
+//! stiffness move the shelter alike, and the stronger rope holds wherever the weaker one holds. The strongest rope of each
+//! stiffness is tried first. Where it fails, the other ropes of that stiffness are not tried.
 
 use itertools::Itertools;
 
@@ -15,37 +15,37 @@ use crate::ropes::{Rope, catalogue};
 use crate::scene::Shot;
 use crate::verdict::Verdict;
 
-/// What a shelter must hold.
+/// The shots that a shelter must hold.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Demand {
     /// Every delay option of the plan.
     Options,
-    /// Every order of the blast rows, of which there are at most [`MOST_ROWS`](super::orders::MOST_ROWS), at each of these
-    /// intervals [s].
+    /// Every order of the blast rows (at most [`MOST_ROWS`](super::orders::MOST_ROWS)) at each of these intervals [s].
     AnyOrder(Vec<f64>),
     /// 99 % of the samples of every option.
     Samples(ScatterSpec, Draw),
 }
 
-/// Share of samples that may fail.
+/// Fraction of the samples that may fail.
 const MAY_FAIL: f64 = 0.01;
-/// Shots judged before it is asked whether one has failed; fixed, so that what is tried depends on no thread.
+/// Number of shots judged together before a failure ends the trial. A fixed number: the shots judged do not depend on the
+/// number of threads.
 const AT_ONCE: usize = 32;
 
-/// One combination.
+/// One combination of rope, tire mass and border rows.
 #[derive(Clone, Debug)]
 pub struct Combination {
-    /// Of the catalogue.
+    /// Rope of the catalogue.
     pub rope: &'static Rope,
     /// Mass of a tire [kg].
     pub tire_mass: f64,
     /// Rows of ballast on each side.
     pub border_rows: usize,
-    /// Tires in all.
+    /// Number of tires.
     pub tires: usize,
-    /// Tires and cables [kg].
+    /// Mass of all tires and cables [kg].
     pub total_mass: f64,
-    /// What its trial says, or why there is none.
+    /// Result of its trial, or why there was no trial.
     pub trial: Result<Trial, Untried>,
 }
 
@@ -56,37 +56,37 @@ pub enum Untried {
     SameStiffnessFails,
     /// The time did not suffice.
     OutOfTime,
-    /// It cannot be followed at the step asked for.
+    /// The step asked for is too long for this combination.
     Unstable,
 }
 
-/// What a combination came to.
+/// Result of trying a combination.
 #[derive(Clone, Copy, Debug)]
 pub struct Trial {
-    /// Whether it holds.
+    /// Whether the combination holds.
     pub holds: bool,
-    /// The worst shot judged; where the combination fails, others may be worse.
+    /// The worst shot judged. Where the combination fails, shots that were not judged may be worse.
     pub worst: Envelope,
-    /// Its greatest share of any limit.
+    /// Utilization of the worst shot: the greatest value over its limit.
     pub utilization: f64,
-    /// Shots judged.
+    /// Number of shots judged.
     pub shots: usize,
 }
 
-/// Every combination, the lightest first.
+/// Result of sizing.
 #[derive(Clone, Debug)]
 pub struct Sizing {
-    /// By total mass.
+    /// All combinations, the lightest first.
     pub combinations: Vec<Combination>,
 }
 
 impl Sizing {
-    /// The lightest that holds; of several as light the one with the weakest rope.
+    /// The lightest combination that holds; of equally light ones, that of the weakest rope.
     pub fn found(&self) -> Option<&Combination> {
         self.combinations.iter().find(|c| c.trial.is_ok_and(|trial| trial.holds))
     }
 
-    /// Combinations that hold with more margin than any lighter one.
+    /// Combinations that hold with a smaller utilization than every lighter combination that holds.
     pub fn frontier(&self) -> Vec<&Combination> {
         let mut least = f64::INFINITY;
         let better = |c: &&Combination| {
@@ -98,18 +98,18 @@ impl Sizing {
         self.combinations.iter().filter(better).collect()
     }
 
-    /// Combinations that were run.
+    /// Number of combinations that were tried.
     pub fn tried(&self) -> usize {
         self.combinations.iter().filter(|c| c.trial.is_ok()).count()
     }
 
-    /// Combinations that were not, for this reason.
+    /// Number of combinations that were not tried for reason `why`.
     pub fn untried(&self, why: Untried) -> usize {
         self.combinations.iter().filter(|c| c.trial.is_err_and(|untried| untried == why)).count()
     }
 }
 
-/// Tries the combinations that the plan allows, as far as the time suffices.
+/// Tries the combinations that the plan allows, until the time is up.
 pub fn size(
     plan: &Plan,
     demand: &Demand,
@@ -126,9 +126,9 @@ pub fn size(
     let masses = if plan.size.tire_mass_kg.is_empty() { &own[..] } else { &plan.size.tire_mass_kg };
     let most_border = if matches!(plan.layout, Layout::List { .. }) { 0 } else { plan.size.most_border_rows };
     let mut combinations = Vec::new();
-    // The shot at which the last combination failed is the likeliest to fail the next.
+    // Index of the shot at which the last combination failed: the next combination likely fails at it, too.
     let mut likeliest = 0;
-    // Bits of positive numbers are in the order of the numbers.
+    // The bit patterns of positive numbers sort like the numbers.
     let stiffnesses = by_stiffness.into_iter().sorted_by_key(|(stiffness, _)| *stiffness);
     for ((_, ropes), &tire_mass, border_rows) in
         itertools::iproduct!(stiffnesses.collect_vec(), masses, 0..=most_border)
@@ -206,7 +206,7 @@ fn all_orders(case: &Case, intervals: &[f64]) -> Vec<Shot> {
     itertools::iproduct!(intervals, &orders).map(|(&interval, order)| case.shot(order, interval)).collect()
 }
 
-/// 99 % of the samples of every option pass.
+/// Trial by samples: the combination holds where 99 % of the samples of every option pass.
 fn most_hold(case: &Case, samples: &[Sample]) -> Trial {
     let holds = (0..case.shots.len()).all(|option| {
         let mine = || samples.iter().filter(|sample| sample.option == option);
@@ -216,7 +216,7 @@ fn most_hold(case: &Case, samples: &[Sample]) -> Trial {
     let mut envelopes: Vec<Envelope> = samples.iter().map(|sample| sample.envelope).collect();
     let share = |envelope: &Envelope| envelope.utilization(&case.limits);
     envelopes.sort_by(|a, b| share(a).total_cmp(&share(b)));
-    // The worst of those that count.
+    // The samples that may fail do not count for the worst shot.
     let counting = ((1.0 - MAY_FAIL) * envelopes.len() as f64).ceil() as usize;
     Trial { shots: samples.len(), ..trial(case, &envelopes[..counting], holds) }
 }

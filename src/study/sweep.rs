@@ -8,27 +8,27 @@ use crate::verdict::Verdict;
 /// One interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
-    /// Between successive rows [s].
+    /// Interval between successive rows [s].
     pub interval: f64,
-    /// What it gives.
+    /// Verdict, height, force and drift at this interval.
     pub envelope: Envelope,
 }
 
-/// A swept plan.
+/// Result of a sweep.
 #[derive(Clone, Debug)]
 pub struct Sweep {
     /// Blast rows in firing order.
     pub order: Vec<usize>,
-    /// By interval.
+    /// Points in ascending order of the interval.
     pub points: Vec<Point>,
 }
 
-/// Neighbours whose use of the limits differs by more are looked at more closely.
+/// Difference of utilization between two neighbours from which the interval between them is tried, too.
 const JUMP: f64 = 0.1;
-/// How often the distance between neighbours is halved.
+/// How often the distance between two neighbours is halved at most.
 const HALVINGS: usize = 3;
 
-/// Sweeps the interval of `order`, closer where the curve jumps or the verdict changes.
+/// Sweeps the interval between the rows of `order`, more closely where the utilization jumps or the verdict changes.
 pub fn sweep(
     case: &Case,
     order: &[usize],
@@ -43,7 +43,7 @@ pub fn sweep(
         let shots: Vec<Shot> = intervals.iter().map(|&interval| case.shot(order, interval)).collect();
         let envelopes = judge(case, &shots, compute, progress)?;
         let point = |(interval, envelope): (f64, Option<_>)| Some(Point { interval, envelope: envelope? });
-        // Where the time did not suffice, only up to the first interval without a result: windows have no gaps.
+        // Out of time: keep the points before the first interval without a result, so that windows have no gaps.
         Ok(intervals.into_iter().zip(envelopes).map_while(point).collect())
     };
     let mut points = judged(intervals.values())?;
@@ -71,7 +71,7 @@ impl Sweep {
         [at(self.points.first()), at(self.points.last())]
     }
 
-    /// Stretches of intervals [s] at which every one tried passes.
+    /// Windows: ranges of intervals [s] in which every interval tried passes.
     pub fn windows(&self) -> Vec<[f64; 2]> {
         let passing = |point: &&Point| point.envelope.verdict == Verdict::Pass;
         self.points
@@ -81,18 +81,18 @@ impl Sweep {
             .collect()
     }
 
-    /// The interval that uses most of the limits.
+    /// The point of the greatest utilization.
     pub fn worst(&self, case: &Case) -> Option<&Point> {
-        self.points.iter().max_by(|a, b| by_use(case, a, b))
+        self.points.iter().max_by(|a, b| by_utilization(case, a, b))
     }
 
-    /// The interval that uses least of the limits.
+    /// The point of the least utilization.
     pub fn best(&self, case: &Case) -> Option<&Point> {
-        self.points.iter().min_by(|a, b| by_use(case, a, b))
+        self.points.iter().min_by(|a, b| by_utilization(case, a, b))
     }
 }
 
-fn by_use(case: &Case, a: &Point, b: &Point) -> std::cmp::Ordering {
+fn by_utilization(case: &Case, a: &Point, b: &Point) -> std::cmp::Ordering {
     let share = |point: &Point| point.envelope.utilization(&case.limits);
     share(a).total_cmp(&share(b))
 }

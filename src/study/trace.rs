@@ -6,7 +6,7 @@ use super::Case;
 use crate::outcome::Outcome;
 use crate::simulation::{Failure, Motion, Settings};
 
-/// What to record.
+/// Tires and cables to record.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chosen {
     /// Indices of tires.
@@ -23,7 +23,7 @@ impl Chosen {
     }
 }
 
-/// Runs one option and hands rows to `emit`, `every` so many seconds.
+/// Runs one option and hands a row to `emit` every `every` seconds.
 ///
 /// A row is the time [s], then per tire x, y, height [m], friction and its limit μR [N], then per cable its force [N].
 pub fn trace(
@@ -38,7 +38,7 @@ pub fn trace(
     let mut next = 0.0;
     case.model.run(&case.shots[option], settings, &mut |motion| {
         let now = motion.time();
-        // Half a step early is nearer than a whole step late.
+        // The nearest step counts: a row may be up to half a step early.
         if now + 0.5 * settings.step < next {
             return ControlFlow::Continue(());
         }
@@ -53,9 +53,9 @@ fn fill(row: &mut Vec<f64>, case: &Case, chosen: &Chosen, motion: &dyn Motion) {
     row.push(motion.time());
     for &tire in &chosen.tires {
         let u = motion.displacement(tire);
-        let place = case.scene().position[tire] + u;
+        let position = case.scene().position[tire] + u;
         let (friction, limit) = motion.friction(tire);
-        row.extend([place.x, place.y, u.z, friction, limit]);
+        row.extend([position.x, position.y, u.z, friction, limit]);
     }
     row.extend(chosen.cables.iter().map(|&cable| motion.force(cable)));
 }
