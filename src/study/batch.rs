@@ -84,6 +84,17 @@ mod tests {
     }
 
     #[test]
+    fn a_job_that_ends_as_the_time_is_up_keeps_its_result() {
+        let progress = Progress::default();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
+        let work = |&job: &i32| {
+            progress.expire();
+            Ok(job)
+        };
+        assert_eq!(pool.install(|| each(&[1, 2], &progress, work)), Ok(vec![Some(1), None]));
+    }
+
+    #[test]
     fn a_panic_is_told_and_the_others_go_on() {
         let jobs = [1, 2, 3];
         let work = |&job: &i32| Ok(guarded(|| if job == 2 { panic!("job {job}") } else { Ok(10 * job) }));
