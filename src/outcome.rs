@@ -1,40 +1,49 @@
-//! What a run says: greatest height, force and drift with place and time, the energy ledger, and bounded histories.
+//! Result of one run: peaks of height, force and drift, the energy ledger, the end, and bounded histories.
 //!
-//! Simulations fill these types, verdicts and views read them. SI units throughout.
+//! Simulations fill these types; verdicts and views read them. All values are in SI units.
 
-/// A greatest value, where and when it was reached.
+/// A greatest value, with its time and its tire or cable.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Peak {
-    /// The value, in the unit of its quantity.
+    /// Greatest value [unit of the quantity].
     pub value: f64,
-    /// When [s].
+    /// Time of the greatest value [s].
     pub at: f64,
-    /// Index of the tire or cable.
-    pub place: usize,
+    /// Index of the tire or cable in the scene.
+    pub index: usize,
 }
 
-/// How a run ended.
+/// Reason why a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
+pub enum EndReason {
     /// Every tire lies still and no hole is left to fire.
     AtRest,
-    /// The duration asked for was reached, or the limit for shelters that never settle.
+    /// The run reached the duration asked for, or the limit for shelters that never settle.
     TimeLimit,
+}
+
+/// End of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RunEnd {
+    /// Time of the end [s].
+    pub at: f64,
+    /// Reason of the end.
+    pub reason: EndReason,
 }
 
 /// Energies of a run [J].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ledger {
-    /// Put in by the holes.
+    /// Energy that the holes put in [J].
     pub put_in: f64,
-    /// Lost in landings and friction.
+    /// Energy lost in landings, friction and broken cables [J].
     pub dissipated: f64,
-    /// Greatest |kinetic + potential + elastic + dissipated − put in| over the run.
+    /// Greatest |kinetic + potential + elastic + dissipated − put in| over the run [J].
     pub greatest_residual: f64,
 }
 
 impl Ledger {
-    /// Greatest residual over the energy put in; as it is [J] where nothing was put in.
+    /// Greatest residual over the energy put in; the residual itself [J] when no energy was put in.
     pub fn residual(&self) -> f64 {
         if self.put_in > 0.0 { self.greatest_residual / self.put_in } else { self.greatest_residual }
     }
@@ -43,43 +52,43 @@ impl Ledger {
 /// A cable that broke.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Broken {
-    /// When [s].
+    /// Time of the break [s].
     pub at: f64,
     /// Index of the cable.
     pub cable: usize,
 }
 
-/// One finished run.
+/// Result of one finished run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     /// Greatest flight height of any tire [m].
     pub height: Peak,
     /// Greatest cable force [N].
     pub force: Peak,
-    /// Greatest horizontal shift of any tire at the end [m]; `at` is the end.
+    /// Greatest horizontal shift of any tire at the end of the run [m].
     pub drift: Peak,
-    /// Cables that broke, in order of time; none unless the scene lets cables break.
+    /// Cables that broke, in order of time; empty unless the scene lets cables break.
     pub broken: Vec<Broken>,
-    /// Where the energy went.
+    /// Energies of the run.
     pub ledger: Ledger,
     /// Height and force over time.
     pub history: History,
     /// Step [s].
     pub step: f64,
-    /// Steps made.
+    /// Number of steps.
     pub steps: usize,
-    /// How it ended; when is `drift.at`.
-    pub end: End,
+    /// Time and reason of the end.
+    pub end: RunEnd,
     /// Whether a tire is in the air at the end.
-    pub aloft: bool,
+    pub tires_in_air: bool,
 }
 
 /// Greatest height and force of any tire and cable in successive buckets of time.
 ///
-/// Bounded however long the run: at `CAPACITY` buckets, neighbours merge and the width doubles.
+/// The history stays bounded for any duration: at `CAPACITY` buckets, neighbours merge and the width doubles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct History {
-    /// Width of a bucket [s]; bucket `n` covers `n..n+1` widths from time 0.
+    /// Width of a bucket [s]; bucket `n` covers the times from `n` to `n + 1` widths.
     pub width: f64,
     /// Greatest height in each bucket [m].
     pub height: Vec<f64>,
@@ -88,10 +97,10 @@ pub struct History {
 }
 
 impl History {
-    /// Most buckets kept; twice the columns of the widest chart a terminal shows.
+    /// Greatest number of buckets: twice the columns of the widest chart in a terminal.
     pub const CAPACITY: usize = 512;
 
-    /// An empty history with buckets of one step [s].
+    /// Empty history whose buckets are one step [s] wide.
     pub fn new(step: f64) -> Self {
         Self {
             width: step,
@@ -108,7 +117,7 @@ impl History {
             merge_neighbours(&mut self.force);
             self.width *= 2.0;
         }
-        // Not to be rounded into the bucket before the one that it begins.
+        // The small term keeps a time on the border of two buckets out of the earlier bucket.
         let bucket = (at / self.width + 1e-6) as usize;
         if bucket >= self.height.len() {
             self.height.resize(bucket + 1, 0.0);
@@ -131,7 +140,7 @@ fn merge_neighbours(buckets: &mut Vec<f64>) {
 mod tests {
     use super::*;
 
-    /// 3 × 0.009 / 0.009 is less than 3 in binary.
+    /// In binary, 3 × 0.009 / 0.009 is less than 3.
     #[test]
     fn no_bucket_is_passed_over() {
         for step in [0.009, 0.0011, 1e-3 / 3.0, 0.07] {

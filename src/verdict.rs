@@ -51,7 +51,7 @@ pub struct Estimate {
     /// Time at which the value is reached [s].
     pub at: f64,
     /// Index of the tire or cable.
-    pub place: usize,
+    pub index: usize,
 }
 
 impl Estimate {

@@ -76,8 +76,8 @@ pub fn compute_label(compute: &ComputeSettings) -> String {
 /// Where and when height and force were greatest.
 pub fn peak(scene: &Scene, checked: &Checked) -> [String; 2] {
     let Checked { height, force, .. } = checked;
-    let lifted = format!("tire {}, {}", scene.tire[height.place], units::seconds(height.at));
-    let pulled = format!("cable {}, {}", scene.cable_name(force.place), units::seconds(force.at));
+    let lifted = format!("tire {}, {}", scene.tire[height.index], units::seconds(height.at));
+    let pulled = format!("cable {}, {}", scene.cable_name(force.index), units::seconds(force.at));
     [
         if height.value > 0.0 { lifted } else { "no tire lifts".to_owned() },
         if force.value > 0.0 { pulled } else { "no cable pulls".to_owned() },
@@ -200,16 +200,16 @@ impl BrokenCable {
 
 impl AtTire {
     fn new(scene: &Scene, estimate: &Estimate) -> Self {
-        let Estimate { value, error, at, place } = *estimate;
-        Self { value, error, at_s: at, tire: scene.tire.get(place).map(address).unwrap_or_default() }
+        let Estimate { value, error, at, index } = *estimate;
+        Self { value, error, at_s: at, tire: scene.tire.get(index).map(address).unwrap_or_default() }
     }
 }
 
 impl AtCable {
     fn new(scene: &Scene, estimate: &Estimate) -> Self {
-        let Estimate { value, error, at, place } = *estimate;
+        let Estimate { value, error, at, index } = *estimate;
         let ends = |cable: &crate::scene::Cable| cable.ends.map(|end| address(&scene.tire[end]));
-        Self { value, error, at_s: at, cable: scene.cables.get(place).map(ends) }
+        Self { value, error, at_s: at, cable: scene.cables.get(index).map(ends) }
     }
 }
 
@@ -308,11 +308,11 @@ impl Row {
                     flight_height_m: Some(checked.height.value),
                     flight_height_error_m: Some(checked.height.error),
                     flight_height_at_s: Some(checked.height.at),
-                    flight_height_tire: scene.tire[checked.height.place].to_string(),
+                    flight_height_tire: scene.tire[checked.height.index].to_string(),
                     cable_force_n: Some(checked.force.value),
                     cable_force_error_n: Some(checked.force.error),
                     cable_force_at_s: Some(checked.force.at),
-                    cable_force_cable: scene.cable_name(checked.force.place),
+                    cable_force_cable: scene.cable_name(checked.force.index),
                     cable_safety_factor: Some(checked.safety_factor).filter(|factor| factor.is_finite()),
                     drift_m: Some(checked.drift.value),
                     drift_error_m: Some(checked.drift.error),

@@ -98,9 +98,14 @@ impl Cable {
         self.span + (b - a)
     }
 
+    /// k (L − L0) at a given length L [N]: the cable force of a taut cable, negative for a slack cable.
+    pub fn stretch_force(&self, length: f64) -> f64 {
+        self.stiffness * (length - self.rest_length)
+    }
+
     /// Cable force N at a given length [N].
     pub fn force(&self, length: f64) -> f64 {
-        (self.stiffness * (length - self.rest_length)).max(0.0)
+        self.stretch_force(length).max(0.0)
     }
 
     /// Elastic energy N²/2k at a given length [J].

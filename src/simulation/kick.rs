@@ -1,4 +1,4 @@
-//! Kick and drift of a register of tires: step 2 and 3 of [`super::verlet`].
+//! Kick and drift of the tires in one register: steps 2 and 3 of [`super::verlet`].
 
 use pulp::Simd;
 
@@ -21,11 +21,11 @@ pub struct Tires<S: Simd> {
     pub step: Wide<S>,
     /// Coefficient of friction μ.
     pub friction: Wide<S>,
-    /// Gravity [m/s²].
+    /// Gravity g [m/s²].
     pub gravity: Wide<S>,
 }
 
-/// The same tires a step later, were there no landing and no firing, and their energies at tₙ.
+/// Tires at the end of a step without landing and without firing, and their energies at tₙ.
 #[derive(Clone, Copy)]
 pub struct Kicked<S: Simd> {
     /// Displacement uₙ₊₁ [m].
@@ -34,15 +34,15 @@ pub struct Kicked<S: Simd> {
     pub v: [Wide<S>; 3],
     /// Kinetic and potential energy [J].
     pub energy: Wide<S>,
-    /// Dissipated by friction over the kick, half before and half after tₙ [J].
+    /// Energy that friction dissipates over the kick, half before and half after tₙ [J].
     pub dissipated: Wide<S>,
-    /// Positive where a tire has speed or height.
+    /// Greatest component of speed [m/s] or height [m]; 0 for a tire at rest.
     pub motion: Wide<S>,
 }
 
 impl<S: Simd> Tires<S> {
-    /// v* = v + h (f/m − g), what the ground leaves of it, and the drift that follows. Roots and quotients only where a tire
-    /// slips.
+    /// Kicks and drifts the tires: free velocity v* = v + h (f/m − g), then support and friction of the ground, then
+    /// u + h v. Roots and quotients are computed only where a tire slips.
     #[inline(always)]
     pub fn kick(&self, simd: S) -> Kicked<S> {
         let Self { u, v, f, mass, inverse, step, friction, gravity } = *self;
@@ -54,14 +54,16 @@ impl<S: Simd> Tires<S> {
             step.times_plus(f[2] * inverse - gravity, v[2]),
         ];
         let supported = u[2].at_most(zero).and(free[2].less(zero));
-        let limit = friction * free[2];
+        // Sideways speed that friction can take from a supported tire: μ times the normal impulse per mass, −v*₃.
+        let loss = friction * (zero - free[2]);
         let sideways2 = free[0].times_plus(free[0], free[1] * free[1]);
-        let mut keep = supported.select(zero, one);
-        if supported.and((limit * limit).less(sideways2)).any() {
-            let left = one + limit / sideways2.sqrt().max(tiny);
-            keep = supported.select(left.max(zero), one);
+        // Part of the sideways velocity that friction leaves.
+        let mut part_left = supported.select(zero, one);
+        if supported.and((loss * loss).less(sideways2)).any() {
+            let slipping = one - loss / sideways2.sqrt().max(tiny);
+            part_left = supported.select(slipping.max(zero), one);
         }
-        let after = [free[0] * keep, free[1] * keep, supported.select(zero, free[2])];
+        let after = [free[0] * part_left, free[1] * part_left, supported.select(zero, free[2])];
         let (mut moved, mut speed2, mut work, mut motion) = (u, zero, zero, u[2].abs());
         for c in 0..3 {
             let mean = half * (v[c] + after[c]);

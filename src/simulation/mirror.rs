@@ -1,9 +1,9 @@
-//! Half or a quarter of a shelter where it and what fires are their own mirror image.
+//! Half or a quarter of a shelter, for a shelter and a shot that are their own mirror image.
 //!
-//! One tire of every set of images is *kept*. A tire across a plane that a kept one is tied to stays as an *image*: it is
-//! not integrated but copied, reflected, after every step. A tire on a plane is kept, and keeps to the plane. Energies count
-//! every tire and cable as often as it stands for others. The motion is that of the whole shelter up to the order in which
-//! forces are summed.
+//! Tires that are mirror images of one another form a set. One tire of each set is *kept* and integrated. A tire that is not
+//! kept but tied to a kept tire stays in the scene as an *image*: after every step, a reflected copy of its kept tire. A tire
+//! on a mirror plane is kept, and stays on the plane. Energies count each tire and cable as many times as the whole shelter
+//! has it. The motion equals that of the whole shelter, except for the order in which forces are summed.
 
 use std::borrow::Cow;
 
@@ -12,49 +12,52 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::scene::{Firing, Mirror, Scene, Shot};
 
-/// What a part of a scene stands for.
+/// Relation between the part of a scene that is modelled and the whole scene.
 #[derive(Debug)]
 pub struct Quotient {
     /// Copies to make after every step.
     pub images: Vec<Image>,
-    /// How many tires of the whole scene each stands for; 0 for images (`n_tires`).
+    /// Number of tires of the whole scene that each tire stands for; 0 for an image (`n_tires`).
     pub weight: Vec<f64>,
-    /// How many cables of the whole scene each stands for (`n_cables`).
+    /// Number of cables of the whole scene that each cable stands for (`n_cables`).
     pub cable_weight: Vec<f64>,
-    /// Whole scene's index of each tire and cable, and where each tire of the whole scene is found; none without mirrors.
+    /// Indices in part and whole; `None` where the part is the whole.
     map: Option<Map>,
 }
 
 #[derive(Debug)]
 struct Map {
-    /// What the planes taken out reflect.
+    /// Axes that the planes reflect: 0 for x, 1 for y.
     axes: Vec<usize>,
+    /// Index in the whole scene of each tire of the part (`n_tires`).
     tire: Vec<usize>,
+    /// Index in the whole scene of each cable of the part (`n_cables`).
     cable: Vec<usize>,
-    found: Vec<(usize, [f64; 2])>,
+    /// Kept tire of each tire of the whole scene, as index in the part, and factors of x and y (`n_tires` of the whole).
+    kept: Vec<(usize, [f64; 2])>,
 }
 
-/// A tire that is copied from another.
+/// Copy of a kept tire to make after every step.
 #[derive(Clone, Copy, Debug)]
 pub struct Image {
-    /// The copy.
-    pub of: usize,
-    /// What is copied; itself for a tire on a plane.
+    /// Tire that is written.
+    pub to: usize,
+    /// Kept tire that is read; equal to `to` for a tire on a plane.
     pub from: usize,
-    /// Factors of x, y and z: −1 reflected, 0 on the plane.
+    /// Factors of x, y and z: −1 where reflected, 0 across the plane for a tire on the plane.
     pub sign: [f64; 3],
 }
 
 impl Quotient {
-    /// Takes out `planes`; also returns what is left: kept tires and images in the order of the whole scene, and the cables
-    /// of kept ones.
+    /// Quotient of `scene` by `planes`, and the part that is modelled: kept tires and images in the order of the whole scene,
+    /// and the cables of kept tires.
     pub fn new<'s>(scene: &'s Scene, planes: &[&Mirror]) -> (Self, Cow<'s, Scene>) {
         let n = scene.mass.len();
         if planes.is_empty() {
             let (weight, cable_weight) = (vec![1.0; n], vec![1.0; scene.cables.len()]);
             return (Self { images: Vec::new(), weight, cable_weight, map: None }, Cow::Borrowed(scene));
         }
-        // The kept tire of each tire's images, and the reflections that lead to it.
+        // Kept tire of each tire, and the reflections that lead to that tire.
         let kept: Vec<(usize, [f64; 2])> = (0..n)
             .map(|tire| {
                 planes.iter().fold((tire, [1.0; 2]), |(at, mut sign), plane| {
@@ -76,13 +79,13 @@ impl Quotient {
             modelled[end] = true;
         }
         let tire: Vec<usize> = (0..n).filter(|&tire| modelled[tire]).collect();
-        let mut place = vec![usize::MAX; n];
+        let mut index = vec![usize::MAX; n];
         for (new, &old) in tire.iter().enumerate() {
-            place[old] = new;
+            index[old] = new;
         }
-        let mut orbit = vec![0.0; n];
+        let mut images_of = vec![0.0; n];
         for &(source, _) in &kept {
-            orbit[source] += 1.0;
+            images_of[source] += 1.0;
         }
         let on_plane = |tire: usize| {
             let mut sign = [1.0; 2];
@@ -94,12 +97,12 @@ impl Quotient {
         let images = tire
             .iter()
             .enumerate()
-            .map(|(of, &old)| {
+            .map(|(to, &old)| {
                 let (source, sign) = kept[old];
                 let flat = on_plane(old);
-                Image { of, from: place[source], sign: [sign[0] * flat[0], sign[1] * flat[1], 1.0] }
+                Image { to, from: index[source], sign: [sign[0] * flat[0], sign[1] * flat[1], 1.0] }
             })
-            .filter(|image| image.of != image.from || image.sign.contains(&0.0))
+            .filter(|image| image.to != image.from || image.sign.contains(&0.0))
             .collect();
         let mut part = Scene {
             position: tire.iter().map(|&t| scene.position[t]).collect(),
@@ -112,20 +115,21 @@ impl Quotient {
             mirrors: Vec::new(),
         };
         for cable in &mut part.cables {
-            cable.ends = cable.ends.map(|end| place[end]);
+            cable.ends = cable.ends.map(|end| index[end]);
         }
-        // A cable is seen from each of its kept ends; between two kept tires it is seen twice but evaluated once.
-        let seen = |&cable: &usize| {
-            let sides = scene.cables[cable].ends.map(|end| if is_kept(end) { orbit[end] } else { 0.0 });
-            0.5 * (sides[0] + sides[1])
+        let tire_weight = |tire: usize| if is_kept(tire) { images_of[tire] } else { 0.0 };
+        // Each of the two ends counts for half the cable.
+        let cable_weight = |&cable: &usize| {
+            let [a, b] = scene.cables[cable].ends.map(tire_weight);
+            0.5 * (a + b)
         };
         let quotient = Self {
-            weight: tire.iter().map(|&t| if is_kept(t) { orbit[t] } else { 0.0 }).collect(),
-            cable_weight: cables.iter().map(seen).collect(),
+            weight: tire.iter().map(|&t| tire_weight(t)).collect(),
+            cable_weight: cables.iter().map(cable_weight).collect(),
             images,
             map: Some(Map {
                 axes: planes.iter().map(|plane| plane.axis).collect(),
-                found: kept.iter().map(|&(source, sign)| (place[source], sign)).collect(),
+                kept: kept.iter().map(|&(source, sign)| (index[source], sign)).collect(),
                 tire,
                 cable: cables,
             }),
@@ -133,31 +137,33 @@ impl Quotient {
         (quotient, Cow::Owned(part))
     }
 
-    /// The firings of a shot under kept tires.
+    /// Firings of `shot` under kept tires, with indices in the part.
     pub fn firings(&self, shot: &Shot) -> Vec<Firing> {
         let Some(map) = &self.map else { return shot.firings.clone() };
-        let here = |firing: &Firing| {
-            let tire = map.found[firing.tire].0;
+        let under_kept = |firing: &Firing| {
+            let tire = map.kept[firing.tire].0;
             (map.tire[tire] == firing.tire).then_some(Firing { tire, ..*firing })
         };
-        shot.firings.iter().filter_map(here).collect()
+        shot.firings.iter().filter_map(under_kept).collect()
     }
 
-    /// Index in the whole scene of a tire.
+    /// Index in the whole scene of a tire of the part.
     pub fn tire(&self, tire: usize) -> usize {
         self.map.as_ref().map_or(tire, |map| map.tire[tire])
     }
 
-    /// Index in the whole scene of a cable.
+    /// Index in the whole scene of a cable of the part.
     pub fn cable(&self, cable: usize) -> usize {
         self.map.as_ref().map_or(cable, |map| map.cable[cable])
     }
 
-    /// Indices in the whole scene of cables and their images, one cable after the other; looks through the scene once.
-    pub fn cables(&self, scene: &Scene, cables: &[usize]) -> Vec<usize> {
+    /// Indices in the whole scene of some cables of the part and of all their images, one cable after the other.
+    ///
+    /// The search looks through the cables of the whole scene once.
+    pub fn cables_with_images(&self, scene: &Scene, cables: &[usize]) -> Vec<usize> {
         let Some(map) = &self.map else { return cables.to_vec() };
         let key = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
-        let orbit = |&cable: &usize| {
+        let images = |&cable: &usize| {
             let mut all = vec![scene.cables[map.cable[cable]].ends];
             for plane in scene.mirrors.iter().filter(|plane| map.axes.contains(&plane.axis)) {
                 let reflected: Vec<_> = all.iter().map(|ends| ends.map(|end| plane.image[end])).collect();
@@ -165,21 +171,20 @@ impl Quotient {
             }
             all.into_iter().map(key).sorted_unstable().dedup().collect::<Vec<_>>()
         };
-        let orbits: Vec<_> = cables.iter().map(orbit).collect();
-        let wanted: FxHashSet<_> = orbits.iter().flatten().copied().collect();
+        let sets: Vec<_> = cables.iter().map(images).collect();
+        let wanted: FxHashSet<_> = sets.iter().flatten().copied().collect();
         let ends = scene.cables.iter().map(|cable| key(cable.ends)).zip(0..);
         let found: FxHashMap<_, usize> = ends.filter(|(ends, _)| wanted.contains(ends)).collect();
-        let there =
-            |orbit: &Vec<_>| orbit.iter().filter_map(|ends| found.get(ends).copied()).sorted_unstable();
-        orbits.iter().flat_map(there).collect()
+        let indices = |set: &Vec<_>| set.iter().filter_map(|ends| found.get(ends).copied()).sorted_unstable();
+        sets.iter().flat_map(indices).collect()
     }
 
-    /// Where a tire of the whole scene is found, and the factors of its x and y.
-    pub fn find(&self, tire: usize) -> (usize, [f64; 2]) {
-        self.map.as_ref().map_or((tire, [1.0; 2]), |map| map.found[tire])
+    /// Kept tire of a tire of the whole scene, as index in the part, and the factors of x and y.
+    pub fn kept(&self, tire: usize) -> (usize, [f64; 2]) {
+        self.map.as_ref().map_or((tire, [1.0; 2]), |map| map.kept[tire])
     }
 
-    /// Tires that are integrated.
+    /// Number of tires that are integrated.
     pub fn modelled(&self) -> usize {
         self.weight.iter().filter(|&&weight| weight > 0.0).count()
     }

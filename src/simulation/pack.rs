@@ -1,30 +1,31 @@
-//! Arithmetic on as many numbers at once as the instruction set holds, chosen at run time.
+//! Arithmetic on registers of numbers; the instruction set is chosen at run time. Memory laid out for them.
 
 use std::ops::{Add, Deref, DerefMut, Div, Mul, Sub};
 
+use nalgebra::Vector3;
 use pulp::Simd;
 
-/// Elements that are laid out, slept and woken together; every instruction set holds a part of it.
+/// Number of elements that are laid out, put to sleep and woken together; a multiple of every register length.
 pub const LANES: usize = 8;
 
-/// One value per lane.
+/// One number per lane.
 pub type Pack = [f64; LANES];
 
-/// Numbers in one register.
+/// The numbers in one register.
 #[derive(Clone, Copy)]
 pub struct Wide<S: Simd> {
     simd: S,
     value: S::f64s,
 }
 
-/// Conditions, one for each number in a register.
+/// One condition for each number in a register.
 #[derive(Clone, Copy)]
 pub struct Mask<S: Simd> {
     simd: S,
     value: S::m64s,
 }
 
-/// Numbers that begin at a line of the cache, so that no pack of them lies across two.
+/// Numbers that begin at a cache line, so that each pack lies within one cache line.
 #[derive(Debug)]
 pub struct Aligned {
     memory: Vec<f64>,
@@ -33,7 +34,7 @@ pub struct Aligned {
 }
 
 impl Aligned {
-    /// Zeros; what is never touched takes no memory.
+    /// `len` zeros; pages that are never touched take no memory.
     pub fn zeros(len: usize) -> Self {
         let memory = vec![0.0; len + LANES];
         let start = memory.as_ptr().align_offset(size_of::<Pack>()).min(LANES);
@@ -57,29 +58,64 @@ impl DerefMut for Aligned {
     }
 }
 
+/// Components of a vector field over tires or cables.
+#[derive(Debug)]
+pub struct Field {
+    /// The x, y and z components, of one length.
+    pub part: [Aligned; 3],
+}
+
+impl Field {
+    /// `len` zero vectors.
+    pub fn zeros(len: usize) -> Self {
+        Self { part: std::array::from_fn(|_| Aligned::zeros(len)) }
+    }
+
+    /// Vector at `index`.
+    pub fn vector(&self, index: usize) -> Vector3<f64> {
+        Vector3::from_fn(|c, _| self.part[c][index])
+    }
+
+    /// Components as slices whose lengths the compiler knows to be equal.
+    #[inline(always)]
+    pub fn slices(&self) -> [&[f64]; 3] {
+        let [x, y, z] = &self.part;
+        let n = x.len();
+        [&x[..n], &y[..n], &z[..n]]
+    }
+
+    /// Components as slices to write, whose lengths the compiler knows to be equal.
+    #[inline(always)]
+    pub fn slices_mut(&mut self) -> [&mut [f64]; 3] {
+        let [x, y, z] = &mut self.part;
+        let n = x.len();
+        [&mut x[..n], &mut y[..n], &mut z[..n]]
+    }
+}
+
 impl<S: Simd> Wide<S> {
-    /// How many numbers; divides [`LANES`].
+    /// Number of numbers in a register; a divisor of [`LANES`].
     pub const LEN: usize = S::F64_LANES;
 
-    /// The same number in all places.
+    /// `value` in all lanes.
     #[inline(always)]
     pub fn splat(simd: S, value: f64) -> Self {
         Self { simd, value: simd.splat_f64s(value) }
     }
 
-    /// Numbers from `at` on.
+    /// The numbers of `from` from index `at` on.
     #[inline(always)]
     pub fn load(simd: S, from: &[f64], at: usize) -> Self {
         Self { simd, value: S::as_simd_f64s(&from[at..at + Self::LEN]).0[0] }
     }
 
-    /// Writes the numbers from `at` on.
+    /// Writes the numbers to `to` from index `at` on.
     #[inline(always)]
     pub fn store(self, to: &mut [f64], at: usize) {
         S::as_mut_simd_f64s(&mut to[at..at + Self::LEN]).0[0] = self.value;
     }
 
-    /// The numbers, in the first places of a pack.
+    /// A pack that begins with the numbers of the register.
     #[inline(always)]
     pub fn pack(self) -> Pack {
         let mut pack = [0.0; LANES];
@@ -87,13 +123,13 @@ impl<S: Simd> Wide<S> {
         pack
     }
 
-    /// Adds the numbers to those from `at` on.
+    /// Adds the numbers to those of `to` from index `at` on.
     #[inline(always)]
     pub fn add_to(self, to: &mut [f64], at: usize) {
         (Self::load(self.simd, to, at) + self).store(to, at);
     }
 
-    /// self × factor + term, rounded once where the machine can.
+    /// self × factor + term; rounded once where the processor has a fused instruction.
     #[inline(always)]
     pub fn times_plus(self, factor: Self, term: Self) -> Self {
         Self { value: self.simd.mul_add_e_f64s(self.value, factor.value, term.value), ..self }
@@ -105,25 +141,25 @@ impl<S: Simd> Wide<S> {
         Self { value: self.simd.sqrt_f64s(self.value), ..self }
     }
 
-    /// Sizes without sign.
+    /// Absolute values.
     #[inline(always)]
     pub fn abs(self) -> Self {
         Self { value: self.simd.abs_f64s(self.value), ..self }
     }
 
-    /// The greater of each two.
+    /// The greater number of each pair.
     #[inline(always)]
     pub fn max(self, other: Self) -> Self {
         Self { value: self.simd.max_f64s(self.value, other.value), ..self }
     }
 
-    /// Where these are less.
+    /// Whether each number of `self` is less than the number of `other`.
     #[inline(always)]
     pub fn less(self, other: Self) -> Mask<S> {
         Mask { simd: self.simd, value: self.simd.less_than_f64s(self.value, other.value) }
     }
 
-    /// Where these are less or equal.
+    /// Whether each number of `self` is less than or equal to the number of `other`.
     #[inline(always)]
     pub fn at_most(self, other: Self) -> Mask<S> {
         Mask { simd: self.simd, value: self.simd.less_than_or_equal_f64s(self.value, other.value) }
@@ -131,25 +167,25 @@ impl<S: Simd> Wide<S> {
 }
 
 impl<S: Simd> Mask<S> {
-    /// Whether any condition holds.
+    /// Whether at least one condition holds.
     #[inline(always)]
     pub fn any(self) -> bool {
         self.simd.first_true_m64s(self.value) < S::F64_LANES
     }
 
-    /// Where both hold.
+    /// Conditions that hold in both masks.
     #[inline(always)]
     pub fn and(self, other: Self) -> Self {
         Self { value: self.simd.and_m64s(self.value, other.value), ..self }
     }
 
-    /// Where one of both holds.
+    /// Conditions that hold in exactly one of the two masks.
     #[inline(always)]
     pub fn differs(self, other: Self) -> Self {
         Self { value: self.simd.xor_m64s(self.value, other.value), ..self }
     }
 
-    /// `yes` where the condition holds, `no` elsewhere.
+    /// The number of `yes` where the condition holds, the number of `no` elsewhere.
     #[inline(always)]
     pub fn select(self, yes: Wide<S>, no: Wide<S>) -> Wide<S> {
         Wide { value: self.simd.select_f64s(self.value, yes.value, no.value), ..yes }

@@ -1,132 +1,106 @@
-//! What is kept of a run as it goes: peaks between samples, the ledger, the history.
+//! Running record of one run: peaks between samples, broken cables, the ledger, the history.
 
 use nalgebra::Vector3;
 
-use crate::outcome::{Broken, End, History, Ledger, Outcome, Peak};
-use crate::scene::Shot;
+use super::clock::Clock;
+use crate::outcome::{Broken, EndReason, History, Ledger, Outcome, Peak};
 
-/// Running record of one run.
+/// Record of a run that is under way.
 #[derive(Clone, Debug)]
 pub struct Record {
     /// Greatest height so far [m].
     pub height: Peak,
     /// Greatest cable force so far [N].
     pub force: Peak,
-    /// Cables that broke so far.
+    /// Cables that broke so far, in order of time.
     pub broken: Vec<Broken>,
-    /// Where and when the first of them did.
-    first_broken: Option<Peak>,
+    /// Breaking force [N], time and cable of the first break.
+    first_break: Option<Peak>,
     /// Energies so far [J].
     pub ledger: Ledger,
     /// Height and force over time.
     pub history: History,
+    /// Step [s].
     step: f64,
 }
 
 impl Record {
-    /// Nothing happened yet.
+    /// Empty record of a run at `step` [s].
     pub fn new(step: f64) -> Self {
         Self {
             height: Peak::default(),
             force: Peak::default(),
             broken: Vec::new(),
-            first_broken: None,
+            first_break: None,
             ledger: Ledger::default(),
             history: History::new(step),
             step,
         }
     }
 
-    /// A tire sampled higher than ever, with its vertical velocity and acceleration: notes the top of its parabola where
-    /// that is nearer than half a step.
-    pub fn higher(&mut self, sample: Peak, velocity: f64, acceleration: f64) {
-        let until = -velocity / acceleration;
-        let top = if acceleration < 0.0 && until.abs() <= 0.5 * self.step { until } else { 0.0 };
-        self.height = Peak { value: sample.value + 0.5 * velocity * top, at: sample.at + top, ..sample };
+    /// Notes a sampled height that is greater than all before, `sample` [m], with the tire's vertical velocity [m/s] and
+    /// acceleration [m/s²].
+    ///
+    /// Between samples the tire follows a parabola. The top of the parabola replaces the sample when the top is at most half
+    /// a step away.
+    pub fn note_height(&mut self, sample: Peak, velocity: f64, acceleration: f64) {
+        let until_top = -velocity / acceleration;
+        let near = acceleration < 0.0 && until_top.abs() <= 0.5 * self.step;
+        let ahead = if near { until_top } else { 0.0 };
+        self.height = Peak { value: sample.value + 0.5 * velocity * ahead, at: sample.at + ahead, ..sample };
     }
 
-    /// The greatest force was sampled one step ago; `before` and `after` are that cable's k (L − L0) a step earlier and now:
-    /// notes the top of the parabola through the three.
-    pub fn vertex(&mut self, before: f64, after: f64) {
-        let top = self.force.value;
-        if before <= top && after <= top && before + after < 2.0 * top && after.is_finite() {
-            let (rise, bend) = (after - before, 2.0 * top - before - after);
+    /// Notes the top of a flight that no sample saw [m], if that top is the greatest height so far.
+    pub fn note_top(&mut self, top: Peak) {
+        if top.value > self.height.value {
+            self.height = top;
+        }
+    }
+
+    /// Moves the greatest force, which was sampled one step ago, to the top of the parabola through three samples.
+    ///
+    /// `before` and `after` are k (L − L0) of the same cable one step before and one step after that sample [N].
+    pub fn interpolate_force(&mut self, before: f64, after: f64) {
+        let sampled = self.force.value;
+        if before <= sampled && after <= sampled && before + after < 2.0 * sampled && after.is_finite() {
+            let (rise, bend) = (after - before, 2.0 * sampled - before - after);
             self.force.value += rise * rise / (8.0 * bend);
             self.force.at += 0.5 * self.step * rise / bend;
         }
     }
 
-    /// Checks the ledger with the energy now in the shelter [J] and what the half step dissipates.
-    pub fn balance(&mut self, energy: f64, dissipating: f64) {
-        let residual = energy + self.ledger.dissipated + dissipating - self.ledger.put_in;
+    /// Compares the energy now in the shelter [J] with the ledger; `half_kick` [J] is dissipated up to now but not booked.
+    pub fn balance_energy(&mut self, energy: f64, half_kick: f64) {
+        let residual = energy + self.ledger.dissipated + half_kick - self.ledger.put_in;
         self.ledger.greatest_residual = self.ledger.greatest_residual.max(residual.abs());
     }
 
-    /// A cable broke at `limit` [N]: no force was greater, and the first to break was first.
-    pub fn cap(&mut self, limit: f64) {
-        let first = *self.first_broken.get_or_insert(Peak { value: limit, ..self.force });
-        self.force = first;
+    /// Notes that a cable broke: the greatest force of the run is `breaking_force` [N], at the time and cable of the first
+    /// break.
+    pub fn note_break(&mut self, breaking_force: f64) {
+        let first = Peak { value: breaking_force, ..self.force };
+        self.force = *self.first_break.get_or_insert(first);
     }
 
-    /// The finished run, from the tires at its end: index and displacement [m]; and when that was [s], after how many steps.
+    /// Outcome of the run, from index and displacement [m] of each tire at the end.
     pub fn finish(
         self,
         tires: impl Iterator<Item = (usize, Vector3<f64>)>,
-        (at, steps): (f64, usize),
-        end: End,
+        clock: &Clock,
+        reason: EndReason,
     ) -> Outcome {
-        let (mut drift, mut aloft) = (Peak { at, ..Peak::default() }, false);
-        for (place, displacement) in tires {
+        let end = clock.end(reason);
+        let (mut drift, mut tires_in_air) = (Peak { at: end.at, ..Peak::default() }, false);
+        for (index, displacement) in tires {
             let shift2 = displacement.xy().norm_squared();
             if shift2 > drift.value {
-                (drift.value, drift.place) = (shift2, place);
+                (drift.value, drift.index) = (shift2, index);
             }
-            aloft |= displacement.z > 0.0;
+            tires_in_air |= displacement.z > 0.0;
         }
         drift.value = drift.value.sqrt();
         let Self { height, force, broken, ledger, history, step, .. } = self;
-        Outcome { height, force, drift, broken, ledger, history, step, steps, end, aloft }
-    }
-}
-
-/// The clock of one run: steps counted from the last time all was at rest, never summed up.
-#[derive(Clone, Copy, Debug)]
-pub struct Clock {
-    /// Time of step 0 [s].
-    pub base: f64,
-    /// Steps since.
-    pub n: usize,
-    /// Steps of the whole run.
-    pub steps: usize,
-    /// Firings already done.
-    pub fired: usize,
-}
-
-impl Clock {
-    /// Starts at the first firing; before it all is at rest.
-    pub fn new(shot: &Shot) -> Self {
-        Self { base: shot.firings.first().map_or(0.0, |firing| firing.at), n: 0, steps: 0, fired: 0 }
-    }
-
-    /// Time since `base` [s].
-    pub fn since(&self, step: f64) -> f64 {
-        self.n as f64 * step
-    }
-
-    /// Now [s].
-    pub fn now(&self, step: f64) -> f64 {
-        self.base + self.since(step)
-    }
-
-    /// One step on.
-    pub fn tick(&mut self) {
-        self.n += 1;
-        self.steps += 1;
-    }
-
-    /// Restarts at `time` [s].
-    pub fn jump(&mut self, time: f64) {
-        self.base = time;
-        self.n = 0;
+        let steps = clock.steps;
+        Outcome { height, force, drift, broken, ledger, history, step, steps, end, tires_in_air }
     }
 }

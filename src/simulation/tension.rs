@@ -1,38 +1,37 @@
-//! The tension law of cables over the flat arrays of the stepping loop, as many cables at a time as a register holds.
+//! Cable forces over the flat arrays of the stepping loop, as many cables at a time as a register holds.
 
 use std::borrow::Cow;
 
 use pulp::Simd;
 
-use super::cable::{Block, Blocks, Field};
-use super::pack::{Aligned, LANES, Pack, Wide};
+use super::cable::{Block, Blocks};
+use super::pack::{Aligned, Field, LANES, Pack, Wide};
 
-/// What is remembered of every cable from one step to the next, and how it pulls.
+/// State of all cables from one step to the next, and their forces.
 #[derive(Debug)]
 pub struct Tension<'a> {
-    /// How many cables of the whole scene each element stands for, 0 where there is none (`n_elements`).
+    /// Number of cables of the whole scene that each element stands for; 0 for an empty slot (`n_elements`).
     weight: Cow<'a, [f64]>,
-    /// L² when last evaluated, less its value at rest [m²] (`n_elements`).
+    /// L² at the last evaluation less L² at rest [m²] (`n_elements`).
     change: Aligned,
-    /// Mean force since the last step × direction from first to second end [N] (`n_elements`); see
-    /// [`Slices::evaluate`].
-    pull: Field,
-    /// Of the cables in one register, at the first of them (`n_elements`).
+    /// Force on the first tire of each cable, as mean over the step [N] (`n_elements`); see [`Slices::evaluate`].
+    force: Field,
+    /// State of the cables in each register, at the first element of the register (`n_elements`).
     state: Vec<State>,
 }
 
-/// Of cables in one register, when last evaluated.
+/// State of the cables in one register at the last evaluation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
-    /// No cable pulls, nor pulled in the step before.
+    /// All cables are slack, and were slack one step earlier.
     Slack,
-    /// No cable pulls; some did in the step before.
+    /// All cables are slack; some were taut one step earlier.
     Slackened,
-    /// Some cable pulls.
+    /// Some cable is taut.
     Taut,
 }
 
-/// What the evaluation of a block says, in parts by lane.
+/// Result of the evaluation of one block, by lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Stress {
     /// Elastic energy [J].
@@ -42,54 +41,56 @@ pub struct Stress {
 }
 
 impl<'a> Tension<'a> {
-    /// At rest.
+    /// State at rest.
     pub fn new(blocks: &'a Blocks) -> Self {
         let elements = blocks.weight.len();
         Self {
             weight: Cow::Borrowed(&blocks.weight),
             change: Aligned::zeros(elements),
-            pull: Field::zeros(elements),
+            force: Field::zeros(elements),
             state: vec![State::Slack; elements],
         }
     }
 
-    /// Everything in slices of one length (`n_elements`).
+    /// All arrays as slices of one length (`n_elements`).
     #[inline(always)]
     pub fn slices(&mut self) -> Slices<'_> {
         let n = self.weight.len();
         Slices {
             weight: &self.weight[..n],
             change: &mut self.change[..n],
-            pull: self.pull.slices_mut().map(|part| &mut part[..n]),
+            force: self.force.slices_mut().map(|part| &mut part[..n]),
             state: &mut self.state[..n],
         }
     }
 
-    /// Force of the cable in the `n`th place of a block when last evaluated [N].
-    pub fn force(&self, block: &Block, n: usize) -> f64 {
-        let place = block.memory + n;
-        if self.weight[place] == 0.0 {
-            return 0.0;
-        }
-        let span2: f64 = block.span.iter().map(|component| component * component).sum();
-        let length = (self.change[place] + span2).sqrt();
-        block.stiffness * (length - block.rest_length).max(0.0)
+    /// Length of the cable in a slot of a block at the last evaluation [m]; `None` for an empty slot.
+    fn length(&self, block: &Block, slot: usize) -> Option<f64> {
+        let element = block.memory + slot;
+        let length2 = self.change[element] + block.first.span.norm_squared();
+        (self.weight[element] != 0.0).then(|| length2.sqrt())
     }
 
-    /// Takes the cable in the `n`th place of a block away; returns the elastic energy lost with it [J].
-    pub fn cut(&mut self, block: &Block, n: usize) -> f64 {
-        let (place, force) = (block.memory + n, self.force(block, n));
-        let lost = 0.5 * self.weight[place] * force * force / block.stiffness;
-        self.weight.to_mut()[place] = 0.0;
-        // It pulled until now: through the first half of the kick.
-        self.pull.part.iter_mut().for_each(|pull| pull[place] *= 0.5);
+    /// Force of the cable in a slot of a block at the last evaluation [N]; 0 for an empty slot.
+    pub fn slot_force(&self, block: &Block, slot: usize) -> f64 {
+        self.length(block, slot).map_or(0.0, |length| block.first.force(length))
+    }
+
+    /// Removes the cable in a slot of a block; returns the elastic energy lost with the cable [J].
+    pub fn remove(&mut self, block: &Block, slot: usize) -> f64 {
+        let element = block.memory + slot;
+        let stored = self.length(block, slot).map_or(0.0, |length| block.first.energy(length));
+        let lost = self.weight[element] * stored;
+        self.weight.to_mut()[element] = 0.0;
+        // The cable acts until now, through the first half of the kick.
+        self.force.part.iter_mut().for_each(|force| force[element] *= 0.5);
         lost
     }
 
-    /// What cables pull with.
+    /// Forces of all cables.
     #[inline(always)]
-    pub fn pulls(&self) -> Pulls<'_> {
-        Pulls(self.pull.slices())
+    pub fn forces(&self) -> CableForces<'_> {
+        CableForces(self.force.slices())
     }
 }
 
@@ -97,39 +98,56 @@ impl<'a> Tension<'a> {
 pub struct Slices<'a> {
     weight: &'a [f64],
     change: &'a mut [f64],
-    pull: [&'a mut [f64]; 3],
+    force: [&'a mut [f64]; 3],
     state: &'a mut [State],
 }
 
 impl Slices<'_> {
     /// Evaluates every cable of `block` at displacements `u` [m].
     ///
-    /// The force is N = k (L − L0)₊. Central differences bring a cable that becomes taut halfway between two steps to its
-    /// exact amplitude v/ω, and one that becomes taut on a step (ωh)²/8 too far; between, by (1 − 2q)² of that at the part q
-    /// of the step, and alike where it becomes slack. An impulse of h k σ (1 − 2q)²/8 = h k (s₀ + s₁)²/8σ makes up for it, s₀
-    /// and s₁ being the stretches at both ends of the step, of unlike sign, and σ = |s₀| + |s₁|; the pull includes it. There
-    /// both are close to 0, so that s = (L² − L0²) / (L + L0) with the present L serves both. No branch but the first: they
-    /// would be taken at random.
+    /// A cable has the force N = k (L − L0), or 0 if L < L0. Only a cable that becomes taut or slack within the step has the
+    /// force F of line 7: without F, the amplitude of its swing depends on the time of the switch within the step.
+    ///
+    /// Symbols: h step; k stiffness; L, L0 length and unstretched length; s₀ < 0 < s₁ stretch L − L0 at the start and the
+    /// end of the step in which the cable becomes taut; σ = |s₀| + |s₁|; v = σ/h relative speed of the two tires along the
+    /// cable; q = |s₀|/σ part of the step before the cable is taut; m reduced mass of the two tires; ω² = k/m;
+    /// A amplitude of the swing; e = L² − L0², with e₀ and e₁ at the start and the end of the step.
+    ///
+    /// 1. The exact amplitude is A = v/ω.
+    /// 2. Central differences keep (s₁ − s₀)²/h² + ω² s₀ s₁ from step to step. With s₀ = −q v h and s₁ = (1 − q) v h, this
+    ///    invariant is v² (1 − (ωh)² q (1 − q)). A swing of amplitude A has the invariant ω² A² (1 − (ωh)²/4).
+    /// 3. Both are equal, so that A = v/ω · (1 + (ωh)²/8 · (1 − 2q)²) to second order: exact at q = ½, too large elsewhere.
+    /// 4. The amplitude is right when v is smaller by the same part. The impulse on each tire is then
+    ///    J = m v (ωh)²/8 · (1 − 2q)² = h k σ (1 − 2q)²/8.
+    /// 5. Since 1 − 2q = (s₀ + s₁)/σ, the mean force over the step is J/h = k (s₀ + s₁)²/(8 σ).
+    /// 6. Near the switch L is close to L0, so that s = e/(L + L0) with the present L serves for s₀ and s₁.
+    /// 7. F = N + k/8 · (e₀ + e₁)²/(|e₁ − e₀| (L + L0)). The cable becomes slack in the same way, with time reversed.
+    ///
+    /// Source: line 2 is the known invariant of central differences for a harmonic oscillator (Hairer, Lubich, Wanner,
+    /// "Geometric numerical integration illustrated by the Störmer–Verlet method", Acta Numerica 12, 2003); lines 3 to 7
+    /// are derived here. The test `a_cable_pulls_alike_wherever_in_a_step_it_becomes_taut` holds the result.
+    ///
+    /// Only registers without a taut cable leave early. There is no other branch, since the processor could not predict it.
     #[inline(always)]
     pub fn evaluate<S: Simd>(&mut self, simd: S, block: &Block, u: [&[f64]; 3]) -> Stress {
         let (zero, half) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5));
         let tiny = Wide::splat(simd, f64::MIN_POSITIVE);
-        let rest_length = Wide::splat(simd, block.rest_length);
-        let stiffness = Wide::splat(simd, block.stiffness);
-        let span = block.span.map(|component| Wide::splat(simd, component));
+        let Block { first: cable, len, memory } = block;
+        let rest_length = Wide::splat(simd, cable.rest_length);
+        let stiffness = Wide::splat(simd, cable.stiffness);
+        let span = [0, 1, 2].map(|c| Wide::splat(simd, cable.span[c]));
         let slack2 = rest_length * rest_length;
         let eighth = Wide::splat(simd, 0.125) * stiffness;
         let span2 = square(span);
         let excess_at_rest = span2 - slack2;
-        // Slices of one length, so that one check of bounds serves them all.
-        let room = block.len.next_multiple_of(LANES);
-        let places = block.memory..block.memory + room;
-        let at_ends =
-            [block.first, block.second].map(|from| u.map(|component| &component[from..from + room]));
-        let weights = &self.weight[places.clone()];
-        let changes = &mut self.change[places.clone()];
-        let pulls = self.pull.each_mut().map(|pull| &mut pull[places.clone()]);
-        let states = &mut self.state[places];
+        // All slices have one length, so that one check of bounds serves them all.
+        let room = len.next_multiple_of(LANES);
+        let elements = *memory..memory + room;
+        let at_ends = cable.ends.map(|from| u.map(|component| &component[from..from + room]));
+        let weights = &self.weight[elements.clone()];
+        let changes = &mut self.change[elements.clone()];
+        let forces = self.force.each_mut().map(|force| &mut force[elements.clone()]);
+        let states = &mut self.state[elements];
         let (mut energy, mut greatest) = ([0.0; LANES], [0.0; LANES]);
         for at in (0..room).step_by(Wide::<S>::LEN) {
             let mut d = between(simd, at_ends, at);
@@ -138,12 +156,12 @@ impl Slices<'_> {
             }
             let length2 = square(d);
             let weight = Wide::load(simd, weights, at);
-            let there = zero.less(weight);
+            let exists = zero.less(weight);
             let (change, excess) = (length2 - span2, length2 - slack2);
             let before = Wide::load(simd, changes, at) + excess_at_rest;
             change.store(changes, at);
             let was = states[at];
-            let taut = zero.less(excess).and(there);
+            let taut = zero.less(excess).and(exists);
             if taut.any() {
                 states[at] = State::Taut;
             } else {
@@ -152,7 +170,7 @@ impl Slices<'_> {
                     State::Slack => continue,
                     State::Slackened => {
                         for c in 0..3 {
-                            zero.store(pulls[c], at);
+                            zero.store(forces[c], at);
                         }
                         continue;
                     }
@@ -160,33 +178,36 @@ impl Slices<'_> {
                 }
             }
             let length = length2.sqrt();
-            // Empty places count as slack.
-            let positive = there.select(length - rest_length, zero).max(zero);
-            let force = stiffness * positive;
-            (half * weight * force * positive).add_to(&mut energy, at % LANES);
+            // Empty slots count as slack.
+            let stretch = exists.select(length - rest_length, zero).max(zero);
+            let force = stiffness * stretch;
+            (half * weight * force * stretch).add_to(&mut energy, at % LANES);
             force.max(Wide::load(simd, &greatest, at % LANES)).store(&mut greatest, at % LANES);
-            let switches = taut.differs(zero.less(before).and(there));
+            let switches = taut.differs(zero.less(before).and(exists));
             let apart = (excess - before).abs() * (length + rest_length);
             let sum = excess + before;
             let above = switches.select(force.times_plus(apart, eighth * sum * sum), force);
             let below = switches.select(apart * length, length).max(tiny);
             let per_length = above / below;
             for c in 0..3 {
-                (per_length * d[c]).store(pulls[c], at);
+                (per_length * d[c]).store(forces[c], at);
             }
         }
         Stress { energy, force: greatest }
     }
 }
 
-/// Pulls of all cables by component [N], in slices of one length (`n_elements`).
+/// Forces of all cables on their first tires, by component, in slices of one length [N] (`n_elements`).
 #[derive(Clone, Copy, Debug)]
-pub struct Pulls<'a>([&'a [f64]; 3]);
+pub struct CableForces<'a>([&'a [f64]; 3]);
 
-impl Pulls<'_> {
-    /// Their sum at the tires where cables begin and end, from `offset` in their pack on [N].
+impl CableForces<'_> {
+    /// Sum of the cable forces on the tires of one register [N].
+    ///
+    /// `begin` and `end` are the elements of the cables that begin and end at the first tire of the pack; the register begins
+    /// `offset` tires later.
     #[inline(always)]
-    pub fn at<S: Simd>(&self, simd: S, [begin, end]: [&[u32]; 2], offset: usize) -> [Wide<S>; 3] {
+    pub fn sum_at<S: Simd>(&self, simd: S, [begin, end]: [&[u32]; 2], offset: usize) -> [Wide<S>; 3] {
         let mut sum = [Wide::splat(simd, 0.0); 3];
         for &element in begin {
             for c in 0..3 {
@@ -202,12 +223,13 @@ impl Pulls<'_> {
     }
 }
 
+/// Square of the length of a vector.
 #[inline(always)]
 fn square<S: Simd>([x, y, z]: [Wide<S>; 3]) -> Wide<S> {
     z.times_plus(z, y.times_plus(y, x * x))
 }
 
-/// From the first to the second ends of cables, from `at` on.
+/// Displacement of the second ends of cables relative to the first ends [m], from element `at` on.
 #[inline(always)]
 fn between<S: Simd>(simd: S, [first, second]: [[&[f64]; 3]; 2], at: usize) -> [Wide<S>; 3] {
     std::array::from_fn(|c| Wide::load(simd, second[c], at) - Wide::load(simd, first[c], at))

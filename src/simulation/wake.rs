@@ -1,58 +1,58 @@
-//! Which tires and cables need work: the wake front.
+//! The wake front: which tires and cables need work in a step.
 //!
-//! Tires are kept in packs of eight, cables in blocks. A pack *moves* while any of its tires has speed or height; it is
-//! *awake* (its tires are kicked) while it or a pack tied to it moves, since only then can its forces differ from those under
-//! which it was last found at rest; a block is evaluated while any pack it touches is awake. Everything else lies exactly as
-//! it did, so nothing is approximated. Counts are kept, so that a step costs what changes in it. [`super::newmark`] uses packs
-//! of one tire and blocks of one cable.
+//! Tires are kept in packs of eight, cables in blocks. A pack *moves* while any of its tires has speed or height. A pack is
+//! *awake* while the pack or a pack tied to it moves: only then can its forces differ from those under which it came to rest.
+//! The tires of awake packs are kicked. A block is evaluated while any pack at its ends is awake. Everything else stays
+//! exactly as it is, so nothing is approximated. Counts of moving neighbours are kept, so that the cost of a step is that of
+//! its changes. [`super::newmark`] uses packs of one tire and blocks of one cable.
 
 use fixedbitset::FixedBitSet;
 
-use super::cable::Blocks;
+use super::cable::{Block, Blocks};
+use super::lists::Lists;
 use super::pack::LANES;
 use crate::scene::Cable;
 
-/// What ties packs of tires together.
+/// Which blocks tie which packs of tires.
 #[derive(Debug)]
 pub struct Ties {
-    /// By pack, the blocks that touch it.
+    /// Blocks with an end at each pack (`n_packs`).
     blocks: Lists,
-    /// By pack, those tied to it, and itself.
+    /// Each pack and the packs tied to it (`n_packs`).
     neighbours: Lists,
     n_blocks: usize,
 }
 
 impl Ties {
-    /// Of packs of eight tires.
+    /// Ties of packs of [`LANES`] tires.
     pub fn of_blocks(blocks: &Blocks, tires: usize) -> Self {
-        let (mut touches, mut tied) = (Vec::<(u32, u32)>::new(), Vec::<(u32, u32)>::new());
-        for (n, block) in blocks.blocks.iter().enumerate() {
-            let packs = |end: usize, len: usize| (end / LANES) as u32..=((end + len - 1) / LANES) as u32;
-            touches.extend(
-                packs(block.first, block.len).chain(packs(block.second, block.len)).map(|p| (p, n as u32)),
-            );
-            for first in packs(block.first, block.len) {
-                // The part of the block that begins at this pack, and where it ends.
-                let from = (first as usize * LANES).max(block.first) - block.first;
-                let to = ((first as usize + 1) * LANES).min(block.first + block.len) - block.first;
-                let second = packs(block.second + from, to - from);
+        let (mut at_packs, mut tied) = (Vec::<(u32, u32)>::new(), Vec::<(u32, u32)>::new());
+        for (n, Block { first: Cable { ends, .. }, len, .. }) in blocks.blocks.iter().enumerate() {
+            let packs = |tire: usize, len: usize| (tire / LANES) as u32..=((tire + len - 1) / LANES) as u32;
+            at_packs.extend(ends.iter().flat_map(|&end| packs(end, *len)).map(|pack| (pack, n as u32)));
+            for first in packs(ends[0], *len) {
+                // Slots of the block whose first end is in this pack.
+                let from = (first as usize * LANES).max(ends[0]) - ends[0];
+                let to = ((first as usize + 1) * LANES).min(ends[0] + len) - ends[0];
+                let second = packs(ends[1] + from, to - from);
                 tied.extend(second.flat_map(|second| [(first, second), (second, first)]));
             }
         }
-        Self::new(tires.div_ceil(LANES), blocks.blocks.len(), touches, tied)
+        Self::new(tires.div_ceil(LANES), blocks.blocks.len(), at_packs, tied)
     }
 
-    /// Of single tires.
+    /// Ties of single tires: packs of one tire, blocks of one cable.
     pub fn of_cables(cables: &[Cable], tires: usize) -> Self {
         let ends = || cables.iter().map(|cable| cable.ends.map(|end| end as u32)).zip(0..);
-        let touches = ends().flat_map(|([a, b], n)| [(a, n), (b, n)]).collect();
+        let at_packs = ends().flat_map(|([a, b], n)| [(a, n), (b, n)]).collect();
         let tied = ends().flat_map(|([a, b], _)| [(a, b), (b, a)]).collect();
-        Self::new(tires, cables.len(), touches, tied)
+        Self::new(tires, cables.len(), at_packs, tied)
     }
 
-    fn new(n_packs: usize, n_blocks: usize, touches: Vec<(u32, u32)>, mut tied: Vec<(u32, u32)>) -> Self {
+    fn new(n_packs: usize, n_blocks: usize, at_packs: Vec<(u32, u32)>, mut tied: Vec<(u32, u32)>) -> Self {
         tied.extend((0..n_packs as u32).map(|pack| (pack, pack)));
-        Self { blocks: Lists::new(n_packs, touches), neighbours: Lists::new(n_packs, tied), n_blocks }
+        let (blocks, neighbours) = (Lists::sorted(n_packs, at_packs), Lists::sorted(n_packs, tied));
+        Self { blocks, neighbours, n_blocks }
     }
 }
 
@@ -60,28 +60,32 @@ impl Ties {
 #[derive(Debug)]
 pub struct Wake<'a> {
     ties: &'a Ties,
-    /// Packs whose tires are kicked, ascending.
+    /// Awake packs, in ascending order.
     pub awake: Vec<usize>,
-    /// Blocks to evaluate, ascending.
+    /// Blocks to evaluate, in ascending order.
     pub blocks: Vec<usize>,
-    /// Blocks that woke and that fell asleep when the lists last changed; one may be in both.
+    /// Blocks that woke at the last refresh; a block may also be in [`Self::fell_asleep`].
     pub woke: Vec<usize>,
-    /// See [`Self::woke`].
+    /// Blocks that fell asleep at the last refresh.
     pub fell_asleep: Vec<usize>,
-    /// Whether each pack moves, and whether it is counted so.
+    /// Packs that move.
     moving: FixedBitSet,
+    /// Packs that are counted as moving in `near`.
     counted: FixedBitSet,
+    /// Packs set moving or resting since the last refresh.
     changed: Vec<usize>,
-    /// How many of a pack's neighbours move.
+    /// Number of moving neighbours of each pack (`n_packs`).
     near: Vec<u32>,
-    /// How many of a block's packs are awake.
+    /// Number of awake packs at the ends of each block (`n_blocks`).
     active: Vec<u32>,
+    /// Awake packs, as a set.
     awake_set: FixedBitSet,
+    /// Blocks to evaluate, as a set.
     block_set: FixedBitSet,
 }
 
 impl<'a> Wake<'a> {
-    /// Everything asleep.
+    /// Wake front with everything asleep.
     pub fn new(ties: &'a Ties) -> Self {
         let (n_packs, n_blocks) = (ties.neighbours.keys(), ties.n_blocks);
         Self {
@@ -100,7 +104,7 @@ impl<'a> Wake<'a> {
         }
     }
 
-    /// Notes whether a pack moves.
+    /// Sets whether a pack moves, from the next refresh on.
     #[inline(always)]
     pub fn set_moving(&mut self, pack: usize, moving: bool) {
         if self.moving.contains(pack) != moving {
@@ -109,13 +113,13 @@ impl<'a> Wake<'a> {
         }
     }
 
-    /// Whether a pack was awake when the lists last changed.
+    /// Whether a pack was awake at the last refresh.
     #[inline(always)]
     pub fn is_awake(&self, pack: usize) -> bool {
         self.awake_set.contains(pack)
     }
 
-    /// Brings the lists up to date; whether they changed.
+    /// Brings the lists of awake packs and blocks up to date; returns whether a pack has changed since the last refresh.
     pub fn refresh(&mut self) -> bool {
         if self.changed.is_empty() {
             return false;
@@ -154,37 +158,6 @@ impl<'a> Wake<'a> {
     }
 }
 
-/// A sorted list of indices for each of many keys, in one allocation.
-#[derive(Debug)]
-struct Lists {
-    start: Vec<u32>,
-    items: Vec<u32>,
-}
-
-impl Lists {
-    /// From `(key, item)` pairs in any order, some of them more than once.
-    fn new(keys: usize, mut pairs: Vec<(u32, u32)>) -> Self {
-        pairs.sort_unstable();
-        pairs.dedup();
-        let mut start = vec![0; keys + 1];
-        for (key, _) in &pairs {
-            start[*key as usize + 1] += 1;
-        }
-        for key in 0..keys {
-            start[key + 1] += start[key];
-        }
-        Self { start, items: pairs.into_iter().map(|(_, item)| item).collect() }
-    }
-
-    fn keys(&self) -> usize {
-        self.start.len() - 1
-    }
-
-    fn of(&self, key: usize) -> &[u32] {
-        &self.items[self.start[key] as usize..self.start[key + 1] as usize]
-    }
-}
-
 #[cfg(test)]
 pub mod tests {
     use super::*;
@@ -193,15 +166,15 @@ pub mod tests {
     use crate::scene::{Firing, Scene, Shot};
 
     impl Ties {
-        /// The same, but whatever moves wakes everything.
+        /// The same ties, except that any motion wakes everything.
         pub fn with_everything(self) -> Self {
             let packs = 0..self.neighbours.keys() as u32;
             let all = packs.clone().flat_map(|a| packs.clone().map(move |b| (a, b)));
-            Self { neighbours: Lists::new(packs.len(), all.collect()), ..self }
+            Self { neighbours: Lists::sorted(packs.len(), all.collect()), ..self }
         }
     }
 
-    /// A slack shelter without mirror planes, and shots of it that leave parts of it at rest and find others at rest again.
+    /// A slack shelter without mirror planes, and shots under which some tires never move and others come to rest again.
     pub fn scenes() -> (Scene, Vec<Shot>) {
         let plan = "title = ''\n[shelter]\nlayout = 'grid'\nrows = 9\ncolumns = 11\nspacing_m = 1.5\n\
                     [tire]\nmass_kg = 280\n[cable]\naxial_stiffness_kn = 1500\nbreaking_force_kn = 40\n\
@@ -220,7 +193,7 @@ pub mod tests {
         (scene, vec![fired(0.017, 3.0), fired(0.11, 6.0), fired(0.6, 0.5), fired(2.0, 8.0)])
     }
 
-    /// All that is counted over what moves, as bits; the order of sums decides the last digits of the rest.
+    /// Bits of the results that do not depend on the order of sums.
     pub fn exact(run: &Outcome) -> [u64; 8] {
         let [height, force, drift] = [run.height, run.force, run.drift];
         [

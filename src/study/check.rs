@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::{Case, ComputeSettings, error};
 use crate::choice::{Accuracy, Method};
-use crate::outcome::{Broken, End, History, Outcome, Peak};
+use crate::outcome::{Broken, EndReason, History, Outcome, Peak, RunEnd};
 use crate::scene::Shot;
 use crate::simulation::{Failure, Settings};
 use crate::verdict::{Estimate, Limits, Verdict};
@@ -40,10 +40,8 @@ pub struct Checked {
     pub steps: usize,
     /// Energy residual of that run over the energy that the holes put in.
     pub energy_residual: f64,
-    /// End of the run [s].
-    pub end: f64,
-    /// Why the run ended.
-    pub ended: End,
+    /// Time and reason of the end of that run.
+    pub end: RunEnd,
     /// Computing time of the run that gave the values.
     pub wall: Duration,
     /// Computing time of all runs.
@@ -109,14 +107,14 @@ fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<EarlyEnd> {
     if last >= case.plan.simulation.duration_s.unwrap_or(f64::INFINITY) {
         return Some(EarlyEnd::HolesUnfired(last));
     }
-    if outcome.end == End::AtRest {
+    if outcome.end.reason == EndReason::AtRest {
         return None;
     }
-    if outcome.aloft {
+    if outcome.tires_in_air {
         return Some(EarlyEnd::TiresInAir);
     }
     // The greatest of all samples is the last one, or the one before.
-    if outcome.force.value > 0.0 && outcome.force.at > outcome.drift.at - 2.5 * outcome.step {
+    if outcome.force.value > 0.0 && outcome.force.at > outcome.end.at - 2.5 * outcome.step {
         return Some(EarlyEnd::ForceGrowing);
     }
     case.limits.drift.map(|_| EarlyEnd::TiresMoving)
@@ -144,7 +142,7 @@ pub fn reasons(
         Reason::Limit { quantity, verdict: estimate.against(limit), estimate, limit }
     });
     let broken = Some(outcome.broken.len()).filter(|&count| count > 0).map(Reason::Broken);
-    let end = case.plan.simulation.duration_s.unwrap_or(outcome.drift.at);
+    let end = case.plan.simulation.duration_s.unwrap_or(outcome.end.at);
     let early = early(case, shot, outcome).map(|open| Reason::EndsEarly { end, open });
     let all = limits.chain(broken).chain(early);
     all.filter(|reason| reason.verdict() != Verdict::Pass).collect()
@@ -285,9 +283,9 @@ fn judge(
     let count = runs.len();
     let (last, before) = (&runs[count - 1], &runs[count.saturating_sub(1 + error::NEIGHBOURS)..count - 1]);
     let estimate = |of: fn(&Outcome) -> Peak| {
-        let Peak { value, at, place } = of(&last.0);
+        let Peak { value, at, index } = of(&last.0);
         let near = before.iter().map(|(outcome, _)| (outcome.step, of(outcome).value));
-        Estimate { value, error: error::estimate(last.0.step, value, near), at, place }
+        Estimate { value, error: error::estimate(last.0.step, value, near), at, index }
     };
     let height = estimate(|outcome| outcome.height);
     let force = estimate(|outcome| outcome.force);
@@ -306,8 +304,7 @@ fn judge(
         step: last.0.step,
         steps: last.0.steps,
         energy_residual: last.0.ledger.residual(),
-        end: last.0.drift.at,
-        ended: last.0.end,
+        end: last.0.end,
         wall: last.1,
         total_wall,
         runs: count,

@@ -86,7 +86,7 @@ fn halve(times: &mut Vec<f64>, displacements: &mut Vec<[f32; 3]>, tires: usize) 
 impl Flight {
     /// End of the run [s].
     pub fn end(&self) -> f64 {
-        self.outcome.drift.at
+        self.outcome.end.at
     }
 
     /// Whether each cable of the scene pulls at `time` [s] (`n_cables`).

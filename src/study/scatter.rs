@@ -139,8 +139,8 @@ fn judge_sample(
     let reason = |failure| progress.reason(failure);
     let outcome = case.model.run(shot, &settings, &mut |_| progress.flow()).map_err(reason)?;
     let estimate = |peak: Peak, relative: f64| {
-        let Peak { value, at, place } = peak;
-        Estimate { value, error: value * relative, at, place }
+        let Peak { value, at, index } = peak;
+        Estimate { value, error: value * relative, at, index }
     };
     let [height, force, drift] = *relative_error;
     let estimates =

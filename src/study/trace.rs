@@ -18,8 +18,8 @@ pub struct Chosen {
 impl Chosen {
     /// The highest tire and the most loaded cable of a run.
     pub fn of(outcome: &Outcome) -> Self {
-        let cables = if outcome.force.value > 0.0 { vec![outcome.force.place] } else { Vec::new() };
-        Self { tires: vec![outcome.height.place], cables }
+        let cables = if outcome.force.value > 0.0 { vec![outcome.force.index] } else { Vec::new() };
+        Self { tires: vec![outcome.height.index], cables }
     }
 }
 

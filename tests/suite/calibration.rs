@@ -6,7 +6,7 @@ mod scenes;
 use std::ops::ControlFlow;
 
 use shelter::choice::{Accuracy, Method};
-use shelter::simulation::{Settings, simulate};
+use shelter::simulation::{Model, Settings};
 use shelter::study::error::{NEIGHBOURS, RATIO, estimate};
 
 /// 160 random scenes, smooth and hard, against a step 64 times finer: the true error is within the reported one in 19 of 20,
@@ -18,10 +18,11 @@ fn reported_errors_hold_and_are_not_too_wide() {
     const SCENES: u64 = 160;
     for n in 0..SCENES {
         let (scene, shot) = scenes::scene(20_000 + n);
-        let step = (0.1 * scene.critical_step()).min(1e-3);
+        let model = Model::new(scene);
+        let step = (0.1 * model.scene().critical_step()).min(1e-3);
         let run = |step: f64| {
             let settings = Settings { method: Method::Verlet, step, duration: None };
-            let out = simulate(&scene, &shot, &settings, &mut |_| ControlFlow::Continue(()));
+            let out = model.run(&shot, &settings, &mut |_| ControlFlow::Continue(()));
             let out = out.expect("the run has an outcome");
             [out.height.value, out.force.value]
         };

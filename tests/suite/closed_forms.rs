@@ -18,7 +18,7 @@ fn validates_free_flight_reaches_v2_over_2g_and_lands_after_2v_over_g() {
             close(out.height.value, LAUNCH * LAUNCH / (2.0 * GRAVITY), 1e-9, "height");
             close(out.height.at, LAUNCH / GRAVITY, 1e-9, "time of the top");
             // At rest in the step after the landing.
-            close(out.drift.at, 2.0 * LAUNCH / GRAVITY, 3.0 * h, "landing");
+            close(out.end.at, 2.0 * LAUNCH / GRAVITY, 3.0 * h, "landing");
             assert!(out.ledger.residual() < 1e-9, "{method:?} {:e}", out.ledger.residual());
         }
     }
@@ -45,7 +45,7 @@ fn validates_sliding_tire_stops_where_friction_has_used_up_its_energy() {
             let amplitude = stretch - limit / stiffness;
             let swing = (std::f64::consts::PI - (limit / (stiffness * amplitude)).acos()) / omega;
             let speed = (2.0 * 0.5 * GRAVITY * (way - stretch)).sqrt();
-            close(out.drift.at, swing + speed / (0.5 * GRAVITY), 5.0 * h, "time");
+            close(out.end.at, swing + speed / (0.5 * GRAVITY), 5.0 * h, "time");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Both methods against the event-driven reference answers, and against each other.
 
 use shelter::choice::Method;
-use shelter::outcome::End;
+use shelter::outcome::EndReason;
 
 use crate::scenes::{METHODS, close, fire, fire_rows, grid, quincunx, run, settings};
 
@@ -103,8 +103,8 @@ fn drift_is_that_of_the_end_asked_for() {
 fn a_large_shelter_comes_to_rest_and_stays_bounded() {
     let scene = grid(50, 50, 1.5, 1.519e6);
     let out = run(&scene, &fire_rows(&[23, 24, 25], 50, 0.02), settings(Method::Verlet, 1e-3, None));
-    assert_eq!(out.end, End::AtRest);
-    assert!(out.drift.at < 10.0, "{} s", out.drift.at);
+    assert_eq!(out.end.reason, EndReason::AtRest);
+    assert!(out.end.at < 10.0, "{} s", out.end.at);
     assert!(out.history.height.len() <= shelter::outcome::History::CAPACITY);
     // (ωh)² of the elastic part of the energy, with ωh = 2h / critical step.
     let omega_h: f64 = 2e-3 / scene.critical_step();

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use shelter::choice::Method;
 use shelter::outcome::Outcome;
 use shelter::scene::{Cable, Firing, Scene, Shot, TireId};
-use shelter::simulation::{Failure, Motion, Settings, simulate};
+use shelter::simulation::{Failure, Model, Motion, Settings};
 
 pub const GRAVITY: f64 = 9.81;
 pub const METHODS: [Method; 2] = [Method::Verlet, Method::Newmark];
@@ -90,12 +90,12 @@ pub fn run(scene: &Scene, shot: &Shot, settings: Settings) -> Outcome {
 }
 
 pub fn try_run(scene: &Scene, shot: &Shot, settings: Settings) -> Result<Outcome, Failure> {
-    simulate(scene, shot, &settings, &mut |_| ControlFlow::Continue(()))
+    Model::new(scene.clone()).run(shot, &settings, &mut |_| ControlFlow::Continue(()))
 }
 
 /// Runs and shows every step to `see`.
 pub fn watch(scene: &Scene, shot: &Shot, settings: Settings, mut see: impl FnMut(&dyn Motion)) -> Outcome {
-    let watched = simulate(scene, shot, &settings, &mut |motion| {
+    let watched = Model::new(scene.clone()).run(shot, &settings, &mut |motion| {
         see(motion);
         ControlFlow::Continue(())
     });

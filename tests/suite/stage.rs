@@ -9,7 +9,7 @@ use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use shelter::choice::{Accuracy, Method};
-use shelter::outcome::{End, History};
+use shelter::outcome::{EndReason, History, RunEnd};
 use shelter::ropes::catalogue;
 use shelter::study::accuracy::{Measured, Row, Study};
 use shelter::study::check::{Checked, Quantity, Reason};
@@ -36,7 +36,7 @@ pub fn app() -> App {
 /// A result with round numbers, so that a snapshot changes with the screen and not with the physics.
 pub fn checked(verdict: Verdict) -> Checked {
     let wave = |n: usize| (n as f64 * 0.05).sin().abs();
-    let estimate = |value, error, at, place| Estimate { value, error, at, place };
+    let estimate = |value, error, at, index| Estimate { value, error, at, index };
     let force = estimate(61_234.0, 45.0, 0.123, 3);
     let limit = Reason::Limit { quantity: Quantity::Force, verdict, estimate: force, limit: 61_019.0 };
     Checked {
@@ -56,8 +56,7 @@ pub fn checked(verdict: Verdict) -> Checked {
         step: 5e-4,
         steps: 2000,
         energy_residual: 3e-5,
-        end: 1.3,
-        ended: End::AtRest,
+        end: RunEnd { at: 1.3, reason: EndReason::AtRest },
         wall: Duration::from_millis(2),
         total_wall: Duration::from_millis(6),
         runs: 4,

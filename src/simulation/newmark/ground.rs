@@ -1,4 +1,4 @@
-//! Where tires meet the ground: friction, the contact region a solution implies, and the end of a step with its landings.
+//! Tires on the ground: friction, the contact region that a solution implies, and the end of a step with its landings.
 
 use nalgebra::{Vector2, Vector3};
 
@@ -8,31 +8,33 @@ use crate::outcome::Peak;
 use crate::simulation::contact::{support, top};
 
 impl Stepper<'_> {
-    /// Friction of a sliding tire per mass: μ times the reaction, against the velocity, or the pull where there is none.
+    /// Friction force per mass of a sliding tire [m/s²]: μ times the reaction, against the velocity, or against the cable force
+    /// if there is no velocity.
     pub(super) fn friction(&self, free: Vector3<f64>, velocity: Vector2<f64>) -> Vector2<f64> {
         let limit = self.friction * (-free.z).max(0.0);
         let direction = velocity.try_normalize(0.0).or_else(|| free.xy().try_normalize(0.0));
         direction.map_or_else(Vector2::zeros, |direction| direction * -limit)
     }
 
-    /// The same at the end of a step, where it can do no more than stop the tire: one that has just landed may be slow.
+    /// Friction force per mass at the end of the step [m/s²], at most the force that stops the tire within the step: a tire
+    /// that has just landed may be slow.
     pub(super) fn end_friction(&self, tire: usize, free: Vector3<f64>, h: f64) -> Vector2<f64> {
         let sliding = self.sliding(tire, h);
         self.friction(free, sliding).cap_magnitude(2.0 * sliding.norm() / h)
     }
 
-    /// Sideways velocity at the end of the step were there no friction [m/s]: what friction opposes.
+    /// Sideways velocity at the end of the step without friction [m/s]; friction acts against this velocity.
     fn sliding(&self, tire: usize, h: f64) -> Vector2<f64> {
         let force = (self.f_start[tire] + self.f[tire]).xy();
         self.v[tire].xy() + force * (0.5 * h / self.scene.mass[tire])
     }
 
-    /// Whether a tire found on the ground at the end of the step meets it there with a speed.
+    /// Whether a tire that is on the ground at the end of the step landed within the step.
     fn lands(&self, tire: usize) -> bool {
         self.u[tire].z > 0.0 || self.v[tire].z != 0.0
     }
 
-    /// The region that the solution implies.
+    /// Sets the contact region that the solution implies.
     pub(super) fn imply(&mut self, h: f64) {
         for &n in &self.wake.blocks {
             let cable = &self.scene.cables[n];
@@ -43,6 +45,7 @@ impl Stepper<'_> {
         }
     }
 
+    /// Contact of a tire that the solution implies.
     fn implied_ground(&self, tire: usize, h: f64) -> Ground {
         let mass = self.scene.mass[tire];
         let free = self.f[tire] / mass - Vector3::z() * self.scene.gravity;
@@ -62,7 +65,7 @@ impl Stepper<'_> {
         }
     }
 
-    /// Takes over the end of the step, with landings and what they and friction dissipate.
+    /// Makes the end of the step the new state, with landings and with the energy that landings and friction dissipate.
     pub(super) fn accept(&mut self, h: f64) {
         for n in 0..self.wake.awake.len() {
             let tire = self.wake.awake[n];
@@ -89,14 +92,13 @@ impl Stepper<'_> {
         }
     }
 
-    /// The landing of a tire within the step: its impact speed follows from the fall, friction takes its share sideways.
+    /// Velocity of a tire after its landing within the step [m/s]: the fall gives the impact speed, and friction slows the tire
+    /// sideways.
     fn land(&mut self, tire: usize, h: f64, velocity: Vector3<f64>) -> Vector3<f64> {
         let (height, rise, a) = (self.u[tire].z, self.v[tire].z, self.a[tire].z);
-        // A flight within the step is seen by no sample.
-        if let Some((more, until)) = top(rise, a, h)
-            && height + more > self.record.height.value
-        {
-            self.record.height = Peak { value: height + more, at: self.now() + until, place: tire };
+        if let Some((more, until)) = top(rise, a, h) {
+            let at = self.clock.now() + until;
+            self.record.note_top(Peak { value: height + more, at, index: tire });
         }
         let impact = (rise * rise - 2.0 * a * height).max(0.0).sqrt();
         let left = (h - 2.0 * height / (impact - rise).max(f64::MIN_POSITIVE)).clamp(0.0, h);

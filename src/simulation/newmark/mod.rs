@@ -1,18 +1,21 @@
 //! The source paper's method: trapezoidal Newmark (β = 1/4, γ = 1/2) with Newton–Raphson and a contact region.
 //!
-//! Over a step of length h, v₁ = 2 Δu/h − v₀ and equilibrium holds at its end:
+//! Over a step of length h with the displacement Δu, the velocity at the end is v₁ = 2 Δu/h − v₀, and equilibrium holds at
+//! the end:
 //!
 //! M (4 Δu/h² − 4 v₀/h − a₀) = F(u₀ + Δu).
 //!
-//! Newton–Raphson solves it for a frozen contact region, from Δu = h v₀ + h² a₀/2 on; from Δu = 0 its first iteration
-//! would be the paper's predictor (5). The region implied by the result (2)–(4) is compared with the one assumed and the
-//! step repeated, on from the last Δu, until both agree; only then is the result converged fully, and compared again. A tire
-//! that lands stops falling and loses friction's share of its sideways speed as in [`super::contact`]; holes fire at their
-//! exact time, where the step is cut.
-//! Acceleration is taken from the balance of forces, so that short steps do not amplify rounding.
+//! 1. Newton–Raphson solves this equation for an assumed contact region, from Δu = h v₀ + h² a₀/2 on. (From Δu = 0, the
+//!    first iteration would be the paper's predictor (5).)
+//! 2. The solution implies a contact region by (2)–(4). If the implied region differs from the assumed region, the step is
+//!    repeated with the implied region, from the last Δu on.
+//! 3. When both regions agree, Newton–Raphson converges fully, and the regions are compared once more.
 //!
-//! Only tires that move and those tied to them are looked at ([`super::wake`]). Within a step motion goes on from tire to
-//! tire: one that leaves its place wakes its neighbours before the step is repeated, so that nothing is left out.
+//! A tire that lands stops falling and loses sideways speed by friction as in [`super::contact`]. Holes fire at their exact
+//! time: the step is cut there. Accelerations come from the balance of forces, so that short steps do not amplify rounding.
+//!
+//! Only tires that move, and tires tied to these, are computed ([`super::wake`]). Motion can spread over several tires within
+//! one step: a tire that starts to move wakes its neighbours before the step is repeated.
 
 mod ground;
 mod region;
@@ -27,21 +30,22 @@ use nalgebra::Vector3;
 
 use self::region::{Ground, Region};
 use self::system::System;
-use super::record::{Clock, Record};
+use super::clock::Clock;
+use super::record::Record;
 use super::wake::{Ties, Wake};
-use super::{Failure, Motion, Settings, Watcher, time_limit};
+use super::{Failure, Motion, Settings, Watcher};
 use crate::choice::Method;
-use crate::outcome::{End, Outcome};
+use crate::outcome::Outcome;
 use crate::scene::{Scene, Shot};
 
-/// A scene made ready for many runs.
+/// Ties of one scene, made at their first use and kept for later runs.
 #[derive(Debug, Default)]
-pub struct Model {
+pub struct NewmarkCache {
     ties: OnceLock<Ties>,
 }
 
-impl Model {
-    /// Runs one shot of the scene this model is for; see [`super::simulate`].
+impl NewmarkCache {
+    /// Runs one shot of the scene of this cache; see [`super::Model::run`].
     pub fn run(
         &self,
         scene: &Scene,
@@ -53,45 +57,56 @@ impl Model {
             return Err(Failure::Step { step: settings.step, limit: f64::MAX, method: Method::Newmark });
         }
         let ties = self.ties.get_or_init(|| Ties::of_cables(&scene.cables, scene.mass.len()));
-        Stepper::new(scene, ties, shot, settings.step).run(time_limit(shot, settings) * (1.0 + 1e-12), watch)
+        Stepper::new(scene, ties, shot, settings).run(watch)
     }
 }
 
+/// State of one run. All vectors are by tire (`n_tires`).
 struct Stepper<'a> {
-    /// The scene, less the cables that broke.
+    /// The scene; broken cables have an infinite unstretched length.
     scene: Cow<'a, Scene>,
     shot: &'a Shot,
     friction: f64,
+    /// Step [s].
     step: f64,
     clock: Clock,
+    /// Whether any tire moved in the last step.
     moving: bool,
     record: Record,
-    /// Cable of the greatest force, if sampled in the step before, and its k (L − L0) a step earlier [N].
+    /// Cable of the greatest force, if that force was sampled one step ago, and its k (L − L0) one step earlier [N].
     sampled: Option<(usize, f64)>,
-    /// Which tires and cables need work, each of them for itself.
+    /// Tires and cables that need work, in packs of one tire and blocks of one cable.
     wake: Wake<'a>,
     /// Elastic energy of the cables asleep [J].
     asleep: f64,
-    /// Displacement [m], velocity [m/s], acceleration [m/s²] (`n_tires`).
+    /// Displacement [m].
     u: Vec<Vector3<f64>>,
+    /// Velocity [m/s].
     v: Vec<Vector3<f64>>,
+    /// Acceleration [m/s²].
     a: Vec<Vector3<f64>>,
-    /// Displacement a sample earlier [m].
+    /// Displacement one step earlier [m].
     earlier: Vec<Vector3<f64>>,
+    /// Contact region assumed for the step.
     region: Region,
+    /// Contact region that the solution implies.
     implied: Region,
     system: System,
-    /// Displacement over the step and at its end [m].
+    /// Displacement over the step [m].
     du: Vec<Vector3<f64>>,
+    /// Displacement at the end of the step [m].
     end: Vec<Vector3<f64>>,
-    /// Cable forces on the tires at the end and the start of the step, and what equilibrium lacks at its end [N].
+    /// Cable force at the end of the step [N].
     f: Vec<Vector3<f64>>,
+    /// Cable force at the start of the step [N].
     f_start: Vec<Vector3<f64>>,
+    /// Force that is out of balance at the end of the step [N].
     residual: Vec<Vector3<f64>>,
 }
 
 impl<'a> Stepper<'a> {
-    fn new(scene: &'a Scene, ties: &'a Ties, shot: &'a Shot, step: f64) -> Self {
+    /// Run of `shot` under `scene`, before the first step.
+    fn new(scene: &'a Scene, ties: &'a Ties, shot: &'a Shot, settings: &Settings) -> Self {
         let zeros = || vec![Vector3::zeros(); scene.mass.len()];
         let region =
             Region { taut: vec![false; scene.cables.len()], ground: vec![Ground::Stick; scene.mass.len()] };
@@ -99,10 +114,10 @@ impl<'a> Stepper<'a> {
             scene: Cow::Borrowed(scene),
             shot,
             friction: shot.friction.unwrap_or(scene.friction),
-            step,
-            clock: Clock::new(shot),
+            step: settings.step,
+            clock: Clock::new(shot, settings),
             moving: false,
-            record: Record::new(step),
+            record: Record::new(settings.step),
             sampled: None,
             wake: Wake::new(ties),
             asleep: 0.0,
@@ -121,22 +136,16 @@ impl<'a> Stepper<'a> {
         }
     }
 
-    fn run(mut self, limit: f64, watch: &mut Watcher<'_>) -> Result<Outcome, Failure> {
+    /// Makes all steps; returns the outcome.
+    fn run(mut self, watch: &mut Watcher<'_>) -> Result<Outcome, Failure> {
         loop {
-            if !self.moving {
-                match self.shot.firings.get(self.clock.fired) {
-                    Some(next) if next.at <= limit => self.clock.jump(next.at),
-                    Some(_) => return Ok(self.finish(limit, End::TimeLimit)),
-                    None => return Ok(self.finish(limit, End::AtRest)),
-                }
-            }
-            if self.now() > limit {
-                return Ok(self.finish(limit, End::TimeLimit));
+            if let Some(reason) = self.clock.end_reason(self.moving, &self.shot.firings) {
+                return Ok(self.finish(reason));
             }
             self.refresh();
             self.sample();
             if watch(&Snapshot { stepper: &self }).is_break() {
-                return Err(Failure::Stopped { at: self.now() });
+                return Err(Failure::Stopped { at: self.clock.now() });
             }
             self.step_through_firings()?;
             self.find_resting();
@@ -144,16 +153,12 @@ impl<'a> Stepper<'a> {
         }
     }
 
-    fn now(&self) -> f64 {
-        self.clock.now(self.step)
-    }
-
-    /// One step, cut where holes fire.
+    /// Integrates one step, cut at the times at which holes fire.
     fn step_through_firings(&mut self) -> Result<(), Failure> {
         for &tire in &self.wake.awake {
             self.earlier[tire] = self.u[tire];
         }
-        let (start, mut done) = (self.clock.since(self.step), 0.0);
+        let (start, mut done) = (self.clock.since_base(), 0.0);
         while let Some(&firing) = self.shot.firings.get(self.clock.fired) {
             let after = firing.at - self.clock.base - start;
             if after >= self.step {
@@ -174,7 +179,7 @@ impl<'a> Stepper<'a> {
         self.advance(self.step - done, 0)
     }
 
-    /// Brings the wake front up to date; whether it changed. Cables that fell asleep keep their energy.
+    /// Brings the wake front up to date; returns whether the front changed. Cables that fell asleep keep their energy.
     fn refresh(&mut self) -> bool {
         let changed = self.wake.refresh();
         if changed {
@@ -188,7 +193,7 @@ impl<'a> Stepper<'a> {
         changed
     }
 
-    /// Finds the tires that are where they were a step ago and stay there.
+    /// Finds the tires that did not move in the last step and stick to the ground.
     fn find_resting(&mut self) {
         self.moving = false;
         for n in 0..self.wake.awake.len() {
@@ -210,7 +215,7 @@ struct Snapshot<'s, 'a> {
 
 impl Motion for Snapshot<'_, '_> {
     fn time(&self) -> f64 {
-        self.stepper.now()
+        self.stepper.clock.now()
     }
 
     fn displacement(&self, tire: usize) -> Vector3<f64> {
@@ -243,15 +248,15 @@ mod tests {
     use crate::simulation::wake::tests::{exact, scenes};
 
     #[test]
-    fn what_sleeps_would_not_have_moved() {
+    fn tires_asleep_would_not_have_moved() {
         let (scene, shots) = scenes();
         let ties = || Ties::of_cables(&scene.cables, scene.mass.len());
-        let (some, all) = (Model::default(), Model { ties: ties().with_everything().into() });
-        // Over the longer step motion goes on through several tires at once.
+        let (some, all) = (NewmarkCache::default(), NewmarkCache { ties: ties().with_everything().into() });
+        // With the longer step, motion spreads over several tires within one step.
         for (shot, step) in shots.iter().flat_map(|shot| [(shot, 2e-3), (shot, 2e-2)]) {
             let settings = Settings { method: Method::Newmark, step, duration: None };
-            let [some, all] = [&some, &all].map(|model| {
-                model.run(&scene, shot, &settings, &mut |_| ControlFlow::Continue(())).expect("a run")
+            let [some, all] = [&some, &all].map(|cache| {
+                cache.run(&scene, shot, &settings, &mut |_| ControlFlow::Continue(())).expect("a run")
             });
             assert_eq!(exact(&some), exact(&all));
         }

@@ -1,40 +1,40 @@
-//! The contact region: which cables pull and which tires lie, stick or slide.
+//! The contact region: which cables are taut, and which tires are in the air, stick or slip.
 //!
-//! A step is solved for one region; what comes out implies a region of its own. They must agree, or the step is repeated
-//! (source paper, after (5)).
+//! A step is solved for an assumed region, and the solution implies a region. Both must agree, or the step is repeated (source
+//! paper, after (5)).
 
 use crate::simulation::wake::Wake;
 
-/// One tire's part of the contact region.
+/// Contact of one tire.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ground {
-    /// Off the ground.
+    /// In the air.
     Free,
-    /// On it, at rest or coming to rest within the step.
+    /// On the ground, at rest or coming to rest within the step.
     Stick,
-    /// On it, moving or about to move.
+    /// On the ground, moving or about to move.
     Slip,
 }
 
 /// The contact region of a step.
 #[derive(Clone, Debug)]
 pub struct Region {
-    /// Whether each cable is "switched on" (`n_cables`).
+    /// Whether each cable is taut, "switched on" in the paper (`n_cables`).
     pub taut: Vec<bool>,
-    /// Each tire's support (`n_tires`).
+    /// Contact of each tire (`n_tires`).
     pub ground: Vec<Ground>,
 }
 
-/// Whole regions adopted before changes are made one at a time.
+/// Number of repetitions that adopt a whole region; later repetitions adopt one change each.
 const AT_ONCE: usize = 8;
-/// Repetitions of a step before it is halved.
+/// Greatest number of repetitions of a step; after these the step is halved.
 pub const MOST_REPEATS: usize = 40;
 
 impl Region {
-    /// Takes over what `implied` says differently of the tires and cables awake; false when nothing does.
+    /// Adopts the differences of `implied` at the tires and cables awake; returns whether there is any.
     ///
-    /// All at once at first; if that goes in circles, only the first difference each time (Murty's least-index rule,
-    /// which ends for the positive definite systems met here).
+    /// The first repetitions adopt all differences at once. If these repetitions run in a circle, later ones adopt only the
+    /// first difference (Murty's least-index rule, which ends for the positive definite systems of this method).
     pub fn adopt(&mut self, implied: &Region, wake: &Wake<'_>, repeats: usize) -> bool {
         let most = if repeats < AT_ONCE { usize::MAX } else { 1 };
         let mut changes = 0;

@@ -1,24 +1,24 @@
-//! One cut of a step: Newton–Raphson within a contact region, repeated until the region stands still.
+//! One cut of a step: Newton–Raphson for an assumed contact region, repeated until the region no longer changes.
 
 use nalgebra::Vector3;
 
 use super::Stepper;
 use super::region::{Ground, MOST_REPEATS};
 use crate::scene::{Cable, Scene};
-use crate::simulation::Failure;
 use crate::simulation::wake::Wake;
+use crate::simulation::{Failure, Iteration};
 
-/// Newton iterations before a step is halved.
+/// Greatest number of Newton iterations; after these the step is halved.
 const MOST_ITERATIONS: usize = 20;
-/// Times a step is halved before it is given up.
+/// Greatest number of times that a step is halved; after these the run fails.
 const MOST_HALVINGS: usize = 8;
-/// Newton stops when its correction is this small beside the step's displacement: while the contact region is sought, and
-/// once it stands still.
+/// Newton stops at a correction of this size relative to the displacement over the step, while the contact region is sought.
 const ROUGHLY: f64 = 1e-4;
+/// The same size once the contact region no longer changes.
 const CONVERGED: f64 = 1e-10;
 
 impl Stepper<'_> {
-    /// One cut of a step: repeated until the contact region stands still, and halved where it does not.
+    /// Integrates one cut of a step over `h` [s]; halves the cut while its contact region does not settle.
     pub(super) fn advance(&mut self, h: f64, halved: usize) -> Result<(), Failure> {
         match self.settle(h) {
             Err(Failure::Unsettled { .. }) if halved < MOST_HALVINGS => {
@@ -29,6 +29,7 @@ impl Stepper<'_> {
         }
     }
 
+    /// Integrates over `h` [s]: repeats the solution until the contact region no longer changes.
     fn settle(&mut self, h: f64) -> Result<(), Failure> {
         self.refresh();
         self.set_start_forces();
@@ -48,9 +49,10 @@ impl Stepper<'_> {
                 enough = CONVERGED;
             }
         }
-        Err(Failure::Unsettled { what: "contact region", at: self.now() })
+        Err(Failure::Unsettled { what: Iteration::ContactRegion, at: self.clock.now() })
     }
 
+    /// Sets the cable forces at the start of the cut.
     fn set_start_forces(&mut self) {
         cable_forces(
             &self.scene,
@@ -61,7 +63,7 @@ impl Stepper<'_> {
         );
     }
 
-    /// Tires that leave their place wake those they are tied to.
+    /// Sets the tires moving that no longer stick, so that their neighbours wake.
     fn spread(&mut self) {
         for n in 0..self.wake.awake.len() {
             let tire = self.wake.awake[n];
@@ -74,7 +76,7 @@ impl Stepper<'_> {
         }
     }
 
-    /// Accelerations at the start of a cut from the balance of forces there.
+    /// Sets the accelerations at the start of the cut from the balance of forces.
     fn set_accelerations(&mut self) {
         for &tire in &self.wake.awake {
             let free = self.f_start[tire] / self.scene.mass[tire] - Vector3::z() * self.scene.gravity;
@@ -86,14 +88,14 @@ impl Stepper<'_> {
         }
     }
 
-    /// Where the tires would be at the end without contact and with constant forces.
+    /// Sets the displacement over the cut, for constant forces and without contact.
     fn predict(&mut self, h: f64) {
         for &tire in &self.wake.awake {
             self.du[tire] = self.v[tire] * h + self.a[tire] * (0.5 * h * h);
         }
     }
 
-    /// Newton–Raphson for the present region, on from the displacement last found.
+    /// Solves equilibrium by Newton–Raphson for the assumed contact region, from the last displacement on.
     fn solve(&mut self, h: f64, enough: f64) -> Result<(), Failure> {
         for &tire in &self.wake.awake {
             match self.region.ground[tire] {
@@ -117,25 +119,24 @@ impl Stepper<'_> {
                 way = way.max(self.du[tire].amax());
             }
             if !(correction + way).is_finite() {
-                return Err(Failure::Diverged { at: self.now() });
+                return Err(Failure::Diverged { at: self.clock.now() });
             }
             if correction <= enough * way {
                 self.set_residual(h);
                 return Ok(());
             }
         }
-        Err(Failure::Unsettled { what: "Newton iteration", at: self.now() })
+        Err(Failure::Unsettled { what: Iteration::Newton, at: self.clock.now() })
     }
 
-    /// Residual of equilibrium at the end of the step, and the forces there.
+    /// Sets the cable forces and the residual of equilibrium at the end of the cut.
     fn set_residual(&mut self, h: f64) {
         for &tire in &self.wake.awake {
             self.end[tire] = self.u[tire] + self.du[tire];
         }
         let taut = &self.region.taut;
-        let law = |n: usize, cable: &Cable, length: f64| {
-            if taut[n] { cable.stiffness * (length - cable.rest_length) } else { 0.0 }
-        };
+        let law =
+            |n: usize, cable: &Cable, length: f64| if taut[n] { cable.stretch_force(length) } else { 0.0 };
         cable_forces(&self.scene, &self.wake, &self.end, law, &mut self.f);
         for &tire in &self.wake.awake {
             let mass = self.scene.mass[tire];
@@ -149,7 +150,8 @@ impl Stepper<'_> {
     }
 }
 
-/// Sums over the cables the force that `law` gives for their number and length, into the forces on the awake tires [N].
+/// Sets `forces` on the awake tires [N] to the sum over their cables; `law` gives the force of a cable [N] from its index and
+/// length [m].
 fn cable_forces(
     scene: &Scene,
     wake: &Wake<'_>,
@@ -168,10 +170,10 @@ fn cable_forces(
         if force == 0.0 {
             continue;
         }
-        let pull = span * (force / length);
+        let on_first_tire = span * (force / length);
         for (end, sign) in cable.ends.into_iter().zip([1.0, -1.0]) {
             if wake.is_awake(end) {
-                forces[end] += pull * sign;
+                forces[end] += on_first_tire * sign;
             }
         }
     }

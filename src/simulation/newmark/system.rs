@@ -1,9 +1,9 @@
 //! The linear system of a Newton iteration, (K + 4M/h²) δ = r, and its solution by conjugate gradients.
 //!
-//! It has a row for every tire that can move and a link for every taut cable at such a tire. K is never assembled: a link of
-//! length L contributes k [(1 − L₀/L) I + (L₀/L) d dᵀ] between its ends, d being its direction. The matrix is symmetric,
-//! positive definite and at useful steps dominated by 4M/h², so a few iterations preconditioned with its 3×3 diagonal blocks
-//! do.
+//! The system has one row for each tire that can move and one link for each taut cable at such a tire. K is never assembled:
+//! a link of length L and direction d contributes k [(1 − L₀/L) I + (L₀/L) d dᵀ] between its ends. The matrix is symmetric,
+//! positive definite and, at useful steps, dominated by 4M/h². A few iterations are therefore enough, preconditioned with the
+//! 3×3 diagonal blocks.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -11,16 +11,16 @@ use super::region::{Ground, Region};
 use crate::scene::{Cable, Scene};
 use crate::simulation::wake::Wake;
 
-/// The row that stands for every tire that is held; it stays at rest.
+/// Row that stands for every tire that cannot move; its displacement stays 0.
 const HELD: u32 = 0;
 
-/// Rows and links of one linear solve; their memory is kept between solves.
+/// Rows and links of one linear solve; the memory is kept between solves.
 #[derive(Clone, Debug)]
 pub struct System {
-    /// The first stands for every tire that is held.
+    /// Rows; the first is [`HELD`].
     rows: Vec<Row>,
     links: Vec<Link>,
-    /// By tire, its row; [`HELD`] between one assembly and the next (`n_tires`).
+    /// Row of each tire during assembly; [`HELD`] at other times (`n_tires`).
     row: Vec<u32>,
 }
 
@@ -30,21 +30,23 @@ struct Row {
     tire: usize,
     /// 4m/h² [N/m].
     inertia: f64,
-    /// Whether its height is solved for, not prescribed by the ground.
+    /// Whether the height is solved for; the ground prescribes it otherwise.
     rises: bool,
-    /// The diagonal block, inverted [m/N].
+    /// Inverse of the diagonal block [m/N].
     preconditioner: Matrix3<f64>,
-    /// What δ leaves of the right side [N], and preconditioned [m].
+    /// Residual: right side less the matrix times δ [N].
     residual: Vector3<f64>,
+    /// Preconditioned residual [m].
     scaled: Vector3<f64>,
-    /// Where the present iteration goes, and the matrix times that.
+    /// Search direction of the present iteration [m].
     direction: Vector3<f64>,
+    /// Matrix times the search direction [N].
     image: Vector3<f64>,
     /// δ [m].
     correction: Vector3<f64>,
 }
 
-/// A taut cable.
+/// A taut cable between two rows.
 #[derive(Clone, Copy, Debug)]
 struct Link {
     rows: [usize; 2],
@@ -52,11 +54,11 @@ struct Link {
     tangent: Matrix3<f64>,
 }
 
-/// Relative residual at which conjugate gradients stop; Newton's own iterations remove what is left.
+/// Relative residual at which conjugate gradients stop; the next Newton iterations remove the rest.
 const TOLERANCE: f64 = 1e-4;
 
 impl System {
-    /// With room for every tire and cable of `scene`.
+    /// Empty system with room for every tire and cable of `scene`.
     pub fn new(scene: &Scene) -> Self {
         Self {
             rows: Vec::with_capacity(scene.mass.len() + 1),
@@ -65,8 +67,8 @@ impl System {
         }
     }
 
-    /// Sets K at displacements `u` [m] for the contact `region`, 4M/h² for the step `h` [s], and the right side [N]
-    /// (both `n_tires`).
+    /// Sets K for the displacements `u` [m] and the contact `region`, 4M/h² for the step `h` [s], and the right side r, `right`
+    /// [N] (`u` and `right`: `n_tires`).
     pub fn assemble(
         &mut self,
         scene: &Scene,
@@ -103,7 +105,7 @@ impl System {
         }
     }
 
-    /// Solves for the correction; false when it does not converge within a bound.
+    /// Solves for δ; returns whether the iteration converges within its bound.
     pub fn solve(&mut self) -> bool {
         for row in &mut self.rows[1..] {
             row.scaled = row.preconditioner * row.residual;
@@ -134,24 +136,25 @@ impl System {
         false
     }
 
-    /// Tires that can move and their part of the solution [m].
+    /// Tires that can move, with their part of δ [m].
     pub fn corrections(&self) -> impl Iterator<Item = (usize, Vector3<f64>)> {
         self.rows[1..].iter().map(|row| (row.tire, row.correction))
     }
 
+    /// Sum of a quantity over the rows of tires that can move.
     fn sum(&self, of: impl Fn(&Row) -> f64) -> f64 {
         self.rows[1..].iter().map(of).sum()
     }
 
-    /// image = (K + 4M/h²) direction.
+    /// Sets image = (K + 4M/h²) direction.
     fn multiply(&mut self) {
         for row in &mut self.rows {
             row.image = row.direction * row.inertia;
         }
         for Link { rows: [a, b], tangent } in &self.links {
-            let pull = tangent * (self.rows[*b].direction - self.rows[*a].direction);
-            self.rows[*a].image -= pull;
-            self.rows[*b].image += pull;
+            let force = tangent * (self.rows[*b].direction - self.rows[*a].direction);
+            self.rows[*a].image -= force;
+            self.rows[*b].image += force;
         }
         for row in self.rows.iter_mut().filter(|row| !row.rises) {
             row.image.z = 0.0;
@@ -160,7 +163,7 @@ impl System {
 }
 
 impl Row {
-    /// Makes the diagonal block the preconditioner.
+    /// Inverts the diagonal block, which is then the preconditioner.
     fn invert_block(&mut self) {
         let block = &mut self.preconditioner;
         if !self.rises {

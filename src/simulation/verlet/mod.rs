@@ -1,16 +1,17 @@
-//! Explicit central differences with contact in closed form.
+//! Explicit method: central differences with contact in closed form.
 //!
-//! Velocities live at mid-step. A step of length h at time tₙ:
+//! Velocities are those at mid-step. One step of length h from time tₙ:
 //!
 //! 1. forces: f = Σ N over the taut cables at uₙ;
 //! 2. kick: v* = v + h (f/m − g), then on the ground p = −m v*₃ ≥ 0 and friction up to μp ([`super::contact`]);
 //! 3. drift: uₙ₊₁ = uₙ + h v.
 //!
-//! A tire that lands or is fired at inside the step is carried through it phase by phase instead
-//! ([`Flight::through`](super::contact::Flight::through)), so both happen at their own time. A cable that becomes taut or
-//! slack inside the step pulls as if it did so halfway ([`Slices::evaluate`](super::tension::Slices::evaluate)). The method
-//! is of second order, symplectic between events, and stable for h < 2/ω; ω² ≤ max (2/m) Σ k
-//! ([`Scene::frequency_bound`](crate::scene::Scene::frequency_bound)). It ignores damping in the cables.
+//! A tire that lands or is fired at within the step is integrated phase by phase instead
+//! ([`TireStep::integrate`](super::contact::TireStep::integrate)), so that landing and launch have their own time. A cable
+//! that becomes taut or slack within the step gets a force that gives the right amplitude
+//! ([`Slices::evaluate`](super::tension::Slices::evaluate)). The method is of second order, symplectic between events, and
+//! stable for h < 2/ω with ω² ≤ max (2/m) Σ k ([`Scene::frequency_bound`](crate::scene::Scene::frequency_bound)). Cables
+//! have no damping.
 
 mod stepper;
 
@@ -26,36 +27,36 @@ use crate::choice::Method;
 use crate::outcome::Outcome;
 use crate::scene::{Mirror, Scene, Shot};
 
-/// A scene made ready for many runs: the whole, and what each choice of its mirror planes leaves of it.
+/// Parts of one scene, each made at its first use and kept for later runs.
 #[derive(Debug, Default)]
-pub struct Model {
-    /// By the planes taken out, as a binary number.
+pub struct VerletCache {
+    /// Part for each set of mirror planes; the index is a binary number with one digit for each plane.
     parts: [OnceLock<Part>; 4],
 }
 
-/// What is integrated, laid out for the stepping loop; the same for every run.
+/// Tires and cables that are integrated, laid out for the stepping loop; the same for every run.
 #[derive(Debug)]
 pub struct Part {
     quotient: Quotient,
     blocks: Blocks,
     ties: Ties,
-    /// Mass × how many tires of the whole scene each stands for [kg] (`n_tires` + [`LANES`]).
+    /// Mass of each tire × number of tires of the whole scene that the tire stands for [kg] (`n_tires` + [`LANES`]).
     mass: Vec<f64>,
-    /// One over the mass, 0 for images [1/kg] (`n_tires` + [`LANES`]).
+    /// One over the mass of each tire; 0 for an image [1/kg] (`n_tires` + [`LANES`]).
     inverse: Vec<f64>,
     /// Longest stable step [s].
     critical_step: f64,
 }
 
-impl Model {
-    /// The part of the scene that stands for the whole in a shot; made at its first use.
+impl VerletCache {
+    /// Part of the scene that stands for the whole scene in `shot`.
     fn part(&self, scene: &Scene, shot: &Shot) -> &Part {
         let planes = shared_planes(scene, shot);
         let number = planes.iter().map(|plane| 1 << plane.axis).sum::<usize>();
         self.parts[number].get_or_init(|| Part::new(scene, &planes))
     }
 
-    /// Runs one shot of the scene this model is for; see [`super::simulate`].
+    /// Runs one shot of the scene of this cache; see [`super::Model::run`].
     pub fn run(
         &self,
         scene: &Scene,
@@ -71,13 +72,14 @@ impl Model {
         Stepper::new(part, scene, shot, settings).run(watch)
     }
 
-    /// How many tires are integrated for a shot: fewer than the scene has where both are their own mirror image.
+    /// Number of tires that are integrated for a shot: a half or a quarter of the scene's where scene and shot are their own
+    /// mirror image.
     pub fn modelled_tires(&self, scene: &Scene, shot: &Shot) -> usize {
         self.part(scene, shot).quotient.modelled()
     }
 }
 
-/// The scene's mirror planes in which the shot is its own image.
+/// Mirror planes of the scene in which the shot is its own image.
 fn shared_planes<'s>(scene: &'s Scene, shot: &Shot) -> Vec<&'s Mirror> {
     scene.mirrors.iter().filter(|mirror| shot.is_mirrored(&mirror.image)).collect()
 }
@@ -85,16 +87,16 @@ fn shared_planes<'s>(scene: &'s Scene, shot: &Shot) -> Vec<&'s Mirror> {
 impl Part {
     fn new(scene: &Scene, planes: &[&Mirror]) -> Self {
         let (quotient, part) = Quotient::new(scene, planes);
-        let weighed = || part.mass.iter().zip(&quotient.weight);
+        let weighted = || part.mass.iter().zip(&quotient.weight);
         let spare = || std::iter::repeat_n(1.0, LANES);
-        // An image is never kicked by the part of its cables that is modelled.
+        // Images are not kicked, because only some of their cables are modelled.
         let inverse = |(mass, &weight): (&f64, &f64)| if weight > 0.0 { 1.0 / mass } else { 0.0 };
         let blocks = Blocks::new(&part, &quotient.cable_weight);
         Self {
             ties: Ties::of_blocks(&blocks, part.mass.len()),
             blocks,
-            mass: weighed().map(|(mass, weight)| mass * weight).chain(spare()).collect(),
-            inverse: weighed().map(inverse).chain(spare()).collect(),
+            mass: weighted().map(|(mass, weight)| mass * weight).chain(spare()).collect(),
+            inverse: weighted().map(inverse).chain(spare()).collect(),
             critical_step: scene.critical_step(),
             quotient,
         }
@@ -109,16 +111,16 @@ mod tests {
     use crate::simulation::wake::tests::{exact, scenes};
 
     #[test]
-    fn what_sleeps_would_not_have_moved() {
+    fn tires_asleep_would_not_have_moved() {
         let (scene, shots) = scenes();
         let mut part = Part::new(&scene, &[]);
         part.ties = part.ties.with_everything();
-        let (some, mut all) = (Model::default(), Model::default());
+        let (some, mut all) = (VerletCache::default(), VerletCache::default());
         all.parts[0] = part.into();
         for shot in shots {
             let settings = Settings { method: Method::Verlet, step: 2e-3, duration: None };
-            let [some, all] = [&some, &all].map(|model| {
-                model.run(&scene, &shot, &settings, &mut |_| ControlFlow::Continue(())).expect("a run")
+            let [some, all] = [&some, &all].map(|cache| {
+                cache.run(&scene, &shot, &settings, &mut |_| ControlFlow::Continue(())).expect("a run")
             });
             assert_eq!(exact(&some), exact(&all));
         }

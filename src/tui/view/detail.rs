@@ -13,7 +13,7 @@ use ratatui::text::Line;
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::chart;
-use crate::outcome::End;
+use crate::outcome::EndReason;
 use crate::report::check::{broken, explain, peak};
 use crate::scene::fire_at_s;
 use crate::study::check::Checked;
@@ -69,11 +69,11 @@ fn facts<'a>(app: &App, checked: &Checked) -> Vec<Line<'a>> {
         checked.runs,
         units::milliseconds(checked.total_wall.as_secs_f64()),
         checked.energy_residual,
-        match checked.ended {
-            End::AtRest => "at rest after",
-            End::TimeLimit => "followed for",
+        match checked.end.reason {
+            EndReason::AtRest => "at rest after",
+            EndReason::TimeLimit => "followed for",
         },
-        units::seconds(checked.end),
+        units::seconds(checked.end.at),
     );
     let mut lines = vec![Line::from(peak), Line::styled(how, app.theme.quiet())];
     for reason in &checked.reasons {

@@ -93,7 +93,7 @@ fn ten_hours_between_two_firings_are_two_runs() {
         close(out.height.at, pause + alone.height.at, 1e-9, "time of the top");
         close(out.force.value, alone.force.value, 1e-9 * alone.force.value, "force");
         close(out.drift.value, alone.drift.value.max(weaker.drift.value), 1e-9, "drift");
-        close(out.drift.at, pause + alone.drift.at, 1e-6, "end");
+        close(out.end.at, pause + alone.end.at, 1e-6, "end");
         assert_eq!(out.steps, alone.steps + weaker.steps, "{method:?}: the pause takes no step");
         let energies = alone.ledger.dissipated + weaker.ledger.dissipated;
         close(out.ledger.dissipated, energies, 1e-9 * energies, "dissipated");

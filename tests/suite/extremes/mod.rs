@@ -13,9 +13,9 @@ use std::ops::ControlFlow;
 
 use nalgebra::Vector3;
 use shelter::choice::Method;
-use shelter::outcome::{End, Outcome};
+use shelter::outcome::{EndReason, Outcome};
 use shelter::scene::{Firing, Scene, Shot};
-use shelter::simulation::{Failure, simulate};
+use shelter::simulation::{Failure, Model};
 
 use crate::scenes::{GRAVITY, METHODS, close, fire, grid, quincunx, run, settings, tie, tires, try_run};
 
@@ -61,7 +61,7 @@ fn stable(case: &str, scene: &Scene, shot: &Shot, method: Method, h: f64, steps:
     let (mut speed, mut highest, mut lowest) = (0.0_f64, 0.0_f64, 0.0_f64);
     let (mut outside, mut finite) = (0.0_f64, true);
     let until = settings(method, h, Some(first + steps as f64 * h));
-    let outcome = simulate(scene, shot, &until, &mut |motion| {
+    let outcome = Model::new(scene.clone()).run(shot, &until, &mut |motion| {
         for (tire, before) in before.iter_mut().enumerate() {
             let place = motion.displacement(tire);
             finite &= place.iter().all(|part| part.is_finite());
@@ -86,7 +86,7 @@ fn stable(case: &str, scene: &Scene, shot: &Shot, method: Method, h: f64, steps:
     assert!(outside <= 0.0, "{case}: leaves the cone by {outside:e} N");
     let bound = ledger_bound(scene, shot, h, out.steps);
     assert!(ledger.residual() <= bound, "{case}: residual {:e}, not {bound:e}", ledger.residual());
-    if out.end == End::AtRest {
+    if out.end.reason == EndReason::AtRest {
         // The last step is balanced here: what did not stay in cables is dissipated.
         let stored: f64 = scene
             .cables
@@ -193,7 +193,7 @@ fn friction_from_0_to_1e6_is_stable() {
         let outcomes = stable_both(&format!("mu {friction:e}"), &scene, &fire(&[4], LAUNCH), LAUNCH);
         if friction >= 1e3 {
             // Nothing slides: corners never move before they are lifted, the centre stops where it lands.
-            outcomes.iter().for_each(|out| assert_eq!(out.end, End::AtRest));
+            outcomes.iter().for_each(|out| assert_eq!(out.end.reason, EndReason::AtRest));
             close(outcomes[0].height.value, outcomes[1].height.value, 1e-3, "height by both methods");
         }
     }
@@ -207,7 +207,7 @@ fn launches_from_0_to_1e3_m_s_are_stable() {
     for method in METHODS {
         let out = stable("no launch", &cross(), &fire(&[4], 0.0), method, 1e-4, 100);
         assert_eq!((out.height.value, out.force.value, out.drift.value), (0.0, 0.0, 0.0));
-        assert_eq!((out.ledger.put_in, out.ledger.dissipated, out.end), (0.0, 0.0, End::AtRest));
+        assert_eq!((out.ledger.put_in, out.ledger.dissipated, out.end.reason), (0.0, 0.0, EndReason::AtRest));
     }
 }
 
@@ -219,7 +219,7 @@ fn a_downward_launch_moves_nothing_and_is_dissipated() {
             let mut scene = cross();
             scene.gravity = gravity;
             let out = stable("downward", &scene, &fire(&[4], -LAUNCH), method, 1e-4, 1_000);
-            assert_eq!((out.height.value, out.drift.value, out.end), (0.0, 0.0, End::AtRest));
+            assert_eq!((out.height.value, out.drift.value, out.end.reason), (0.0, 0.0, EndReason::AtRest));
             let energy = 0.5 * 280.0 * LAUNCH * LAUNCH;
             close(out.ledger.put_in, energy, 1e-9, "put in");
             close(out.ledger.dissipated, energy, 1e-9, "dissipated");
@@ -230,7 +230,7 @@ fn a_downward_launch_moves_nothing_and_is_dissipated() {
             Firing { at: 0.05, tire: 4, launch: -2.0 * LAUNCH },
         ]);
         let out = stable("up and down", &cross(), &shot, method, 1e-4, 20_000);
-        assert_eq!(out.end, End::AtRest);
+        assert_eq!(out.end.reason, EndReason::AtRest);
         assert!(out.height.value < 0.3, "{}", out.height.value);
     }
 }
@@ -341,7 +341,7 @@ fn a_flight_shorter_than_the_step_reaches_its_height() {
             let out = stable("short flight", &scene, &fire(&[0], LAUNCH), method, h, 100);
             close(out.height.value, top.0, 1e-9, "height");
             close(out.height.at, top.1, 1e-9, "time of the top");
-            assert_eq!(out.end, End::AtRest);
+            assert_eq!(out.end.reason, EndReason::AtRest);
         }
         // Fired within the step, where an earlier tire is still in the air.
         let shot = Shot::from_firings(vec![
@@ -351,7 +351,7 @@ fn a_flight_shorter_than_the_step_reaches_its_height() {
         let two = tires(&[(0.0, 0.0), (5.0, 0.0)], 280.0);
         let out = stable("short flights", &two, &shot, method, 2.0, 100);
         close(out.height.value, top.0, 1e-9, "height");
-        assert_eq!(out.height.place, 1);
+        assert_eq!(out.height.index, 1);
         close(
             out.height.at,
             0.25 + top.1,

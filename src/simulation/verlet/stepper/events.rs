@@ -1,21 +1,22 @@
-//! What happens to single tires within a step: they are higher than any before, land, or are fired at.
+//! Events of single tires within a step: a new greatest height, a landing, a launch.
 
 use std::ops::Range;
 
 use nalgebra::Vector3;
 use pulp::{Scalar, Simd};
 
-use super::{Due, Part, Pass};
+use super::{DueFiring, Part, StepTotals};
 use crate::outcome::Peak;
-use crate::simulation::contact::Flight;
+use crate::simulation::contact::TireStep;
 use crate::simulation::kick::Tires;
 use crate::simulation::pack::{LANES, Pack, Wide};
 use crate::simulation::record::Record;
-use crate::simulation::tension::Pulls;
+use crate::simulation::tension::CableForces;
 
-/// A tire that was carried through the step by itself.
+/// Result of a tire that was integrated through the step by itself.
 #[derive(Clone, Copy, Debug)]
-pub struct Carried {
+pub struct Integrated {
+    /// Index of the tire in the part.
     pub tire: usize,
     /// Displacement at the end of the step [m].
     pub displacement: Vector3<f64>,
@@ -23,56 +24,61 @@ pub struct Carried {
     pub velocity: Vector3<f64>,
 }
 
-/// The tires before the step, in slices of one length so that one check of bounds serves them all (`n_tires` + [`LANES`]).
+/// Tires before the step, as slices of one length so that one check of bounds serves them all (`n_tires` + [`LANES`]).
 #[derive(Clone, Copy)]
 pub struct State<'s> {
     /// Displacement [m].
     u: [&'s [f64]; 3],
     /// Velocity at mid-step [m/s].
     v: [&'s [f64]; 3],
-    pulls: Pulls<'s>,
-    /// Masses [kg], and one over them [1/kg].
+    /// Cable forces [N].
+    forces: CableForces<'s>,
+    /// Masses [kg], and one over the masses [1/kg].
     masses: [&'s [f64]; 2],
 }
 
 impl<'s> State<'s> {
-    /// Of arrays that the step will write.
+    /// State from arrays that the step will write later.
     #[inline(always)]
     pub fn new(
         [x, y, z]: &'s [&mut [f64]; 3],
         [dx, dy, dz]: &'s [&mut [f64]; 3],
-        pulls: Pulls<'s>,
+        forces: CableForces<'s>,
         masses: [&'s [f64]; 2],
     ) -> Self {
-        Self { u: [x, y, z], v: [dx, dy, dz], pulls, masses }
+        Self { u: [x, y, z], v: [dx, dy, dz], forces, masses }
     }
 }
 
-/// Where things that happen to single tires are noted.
+/// The step as the events see it, and the places that hold their results.
 pub struct Events<'e> {
     /// Start of the step [s].
     pub now: f64,
-    /// Its length [s].
+    /// Step [s].
     pub step: f64,
     /// Coefficient of friction.
     pub friction: f64,
-    /// [m/s²].
+    /// Gravity [m/s²].
     pub gravity: f64,
+    /// Tires and cables that are modelled.
     pub part: &'e Part,
+    /// Record of the run.
     pub record: &'e mut Record,
-    pub pass: &'e mut Pass,
-    pub carried: &'e mut Vec<Carried>,
+    /// Energies and greatest values of the step.
+    pub totals: &'e mut StepTotals,
+    /// Tires of the present register that were integrated by themselves.
+    pub integrated: &'e mut Vec<Integrated>,
 }
 
 impl Events<'_> {
-    /// The tires in a register, from `at` on.
+    /// Tires of the register that begins at tire `at`.
     #[inline(always)]
     pub fn tires<S: Simd>(&self, simd: S, state: State<'_>, at: usize) -> Tires<S> {
-        let State { u, v, pulls, masses: [mass, inverse] } = state;
+        let State { u, v, forces, masses: [mass, inverse] } = state;
         Tires {
             u: [0, 1, 2].map(|c| Wide::load(simd, u[c], at)),
             v: [0, 1, 2].map(|c| Wide::load(simd, v[c], at)),
-            f: pulls.at(simd, self.part.blocks.ends.of(at / LANES), at % LANES),
+            f: forces.sum_at(simd, self.part.blocks.ends.of(at / LANES), at % LANES),
             mass: Wide::load(simd, mass, at),
             inverse: Wide::load(simd, inverse, at),
             step: Wide::splat(simd, self.step),
@@ -81,19 +87,27 @@ impl Events<'_> {
         }
     }
 
-    /// Some of the tires in a register are higher than any before, will land (be below the ground, `ahead` [m]) or are `fired`
-    /// at; whether any lands or is fired at.
+    /// Notes new greatest heights in the register of `tires`, and integrates each tire that lands or is fired at by itself.
+    /// Returns whether any tire was integrated.
     ///
-    /// Evaluates them again, one by one: what it took from registers would have to be kept in memory at every step.
+    /// `ahead` is the height of each tire at the end of the step [m]; a tire with a negative height lands. `firings` are those
+    /// of this register. Kick and forces of these few tires are computed a second time: to keep the values of the registers
+    /// would cost memory accesses at every step.
     #[cold]
     #[inline(never)]
-    pub fn happen(&mut self, state: State<'_>, tires: Range<usize>, ahead: Pack, mut fired: &[Due]) -> bool {
+    pub fn integrate_single_tires(
+        &mut self,
+        state: State<'_>,
+        tires: Range<usize>,
+        ahead: Pack,
+        mut firings: &[DueFiring],
+    ) -> bool {
         for (tire, ahead) in tires.zip(ahead) {
-            let (here, later) = fired.split_at(fired.partition_point(|due| due.tire <= tire));
-            fired = later;
-            let passes = ahead < 0.0 || !here.is_empty();
+            let (here, later) = firings.split_at(firings.partition_point(|due| due.tire <= tire));
+            firings = later;
+            let has_event = ahead < 0.0 || !here.is_empty();
             let is_image = self.part.inverse[tire] == 0.0;
-            if is_image || !passes && state.u[2][tire] <= self.record.height.value {
+            if is_image || !has_event && state.u[2][tire] <= self.record.height.value {
                 continue;
             }
             let alone = self.tires(Scalar::new(), state, tire);
@@ -104,46 +118,40 @@ impl Events<'_> {
             let velocity = 0.5 * (vector(alone.v) + vector(kicked.v));
             let free = vector(alone.f) * inverse - Vector3::z() * self.gravity;
             if displacement.z > self.record.height.value {
-                let place = self.part.quotient.tire(tire);
-                let sample = Peak { value: displacement.z, at: self.now, place };
-                self.record.higher(sample, velocity.z, free.z);
+                let index = self.part.quotient.tire(tire);
+                let sample = Peak { value: displacement.z, at: self.now, index };
+                self.record.note_height(sample, velocity.z, free.z);
             }
-            if !passes {
-                continue;
+            if has_event {
+                let step = TireStep::new(displacement, velocity, free, self.friction);
+                self.integrate(step, free, tire, here, number(kicked.dissipated));
             }
-            let flight = Flight {
-                displacement,
-                velocity,
-                free,
-                friction: self.friction,
-                lost: 0.0,
-                put_in: 0.0,
-                elapsed: 0.0,
-                top: (0.0, 0.0),
-            };
-            self.carry(flight, tire, here, number(kicked.dissipated));
         }
-        !self.carried.is_empty()
+        !self.integrated.is_empty()
     }
 
-    /// Carries a tire that lands or is `fired` at through the step; its kick has dissipated some energy [J] already.
-    fn carry(&mut self, mut flight: Flight, tire: usize, fired: &[Due], dissipated: f64) {
+    /// Integrates one tire through the step; `kick_dissipated` [J] is the energy that its kick has dissipated already.
+    fn integrate(
+        &mut self,
+        mut motion: TireStep,
+        free: Vector3<f64>,
+        tire: usize,
+        firings: &[DueFiring],
+        kick_dissipated: f64,
+    ) {
         let h = self.step;
-        let last = flight.through(h, fired.iter().map(|due| (due.after, due.launch)));
-        let velocity = flight.velocity - last * (0.5 * h);
-        // A flight within the step is seen by no sample.
-        let (height, until) = flight.top;
-        if height > self.record.height.value {
-            let place = self.part.quotient.tire(tire);
-            self.record.height = Peak { value: height, at: self.now + until, place };
-        }
-        self.pass.height[0] = self.pass.height[0].max(height);
-        self.pass.motion[0] = self.pass.motion[0].max(velocity.amax()).max(flight.displacement.z);
-        // The kicks before and after count half a step of friction each; here the whole step is counted at once.
-        let next_half = 0.5 * h * (flight.free - last).xy().dot(&flight.velocity.xy());
+        let last = motion.integrate(h, firings.iter().map(|due| (due.after, due.launch)));
+        let velocity = motion.velocity - last * (0.5 * h);
+        let (height, until) = motion.top;
+        let index = self.part.quotient.tire(tire);
+        self.record.note_top(Peak { value: height, at: self.now + until, index });
+        self.totals.height[0] = self.totals.height[0].max(height);
+        self.totals.motion[0] = self.totals.motion[0].max(velocity.amax()).max(motion.displacement.z);
+        // Friction of the whole step is counted here. The kicks before and after count half a step each, and are taken off.
+        let next_half = 0.5 * h * (free - last).xy().dot(&motion.velocity.xy());
         let mass = self.part.mass[tire];
-        self.pass.lost += mass * (flight.lost - next_half) - 0.5 * dissipated;
-        self.pass.put_in += mass * flight.put_in;
-        self.carried.push(Carried { tire, displacement: flight.displacement, velocity });
+        self.totals.lost += mass * (motion.lost - next_half) - 0.5 * kick_dissipated;
+        self.totals.put_in += mass * motion.put_in;
+        self.integrated.push(Integrated { tire, displacement: motion.displacement, velocity });
     }
 }

@@ -1,85 +1,100 @@
-//! One run: what changes from step to step, and the step itself.
+//! One run: the state that changes from step to step, and the step itself.
 
 mod advance;
 mod events;
-mod pull;
+mod forces;
 
 use nalgebra::Vector3;
 
-use self::advance::Advance;
-use self::events::Carried;
-use self::pull::Pull;
+use self::advance::MoveTires;
+use self::events::Integrated;
+use self::forces::EvaluateCables;
 use super::Part;
-use crate::outcome::{End, Outcome};
+use crate::outcome::{EndReason, Outcome};
 use crate::scene::{Firing, Scene, Shot};
-use crate::simulation::cable::Field;
+use crate::simulation::clock::Clock;
 use crate::simulation::contact::support;
-use crate::simulation::pack::{LANES, Pack};
-use crate::simulation::record::{Clock, Record};
+use crate::simulation::pack::{Field, LANES, Pack};
+use crate::simulation::record::Record;
 use crate::simulation::tension::Tension;
 use crate::simulation::wake::Wake;
-use crate::simulation::{Failure, Motion, Settings, Watcher, time_limit};
+use crate::simulation::{Failure, Motion, Settings, Watcher};
 
 /// A hole that fires within the present step.
 #[derive(Clone, Copy, Debug)]
-struct Due {
+struct DueFiring {
+    /// Index of the tire in the part.
     tire: usize,
-    /// After the start of the step [s].
+    /// Time since the start of the step [s].
     after: f64,
+    /// Launch velocity [m/s].
     launch: f64,
 }
 
-/// Where the greatest force was sampled.
+/// Cable in which the greatest force was sampled.
 #[derive(Clone, Copy, Debug)]
 struct Sample {
     block: usize,
-    place: usize,
-    /// k (L − L0) a step earlier [N].
+    slot: usize,
+    /// k (L − L0) of the cable one step earlier [N].
     before: f64,
 }
 
-/// Energies [J] and greatest values of one pass, in parts by lane.
+/// Energies [J] and greatest values of one step, most of them by lane.
 #[derive(Clone, Copy, Debug, Default)]
-struct Pass {
+struct StepTotals {
     energy: Pack,
+    /// Energy that friction dissipates in the kick, half before and half after the start of the step.
     dissipated: Pack,
-    /// Greatest height [m], force [N], and speed or height.
+    /// Greatest height [m].
     height: Pack,
+    /// Greatest cable force [N].
     force: Pack,
+    /// Greatest component of speed [m/s] or height [m].
     motion: Pack,
-    /// Dissipated through events, whole and not by halves.
+    /// Energy lost in events, over the whole step.
     lost: f64,
+    /// Energy that holes put in.
     put_in: f64,
 }
 
+/// State of one run.
 pub(super) struct Stepper<'a> {
     scene: &'a Scene,
     part: &'a Part,
+    /// Firings under kept tires, in order of time.
     firings: Vec<Firing>,
+    /// Step [s].
     step: f64,
     friction: f64,
+    /// Gravity [m/s²].
     gravity: f64,
-    /// Force at which a cable is gone [N].
+    /// Force above which a cable breaks [N]; infinite where cables never break.
     breaking_force: f64,
-    time_limit: f64,
     clock: Clock,
+    /// Whether any tire moved in the last step.
     moving: bool,
     record: Record,
-    /// The cable of the greatest force, if sampled in the step before.
+    /// Cable of the greatest force, if that force was sampled one step ago.
     sampled: Option<Sample>,
-    due: Vec<Due>,
-    /// Tires of one register that are carried through the step by themselves.
-    carried: Vec<Carried>,
+    /// Firings of the present step, in order of tires.
+    due: Vec<DueFiring>,
+    /// Tires of the present register that were integrated by themselves.
+    integrated: Vec<Integrated>,
     wake: Wake<'a>,
     tension: Tension<'a>,
+    /// Displacement [m] (`n_tires` + [`LANES`]).
     u: Field,
+    /// Velocity at mid-step [m/s] (`n_tires` + [`LANES`]).
     v: Field,
-    /// Elastic energy of each block when last evaluated, and its sum over those asleep [J].
+    /// Elastic energy of each block at its last evaluation [J] (`n_blocks`).
     stored: Vec<Pack>,
+    /// Elastic energy of all blocks asleep [J].
     asleep: Pack,
 }
 
 impl<'a> Stepper<'a> {
+    /// Run of `shot` under `scene`, before the first step.
     pub(super) fn new(part: &'a Part, scene: &'a Scene, shot: &Shot, settings: &Settings) -> Self {
         let tires = part.quotient.weight.len();
         let firings = part.quotient.firings(shot);
@@ -90,17 +105,16 @@ impl<'a> Stepper<'a> {
             friction: shot.friction.unwrap_or(scene.friction),
             gravity: scene.gravity,
             breaking_force: scene.breaking_force.unwrap_or(f64::INFINITY),
-            time_limit: time_limit(shot, settings),
-            clock: Clock::new(shot),
+            clock: Clock::new(shot, settings),
             moving: false,
             record: Record::new(settings.step),
             sampled: None,
             due: Vec::with_capacity(firings.len()),
             firings,
-            carried: Vec::with_capacity(LANES),
+            integrated: Vec::with_capacity(LANES),
             wake: Wake::new(&part.ties),
             tension: Tension::new(&part.blocks),
-            // A pack more, which the last cables may read.
+            // The last cables may read one pack beyond the last tire.
             u: Field::zeros(tires + LANES),
             v: Field::zeros(tires + LANES),
             stored: vec![[0.0; LANES]; part.blocks.blocks.len()],
@@ -108,41 +122,31 @@ impl<'a> Stepper<'a> {
         }
     }
 
+    /// Makes all steps; returns the outcome.
     pub(super) fn run(mut self, watch: &mut Watcher<'_>) -> Result<Outcome, Failure> {
         let arch = pulp::Arch::new();
         loop {
-            if self.now() > self.time_limit * (1.0 + 1e-12) {
-                return Ok(self.finish(End::TimeLimit));
+            if let Some(reason) = self.clock.end_reason(self.moving, &self.firings) {
+                return Ok(self.finish(reason));
             }
-            if !self.moving {
-                match self.firings.get(self.clock.fired) {
-                    Some(next) if next.at <= self.time_limit => self.clock.jump(next.at),
-                    Some(_) => return Ok(self.finish(End::TimeLimit)),
-                    None => return Ok(self.finish(End::AtRest)),
-                }
-            }
-            self.collect_due();
+            self.collect_due_firings();
             self.copy_images();
             if self.wake.refresh() {
                 self.move_stored_energy();
             }
-            let mut pass = arch.dispatch(Pull(&mut self));
+            let mut totals = arch.dispatch(EvaluateCables(&mut self));
             if watch(&Snapshot { stepper: &self }).is_break() {
-                return Err(Failure::Stopped { at: self.now() });
+                return Err(Failure::Stopped { at: self.clock.now() });
             }
-            arch.dispatch(Advance(&mut self, &mut pass));
-            self.book(&pass)?;
+            arch.dispatch(MoveTires(&mut self, &mut totals));
+            self.end_step(&totals)?;
         }
     }
 
-    fn now(&self) -> f64 {
-        self.clock.now(self.step)
-    }
-
-    /// Gathers the holes that fire before the step ends and wakes their tires.
-    fn collect_due(&mut self) {
+    /// Collects the holes that fire before the step ends, and wakes their tires.
+    fn collect_due_firings(&mut self) {
         self.due.clear();
-        let start = self.clock.since(self.step);
+        let start = self.clock.since_base();
         let end = start + self.step;
         while let Some(firing) = self.firings.get(self.clock.fired) {
             let at = firing.at - self.clock.base;
@@ -150,14 +154,14 @@ impl<'a> Stepper<'a> {
                 break;
             }
             let after = (at - start).clamp(0.0, self.step);
-            self.due.push(Due { tire: firing.tire, after, launch: firing.launch });
+            self.due.push(DueFiring { tire: firing.tire, after, launch: firing.launch });
             self.wake.set_moving(firing.tire / LANES, true);
             self.clock.fired += 1;
         }
         self.due.sort_by_key(|due| due.tire);
     }
 
-    /// Cables that fell asleep keep their energy, those that woke count it anew.
+    /// Adds the energy of blocks that fell asleep to the energy asleep, and takes off the energy of blocks that woke.
     fn move_stored_energy(&mut self) {
         for &block in &self.wake.fell_asleep {
             (0..LANES).for_each(|j| self.asleep[j] += self.stored[block][j]);
@@ -167,54 +171,47 @@ impl<'a> Stepper<'a> {
         }
     }
 
-    /// Closes the books for the step and ticks the clock.
-    fn book(&mut self, pass: &Pass) -> Result<(), Failure> {
+    /// Writes the step to ledger and history, and ticks the clock.
+    fn end_step(&mut self, totals: &StepTotals) -> Result<(), Failure> {
         let greatest = |of: &Pack| of.iter().copied().fold(0.0, f64::max);
-        let (energy, dissipated) = (pass.energy.iter().sum::<f64>(), pass.dissipated.iter().sum::<f64>());
+        let (energy, dissipated) = (totals.energy.iter().sum::<f64>(), totals.dissipated.iter().sum::<f64>());
+        let now = self.clock.now();
         if !(energy + dissipated).is_finite() {
-            return Err(Failure::Diverged { at: self.now() });
+            return Err(Failure::Diverged { at: now });
         }
-        self.record.balance(energy, 0.5 * dissipated);
-        self.record.ledger.dissipated += dissipated + pass.lost;
-        self.record.ledger.put_in += pass.put_in;
-        self.record.history.note(self.now(), greatest(&pass.height), greatest(&pass.force));
-        self.moving = greatest(&pass.motion) > 0.0;
+        self.record.balance_energy(energy, 0.5 * dissipated);
+        self.record.ledger.dissipated += dissipated + totals.lost;
+        self.record.ledger.put_in += totals.put_in;
+        self.record.history.note(now, greatest(&totals.height), greatest(&totals.force));
+        self.moving = greatest(&totals.motion) > 0.0;
         self.clock.tick();
         Ok(())
     }
 
-    fn finish(self, end: End) -> Outcome {
-        // The last step reaches past the limit.
-        let (now, past) = (self.now(), (self.now() - self.time_limit).max(0.0));
+    /// Outcome at the end of the run, which the last step may reach past.
+    fn finish(self, reason: EndReason) -> Outcome {
+        let past = self.clock.overshoot();
         let Self { part, u, v, record, clock, .. } = self;
-        let vector = |of: &Field, tire: usize| Vector3::from_fn(|c, _| of.part[c][tire]);
-        // Images are as they were a step ago.
+        // Images have the state of the step before, and are left out.
         let kept = part.quotient.weight.iter().enumerate().filter(|&(_, &weight)| weight > 0.0);
-        let tires =
-            kept.map(|(tire, _)| (part.quotient.tire(tire), vector(&u, tire) - vector(&v, tire) * past));
-        record.finish(tires, (now - past, clock.steps), end)
+        let tires = kept.map(|(tire, _)| (part.quotient.tire(tire), u.vector(tire) - v.vector(tire) * past));
+        record.finish(tires, &clock, reason)
     }
 }
 
-/// The shelter between forces and kick.
+/// The shelter between evaluation of the cables and kick.
 struct Snapshot<'s, 'a> {
     stepper: &'s Stepper<'a>,
 }
 
-impl Snapshot<'_, '_> {
-    fn vector(&self, of: &Field, tire: usize) -> Vector3<f64> {
-        Vector3::from_fn(|c, _| of.part[c][tire])
-    }
-}
-
 impl Motion for Snapshot<'_, '_> {
     fn time(&self) -> f64 {
-        self.stepper.now()
+        self.stepper.clock.now()
     }
 
     fn displacement(&self, tire: usize) -> Vector3<f64> {
-        let (found, [x, y]) = self.stepper.part.quotient.find(tire);
-        self.vector(&self.stepper.u, found).component_mul(&Vector3::new(x, y, 1.0))
+        let (kept, [x, y]) = self.stepper.part.quotient.kept(tire);
+        self.stepper.u.vector(kept).component_mul(&Vector3::new(x, y, 1.0))
     }
 
     fn force(&self, cable: usize) -> f64 {
@@ -231,13 +228,13 @@ impl Motion for Snapshot<'_, '_> {
             return (0.0, 0.0);
         }
         let Stepper { part, tension, step, .. } = self.stepper;
-        let (tire, _) = part.quotient.find(tire);
+        let (tire, _) = part.quotient.kept(tire);
         let ends = part.blocks.ends.of(tire / LANES);
-        let pulls = tension.pulls().at(pulp::Scalar::new(), ends, tire % LANES);
-        let pull = Vector3::from(pulls.map(|pull| pull.pack()[0]));
+        let forces = tension.forces().sum_at(pulp::Scalar::new(), ends, tire % LANES);
+        let force = Vector3::from(forces.map(|force| force.pack()[0]));
         let (inverse, impulse_to_force) = (part.inverse[tire], 1.0 / (part.inverse[tire] * step));
-        let acceleration = pull * inverse - Vector3::z() * self.stepper.gravity;
-        let free = self.vector(&self.stepper.v, tire) + acceleration * *step;
+        let acceleration = force * inverse - Vector3::z() * self.stepper.gravity;
+        let free = self.stepper.v.vector(tire) + acceleration * *step;
         let (after, normal) = support(free, self.stepper.friction);
         ((free - after).xy().norm() * impulse_to_force, self.stepper.friction * normal * impulse_to_force)
     }

@@ -1,0 +1,77 @@
+//! Time of one run: the present step, the next firing, and the decision when the run ends.
+
+use super::Settings;
+use crate::outcome::{EndReason, RunEnd};
+use crate::scene::{Firing, Shot};
+
+/// Simulated time after the last firing at which a shelter that never settles is given up [s].
+const SETTLING_LIMIT: f64 = 60.0;
+/// Relative rounding of the time of a step: a step that is later than the limit by less is still made.
+const ROUNDING: f64 = 1e-12;
+
+/// Clock of one run. Time is a number of steps from the last rest, so that no rounding adds up.
+#[derive(Clone, Copy, Debug)]
+pub struct Clock {
+    /// Time of step 0 [s].
+    pub base: f64,
+    /// Steps since `base`.
+    n: usize,
+    /// Steps of the whole run.
+    pub steps: usize,
+    /// Number of firings already done.
+    pub fired: usize,
+    /// Step [s].
+    step: f64,
+    /// Latest end of the run [s].
+    limit: f64,
+}
+
+impl Clock {
+    /// Clock at the first firing of `shot`; before that time the shelter is at rest.
+    pub fn new(shot: &Shot, settings: &Settings) -> Self {
+        let [first, last] =
+            [shot.firings.first(), shot.firings.last()].map(|firing| firing.map_or(0.0, |firing| firing.at));
+        let limit = settings.duration.unwrap_or(last + SETTLING_LIMIT);
+        Self { base: first, n: 0, steps: 0, fired: 0, step: settings.step, limit }
+    }
+
+    /// Time since `base` [s].
+    pub fn since_base(&self) -> f64 {
+        self.n as f64 * self.step
+    }
+
+    /// Present time [s].
+    pub fn now(&self) -> f64 {
+        self.base + self.since_base()
+    }
+
+    /// Counts one step.
+    pub fn tick(&mut self) {
+        self.n += 1;
+        self.steps += 1;
+    }
+
+    /// Reason why the run ends now, if it ends; otherwise a step follows.
+    ///
+    /// A shelter at rest goes straight on to the next firing. Rest counts even when the last step reached past the limit.
+    pub fn end_reason(&mut self, moving: bool, firings: &[Firing]) -> Option<EndReason> {
+        if !moving {
+            match firings.get(self.fired) {
+                None => return Some(EndReason::AtRest),
+                Some(next) if next.at <= self.limit => (self.base, self.n) = (next.at, 0),
+                Some(_) => return Some(EndReason::TimeLimit),
+            }
+        }
+        (self.now() > self.limit * (1.0 + ROUNDING)).then_some(EndReason::TimeLimit)
+    }
+
+    /// Time by which the last step reaches past the limit [s].
+    pub fn overshoot(&self) -> f64 {
+        (self.now() - self.limit).max(0.0)
+    }
+
+    /// End of the run for `reason`, at the limit at the latest.
+    pub fn end(&self, reason: EndReason) -> RunEnd {
+        RunEnd { at: self.now() - self.overshoot(), reason }
+    }
+}

@@ -1,0 +1,113 @@
+//! First pass of a step: cable forces, the greatest force, cables that break.
+
+use pulp::Simd;
+use rustc_hash::FxHashSet;
+
+use super::{Sample, StepTotals, Stepper};
+use crate::outcome::{Broken, Peak};
+use crate::simulation::pack::{LANES, Wide};
+
+/// First pass; compiled for each instruction set and chosen at run time.
+pub(super) struct EvaluateCables<'s, 'a>(pub &'s mut Stepper<'a>);
+
+impl pulp::WithSimd for EvaluateCables<'_, '_> {
+    type Output = StepTotals;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> StepTotals {
+        self.0.evaluate_cables(simd)
+    }
+}
+
+impl Stepper<'_> {
+    /// Evaluates the cables of all blocks that are awake; returns their energy and greatest force.
+    #[inline(always)]
+    fn evaluate_cables<S: Simd>(&mut self, simd: S) -> StepTotals {
+        self.interpolate_peak();
+        let Self { part, wake, tension, u, stored, .. } = self;
+        let (blocks, stored) = (&part.blocks.blocks[..], &mut stored[..part.blocks.blocks.len()]);
+        let (u, mut tension) = (u.slices(), tension.slices());
+        let (mut energy, mut force) = (self.asleep, [0.0; LANES]);
+        let (mut greatest, mut peak_block) = (Wide::splat(simd, self.record.force.value), None);
+        for &n in &wake.blocks {
+            let stress = tension.evaluate(simd, &blocks[n], u);
+            stored[n] = stress.energy;
+            let mut is_greater = false;
+            for lane in (0..LANES).step_by(Wide::<S>::LEN) {
+                Wide::load(simd, &stress.energy, lane).add_to(&mut energy, lane);
+                let here = Wide::load(simd, &stress.force, lane);
+                here.max(Wide::load(simd, &force, lane)).store(&mut force, lane);
+                is_greater |= greatest.less(here).any();
+            }
+            if is_greater {
+                greatest = Wide::splat(simd, stress.force.into_iter().fold(0.0, f64::max));
+                peak_block = Some(n);
+            }
+        }
+        let mut totals = StepTotals { energy, force, ..StepTotals::default() };
+        if let Some(block) = peak_block {
+            self.note_force(block);
+        }
+        if totals.force.iter().any(|&force| force > self.breaking_force) {
+            self.break_cables(&mut totals);
+        }
+        totals
+    }
+
+    /// Notes the greatest force of block `n`, which is the greatest force so far.
+    fn note_force(&mut self, n: usize) {
+        self.copy_velocities();
+        let block = &self.part.blocks.blocks[n];
+        for slot in 0..block.len {
+            let force = self.tension.slot_force(block, slot);
+            if force > self.record.force.value {
+                let index = self.part.quotient.cable(self.part.blocks.cable(n, slot));
+                self.record.force = Peak { value: force, at: self.clock.now(), index };
+                let before = self.stretch_force(n, slot, -self.step);
+                self.sampled = Some(Sample { block: n, slot, before });
+            }
+        }
+    }
+
+    /// Removes the cables whose force is above the breaking force; their elastic energy is lost.
+    #[cold]
+    fn break_cables(&mut self, totals: &mut StepTotals) {
+        let (at, mut broken) = (self.clock.now(), Vec::new());
+        self.record.note_break(self.breaking_force);
+        self.sampled = None;
+        totals.force.iter_mut().for_each(|force| *force = force.min(self.breaking_force));
+        for &n in &self.wake.blocks {
+            let block = &self.part.blocks.blocks[n];
+            for slot in 0..block.len {
+                if self.tension.slot_force(block, slot) > self.breaking_force {
+                    let lost = self.tension.remove(block, slot);
+                    self.record.ledger.dissipated += lost;
+                    totals.energy[slot % LANES] -= lost;
+                    self.stored[n][slot % LANES] -= lost;
+                    broken.push(self.part.blocks.cable(n, slot));
+                }
+            }
+        }
+        // Two cables of the part may be images of each other; each of the two breaks by itself.
+        let mut known: FxHashSet<usize> = self.record.broken.iter().map(|broken| broken.cable).collect();
+        let all = self.part.quotient.cables_with_images(self.scene, &broken);
+        let new = all.into_iter().filter(|&cable| known.insert(cable));
+        self.record.broken.extend(new.map(|cable| Broken { at, cable }));
+    }
+
+    /// Moves the greatest force to the top of the parabola through the samples around it, one step after it was sampled.
+    fn interpolate_peak(&mut self) {
+        if let Some(Sample { block, slot, before }) = self.sampled.take() {
+            let after = self.stretch_force(block, slot, 0.0);
+            self.record.interpolate_force(before, after);
+        }
+    }
+
+    /// k (L − L0) of the cable in a slot of a block, its tires moved on over the time `ahead` [s] at their present velocity
+    /// [N].
+    fn stretch_force(&self, block: usize, slot: usize, ahead: f64) -> f64 {
+        let cable = &self.part.blocks.blocks[block].first;
+        let moved = |tire: usize| self.u.vector(tire) + ahead * self.v.vector(tire);
+        cable.stretch_force(cable.between(cable.ends.map(|end| moved(end + slot))).norm())
+    }
+}
