@@ -11,22 +11,23 @@
 //!
 //! | module | what comes in | what goes out | what it must not know |
 //! |---|---|---|---|
-//! | [`units`] | SI numbers | words | anything else |
-//! | [`file`] | a text | a file, whole or not at all | what is in it |
-//! | [`choice`] | a name | method, accuracy level and other named choices of a plan | what a choice does |
-//! | [`ropes`] | a data file | the rope catalogue | plans |
+//! | [`units`] | SI numbers | words | any other module |
+//! | [`file`] | a text | a file, whole or not at all | any other module; the meaning of the text |
+//! | [`choice`] | a name | method, accuracy level and other named choices of a plan | any other module; the effect of a choice |
+//! | [`ropes`] | a data file | the rope catalogue | any other module |
 //! | [`plan`] | TOML | a valid [`Plan`](plan::Plan), or every mistake with its remedy | physics |
-//! | [`scene`] | a plan | masses, cables, firings as flat SI arrays | how motion is computed |
-//! | [`outcome`] | | peaks, ledger, histories of a run | who filled them |
-//! | [`simulation`] | scene, shot, step | an [`Outcome`](outcome::Outcome) or a [`Failure`](simulation::Failure) | options, limits, screens |
-//! | [`verdict`] | value, error, limit | pass, fail, undecided | where they come from |
+//! | [`scene`] | a plan | masses, cables, firings as flat SI arrays | [`ropes`]; how motion is computed |
+//! | [`outcome`] | | peaks, ledger, histories of a run | any other module |
+//! | [`simulation`] | scene, shot, step | an [`Outcome`](outcome::Outcome) or a [`Failure`](simulation::Failure) | [`plan`], [`ropes`], [`file`], [`units`]; options, limits, screens |
+//! | [`verdict`] | value, error, limit | pass, fail, undecided | any other module |
 //! | [`study`] | a plan made ready | verdicts refined until sure; sweeps, orders, scatter, sizes; accuracy tables, traces, flights | formats |
 //! | [`report`] | study results | text, JSON, CSV, a page of HTML | terminals |
 //! | [`worker`] | a request | small events, the newest request wins; long studies, whole | screens |
 //! | [`tui`] | keys and events | a screen | physics |
 //! | [`cli`] | the command line | an exit status | physics |
 //!
-//! Imports point upwards in this table only; the test `layers` holds that. The command line and the terminal UI are two
+//! A module may use the modules above it in this table, except those linked under "what it must not know". The test `layers`
+//! reads both from here and holds them. The command line and the terminal UI are two
 //! faces of the same studies: `worker` calls the very function that `shelter check` calls.
 //!
 //! # Rules

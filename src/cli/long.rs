@@ -10,6 +10,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{Compute, Status};
 use crate::study::{Intervals, NoResult, Progress, Shard};
+use crate::{report, scene};
 
 /// How often the bar is drawn and signals are looked for.
 const LOOK: Duration = Duration::from_millis(50);
@@ -108,7 +109,7 @@ pub fn intervals(text: &str) -> Result<Intervals, String> {
     let wrong = || format!("'{text}' is no range of intervals: write FROM..TO:STEP in ms, such as 0..500:5");
     let (range, step) = text.split_once(':').ok_or_else(wrong)?;
     let (from, to) = range.split_once("..").ok_or_else(wrong)?;
-    let number = |text: &str| text.trim().parse::<f64>().map(|ms| ms * 1e-3).map_err(|_| wrong());
+    let number = |text: &str| text.trim().parse::<f64>().map(scene::seconds).map_err(|_| wrong());
     let intervals = Intervals { from: number(from)?, to: number(to)?, step: number(step)? };
     let Intervals { from, to, step } = intervals;
     if !(from >= 0.0 && to >= from && to <= 1e6 && step > 0.0) {

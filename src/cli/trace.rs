@@ -9,7 +9,7 @@ use clap::Args;
 
 use super::{Compute, FormatArg, Look, Status, load};
 use crate::report;
-use crate::scene::{Scene, TireId};
+use crate::scene::{Scene, TireId, seconds};
 use crate::simulation::{Failure, Settings};
 use crate::study::check::start_step;
 use crate::study::trace::{Chosen, trace};
@@ -64,7 +64,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         }
     }
     let mut rows = Rows::begin(arguments.format, report::trace::header(case.scene(), &chosen))?;
-    let every = arguments.every.map_or(settings.step, |ms| ms * 1e-3);
+    let every = arguments.every.map_or(settings.step, seconds);
     let mut written = Ok(());
     let done = trace(&case, option, &settings, &chosen, every, &mut |row| {
         written = rows.row(row);

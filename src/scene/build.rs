@@ -1,10 +1,43 @@
-//! From a plan's layout to tires and cables: the one place where plan units become SI.
+//! From a plan to a scene and its shots: the one file of `scene` that knows plans, where plan units become SI.
 
 use nalgebra::Vector3;
 
-use super::{Cable, Scene, TireId};
+use super::{Cable, Scene, Shot, TireId};
 use crate::choice::{Link, OnOverload};
-use crate::plan::{Layout, Mesh, Plan};
+use crate::plan::{BlastRow, LaunchTargets, Layout, Mesh, Plan, Timing};
+
+/// Firing time of each blast row [s] (`n_blast_rows`).
+pub fn fire_at_s(timing: &Timing) -> Vec<f64> {
+    timing.fire_at_ms().into_iter().map(seconds).collect()
+}
+
+/// Time [s] nearest to a time in milliseconds.
+pub fn seconds(ms: f64) -> f64 {
+    // A thousandth is not exact in binary, a thousand is: a quotient is rounded once.
+    ms / 1e3
+}
+
+impl Shot {
+    /// Shot of blast rows fired at `timing` under `scene`.
+    pub fn new(scene: &Scene, rows: &[BlastRow], timing: &Timing) -> Self {
+        Self::of_rows(scene, rows, &fire_at_s(timing))
+    }
+
+    /// Shot of blast rows fired in `order` under `scene`, `interval` [s] apart.
+    pub fn in_order(scene: &Scene, rows: &[BlastRow], order: &[usize], interval: f64) -> Self {
+        let mut at = vec![0.0; rows.len()];
+        for (turn, &row) in order.iter().enumerate() {
+            at[row] = turn as f64 * interval;
+        }
+        Self::of_rows(scene, rows, &at)
+    }
+
+    /// Shot of blast rows fired at the times `at` [s] under `scene` (`n_blast_rows`).
+    fn of_rows(scene: &Scene, rows: &[BlastRow], at: &[f64]) -> Self {
+        let targets: Vec<_> = rows.iter().map(|row| scene.targets(&row.targets)).collect();
+        Self::from_targets(&targets, at)
+    }
+}
 
 /// Two tied tires and the vector between their centres [m].
 struct Tie {
@@ -13,7 +46,7 @@ struct Tie {
 }
 
 impl Scene {
-    /// The scene of a valid plan.
+    /// Scene of a valid plan.
     pub fn build(plan: &Plan) -> Self {
         let mut scene = Scene {
             position: Vec::new(),
@@ -31,7 +64,7 @@ impl Scene {
             Layout::Quincunx(mesh) => scene.lay_quincunx(mesh),
             Layout::List { tires, cables } => {
                 for (n, tire) in tires.iter().enumerate() {
-                    scene.place(TireId::Listed(n + 1), tire.x_m, tire.y_m);
+                    scene.add_tire(TireId::Listed(n + 1), tire.x_m, tire.y_m);
                 }
                 let between = |a: usize, b: usize| scene.position[b] - scene.position[a];
                 cables.iter().map(|&(a, b)| Tie { ends: [a, b], between: between(a, b) }).collect()
@@ -53,18 +86,18 @@ impl Scene {
                 Cable { ends, rest_length, stiffness: axial_stiffness / rest_length, span }
             })
             .collect();
-        // Runs of like cables one after the other, as the stepping loop takes them.
+        // The stepping loop takes equal cables whose tires follow one another.
         scene.cables.sort_by_key(|cable| (cable.ends[1] as isize - cable.ends[0] as isize, cable.ends[0]));
         scene.find_mirrors();
         scene
     }
 
-    fn place(&mut self, id: TireId, x: f64, y: f64) {
+    fn add_tire(&mut self, id: TireId, x: f64, y: f64) {
         self.position.push(Vector3::new(x, y, 0.0));
         self.tire.push(id);
     }
 
-    /// Lays the tires whose row and column, counted from the first corner with the border, begin at `first`.
+    /// Adds tires row by row; the first tire is `first` rows and columns from the first corner of the border.
     fn lay_tires(&mut self, mesh: &Mesh, first: f64, rows: usize, columns: usize) {
         let from = first - mesh.border_rows as f64;
         for r in 0..rows {
@@ -74,12 +107,12 @@ impl Scene {
                 let inside =
                     row >= 1.0 && row <= mesh.rows as f64 && column >= 1.0 && column <= mesh.columns as f64;
                 let id = if inside { TireId::Cell { row, column } } else { TireId::Border { row, column } };
-                self.place(id, x * mesh.column_spacing_m, y * mesh.row_spacing_m);
+                self.add_tire(id, x * mesh.column_spacing_m, y * mesh.row_spacing_m);
             }
         }
     }
 
-    /// Returns the ties, as the other layouts do.
+    /// Adds the tires of a grid; returns its ties.
     fn lay_grid(&mut self, mesh: &Mesh) -> Vec<Tie> {
         let [rows, columns] = [mesh.rows, mesh.columns].map(|n| n + 2 * mesh.border_rows);
         self.lay_tires(mesh, 0.0, rows, columns);
@@ -105,6 +138,7 @@ impl Scene {
         ties
     }
 
+    /// Adds the tires of a quincunx, corners first; returns its ties.
     fn lay_quincunx(&mut self, mesh: &Mesh) -> Vec<Tie> {
         let diagonal = mesh.links.contains(&Link::Diagonal);
         let mut corners = mesh.clone();
@@ -125,5 +159,46 @@ impl Scene {
             }
         }
         ties
+    }
+
+    /// Tires that a blast row launches, each with its launch velocity [m/s].
+    pub fn targets(&self, targets: &LaunchTargets) -> Vec<(usize, f64)> {
+        match targets {
+            LaunchTargets::UnderRow { row, launch_m_s } => {
+                let in_row = |&n: &usize| matches!(self.tire[n], TireId::Cell { row: r, .. } if r == *row);
+                let tires = (0..self.tire.len()).filter(in_row);
+                tires.map(|tire| (tire, *launch_m_s)).collect()
+            }
+            LaunchTargets::UnderTires { tires, launch_m_s } => {
+                tires.iter().map(|&tire| (tire, *launch_m_s)).collect()
+            }
+            LaunchTargets::Holes(holes) => holes
+                .iter()
+                .filter_map(|hole| Some((self.nearest(hole.x_m, hole.y_m)?, hole.launch_m_s)))
+                .collect(),
+        }
+    }
+
+    /// Tire nearest to a point on the ground [m]; of two tires at the same distance, the first.
+    fn nearest(&self, x: f64, y: f64) -> Option<usize> {
+        let distance2 = |tire: &usize| {
+            let p = self.position[*tire];
+            (p.x - x).powi(2) + (p.y - y).powi(2)
+        };
+        (0..self.position.len()).min_by(|a, b| distance2(a).total_cmp(&distance2(b)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every whole number of milliseconds becomes the number of seconds that a reader writes.
+    #[test]
+    fn milliseconds_become_the_nearest_seconds() {
+        for ms in 0..=10_000 {
+            let written: f64 = format!("{}.{:03}", ms / 1000, ms % 1000).parse().expect("a number");
+            assert_eq!(seconds(f64::from(ms)), written, "{ms} ms");
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! The shelter and the shot as flat arrays in SI units, made once per plan for the stepping loops.
 //!
-//! A [`Plan`](crate::plan::Plan) comes in; an immutable [`Scene`] (masses, cables, ground) and one [`Shot`] (what fires
-//! when) per delay option go out. Nothing here knows how motion is computed or judged.
+//! A plan comes in; an immutable [`Scene`] (masses, cables, ground) and one [`Shot`] (its firings) per delay option go out.
+//! Only `build` knows plans; nothing here knows how motion is computed or judged.
 
 mod build;
 mod mirror;
@@ -9,17 +9,18 @@ mod shot;
 
 use nalgebra::Vector3;
 
+pub use build::{fire_at_s, seconds};
 pub use mirror::Mirror;
-pub use shot::{Firing, Shot, fire_at_s};
+pub use shot::{Firing, Shot};
 
-/// What lies on the ground before anything fires.
+/// The shelter at rest, before any hole fires.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// Centres of the tires at rest [m] (`n_tires`).
     pub position: Vec<Vector3<f64>>,
     /// Masses [kg] (`n_tires`).
     pub mass: Vec<f64>,
-    /// How the plan addresses each tire (`n_tires`).
+    /// Address of each tire in the plan (`n_tires`).
     pub tire: Vec<TireId>,
     /// Cables (`n_cables`).
     pub cables: Vec<Cable>,
@@ -27,35 +28,35 @@ pub struct Scene {
     pub friction: f64,
     /// Gravity [m/s²].
     pub gravity: f64,
-    /// Force past which a cable is gone [N]; `None`: cables never break.
+    /// Force above which a cable breaks [N]; `None`: cables never break.
     pub breaking_force: Option<f64>,
-    /// Planes in which the shelter is its own image; at most one across x and one across y.
+    /// Mirror planes of the shelter: at most one across x and one across y.
     pub mirrors: Vec<Mirror>,
 }
 
-/// How a plan addresses a tire.
+/// Address of a tire in a plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TireId {
-    /// Row and column of a mesh, from 1; half numbers are centres of a quincunx.
+    /// Row and column of a mesh, from 1; half numbers are the centre tires of a quincunx.
     Cell {
-        /// Along y.
+        /// Row, counted along y.
         row: f64,
-        /// Along x.
+        /// Column, counted along x.
         column: f64,
     },
-    /// Ballast around a mesh, numbered on from it: from 0 downwards, or from one past the last.
+    /// Row and column of a border tire around a mesh: below 1, or above the last of the mesh.
     Border {
-        /// Along y.
+        /// Row, counted along y.
         row: f64,
-        /// Along x.
+        /// Column, counted along x.
         column: f64,
     },
-    /// Place in a list layout, from 1.
+    /// Number in a list layout, from 1.
     Listed(usize),
 }
 
 impl TireId {
-    /// The numbers of the address: row and column, or the place in the list.
+    /// Numbers of the address: row and column, or the number in the list.
     pub fn numbers(&self) -> Vec<f64> {
         match *self {
             TireId::Cell { row, column } | TireId::Border { row, column } => vec![row, column],
@@ -82,18 +83,18 @@ pub struct Cable {
     pub rest_length: f64,
     /// k = EA / L0 [N/m].
     pub stiffness: f64,
-    /// From its first to its second fastening at rest [m]: the centres' distance, less one diameter
-    /// where cables run from rim to rim. Tires do not turn, so displacements simply add to it.
+    /// Vector from the first to the second fastening at rest [m]: between the centres of the tires, or between their rims.
+    /// Tires do not turn, so displacements add to this vector.
     pub span: Vector3<f64>,
 }
 
 impl Cable {
-    /// The cable's span when its tires are displaced [m].
+    /// Span of the cable for the displacements of all tires [m] (`n_tires`).
     pub fn displaced(&self, displacement: &[Vector3<f64>]) -> Vector3<f64> {
         self.between(self.ends.map(|end| displacement[end]))
     }
 
-    /// The cable's span between tires displaced by `a` and `b` [m].
+    /// Span of the cable for the displacements `a` and `b` of its two tires [m].
     pub fn between(&self, [a, b]: [Vector3<f64>; 2]) -> Vector3<f64> {
         self.span + (b - a)
     }
@@ -116,7 +117,7 @@ impl Cable {
 }
 
 impl Scene {
-    /// How views address a cable: its two tires; empty for a scene without cables.
+    /// Address of a cable: its two tires; empty for a scene without cables.
     pub fn cable_name(&self, cable: usize) -> String {
         self.cables.get(cable).map_or_else(String::new, |cable| {
             let [a, b] = cable.ends.map(|end| self.tire[end]);
@@ -124,9 +125,10 @@ impl Scene {
         })
     }
 
-    /// Greatest natural frequency bound of any tire: ω² ≤ (2/m) Σ k over its cables [rad/s].
+    /// Upper bound of the natural frequencies ω of the shelter [rad/s]: ω² ≤ (2/m) Σ k over the cables of a tire, the greatest
+    /// of all tires.
     ///
-    /// Gershgorin's bound on M⁻¹K with every cable taut and in line.
+    /// This is Gershgorin's bound on M⁻¹K with every cable taut and in line.
     pub fn frequency_bound(&self) -> f64 {
         let mut stiffness = vec![0.0; self.mass.len()];
         for cable in &self.cables {
@@ -138,10 +140,10 @@ impl Scene {
         squared.fold(0.0, f64::max).sqrt()
     }
 
-    /// Least and greatest place of the tires at rest along an axis [m].
+    /// Least and greatest coordinate of the tires at rest along an axis [m]; axis 0 is x, 1 is y.
     pub fn extent(&self, axis: usize) -> [f64; 2] {
-        let places = self.position.iter().map(|place| place[axis]);
-        places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+        let coordinates = self.position.iter().map(|position| position[axis]);
+        coordinates.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
     }
 
     /// Critical step of explicit central differences, 2/ω [s]; infinite without cables.

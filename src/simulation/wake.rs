@@ -160,10 +160,12 @@ impl<'a> Wake<'a> {
 
 #[cfg(test)]
 pub mod tests {
+    use itertools::Itertools;
+    use nalgebra::Vector3;
+
     use super::*;
     use crate::outcome::Outcome;
-    use crate::plan::Plan;
-    use crate::scene::{Firing, Scene, Shot};
+    use crate::scene::{Firing, Scene, Shot, TireId};
 
     impl Ties {
         /// The same ties, except that any motion wakes everything.
@@ -176,14 +178,29 @@ pub mod tests {
 
     /// A slack shelter without mirror planes, and shots under which some tires never move and others come to rest again.
     pub fn scenes() -> (Scene, Vec<Shot>) {
-        let plan = "title = ''\n[shelter]\nlayout = 'grid'\nrows = 9\ncolumns = 11\nspacing_m = 1.5\n\
-                    [tire]\nmass_kg = 280\n[cable]\naxial_stiffness_kn = 1500\nbreaking_force_kn = 40\n\
-                    slack_percent = 1\n[ground]\nfriction = 0.5\n\
-                    [[blast_row]]\nname = '1'\nunder_row = 2\nlaunch_m_s = 6\n\
-                    [limits]\nflight_height_m = 2\ncable_safety_factor = 2\n\
-                    [[delay]]\nname = '0'\ninterval_ms = 0\n";
-        let mut scene = Scene::build(&Plan::parse("slack", plan).expect("a plan"));
-        scene.mirrors.clear();
+        let (rows, columns) = (9, 11);
+        let position: Vec<Vector3<f64>> = (0..rows * columns)
+            .map(|n| 1.5 * Vector3::new((n % columns) as f64, (n / columns) as f64, 0.0))
+            .collect();
+        let tie = |[a, b]: [usize; 2]| {
+            let span = position[b] - position[a];
+            let rest_length = 1.01 * span.norm();
+            Cable { ends: [a, b], rest_length, stiffness: 1.5e6 / rest_length, span }
+        };
+        // Neighbours are at most one row and one column apart.
+        let pairs = (0..rows * columns).tuple_combinations().map(|(a, b)| [a, b]);
+        let near = |[a, b]: &[usize; 2]| (position[*b] - position[*a]).norm() < 2.2;
+        let cables = pairs.filter(near).map(tie).collect();
+        let scene = Scene {
+            mass: vec![280.0; rows * columns],
+            tire: (1..=rows * columns).map(TireId::Listed).collect(),
+            cables,
+            friction: 0.5,
+            gravity: 9.81,
+            breaking_force: None,
+            mirrors: Vec::new(),
+            position,
+        };
         let fired = |interval: f64, launch: f64| {
             let tires = [3, 38, 3, 90, 41].into_iter().enumerate();
             Shot::from_firings(

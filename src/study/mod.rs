@@ -28,7 +28,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::choice::{Accuracy, Method};
 use crate::plan::{Diagnostics, Plan, PlanSource, Timing};
-use crate::scene::{Scene, Shot};
+use crate::scene::{Scene, Shot, seconds};
 use crate::simulation::Model;
 use crate::verdict::Limits;
 
@@ -81,14 +81,13 @@ impl Case {
 
     /// The shot of blast rows fired in `order`, `interval` [s] apart.
     pub fn shot(&self, order: &[usize], interval: f64) -> Shot {
-        let timing = Timing::Interval { order: order.to_vec(), interval_ms: interval * 1e3 };
-        Shot::new(self.scene(), &self.plan.blast_rows, &timing)
+        Shot::in_order(self.scene(), &self.plan.blast_rows, order, interval)
     }
 
     /// Intervals of the delay options [s], ascending, without repetitions.
     pub fn intervals(&self) -> Vec<f64> {
         let interval = |timing: &Timing| match timing {
-            Timing::Interval { interval_ms, .. } => Some(interval_ms * 1e-3),
+            Timing::Interval { interval_ms, .. } => Some(seconds(*interval_ms)),
             Timing::At(_) => None,
         };
         let mut all: Vec<f64> = self.plan.delays.iter().filter_map(|delay| interval(&delay.timing)).collect();
