@@ -22,7 +22,7 @@
 //! | [`verdict`] | value, error, limit | pass, fail, undecided | any other module |
 //! | [`study`] | a plan made ready | verdicts refined until sure; sweeps, orders, scatter, sizes; accuracy tables, traces, flights | formats |
 //! | [`report`] | study results | text, JSON, CSV, a page of HTML | terminals |
-//! | [`worker`] | a request | small events, the newest request wins; long studies, whole | screens |
+//! | [`worker`] | a request | small events, the newest request wins; long studies, whole | [`report`]; screens |
 //! | [`tui`] | keys and events | a screen | physics |
 //! | [`cli`] | the command line | an exit status | physics |
 //!

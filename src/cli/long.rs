@@ -93,7 +93,7 @@ pub fn failed(no_result: &NoResult) -> io::Result<Status> {
             Ok(Status::Interrupted)
         }
         NoResult::NoInterval => super::load::wrong(&format!("{no_result}: give --interval FROM..TO:STEP")),
-        no_result => super::load::wrong(&no_result.to_string()),
+        no_result => super::load::wrong(&report::no_result::message(no_result)),
     }
 }
 

@@ -80,7 +80,7 @@ fn failed(failure: &Failure) -> io::Result<Status> {
         eprintln!("the time was up at {at:.3} s of the motion");
         return Ok(Status::Fail);
     }
-    load::wrong(&report::failure::message(failure))
+    load::wrong(&report::no_result::message(&failure.clone().into()))
 }
 
 /// Writes rows as they come.

@@ -3,6 +3,7 @@
 use serde::Serialize;
 use serde_json::Number;
 
+use super::no_result;
 use crate::outcome::Broken;
 use crate::scene::{Scene, TireId, fire_at_s};
 use crate::study::check::{Checked, EarlyEnd, Quantity, Reason};
@@ -244,7 +245,7 @@ impl Document {
             verdict: result.as_ref().map_or(Verdict::Undecided, |c| c.verdict).name(),
             reasons: match result {
                 Ok(checked) => checked.reasons.iter().map(explain).collect(),
-                Err(no_result) => vec![no_result.to_string()],
+                Err(reason) => vec![no_result::message(reason)],
             },
             values: result.as_ref().ok().map(|checked| Values::new(scene, checked)),
         });
@@ -294,11 +295,11 @@ impl Row {
         let row = |(delay, result): (&crate::plan::DelayOption, &Result<Checked, NoResult>)| {
             let (plan, option) = (case.source.path.clone(), delay.name.clone());
             match result {
-                Err(no_result) => Self {
+                Err(reason) => Self {
                     plan,
                     option,
                     verdict: Verdict::Undecided.name(),
-                    reasons: no_result.to_string(),
+                    reasons: no_result::message(reason),
                     ..Self::default()
                 },
                 Ok(checked) => Self {

@@ -8,7 +8,6 @@ pub mod ascii;
 #[cfg(feature = "page")]
 pub mod chart;
 pub mod check;
-pub mod failure;
 #[cfg(feature = "page")]
 pub mod html;
 mod label;

@@ -1,6 +1,7 @@
 //! The results of `check` as a table for reading.
 
 use super::check::{broken, compute_label, explain};
+use super::no_result;
 use super::spark::sparkline;
 use crate::study::Case;
 use crate::study::check::Checked;
@@ -51,7 +52,7 @@ pub fn check(case: &Case, results: &Results, any: bool, style: Style) -> String 
         let verdict = result.as_ref().map_or(Verdict::Undecided, |checked| checked.verdict);
         text += &format!("{:name_width$}  {}", delay.name, style.verdict(verdict));
         match result {
-            Err(failure) => text += &format!("  {failure}\n"),
+            Err(reason) => text += &format!("  {}\n", no_result::message(reason)),
             Ok(checked) => text += &row(case, checked),
         }
     }

@@ -14,7 +14,6 @@ use std::time::{Duration, Instant};
 
 pub use errand::{Errands, Found, Kind};
 
-use crate::report::failure::message;
 use crate::simulation::Failure;
 use crate::study::check::{Checked, check};
 use crate::study::{Case, ComputeSettings, NoResult, guarded};

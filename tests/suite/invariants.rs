@@ -2,10 +2,11 @@
 
 use proptest::prelude::*;
 use shelter::choice::Method;
+use shelter::outcome::{EndReason, RunEnd};
 use shelter::scene::{Cable, Firing, Shot};
 
 use super::properties::{shelter, step};
-use super::scenes::{METHODS, fire, quincunx, run, settings, watch};
+use super::scenes::{GRAVITY, METHODS, fire, quincunx, run, settings, tires, watch};
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
@@ -149,5 +150,24 @@ proptest! {
         prop_assert!(heavier.0 >= least(height) && heavier.1 >= least(force));
         prop_assert!(envelope(launch, mass, ea, slack * (1.0 + 0.1 * (more - 1.0))).0 >= least(height));
         prop_assert!(least(envelope(launch, mass, ea * more, slack).0) <= height);
+    }
+}
+
+/// A duration that ends near the landing of the last tire: both methods name the same end, and a shelter that is found at
+/// rest by the last step is at rest.
+#[test]
+fn both_methods_name_the_same_end_around_rest() {
+    let (scene, launch, h) = (tires(&[(0.0, 0.0)], 280.0), 6.0, 1e-3);
+    let landing = 2.0 * launch / GRAVITY;
+    for quarter in -12..=12 {
+        let duration = landing + 0.25 * f64::from(quarter) * h;
+        let ends =
+            METHODS.map(|method| run(&scene, &fire(&[0], launch), settings(method, h, Some(duration))).end);
+        assert_eq!(ends[0], ends[1], "{duration} s");
+        let RunEnd { at, reason } = ends[0];
+        assert!(at <= duration);
+        // The step after the landing finds the tire at rest.
+        let expected = if duration < landing { EndReason::TimeLimit } else { EndReason::AtRest };
+        assert!(reason == expected || (duration - landing).abs() < h, "{reason:?} after {duration} s");
     }
 }

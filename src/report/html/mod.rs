@@ -9,7 +9,6 @@ use jiff::{Timestamp, tz::TimeZone};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
-use super::chart;
 use super::check::{broken, command, compute_label, explain, peak};
 use crate::choice::OnOverload;
 use crate::plan::{LaunchTargets, Layout, Plan};
@@ -199,7 +198,7 @@ fn options(case: &Case, results: &Results) -> Markup {
                             td.n { (units::factor(checked.safety_factor)) }
                             td.n { (value_and_error(checked.drift.value, checked.drift.error, Unit::Metre)) }
                         }
-                        Err(failure) => { td colspan="5" { (failure) } }
+                        Err(reason) => { td colspan="5" { (no_result::message(reason)) } }
                     }
                 }
                 @if let Ok(checked) = result {

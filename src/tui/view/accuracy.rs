@@ -11,6 +11,7 @@ use super::chart::{Scale, chart};
 use super::studies::{message, waiting};
 use crate::choice::Method;
 use crate::report::chart::{WorkPrecision, logarithms, power, work_precision};
+use crate::report::no_result;
 use crate::study::accuracy::{Measured, Study};
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
@@ -36,7 +37,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
             let words = format!("{start} measures the selected option; it takes seconds.");
             message(app, frame, inside, question, &words);
         }
-        Progress::Failed(no_result) => message(app, frame, inside, question, &no_result.to_string()),
+        Progress::Failed(reason) => message(app, frame, inside, question, &no_result::message(reason)),
         Progress::Running { done, total } => waiting(app, frame, inside, question, (*done, *total)),
         Progress::Done(found) => {
             let Found::Accuracy(study) = found.as_ref() else { return };

@@ -15,6 +15,7 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use super::chart;
 use crate::outcome::EndReason;
 use crate::report::check::{broken, explain, peak};
+use crate::report::no_result;
 use crate::scene::fire_at_s;
 use crate::study::check::Checked;
 use crate::tui::app::{App, Row};
@@ -31,8 +32,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     frame.render_widget(rule, area);
     let checked = match &app.rows[app.selected] {
         Row::Done(checked) => checked,
-        Row::Failed(message) => {
-            let text = format!("No result: {message}");
+        Row::Failed(reason) => {
+            let text = format!("No result: {}", no_result::message(reason));
             return frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inside);
         }
         Row::Waiting | Row::Running { .. } => {

@@ -15,6 +15,7 @@ use ratatui::widgets::canvas::{Canvas, Line as Stroke, Points};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::{Places, chart, color};
+use crate::report::no_result;
 use crate::scene::fire_at_s;
 use crate::study::flight::Flight;
 use crate::tui::app::{App, Target};
@@ -35,7 +36,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     let Some(delay) = app.case.plan.delays.get(app.selected) else { return };
     let Some(flight) = app.studies.flight(app.selected) else {
         let words = match app.studies.progress(Kind::Flight) {
-            Progress::Failed(words) => format!("{}: {words}", delay.name),
+            Progress::Failed(reason) => format!("{}: {}", delay.name, no_result::message(reason)),
             _ => format!("{}: recording the flight…", delay.name),
         };
         return frame.render_widget(Paragraph::new(words).wrap(Wrap { trim: true }), area);

@@ -70,7 +70,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
             let words = format!("{} starts it.", app.keymap.hint(Action::Open));
             message(app, frame, inside, question, &words);
         }
-        Progress::Failed(no_result) => message(app, frame, inside, question, &no_result.to_string()),
+        Progress::Failed(reason) => {
+            message(app, frame, inside, question, &report::no_result::message(reason));
+        }
         Progress::Running { done, total } => {
             waiting(app, frame, inside, question, (*done, *total));
         }

@@ -6,6 +6,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Row as Cells, Table, TableState};
 
 use super::Places;
+use crate::report::no_result;
 use crate::report::spark::sparkline;
 use crate::study::check::Checked;
 use crate::tui::app::{App, Row, Target};
@@ -157,9 +158,9 @@ fn row<'r>(app: &'r App, option: usize, columns: &[&Column], (name, spark): (u16
             cells.push(spark(&history.height, limits.height));
             cells.push(spark(&history.force, limits.force));
         }
-        Row::Failed(message) => {
+        Row::Failed(reason) => {
             cells.push(verdict(app, Verdict::Undecided));
-            cells.push(Line::from(message.to_string()));
+            cells.push(Line::from(no_result::message(reason)));
         }
         Row::Waiting => cells.push(Line::styled("waits", app.theme.quiet())),
         Row::Running { runs, done } => {
