@@ -10,6 +10,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
 use super::check::{broken, command, compute_label, explain, peak};
+use super::{chart, no_result};
 use crate::choice::OnOverload;
 use crate::plan::{LaunchTargets, Layout, Plan};
 use crate::scene::fire_at_s;
