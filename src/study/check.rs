@@ -315,13 +315,14 @@ fn judge(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::simulation::Iteration;
 
     /// Steps that `climb` asks for where steps above `coarsest` fail, and the step that gives the values.
     fn climbed(coarsest: f64, fixed: bool, sure_at: f64) -> (Vec<f64>, f64) {
         let (mut asked, mut values) = (Vec::new(), f64::NAN);
         let run = |step: f64| {
             asked.push(step);
-            let failure = Failure::Unsettled { what: "contact region", at: 0.0 };
+            let failure = Failure::Unsettled { what: Iteration::ContactRegion, at: 0.0 };
             if step > coarsest { Err(failure) } else { Ok(step) }
         };
         let is_sure = |runs: &[f64]| {
