@@ -80,7 +80,7 @@ pub(super) fn line(key: &Key, value: impl Display) -> String {
 
 /// A key with its value, and its description as a comment.
 fn explained(key: &Key, value: impl Display) -> String {
-    format!("{:<24}# {}\n", format!("{} = {value}", key.name), key.doc)
+    format!("{:<23} # {}\n", format!("{} = {value}", key.name), key.doc)
 }
 
 /// A text in quotes, as TOML writes it.
