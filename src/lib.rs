@@ -1,5 +1,32 @@
 //! Which blasting delay is safe under a shelter of tires and cables: simulated, with its numerical error.
 //!
+//! # From a plan to a verdict
+//!
+//! ```
+//! use std::ops::ControlFlow;
+//!
+//! use shelter::{Case, ComputeSettings, Plan, Verdict, check};
+//!
+//! let text = r#"
+//! shelter = { layout = "grid", rows = 2, columns = 3, spacing_m = 1.5 }
+//! tire = { mass_kg = 280 }
+//! cable = { axial_stiffness_kn = 1400, breaking_force_kn = 40 }
+//! ground = { friction = 0.5 }
+//! blast_row = [{ name = "1", under_row = 1, launch_m_s = 5 }, { name = "2", under_row = 2, launch_m_s = 5 }]
+//! limits = { flight_height_m = 1.5, cable_safety_factor = 1.5 }
+//! delay = [{ name = "20 ms", interval_ms = 20 }]
+//! "#;
+//! let case = Case::new(Plan::parse("plan.toml", text)?);
+//! let compute = ComputeSettings::of(&case.plan);
+//! let checked = check(&case, 0, &compute, &mut |_| ControlFlow::Continue(()))?;
+//! assert_eq!(checked.verdict, Verdict::Pass);
+//! assert!(checked.height.value + checked.height.error < 1.5);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! The library alone, without command line, terminal and charts: `default-features = false`. The programs in `examples/`
+//! check a plan and step through a motion.
+//!
 //! # The house
 //!
 //! One way in, one way through:
@@ -59,3 +86,9 @@ pub mod tui;
 pub mod units;
 pub mod verdict;
 pub mod worker;
+
+pub use plan::Plan;
+pub use simulation::{Model, Motion, Settings};
+pub use study::check::{Checked, check};
+pub use study::{Case, ComputeSettings};
+pub use verdict::Verdict;

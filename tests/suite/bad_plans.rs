@@ -4,6 +4,8 @@ use std::fmt::Write;
 
 use shelter::plan::Plan;
 
+use super::support::PROGRAM;
+
 pub const GOOD: &str = r#"title = "T"
 [shelter]
 layout = "grid"
@@ -350,7 +352,7 @@ fn every_wrong_command_line_is_explained() {
     std::fs::write(folder.path().join("plan.toml"), GOOD).expect("written");
     let mut all = String::new();
     for arguments in COMMANDS {
-        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_shelter"));
+        let mut command = std::process::Command::new(PROGRAM);
         let output = command.args(*arguments).current_dir(folder.path()).output().expect("it runs");
         let told = String::from_utf8(output.stderr).expect("UTF-8");
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {told}");

@@ -9,6 +9,8 @@ use shelter::choice::{Accuracy, Method};
 use shelter::simulation::{Model, Settings};
 use shelter::study::error::{NEIGHBOURS, RATIO, estimate};
 
+use super::support::shipped;
+
 /// 160 random scenes, smooth and hard, against a step 64 times finer: the true error is within the reported one in 19 of 20,
 /// and the reported one is at most 5 times too wide in the median. The scenes are fixed, so the outcome is.
 #[test]
@@ -56,8 +58,8 @@ fn only_open_verdicts_cost_more() {
     use shelter::plan::Plan;
     use shelter::study::check::check;
     use shelter::study::{Case, ComputeSettings};
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("plans/amur-three-rows.toml");
-    let mut case = Case::new(Plan::load(&path).expect("a shipped plan"));
+    let path = shipped("amur-three-rows.toml");
+    let mut case = Case::new(Plan::load(path.as_ref()).expect("a shipped plan"));
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
     let mut judge = |height: f64| {
         case.limits.height = height;

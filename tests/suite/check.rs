@@ -1,32 +1,14 @@
 //! `shelter check`, `trace`, `init`, `ropes` as scripts use them: exit status, streams, JSON, CSV.
 
-use std::path::{Path, PathBuf};
 use std::process::Output;
 
-use assert_cmd::Command;
-use serde_json::Value;
-
-fn plan(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("plans").join(name)
-}
-
-fn shelter(arguments: &[&str]) -> Output {
-    Command::cargo_bin("shelter").expect("the binary is built").args(arguments).output().expect("it runs")
-}
+use super::support::{PROGRAM, json, shelter, shipped, text};
 
 fn on(name: &str, arguments: &[&str]) -> Output {
-    let path = plan(name);
-    let mut all = vec![arguments[0], path.to_str().expect("UTF-8")];
+    let path = shipped(name);
+    let mut all = vec![arguments[0], &path];
     all.extend(&arguments[1..]);
     shelter(&all)
-}
-
-fn text(bytes: &[u8]) -> &str {
-    std::str::from_utf8(bytes).expect("UTF-8")
-}
-
-fn json(output: &Output) -> Value {
-    serde_json::from_slice(&output.stdout).expect("one JSON document")
 }
 
 #[test]
@@ -44,7 +26,7 @@ fn the_exit_status_tells_the_verdict() {
 fn a_run_that_ends_early_is_no_pass() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("plan.toml");
-    let text = std::fs::read_to_string(plan("paper-5-tire.toml")).expect("a plan");
+    let text = std::fs::read_to_string(shipped("paper-5-tire.toml")).expect("a plan");
     let (head, _) = text.split_once("[simulation]").unwrap_or((&text, ""));
     let check = |delay: &str, duration: &str| {
         let text = format!("{head}\n{delay}\n[simulation]\nduration_s = {duration}\n");
@@ -101,7 +83,7 @@ fn what_is_still_to_come_is_not_passed() {
 fn broken_cables_fail_at_their_breaking_force() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("plan.toml");
-    let text = std::fs::read_to_string(plan("paper-5-tire.toml")).expect("a plan");
+    let text = std::fs::read_to_string(shipped("paper-5-tire.toml")).expect("a plan");
     for factor in ["0.5", "1.0", "2.0"] {
         let text = text
             .replace("[cable]\n", "[cable]\non_overload = \"break\"\n")
@@ -154,9 +136,8 @@ fn json_has_the_fields_scripts_read() {
 
 #[test]
 fn several_plans_are_one_document_and_one_verdict() {
-    let paths = ["paper-5-tire.toml", "amur-three-rows.toml"].map(plan);
-    let [first, second] = paths.each_ref().map(|path| path.to_str().expect("UTF-8"));
-    let output = shelter(&["check", first, second, "--format", "json"]);
+    let [first, second] = ["paper-5-tire.toml", "amur-three-rows.toml"].map(shipped);
+    let output = shelter(&["check", &first, &second, "--format", "json"]);
     assert_eq!(json(&output).as_array().map(Vec::len), Some(2));
     assert_eq!(output.status.code(), Some(1));
 }
@@ -201,8 +182,8 @@ fn a_step_past_the_stability_limit_is_refused_by_name() {
 
 #[test]
 fn a_plan_opened_without_a_terminal_is_checked() {
-    let path = plan("paper-5-tire.toml");
-    let output = shelter(&[path.to_str().expect("UTF-8")]);
+    let path = shipped("paper-5-tire.toml");
+    let output = shelter(&[&path]);
     assert_eq!(output.status.code(), Some(0));
     assert!(text(&output.stdout).contains("PASS"));
 }
@@ -238,8 +219,8 @@ fn trace_refuses_what_is_not_there() {
 
 #[test]
 fn a_reader_that_goes_away_ends_trace_quietly() {
-    let path = plan("paper-5-tire.toml");
-    let command = format!("{} trace {} | head -1", env!("CARGO_BIN_EXE_shelter"), path.display());
+    let path = shipped("paper-5-tire.toml");
+    let command = format!("{PROGRAM} trace {path} | head -1");
     let output = std::process::Command::new("sh").args(["-c", &command]).output().expect("sh runs");
     assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
 }

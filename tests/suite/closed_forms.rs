@@ -3,6 +3,7 @@
 
 use nalgebra::Vector3;
 use shelter::choice::Method;
+use shelter::outcome::{EndReason, RunEnd};
 
 use crate::scenes::{GRAVITY, METHODS, close, fire, quincunx, run, settings, tie, tires, watch};
 
@@ -211,5 +212,24 @@ fn validates_inclined_pull_slips_and_lifts_at_its_thresholds() {
         assert_eq!(pulled(angle, lifts * (1.0 - 1e-6), 1e9, method).z, 0.0, "{method:?} stays down");
         // Lifted, it slides at g / tan θ, which takes 2e-5 of the pull away within the first step.
         assert!(pulled(angle, lifts * (1.0 + 1e-4), 1e9, method).z > 0.0, "{method:?} lifts");
+    }
+}
+
+/// A duration that ends near the landing of the last tire: both methods name the same end, and a shelter that is found at
+/// rest by the last step is at rest.
+#[test]
+fn both_methods_name_the_same_end_around_rest() {
+    let (scene, launch, h) = (tires(&[(0.0, 0.0)], 280.0), 6.0, 1e-3);
+    let landing = 2.0 * launch / GRAVITY;
+    for quarter in -12..=12 {
+        let duration = landing + 0.25 * f64::from(quarter) * h;
+        let ends =
+            METHODS.map(|method| run(&scene, &fire(&[0], launch), settings(method, h, Some(duration))).end);
+        assert_eq!(ends[0], ends[1], "{duration} s");
+        let RunEnd { at, reason } = ends[0];
+        assert!(at <= duration);
+        // The step after the landing finds the tire at rest.
+        let expected = if duration < landing { EndReason::TimeLimit } else { EndReason::AtRest };
+        assert!(reason == expected || (duration - landing).abs() < h, "{reason:?} after {duration} s");
     }
 }

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use shelter::file;
 
-const SHELTER: &str = env!("CARGO_BIN_EXE_shelter");
+use super::support::{PROGRAM, shipped};
 
 /// A plan of one small shelter that three ropes are tried for, and what `size --write` makes of it.
 fn small_plan(folder: &Path) -> (std::path::PathBuf, String, String) {
@@ -29,7 +29,7 @@ fn size(plan: &Path) -> Output {
 }
 
 fn sizing(plan: &Path) -> Command {
-    let mut command = Command::new(SHELTER);
+    let mut command = Command::new(PROGRAM);
     command.args(["size", "--write", "--accuracy", "draft"]).arg(plan);
     command.stdout(Stdio::null()).stderr(Stdio::null());
     command
@@ -100,7 +100,7 @@ fn a_full_disk_leaves_the_old_plan() {
         // A file may grow to so many blocks of 512 bytes; beyond that writing fails as on a full disk.
         let script =
             format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" size --write --accuracy draft \"$1\"");
-        let output = Command::new("sh").args(["-c", &script, SHELTER]).arg(&plan).output().expect("it runs");
+        let output = Command::new("sh").args(["-c", &script, PROGRAM]).arg(&plan).output().expect("it runs");
         let told = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{blocks} blocks: {told}");
         assert!(told.contains("plan.toml"), "{told}");
@@ -154,8 +154,8 @@ fn a_device_stays_one() {
 #[test]
 fn output_that_cannot_be_written_is_said() {
     let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("the full device");
-    let plan = concat!(env!("CARGO_MANIFEST_DIR"), "/plans/paper-5-tire.toml");
-    let output = Command::new(SHELTER).args(["check", plan]).stdout(full).output().expect("it runs");
+    let plan = &shipped("paper-5-tire.toml");
+    let output = Command::new(PROGRAM).args(["check", plan]).stdout(full).output().expect("it runs");
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("No space left"));
 }
@@ -163,9 +163,9 @@ fn output_that_cannot_be_written_is_said() {
 /// Whoever reads the output may stop reading: nothing is said about it.
 #[test]
 fn a_closed_pipe_ends_it_quietly() {
-    let plan = concat!(env!("CARGO_MANIFEST_DIR"), "/plans/paper-5-tire.toml");
+    let plan = &shipped("paper-5-tire.toml");
     for arguments in [&["check", plan][..], &["trace", plan], &["ropes"], &["man"], &["schema"]] {
-        let mut child = Command::new(SHELTER)
+        let mut child = Command::new(PROGRAM)
             .args(arguments)
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -187,7 +187,7 @@ fn a_plan_is_read_from_a_fifo_and_from_standard_input() {
     assert!(Command::new("mkfifo").arg(&fifo).status().expect("mkfifo runs").success());
     let text = include_str!("../../plans/paper-5-tire.toml");
     let check = |path: &Path| {
-        let mut command = Command::new(SHELTER);
+        let mut command = Command::new(PROGRAM);
         command.args(["check", "--format", "csv"]).arg(path).stdin(Stdio::piped()).stdout(Stdio::piped());
         command.spawn().expect("it starts")
     };

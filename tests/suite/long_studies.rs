@@ -1,30 +1,20 @@
 //! `sweep`, `orders`, `scatter`, `size` and `merge` as scripts use them.
 
-use std::path::{Path, PathBuf};
-use std::process::Output;
-
-use assert_cmd::Command;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
-fn amur() -> String {
-    let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("plans/amur-three-rows.toml");
-    path.to_str().expect("UTF-8").to_owned()
-}
+use super::support::{self, PROGRAM, shelter, shipped};
 
-fn shelter(arguments: &[&str]) -> Output {
-    Command::cargo_bin("shelter").expect("the binary is built").args(arguments).output().expect("it runs")
-}
-
+/// The document that a command prints, with nothing on standard error.
 fn json(arguments: &[&str]) -> Value {
     let output = shelter(arguments);
     assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).expect("one JSON document")
+    support::json(&output)
 }
 
 #[test]
 fn sweep_has_the_fields_scripts_read() {
-    let plan = amur();
+    let plan = shipped("amur-three-rows.toml");
     let arguments = ["sweep", &plan, "--interval", "0..60:10", "--accuracy", "draft"];
     let document = json(&[&arguments[..], &["--format", "json"]].concat());
     let points = document["points"].as_array().expect("points");
@@ -47,7 +37,7 @@ fn sweep_has_the_fields_scripts_read() {
 #[test]
 fn a_share_that_is_not_as_it_was_written_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
-    let study = ["scatter", &amur(), "--accuracy", "draft", "--samples", "2"];
+    let study = ["scatter", &shipped("amur-three-rows.toml"), "--accuracy", "draft", "--samples", "2"];
     let share = |index: usize| {
         let share = shelter(&[&study[..], &["--shard", &format!("{index}/2")]].concat());
         String::from_utf8(share.stdout).expect("UTF-8")
@@ -94,7 +84,7 @@ fn a_share_that_is_not_as_it_was_written_is_refused() {
 
 #[test]
 fn shares_merge_into_the_whole_byte_for_byte() {
-    let plan = amur();
+    let plan = shipped("amur-three-rows.toml");
     let folder = tempfile::tempdir().expect("a folder");
     let orders: &[&str] = &["orders", &plan, "--accuracy", "draft"];
     let scatter: &[&str] = &["scatter", &plan, "--accuracy", "draft", "--samples", "11", "--seed", "4"];
@@ -128,7 +118,7 @@ fn shares_merge_into_the_whole_byte_for_byte() {
 
 #[test]
 fn the_number_of_threads_changes_nothing() {
-    let plan = amur();
+    let plan = shipped("amur-three-rows.toml");
     for command in [
         &["scatter", &plan, "--accuracy", "draft", "--samples", "40", "--until-certain", "5"][..],
         &["orders", &plan, "--accuracy", "draft"],
@@ -144,11 +134,20 @@ fn the_number_of_threads_changes_nothing() {
 
 #[test]
 fn scatter_needs_to_know_what_scatters() {
-    let plan = Path::new(env!("CARGO_MANIFEST_DIR")).join("plans/paper-5-tire.toml");
-    let output = shelter(&["scatter", plan.to_str().expect("UTF-8")]);
+    let plan = shipped("paper-5-tire.toml");
+    let output = shelter(&["scatter", &plan]);
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("[scatter]"));
-    let whole = ["scatter", &amur(), "--samples", "3", "--format", "json", "--accuracy", "draft"];
+    let whole = [
+        "scatter",
+        &shipped("amur-three-rows.toml"),
+        "--samples",
+        "3",
+        "--format",
+        "json",
+        "--accuracy",
+        "draft",
+    ];
     let document = json(&whole);
     assert_eq!(document["samples"], 3);
     let option = &document["options"][0];
@@ -161,7 +160,7 @@ fn scatter_needs_to_know_what_scatters() {
 /// The choice goes into the plan, which then passes; everything else in it stays.
 #[test]
 fn size_writes_its_choice() {
-    let text = std::fs::read_to_string(amur()).expect("the plan");
+    let text = std::fs::read_to_string(shipped("amur-three-rows.toml")).expect("the plan");
     let text = text.replace("flight_height_m = 1.8", "flight_height_m = 2.5 # higher");
     let text = text.replace("at_ms = [0, 500, 1000]", "interval_ms = 30");
     let folder = tempfile::tempdir().expect("a folder");
@@ -186,7 +185,7 @@ fn size_writes_its_choice() {
 
 #[test]
 fn mistaken_ranges_and_shares_are_explained() {
-    let plan = amur();
+    let plan = shipped("amur-three-rows.toml");
     for (arguments, words) in [
         (&["sweep", &plan, "--interval", "0-500"][..], "FROM..TO:STEP"),
         (&["sweep", &plan, "--interval", "0..500:0"], "FROM..TO:STEP"),
@@ -209,10 +208,10 @@ fn mistaken_ranges_and_shares_are_explained() {
 #[cfg(unix)]
 #[test]
 fn an_interrupt_ends_a_command_with_130() {
-    let plan = Path::new(env!("CARGO_MANIFEST_DIR")).join("plans/large-50x50.toml");
+    let plan = shipped("large-50x50.toml");
     for command in ["check", "sweep", "orders", "size"] {
-        let child = std::process::Command::new(env!("CARGO_BIN_EXE_shelter"))
-            .args([command, plan.to_str().expect("UTF-8"), "--dt", "1e-6"])
+        let child = std::process::Command::new(PROGRAM)
+            .args([command, &plan, "--dt", "1e-6"])
             .stdout(std::process::Stdio::piped())
             .stderr(std::process::Stdio::null())
             .spawn()
@@ -229,7 +228,7 @@ fn an_interrupt_ends_a_command_with_130() {
 /// What is computed by then is told, with the status of what is not sure; shares, which must be whole, refuse it.
 #[test]
 fn a_timeout_ends_with_what_is_there() {
-    let plan = concat!(env!("CARGO_MANIFEST_DIR"), "/plans/large-50x50.toml");
+    let plan = &shipped("large-50x50.toml");
     let many: &[&[&str]] = &[
         &["check", plan, "--dt", "2e-7"],
         &["sweep", plan, "--dt", "2e-5"],

@@ -11,7 +11,6 @@ mod faults;
 mod flight;
 mod hostile;
 mod import;
-mod invariants;
 mod keys;
 mod layers;
 mod long_studies;
@@ -27,5 +26,6 @@ mod schema;
 mod screens;
 mod stage;
 mod studies;
+mod support;
 #[cfg(unix)]
 mod terminal;

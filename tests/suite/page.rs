@@ -1,12 +1,8 @@
 //! The page for the blast file: well formed, complete, and nothing in it comes from elsewhere.
 
-use assert_cmd::Command;
 use serde_json::Value;
 
-fn shelter(arguments: &[&str]) -> std::process::Output {
-    let mut command = Command::cargo_bin("shelter").expect("the binary is built");
-    command.args(arguments).env("SOURCE_DATE_EPOCH", "1190000000").output().expect("it runs")
-}
+use super::support::{shelter, shipped};
 
 const PLAN: &str = r#"
 title = "<script>alert(1)</script> & \"quotes\""
@@ -53,8 +49,7 @@ fn the_page_holds_every_result_and_nothing_from_elsewhere() {
 
 #[test]
 fn a_page_that_cannot_be_written_says_so() {
-    let plan = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("plans/paper-5-tire.toml");
-    let output = shelter(&["report", plan.to_str().expect("UTF-8"), "-o", "/no/such/folder/page.html"]);
+    let output = shelter(&["report", &shipped("paper-5-tire.toml"), "-o", "/no/such/folder/page.html"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(!output.stderr.is_empty());
 }

@@ -1,8 +1,10 @@
 //! The screens, drawn without a terminal.
 
+use std::collections::BTreeSet;
+
 use crossterm::event::KeyCode;
 use ratatui::buffer::Buffer;
-use ratatui::style::Style;
+use ratatui::style::{Color, Style};
 use shelter::simulation::Failure;
 use shelter::study::NoResult;
 use shelter::tui::app::{Request, Row, Screen};
@@ -128,35 +130,36 @@ fn every_screen_in_every_theme() {
     }
 }
 
-/// A letter per style, in the order they appear, and what each is.
+/// Every line as runs of named styles, then the colours that each name stands for.
 fn styles(buffer: &Buffer) -> String {
-    let mut known: Vec<Style> = Vec::new();
-    let mut letter = |style: Style| {
-        let at = known.iter().position(|other| *other == style).unwrap_or_else(|| {
-            known.push(style);
-            known.len() - 1
-        });
-        char::from(b'a' + at as u8)
-    };
-    let lines = buffer.content.chunks(usize::from(buffer.area.width));
-    let lines: Vec<String> =
-        lines.map(|line| line.iter().map(|cell| letter(cell.style())).collect()).collect();
-    let mut text = lines.iter().map(|line| runs(line)).collect::<Vec<_>>().join("\n");
-    for (n, style) in known.iter().enumerate() {
-        let Style { fg, bg, add_modifier, .. } = style;
-        text += &format!("\n{}: {fg:?} on {bg:?} {add_modifier:?}", char::from(b'a' + n as u8));
+    let mut legend = BTreeSet::new();
+    let mut text = String::new();
+    for line in buffer.content.chunks(usize::from(buffer.area.width)) {
+        let named: Vec<String> = line.iter().map(|cell| style_name(cell.style())).collect();
+        let runs = named.chunk_by(|a, b| a == b).map(|run| format!("{} {}", run.len(), run[0]));
+        text += &(runs.collect::<Vec<_>>().join(", ") + "\n");
+        legend.extend(line.iter().map(|cell| {
+            let Style { fg, bg, add_modifier, .. } = cell.style();
+            format!("\n{}: {fg:?} on {bg:?} {add_modifier:?}", style_name(cell.style()))
+        }));
     }
+    text.extend(legend);
     text
 }
 
-/// `aaab` as `3a 1b`.
-fn runs(line: &str) -> String {
-    let mut runs: Vec<(usize, char)> = Vec::new();
-    for letter in line.chars() {
-        match runs.last_mut() {
-            Some((count, last)) if *last == letter => *count += 1,
-            _ => runs.push((1, letter)),
-        }
-    }
-    runs.iter().map(|(count, letter)| format!("{count}{letter}")).collect::<Vec<_>>().join(" ")
+/// `bold orange`, `reversed`, `blue on blue`; `plain` for text as it is.
+fn style_name(style: Style) -> String {
+    let color = |color: Option<Color>| match color {
+        Some(Color::Reset | Color::Rgb(0, 0, 0) | Color::Rgb(30, 30, 30)) => None,
+        Some(Color::Rgb(255, 255, 255) | Color::Rgb(250, 250, 246)) => None,
+        Some(Color::Gray | Color::Rgb(80, 80, 80)) => Some("gray".to_owned()),
+        Some(Color::Rgb(86, 180, 233) | Color::Rgb(0, 70, 150)) => Some("blue".to_owned()),
+        Some(Color::Rgb(240, 228, 66) | Color::Rgb(110, 80, 0)) => Some("yellow".to_owned()),
+        Some(Color::Rgb(255, 140, 60) | Color::Rgb(170, 50, 0)) => Some("orange".to_owned()),
+        other => Some(format!("{other:?}")),
+    };
+    let modifiers = style.add_modifier.iter_names().map(|(name, _)| name.to_lowercase());
+    let words: Vec<String> =
+        modifiers.chain(color(style.fg)).chain(color(style.bg).map(|name| format!("on {name}"))).collect();
+    if words.is_empty() { "plain".to_owned() } else { words.join(" ") }
 }

@@ -1,6 +1,5 @@
 //! An app on a test terminal: what the tests of screens and keys share.
 
-use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -25,9 +24,11 @@ use shelter::tui::{update, view};
 use shelter::verdict::{Estimate, Verdict};
 use shelter::worker::{Found, Kind};
 
+use super::support::shipped;
+
 pub fn app() -> App {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("plans/amur-three-rows.toml");
-    let mut case = Case::load(&path).expect("a shipped plan");
+    let path = shipped("amur-three-rows.toml");
+    let mut case = Case::load(path.as_ref()).expect("a shipped plan");
     case.source.path = "plans/amur-three-rows.toml".to_owned();
     let compute = ComputeSettings::of(&case.plan);
     App::new(Arc::new(case), compute, &Config::default())

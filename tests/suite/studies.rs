@@ -1,11 +1,12 @@
 //! Studies against brute force over the plain check, and against what is known exactly.
 
+use std::collections::{HashMap, HashSet};
 use std::ops::ControlFlow;
 
 use shelter::plan::{DelayScatter, Plan, ScatterSpec};
 use shelter::ropes::catalogue;
 use shelter::study::check::{check, check_shot};
-use shelter::study::orders::{Orders, orders};
+use shelter::study::orders::{Orders, Tried, orders};
 use shelter::study::scatter::{Draw, drawn, scatter, summary, swaps};
 use shelter::study::size::{Demand, size};
 use shelter::study::sweep::sweep;
@@ -89,7 +90,8 @@ fn all_orders_are_tried_and_ranked() {
     assert_eq!(worst.envelope, judged(&case, &worst.order, worst.interval));
 }
 
-/// Eight rows are searched; the search is no worse than the orders it starts from, and its orders are all different.
+/// Eight rows are searched: from the order of the plan, its reverse and a thousand others, all different. The search ends
+/// where no exchange of two rows makes its worst order worse or its best order better, so neither falls behind a start.
 #[test]
 fn many_rows_are_searched() {
     let text = "simulation = { duration_s = 0.05, accuracy = \"draft\" }";
@@ -105,8 +107,29 @@ fn many_rows_are_searched() {
     let tried = orders(&case, &[0.002], Shard::WHOLE, &ComputeSettings::of(&case.plan), &Progress::default());
     let tried = tried.expect("a result");
     assert!(tried.len() > 1000);
-    let different: std::collections::HashSet<&[usize]> = tried.iter().map(|t| t.order.as_slice()).collect();
+    let different: HashSet<&[usize]> = tried.iter().map(|t| t.order.as_slice()).collect();
     assert_eq!(different.len(), tried.len());
+    let listed: Vec<usize> = (0..rows).collect();
+    let reversed: Vec<usize> = (0..rows).rev().collect();
+    assert_eq!([&tried[0].order, &tried[1].order], [&listed, &reversed]);
+    let share = |tried: &Tried| tried.envelope.utilization(&case.limits);
+    let by_order: HashMap<&[usize], f64> = tried.iter().map(|t| (t.order.as_slice(), share(t))).collect();
+    let ranked = Orders::new(&case, tried.clone(), 1).ranked;
+    let (worst, best) = (&ranked[0], &ranked[ranked.len() - 1]);
+    for start in &tried[..1000] {
+        assert!((share(best)..=share(worst)).contains(&share(start)));
+    }
+    assert!(share(best) < share(worst));
+    for a in 0..rows {
+        for b in a + 1..rows {
+            let exchanged = |of: &Tried| {
+                let mut order = of.order.clone();
+                order.swap(a, b);
+                *by_order.get(order.as_slice()).expect("the exchange is tried")
+            };
+            assert!(exchanged(worst) <= share(worst) && exchanged(best) >= share(best));
+        }
+    }
 }
 
 #[test]

@@ -8,6 +8,8 @@ use std::time::{Duration, Instant};
 
 use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
 
+use super::support::{PROGRAM, shipped};
+
 /// A shelter running in a terminal that is watched.
 struct Watched {
     screen: Arc<Mutex<vt100::Parser>>,
@@ -23,15 +25,15 @@ const PATIENCE: Duration = Duration::from_secs(30);
 
 impl Watched {
     fn open(plan: &str, arguments: &[&str], columns: u16, rows: u16) -> Self {
-        let plan = Path::new(env!("CARGO_MANIFEST_DIR")).join("plans").join(plan);
-        let all = [&[plan.to_str().expect("UTF-8")], arguments].concat();
+        let plan = shipped(plan);
+        let all = [&[plan.as_str()], arguments].concat();
         Self::start(&all, Path::new(env!("CARGO_MANIFEST_DIR")), columns, rows)
     }
 
     fn start(arguments: &[&str], folder: &Path, columns: u16, rows: u16) -> Self {
         let size = PtySize { rows, cols: columns, pixel_width: 0, pixel_height: 0 };
         let pair = native_pty_system().openpty(size).expect("a pty");
-        let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_shelter"));
+        let mut command = CommandBuilder::new(PROGRAM);
         command.args(arguments);
         command.cwd(folder);
         command.env("TERM", "xterm-256color");
@@ -200,7 +202,7 @@ fn without_a_plan_there_is_a_choice() {
     watched.until("1 of 7 pass");
     watched.press("q");
     assert_eq!(watched.ends(), 0);
-    let piped = std::process::Command::new(env!("CARGO_BIN_EXE_shelter")).output().expect("it runs");
+    let piped = std::process::Command::new(PROGRAM).output().expect("it runs");
     assert_eq!(piped.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&piped.stdout).contains("Usage"));
 }
@@ -385,7 +387,7 @@ fn a_new_plan_by_questions() {
 fn a_mistake_in_the_configuration_is_named() {
     let home = tempfile::tempdir().expect("a folder");
     let run = |arguments: &[&str]| {
-        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_shelter"));
+        let mut command = std::process::Command::new(PROGRAM);
         command.args(arguments).env("XDG_CONFIG_HOME", home.path()).env("HOME", home.path());
         command.output().expect("it runs")
     };
@@ -395,8 +397,8 @@ fn a_mistake_in_the_configuration_is_named() {
     std::fs::write(home.path().join("shelter/config.toml"), "theme = \"pink\"\n").expect("written");
     let size = PtySize { rows: 30, cols: 100, pixel_width: 0, pixel_height: 0 };
     let pair = native_pty_system().openpty(size).expect("a pty");
-    let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_shelter"));
-    command.args([concat!(env!("CARGO_MANIFEST_DIR"), "/plans/paper-5-tire.toml")]);
+    let mut command = CommandBuilder::new(PROGRAM);
+    command.args([shipped("paper-5-tire.toml")]);
     command.env("XDG_CONFIG_HOME", home.path());
     let mut child = pair.slave.spawn_command(command).expect("it starts");
     drop(pair.slave);

@@ -5,7 +5,7 @@ mod top_view;
 
 pub use self::top_view::svg as top_view;
 
-use jiff::{Timestamp, tz::TimeZone};
+use chrono::{DateTime, Local};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
@@ -98,13 +98,8 @@ pub fn page(case: &Case, results: &Results, date: &str) -> String {
 /// Today; a day fixed by SOURCE_DATE_EPOCH where pages are to be reproduced.
 pub fn today() -> String {
     let fixed = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|seconds| seconds.parse().ok());
-    let now = fixed.and_then(|seconds| Timestamp::from_second(seconds).ok());
-    match now {
-        Some(fixed) => fixed.to_zoned(TimeZone::UTC),
-        None => jiff::Zoned::now(),
-    }
-    .strftime("%Y-%m-%d")
-    .to_string()
+    let fixed = fixed.and_then(|seconds| DateTime::from_timestamp(seconds, 0));
+    fixed.map_or_else(|| Local::now().date_naive(), |fixed| fixed.date_naive()).to_string()
 }
 
 fn word(verdict: Verdict) -> Markup {

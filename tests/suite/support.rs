@@ -1,0 +1,29 @@
+//! The program as the tests run it, the plans that come with it, and its output as text and JSON.
+
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+/// Path of the program.
+pub const PROGRAM: &str = env!("CARGO_BIN_EXE_shelter");
+
+/// Output of the program, run to its end; it takes 2007-09-17 for today.
+pub fn shelter(arguments: &[&str]) -> Output {
+    let mut command = Command::new(PROGRAM);
+    command.args(arguments).env("SOURCE_DATE_EPOCH", "1190000000").output().expect("it runs")
+}
+
+/// Path of a shipped plan.
+pub fn shipped(name: &str) -> String {
+    format!("{}/plans/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Output as text.
+pub fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).expect("UTF-8")
+}
+
+/// Standard output as one JSON document.
+pub fn json(output: &Output) -> Value {
+    serde_json::from_slice(&output.stdout).expect("one JSON document")
+}
