@@ -120,10 +120,14 @@ pub fn seconds(time: f64) -> String {
 
 /// Seconds as milliseconds without needless decimals: `20 ms`, `0.2 ms`.
 pub fn milliseconds(time: f64) -> String {
-    let ms = time * 1e3;
-    let digits = if ms == 0.0 { 0.0 } else { 3.0 - ms.abs().log10().floor() - 1.0 };
+    format!("{} ms", short(time * 1e3))
+}
+
+/// A number with three digits at least and no needless decimals: `20`, `0.125`.
+pub fn short(number: f64) -> String {
+    let digits = if number == 0.0 { 0.0 } else { 3.0 - number.abs().log10().floor() - 1.0 };
     let scale = 10_f64.powf(digits.clamp(0.0, 12.0));
-    format!("{} ms", (ms * scale).round() / scale)
+    format!("{}", (number * scale).round() / scale)
 }
 
 /// Seconds as milliseconds with all digits that were computed: `30.625 ms`.

@@ -6,10 +6,15 @@ use std::time::Duration;
 
 use clap::Args;
 
-use super::long::Finished;
-use super::{Compute, FormatArg, Look, Status, load, long};
-use crate::report;
-use crate::study::accuracy::measure;
+use super::arguments::{Compute, FormatArg, Look};
+use super::plans::open_option;
+use super::print::print;
+use super::run_study::{Finished, run_study};
+use super::status::{Status, failed};
+use crate::choice::Method;
+use crate::report::accuracy::report;
+use crate::report::json::AccuracyDocument;
+use crate::study::accuracy::{PaperRow, measure, paper_table};
 
 /// Runs that are expected to take longer are left out.
 const PATIENCE: Duration = Duration::from_secs(8);
@@ -29,20 +34,23 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
-    let Some((case, option)) = load::case_and_option(&arguments.plan, arguments.option.as_deref(), look)
-    else {
+    let Some((case, option)) = open_option(&arguments.plan, arguments.option.as_deref(), look) else {
         return Ok(Status::Wrong);
     };
-    let measured = long::run(&arguments.compute, |progress| measure(&case, option, PATIENCE, progress));
+    let measured = run_study(&arguments.compute, |progress| measure(&case, option, PATIENCE, progress));
     let Finished { value: study, partial } = match measured {
         Ok(finished) => finished,
-        Err(failure) => return long::failed(&failure),
+        Err(reason) => return failed(&reason),
     };
-    let text = match arguments.format {
-        FormatArg::Text => report::accuracy::text(&case, option, &study),
-        FormatArg::Json => report::json(&report::accuracy::Document::new(&case, option, &study)),
-        FormatArg::Csv => report::csv(report::accuracy::rows(&study)),
+    let document = || AccuracyDocument::new(&case, &study);
+    // Scripts do not read the table of the paper, which takes time.
+    let paper: Vec<(Method, Vec<PaperRow>)> = match arguments.format {
+        FormatArg::Text => {
+            let methods = [Method::Verlet, Method::Newmark].into_iter();
+            methods.filter_map(|method| Some((method, paper_table(&case, method)?))).collect()
+        }
+        FormatArg::Json | FormatArg::Csv => Vec::new(),
     };
-    long::print(&text)?;
-    Ok(if partial { Status::Fail } else { Status::Pass })
+    let status = print(&[report(&case, &study, &paper)], document, arguments.format, look)?;
+    Ok(if partial { Status::Fail } else { status })
 }

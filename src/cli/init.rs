@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Look, Status};
+use super::arguments::Look;
+use super::status::Status;
 use crate::file;
 use crate::plan::PlanSource;
 use crate::plan::import::plan_from_holes;

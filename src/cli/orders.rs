@@ -5,9 +5,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::long::Finished;
-use super::merge::{self, Answer};
-use super::{Compute, FormatArg, Look, Status, load, long};
+use super::arguments::{Compute, FormatArg, Look, intervals, shard};
+use super::findings::{Answer, print_findings};
+use super::plans::open;
+use super::run_study::{Finished, run_study};
+use super::status::{Status, failed, wrong};
 use crate::plan::{DelayOption, Timing};
 use crate::study::merge::{Findings, Question};
 use crate::study::orders::{MOST_ROWS, count, is_complete, orders};
@@ -18,10 +20,10 @@ pub struct Arguments {
     /// Plan to study; `-` reads standard input
     plan: PathBuf,
     /// Intervals in ms; default: those of the delay options
-    #[arg(long, value_name = "FROM..TO:STEP", value_parser = long::intervals, allow_hyphen_values = true)]
+    #[arg(long, value_name = "FROM..TO:STEP", value_parser = intervals, allow_hyphen_values = true)]
     interval: Option<Intervals>,
     /// This machine's share; `shelter merge` joins the shares
-    #[arg(long, value_name = "I/N", value_parser = long::shard, conflicts_with_all = ["timeout", "format"])]
+    #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with_all = ["timeout", "format"])]
     shard: Option<Shard>,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
@@ -34,9 +36,7 @@ pub struct Arguments {
 const MOST_ORDERS: usize = 5_000_000;
 
 pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
-    let Some(case) = load::cases([&arguments.plan], look).and_then(|mut cases| cases.pop()) else {
-        return Ok(Status::Wrong);
-    };
+    let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
     let intervals_s = arguments.interval.map_or_else(|| case.intervals(), |interval| interval.values());
     let own = |delay: &&DelayOption| matches!(delay.timing, Timing::At(_));
     let left_out: Vec<&str> = case.plan.delays.iter().filter(own).map(|delay| delay.name.as_str()).collect();
@@ -44,26 +44,26 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         eprintln!("note: without an interval of their own, and left out: {}", left_out.join("; "));
     }
     if arguments.shard.is_some() && !is_complete(&case) {
-        return load::wrong(&format!(
+        return wrong(&format!(
             "orders of more than {MOST_ROWS} rows are searched, not shared: leave out --shard"
         ));
     }
     if is_complete(&case) && count(&case, intervals_s.len()) > MOST_ORDERS {
-        let words = format!(
+        let message = format!(
             "more than {MOST_ORDERS} orders and intervals do not fit into memory: take fewer intervals"
         );
-        return load::wrong(&words);
+        return wrong(&message);
     }
     let (settings, shard) = (arguments.compute.settings(&case.plan), arguments.shard.unwrap_or(Shard::WHOLE));
     let tried =
-        long::run(&arguments.compute, |progress| orders(&case, &intervals_s, shard, &settings, progress));
+        run_study(&arguments.compute, |progress| orders(&case, &intervals_s, shard, &settings, progress));
     match tried {
-        Err(failure) => long::failed(&failure),
+        Err(reason) => failed(&reason),
         Ok(Finished { value: tried, partial }) => {
             let question = Question::Orders { intervals_s };
             let answer =
                 Answer { case: &case, question, settings, findings: Findings::Orders(tried), partial };
-            merge::print(answer, arguments.shard, arguments.format, look)
+            print_findings(answer, arguments.shard, arguments.format, look)
         }
     }
 }

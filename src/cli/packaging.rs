@@ -5,7 +5,8 @@ use std::io::{self, Write};
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 
-use super::{Cli, Status};
+use super::Cli;
+use super::status::Status;
 
 #[derive(Args)]
 pub struct Completions {
@@ -33,6 +34,6 @@ pub fn config() -> io::Result<Status> {
 }
 
 pub fn schema() -> io::Result<Status> {
-    io::stdout().write_all(crate::report::json(&crate::plan::schema::schema()).as_bytes())?;
+    io::stdout().write_all(crate::report::json::text(&crate::plan::schema::schema()).as_bytes())?;
     Ok(Status::Pass)
 }

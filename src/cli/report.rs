@@ -5,11 +5,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Compute, FormatArg, Look, Status, check, load, long};
+use super::arguments::{Compute, FormatArg, Look};
+use super::checks::{check_all, print_checks};
+use super::plans::open;
+use super::print::print_text;
+use super::status::{Status, failed, wrong};
 use crate::file;
-use crate::report;
-use crate::study::plans::verdict;
-use crate::verdict::Verdict;
+use crate::report::{check, html};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -18,7 +20,7 @@ pub struct Arguments {
     /// Page to write; `-` writes it to standard output
     #[arg(short, long, value_name = "FILE.html")]
     output: PathBuf,
-    /// Print what `check` prints as well
+    /// Also print the results, as `check` does
     #[arg(long, value_enum)]
     format: Option<FormatArg>,
     #[command(flatten)]
@@ -26,29 +28,29 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
-    let Some(cases) = load::cases([&arguments.plan], look) else { return Ok(Status::Wrong) };
+    let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
     let Arguments { plan, output, .. } = arguments;
     let same = |a: &Path, b: &Path| a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b));
     if same(plan, output) {
-        return load::wrong(&format!("{} is the plan itself: give the page another name", output.display()));
+        return wrong(&format!("{} is the plan itself: give the page another name", output.display()));
     }
     if output.as_os_str() == "-" && arguments.format.is_some() {
-        return load::wrong("page and results cannot both go to standard output: write the page to a file");
+        return wrong("page and results cannot both go to standard output: write the page to a file");
     }
-    let judged = match check::all(&cases, &arguments.compute) {
-        Ok(judged) => judged,
-        Err(failure) => return long::failed(&failure),
+    let cases = [case];
+    let checked = match check_all(&cases, &arguments.compute) {
+        Ok(checked) => checked,
+        Err(reason) => return failed(&reason),
     };
-    let page = report::html::page(&cases[0], &judged[0], &report::html::today());
+    let page = html::page(&cases[0], &checked[0], &html::today());
     if output.as_os_str() == "-" {
-        long::print(&page)?;
+        print_text(&page)?;
     } else {
         file::save(output, &page)?;
         eprintln!("wrote {}", output.display());
     }
-    if let Some(format) = arguments.format {
-        return check::show(&cases, &judged, look, &check::Output { format, any: false });
+    match arguments.format {
+        Some(format) => print_checks(&cases, &checked, false, format, look),
+        None => Ok(Status::of(&[check::report(&cases[0], &checked[0], false)])),
     }
-    let passed = verdict(&judged[0], false) == Verdict::Pass;
-    Ok(if passed { Status::Pass } else { Status::Fail })
 }

@@ -1,16 +1,19 @@
 //! `shelter ropes`: the catalogue.
 
-use std::io::{self, Write};
+use std::io;
 
 use clap::Args;
 
-use super::{FormatArg, Status};
-use crate::report;
+use super::arguments::{FormatArg, Look};
+use super::print::print;
+use super::status::Status;
+use crate::report::json::RopesDocument;
+use crate::report::ropes::{ropes, terminations};
 use crate::ropes::catalogue;
 
 #[derive(Args)]
 pub struct Arguments {
-    /// Terminations and what they leave of a rope's strength
+    /// Terminations and the share of a rope's breaking force that they hold
     #[arg(long)]
     terminations: bool,
     /// Output format
@@ -18,15 +21,8 @@ pub struct Arguments {
     format: FormatArg,
 }
 
-pub fn run(arguments: &Arguments) -> io::Result<Status> {
+pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     let catalogue = catalogue();
-    let text = match (arguments.format, arguments.terminations) {
-        (FormatArg::Text, false) => report::ropes::text(catalogue),
-        (FormatArg::Text, true) => report::ropes::terminations(catalogue),
-        (FormatArg::Json, _) => report::json(&report::ropes::Document::new(catalogue)),
-        (FormatArg::Csv, false) => report::csv(&catalogue.ropes),
-        (FormatArg::Csv, true) => report::csv(&catalogue.terminations),
-    };
-    io::stdout().write_all(text.as_bytes())?;
-    Ok(Status::Pass)
+    let report = if arguments.terminations { terminations(catalogue) } else { ropes(catalogue) };
+    print(&[report], || RopesDocument::new(catalogue), arguments.format, look)
 }

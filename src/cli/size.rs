@@ -1,19 +1,22 @@
 //! `shelter size`: the lightest shelter that holds.
 
-use std::io::{self, IsTerminal};
+use std::io;
 use std::path::PathBuf;
 
 use clap::Args;
 
-use super::long::Finished;
-use super::scatter::DrawArguments;
-use super::{Compute, FormatArg, Look, Status, load, long};
+use super::arguments::{Compute, DrawArguments, FormatArg, Look, intervals};
+use super::plans::open;
+use super::print::print;
+use super::run_study::run_study;
+use super::status::{Status, failed, wrong};
 use crate::file;
 use crate::plan::{Layout, edit};
-use crate::report;
+use crate::report::json::SizeDocument;
+use crate::report::size::report;
 use crate::ropes::catalogue;
 use crate::study::orders::{MOST_ROWS, is_complete};
-use crate::study::size::{Combination, Demand, Untried, size};
+use crate::study::size::{Combination, Demand, size};
 use crate::study::{Case, Intervals, NoResult};
 
 #[derive(Args)]
@@ -24,7 +27,7 @@ pub struct Arguments {
     #[arg(long)]
     any_order: bool,
     /// With --any-order: intervals in ms; default: those of the delay options
-    #[arg(long, value_name = "FROM..TO:STEP", value_parser = long::intervals, requires = "any_order", allow_hyphen_values = true)]
+    #[arg(long, value_name = "FROM..TO:STEP", value_parser = intervals, requires = "any_order", allow_hyphen_values = true)]
     interval: Option<Intervals>,
     /// 99 % of the samples of every option must pass
     #[arg(long, conflicts_with = "any_order")]
@@ -48,39 +51,29 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
-    let Some(mut case) = load::cases([&arguments.plan], look).and_then(|mut cases| cases.pop()) else {
-        return Ok(Status::Wrong);
-    };
+    let Some(mut case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
     if arguments.write && case.source.path == "-" {
-        return load::wrong("--write has no file to write into: give the plan by its name");
+        return wrong("--write has no file to write into: give the plan by its name");
     }
     let demand = match choose(arguments, &mut case) {
         Ok(demand) => demand,
-        Err(message) => return load::wrong(&message),
+        Err(message) => return wrong(&message),
     };
     let settings = arguments.compute.settings(&case.plan);
-    let sizing = long::run(&arguments.compute, |progress| size(&case.plan, &demand, &settings, progress));
-    let Finished { value: sizing, .. } = match sizing {
-        Ok(finished) => finished,
-        Err(failure) => return long::failed(&failure),
+    let sized = run_study(&arguments.compute, |progress| size(&case.plan, &demand, &settings, progress));
+    let sizing = match sized {
+        Ok(finished) => finished.value,
+        Err(reason) => return failed(&reason),
     };
-    long::print(&match arguments.format {
-        FormatArg::Text => report::size::text(&case, &sizing, look.style(io::stdout().is_terminal())),
-        FormatArg::Json => report::json(&report::size::Document::new(&case, &sizing)),
-        FormatArg::Csv => report::csv(sizing.combinations.iter().map(report::size::Line::new)),
-    })?;
-    match sizing.found() {
-        Some(found) if sizing.untried(Untried::OutOfTime) == 0 => {
-            if arguments.write {
-                write(arguments, &case, found)?;
-            }
-            Ok(Status::Pass)
-        }
-        _ => Ok(Status::Fail),
+    let document = || SizeDocument::new(&case, &sizing);
+    let status = print(&[report(&case, &sizing)], document, arguments.format, look)?;
+    if let (Status::Pass, true, Some(found)) = (status, arguments.write, sizing.found()) {
+        write(arguments, &case, found)?;
     }
+    Ok(status)
 }
 
-/// What must hold; puts what the command line chooses into the plan.
+/// Puts the choices of the command line into the plan. Returns what the shelter must hold.
 fn choose(arguments: &Arguments, case: &mut Case) -> Result<Demand, String> {
     if let Some(family) = &arguments.ropes {
         let families = catalogue().families();

@@ -1,14 +1,18 @@
 //! `shelter sweep`: height and force against the interval between rows.
 
-use std::io::{self, IsTerminal};
+use std::io;
 use std::path::PathBuf;
 
 use clap::Args;
 
-use super::long::Finished;
-use super::{Compute, FormatArg, Look, Status, load, long};
+use super::arguments::{Compute, FormatArg, Look, intervals};
+use super::plans::open_option;
+use super::print::print;
+use super::run_study::{Finished, run_study};
+use super::status::{Status, failed, wrong};
 use crate::plan::Timing;
-use crate::report;
+use crate::report::json::SweepDocument;
+use crate::report::sweep::report;
 use crate::study::Intervals;
 use crate::study::sweep::sweep;
 
@@ -16,8 +20,8 @@ use crate::study::sweep::sweep;
 pub struct Arguments {
     /// Plan to sweep; `-` reads standard input
     plan: PathBuf,
-    /// Intervals in ms; where the curve jumps, closer ones are tried as well
-    #[arg(long, value_name = "FROM..TO:STEP", default_value = "0..500:5", value_parser = long::intervals, allow_hyphen_values = true)]
+    /// Intervals in ms; where the curve jumps, intervals between them are tried as well
+    #[arg(long, value_name = "FROM..TO:STEP", default_value = "0..500:5", value_parser = intervals, allow_hyphen_values = true)]
     interval: Intervals,
     /// Delay option whose order of rows is swept; default: rows in the order listed
     #[arg(long, value_name = "NAME")]
@@ -30,34 +34,25 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
-    let Some((case, option)) = load::case_and_option(&arguments.plan, arguments.option.as_deref(), look)
-    else {
+    let Some((case, option)) = open_option(&arguments.plan, arguments.option.as_deref(), look) else {
         return Ok(Status::Wrong);
     };
     let order = match (&arguments.option, &case.plan.delays[option].timing) {
         (None, _) => (0..case.plan.blast_rows.len()).collect(),
         (Some(_), Timing::Interval { order, .. }) => order.clone(),
         (Some(name), Timing::At(_)) => {
-            return load::wrong(&format!(
-                "option '{name}' has firing times of its own, no interval to sweep"
-            ));
+            return wrong(&format!("option '{name}' has firing times of its own, no interval to sweep"));
         }
     };
     let settings = arguments.compute.settings(&case.plan);
-    let swept = long::run(&arguments.compute, |progress| {
+    let swept = run_study(&arguments.compute, |progress| {
         sweep(&case, &order, &arguments.interval, &settings, progress)
     });
-    let Finished { value: swept, partial } = match swept {
-        Ok(finished) => finished,
-        Err(failure) => return long::failed(&failure),
-    };
-    long::print(&match arguments.format {
-        FormatArg::Text => {
-            report::sweep::text(&case, &swept, partial, look.style(io::stdout().is_terminal()))
+    match swept {
+        Err(reason) => failed(&reason),
+        Ok(Finished { value: swept, partial }) => {
+            let document = || SweepDocument::new(&case, &swept, partial);
+            print(&[report(&case, &swept, partial)], document, arguments.format, look)
         }
-        FormatArg::Json => report::json(&report::sweep::Document::new(&case, &swept, partial)),
-        FormatArg::Csv => report::csv(swept.points.iter().map(report::sweep::Row::new)),
-    })?;
-    let all = swept.windows().len() == 1 && swept.windows()[0] == swept.range();
-    Ok(if all && !partial { Status::Pass } else { Status::Fail })
+    }
 }

@@ -7,7 +7,9 @@ use std::time::Instant;
 
 use clap::Args;
 
-use super::{Compute, FormatArg, Look, Status, load};
+use super::arguments::{Compute, FormatArg, Look, positive};
+use super::plans::open_option;
+use super::status::{Status, wrong};
 use crate::report;
 use crate::scene::{Scene, TireId, seconds};
 use crate::simulation::{Failure, Settings};
@@ -28,7 +30,7 @@ pub struct Arguments {
     #[arg(long, value_name = "ROW,COLUMN-ROW,COLUMN")]
     cable: Vec<String>,
     /// Milliseconds between rows; default: every step
-    #[arg(long, value_name = "MS", value_parser = super::positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "MS", value_parser = positive, allow_negative_numbers = true)]
     every: Option<f64>,
     /// Output format; `text` is CSV as well
     #[arg(long, value_enum, default_value = "csv")]
@@ -38,13 +40,12 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
-    let Some((case, option)) = load::case_and_option(&arguments.plan, arguments.option.as_deref(), look)
-    else {
+    let Some((case, option)) = open_option(&arguments.plan, arguments.option.as_deref(), look) else {
         return Ok(Status::Wrong);
     };
     let mut chosen = match chosen(case.scene(), arguments) {
         Ok(chosen) => chosen,
-        Err(message) => return load::wrong(&message),
+        Err(message) => return wrong(&message),
     };
     let compute = arguments.compute.settings(&case.plan);
     let settings = Settings {
@@ -80,7 +81,7 @@ fn failed(failure: &Failure) -> io::Result<Status> {
         eprintln!("the time was up at {at:.3} s of the motion");
         return Ok(Status::Fail);
     }
-    load::wrong(&report::no_result::message(&failure.clone().into()))
+    wrong(&report::no_result::message(&failure.clone().into()))
 }
 
 /// Writes rows as they come.

@@ -70,6 +70,46 @@ pub struct Column {
     pub shown: Shown,
 }
 
+impl Table {
+    /// A table of columns and of the cells of its rows.
+    pub fn new(columns: &[Column], rows: impl IntoIterator<Item = Vec<Cell>>) -> Self {
+        let rows = rows.into_iter().map(|cells| Row { cells, ..Row::default() }).collect();
+        Self { columns: columns.to_vec(), rows, ranked: false }
+    }
+}
+
+impl Column {
+    /// A column of words.
+    pub const fn words(keys: &'static [&'static str], heading: &'static str) -> Self {
+        Self { keys, heading, subheading: "", unit: Unit::One, align: Align::Left, shown: Shown::People }
+    }
+
+    /// A column of numbers.
+    pub const fn numbers(keys: &'static [&'static str], heading: &'static str, unit: Unit) -> Self {
+        Self { unit, align: Align::Right, ..Self::words(keys, heading) }
+    }
+
+    /// A column that only scripts read.
+    pub const fn scripts(keys: &'static [&'static str]) -> Self {
+        Self { shown: Shown::Scripts, ..Self::words(keys, "") }
+    }
+
+    /// The same column, shown to others.
+    pub const fn shown(self, shown: Shown) -> Self {
+        Self { shown, ..self }
+    }
+
+    /// The same column, not read by scripts.
+    pub const fn unread(self) -> Self {
+        Self { keys: &[], ..self }
+    }
+
+    /// The same column with a second line of heading.
+    pub const fn under(self, subheading: &'static str) -> Self {
+        Self { subheading, ..self }
+    }
+}
+
 /// Side of a column on which its cells stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {

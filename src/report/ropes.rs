@@ -1,54 +1,73 @@
-//! The rope catalogue as text, JSON and CSV.
+//! The rope catalogue as a report: one table a family.
 
-use serde::Serialize;
-
+use super::model::{Block, Cell, Column, Report, Table};
 use crate::ropes::{Catalogue, Rope, Termination};
+use crate::units::Unit;
 
-/// The catalogue as a document.
-#[derive(Serialize)]
-pub struct Document<'a> {
-    schema: &'static str,
-    ropes: &'a [Rope],
-    terminations: &'a [Termination],
-}
+const ROPES: [Column; 12] = [
+    Column::words(&["name"], "name in plans"),
+    Column::scripts(&["family"]),
+    Column::scripts(&["standard"]),
+    Column::scripts(&["construction"]),
+    Column::numbers(&["grade"], "grade, N/mm²", Unit::One),
+    Column::numbers(&["diameter_mm"], "diameter, mm", Unit::One),
+    Column::numbers(&["metallic_area_mm2"], "area, mm²", Unit::One),
+    Column::numbers(&["mass_kg_per_m"], "mass, kg/m", Unit::One),
+    Column::numbers(&["axial_stiffness_kn"], "EA, kN", Unit::One),
+    Column::numbers(&["breaking_force_kn"], "breaks at, kN", Unit::One),
+    Column::scripts(&["source"]),
+    Column::scripts(&["typical"]),
+];
 
-impl<'a> Document<'a> {
-    /// All of it.
-    pub fn new(catalogue: &'a Catalogue) -> Self {
-        Self { schema: "shelter.ropes/1", ropes: &catalogue.ropes, terminations: &catalogue.terminations }
-    }
-}
+const TERMINATIONS: [Column; 3] = [
+    Column::words(&["name"], "termination"),
+    Column::numbers(&["efficiency_percent"], "of the rope", Unit::Percent),
+    Column::words(&["source"], "source"),
+];
 
-/// Ropes as a table by family, each with its source.
-pub fn text(catalogue: &Catalogue) -> String {
-    let mut text = String::new();
-    let mut family = "";
-    for rope in &catalogue.ropes {
-        if rope.family != family {
-            family = &rope.family;
-            let typical = if rope.typical { "\n  typical values" } else { "" };
-            text += &format!("\n{}: {}{typical}\n  {}\n", rope.standard, rope.construction, rope.source);
-            text += &format!(
-                "  {:28} {:>7} {:>8} {:>8} {:>8} {:>9} {:>9}\n",
-                "name in plans", "d, mm", "A, mm2", "kg/m", "N/mm2", "EA, kN", "break, kN"
-            );
+/// The ropes by family, each family with its source.
+pub fn ropes(catalogue: &Catalogue) -> Report {
+    let mut blocks = Vec::new();
+    for family in catalogue.ropes.chunk_by(|a, b| a.family == b.family) {
+        let Some(first) = family.first() else { continue };
+        let mut lines = vec![format!("{}: {}", first.standard, first.construction)];
+        if first.typical {
+            lines.push("typical values".to_owned());
         }
-        let area = rope.metallic_area_mm2.map_or_else(|| "-".to_owned(), |area| format!("{area}"));
-        text += &format!(
-            "  {:28} {:>7} {area:>8} {:>8.3} {:>8} {:>9.0} {:>9}\n",
-            rope.name,
-            rope.diameter_mm,
-            rope.mass_kg_per_m,
-            rope.grade,
-            rope.axial_stiffness_kn,
-            rope.breaking_force_kn
-        );
+        lines.push(first.source.clone());
+        blocks.push(Block::Text(lines));
+        blocks.push(Block::Table(Table::new(&ROPES, family.iter().map(cells))));
     }
-    text
+    Report { blocks, ..Report::default() }
 }
 
-/// Terminations as a table.
-pub fn terminations(catalogue: &Catalogue) -> String {
-    let row = |t: &Termination| format!("{:20} {:>5} %  {}\n", t.name, t.efficiency_percent, t.source);
-    catalogue.terminations.iter().map(row).collect()
+fn cells(rope: &Rope) -> Vec<Cell> {
+    let text = |text: &str| Cell::Text(text.to_owned());
+    vec![
+        text(&rope.name),
+        text(&rope.family),
+        text(&rope.standard),
+        text(&rope.construction),
+        Cell::Count(rope.grade as usize),
+        Cell::Number(rope.diameter_mm),
+        rope.metallic_area_mm2.map_or(Cell::Nothing, Cell::Number),
+        Cell::Rounded(rope.mass_kg_per_m, 3),
+        Cell::Rounded(rope.axial_stiffness_kn, 0),
+        Cell::Number(rope.breaking_force_kn),
+        text(&rope.source),
+        Cell::Flag(rope.typical),
+    ]
+}
+
+/// The terminations.
+pub fn terminations(catalogue: &Catalogue) -> Report {
+    let cells = |termination: &Termination| {
+        vec![
+            Cell::Text(termination.name.clone()),
+            Cell::Number(termination.efficiency_percent),
+            Cell::Text(termination.source.clone()),
+        ]
+    };
+    let table = Table::new(&TERMINATIONS, catalogue.terminations.iter().map(cells));
+    Report { blocks: vec![Block::Table(table)], ..Report::default() }
 }

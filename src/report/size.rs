@@ -1,181 +1,135 @@
-//! The results of `size`; schema `shelter.size/1`.
+//! `size` as a report: the lightest combinations that hold.
 
-use serde::Serialize;
-
-use super::table::Style;
+use super::charts;
+use super::columns::{FORCE, HEIGHT, force, height};
+use super::model::{Block, Cell, Column, Conclusion, Report, Table};
+use crate::study::Case;
 use crate::study::size::{Combination, Sizing, Trial, Untried};
-use crate::study::{Case, Envelope};
-use crate::units::{Unit, value_and_error};
+use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
-/// The document of one study.
-#[derive(Serialize)]
-pub struct Document {
-    schema: &'static str,
-    plan: String,
-    title: String,
-    found: bool,
-    #[serde(flatten)]
-    lightest: Option<Row>,
-    tried: usize,
-    not_tried: usize,
-    partial: bool,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    nearest: Option<Row>,
-    frontier: Vec<Row>,
-}
+/// Combinations that hold with more margin than any lighter one, for people.
+const FRONTIER: [Column; 8] = [
+    Column::words(&[], "rope"),
+    Column::numbers(&[], "tire, kg", Unit::One),
+    Column::numbers(&[], "border rows", Unit::One),
+    Column::numbers(&[], "tires", Unit::One),
+    Column::numbers(&[], "total", Unit::Tonne),
+    Column::numbers(&[], "of limit", Unit::One),
+    HEIGHT.unread(),
+    FORCE.unread(),
+];
 
-/// One combination, for JSON.
-#[derive(Serialize)]
-pub struct Row {
-    rope: String,
-    tire_mass_kg: f64,
-    border_rows: usize,
-    tires: usize,
-    total_mass_kg: f64,
-    utilization: Option<f64>,
-    worst: Option<super::Values>,
-}
+/// Every combination, for scripts.
+const COMBINATIONS: [Column; 8] = [
+    Column::scripts(&["rope"]),
+    Column::scripts(&["tire_mass_kg"]),
+    Column::scripts(&["border_rows"]),
+    Column::scripts(&["tires"]),
+    Column::scripts(&["total_mass_kg"]),
+    Column::scripts(&["holds"]),
+    Column::scripts(&["tried"]),
+    Column::scripts(&["utilization"]),
+];
 
-/// One combination, for CSV.
-#[derive(Serialize)]
-pub struct Line {
-    rope: String,
-    tire_mass_kg: f64,
-    border_rows: usize,
-    tires: usize,
-    total_mass_kg: f64,
-    holds: bool,
-    tried: bool,
-    utilization: Option<f64>,
-}
-
-impl Row {
-    fn new(combination: &Combination) -> Self {
-        let Combination { rope, tire_mass, border_rows, tires, total_mass, trial } = combination;
-        Self {
-            rope: rope.name.clone(),
-            tire_mass_kg: *tire_mass,
-            border_rows: *border_rows,
-            tires: *tires,
-            total_mass_kg: *total_mass,
-            utilization: trial.ok().map(|trial| trial.utilization),
-            worst: trial.ok().map(|trial| super::Values::new(&trial.worst)),
-        }
-    }
-}
-
-impl Line {
-    /// Of a combination.
-    pub fn new(combination: &Combination) -> Self {
-        let row = Row::new(combination);
-        Self {
-            rope: row.rope,
-            tire_mass_kg: row.tire_mass_kg,
-            border_rows: row.border_rows,
-            tires: row.tires,
-            total_mass_kg: row.total_mass_kg,
-            holds: combination.trial.is_ok_and(|trial| trial.holds),
-            tried: combination.trial.is_ok(),
-            utilization: row.utilization,
-        }
-    }
-}
-
-impl Document {
-    /// Of all combinations.
-    pub fn new(case: &Case, sizing: &Sizing) -> Self {
-        let found = sizing.found();
-        Self {
-            schema: "shelter.size/1",
-            plan: case.source.path.clone(),
-            title: case.title().to_owned(),
-            found: found.is_some(),
-            lightest: found.map(Row::new),
-            tried: sizing.tried(),
-            not_tried: sizing.combinations.len() - sizing.tried(),
-            partial: sizing.untried(Untried::OutOfTime) > 0,
-            nearest: found.is_none().then(|| nearest(sizing)).flatten().map(|(c, _)| Row::new(c)),
-            frontier: sizing.frontier().into_iter().map(Row::new).collect(),
-        }
-    }
-}
-
-/// The frontier for reading.
-pub fn text(case: &Case, sizing: &Sizing, style: Style) -> String {
-    let plan = &case.plan;
-    let mut text = format!("{} · {}\n", case.title(), case.source.path);
-    text += &format!(
-        "limits: height {} m, breaking force / {}\n",
-        plan.limits.flight_height_m, plan.limits.cable_safety_factor
-    );
-    let (tried, all) = (sizing.tried(), sizing.combinations.len());
-    text += &format!("{tried} of {all} combinations tried");
-    let [same_stiffness, out_of_time, unstable] =
-        [Untried::SameStiffnessFails, Untried::OutOfTime, Untried::Unstable].map(|why| sizing.untried(why));
-    if same_stiffness > 0 {
-        text +=
-            &format!("; {same_stiffness} have the stiffness of a stronger rope that fails, and move alike");
-    }
-    if out_of_time > 0 {
-        text += &format!("; for {out_of_time} the time did not suffice");
-    }
-    if unstable > 0 {
-        text += &format!("; {unstable} cannot be followed at this step: choose a smaller --dt");
-    }
-    text += "\n\n";
+/// The report of all combinations.
+pub fn report(case: &Case, sizing: &Sizing) -> Report {
+    let limits = &case.plan.limits;
     let frontier = sizing.frontier();
-    let Some(found) = sizing.found() else {
-        text += &match out_of_time + unstable {
-            0 => format!("{}: no combination holds\n", style.verdict(Verdict::Fail)),
-            _ => format!("{}: no combination tried so far holds\n", style.verdict(Verdict::Undecided)),
-        };
-        if let Some((combination, trial)) = nearest(sizing) {
-            text += &format!("nearest: {}\n", words(combination, &trial));
-        }
-        return style.plain(text);
-    };
-    text += &format!(
-        "{:26}  {:>7}  {:>6}  {:>5}  {:>9}  {:>6}  {:>17}  {:>17}\n",
-        "rope", "tire kg", "border", "tires", "total t", "margin", "height, m", "force, kN"
-    );
-    for combination in frontier {
-        let Ok(trial) = combination.trial else { continue };
-        let Envelope { height, force, .. } = trial.worst;
-        text += &format!(
-            "{:26}  {:>7}  {:>6}  {:>5}  {:>9.2}  {:>4.0} %  {:>17}  {:>17}\n",
-            combination.rope.name,
-            combination.tire_mass,
-            combination.border_rows,
-            combination.tires,
-            combination.total_mass * 1e-3,
-            1e2 * (1.0 - trial.utilization),
-            value_and_error(height.value, height.error, Unit::Metre),
-            value_and_error(force.value, force.error, Unit::Kilonewton),
-        );
+    let rows = frontier.iter().filter_map(|combination| {
+        let trial = combination.trial.ok()?;
+        let used =
+            [Cell::Utilization(trial.utilization), height(trial.worst.height), force(trial.worst.force)];
+        Some(parts(combination).into_iter().chain(used).collect())
+    });
+    let mut blocks = vec![Block::Text(tried(sizing))];
+    if !frontier.is_empty() {
+        blocks.push(Block::Table(Table::new(&FRONTIER, rows)));
+    } else if let Some((combination, trial)) = nearest(sizing) {
+        blocks.push(Block::Text(vec![format!("nearest: {}", sentence(combination, &trial))]));
     }
-    let word = style.verdict(Verdict::Pass);
-    if let Ok(trial) = &found.trial {
-        let so_far = if out_of_time > 0 { " so far" } else { "" };
-        text += &format!("\n{word}: lightest{so_far} {}\n", words(found, trial));
+    let all = sizing.combinations.iter().map(|combination| {
+        let trial = combination.trial.ok();
+        let used = trial.map_or(Cell::Nothing, |trial| Cell::Utilization(trial.utilization));
+        let told = [Cell::Flag(trial.is_some_and(|trial| trial.holds)), Cell::Flag(trial.is_some()), used];
+        parts(combination).into_iter().chain(told).collect()
+    });
+    blocks.push(Block::Table(Table::new(&COMBINATIONS, all)));
+    blocks.push(Block::Picture(charts::size(sizing)));
+    Report {
+        title: format!("{} · {}", case.title(), case.source.path),
+        facts: vec![format!(
+            "limits: height {} m, breaking force / {}",
+            limits.flight_height_m, limits.cable_safety_factor
+        )],
+        blocks,
+        conclusion: Some(conclusion(sizing)),
     }
-    style.plain(text)
 }
 
-/// The combination that uses least of the limits, of those that fail.
-fn nearest(sizing: &Sizing) -> Option<(&Combination, Trial)> {
+/// Rope, mass of a tire, border rows, tires and total mass.
+fn parts(combination: &Combination) -> [Cell; 5] {
+    [
+        Cell::Text(combination.rope.name.clone()),
+        Cell::Number(combination.tire_mass),
+        Cell::Count(combination.border_rows),
+        Cell::Count(combination.tires),
+        Cell::Value(combination.total_mass, Unit::Tonne),
+    ]
+}
+
+/// How many combinations were tried, and why the others were not.
+fn tried(sizing: &Sizing) -> Vec<String> {
+    let mut lines = vec![format!("{} of {} combinations tried", sizing.tried(), sizing.combinations.len())];
+    let reasons = [
+        (Untried::SameStiffnessFails, "a stronger rope of the same stiffness already fails"),
+        (Untried::OutOfTime, "the time was up"),
+        (Untried::Unstable, "the motion cannot be computed at this step: choose a smaller --dt"),
+    ];
+    for (why, reason) in reasons {
+        match sizing.untried(why) {
+            0 => {}
+            count => lines.push(format!("{count} not tried: {reason}")),
+        }
+    }
+    lines
+}
+
+fn conclusion(sizing: &Sizing) -> Conclusion {
+    let out_of_time = sizing.untried(Untried::OutOfTime) > 0;
+    let open = out_of_time || sizing.untried(Untried::Unstable) > 0;
+    let found = sizing.found().and_then(|found| Some((found, found.trial.ok()?)));
+    let (verdict, text) = match found {
+        // A lighter one may hold among those that are left.
+        Some((found, trial)) if out_of_time => {
+            (Verdict::Undecided, format!("lightest so far {}", sentence(found, &trial)))
+        }
+        Some((found, trial)) => (Verdict::Pass, format!("lightest {}", sentence(found, &trial))),
+        None if open => (Verdict::Undecided, "no combination tried so far holds".to_owned()),
+        None => (Verdict::Fail, "no combination holds".to_owned()),
+    };
+    Conclusion { verdict, text }
+}
+
+/// The combination with the least utilization.
+pub(super) fn nearest(sizing: &Sizing) -> Option<(&Combination, Trial)> {
     let trials = sizing.combinations.iter().filter_map(|c| Some((c, c.trial.ok()?)));
     trials.min_by(|a, b| a.1.utilization.total_cmp(&b.1.utilization))
 }
 
-fn words(combination: &Combination, trial: &Trial) -> String {
+fn sentence(combination: &Combination, trial: &Trial) -> String {
     format!(
-        "{}, tires of {} kg, {} border rows: {:.2} t in all, {:.0} % of the limits used, {} shots judged",
+        "{}, tires of {} kg, {}: {} t in all, {} of the limits used, {} judged",
         combination.rope.name,
         combination.tire_mass,
-        combination.border_rows,
-        combination.total_mass * 1e-3,
-        1e2 * trial.utilization,
-        trial.shots,
+        counted(combination.border_rows, "border row"),
+        units::computed(combination.total_mass, Unit::Tonne),
+        units::percent(trial.utilization, 0),
+        counted(trial.shots, "shot"),
     )
+}
+
+fn counted(count: usize, noun: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {noun}{plural}")
 }

@@ -1,10 +1,10 @@
 //! Quantities over time as CSV: the columns of `trace`, and the rows of a history.
 
-use serde::Serialize;
-
+use super::model::{Block, Cell, Column, Report, Table};
 use crate::outcome::History;
 use crate::scene::Scene;
 use crate::study::trace::Chosen;
+use crate::units::Unit;
 
 /// Column names: time, then per tire and per cable, each addressed as in the plan.
 pub fn header(scene: &Scene, chosen: &Chosen) -> Vec<String> {
@@ -18,21 +18,19 @@ pub fn header(scene: &Scene, chosen: &Chosen) -> Vec<String> {
     names
 }
 
-/// Greatest height and force of a stretch of time.
-#[derive(Serialize)]
-pub struct Row {
-    from_s: f64,
-    to_s: f64,
-    flight_height_m: f64,
-    cable_force_n: f64,
-}
+const HISTORY: [Column; 4] = [
+    Column::numbers(&["from_s"], "from", Unit::One),
+    Column::numbers(&["to_s"], "to", Unit::One),
+    Column::numbers(&["flight_height_m"], "height", Unit::Metre),
+    Column::numbers(&["cable_force_n"], "force", Unit::Kilonewton),
+];
 
-/// The rows of a history.
-pub fn history(history: &History) -> impl Iterator<Item = Row> + '_ {
-    history.height.iter().zip(&history.force).enumerate().map(|(n, (&height, &force))| Row {
-        from_s: n as f64 * history.width,
-        to_s: (n + 1) as f64 * history.width,
-        flight_height_m: height,
-        cable_force_n: force,
-    })
+/// The report of a history: greatest height and force of each stretch of time.
+pub fn history(history: &History) -> Report {
+    let row = |(n, (&height, &force)): (usize, (&f64, &f64))| {
+        let [from, to] = [n, n + 1].map(|n| Cell::Time(n as f64 * history.width));
+        vec![from, to, Cell::Value(height, Unit::Metre), Cell::Value(force, Unit::Kilonewton)]
+    };
+    let rows = history.height.iter().zip(&history.force).enumerate().map(row);
+    Report { blocks: vec![Block::Table(Table::new(&HISTORY, rows))], ..Report::default() }
 }

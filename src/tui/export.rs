@@ -5,7 +5,8 @@ use std::path::Path;
 use super::app::{App, Row, Screen};
 use super::studies::Progress;
 use crate::file;
-use crate::report;
+use crate::report::model::{Block, Chart, Report};
+use crate::report::{self, charts, html};
 use crate::scene::fire_at_s;
 use crate::study::plans::Results;
 use crate::worker::{Found, Kind};
@@ -16,7 +17,7 @@ pub fn write(app: &App, path: &Path) -> Result<(), String> {
     let text = match ending {
         "csv" => csv(app)?,
         "svg" => svg(app)?,
-        "html" => report::html::page(&app.case, &results(app)?, &report::html::today()),
+        "html" => html::page(&app.case, &results(app)?, &html::today()),
         _ => return Err("the name must end in .csv, .svg or .html".to_owned()),
     };
     file::create(path, &text).map_err(|error| error.to_string())
@@ -24,24 +25,28 @@ pub fn write(app: &App, path: &Path) -> Result<(), String> {
 
 /// The table on the screen.
 pub fn csv(app: &App) -> Result<String, String> {
+    Ok(report::csv::csv(&[report(app)?]))
+}
+
+/// The report on the screen.
+fn report(app: &App) -> Result<Report, String> {
+    let case = &app.case;
     match app.screen {
-        Screen::Plan | Screen::Compare => Ok(report::csv(report::check::Row::of(&app.case, &results(app)?))),
+        Screen::Plan | Screen::Compare => Ok(report::check::report(case, &results(app)?, false)),
         Screen::Flight => {
             let flight = app.studies.flight(app.selected).ok_or("nothing is shown yet")?;
-            Ok(report::csv(report::trace::history(&flight.outcome.history)))
+            Ok(report::trace::history(&flight.outcome.history))
         }
         Screen::Studies => Ok(match found(app, app.studies.shown)? {
-            Found::Sweep(sweep) => report::csv(sweep.points.iter().map(report::sweep::Row::new)),
-            Found::Orders(orders) => {
-                report::csv(orders.ranked.iter().map(|tried| report::orders::Line::new(&app.case, tried)))
-            }
-            Found::Scatter(_, samples) => report::csv(report::scatter::lines(&app.case, samples)),
-            Found::Size(sizing) => report::csv(sizing.combinations.iter().map(report::size::Line::new)),
-            Found::Flight(_) | Found::Accuracy(_) => String::new(),
+            Found::Sweep(sweep) => report::sweep::report(case, sweep, false),
+            Found::Orders(orders) => report::orders::report(case, orders, false),
+            Found::Scatter(draw, samples) => report::scatter::report(case, draw, samples, false),
+            Found::Size(sizing) => report::size::report(case, sizing),
+            Found::Flight(_) | Found::Accuracy(_) => Report::default(),
         }),
         Screen::Accuracy => match found(app, Kind::Accuracy)? {
             Found::Accuracy(study) if study.option == app.selected => {
-                Ok(report::csv(report::accuracy::rows(study)))
+                Ok(report::accuracy::report(case, study, &[]))
             }
             _ => Err("the selected option is not measured yet".to_owned()),
         },
@@ -50,28 +55,26 @@ pub fn csv(app: &App) -> Result<String, String> {
 
 /// The picture on the screen.
 fn svg(app: &App) -> Result<String, String> {
-    let pictures = match app.screen {
-        Screen::Plan => vec![report::html::top_view(&app.case, Some(app.selected))],
+    let charts: Vec<Chart> = match app.screen {
+        Screen::Plan => return Ok(html::top_view(&app.case, Some(app.selected))),
         Screen::Compare | Screen::Flight => {
             let history = match app.studies.flight(app.selected) {
                 Some(flight) if app.screen == Screen::Flight => &flight.outcome.history,
                 _ => &app.checked(app.selected).ok_or("the selected option has no result yet")?.history,
             };
             let delay = &app.case.plan.delays[app.selected];
-            report::chart::history(&app.case, history, &fire_at_s(&delay.timing))
+            charts::history(&app.case, history, &fire_at_s(&delay.timing)).into()
         }
-        Screen::Studies => match found(app, app.studies.shown)? {
-            Found::Sweep(sweep) => report::chart::sweep(&app.case, sweep),
-            _ => return Err("this study has no picture; write a .csv file".to_owned()),
-        },
-        Screen::Accuracy => match found(app, Kind::Accuracy)? {
-            Found::Accuracy(study) if study.option == app.selected => {
-                report::chart::accuracy(study).into_iter().collect()
-            }
-            _ => return Err("the selected option is not measured yet".to_owned()),
-        },
+        Screen::Studies | Screen::Accuracy => {
+            let blocks = report(app)?.blocks.into_iter();
+            let chart = |block| match block {
+                Block::Chart(chart) | Block::Picture(chart) => Some(chart),
+                Block::Text(_) | Block::Table(_) => None,
+            };
+            blocks.filter_map(chart).collect()
+        }
     };
-    Ok(report::chart::stack(&pictures))
+    Ok(html::stack(&charts.iter().filter_map(html::svg).collect::<Vec<_>>()))
 }
 
 fn found(app: &App, kind: Kind) -> Result<&Found, String> {

@@ -3,7 +3,9 @@
 
 use plotters::prelude::*;
 
+use super::svg::color;
 use crate::plan::BlastRow;
+use crate::report::palette::Role;
 use crate::scene::Firing;
 use crate::study::Case;
 
@@ -16,7 +18,6 @@ const MOST_CABLES: usize = 5000;
 const MOST_LABELS: usize = 60;
 const TIRE: RGBColor = RGBColor(120, 120, 120);
 const CABLE: RGBColor = RGBColor(200, 200, 200);
-const HOLE: RGBColor = RGBColor(160, 48, 0);
 
 /// The view with the firing times of one option, or the names of the blast rows; empty if it cannot be drawn.
 pub fn svg(case: &Case, option: Option<usize>) -> String {
@@ -42,14 +43,14 @@ fn names(case: &Case) -> Vec<(usize, String)> {
 
 /// Holes are marked at the labelled tires.
 fn draw(case: &Case, labels: &[(usize, String)]) -> Result<String, Box<dyn std::error::Error>> {
-    let scene = case.scene();
+    let (scene, hole) = (case.scene(), color(Role::Fail));
     let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
     let (wide, high) = ((right - left).max(1.0), (top - bottom).max(1.0));
     let scale = ((WIDTH - 2.0 * MARGIN) / wide).min((TALLEST - 2.0 * MARGIN) / high);
     let size = (WIDTH as u32, (high * scale + 2.0 * MARGIN) as u32);
     let at = |tire: usize| {
-        let place = scene.position[tire];
-        ((MARGIN + (place.x - left) * scale) as i32, (MARGIN + (top - place.y) * scale) as i32)
+        let position = scene.position[tire];
+        ((MARGIN + (position.x - left) * scale) as i32, (MARGIN + (top - position.y) * scale) as i32)
     };
     let mut text = String::new();
     {
@@ -65,11 +66,11 @@ fn draw(case: &Case, labels: &[(usize, String)]) -> Result<String, Box<dyn std::
             area.draw(&Circle::new(at(tire), radius, TIRE.stroke_width(1)))?;
         }
         for (tire, _) in labels {
-            area.draw(&Circle::new(at(*tire), (radius / 2).max(1), HOLE.filled()))?;
+            area.draw(&Circle::new(at(*tire), (radius / 2).max(1), hole.filled()))?;
         }
         let written = || labels.iter().filter(|(_, label)| !label.is_empty());
         if written().count() <= MOST_LABELS {
-            let style = ("sans-serif", 10).into_font().color(&HOLE);
+            let style = ("sans-serif", 10).into_font().color(&hole);
             for (tire, label) in written() {
                 let (x, y) = at(*tire);
                 area.draw(&Text::new(label.as_str(), (x + radius + 1, y - radius - 9), style.clone()))?;

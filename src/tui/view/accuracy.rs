@@ -10,7 +10,7 @@ use ratatui::widgets::{Block, Borders, Dataset, GraphType, Paragraph, Wrap};
 use super::chart::{Scale, chart};
 use super::studies::{message, waiting};
 use crate::choice::Method;
-use crate::report::chart::{WorkPrecision, logarithms, power, work_precision};
+use crate::report::charts::{work_and_error, work_precision};
 use crate::report::no_result;
 use crate::study::accuracy::{Measured, Study};
 use crate::tui::app::App;
@@ -106,30 +106,35 @@ fn draw_plot(app: &App, study: &Study, frame: &mut Frame, area: Rect) {
     if area.height < 4 {
         return;
     }
-    let Some(WorkPrecision { series, time, error }) = work_precision(study) else { return };
+    let Some(picture) = work_precision(study) else { return };
+    let at = |(x, y): (f64, f64)| (picture.x.coordinate(x), picture.y.coordinate(y));
+    let series: Vec<(&str, Vec<(f64, f64)>)> = picture
+        .series
+        .iter()
+        .map(|series| (series.name, series.points.iter().copied().map(at).collect()))
+        .collect();
     let dots = |data, style: Style, marker, name: &'static str| {
         Dataset::default().data(data).graph_type(GraphType::Line).marker(marker).style(style).name(name)
     };
-    let levels: Vec<(f64, f64)> =
-        study.levels.iter().filter_map(|(_, step)| logarithms(&measured(study, *step)?)).collect();
     let chosen = study.levels.iter().find(|(level, _)| *level == app.compute.accuracy);
     let chosen: Vec<(f64, f64)> =
-        chosen.and_then(|(_, step)| logarithms(&measured(study, *step)?)).into_iter().collect();
+        chosen.and_then(|(_, step)| work_and_error(&measured(study, *step)?)).into_iter().map(at).collect();
     let points = |data, marker, name: &'static str| {
         let style = app.theme.firing();
         Dataset::default().data(data).graph_type(GraphType::Scatter).marker(marker).style(style).name(name)
     };
     let sets = vec![
-        dots(&series[1].1, app.theme.limit(), Marker::Braille, series[1].0.name()),
-        dots(&series[0].1, app.theme.curve(), Marker::Braille, series[0].0.name()),
-        points(&levels, Marker::Dot, "levels"),
+        dots(&series[1].1, app.theme.limit(), Marker::Braille, picture.series[1].name),
+        dots(&series[0].1, app.theme.curve(), Marker::Braille, picture.series[0].name),
+        points(&series[2].1, Marker::Dot, "levels"),
         points(&chosen, Marker::Block, "chosen"),
     ];
-    let decades = |[from, to]: [f64; 2]| {
-        let exponents = from as i32..=to as i32;
-        Scale::new([from, to], exponents.map(|exponent| power(f64::from(exponent))))
+    let decades = |axis: &crate::report::model::Axis| {
+        let [from, to] = axis.ends();
+        let exponents = from.round() as i32..=to.round() as i32;
+        Scale::new([from, to], exponents.map(|exponent| axis.mark(f64::from(exponent))))
     };
     let title = "error, %, against the time of a run, ms".to_owned();
-    let chart = chart(app, title, sets, decades(time), decades(error));
+    let chart = chart(app, title, sets, decades(&picture.x), decades(&picture.y));
     frame.render_widget(chart, area);
 }

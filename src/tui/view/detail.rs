@@ -14,7 +14,7 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::chart;
 use crate::outcome::EndReason;
-use crate::report::check::{broken, explain, peak};
+use crate::report::explain::{broken, peak, reason as explain};
 use crate::report::no_result;
 use crate::scene::fire_at_s;
 use crate::study::check::Checked;

@@ -15,7 +15,7 @@ use ratatui::widgets::{Block, Borders, Dataset, Gauge, Paragraph, Wrap};
 use super::chart::{Scale, chart, line};
 use super::{Places, spread};
 use crate::report;
-use crate::report::table::Style as Plain;
+use crate::report::text::{Style as Plain, text as as_text};
 use crate::study::sweep::{Point, Sweep};
 use crate::tui::app::{App, Target};
 use crate::tui::keymap::Action;
@@ -23,9 +23,6 @@ use crate::tui::studies::Progress;
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 use crate::worker::{Found, Kind};
-
-/// Orders listed at each end of the ranking.
-const SHOWN: usize = 100;
 
 /// What lines of sparklines contain.
 const BARS: [char; 3] = ['▁', '▄', '▇'];
@@ -110,15 +107,15 @@ pub fn message(app: &App, frame: &mut Frame, area: Rect, question: Line<'_>, wor
 
 /// The same text as the command prints, without its heading, which stands above already.
 fn text(app: &App, found: &Found) -> String {
-    let (case, style) = (&app.case, Plain::default());
-    let whole = match found {
-        Found::Sweep(sweep) => report::sweep::text(case, sweep, false, style),
-        Found::Orders(orders) => report::orders::text(case, orders, SHOWN, false, style),
-        Found::Scatter(draw, samples) => report::scatter::text(case, draw, samples, false, style),
-        Found::Size(sizing) => report::size::text(case, sizing, style),
-        Found::Flight(_) | Found::Accuracy(_) => String::new(),
+    let case = &app.case;
+    let found = match found {
+        Found::Sweep(sweep) => report::sweep::report(case, sweep, false),
+        Found::Orders(orders) => report::orders::report(case, orders, false),
+        Found::Scatter(draw, samples) => report::scatter::report(case, draw, samples, false),
+        Found::Size(sizing) => report::size::report(case, sizing),
+        Found::Flight(_) | Found::Accuracy(_) => return String::new(),
     };
-    whole.lines().skip(2).skip_while(|line| line.is_empty()).map(|line| format!("{line}\n")).collect()
+    as_text(&report::model::Report { title: String::new(), facts: Vec::new(), ..found }, Plain::default())
 }
 
 fn scrolled(app: &App, frame: &mut Frame, area: Rect, text: &str, places: &mut Places) {

@@ -1,10 +1,13 @@
-//! Plans from the command line: loading with diagnostics on stderr, and opening one in the terminal.
+//! `shelter PLAN` and `shelter` alone: the terminal.
 
 use std::io::{self, IsTerminal};
 use std::path::Path;
 use std::sync::Arc;
 
-use super::{Compute, Look, Status};
+use super::arguments::{Compute, FormatArg, Look};
+use super::checks::{check_all, print_checks};
+use super::status::{Status, failed, wrong};
+use super::{plans, print_help};
 use crate::plan::PlanSource;
 use crate::study::Case;
 use crate::tui::config::{self, Config};
@@ -12,32 +15,15 @@ use crate::tui::start::{Opened, Start};
 use crate::tui::{self, app::App};
 use crate::worker::{Errands, Worker};
 
-/// Loads plans; prints every mistake of every plan and returns `None` when there is one.
-pub fn cases<'a>(paths: impl IntoIterator<Item = &'a std::path::PathBuf>, look: &Look) -> Option<Vec<Case>> {
-    let mut cases = Some(Vec::new());
-    for path in paths {
-        match Case::load(path) {
-            Ok(case) => {
-                if let Some(cases) = &mut cases {
-                    cases.push(case);
-                }
-            }
-            Err(diagnostics) => {
-                eprint!("{}", diagnostics.render(look.colored(io::stderr().is_terminal())));
-                cases = None;
-            }
-        }
-    }
-    cases
-}
-
 /// Opens a plan in the terminal; where output is no terminal, says the same as `check`.
-pub fn open(plan: &Path, compute: &Compute, look: &Look) -> io::Result<Status> {
-    let Some(case) = cases(&[plan.to_path_buf()], look).and_then(|mut cases| cases.pop()) else {
-        return Ok(Status::Wrong);
-    };
+pub fn plan(plan: &Path, compute: &Compute, look: &Look) -> io::Result<Status> {
+    let Some(case) = plans::open(plan, look) else { return Ok(Status::Wrong) };
     if !io::stdout().is_terminal() {
-        return super::check::print(vec![case], compute, look, &super::check::Output::default());
+        let cases = [case];
+        return match check_all(&cases, compute) {
+            Ok(checked) => print_checks(&cases, &checked, false, FormatArg::Text, look),
+            Err(reason) => failed(&reason),
+        };
     }
     needs_keyboard(compute)?;
     // Standard input and pipes are read once; only a file can be watched and written.
@@ -54,7 +40,7 @@ pub fn open(plan: &Path, compute: &Compute, look: &Look) -> io::Result<Status> {
 /// Without a plan: offers what there is; where output is no terminal, the help.
 pub fn start(compute: &Compute, look: &Look) -> io::Result<Status> {
     if !io::stdout().is_terminal() {
-        super::print_help()?;
+        print_help()?;
         return Ok(Status::Wrong);
     }
     needs_keyboard(compute)?;
@@ -62,7 +48,7 @@ pub fn start(compute: &Compute, look: &Look) -> io::Result<Status> {
     let start = Start::new(Path::new("."), config::recent());
     let (name, text, kept) = match tui::choose(start, config.theme, screen(&config, look))? {
         Err(exit) => return Ok(status(&exit)),
-        Ok(Opened::File(path)) => return open(&path, compute, look),
+        Ok(Opened::File(path)) => return self::plan(&path, compute, look),
         Ok(Opened::Example(name, text)) => (name, text.to_owned(), true),
         Ok(Opened::New(text)) => ("new plan", text, false),
     };
@@ -115,31 +101,4 @@ fn status(exit: &tui::Exit) -> Status {
         tui::Exit::Quit => Status::Pass,
         tui::Exit::Signal => Status::Interrupted,
     }
-}
-
-/// A plan and one of its delay options; prints what is wrong and returns `None` when there is none such.
-pub fn case_and_option(plan: &Path, option: Option<&str>, look: &Look) -> Option<(Case, usize)> {
-    let case = cases(&[plan.to_path_buf()], look)?.pop()?;
-    match find_option(&case, option) {
-        Ok(option) => Some((case, option)),
-        Err(message) => {
-            eprintln!("error: {message}");
-            None
-        }
-    }
-}
-
-/// The delay option of this name; the first without one.
-fn find_option(case: &Case, name: Option<&str>) -> Result<usize, String> {
-    let names: Vec<&str> = case.plan.delays.iter().map(|delay| delay.name.as_str()).collect();
-    let Some(name) = name else { return Ok(0) };
-    names.iter().position(|&known| known == name).ok_or_else(|| {
-        format!("no delay option '{name}' in {}; it has: {}", case.source.path, names.join("; "))
-    })
-}
-
-/// Reports a mistake in the arguments.
-pub fn wrong(message: &str) -> io::Result<Status> {
-    eprintln!("error: {message}");
-    Ok(Status::Wrong)
 }

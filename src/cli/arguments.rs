@@ -1,0 +1,176 @@
+//! Arguments that commands share, and how their values are read.
+
+use std::str::FromStr;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, ValueEnum};
+
+use crate::choice::{Accuracy, Method, UnknownName};
+use crate::plan::Plan;
+use crate::report::text::Style;
+use crate::scene::seconds;
+use crate::study::scatter::Draw;
+use crate::study::{ComputeSettings, Intervals, Shard};
+
+/// How to compute.
+#[derive(Args, Clone)]
+pub struct Compute {
+    /// Step that the refinement starts from
+    #[arg(long, value_parser = named::<Accuracy>(Accuracy::NAMES))]
+    pub accuracy: Option<Accuracy>,
+    /// Time integration method
+    #[arg(long, value_parser = named::<Method>(Method::NAMES))]
+    pub method: Option<Method>,
+    /// Exactly this step, never refined
+    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
+    pub dt: Option<f64>,
+    /// Worker threads; default: one per core
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// End after this time; print the results computed by then
+    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
+    pub timeout: Option<f64>,
+}
+
+impl Compute {
+    /// Settings of the plan, with those that the command line overrides.
+    pub fn settings(&self, plan: &Plan) -> ComputeSettings {
+        let asked = ComputeSettings::of(plan);
+        ComputeSettings {
+            method: self.method.unwrap_or(asked.method),
+            accuracy: self.accuracy.unwrap_or(asked.accuracy),
+            step: self.dt,
+        }
+    }
+}
+
+/// How output looks.
+#[derive(Args, Clone)]
+pub struct Look {
+    /// ASCII characters only, for poor fonts
+    #[arg(long, global = true)]
+    pub ascii: bool,
+    /// Colour; `auto` obeys NO_COLOR
+    #[arg(long, value_enum, default_value = "auto", global = true)]
+    pub color: ColorArg,
+}
+
+impl Look {
+    /// Style of text on a stream that is or is not a terminal.
+    pub fn style(&self, terminal: bool) -> Style {
+        Style { ascii: self.ascii || terminal && !shows_unicode(), color: self.colored(terminal) }
+    }
+
+    /// Whether text is coloured on a stream that is or is not a terminal.
+    pub fn colored(&self, terminal: bool) -> bool {
+        match self.color {
+            ColorArg::Always => true,
+            ColorArg::Never => false,
+            ColorArg::Auto => terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
+        }
+    }
+}
+
+/// Whether the terminal shows more than ASCII, as far as its name and the locale say.
+fn shows_unicode() -> bool {
+    let set = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
+    let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set);
+    let utf8 = |locale: String| locale.to_lowercase().replace('-', "").contains("utf8");
+    set("TERM").as_deref() != Some("dumb") && locale.is_none_or(utf8)
+}
+
+/// When output is coloured.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum ColorArg {
+    Auto,
+    Always,
+    Never,
+}
+
+/// Format of printed results.
+#[derive(Clone, Copy, Default, ValueEnum)]
+pub enum FormatArg {
+    #[default]
+    Text,
+    Json,
+    Csv,
+}
+
+/// How many samples, from which seed.
+#[derive(Args, Clone, Copy)]
+pub struct DrawArguments {
+    /// Samples of every option; default: 1000
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
+    samples: Option<u32>,
+    /// Seed of the random numbers; default: 1
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    seed: Option<u64>,
+    /// Stop an option once its failures are surely rarer, or surely more frequent, than this [%; default 1]
+    #[arg(long, value_name = "PERCENT", num_args = 0..=1, default_missing_value = "1", value_parser = percent)]
+    until_certain: Option<f64>,
+}
+
+impl DrawArguments {
+    /// The samples asked for.
+    pub fn draw(self) -> Draw {
+        Draw {
+            samples: self.samples.unwrap_or(1000) as usize,
+            seed: self.seed.unwrap_or(1),
+            certain_at: self.until_certain.map(|percent| percent * 1e-2),
+        }
+    }
+
+    /// Whether the command line says anything about samples.
+    pub fn is_given(self) -> bool {
+        self.samples.is_some() || self.seed.is_some() || self.until_certain.is_some()
+    }
+}
+
+/// A parser that takes the names of a choice, and shows them in the help.
+fn named<T>(names: &'static [&'static str]) -> impl TypedValueParser<Value = T>
+where
+    T: FromStr<Err = UnknownName> + Clone + Send + Sync + 'static,
+{
+    PossibleValuesParser::new(names).try_map(|name| name.parse())
+}
+
+/// A finite number above 0.
+pub fn positive(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err("must be a positive number".to_owned()) }
+}
+
+/// A number above 0 and below 100.
+fn percent(text: &str) -> Result<f64, String> {
+    positive(text)
+        .and_then(|value| if value < 100.0 { Ok(value) } else { Err("must be less than 100".to_owned()) })
+}
+
+/// `FROM..TO:STEP` in milliseconds.
+pub fn intervals(text: &str) -> Result<Intervals, String> {
+    let wrong = || format!("'{text}' is no range of intervals: write FROM..TO:STEP in ms, such as 0..500:5");
+    let (range, step) = text.split_once(':').ok_or_else(wrong)?;
+    let (from, to) = range.split_once("..").ok_or_else(wrong)?;
+    let number = |text: &str| text.trim().parse::<f64>().map(seconds).map_err(|_| wrong());
+    let intervals = Intervals { from: number(from)?, to: number(to)?, step: number(step)? };
+    let Intervals { from, to, step } = intervals;
+    if !(from >= 0.0 && to >= from && to <= 1e6 && step > 0.0) {
+        return Err(wrong());
+    }
+    if (to - from) / step > 1e5 {
+        return Err(format!("'{text}' is more than 100,000 intervals: take a longer step"));
+    }
+    Ok(intervals)
+}
+
+/// `I/N`, I from 1.
+pub fn shard(text: &str) -> Result<Shard, String> {
+    let wrong = || format!("'{text}' is no share: write I/N, such as 1/4 to 4/4");
+    let (index, of) = text.split_once('/').ok_or_else(wrong)?;
+    let [index, of] = [index, of].map(|text| text.trim().parse::<usize>().map_err(|_| wrong()));
+    let (index, of) = (index?, of?);
+    if index == 0 || index > of {
+        return Err(wrong());
+    }
+    Ok(Shard { index: index - 1, of })
+}

@@ -1,0 +1,49 @@
+//! Checking all options of some plans and printing their results, for every command that does.
+
+use std::io;
+
+use serde::Serialize;
+
+use super::arguments::{Compute, FormatArg, Look};
+use super::print::print;
+use super::run_study::run_study;
+use super::status::Status;
+use crate::report::check::report;
+use crate::report::json::CheckDocument;
+use crate::report::model::Report;
+use crate::study::plans::{Results, check_plans};
+use crate::study::{Case, NoResult};
+
+/// Checks all options of all cases in parallel. Returns results in the order of plans and options.
+pub fn check_all(cases: &[Case], compute: &Compute) -> Result<Vec<Results>, NoResult> {
+    let cases: Vec<_> = cases.iter().map(|case| (case, compute.settings(&case.plan))).collect();
+    Ok(run_study(compute, |progress| check_plans(&cases, progress))?.value)
+}
+
+/// One document for one plan, a list of documents for several.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Documents {
+    One(Box<CheckDocument>),
+    Several(Vec<CheckDocument>),
+}
+
+/// Prints the results of all cases; with `any` one passing option is enough.
+pub fn print_checks(
+    cases: &[Case],
+    checked: &[Results],
+    any: bool,
+    format: FormatArg,
+    look: &Look,
+) -> io::Result<Status> {
+    let pairs = || cases.iter().zip(checked);
+    let reports: Vec<Report> = pairs().map(|(case, results)| report(case, results, any)).collect();
+    let documents = || {
+        let mut all: Vec<_> = pairs().map(|(case, results)| CheckDocument::new(case, results, any)).collect();
+        match all.len() {
+            1 => Documents::One(Box::new(all.remove(0))),
+            _ => Documents::Several(all),
+        }
+    };
+    print(&reports, documents, format, look)
+}

@@ -1,0 +1,44 @@
+//! Opening the plans named on the command line; their mistakes go to standard error.
+
+use std::io::{self, IsTerminal};
+use std::path::{Path, PathBuf};
+
+use super::arguments::Look;
+use crate::study::Case;
+
+/// Opens plans. Prints every mistake of every plan; `None` where there is a mistake.
+pub fn open_all<'a>(paths: impl IntoIterator<Item = &'a PathBuf>, look: &Look) -> Option<Vec<Case>> {
+    // All of them are opened before the first mistake ends the command.
+    let cases: Vec<Option<Case>> = paths.into_iter().map(|path| open(path, look)).collect();
+    cases.into_iter().collect()
+}
+
+/// Opens a plan. Prints its mistakes; `None` where it has one.
+pub fn open(path: &Path, look: &Look) -> Option<Case> {
+    let opened = Case::load(path);
+    if let Err(mistakes) = &opened {
+        eprint!("{}", mistakes.render(look.colored(io::stderr().is_terminal())));
+    }
+    opened.ok()
+}
+
+/// Opens a plan and finds the delay option of this name, the first option without a name. Prints what is wrong; `None`
+/// where something is.
+pub fn open_option(plan: &Path, option: Option<&str>, look: &Look) -> Option<(Case, usize)> {
+    let case = open(plan, look)?;
+    match find_option(&case, option) {
+        Ok(option) => Some((case, option)),
+        Err(message) => {
+            eprintln!("error: {message}");
+            None
+        }
+    }
+}
+
+fn find_option(case: &Case, name: Option<&str>) -> Result<usize, String> {
+    let names: Vec<&str> = case.plan.delays.iter().map(|delay| delay.name.as_str()).collect();
+    let Some(name) = name else { return Ok(0) };
+    names.iter().position(|&known| known == name).ok_or_else(|| {
+        format!("no delay option '{name}' in {}; it has: {}", case.source.path, names.join("; "))
+    })
+}

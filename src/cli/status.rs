@@ -1,0 +1,73 @@
+//! Exit status: the one place that decides what a command says to the shell.
+
+use std::io;
+use std::process::ExitCode;
+
+use crate::report::model::Report;
+use crate::report::no_result;
+use crate::study::NoResult;
+use crate::verdict::Verdict;
+
+/// What a command says to the shell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// Everything asked for passes.
+    Pass = 0,
+    /// Something fails or stays undecided.
+    Fail = 1,
+    /// The plan or the arguments are wrong.
+    Wrong = 2,
+    /// Interrupted by a signal.
+    Interrupted = 130,
+}
+
+impl Status {
+    /// The status of printed reports: their worst verdict. A report without a verdict passes.
+    pub fn of(reports: &[Report]) -> Self {
+        let conclusions = reports.iter().filter_map(|report| report.conclusion.as_ref());
+        match Verdict::worst(conclusions.map(|conclusion| conclusion.verdict)) {
+            Verdict::Pass => Status::Pass,
+            Verdict::Undecided | Verdict::Fail => Status::Fail,
+        }
+    }
+}
+
+impl From<Status> for ExitCode {
+    fn from(status: Status) -> Self {
+        ExitCode::from(status as u8)
+    }
+}
+
+/// The status of a command that ended, after its error is told.
+pub fn ended(result: io::Result<Status>) -> ExitCode {
+    match result {
+        Ok(status) => status.into(),
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Status::Pass.into(),
+        Err(error) => {
+            eprintln!("error: {error}");
+            Status::Wrong.into()
+        }
+    }
+}
+
+/// Tells a mistake in the arguments.
+pub fn wrong(message: &str) -> io::Result<Status> {
+    eprintln!("error: {message}");
+    Ok(Status::Wrong)
+}
+
+/// Tells why a study has no result.
+pub fn failed(reason: &NoResult) -> io::Result<Status> {
+    match reason {
+        NoResult::Stopped => {
+            eprintln!("{reason}");
+            Ok(Status::Interrupted)
+        }
+        NoResult::OutOfTime => {
+            eprintln!("{reason}");
+            Ok(Status::Fail)
+        }
+        NoResult::NoInterval => wrong(&format!("{reason}: give --interval FROM..TO:STEP")),
+        _ => wrong(&no_result::message(reason)),
+    }
+}

@@ -1,0 +1,160 @@
+//! Charts of results as data, SI.
+
+use super::model::{Axis, Chart, Scale, Series, SeriesKind};
+use crate::choice::Method;
+use crate::outcome::History;
+use crate::study::accuracy::{Measured, Study};
+use crate::study::orders::Orders;
+use crate::study::scatter::Sample;
+use crate::study::size::{Combination, Sizing};
+use crate::study::sweep::{Point, Sweep};
+use crate::study::{Case, Envelope};
+use crate::units::Unit;
+
+/// Room above the greatest value.
+const HEADROOM: f64 = 1.08;
+
+/// Greatest flight height and cable force over time, with the firing times [s].
+pub fn history(case: &Case, history: &History, firings: &[f64]) -> [Chart; 2] {
+    let time = axis("time", Unit::Second, [0.0, history.width * history.height.len().max(1) as f64]);
+    let middle = |(n, &value): (usize, &f64)| ((n as f64 + 0.5) * history.width, value);
+    let chart = |name, unit, values: &[f64], limit| Chart {
+        firings: firings.to_vec(),
+        ..limited(time, (name, unit), values.iter().enumerate().map(middle).collect(), limit)
+    };
+    [
+        chart(HEIGHT, Unit::Metre, &history.height, case.limits.height),
+        chart(FORCE, Unit::Kilonewton, &history.force, case.limits.force),
+    ]
+}
+
+const HEIGHT: &str = "flight height";
+const FORCE: &str = "cable force";
+
+/// Greatest flight height and cable force against the interval between rows, with the intervals that pass.
+pub fn sweep(case: &Case, sweep: &Sweep) -> [Chart; 2] {
+    let interval = axis("interval", Unit::Millisecond, sweep.range());
+    let chart = |name, unit, of: fn(&Envelope) -> f64, limit| {
+        let point = |point: &Point| (point.interval, of(&point.envelope));
+        // A run that failed has no value.
+        let points = sweep.points.iter().map(point).filter(|(_, value)| value.is_finite()).collect();
+        Chart { windows: sweep.windows(), ..limited(interval, (name, unit), points, limit) }
+    };
+    [
+        chart(HEIGHT, Unit::Metre, |envelope| envelope.height.value, case.limits.height),
+        chart(FORCE, Unit::Kilonewton, |envelope| envelope.force.value, case.limits.force),
+    ]
+}
+
+/// A quantity with its limit.
+fn limited(x: Axis, (name, unit): (&'static str, Unit), points: Vec<(f64, f64)>, limit: f64) -> Chart {
+    let top = points.iter().map(|(_, value)| *value).fold(limit, f64::max) * HEADROOM;
+    Chart {
+        title: format!("{name} against {}", x.name),
+        x,
+        y: axis(name, unit, [0.0, top]),
+        series: vec![Series { name, kind: SeriesKind::Curve, points }],
+        limit: Some(limit),
+        windows: Vec::new(),
+        firings: Vec::new(),
+    }
+}
+
+fn axis(name: &'static str, unit: Unit, range: [f64; 2]) -> Axis {
+    Axis { name, unit, scale: Scale::Linear, range }
+}
+
+/// The larger error of every run against its time, both on logarithmic axes; `None` where no run has both.
+pub fn work_precision(study: &Study) -> Option<Chart> {
+    let runs = |method: Method| {
+        let rows = study.rows.iter().filter(move |row| row.method == method);
+        rows.filter_map(|row| Some((row.step, work_and_error(&row.result?)?)))
+    };
+    let all = |method: Method| runs(method).map(|(_, point)| point).collect();
+    let is_level = |step: &f64| study.levels.iter().any(|(_, level)| level == step);
+    let levels = runs(Method::Verlet).filter(|(step, _)| is_level(step)).map(|(_, point)| point).collect();
+    let series = vec![
+        Series { name: Method::Verlet.name(), kind: SeriesKind::Curve, points: all(Method::Verlet) },
+        Series { name: Method::Newmark.name(), kind: SeriesKind::Comparison, points: all(Method::Newmark) },
+        Series { name: "levels", kind: SeriesKind::Points, points: levels },
+    ];
+    let decades = |of: fn(&(f64, f64)) -> f64| {
+        let values = series.iter().flat_map(|series| &series.points).map(of);
+        let low = values.clone().reduce(f64::min)?.log10().floor();
+        let high = values.reduce(f64::max)?.log10().ceil().max(low + 1.0);
+        Some([low, high].map(|exponent| 10_f64.powf(exponent)))
+    };
+    let (time, error) = (decades(|point| point.0)?, decades(|point| point.1)?);
+    let logarithmic = |name, unit, range| Axis { name, unit, scale: Scale::Logarithmic, range };
+    Some(Chart {
+        title: "error against the time of a run".to_owned(),
+        x: logarithmic("time of a run", Unit::Millisecond, time),
+        y: logarithmic("error", Unit::Percent, error),
+        series,
+        limit: None,
+        windows: Vec::new(),
+        firings: Vec::new(),
+    })
+}
+
+/// Time [s] and larger relative error of a run; `None` where one of them has no logarithm.
+pub fn work_and_error(measured: &Measured) -> Option<(f64, f64)> {
+    let (wall, error) = (measured.wall.as_secs_f64(), measured.height_error.max(measured.force_error));
+    (wall > 0.0 && error > 0.0 && error.is_finite()).then_some((wall, error))
+}
+
+/// Utilization of every order, from the worst to the best.
+pub fn orders(case: &Case, orders: &Orders) -> Chart {
+    let share = orders.ranked.iter().map(|tried| tried.envelope.utilization(&case.limits));
+    let curve = share.enumerate().map(|(n, share)| ((n + 1) as f64, share)).collect();
+    utilization("from the worst order to the best", ("order", Unit::One), curve, Vec::new())
+}
+
+/// Utilization of the samples of each option, from the gentlest to the hardest.
+pub fn scatter<'c>(case: &'c Case, samples: &'c [Sample]) -> impl Iterator<Item = Chart> + 'c {
+    case.plan.delays.iter().enumerate().map(|(option, delay)| {
+        let mine = samples.iter().filter(|sample| sample.option == option);
+        let mut shares: Vec<f64> = mine.map(|sample| sample.envelope.utilization(&case.limits)).collect();
+        shares.sort_by(f64::total_cmp);
+        let count = shares.len() as f64;
+        let curve =
+            shares.into_iter().enumerate().map(|(n, share)| ((n + 1) as f64 / count, share)).collect();
+        let chart =
+            utilization("against the share of samples", ("samples", Unit::Percent), curve, Vec::new());
+        Chart { title: format!("{}: {}", delay.name, chart.title), ..chart }
+    })
+}
+
+/// Utilization of every combination against its mass, and of the lightest that hold.
+pub fn size(sizing: &Sizing) -> Chart {
+    let point =
+        |combination: &Combination| Some((combination.total_mass, combination.trial.ok()?.utilization));
+    let lightest = sizing.frontier().into_iter().filter_map(point).collect();
+    let all = sizing.combinations.iter().filter_map(point).collect();
+    utilization("against mass (line: lightest that hold)", ("mass", Unit::Tonne), lightest, all)
+}
+
+/// Utilization against something else.
+fn utilization(
+    title: &str,
+    (name, unit): (&'static str, Unit),
+    curve: Vec<(f64, f64)>,
+    points: Vec<(f64, f64)>,
+) -> Chart {
+    let all = || curve.iter().chain(&points);
+    let across = all().fold([f64::INFINITY, 0.0], |[a, b]: [f64; 2], &(x, _)| [a.min(x), b.max(x)]);
+    // Far past the limit it no longer matters how far.
+    let top = all().map(|(_, y)| *y).fold(1.2, f64::max).min(3.0);
+    Chart {
+        title: format!("utilization {title}"),
+        x: axis(name, unit, across),
+        y: axis("utilization", Unit::Percent, [0.0, top]),
+        series: vec![
+            Series { name: "combinations", kind: SeriesKind::Points, points },
+            Series { name: "utilization", kind: SeriesKind::Curve, points: curve },
+        ],
+        limit: Some(1.0),
+        windows: Vec::new(),
+        firings: Vec::new(),
+    }
+}

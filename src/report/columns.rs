@@ -1,0 +1,26 @@
+//! Columns that several reports share.
+
+use super::model::{Cell, Column};
+use crate::study::Bounded;
+use crate::units::Unit;
+
+/// Pass, open or fail.
+pub const VERDICT: Column = Column::words(&["verdict"], "");
+/// Greatest flight height and its error.
+pub const HEIGHT: Column =
+    Column::numbers(&["flight_height_m", "flight_height_error_m"], "height", Unit::Metre);
+/// Greatest cable force and its error.
+pub const FORCE: Column =
+    Column::numbers(&["cable_force_n", "cable_force_error_n"], "force", Unit::Kilonewton);
+/// Time between successive blast rows.
+pub const INTERVAL: Column = Column::numbers(&["interval_s"], "interval", Unit::One);
+
+/// Cell of [`HEIGHT`].
+pub fn height(height: Bounded) -> Cell {
+    Cell::Estimate { value: height.value, error: height.error, unit: Unit::Metre }
+}
+
+/// Cell of [`FORCE`].
+pub fn force(force: Bounded) -> Cell {
+    Cell::Estimate { value: force.value, error: force.error, unit: Unit::Kilonewton }
+}

@@ -1,0 +1,76 @@
+//! The face for scripts: tables as CSV, numbers SI and with all their digits.
+
+use csv::Writer;
+use serde::Serialize;
+
+use super::model::{Block, Cell, Report, Row, Table};
+
+/// All tables of all reports that have the same keys, below one header.
+pub fn csv(reports: &[Report]) -> String {
+    let blocks = reports.iter().flat_map(|report| &report.blocks);
+    let tables = blocks.filter_map(|block| match block {
+        Block::Table(table) if !keys(table).is_empty() => Some(table),
+        _ => None,
+    });
+    write(&tables.collect::<Vec<_>>()).unwrap_or_else(|error| format!("{error}\n"))
+}
+
+fn keys(table: &Table) -> Vec<&'static str> {
+    table.columns.iter().flat_map(|column| column.keys).copied().collect()
+}
+
+fn write(tables: &[&Table]) -> Result<String, csv::Error> {
+    let mut writer = Writer::from_writer(Vec::new());
+    let header = tables.first().map(|table| keys(table)).unwrap_or_default();
+    if !header.is_empty() {
+        writer.write_record(&header)?;
+    }
+    for table in tables {
+        for row in &table.rows {
+            writer.serialize(fields(table, row))?;
+        }
+    }
+    let bytes = writer.into_inner().map_err(|error| error.into_error())?;
+    Ok(String::from_utf8_lossy(&bytes).into())
+}
+
+/// What one name in the header stands for.
+#[derive(Clone, Serialize)]
+#[serde(untagged)]
+enum Field<'a> {
+    Nothing,
+    Text(&'a str),
+    Flag(bool),
+    Count(usize),
+    Number(f64),
+}
+
+/// One field a key.
+fn fields<'a>(table: &Table, row: &'a Row) -> Vec<Field<'a>> {
+    let mut fields = Vec::new();
+    for (column, cell) in table.columns.iter().zip(&row.cells) {
+        let written = match cell {
+            Cell::Nothing | Cell::Sparkline { .. } => Vec::new(),
+            Cell::Text(text) => vec![Field::Text(text)],
+            Cell::Verdict(verdict) => vec![Field::Text(verdict.name())],
+            Cell::Flag(flag) => vec![Field::Flag(*flag)],
+            Cell::Count(count) => vec![Field::Count(*count)],
+            Cell::Factor(factor) if factor.is_infinite() => Vec::new(),
+            Cell::Estimate { value, error, .. } => vec![Field::Number(*value), Field::Number(*error)],
+            Cell::Spread(values, _) => values.map(Field::Number).to_vec(),
+            Cell::Probability(interval) => interval.map(Field::Number).to_vec(),
+            Cell::Number(number)
+            | Cell::Rounded(number, _)
+            | Cell::Value(number, _)
+            | Cell::Time(number)
+            | Cell::Factor(number)
+            | Cell::Utilization(number)
+            | Cell::RelativeError(number)
+            | Cell::Residual(number) => vec![Field::Number(*number)],
+        };
+        let missing = column.keys.len().saturating_sub(written.len());
+        fields.extend(written.into_iter().take(column.keys.len()));
+        fields.extend(vec![Field::Nothing; missing]);
+    }
+    fields
+}

@@ -1,0 +1,101 @@
+//! What was planned, for the page: shelter, cables, limits and blast rows, and the command that gives the results again.
+
+use maud::{Markup, html};
+
+use crate::choice::OnOverload;
+use crate::plan::{LaunchTargets, Layout, Plan};
+use crate::study::plans::Results;
+use crate::study::{Case, ComputeSettings};
+use crate::units::{self, Unit};
+
+/// The plan as a table.
+pub fn shelter(case: &Case) -> Markup {
+    let (plan, scene) = (&case.plan, case.scene());
+    let cable = match &plan.cable.rope {
+        Some(rope) => format!("{rope}, termination {} %", plan.cable.termination_percent),
+        None => format!("EA {} kN", plan.cable.axial_stiffness_kn),
+    };
+    let limits = [
+        Some(format!("flight height {} m", units::value(case.limits.height, Unit::Metre))),
+        Some(format!(
+            "cable force {} kN (breaking force {} kN / {})",
+            units::value(case.limits.force, Unit::Kilonewton),
+            units::value(case.limits.breaking_force, Unit::Kilonewton),
+            plan.limits.cable_safety_factor
+        )),
+        case.limits.drift.map(|drift| format!("drift {} m", units::value(drift, Unit::Metre))),
+    ];
+    html! {
+        table {
+            tr { th { "Tires" } td { (scene.mass.len()) " of " (plan.tire.mass_kg) " kg, " (layout(plan)) ", " (rims(plan.tire.outer_diameter_m)) } }
+            tr { th { "Cables" } td { (scene.cables.len()) ", " (cable) ", slack " (plan.cable.slack_percent) " %" (if plan.cable.on_overload == OnOverload::Break { "; past its breaking force a cable is gone" } else { "" }) } }
+            tr { th { "Friction" } td { (plan.friction) } }
+            tr { th { "Limits" } td { (limits.into_iter().flatten().collect::<Vec<_>>().join("; ")) } }
+            @for row in &plan.blast_rows {
+                tr { th { "Blast row " (row.name) } td { (launched(&row.targets)) } }
+            }
+        }
+    }
+}
+
+fn layout(plan: &Plan) -> String {
+    match &plan.layout {
+        Layout::Grid(mesh) => {
+            format!(
+                "{} × {}, {} m × {} m apart",
+                mesh.rows, mesh.columns, mesh.row_spacing_m, mesh.column_spacing_m
+            )
+        }
+        Layout::Quincunx(mesh) => format!(
+            "{} × {} with centres, {} m × {} m apart",
+            mesh.rows, mesh.columns, mesh.row_spacing_m, mesh.column_spacing_m
+        ),
+        Layout::List { .. } => "placed one by one".to_owned(),
+    }
+}
+
+fn rims(diameter_m: f64) -> String {
+    if diameter_m > 0.0 {
+        format!("outer diameter {diameter_m} m: cables from rim to rim")
+    } else {
+        "cables from centre to centre".to_owned()
+    }
+}
+
+fn launched(targets: &LaunchTargets) -> String {
+    match targets {
+        LaunchTargets::UnderRow { row, launch_m_s } => {
+            format!("under shelter row {row}, launch {launch_m_s} m/s")
+        }
+        LaunchTargets::UnderTires { tires, launch_m_s } => {
+            let numbers: Vec<String> = tires.iter().map(|tire| (tire + 1).to_string()).collect();
+            format!("under tires {}, launch {launch_m_s} m/s", numbers.join(", "))
+        }
+        LaunchTargets::Holes(holes) => format!("{} holes", holes.len()),
+    }
+}
+
+/// A path as a shell takes it; one of standard input by a word in its place.
+fn quoted(path: &str) -> String {
+    let plain = |letter: char| letter.is_alphanumeric() || "/._-+".contains(letter);
+    match path {
+        "-" => "PLAN".to_owned(),
+        _ if path.starts_with('-') => quoted(&format!("./{path}")),
+        _ if path.chars().all(plain) => path.to_owned(),
+        _ => format!("'{}'", path.replace('\'', "'\\''")),
+    }
+}
+
+/// The command that gives these results.
+pub fn command(case: &Case, results: &Results) -> String {
+    let mut command = format!("shelter check {}", quoted(&case.source.path));
+    let (asked, of_plan) =
+        (results.iter().flatten().next().map(|c| c.compute), ComputeSettings::of(&case.plan));
+    if let Some(ComputeSettings { method, accuracy, step }) = asked.filter(|asked| *asked != of_plan) {
+        command += &format!(" --method {} --accuracy {}", method.name(), accuracy.name());
+        if let Some(step) = step {
+            command += &format!(" --dt {step}");
+        }
+    }
+    command
+}

@@ -1,0 +1,56 @@
+//! Tables of a report as HTML.
+
+use maud::{Markup, html};
+
+use crate::report::model::{Align, Cell, Column, Row, Shown, Table};
+use crate::verdict::Verdict;
+
+/// Bars of a series.
+const BARS: usize = 16;
+
+/// The columns of a table that readers of the page see.
+pub fn table(table: &Table) -> Markup {
+    let seen: Vec<usize> = (0..table.columns.len())
+        .filter(|&n| matches!(table.columns[n].shown, Shown::People | Shown::Page))
+        .collect();
+    let number = |n: usize| (table.columns[n].align == Align::Right).then_some("n");
+    html! {
+        table {
+            tr { @for &n in &seen { th class=[number(n)] { (heading(&table.columns[n])) } } }
+            @for row in &table.rows {
+                tr {
+                    @let known = known(row, &seen);
+                    @for &n in &seen[..known] { td class=[number(n)] { (cell(&row.cells[n])) } }
+                    @if let Some(missing) = &row.missing { td colspan=(seen.len() - known) { (missing) } }
+                }
+                @for detail in &row.details {
+                    tr { td {} td.quiet colspan=(seen.len() - 1) { (detail.text) } }
+                }
+            }
+        }
+    }
+}
+
+/// Seen cells before the reason why the others have no value; all where nothing is missing.
+fn known(row: &Row, seen: &[usize]) -> usize {
+    match row.missing {
+        Some(_) => seen.iter().take_while(|&&n| row.cells[n] != Cell::Nothing).count(),
+        None => seen.len(),
+    }
+}
+
+fn heading(column: &Column) -> Markup {
+    html! { (column.label()) @if !column.subheading.is_empty() { br; (column.subheading) } }
+}
+
+fn cell(cell: &Cell) -> Markup {
+    match cell {
+        Cell::Verdict(verdict) => word(*verdict),
+        cell => html! { (cell.label(BARS)) },
+    }
+}
+
+/// A verdict in its colour.
+pub fn word(verdict: Verdict) -> Markup {
+    html! { span class=(verdict.name()) { (verdict.label()) } }
+}

@@ -1,0 +1,71 @@
+//! JSON documents: serialisable mirrors of results, with the field names that scripts depend on.
+
+mod accuracy;
+mod check;
+mod orders;
+mod ropes;
+mod scatter;
+mod size;
+mod sweep;
+
+use serde::Serialize;
+
+pub use self::accuracy::AccuracyDocument;
+pub use self::check::CheckDocument;
+pub use self::orders::OrdersDocument;
+pub use self::ropes::RopesDocument;
+pub use self::scatter::ScatterDocument;
+pub use self::size::SizeDocument;
+pub use self::sweep::SweepDocument;
+use crate::study::{Case, Envelope};
+use crate::verdict::Verdict;
+
+/// A document with a line end.
+pub fn text(document: &impl Serialize) -> String {
+    let mut text = serde_json::to_string_pretty(document).unwrap_or_else(|error| format!("\"{error}\""));
+    text.push('\n');
+    text
+}
+
+/// Limits of a plan.
+#[derive(Serialize)]
+struct Limits {
+    flight_height_m: f64,
+    cable_force_n: f64,
+    cable_safety_factor: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drift_m: Option<f64>,
+}
+
+impl Limits {
+    fn of(case: &Case) -> Self {
+        Self {
+            flight_height_m: case.limits.height,
+            cable_force_n: case.limits.force,
+            cable_safety_factor: case.plan.limits.cable_safety_factor,
+            drift_m: case.limits.drift,
+        }
+    }
+}
+
+/// Verdict and greatest values of a judged shot.
+#[derive(Serialize)]
+struct Values {
+    flight_height_m: f64,
+    flight_height_error_m: f64,
+    cable_force_n: f64,
+    cable_force_error_n: f64,
+    verdict: Verdict,
+}
+
+impl Values {
+    fn of(envelope: &Envelope) -> Self {
+        Self {
+            flight_height_m: envelope.height.value,
+            flight_height_error_m: envelope.height.error,
+            cable_force_n: envelope.force.value,
+            cable_force_error_n: envelope.force.error,
+            verdict: envelope.verdict,
+        }
+    }
+}

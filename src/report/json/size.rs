@@ -1,0 +1,71 @@
+//! Schema `shelter.size/1`.
+
+use serde::Serialize;
+
+use super::Values;
+use crate::report::size::nearest;
+use crate::study::Case;
+use crate::study::size::{Combination, Sizing, Untried};
+
+/// The document of all combinations.
+#[derive(Serialize)]
+pub struct SizeDocument {
+    schema: &'static str,
+    plan: String,
+    title: String,
+    found: bool,
+    #[serde(flatten)]
+    lightest: Option<CombinationResult>,
+    tried: usize,
+    not_tried: usize,
+    partial: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    nearest: Option<CombinationResult>,
+    frontier: Vec<CombinationResult>,
+}
+
+#[derive(Serialize)]
+struct CombinationResult {
+    rope: String,
+    tire_mass_kg: f64,
+    border_rows: usize,
+    tires: usize,
+    total_mass_kg: f64,
+    utilization: Option<f64>,
+    worst: Option<Values>,
+}
+
+impl CombinationResult {
+    fn of(combination: &Combination) -> Self {
+        let Combination { rope, tire_mass, border_rows, tires, total_mass, trial } = combination;
+        Self {
+            rope: rope.name.clone(),
+            tire_mass_kg: *tire_mass,
+            border_rows: *border_rows,
+            tires: *tires,
+            total_mass_kg: *total_mass,
+            utilization: trial.ok().map(|trial| trial.utilization),
+            worst: trial.ok().map(|trial| Values::of(&trial.worst)),
+        }
+    }
+}
+
+impl SizeDocument {
+    /// The document of all combinations.
+    pub fn new(case: &Case, sizing: &Sizing) -> Self {
+        let found = sizing.found();
+        let nearest = if found.is_none() { nearest(sizing) } else { None };
+        Self {
+            schema: "shelter.size/1",
+            plan: case.source.path.clone(),
+            title: case.title().to_owned(),
+            found: found.is_some(),
+            lightest: found.map(CombinationResult::of),
+            tried: sizing.tried(),
+            not_tried: sizing.combinations.len() - sizing.tried(),
+            partial: sizing.untried(Untried::OutOfTime) > 0,
+            nearest: nearest.map(|(combination, _)| CombinationResult::of(combination)),
+            frontier: sizing.frontier().into_iter().map(CombinationResult::of).collect(),
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! The face for pipes and plain terminals: a report as lines of text. Widths, colours and ASCII live here.
+
+use unicode_width::UnicodeWidthStr;
+
+use super::ascii::to_ascii;
+use super::model::{Align, Block, Cell, Chart, Column, Report, Row, Scale, SeriesKind, Shown, Table};
+use super::palette::Role;
+use super::spark::sparkline;
+use crate::units;
+use crate::verdict::Verdict;
+
+/// How text looks.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Style {
+    /// ASCII only.
+    pub ascii: bool,
+    /// With colours; the words say the same without.
+    pub color: bool,
+}
+
+/// Bars of a series in a table.
+const BARS: usize = 16;
+/// Bars of a chart.
+const CHART_BARS: usize = 60;
+/// Columns and lines of a chart with logarithmic axes.
+const PLOT: (usize, usize) = (64, 14);
+/// Rows shown at each end of a ranking.
+const RANKED: usize = 8;
+
+/// A report as text.
+pub fn text(report: &Report, style: Style) -> String {
+    let mut paragraphs: Vec<Vec<String>> = vec![Vec::new()];
+    paragraphs[0].extend(Some(report.title.clone()).filter(|title| !title.is_empty()));
+    paragraphs[0].extend(report.facts.iter().cloned());
+    let mut after_chart = false;
+    for block in &report.blocks {
+        let lines = match block {
+            Block::Text(lines) => lines.clone(),
+            Block::Table(table) => lines(table, style),
+            Block::Chart(chart) => draw(chart),
+            Block::Picture(_) => continue,
+        };
+        match paragraphs.last_mut() {
+            // Bars above each other can be compared.
+            Some(last) if after_chart && matches!(block, Block::Chart(_)) => last.extend(lines),
+            _ => paragraphs.push(lines),
+        }
+        after_chart = matches!(block, Block::Chart(_));
+    }
+    if let Some(conclusion) = &report.conclusion {
+        paragraphs.push(vec![format!("{}: {}", colored(conclusion.verdict, style), conclusion.text)]);
+    }
+    let paragraphs = paragraphs.into_iter().filter(|lines| !lines.is_empty()).map(|lines| lines.join("\n"));
+    let text = paragraphs.collect::<Vec<_>>().join("\n\n") + "\n";
+    if style.ascii { to_ascii(&text) } else { text }
+}
+
+fn colored(verdict: Verdict, style: Style) -> String {
+    let label = verdict.label();
+    match style.color {
+        true => format!("\x1b[1;{}m{label}\x1b[0m", Role::of(verdict).ansi()),
+        false => label.to_owned(),
+    }
+}
+
+/// A cell or heading, ready but for its padding.
+struct Label {
+    text: String,
+    verdict: Option<Verdict>,
+}
+
+impl Label {
+    fn new(text: String, style: Style) -> Self {
+        Self { text: if style.ascii { to_ascii(&text) } else { text }, verdict: None }
+    }
+
+    fn of(cell: &Cell, style: Style) -> Self {
+        let verdict = if let Cell::Verdict(verdict) = cell { Some(*verdict) } else { None };
+        Self { verdict, ..Self::new(cell.label(BARS), style) }
+    }
+
+    fn pad(&self, align: Align, width: usize, style: Style) -> String {
+        let blank = " ".repeat(width.saturating_sub(self.text.width()));
+        let text = self.verdict.map_or_else(|| self.text.clone(), |verdict| colored(verdict, style));
+        match align {
+            Align::Left => text + &blank,
+            Align::Right => blank + &text,
+        }
+    }
+}
+
+/// Heading and rows of the columns that readers of text see; no line where they see no column.
+fn lines(table: &Table, style: Style) -> Vec<String> {
+    let seen: Vec<usize> = (0..table.columns.len())
+        .filter(|&n| matches!(table.columns[n].shown, Shown::People | Shown::Text))
+        .collect();
+    let columns: Vec<&Column> = seen.iter().map(|&n| &table.columns[n]).collect();
+    let words = |text: fn(&Column) -> String| -> Vec<Label> {
+        columns.iter().map(|column| Label::new(text(column), style)).collect()
+    };
+    let mut heading = vec![words(Column::label), words(|column| column.subheading.to_owned())];
+    heading.retain(|line| line.iter().any(|label| !label.text.is_empty()));
+    let cells = |row: &Row| seen.iter().map(|&n| Label::of(&row.cells[n], style)).collect();
+    let rows: Vec<Vec<Label>> = table.rows.iter().map(cells).collect();
+    let width = |n: usize| heading.iter().chain(&rows).map(|line| line[n].text.width()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..columns.len()).map(width).collect();
+    let join = |labels: &[Label]| {
+        let labels = labels.iter().zip(&columns).zip(&widths);
+        let padded = labels.map(|((label, column), &width)| label.pad(column.align, width, style));
+        padded.collect::<Vec<_>>().join("  ").trim_end().to_owned()
+    };
+    let mut lines: Vec<String> = heading.iter().map(|labels| join(labels)).collect();
+    let hidden = if table.ranked && rows.len() > 2 * RANKED { RANKED..rows.len() - RANKED } else { 0..0 };
+    for (n, (row, labels)) in table.rows.iter().zip(&rows).enumerate() {
+        if hidden.contains(&n) {
+            if n == hidden.start {
+                lines.push(format!("… {} more", hidden.len()));
+            }
+            continue;
+        }
+        let known = labels.iter().take_while(|label| !label.text.is_empty()).count();
+        lines.push(match &row.missing {
+            Some(missing) => format!("{}  {missing}", join(&labels[..known])),
+            None => join(labels),
+        });
+        lines.extend(row.details.iter().map(|detail| format!("    {}", detail.text)));
+    }
+    lines
+}
+
+/// A chart as bars, or as marks where its axes are logarithmic.
+fn draw(chart: &Chart) -> Vec<String> {
+    match chart.x.scale {
+        Scale::Linear => chart.series.iter().map(|series| bars(chart, &series.points)).collect(),
+        Scale::Logarithmic => plot(chart),
+    }
+}
+
+fn bars(chart: &Chart, points: &[(f64, f64)]) -> String {
+    let bars = sparkline(&evenly(chart.x.range, points), CHART_BARS, chart.limit.unwrap_or(0.0));
+    let [from, to] = chart.x.ends().map(|end| format!("{} {}", units::short(end), chart.x.unit.symbol()));
+    format!("{:>13}  {from} {bars} {to}", chart.y.name)
+}
+
+/// The values at even distances: of those near to each the greatest.
+fn evenly([from, to]: [f64; 2], points: &[(f64, f64)]) -> Vec<f64> {
+    let width = (to - from).max(f64::MIN_POSITIVE) / (CHART_BARS - 1) as f64;
+    let value = |at: f64| {
+        let distance = |point: &&(f64, f64)| (point.0 - at).abs();
+        let near = points.iter().filter(|point| distance(point) <= 0.5 * width);
+        let nearest = || points.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        near.map(|point| point.1).reduce(f64::max).or_else(|| nearest().map(|point| point.1)).unwrap_or(0.0)
+    };
+    (0..CHART_BARS).map(|n| value(from + n as f64 * width)).collect()
+}
+
+/// Both lines of a chart, each point as the first letter of its series.
+fn plot(chart: &Chart) -> Vec<String> {
+    let ([left, right], [bottom, top]) = (chart.x.ends(), chart.y.ends());
+    let slot = |part: f64, size: usize| ((part * (size - 1) as f64).round() as usize).min(size - 1);
+    let mut grid = vec![vec![' '; PLOT.0]; PLOT.1];
+    let drawn = || chart.series.iter().filter(|series| series.kind != SeriesKind::Points);
+    for series in drawn() {
+        for &(x, y) in &series.points {
+            let across = slot((chart.x.coordinate(x) - left) / (right - left), PLOT.0);
+            let down = slot((top - chart.y.coordinate(y)) / (top - bottom), PLOT.1);
+            grid[down][across] = series.name.chars().next().unwrap_or('*');
+        }
+    }
+    let ends = |axis: &super::model::Axis| {
+        let [from, to] = axis.ends().map(|end| axis.mark(end));
+        format!("{from} to {to} {}", axis.unit.symbol())
+    };
+    let names = drawn().filter_map(|series| Some(format!("{} {}", series.name.chars().next()?, series.name)));
+    let mut lines = vec![format!(
+        "{}, {} (upwards), over {}, {}; {}",
+        chart.y.name,
+        ends(&chart.y),
+        chart.x.name,
+        ends(&chart.x),
+        names.collect::<Vec<_>>().join(", "),
+    )];
+    lines.extend(grid.iter().map(|line| format!("  |{}", line.iter().collect::<String>().trim_end())));
+    lines.push(format!("  +{}", "-".repeat(PLOT.0)));
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::Unit;
+
+    fn report(names: &[&str]) -> Report {
+        let columns =
+            [Column::words(&[], "option"), Column::words(&[], ""), Column::numbers(&[], "n", Unit::One)];
+        let row =
+            |name: &&str| vec![Cell::Text((*name).to_owned()), Cell::Verdict(Verdict::Fail), Cell::Count(7)];
+        let table = Table::new(&columns, names.iter().map(row));
+        Report { blocks: vec![Block::Table(table)], ..Report::default() }
+    }
+
+    #[test]
+    fn wide_and_combining_letters_keep_columns_aligned() {
+        let text = text(&report(&["a", "爆破排", "e\u{301}te\u{301}"]), Style::default());
+        let expected = "option        n\na       FAIL  7\n爆破排  FAIL  7\ne\u{301}te\u{301}     FAIL  7\n";
+        assert_eq!(text, expected);
+    }
+
+    #[test]
+    fn in_ascii_columns_stay_aligned() {
+        let text = text(&report(&["a ± b", "爆破排"]), Style { ascii: true, color: false });
+        assert_eq!(text, "option        n\na +- b  FAIL  7\n???     FAIL  7\n");
+    }
+
+    #[test]
+    fn only_verdicts_are_coloured() {
+        let text = text(&report(&["PASS-3"]), Style { ascii: false, color: true });
+        assert_eq!(text, "option        n\nPASS-3  \x1b[1;31mFAIL\x1b[0m  7\n");
+    }
+}
