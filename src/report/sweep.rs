@@ -25,21 +25,14 @@ const ENDS: [Column; 5] =
 pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
     let names = row_names(case, &sweep.order).join(", ");
     let [from, to] = sweep.range().map(units::milliseconds);
-    let tried = sweep.points.len();
-    let head = match tried {
-        0 => format!("interval between rows {names}: none tried"),
-        _ => format!("interval between rows {names}: {from} to {to}, {tried} tried"),
-    };
-    let mut blocks = vec![Block::Text(vec![head])];
-    blocks.extend(charts::sweep(case, sweep).map(Block::Chart));
-    let ends = [("worst", sweep.worst(case)), ("best", sweep.best(case))];
-    let end = |(name, point): (&str, Option<&Point>)| {
-        let Point { interval, envelope } = *point?;
-        let name = Cell::Text(name.to_owned());
-        let values = [height(envelope.height), force(envelope.force)];
-        Some([vec![name, Cell::Time(interval), Cell::Verdict(envelope.verdict)], values.into()].concat())
-    };
-    blocks.push(Block::Table(Table::new(&ENDS, ends.into_iter().filter_map(end))));
+    let head = format!("interval between rows {names}: {from} to {to}, {} tried", sweep.points.len());
+    let mut blocks = Vec::new();
+    if !sweep.points.is_empty() {
+        blocks.push(Block::Text(vec![head]));
+        blocks.extend(charts::sweep(case, sweep).map(Block::Chart));
+        blocks.push(Block::Table(ends(case, sweep)));
+        blocks.push(Block::Text(vec![windows(sweep)]));
+    }
     let point = |&Point { interval, envelope }: &Point| {
         vec![
             Cell::Time(interval),
@@ -49,8 +42,18 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
         ]
     };
     blocks.push(Block::Table(Table::new(&POINTS, sweep.points.iter().map(point))));
-    blocks.push(Block::Text(vec![windows(sweep)]));
     Report { blocks, conclusion: Some(conclusion(sweep, partial)), ..limit_facts(case) }
+}
+
+fn ends(case: &Case, sweep: &Sweep) -> Table {
+    let ends = [("worst", sweep.worst(case)), ("best", sweep.best(case))];
+    let end = |(name, point): (&str, Option<&Point>)| {
+        let Point { interval, envelope } = *point?;
+        let name = Cell::Text(name.to_owned());
+        let values = [height(envelope.height), force(envelope.force)];
+        Some([vec![name, Cell::Time(interval), Cell::Verdict(envelope.verdict)], values.into()].concat())
+    };
+    Table::new(&ENDS, ends.into_iter().filter_map(end))
 }
 
 fn windows(sweep: &Sweep) -> String {

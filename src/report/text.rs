@@ -94,6 +94,9 @@ fn lines(table: &Table, style: Style) -> Vec<String> {
     let seen: Vec<usize> = (0..table.columns.len())
         .filter(|&n| matches!(table.columns[n].shown, Shown::People | Shown::Text))
         .collect();
+    if seen.is_empty() {
+        return Vec::new();
+    }
     let columns: Vec<&Column> = seen.iter().map(|&n| &table.columns[n]).collect();
     let words = |text: fn(&Column) -> String| -> Vec<Label> {
         columns.iter().map(|column| Label::new(text(column), style)).collect()
@@ -210,6 +213,14 @@ mod tests {
     fn in_ascii_columns_stay_aligned() {
         let text = text(&report(&["a ± b", "爆破排"]), Style { ascii: true, color: false });
         assert_eq!(text, "option        n\na +- b  FAIL  7\n???     FAIL  7\n");
+    }
+
+    #[test]
+    fn tables_for_scripts_leave_no_trace() {
+        let table = Table::new(&[Column::scripts(&["n"])], [vec![Cell::Count(7)], vec![Cell::Count(8)]]);
+        let mut report = report(&["a"]);
+        report.blocks.push(Block::Table(table));
+        assert_eq!(text(&report, Style::default()), "option        n\na       FAIL  7\n");
     }
 
     #[test]

@@ -82,6 +82,31 @@ fn a_share_that_is_not_as_it_was_written_is_refused() {
     }
 }
 
+/// The last line says what the exit status says; the windows that pass have a line of their own.
+#[test]
+fn text_and_exit_status_of_a_sweep_agree() {
+    let plan = amur();
+    for (range, status, verdict) in [("0..120:20", 1, "FAIL: "), ("40..60:10", 0, "PASS: ")] {
+        let output = shelter(&["sweep", &plan, "--interval", range, "--accuracy", "draft"]);
+        let text = String::from_utf8_lossy(&output.stdout);
+        assert_eq!(output.status.code(), Some(status), "{text}");
+        assert!(text.lines().last().is_some_and(|line| line.starts_with(verdict)), "{text}");
+        assert!(text.lines().any(|line| line.starts_with("intervals that pass: ")), "{text}");
+    }
+}
+
+/// The estimate of a long study's duration is progress: scripts do not get it on standard error.
+#[test]
+fn the_estimated_duration_is_for_terminals() {
+    let plan = amur();
+    let long =
+        ["sweep", &plan, "--dt", "1e-5", "--interval", "0..500:0.1", "--threads", "1", "--timeout", "2.5"];
+    let output = shelter(&long);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(told.lines().count(), 1, "{told}");
+    assert!(told.starts_with("the time was up after "), "{told}");
+}
+
 #[test]
 fn shares_merge_into_the_whole_byte_for_byte() {
     let plan = shipped("amur-three-rows.toml");
