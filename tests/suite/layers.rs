@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 const SRC: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/src");
 
 /// Modules whose files still use each other in circles; nobody may join them.
-const CIRCLES: &[&str] = &["cli", "tui"];
+const CIRCLES: &[&str] = &["tui"];
 
 /// A row of the table in `src/lib.rs`, the one place where the order of layers stands.
 struct Layer {
