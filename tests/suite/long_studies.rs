@@ -85,7 +85,7 @@ fn a_share_that_is_not_as_it_was_written_is_refused() {
 /// The last line says what the exit status says; the windows that pass have a line of their own.
 #[test]
 fn text_and_exit_status_of_a_sweep_agree() {
-    let plan = amur();
+    let plan = shipped("amur-three-rows.toml");
     for (range, status, verdict) in [("0..120:20", 1, "FAIL: "), ("40..60:10", 0, "PASS: ")] {
         let output = shelter(&["sweep", &plan, "--interval", range, "--accuracy", "draft"]);
         let text = String::from_utf8_lossy(&output.stdout);
@@ -98,7 +98,7 @@ fn text_and_exit_status_of_a_sweep_agree() {
 /// The estimate of a long study's duration is progress: scripts do not get it on standard error.
 #[test]
 fn the_estimated_duration_is_for_terminals() {
-    let plan = amur();
+    let plan = shipped("amur-three-rows.toml");
     let long =
         ["sweep", &plan, "--dt", "1e-5", "--interval", "0..500:0.1", "--threads", "1", "--timeout", "2.5"];
     let output = shelter(&long);
