@@ -4,6 +4,8 @@ use ratatui::buffer::Buffer;
 use ratatui::style::{Color, Modifier, Style};
 use serde::Deserialize;
 
+use crate::report::ascii::substitute;
+use crate::report::palette::Role;
 use crate::verdict::Verdict;
 
 /// A set of colours.
@@ -62,14 +64,9 @@ impl Theme {
 
     /// A verdict; blue and orange, which the colour-blind tell apart.
     pub fn verdict(self, verdict: Verdict) -> Style {
-        let color = match (self, verdict) {
-            (Theme::Dark, Verdict::Pass) => Color::Rgb(86, 180, 233),
-            (Theme::Dark, Verdict::Undecided) => Color::Rgb(240, 228, 66),
-            (Theme::Dark, Verdict::Fail) => Color::Rgb(255, 140, 60),
-            (_, Verdict::Pass) => Color::Rgb(0, 70, 150),
-            (_, Verdict::Undecided) => Color::Rgb(110, 80, 0),
-            (_, Verdict::Fail) => Color::Rgb(170, 50, 0),
-        };
+        let role = Role::of(verdict);
+        let [red, green, blue] = if self == Theme::Dark { role.on_dark() } else { role.on_light() };
+        let color = Color::Rgb(red, green, blue);
         Style::new().fg(color).add_modifier(Modifier::BOLD)
     }
 
@@ -106,38 +103,15 @@ pub fn without_color(buffer: &mut Buffer) {
     }
 }
 
-/// Replaces everything on a drawn screen that poor fonts lack.
+/// Replaces every symbol of a drawn screen that is not ASCII. A substitute of two letters takes the blank after it.
 pub fn to_ascii(buffer: &mut Buffer) {
-    for cell in &mut buffer.content {
-        let Some(symbol) = cell.symbol().chars().next().filter(|symbol| !symbol.is_ascii()) else { continue };
-        let plain = match symbol {
-            '▁' => "_",
-            '▂' => ".",
-            '▃' => ":",
-            '▄' => "-",
-            '▅' => "=",
-            '▆' => "+",
-            '▇' => "*",
-            '█' => "#",
-            '│' => "|",
-            '─' => "-",
-            '✓' => "+",
-            '✗' => "x",
-            '±' => "~",
-            '·' => "|",
-            '²' => "2",
-            '…' => ".",
-            '●' => "O",
-            '━' => "=",
-            '▲' => "^",
-            '▼' => "v",
-            '×' => "x",
-            '•' => ".",
-            'μ' => "u",
-            '─'..='╿' => "+",
-            '\u{2800}'..='\u{28ff}' => "*",
-            _ => "?",
-        };
-        cell.set_symbol(plain);
+    let cells = &mut buffer.content;
+    for n in 0..cells.len() {
+        let Some(letters) = cells[n].symbol().chars().next().and_then(substitute) else { continue };
+        let (first, rest) = letters.split_at(letters.len().min(1));
+        cells[n].set_symbol(first);
+        if let Some(next) = cells.get_mut(n + 1).filter(|next| !rest.is_empty() && next.symbol() == " ") {
+            next.set_symbol(rest);
+        }
     }
 }
