@@ -49,13 +49,13 @@
 //! | [`verdict`] | value, error, limit | pass, fail, undecided | any other module |
 //! | [`study`] | a plan made ready | verdicts refined until sure; sweeps, orders, scatter, sizes; accuracy tables, traces, flights | formats |
 //! | [`report`] | study results | text, JSON, CSV, a page of HTML | terminals |
-//! | [`worker`] | a request | small events, the newest request wins; long studies, whole | [`report`]; screens |
+//! | [`jobs`] | a check or a study to begin | news: progress, results; the newest request of a kind wins | [`report`]; screens |
 //! | [`tui`] | keys and events | a screen | physics |
 //! | [`cli`] | the command line | an exit status | physics |
 //!
 //! A module may use the modules above it in this table, except those linked under "what it must not know". The test `layers`
 //! reads both from here and holds them. The command line and the terminal UI are two
-//! faces of the same studies: `worker` calls the very function that `shelter check` calls.
+//! faces of the same studies: `jobs` calls the very function that `shelter check` calls.
 //!
 //! # Rules
 //!
@@ -74,6 +74,7 @@ pub mod choice;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod file;
+pub mod jobs;
 pub mod outcome;
 pub mod plan;
 pub mod report;
@@ -85,7 +86,6 @@ pub mod study;
 pub mod tui;
 pub mod units;
 pub mod verdict;
-pub mod worker;
 
 pub use plan::Plan;
 pub use simulation::{Model, Motion, Settings};

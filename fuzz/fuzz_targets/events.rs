@@ -64,15 +64,15 @@ fuzz_target!(|bytes: &[u8]| {
     let mut app = App::new(case, compute, &Config::default());
     for (n, pair) in bytes.chunks_exact(2).take(60).enumerate() {
         update(&mut app, &event(pair[0], pair[1]));
-        app.wanted();
-        app.pass(Duration::from_millis(16));
+        app.request_flight();
+        app.advance(Duration::from_millis(16));
         if n % 6 == 5 {
             let (width, height) = (u16::from(pair[1]).max(1), u16::from(pair[1] / 4).max(1));
             let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap_or_else(|never| match never {});
-            let mut places = Vec::new();
-            let drawn = terminal.draw(|frame| places = view::draw(&app, frame));
+            let mut areas = Vec::new();
+            let drawn = terminal.draw(|frame| areas = view::draw(&app, frame));
             assert!(drawn.is_ok());
-            app.places = places;
+            app.areas = areas;
         }
     }
 });

@@ -6,14 +6,12 @@ use super::arguments::{FormatArg, Look};
 use super::print::{print, print_text};
 use super::status::{Status, wrong};
 use crate::report::json::{OrdersDocument, ScatterDocument};
+use crate::report::notes::SWAP;
 use crate::report::{orders, scatter};
 use crate::study::merge::{Findings, Question, write_share};
 use crate::study::orders::Orders;
 use crate::study::scatter::swaps;
 use crate::study::{Case, ComputeSettings, Shard};
-
-/// Rows that swap with at least this probability are warned of.
-pub const SWAP: f64 = 1e-4;
 
 /// What a study of many shots found.
 pub struct Answer<'a> {

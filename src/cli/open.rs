@@ -8,12 +8,12 @@ use super::arguments::{Compute, FormatArg, Look};
 use super::checks::{check_all, print_checks};
 use super::status::{Status, failed, wrong};
 use super::{plans, print_help};
+use crate::jobs::Jobs;
 use crate::plan::PlanSource;
 use crate::study::Case;
 use crate::tui::config::{self, Config};
 use crate::tui::start::{Opened, Start};
 use crate::tui::{self, app::App};
-use crate::worker::{Errands, Worker};
 
 /// Opens a plan in the terminal; where output is no terminal, says the same as `check`.
 pub fn plan(plan: &Path, compute: &Compute, look: &Look) -> io::Result<Status> {
@@ -46,7 +46,7 @@ pub fn start(compute: &Compute, look: &Look) -> io::Result<Status> {
     needs_keyboard(compute)?;
     let config = config()?;
     let start = Start::new(Path::new("."), config::recent());
-    let (name, text, kept) = match tui::choose(start, config.theme, screen(&config, look))? {
+    let (name, text, kept) = match tui::choose(start, &config, screen(&config, look))? {
         Err(exit) => return Ok(status(&exit)),
         Ok(Opened::File(path)) => return self::plan(&path, compute, look),
         Ok(Opened::Example(name, text)) => (name, text.to_owned(), true),
@@ -92,8 +92,8 @@ fn show(
     look: &Look,
 ) -> io::Result<Status> {
     let threads = compute.threads.unwrap_or(0).into();
-    let (worker, errands) = (Worker::new(threads), Errands::new(threads));
-    tui::run(app, worker, errands, screen(config, look), file).map(|exit| status(&exit))
+    let jobs = Jobs::new(threads);
+    tui::run(app, jobs, screen(config, look), file).map(|exit| status(&exit))
 }
 
 fn status(exit: &tui::Exit) -> Status {

@@ -10,7 +10,7 @@ use super::findings::{Answer, print_findings};
 use super::plans::open;
 use super::run_study::{Finished, run_study};
 use super::status::{Status, failed, wrong};
-use crate::plan::{DelayOption, Timing};
+use crate::report::notes;
 use crate::study::merge::{Findings, Question};
 use crate::study::orders::{MOST_ROWS, count, is_complete, orders};
 use crate::study::{Intervals, Shard};
@@ -38,10 +38,8 @@ const MOST_ORDERS: usize = 5_000_000;
 pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
     let intervals_s = arguments.interval.map_or_else(|| case.intervals(), |interval| interval.values());
-    let own = |delay: &&DelayOption| matches!(delay.timing, Timing::At(_));
-    let left_out: Vec<&str> = case.plan.delays.iter().filter(own).map(|delay| delay.name.as_str()).collect();
-    if arguments.interval.is_none() && !left_out.is_empty() {
-        eprintln!("note: without an interval of their own, and left out: {}", left_out.join("; "));
+    if arguments.interval.is_none() {
+        notes::orders(&case).iter().for_each(|note| eprintln!("{note}"));
     }
     if arguments.shard.is_some() && !is_complete(&case) {
         return wrong(&format!(

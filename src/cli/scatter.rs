@@ -6,13 +6,13 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{Compute, DrawArguments, FormatArg, Look, shard};
-use super::findings::{Answer, SWAP, print_findings};
+use super::findings::{Answer, print_findings};
 use super::plans::open;
 use super::run_study::{Finished, run_study};
 use super::status::{Status, failed, wrong};
-use crate::report::scatter::swap_warning;
+use crate::report::notes;
 use crate::study::merge::{Findings, Question};
-use crate::study::scatter::{scatter, swaps};
+use crate::study::scatter::scatter;
 use crate::study::{NoResult, Shard};
 
 #[derive(Args)]
@@ -37,9 +37,7 @@ const MOST_SAMPLES: usize = 20_000_000;
 pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
     let Some(spec) = case.plan.scatter else { return failed(&NoResult::NoScatter) };
-    for swap in swaps(&case, &spec, SWAP) {
-        eprintln!("warning: {}", swap_warning(&case, &swap));
-    }
+    notes::scatter(&case).iter().for_each(|note| eprintln!("{note}"));
     let draw = arguments.draw.draw();
     if draw.samples.saturating_mul(case.shots.len()) > MOST_SAMPLES {
         let message =

@@ -19,6 +19,16 @@ pub struct Report {
     pub conclusion: Option<Conclusion>,
 }
 
+impl Report {
+    /// The charts, with those that text leaves out.
+    pub fn charts(&self) -> impl Iterator<Item = &Chart> {
+        self.blocks.iter().filter_map(|block| match block {
+            Block::Chart(chart) | Block::Picture(chart) => Some(chart),
+            Block::Text(_) | Block::Table(_) => None,
+        })
+    }
+}
+
 /// A verdict and its reason: `FAIL: 1 of 7 options pass`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conclusion {

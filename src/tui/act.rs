@@ -1,27 +1,27 @@
-//! What keys, clicks and commands do to the app, screen by screen.
+//! Effects of keys, clicks and commands on the app, screen by screen.
 
 use std::path::Path;
 
 use crossterm::event::{KeyCode, KeyEvent};
 use ratatui::layout::Position;
 
-use super::app::{App, Request, Row, Screen, Target};
+use super::app::{App, Request, Target};
 use super::editor::Edit;
 use super::keymap::{Action, BINDINGS};
+use super::options::OptionState;
 use super::player::Player;
 use super::prompt::{Prompt, Purpose, Typed};
-use super::studies::Progress;
+use super::screen::Screen;
 use crate::choice::Accuracy;
-use crate::file;
-use crate::worker::Kind;
+use crate::jobs::StudyKind;
 
-/// Options a page key moves.
+/// Lines that a page key moves.
 const PAGE: usize = 10;
-/// How far one key scrubs [s].
+/// Time that an arrow key moves the flight [s].
 const SCRUB: f64 = 0.01;
 
 impl App {
-    /// A key was pressed, or a command chosen.
+    /// Does the action of a key or of a chosen command.
     pub fn act(&mut self, action: Action) -> Request {
         self.notice = None;
         if action != Action::Quit {
@@ -39,7 +39,7 @@ impl App {
         }
     }
 
-    /// Whether an open help took the key.
+    /// Scrolls the open help. Returns whether the action was for the help.
     fn scroll_help(&mut self, action: Action) -> bool {
         let lines = match action {
             Action::Up => -1,
@@ -54,15 +54,15 @@ impl App {
         true
     }
 
-    /// A place of the screen was clicked.
+    /// Does what a click at a position of the screen asks for.
     pub fn click(&mut self, at: Position) -> Request {
-        let hit = self.places.iter().rev().find(|(place, _)| place.contains(at)).copied();
-        let Some((place, target)) = hit else { return Request::None };
+        let hit = self.areas.iter().rev().find(|(area, _)| area.contains(at)).copied();
+        let Some((area, target)) = hit else { return Request::None };
         match target {
             Target::Act(action) => return self.act(action),
             Target::Option(option) if option == self.selected => return self.act(Action::Open),
             Target::Option(option) => self.selected = option,
-            Target::Sort(sort) => self.compare.sort_by(sort),
+            Target::Sort(sort) => self.listing.sort_by(sort),
             Target::Field(field) if field == self.editor.selected => return self.act(Action::Open),
             Target::Field(field) => {
                 return self.select_field(field as isize - self.editor.selected as isize);
@@ -70,14 +70,14 @@ impl App {
             Target::Lines(_) => {}
             Target::Study(kind) => self.studies.show(kind),
             Target::Time(end) => {
-                let part = f64::from(at.x - place.x) / f64::from(place.width.saturating_sub(1).max(1));
-                self.player.seek(part * end, end);
+                let share = f64::from(at.x - area.x) / f64::from(area.width.saturating_sub(1).max(1));
+                self.player.seek(share * end, end);
             }
         }
         Request::None
     }
 
-    /// A key while something is typed at the foot of the screen.
+    /// Passes a key to the line being typed at the foot of the screen.
     pub fn type_in_prompt(&mut self, key: &KeyEvent) -> Request {
         let Some(mut prompt) = self.prompt.take() else { return Request::None };
         let typed = prompt.key(key);
@@ -89,7 +89,7 @@ impl App {
                 let Some(chosen) = prompt.commands().get(prompt.selected).copied() else {
                     return Request::None;
                 };
-                // A command of another screen is given there.
+                // The command belongs to another screen: show that screen first.
                 if let Some(&screen) = chosen.on.first().filter(|_| !chosen.is_on(self.screen)) {
                     self.screen = screen;
                 }
@@ -105,7 +105,7 @@ impl App {
         Request::None
     }
 
-    /// Looks for something typed: options and lines that have it are kept, a value of the plan is selected.
+    /// Finds a text: lists only the options or lines that contain it, or selects the value of the plan that does.
     fn find(&mut self, text: &str, next: bool) {
         match self.screen {
             Screen::Plan => {
@@ -114,7 +114,7 @@ impl App {
             }
             Screen::Studies => self.studies.filter = text.to_owned(),
             Screen::Compare | Screen::Flight | Screen::Accuracy => {
-                self.compare.filter = text.to_owned();
+                self.listing.filter = text.to_owned();
                 self.select_listed(0);
             }
         }
@@ -144,8 +144,8 @@ impl App {
 
     fn act_on_accuracy(&mut self, action: Action) -> Request {
         match action {
-            Action::Open | Action::Rerun => return self.start(Kind::Accuracy),
-            Action::Cancel => return self.cancel(Kind::Accuracy),
+            Action::Open | Action::Rerun => return self.begin_study(StudyKind::Accuracy),
+            Action::Cancel => return self.cancel_study(StudyKind::Accuracy),
             Action::Up => self.select_listed(-1),
             Action::Down => self.select_listed(1),
             other => return self.act_anywhere(other),
@@ -175,23 +175,26 @@ impl App {
         self.edited(edit)
     }
 
-    /// Selects a field, and with it the option it belongs to.
-    fn select_field(&mut self, places: isize) -> Request {
-        self.editor.select(places);
+    /// Selects the field so many lines further, and the option of that field.
+    fn select_field(&mut self, lines: isize) -> Request {
+        self.editor.select(lines);
         self.follow_field();
         Request::None
     }
 
-    /// Selects the option that the selected field belongs to.
+    /// Selects the option of the selected field.
     fn follow_field(&mut self) {
         if let Some(field) = self.editor.field().filter(|field| field.path.section == "delay") {
-            self.selected = field.path.index.unwrap_or(0).min(self.rows.len().saturating_sub(1));
+            self.selected = field.path.index.unwrap_or(0).min(self.options.len().saturating_sub(1));
         }
     }
 
-    /// A key while a value is typed.
+    /// Passes a key to the value being typed, or to the blast rows being put in order.
     pub fn type_key(&mut self, key: &KeyEvent) -> Request {
-        let edit = self.editor.type_key(key);
+        let edit = match (self.editor.order.is_some(), self.keymap.action(key)) {
+            (true, Some(action)) if key.code != KeyCode::Esc => self.editor.arrange(action),
+            _ => self.editor.type_key(key),
+        };
         self.edited(edit)
     }
 
@@ -213,8 +216,8 @@ impl App {
             Action::Last => self.studies.scroll = u16::MAX,
             Action::Left => self.studies.turn(-1),
             Action::Right => self.studies.turn(1),
-            Action::Open | Action::Rerun => return self.start(kind),
-            Action::Cancel => return self.cancel(kind),
+            Action::Open | Action::Rerun => return self.begin_study(kind),
+            Action::Cancel => return self.cancel_study(kind),
             other => return self.act_anywhere(other),
         }
         Request::None
@@ -231,20 +234,20 @@ impl App {
             Action::Last => self.select_listed(isize::MAX),
             Action::Open => self.zoom = !self.zoom,
             Action::Sort => {
-                self.compare.sort = self.compare.sort.next();
-                self.compare.reversed = false;
+                self.listing.sort = self.listing.sort.next();
+                self.listing.reversed = false;
             }
-            Action::Reverse => self.compare.reversed = !self.compare.reversed,
+            Action::Reverse => self.listing.reversed = !self.listing.reversed,
             Action::Baseline => {
-                let same = self.compare.baseline == Some(self.selected);
-                self.compare.baseline = (!same).then_some(self.selected);
+                let same = self.listing.baseline == Some(self.selected);
+                self.listing.baseline = (!same).then_some(self.selected);
             }
             other => return self.act_anywhere(other),
         }
         Request::None
     }
 
-    /// Keys that mean the same on every screen.
+    /// Does an action that is the same on every screen.
     fn act_anywhere(&mut self, action: Action) -> Request {
         match action {
             Action::Show(screen) => self.screen = screen,
@@ -261,7 +264,7 @@ impl App {
             Action::Save => return Request::Save,
             Action::Search => self.prompt = Some(Prompt::new(Purpose::Search, "")),
             Action::Palette => self.prompt = Some(Prompt::new(Purpose::Palette, "")),
-            Action::Export => self.prompt = Some(Prompt::new(Purpose::Export, &self.export_name())),
+            Action::Export => return self.name_export(),
             Action::Yank => return Request::Yank,
             Action::Theme => self.theme = self.theme.next(),
             Action::Help => {
@@ -278,32 +281,15 @@ impl App {
         Request::None
     }
 
-    /// The file offered for what is shown.
-    fn export_name(&self) -> String {
+    /// Asks for the file to export to; the name offered says plan and screen.
+    fn name_export(&self) -> Request {
         let plan = Path::new(&self.case.source.path);
         let stem = plan.file_stem().and_then(|stem| stem.to_str()).unwrap_or("plan");
-        let screen = self.screen.name().to_lowercase();
         let ending = if self.screen == Screen::Plan { "svg" } else { "csv" };
-        file::unused_path(&format!("{stem}-{screen}"), ending)
+        Request::NameExport(format!("{stem}-{}", self.screen.name().to_lowercase()), ending)
     }
 
-    /// Asks for a file to write the plan to: one that is not there yet.
-    pub fn ask_for_file(&mut self) {
-        let plan = Path::new(&self.case.source.path);
-        let stem = if plan.exists() { plan.with_extension("") } else { "plan".into() };
-        let free = file::unused_path(&stem.to_string_lossy(), "toml");
-        self.prompt = Some(Prompt::new(Purpose::SaveAs, &free));
-    }
-
-    fn cancel(&mut self, kind: Kind) -> Request {
-        if !matches!(self.studies.progress(kind), Progress::Running { .. }) {
-            return Request::None;
-        }
-        self.studies.set(kind, Progress::Idle);
-        Request::Cancel(kind)
-    }
-
-    /// Escape closes what is open, and never leaves.
+    /// Closes the uppermost open thing; never leaves the program.
     pub fn escape(&mut self) -> Request {
         self.warned = false;
         if self.notice.take().is_some() {
@@ -312,9 +298,9 @@ impl App {
         if self.help {
             self.help = false;
         } else if let Some(kind) = self.cancellable() {
-            return self.cancel(kind);
-        } else if !self.compare.filter.is_empty() || !self.studies.filter.is_empty() {
-            self.compare.filter.clear();
+            return self.cancel_study(kind);
+        } else if !self.listing.filter.is_empty() || !self.studies.filter.is_empty() {
+            self.listing.filter.clear();
             self.studies.filter.clear();
         } else if self.screen != Screen::Compare {
             self.screen = Screen::Compare;
@@ -327,16 +313,16 @@ impl App {
     }
 
     /// The study shown, while it computes.
-    fn cancellable(&self) -> Option<Kind> {
+    fn cancellable(&self) -> Option<StudyKind> {
         let kind = match self.screen {
             Screen::Studies => self.studies.shown,
-            Screen::Accuracy => Kind::Accuracy,
+            Screen::Accuracy => StudyKind::Accuracy,
             Screen::Plan | Screen::Compare | Screen::Flight => return None,
         };
-        matches!(self.studies.progress(kind), Progress::Running { .. }).then_some(kind)
+        self.studies.is_running(kind).then_some(kind)
     }
 
-    /// Leaves, but not at once with changes that are not saved.
+    /// Asks to quit; the first time with unsaved changes only warns.
     fn quit(&mut self) -> Request {
         if !self.editor.unsaved() || self.warned {
             return Request::Quit;
@@ -347,11 +333,12 @@ impl App {
         Request::None
     }
 
+    /// Asks to check every option at an accuracy.
     fn rerun(&mut self, accuracy: Accuracy) -> Request {
         self.compute.accuracy = accuracy;
-        self.rows.fill(Row::Waiting);
+        self.options.fill(OptionState::Waiting);
         self.player.option = None;
-        Request::Run
+        Request::Check
     }
 }
 

@@ -1,5 +1,6 @@
-//! The state of the screen and how news changes it; what keys and clicks do to it is in `act`. No input or output happens
-//! here.
+//! Everything that the screen shows, and how news changes it. `act` holds the effects of keys and clicks.
+//!
+//! The app does no input or output. It returns a [`Request`], and the event loop serves the request.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -7,57 +8,42 @@ use std::time::Duration;
 
 use ratatui::layout::Rect;
 
-use super::compare::{Compare, SortBy};
 use super::config::Config;
 use super::editor::Editor;
 use super::keymap::{Action, Keymap};
+use super::options::{Listing, OptionState, SortBy};
 use super::player::Player;
-use super::prompt::Prompt;
-use super::studies::{Progress, Studies};
+use super::prompt::{Prompt, Purpose};
+use super::screen::Screen;
+use super::studies::{Finished, Studies, StudyState};
 use super::theme::Theme;
+use crate::jobs::{News, StudyKind};
 use crate::plan::{Plan, PlanSource};
 use crate::study::check::Checked;
-use crate::study::{Case, ComputeSettings, NoResult, error};
-use crate::worker::{Event, Found, Kind, News};
-
-/// What one delay option has come to.
-#[derive(Clone, Debug)]
-pub enum Row {
-    /// Not begun.
-    Waiting,
-    /// Computing.
-    Running {
-        /// Runs finished.
-        runs: usize,
-        /// Part done of the least number of runs, 0 to 1.
-        done: f64,
-    },
-    /// Judged.
-    Done(Box<Checked>),
-    /// Without a result.
-    Failed(NoResult),
-}
+use crate::study::{Case, ComputeSettings, error};
 
 /// What the event loop must do after an update.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Request {
     /// Nothing.
     None,
-    /// Compute everything again.
-    Run,
-    /// Another plan is shown: compute it, and end what computes for the old one.
+    /// Check every option again.
+    Check,
+    /// Check every option of another plan, and end the studies of the old plan.
     Replaced,
-    /// Begin a long study.
-    Start(Kind),
-    /// End a long study.
-    Cancel(Kind),
+    /// Begin a study.
+    Study(StudyKind),
+    /// End a study.
+    Cancel(StudyKind),
     /// Write the plan.
     Save,
-    /// Write the plan to a file of its own.
+    /// Write the plan to this new file.
     SaveAs(PathBuf),
-    /// Write what is shown to a file.
+    /// Ask for a file to export to; offer an unused name of this stem and ending.
+    NameExport(String, &'static str),
+    /// Write the contents of the screen to this file.
     Export(PathBuf),
-    /// Put what is shown on the clipboard.
+    /// Put the contents of the screen on the clipboard.
     Yank,
     /// Give the terminal back for now.
     Suspend,
@@ -65,37 +51,40 @@ pub enum Request {
     Quit,
 }
 
-/// What a click on a place of the screen means.
+/// Effect of a click on an area of the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
     /// The same as a key.
     Act(Action),
-    /// Select an option; open it where it is selected already.
+    /// Selects an option; opens the option that is selected already.
     Option(usize),
-    /// Sort by a column.
+    /// Sorts by a column.
     Sort(SortBy),
-    /// Select a value of the plan; edit it where it is selected already.
+    /// Selects a value of the plan; edits the value that is selected already.
     Field(usize),
-    /// Show a study.
-    Study(Kind),
-    /// Lines that can be scrolled at most; no click.
+    /// Shows a study.
+    Study(StudyKind),
+    /// No click: the area can be scrolled by so many lines at most.
     Lines(u16),
-    /// Show a time, from the left end of the place to its right end [s].
+    /// Shows a time: 0 at the left end of the area, this time [s] at the right end.
     Time(f64),
 }
 
-/// Everything the screen shows.
+/// Areas of the screen and what a click on each does; of several at a point the last counts.
+pub type Areas = Vec<(Rect, Target)>;
+
+/// Everything that the screen shows.
 #[derive(Clone, Debug)]
 pub struct App {
     /// The plan.
     pub case: Arc<Case>,
-    /// How finely it is computed.
+    /// How finely the plan is computed.
     pub compute: ComputeSettings,
-    /// One per delay option.
-    pub rows: Vec<Row>,
+    /// State of each delay option (`n_options`).
+    pub options: Vec<OptionState>,
     /// Index of the selected option.
     pub selected: usize,
-    /// Whether the selected option is shown large.
+    /// Whether the selected option fills the screen.
     pub zoom: bool,
     /// Whether the help is open.
     pub help: bool,
@@ -103,80 +92,42 @@ pub struct App {
     pub help_scroll: u16,
     /// Colours.
     pub theme: Theme,
-    /// Which key asks for what.
+    /// Which key asks for which action.
     pub keymap: Keymap,
-    /// What is shown.
+    /// The screen shown.
     pub screen: Screen,
     /// How the options are listed.
-    pub compare: Compare,
-    /// The flight shown.
+    pub listing: Listing,
+    /// Which time of the flight is shown.
     pub player: Player,
-    /// Long studies.
+    /// The studies.
     pub studies: Studies,
-    /// The plan's text.
+    /// The text of the plan.
     pub editor: Editor,
-    /// What is being typed at the foot of the screen.
+    /// The line being typed at the foot of the screen.
     pub prompt: Option<Prompt>,
-    /// What was drawn where at last, for clicks; the last of several at a point counts.
-    pub places: Vec<(Rect, Target)>,
-    /// News of the plan's file.
+    /// Areas of the screen as drawn last.
+    pub areas: Areas,
+    /// A message in place of the header's second line.
     pub notice: Option<String>,
-    /// Whether the file has changed and was not read again, because of changes here.
+    /// Whether the file has changed but was not read again, because the plan here has unsaved changes.
     pub behind: bool,
-    /// Whether leaving was refused once, because of changes that are not saved.
+    /// Whether the user was warned once that quitting drops unsaved changes.
     pub warned: bool,
 }
 
-/// What the screen shows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Screen {
-    /// The plan, to be changed.
-    Plan,
-    /// The delay options side by side.
-    #[default]
-    Compare,
-    /// The selected option in motion.
-    Flight,
-    /// Sweep, orders, scatter, size.
-    Studies,
-    /// What accuracy costs.
-    Accuracy,
-}
-
-impl Screen {
-    /// All of them, in the order of their keys.
-    pub const ALL: [Screen; 5] =
-        [Screen::Plan, Screen::Compare, Screen::Flight, Screen::Studies, Screen::Accuracy];
-
-    /// So many further, round and round.
-    pub(super) fn turned(self, places: usize) -> Self {
-        Self::ALL[(self as usize + places) % Self::ALL.len()]
-    }
-
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Screen::Plan => "Plan",
-            Screen::Compare => "Compare",
-            Screen::Flight => "Flight",
-            Screen::Studies => "Studies",
-            Screen::Accuracy => "Accuracy",
-        }
-    }
-}
-
-/// Simulated time after the last firing that a run is expected to last [s].
+/// Time from the last firing to rest that a run is expected to take [s].
 const USUAL_FLIGHT: f64 = 1.6;
 
 impl App {
-    /// Nothing computed yet.
+    /// An app on which nothing is computed yet.
     pub fn new(case: Arc<Case>, compute: ComputeSettings, config: &Config) -> Self {
-        let rows = vec![Row::Waiting; case.plan.delays.len()];
+        let options = vec![OptionState::Waiting; case.plan.delays.len()];
         let editor = Editor::new(&case.source.text);
         Self {
             case,
             compute,
-            rows,
+            options,
             selected: 0,
             zoom: false,
             help: false,
@@ -184,82 +135,113 @@ impl App {
             theme: config.theme,
             keymap: config.keymap.clone(),
             screen: Screen::default(),
-            compare: Compare::default(),
+            listing: Listing::default(),
             player: Player::default(),
             studies: Studies::default(),
             editor,
             prompt: None,
-            places: Vec::new(),
+            areas: Areas::new(),
             notice: None,
             behind: false,
             warned: false,
         }
     }
 
-    /// A study that what is shown needs and nobody has begun.
-    pub fn wanted(&mut self) -> Request {
+    /// Indices of the options listed, in order.
+    pub fn listed(&self) -> Vec<usize> {
+        self.listing.listed(&self.case.plan, &self.options)
+    }
+
+    /// The result of an option, once there is one.
+    pub fn checked(&self, option: usize) -> Option<&Checked> {
+        self.options.get(option)?.checked()
+    }
+
+    /// The result that the others are compared with, and its option.
+    pub fn baseline(&self) -> Option<(usize, &Checked)> {
+        let option = self.listing.baseline?;
+        Some((option, self.checked(option)?))
+    }
+
+    /// Selects the option so many lines further down the list.
+    pub(super) fn select_listed(&mut self, lines: isize) {
+        let listed = self.listed();
+        let line = listed.iter().position(|&option| option == self.selected);
+        let last = listed.len().saturating_sub(1);
+        let next = line.map_or(0, |line| line.saturating_add_signed(lines).min(last));
+        if let Some(&option) = listed.get(next) {
+            self.selected = option;
+        }
+    }
+
+    /// Asks for the recording that the flight screen needs, once per option.
+    pub fn request_flight(&mut self) -> Request {
         if self.screen != Screen::Flight || self.player.option == Some(self.selected) {
             return Request::None;
         }
-        self.player.ask(self.selected);
-        self.start(Kind::Flight)
+        self.player.show_option(self.selected);
+        self.begin_study(StudyKind::Flight)
     }
 
-    /// Begins a study.
-    pub(super) fn start(&mut self, kind: Kind) -> Request {
-        self.studies.set(kind, Progress::Running { done: 0, total: 0 });
-        Request::Start(kind)
+    /// Asks for a study.
+    pub(super) fn begin_study(&mut self, kind: StudyKind) -> Request {
+        self.studies.set(kind, StudyState::Running { done: 0, total: 0 });
+        Request::Study(kind)
     }
 
-    /// The screen was drawn, and what it showed where.
-    pub fn drawn(&mut self, places: Vec<(Rect, Target)>) {
+    /// Asks to end a study, if it computes.
+    pub(super) fn cancel_study(&mut self, kind: StudyKind) -> Request {
+        if !self.studies.is_running(kind) {
+            return Request::None;
+        }
+        self.studies.set(kind, StudyState::Idle);
+        Request::Cancel(kind)
+    }
+
+    /// Notes the areas of the screen just drawn; limits scrolling to the lines that exist.
+    pub fn note_drawn(&mut self, areas: Areas) {
         let scroll = if self.help { &mut self.help_scroll } else { &mut self.studies.scroll };
-        for (_, target) in &places {
+        for (_, target) in &areas {
             if let Target::Lines(most) = target {
                 *scroll = (*scroll).min(*most);
             }
         }
-        self.places = places;
+        self.areas = areas;
     }
 
-    /// So much time has passed.
-    pub fn pass(&mut self, time: Duration) {
-        self.player.advance(time, self.flight_end());
+    /// Moves the flight on after so much real time.
+    pub fn advance(&mut self, elapsed: Duration) {
+        self.player.advance(elapsed, self.flight_end());
     }
 
-    /// When the flight shown ends [s]; 0 while there is none.
+    /// End of the flight shown [s]; 0 while there is none.
     pub(super) fn flight_end(&self) -> f64 {
         self.studies.flight(self.selected).map_or(0.0, |flight| flight.end())
     }
 
-    /// Another plan takes the place of the one shown; long studies of the old one are dropped.
-    fn take(&mut self, case: Case) -> Request {
+    /// Shows another plan; drops the studies of the old one.
+    fn replace_plan(&mut self, case: Case) -> Request {
         self.compute.follow(&self.case.plan, &case.plan);
         self.case = Arc::new(case);
-        self.rows = vec![Row::Waiting; self.case.plan.delays.len()];
-        self.selected = self.selected.min(self.rows.len().saturating_sub(1));
-        self.compare.baseline = None;
-        self.forget();
+        self.options = vec![OptionState::Waiting; self.case.plan.delays.len()];
+        self.selected = self.selected.min(self.options.len().saturating_sub(1));
+        self.listing.baseline = None;
+        self.studies.forget();
+        self.player.option = None;
         Request::Replaced
     }
 
-    /// The plan that the editor's text says takes the place of the one shown.
+    /// Shows the plan of the editor's text.
     pub(super) fn take_edited(&mut self, plan: Plan) -> Request {
         let source = PlanSource { path: self.case.source.path.clone(), text: self.editor.text.clone() };
-        self.take(Case { source, ..Case::new(plan) })
+        self.replace_plan(Case { source, ..Case::new(plan) })
     }
 
-    /// Drops what the long studies found.
-    fn forget(&mut self) {
-        self.studies.forget();
-        self.player.option = None;
-    }
-
-    /// The plan's file has changed: another plan, or what is wrong with it.
+    /// Takes the changed file of the plan: another plan, or the mistake in it.
     pub fn reload(&mut self, read: Result<Case, String>) -> Request {
         match read {
             Ok(case) if case.source.text == self.editor.saved => {
-                // As it was before it was gone or wrong.
+                // The file was gone or wrong for a while, and is as before.
                 self.notice = None;
                 Request::None
             }
@@ -271,67 +253,76 @@ impl App {
             Ok(case) => {
                 self.editor.reload(&case.source.text);
                 self.notice = Some("the file has changed and was read again".to_owned());
-                self.take(case)
+                self.replace_plan(case)
             }
-            Err(words) => {
-                self.notice = Some(format!("{words}; the last good plan is shown"));
+            Err(mistake) => {
+                self.notice = Some(format!("{mistake}; the last good plan is shown"));
                 Request::None
             }
         }
     }
 
-    /// Whether the plan here is another than was saved, or about to be.
+    /// Whether the plan here differs from the saved plan, or is being typed.
     pub fn is_changing(&self) -> bool {
         self.editor.unsaved() || self.editor.typing()
     }
 
-    /// The plan was written to `path`, or why not.
-    pub fn written(&mut self, result: Result<String, String>) {
+    /// Notes that the plan was written to a path, or why it was not.
+    pub fn note_saved(&mut self, result: Result<String, String>) {
         self.notice = Some(match result {
             Ok(path) => {
                 self.editor.saved = self.editor.text.clone();
                 self.behind = false;
                 format!("saved {path}")
             }
-            Err(words) => format!("not saved: {words}"),
+            Err(reason) => format!("not saved: {reason}"),
         });
     }
 
-    /// The plan stands in another file now.
+    /// Notes that the plan stands in another file now.
     pub fn rename(&mut self, path: &Path) {
         Arc::make_mut(&mut self.case).source.path = path.display().to_string();
     }
 
-    /// Whether something moves by itself.
-    pub fn moving(&self) -> bool {
+    /// Asks the user for a file; `path` stands in the line already.
+    pub fn ask_for_file(&mut self, purpose: Purpose, path: &str) {
+        self.prompt = Some(Prompt::new(purpose, path));
+    }
+
+    /// Whether the flight plays.
+    pub fn playing(&self) -> bool {
         self.screen == Screen::Flight && self.player.playing
     }
 
-    /// The worker has news.
-    pub fn hear(&mut self, event: Event) {
-        let done = match &event.news {
-            News::Progress { runs, time } => self.part_done(event.option, *runs, *time),
-            _ => 0.0,
-        };
-        let Some(row) = self.rows.get_mut(event.option) else { return };
-        *row = match event.news {
-            News::Progress { runs, .. } => Row::Running { runs, done },
-            News::Done(checked) => Row::Done(checked),
-            News::Failed(no_result) => Row::Failed(no_result),
-        };
+    /// Takes news of a job.
+    pub fn take_news(&mut self, news: News) {
+        match news {
+            News::Checking { option, runs, time } => {
+                let done = self.share_done(option, runs, time);
+                self.set_option(option, OptionState::Running { runs, done });
+            }
+            News::Checked { option, result } => {
+                self.set_option(option, result.map_or_else(OptionState::Failed, OptionState::Done));
+            }
+            News::Studying { kind, done, total } => {
+                self.studies.set(kind, StudyState::Running { done, total });
+            }
+            News::Studied { kind, compute, result } => {
+                let finish = |found| StudyState::Done(Arc::new(Finished::new(&self.case, compute, found)));
+                let state = result.map_or_else(StudyState::Failed, finish);
+                self.studies.set(kind, state);
+            }
+        }
     }
 
-    /// A long study has a result.
-    pub fn learn(&mut self, kind: Kind, result: Result<Found, NoResult>) {
-        let progress = match result {
-            Ok(found) => Progress::Done(Arc::new(found)),
-            Err(no_result) => Progress::Failed(no_result),
-        };
-        self.studies.set(kind, progress);
+    fn set_option(&mut self, option: usize, state: OptionState) {
+        if let Some(known) = self.options.get_mut(option) {
+            *known = state;
+        }
     }
 
-    /// Part of the first rungs that is done: each costs [`error::RATIO`] times the one before.
-    fn part_done(&self, option: usize, runs: usize, time: f64) -> f64 {
+    /// Share done of the least number of runs: each run costs [`error::RATIO`] times the run before.
+    fn share_done(&self, option: usize, runs: usize, time: f64) -> f64 {
         let firings = &self.case.shots[option].firings;
         let last = firings.last().map_or(0.0, |firing| firing.at);
         let end = self.case.plan.simulation.duration_s.unwrap_or(last + USUAL_FLIGHT);
@@ -341,13 +332,13 @@ impl App {
         ((before + (after - before) * (time / end).clamp(0.0, 1.0)) / whole).min(0.99)
     }
 
-    /// Whether anything still computes.
+    /// Whether anything computes.
     pub fn busy(&self) -> bool {
-        self.computing() || self.studies.busy()
+        self.checking() || self.studies.busy()
     }
 
-    /// Whether an option still computes.
-    pub fn computing(&self) -> bool {
-        self.rows.iter().any(|row| matches!(row, Row::Waiting | Row::Running { .. }))
+    /// Whether an option computes.
+    pub fn checking(&self) -> bool {
+        self.options.iter().any(OptionState::is_computing)
     }
 }

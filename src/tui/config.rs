@@ -1,4 +1,4 @@
-//! What the user prefers: colours, characters, keys; and the plans opened lately.
+//! The user's configuration: colours, characters, keys. And the list of plans opened lately.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -17,11 +17,11 @@ pub struct Config {
     pub theme: Theme,
     /// Plain characters only.
     pub ascii: bool,
-    /// Which key asks for what.
+    /// Which key asks for which action.
     pub keymap: Keymap,
 }
 
-/// As written.
+/// The configuration as the file has it.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Written {
@@ -34,35 +34,35 @@ struct Written {
 }
 
 impl Config {
-    /// The user's, or the default where there is none.
+    /// Reads the user's configuration; the default where the user has none.
     pub fn load() -> Result<Self, String> {
         let Some(path) = path() else { return Ok(Self::default()) };
         match fs::read_to_string(&path) {
-            Ok(text) => Self::parse(&text).map_err(|words| format!("{}: {words}", path.display())),
+            Ok(text) => Self::parse(&text).map_err(|mistake| format!("{}: {mistake}", path.display())),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Self::default()),
             Err(error) => Err(format!("{}: {error}", path.display())),
         }
     }
 
-    /// A configuration as written; or what is wrong with it, in words.
+    /// Reads a configuration from its text; or says the mistake in it.
     pub fn parse(text: &str) -> Result<Self, String> {
         let written: Written =
             toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())?;
-        let keymap = Keymap::with(written.keys).map_err(|words| format!("[keys]: {words}"))?;
+        let keymap = Keymap::with(written.keys).map_err(|mistake| format!("[keys]: {mistake}"))?;
         Ok(Self { theme: written.theme, ascii: written.ascii, keymap })
     }
 }
 
-/// Where the configuration is looked for.
+/// The path of the user's configuration.
 pub fn path() -> Option<PathBuf> {
     Some(choose_base_strategy().ok()?.config_dir().join("shelter/config.toml"))
 }
 
-/// The default configuration, every line of it commented out.
+/// The text of the default configuration; every line is commented out.
 pub fn default_text() -> String {
-    let place = path().map_or_else(String::new, |path| format!("# Read from {}.\n", path.display()));
+    let read_from = path().map_or_else(String::new, |path| format!("# Read from {}.\n", path.display()));
     let mut text = format!(
-        "# The terminal's colours, characters and keys. Take the '#' away from what you change.\n{place}\n\
+        "# The terminal's colours, characters and keys. Take the '#' away from what you change.\n{read_from}\n\
          # theme = \"dark\"   # dark | light | sunlight\n# ascii = false    # plain characters only, for poor fonts\n\n\
          # Keys: one character, or a name such as \"enter\", \"pageup\", \"f5\", \"ctrl-a\", \"alt-a\".\n# [keys]\n"
     );
@@ -79,21 +79,21 @@ pub fn default_text() -> String {
     text
 }
 
-/// Plans remembered.
+/// Number of plans remembered.
 const MOST_RECENT: usize = 10;
 
 fn recent_path() -> Option<PathBuf> {
-    let places = choose_base_strategy().ok()?;
-    Some(places.state_dir().unwrap_or_else(|| places.data_dir()).join("shelter/recent"))
+    let folders = choose_base_strategy().ok()?;
+    Some(folders.state_dir().unwrap_or_else(|| folders.data_dir()).join("shelter/recent"))
 }
 
-/// Plans opened lately that are still there, the last one first.
+/// Plans opened lately whose files still exist, newest first.
 pub fn recent() -> Vec<PathBuf> {
     let text = recent_path().and_then(|path| fs::read_to_string(path).ok()).unwrap_or_default();
     text.lines().map(PathBuf::from).filter(|path| path.is_file()).collect()
 }
 
-/// Remembers a plan. Nobody is told where this fails: it is a convenience.
+/// Remembers a plan as opened. Says nothing where this fails: the list is a convenience.
 pub fn remember(plan: &Path) {
     let (Some(path), Ok(plan)) = (recent_path(), plan.canonicalize()) else { return };
     let mut plans = recent();
@@ -112,7 +112,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_default_text_says_what_is_the_case() {
+    fn the_default_text_states_the_defaults() {
         assert!(default_text().lines().all(|line| line.is_empty() || line.starts_with('#')));
         let all: String = default_text()
             .lines()
@@ -120,7 +120,7 @@ mod tests {
             .filter(|line| line.contains(" = ") || *line == "[keys]")
             .map(|line| format!("{line}\n"))
             .collect();
-        let config = Config::parse(&all).unwrap_or_else(|words| panic!("{words}\n{all}"));
+        let config = Config::parse(&all).unwrap_or_else(|mistake| panic!("{mistake}\n{all}"));
         for binding in BINDINGS {
             let default = Keymap::default().label(binding.action, true);
             assert_eq!(config.keymap.label(binding.action, true), default);
@@ -128,8 +128,8 @@ mod tests {
     }
 
     #[test]
-    fn mistakes_are_named_with_their_place() {
-        for (text, words) in [
+    fn mistakes_are_named_with_line_and_column() {
+        for (text, expected) in [
             ("theme = \"pink\"", "line 1, column 9"),
             ("ascii = 1", "line 1, column 9"),
             ("colour = 1", "unknown field"),
@@ -137,7 +137,7 @@ mod tests {
             ("[keys]\nsave = \"s\"", "line 2, column 8"),
         ] {
             let told = Config::parse(text).expect_err("a mistake");
-            assert!(told.contains(words), "{told}");
+            assert!(told.contains(expected), "{told}");
         }
     }
 }

@@ -4,6 +4,7 @@ use crossterm::event::{Event, KeyCode, KeyEvent};
 use tui_input::Input;
 use tui_input::backend::crossterm::EventHandler;
 
+use super::keymap::Action;
 use crate::plan::fields::{self, Field};
 use crate::plan::keys::Kind;
 use crate::plan::{Layout, Plan};
@@ -139,18 +140,24 @@ impl Editor {
             KeyCode::Enter => return self.commit(),
             _ => {}
         }
-        if let Some(order) = &mut self.order {
-            match key.code {
-                KeyCode::Up | KeyCode::Char('k') => order.select(false),
-                KeyCode::Down | KeyCode::Char('j') => order.select(true),
-                KeyCode::Left | KeyCode::Char('h' | 'K') => order.shift(false),
-                KeyCode::Right | KeyCode::Char('l' | 'J') => order.shift(true),
-                _ => {}
-            }
-        } else if let Some(input) = &mut self.input
+        if let Some(input) = &mut self.input
             && input.handle_event(&Event::Key(*key)).is_some_and(|change| change.value)
         {
             self.problem = self.candidate().err();
+        }
+        Edit::None
+    }
+
+    /// Does an action while blast rows are put in order.
+    pub fn arrange(&mut self, action: Action) -> Edit {
+        let Some(order) = &mut self.order else { return Edit::None };
+        match action {
+            Action::Up => order.select(false),
+            Action::Down => order.select(true),
+            Action::Left => order.shift(false),
+            Action::Right => order.shift(true),
+            Action::Open => return self.commit(),
+            _ => {}
         }
         Edit::None
     }
@@ -326,8 +333,8 @@ mod tests {
         let mut editor = editor();
         editor.find("20 ms: order", false);
         editor.begin();
-        for code in [KeyCode::Down, KeyCode::Left, KeyCode::Enter] {
-            if let Edit::Changed(plan) = editor.type_key(&KeyEvent::new(code, KeyModifiers::NONE)) {
+        for action in [Action::Down, Action::Left, Action::Open] {
+            if let Edit::Changed(plan) = editor.arrange(action) {
                 assert_eq!(plan.delays[2].timing.fire_at_ms(), [20.0, 0.0, 40.0]);
                 assert!(editor.text.contains("order = [\"2\", \"1\", \"3\"]"), "{}", editor.text);
                 return;

@@ -1,11 +1,11 @@
-//! The one table of keys: dispatch, footer, help, command palette and configuration all read it.
+//! The table of keys: dispatch, footer, help, command palette and configuration read it.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use super::app::Screen;
+use super::screen::Screen;
 use crate::plan::nearest;
 
-/// What a key asks for.
+/// An action that a key asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
     /// Show a screen.
@@ -14,23 +14,23 @@ pub enum Action {
     NextScreen,
     /// Show the screen before.
     PreviousScreen,
-    /// Select what is above.
+    /// Select the line above.
     Up,
-    /// Select what is below.
+    /// Select the line below.
     Down,
-    /// Select what is a page up.
+    /// Select the line a page up.
     PageUp,
-    /// Select what is a page down.
+    /// Select the line a page down.
     PageDown,
     /// Select the first.
     First,
     /// Select the last.
     Last,
-    /// To the left, or a step down.
+    /// Go left, or a step down.
     Left,
-    /// To the right, or a step up.
+    /// Go right, or a step up.
     Right,
-    /// Open, edit or start what is selected.
+    /// Open, edit or start the selected thing.
     Open,
     /// Compute everything again.
     Rerun,
@@ -40,7 +40,7 @@ pub enum Action {
     Coarser,
     /// Sort by the next column.
     Sort,
-    /// Turn the sorting round.
+    /// Reverse the order of the list.
     Reverse,
     /// Compare with the selected option.
     Baseline,
@@ -50,7 +50,7 @@ pub enum Action {
     Faster,
     /// Play slower.
     Slower,
-    /// Look from the other side.
+    /// Show the flight from the other side.
     Turn,
     /// End the study shown.
     Cancel,
@@ -58,9 +58,9 @@ pub enum Action {
     AddOption,
     /// Remove the selected option.
     RemoveOption,
-    /// Take a change back.
+    /// Take the last change back.
     Undo,
-    /// Make it again.
+    /// Make the change again that was taken back last.
     Redo,
     /// Write the plan.
     Save,
@@ -68,11 +68,11 @@ pub enum Action {
     Search,
     /// Choose a command by name.
     Palette,
-    /// Put what is shown on the clipboard.
+    /// Put the contents of the screen on the clipboard.
     Yank,
-    /// Write what is shown to a file.
+    /// Write the contents of the screen to a file.
     Export,
-    /// Next theme.
+    /// Switch to the next theme.
     Theme,
     /// Show or hide the help.
     Help,
@@ -82,24 +82,24 @@ pub enum Action {
     Quit,
 }
 
-/// Keys that ask for one action.
+/// An action with its keys and texts.
 pub struct Binding {
-    /// What they ask for.
+    /// The action.
     pub action: Action,
-    /// Its name in the configuration and the command palette.
+    /// Name of the action in the configuration and in the command palette.
     pub name: &'static str,
-    /// Any of these, unless the configuration has others.
+    /// The default keys; the configuration may replace them.
     pub keys: &'static [&'static str],
-    /// In a word, for the footer; empty to leave it out.
+    /// Label in the footer; empty for an action that the footer leaves out.
     pub short: &'static str,
-    /// In words.
+    /// Description in the help and in the command palette.
     pub text: &'static str,
-    /// The screens that know it; empty for all.
+    /// The screens that know the action; empty for all screens.
     pub on: &'static [Screen],
 }
 
 impl Binding {
-    /// In a word, on a screen.
+    /// Label in the footer of a screen.
     pub fn short_on(&self, screen: Screen) -> &'static str {
         match (self.action, screen) {
             (Action::Open, Screen::Plan) => "edit",
@@ -112,7 +112,7 @@ impl Binding {
         }
     }
 
-    /// Whether a screen knows it.
+    /// Whether a screen knows the action.
     pub fn is_on(&self, screen: Screen) -> bool {
         self.on.is_empty() || self.on.contains(&screen)
     }
@@ -136,7 +136,7 @@ const FLIGHT: &[Screen] = &[Screen::Flight];
 const SIDEWAYS: &[Screen] = &[Screen::Plan, Screen::Flight, Screen::Studies];
 const ASKED: &[Screen] = &[Screen::Studies, Screen::Accuracy];
 
-/// Every action there is. Those of one screen stand first: the footer shows as many as fit.
+/// Every action. Actions of few screens stand first, because the footer shows only as many as fit.
 pub const BINDINGS: &[Binding] = &[
     bind(Action::Play, "play", &["space"], "play", "play or pause", FLIGHT),
     bind(Action::Faster, "faster", &[">", "."], "faster", "play faster", FLIGHT),
@@ -194,10 +194,10 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Quit, "quit", &["q", "ctrl-c"], "", "leave; Esc only closes, cancels or goes back", ALL),
 ];
 
-/// Which key asks for what.
+/// Which key asks for which action.
 #[derive(Clone, Debug)]
 pub struct Keymap {
-    /// Of each of [`BINDINGS`], its keys as written.
+    /// The keys of each binding of [`BINDINGS`], as written.
     labels: Vec<Vec<String>>,
     keys: Vec<((KeyCode, KeyModifiers), Action)>,
 }
@@ -211,16 +211,16 @@ impl Default for Keymap {
 }
 
 impl Keymap {
-    /// Those of the table, with other keys for the actions named; or what is wrong with them.
+    /// The default keys, with other keys for the actions named; or the mistake in them.
     pub fn with(changes: impl IntoIterator<Item = (String, Vec<String>)>) -> Result<Self, String> {
         let mut labels = Self::default().labels;
         for (name, keys) in changes {
-            let Some(place) = BINDINGS.iter().position(|binding| binding.name == name) else {
+            let Some(index) = BINDINGS.iter().position(|binding| binding.name == name) else {
                 let near = nearest(&name, BINDINGS.iter().map(|binding| binding.name));
                 let near = near.map_or_else(String::new, |near| format!("; did you mean '{near}'?"));
                 return Err(format!("there is no command '{name}'{near}"));
             };
-            labels[place] = keys;
+            labels[index] = keys;
         }
         Self::new(labels)
     }
@@ -247,12 +247,12 @@ impl Keymap {
 
     /// The action a key asks for.
     pub fn action(&self, event: &KeyEvent) -> Option<Action> {
-        // Shift is part of the letter itself; terminals differ in whether they report it as well.
+        // A capital letter contains Shift already; only some terminals report Shift as well.
         let pressed = (event.code, event.modifiers - KeyModifiers::SHIFT);
         self.keys.iter().find(|(key, _)| *key == pressed).map(|(_, action)| *action)
     }
 
-    /// How to ask for an action, in a sentence: its first key, or what the command palette calls it.
+    /// The first key of an action, or its name in the command palette; for a sentence.
     pub fn hint(&self, action: Action) -> String {
         let name = || BINDINGS.iter().find(|binding| binding.action == action).map_or("", |found| found.name);
         Some(self.label(action, false))
@@ -260,16 +260,16 @@ impl Keymap {
             .unwrap_or_else(|| format!(":{}", name()))
     }
 
-    /// The keys of an action, the first alone or all.
+    /// The first key of an action, or all its keys.
     pub fn label(&self, action: Action, all: bool) -> String {
-        let place = BINDINGS.iter().position(|binding| binding.action == action);
-        let written = place.and_then(|place| self.labels.get(place)).map_or(&[][..], Vec::as_slice);
+        let index = BINDINGS.iter().position(|binding| binding.action == action);
+        let written = index.and_then(|index| self.labels.get(index)).map_or(&[][..], Vec::as_slice);
         let shown = if all { written } else { &written[..written.len().min(1)] };
         shown.iter().map(|key| readable(key)).collect::<Vec<_>>().join(" ")
     }
 }
 
-/// The key that `written` names: a single character as it stands, or a name after any of `ctrl-`, `alt-`, `shift-`, `cmd-`.
+/// The key that `written` names: a single character, or a name that any of `ctrl-`, `alt-`, `shift-`, `cmd-` precede.
 fn parse(written: &str) -> Option<(KeyCode, KeyModifiers)> {
     let mut letters = written.chars();
     if let (Some(letter), None) = (letters.next(), letters.next()) {
@@ -293,7 +293,7 @@ const MODIFIERS: &[(&str, KeyModifiers)] = &[
     ("cmd-", KeyModifiers::SUPER),
 ];
 
-/// The key of a name in lower case; Shift makes a letter a capital.
+/// The key of a lower-case name; with Shift a letter is a capital.
 fn key_code(name: &str, shift: bool) -> Option<KeyCode> {
     let code = match name {
         "esc" => KeyCode::Esc,
@@ -324,7 +324,13 @@ fn key_code(name: &str, shift: bool) -> Option<KeyCode> {
     Some(code)
 }
 
-/// As keyboards name it: `Enter`, `PgUp`, `Ctrl-s`.
+/// Takes Ctrl-C as Esc while a text is typed: both give the text up.
+pub fn ctrl_c_as_esc(key: &KeyEvent) -> KeyEvent {
+    let interrupt = key.code == KeyCode::Char('c') && key.modifiers.contains(KeyModifiers::CONTROL);
+    if interrupt { KeyEvent::new(KeyCode::Esc, KeyModifiers::NONE) } else { *key }
+}
+
+/// The label of a key as keyboards have it: `Enter`, `PgUp`, `Ctrl-s`.
 fn readable(written: &str) -> String {
     let mut letters = written.chars();
     match (written, letters.next()) {
@@ -389,8 +395,8 @@ mod tests {
         assert_eq!(keymap.hint(Action::Quit), "Ctrl-q");
         let without = Keymap::with([("quit".to_owned(), Vec::new())]).expect("no key");
         assert_eq!(without.hint(Action::Quit), ":quit");
-        assert!(with("qiut", "x").is_err_and(|words| words.contains("'quit'")));
-        assert!(with("quit", "j").is_err_and(|words| words.contains("'down'")));
-        assert!(with("quit", "nokey").is_err_and(|words| words.contains("is no key")));
+        assert!(with("qiut", "x").is_err_and(|mistake| mistake.contains("'quit'")));
+        assert!(with("quit", "j").is_err_and(|mistake| mistake.contains("'down'")));
+        assert!(with("quit", "nokey").is_err_and(|mistake| mistake.contains("is no key")));
     }
 }

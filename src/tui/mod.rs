@@ -1,18 +1,19 @@
-//! The terminal: set up, kept drawn, given back whole. ratatui and crossterm stop here.
+//! The terminal: sets it up, draws it, gives it back. No module outside knows ratatui or crossterm.
 //!
-//! The loop waits for a key, a click or news, updates the [`App`] and draws only when something changed. The terminal comes back on
-//! every way out: quitting, an error, a panic, a signal.
+//! The loop waits for a key, a click or news, updates the [`App`], and draws when something changed. Every way out gives
+//! the terminal back: quitting, an error, a panic, a signal.
 
 mod act;
 pub mod app;
-pub mod compare;
 pub mod config;
 pub mod editor;
 mod export;
 pub mod keymap;
+pub mod options;
 mod plan_file;
 pub mod player;
 pub mod prompt;
+pub mod screen;
 pub mod start;
 pub mod studies;
 pub mod theme;
@@ -28,8 +29,8 @@ use std::time::{Duration, Instant};
 use crossterm::clipboard::CopyToClipboard;
 use crossterm::cursor::Show;
 use crossterm::event::{
-    self, DisableMouseCapture, EnableMouseCapture, Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers,
-    MouseButton, MouseEventKind,
+    self, DisableMouseCapture, EnableMouseCapture, Event, KeyCode, KeyEvent, KeyEventKind, MouseButton,
+    MouseEventKind,
 };
 use crossterm::terminal::{
     Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
@@ -39,13 +40,14 @@ use ratatui::backend::CrosstermBackend;
 use ratatui::layout::Position;
 use ratatui::{Frame, Terminal};
 
-use self::app::{App, Request};
-use self::keymap::Action;
+use self::app::{App, Areas, Request};
+use self::config::Config;
+use self::keymap::{Action, ctrl_c_as_esc};
 use self::plan_file::{PlanFile, Refusal};
-use self::prompt::{Prompt, Purpose};
+use self::prompt::Purpose;
 use self::start::{Next, Opened, Start};
-use self::theme::Theme;
-use crate::worker::{Errands, Kind, Worker};
+use crate::file;
+use crate::jobs::{Jobs, StudyKind};
 
 /// How the screen is drawn.
 #[derive(Clone, Copy, Debug, Default)]
@@ -65,50 +67,48 @@ pub enum Exit {
     Signal,
 }
 
-/// Wait for a key while something computes: a frame.
+/// Longest wait for a key while something computes or moves: one frame.
 const FRAME: Duration = Duration::from_millis(16);
-/// Wait for a key while nothing does.
+/// Longest wait for a key otherwise.
 const IDLE: Duration = Duration::from_millis(250);
 
-/// Shows the app until the user leaves.
-///
-/// `plan` is the file shown, if it is one: it is read again when it changes.
-pub fn run(app: App, worker: Worker, errands: Errands, look: Look, plan: Option<&Path>) -> io::Result<Exit> {
-    // Without this, crossterm under NO_COLOR resets bold and reverse as well; colours are taken out in `draw`.
+/// Shows the app until the user leaves. `plan` is the file of the plan, if there is one; a changed file is read again.
+pub fn run(app: App, jobs: Jobs, look: Look, plan: Option<&Path>) -> io::Result<Exit> {
+    // Under NO_COLOR crossterm would reset bold and reverse as well; `draw` removes the colours instead.
     crossterm::style::force_color_output(true);
     let signals = Signals::register()?;
     restore_on_panic();
     let mut display = Display::open()?;
-    let mut session = Session { app, worker, errands, file: plan.map(PlanFile::new) };
-    session.worker.start(&session.app.case, session.app.compute);
+    let mut session = Session { app, jobs, file: plan.map(PlanFile::new) };
+    session.serve(Request::Check);
     let (mut dirty, mut drawn) = (true, Instant::now());
     loop {
         dirty |= session.listen();
-        if session.app.moving() {
-            session.app.pass(drawn.elapsed());
+        if session.app.playing() {
+            session.app.advance(drawn.elapsed());
             dirty = true;
         }
         drawn = Instant::now();
         if dirty {
-            let mut places = Vec::new();
-            display.draw(look, |frame| places = view::draw(&session.app, frame))?;
-            session.app.drawn(places);
+            let mut areas = Areas::new();
+            display.draw(look, |frame| areas = view::draw(&session.app, frame))?;
+            session.app.note_drawn(areas);
             dirty = false;
         }
         if signals.end.load(Ordering::Relaxed) {
             return Ok(Exit::Signal);
         }
-        let busy = session.app.busy() || session.app.moving();
+        let busy = session.app.busy() || session.app.playing();
         let request = if signals.stop.swap(false, Ordering::Relaxed) {
             Request::Suspend
         } else if event::poll(if busy { FRAME } else { IDLE })? {
             dirty = true;
             match update(&mut session.app, &event::read()?) {
-                Request::None => session.app.wanted(),
+                Request::None => session.app.request_flight(),
                 request => request,
             }
         } else {
-            session.app.wanted()
+            session.app.request_flight()
         };
         match request {
             Request::Quit => return Ok(Exit::Quit),
@@ -121,69 +121,57 @@ pub fn run(app: App, worker: Worker, errands: Errands, look: Look, plan: Option<
     }
 }
 
-/// The app with those that work for it.
+/// The app, the jobs that compute for it, and the file of its plan.
 struct Session {
     app: App,
-    worker: Worker,
-    errands: Errands,
+    jobs: Jobs,
     file: Option<PlanFile>,
 }
 
 impl Session {
-    /// Takes in what the workers and the plan's file have to say; whether there was anything.
+    /// Takes the news of the jobs and of the plan's file. Returns whether there was any.
     fn listen(&mut self) -> bool {
         let mut heard = false;
-        for news in self.worker.news() {
-            self.app.hear(news);
+        for news in self.jobs.news() {
+            self.app.take_news(news);
             heard = true;
-        }
-        for (kind, result) in self.errands.results() {
-            self.app.learn(kind, result);
-            heard = true;
-        }
-        for kind in Kind::ALL {
-            if let Some(counts) = self.errands.counts(kind) {
-                heard |= self.app.studies.advance(kind, counts);
-            }
         }
         if self.app.behind && !self.app.is_changing() {
             self.app.behind = false;
             self.file.iter_mut().for_each(PlanFile::forget);
         }
         if let Some(read) = self.file.as_mut().and_then(PlanFile::changed) {
-            if self.app.reload(read) == Request::Replaced {
-                self.replace();
-            }
+            let request = self.app.reload(read);
+            self.serve(request);
             heard = true;
         }
         heard
     }
 
-    /// Does what the app asked for.
+    /// Serves a request of the app.
     fn serve(&mut self, request: Request) {
         match request {
             Request::None | Request::Quit | Request::Suspend => {}
-            Request::Run => self.worker.start(&self.app.case, self.app.compute),
-            Request::Replaced => self.replace(),
-            Request::Save => match &mut self.file {
-                Some(file) => match file.write(&self.app.editor.saved, &self.app.editor.text) {
-                    Ok(()) => self.app.written(Ok(self.app.case.source.path.clone())),
-                    Err(Refusal::Failed(words)) => self.app.written(Err(words)),
-                    Err(Refusal::Changed) => {
-                        let words = "another program has changed the file; give another name";
-                        self.app.written(Err(words.to_owned()));
-                        self.app.ask_for_file();
-                    }
-                },
-                None => self.app.ask_for_file(),
-            },
+            Request::Check => self.jobs.check(&self.app.case, self.app.compute),
+            Request::Replaced => {
+                StudyKind::ALL.into_iter().for_each(|kind| self.jobs.cancel(kind));
+                self.jobs.check(&self.app.case, self.app.compute);
+            }
+            Request::Study(kind) => {
+                self.jobs.study(kind, &self.app.case, self.app.selected, self.app.compute);
+            }
+            Request::Cancel(kind) => self.jobs.cancel(kind),
+            Request::Save => self.save(),
             Request::SaveAs(path) => self.save_as(&path),
+            Request::NameExport(stem, ending) => {
+                self.app.ask_for_file(Purpose::Export, &file::unused_path(&stem, ending));
+            }
             Request::Export(path) => {
                 self.app.notice = Some(match export::write(&self.app, &path) {
                     Ok(()) => format!("wrote {}", path.display()),
-                    Err(words) => {
-                        self.app.prompt = Some(Prompt::new(Purpose::Export, &path.to_string_lossy()));
-                        words
+                    Err(reason) => {
+                        self.app.ask_for_file(Purpose::Export, &path.to_string_lossy());
+                        reason
                     }
                 });
             }
@@ -192,43 +180,55 @@ impl Session {
                     let copy = io::stdout().execute(CopyToClipboard::to_clipboard_from(text)).map(|_| ());
                     copy.map_err(|error| error.to_string())
                 });
-                self.app.notice = Some(copied.map_or_else(|words| words, |()| "copied as CSV".to_owned()));
+                self.app.notice = Some(copied.map_or_else(|reason| reason, |()| "copied as CSV".to_owned()));
             }
-            Request::Start(kind) => {
-                self.errands.start(kind, &self.app.case, self.app.selected, self.app.compute);
-            }
-            Request::Cancel(kind) => self.errands.cancel(kind),
         }
     }
 
-    /// Computes another plan; results of the old one would say nothing of it.
-    fn replace(&mut self) {
-        Kind::ALL.into_iter().for_each(|kind| self.errands.cancel(kind));
-        self.worker.start(&self.app.case, self.app.compute);
+    /// Writes the plan to its file; asks for a new file where there is none, or another program has changed it.
+    fn save(&mut self) {
+        let Some(file) = &mut self.file else { return self.name_plan() };
+        match file.write(&self.app.editor.saved, &self.app.editor.text) {
+            Ok(()) => self.app.note_saved(Ok(self.app.case.source.path.clone())),
+            Err(Refusal::Failed(reason)) => self.app.note_saved(Err(reason)),
+            Err(Refusal::Changed) => {
+                let reason = "another program has changed the file; give another name";
+                self.app.note_saved(Err(reason.to_owned()));
+                self.name_plan();
+            }
+        }
     }
 
-    /// Writes the plan to a new file, which is then the one shown.
+    /// Asks for a file to write the plan to; offers an unused name.
+    fn name_plan(&mut self) {
+        let plan = Path::new(&self.app.case.source.path);
+        let stem = if plan.exists() { plan.with_extension("") } else { "plan".into() };
+        let unused = file::unused_path(&stem.to_string_lossy(), "toml");
+        self.app.ask_for_file(Purpose::SaveAs, &unused);
+    }
+
+    /// Writes the plan to a new file; the new file becomes the file of the plan.
     fn save_as(&mut self, path: &Path) {
-        let written = crate::file::create(path, &self.app.editor.text).map_err(|error| error.to_string());
+        let written = file::create(path, &self.app.editor.text).map_err(|error| error.to_string());
         if written.is_ok() {
             self.file = Some(PlanFile::new(path));
             self.app.rename(path);
             config::remember(path);
         } else {
-            self.app.prompt = Some(Prompt::new(Purpose::SaveAs, &path.to_string_lossy()));
+            self.app.ask_for_file(Purpose::SaveAs, &path.to_string_lossy());
         }
-        self.app.written(written.map(|()| path.display().to_string()));
+        self.app.note_saved(written.map(|()| path.display().to_string()));
     }
 }
 
-/// Lets the user choose what to open, or leave.
-pub fn choose(mut start: Start, theme: Theme, look: Look) -> io::Result<Result<Opened, Exit>> {
+/// Lets the user choose a plan to open, or leave.
+pub fn choose(mut start: Start, config: &Config, look: Look) -> io::Result<Result<Opened, Exit>> {
     crossterm::style::force_color_output(true);
     let signals = Signals::register()?;
     restore_on_panic();
     let mut screen = Display::open()?;
     loop {
-        screen.draw(look, |frame| start.draw(theme, frame))?;
+        screen.draw(look, |frame| start.draw(config, frame))?;
         while !event::poll(IDLE)? {
             if signals.end.load(Ordering::Relaxed) {
                 return Ok(Err(Exit::Signal));
@@ -237,7 +237,7 @@ pub fn choose(mut start: Start, theme: Theme, look: Look) -> io::Result<Result<O
                 screen.suspend()?;
             }
         }
-        match start.update(&event::read()?) {
+        match start.update(&event::read()?, &config.keymap) {
             Next::Wait => {}
             Next::Open(opened) => return Ok(Ok(opened)),
             Next::Quit => return Ok(Err(Exit::Quit)),
@@ -245,12 +245,12 @@ pub fn choose(mut start: Start, theme: Theme, look: Look) -> io::Result<Result<O
     }
 }
 
-/// What a terminal event does to the app.
+/// Passes a terminal event to the app.
 pub fn update(app: &mut App, event: &Event) -> Request {
     match event {
         Event::Key(key) if key.kind == KeyEventKind::Release => Request::None,
-        Event::Key(key) if app.prompt.is_some() => app.type_in_prompt(&given_up(key)),
-        Event::Key(key) if app.editor.typing() => app.type_key(&given_up(key)),
+        Event::Key(key) if app.prompt.is_some() => app.type_in_prompt(&ctrl_c_as_esc(key)),
+        Event::Key(key) if app.editor.typing() => app.type_key(&ctrl_c_as_esc(key)),
         Event::Key(KeyEvent { code: KeyCode::Esc, .. }) => app.escape(),
         Event::Key(key) => app.keymap.action(key).map_or(Request::None, |action| app.act(action)),
         Event::Mouse(_) if app.prompt.is_some() || app.editor.typing() => Request::None,
@@ -264,13 +264,7 @@ pub fn update(app: &mut App, event: &Event) -> Request {
     }
 }
 
-/// A key while something is typed: Ctrl-C gives it up, as Esc does.
-fn given_up(key: &KeyEvent) -> KeyEvent {
-    let interrupt = key.code == KeyCode::Char('c') && key.modifiers.contains(KeyModifiers::CONTROL);
-    if interrupt { KeyEvent::new(KeyCode::Esc, KeyModifiers::NONE) } else { *key }
-}
-
-/// The terminal while it is ours.
+/// The terminal while the program draws on it.
 struct Display {
     terminal: Terminal<CrosstermBackend<Stdout>>,
 }
@@ -278,7 +272,7 @@ struct Display {
 impl Display {
     fn open() -> io::Result<Self> {
         enter()?;
-        // From here on dropping gives the terminal back.
+        // From here on `drop` gives the terminal back.
         Terminal::new(CrosstermBackend::new(io::stdout()))
             .map(|terminal| Self { terminal })
             .inspect_err(|_| leave())
@@ -303,7 +297,7 @@ impl Display {
         #[cfg(unix)]
         signal_hook::low_level::raise(signal_hook::consts::SIGSTOP)?;
         enter()?;
-        // One that knows of nothing drawn yet. `clear` would ask the terminal where its cursor is, and wait.
+        // A new one draws every cell. `clear` would ask the terminal for its cursor, and wait for the answer.
         self.terminal = Terminal::new(CrosstermBackend::new(io::stdout()))?;
         Ok(())
     }
@@ -318,7 +312,7 @@ impl Drop for Display {
 fn enter() -> io::Result<()> {
     enable_raw_mode()?;
     let mut out = io::stdout();
-    // Not every terminal empties its second screen by itself.
+    // Some terminals do not clear the alternate screen.
     let entered = out
         .execute(EnterAlternateScreen)
         .and_then(|out| out.execute(Clear(ClearType::All)))
@@ -326,7 +320,7 @@ fn enter() -> io::Result<()> {
     entered.map(|_| ()).inspect_err(|_| leave())
 }
 
-/// Gives the terminal back. Nothing can be done about a terminal that is gone.
+/// Gives the terminal back. A terminal that is gone is no error: nothing is left to do.
 fn leave() {
     let mut out = io::stdout();
     let _ = out
@@ -337,8 +331,8 @@ fn leave() {
     let _ = disable_raw_mode();
 }
 
-/// A panic on this thread gives the terminal back before it is reported; one in a worker is that option's failure and is
-/// reported on the screen.
+/// Makes a panic of this thread give the terminal back before the panic is reported. A panic of a job is the result of that
+/// job, and the screen shows it.
 fn restore_on_panic() {
     let (ours, report) = (thread::current().id(), std::panic::take_hook());
     std::panic::set_hook(Box::new(move |panic| {
@@ -349,7 +343,7 @@ fn restore_on_panic() {
     }));
 }
 
-/// Signals as flags.
+/// Flags that signals set.
 struct Signals {
     /// Terminate, interrupt or hang up.
     end: Arc<AtomicBool>,

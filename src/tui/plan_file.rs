@@ -1,4 +1,4 @@
-//! The plan's file: noticed when another program changes it, and replaced whole when saved.
+//! The file of the plan: notices changes by other programs, and saves the file whole or not at all.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -7,19 +7,19 @@ use std::time::SystemTime;
 use crate::file;
 use crate::study::Case;
 
-/// A plan's file and how it was last seen.
+/// The file of a plan, with its time and size when last seen.
 pub struct PlanFile {
     path: PathBuf,
     seen: Option<(SystemTime, u64)>,
 }
 
 impl PlanFile {
-    /// As it is now.
+    /// The file as it is now.
     pub fn new(path: &Path) -> Self {
         Self { path: path.to_owned(), seen: stamp(path) }
     }
 
-    /// The plan in the file, or what is wrong with it, if the file has changed since it was last seen.
+    /// The plan in the file, or its first mistake, if the file has changed since last seen.
     pub fn changed(&mut self) -> Option<Result<Case, String>> {
         let now = stamp(&self.path);
         if std::mem::replace(&mut self.seen, now) == now {
@@ -36,12 +36,12 @@ impl PlanFile {
         }))
     }
 
-    /// The next look will find it changed.
+    /// Makes the next look find the file changed.
     pub fn forget(&mut self) {
         self.seen = None;
     }
 
-    /// Writes `text`, unless the file is no longer the one whose text was `before`.
+    /// Writes `text`, unless the text of the file is no longer `before`.
     pub fn write(&mut self, before: &str, text: &str) -> Result<(), Refusal> {
         let failed = |error: io::Error| Refusal::Failed(error.to_string());
         match std::fs::read_to_string(&self.path) {
@@ -60,10 +60,11 @@ impl PlanFile {
 pub enum Refusal {
     /// Another program has changed the file.
     Changed,
-    /// In words.
+    /// The file could not be read or written, for this reason.
     Failed(String),
 }
 
+/// Time of the last change, and size [bytes].
 fn stamp(path: &Path) -> Option<(SystemTime, u64)> {
     let data = path.metadata().ok()?;
     Some((data.modified().ok()?, data.len()))
@@ -75,7 +76,7 @@ mod tests {
 
     use super::*;
 
-    /// A clock set back between two saves makes the later one look older.
+    /// A clock that is set back between two saves makes the later file look older.
     #[test]
     fn a_change_is_noticed_whichever_way_the_clock_went() {
         let folder = tempfile::tempdir().expect("a folder");

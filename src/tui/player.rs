@@ -1,20 +1,20 @@
-//! Playing an option back: the time shown, and how fast it goes.
+//! Playback of a flight: the time shown and the speed.
 
 use std::time::Duration;
 
-/// Parts of real time.
+/// Speeds, as shares of real time.
 pub const SPEEDS: [f64; 7] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0];
 
-/// What the flight screen shows.
+/// Playback of one option.
 #[derive(Clone, Debug)]
 pub struct Player {
-    /// Index of the option it was asked for.
+    /// Index of the option whose recording was requested.
     pub option: Option<usize>,
     /// Time shown [s].
     pub time: f64,
-    /// Whether it goes on by itself.
+    /// Whether the flight plays.
     pub playing: bool,
-    /// Whether the side view looks along the shelter's rows instead of across them.
+    /// Whether the side view looks along the shelter's rows; otherwise it looks across them.
     pub along_rows: bool,
     speed: usize,
 }
@@ -26,27 +26,27 @@ impl Default for Player {
 }
 
 impl Player {
-    /// Another option is asked for: from its beginning.
-    pub fn ask(&mut self, option: usize) {
+    /// Shows another option, from its beginning.
+    pub fn show_option(&mut self, option: usize) {
         *self = Self { option: Some(option), time: 0.0, ..self.clone() };
     }
 
-    /// Part of real time.
+    /// The speed, as a share of real time.
     pub fn speed(&self) -> f64 {
         SPEEDS[self.speed]
     }
 
-    /// The next speed.
+    /// Switches to the next higher speed.
     pub fn faster(&mut self) {
         self.speed = (self.speed + 1).min(SPEEDS.len() - 1);
     }
 
-    /// The speed before.
+    /// Switches to the next lower speed.
     pub fn slower(&mut self) {
         self.speed = self.speed.saturating_sub(1);
     }
 
-    /// Plays or pauses; at the end, from the beginning.
+    /// Plays or pauses; at the end `end` [s], plays from the beginning.
     pub fn toggle(&mut self, end: f64) {
         self.playing = !self.playing;
         if self.playing && self.time >= end {
@@ -54,15 +54,15 @@ impl Player {
         }
     }
 
-    /// Shows another time [s] of a flight that ends at `end` [s].
+    /// Shows the time `time` [s] of a flight that ends at `end` [s].
     pub fn seek(&mut self, time: f64, end: f64) {
         self.time = time.clamp(0.0, end);
     }
 
-    /// So much real time has passed.
-    pub fn advance(&mut self, passed: Duration, end: f64) {
+    /// Moves a playing flight on after so much real time.
+    pub fn advance(&mut self, elapsed: Duration, end: f64) {
         if self.playing {
-            self.seek(self.time + passed.as_secs_f64() * self.speed(), end);
+            self.seek(self.time + elapsed.as_secs_f64() * self.speed(), end);
             self.playing = self.time < end;
         }
     }

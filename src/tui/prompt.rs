@@ -1,4 +1,4 @@
-//! A line to type in at the foot of the screen: what to find, a command's name, a file's name.
+//! The line at the foot of the screen that the user types: a text to find, a command, a file.
 
 use crossterm::event::{Event, KeyCode, KeyEvent};
 use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
@@ -8,48 +8,48 @@ use tui_input::backend::crossterm::EventHandler;
 
 use super::keymap::{BINDINGS, Binding};
 
-/// What is typed.
+/// What the line is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// What to find.
+    /// A text to find.
     Search,
-    /// A command's name.
+    /// A command to choose by name.
     Palette,
-    /// The file to write what is shown to.
+    /// The file to write the contents of the screen to.
     Export,
     /// The file to write the plan to.
     SaveAs,
 }
 
-/// The line.
+/// A line being typed.
 #[derive(Clone, Debug)]
 pub struct Prompt {
-    /// What for.
+    /// What the line is for.
     pub purpose: Purpose,
-    /// What stands in it.
+    /// Text and cursor.
     pub input: Input,
-    /// Index of the selected command.
+    /// Index of the selected command among the matches.
     pub selected: usize,
 }
 
-/// What a key came to.
+/// Effect of a key on the line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Typed {
-    /// The line is another.
+    /// The line is still being typed.
     Changed,
-    /// It is complete.
+    /// The line is complete.
     Done,
-    /// It is given up.
+    /// The user gave the line up.
     Cancelled,
 }
 
 impl Prompt {
-    /// With something in it already.
+    /// A line that begins with a text.
     pub fn new(purpose: Purpose, text: &str) -> Self {
         Self { purpose, input: Input::new(text.to_owned()), selected: 0 }
     }
 
-    /// A key.
+    /// Takes a key.
     pub fn key(&mut self, key: &KeyEvent) -> Typed {
         match key.code {
             KeyCode::Enter => return Typed::Done,
@@ -65,12 +65,12 @@ impl Prompt {
         Typed::Changed
     }
 
-    /// Commands whose name or meaning contains what is typed, letter after letter: names first, best match first.
+    /// Commands whose name or description contains the letters typed, in order. Matches of the name come first, the best first.
     pub fn commands(&self) -> Vec<&'static Binding> {
         let pattern = Pattern::parse(self.input.value(), CaseMatching::Ignore, Normalization::Smart);
         let mut matcher = Matcher::new(Config::DEFAULT);
         let mut letters = Vec::new();
-        let mut score = |words| pattern.score(Utf32Str::new(words, &mut letters), &mut matcher);
+        let mut score = |text| pattern.score(Utf32Str::new(text, &mut letters), &mut matcher);
         let scores: Vec<_> =
             BINDINGS.iter().map(|binding| (score(binding.name), score(binding.text))).collect();
         let mut found: Vec<usize> = (0..BINDINGS.len()).filter(|&n| scores[n] != (None, None)).collect();

@@ -1,5 +1,5 @@
-//! What is offered when no plan is named: a new one by a few questions, the plans opened lately and at hand, and the
-//! examples that come with the program.
+//! The start screen, for a program started without a plan. Offers a new plan by a few questions, plans opened lately, plans
+//! in this folder, and the examples that come with the program.
 
 use std::path::{Path, PathBuf};
 
@@ -11,35 +11,36 @@ use ratatui::widgets::{Block, List, ListState, Paragraph, Wrap};
 use tui_input::Input;
 use tui_input::backend::crossterm::EventHandler;
 
-use super::given_up;
+use super::config::Config;
+use super::keymap::{Action, Keymap, ctrl_c_as_esc};
 use super::theme::Theme;
 use crate::plan::Plan;
 use crate::plan::starter::{self, QUESTIONS, ROPE};
 use crate::ropes::catalogue;
 
-/// Something to open.
+/// A line of the list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Choice {
-    /// A plan that answers to questions will make.
+    /// A new plan, made from the answers to questions.
     New,
     /// A file.
     File(PathBuf),
-    /// An example: its name and text.
+    /// An example, by name and text.
     Example(&'static str, &'static str),
 }
 
-/// What was opened.
+/// A plan that the user chose.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Opened {
     /// A file.
     File(PathBuf),
-    /// An example: its name and text.
+    /// An example, by name and text.
     Example(&'static str, &'static str),
     /// The text of a new plan.
     New(String),
 }
 
-/// Plans that come with the program.
+/// Examples that come with the program, by name and text.
 pub const EXAMPLES: &[(&str, &str)] = &[
     ("amur-three-rows", include_str!("../../plans/amur-three-rows.toml")),
     ("point-blasting", include_str!("../../plans/point-blasting.toml")),
@@ -47,25 +48,27 @@ pub const EXAMPLES: &[(&str, &str)] = &[
     ("large-50x50", include_str!("../../plans/large-50x50.toml")),
 ];
 
+/// Lines that a page key moves.
+const PAGE: usize = 10;
 /// Most files listed.
 const MOST: usize = 50;
-/// Files larger than this are not looked into for whether they are plans [bytes].
+/// Largest file that is read to see whether it is a plan [bytes].
 const LARGE: u64 = 1 << 20;
 
-/// The list and what is selected in it, or the questions.
+/// The start screen: the list, or the questions.
 #[derive(Clone, Debug)]
 pub struct Start {
-    /// What can be opened.
+    /// The lines of the list.
     pub choices: Vec<Choice>,
-    /// Index of the selected one.
+    /// Index of the selected line.
     pub selected: usize,
-    /// The questions, once they are asked.
+    /// The questions, while they are asked.
     questions: Option<Questions>,
-    /// Where the choices were drawn.
-    places: Vec<(Rect, usize)>,
+    /// Areas of the lines as drawn last, with the index of each line.
+    areas: Vec<(Rect, usize)>,
 }
 
-/// The answers as they stand.
+/// The questions with the answers so far.
 #[derive(Clone, Debug)]
 struct Questions {
     answers: [Input; QUESTIONS.len()],
@@ -73,19 +76,19 @@ struct Questions {
     problem: Option<String>,
 }
 
-/// What a key came to.
+/// Effect of an event on the start screen.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Next {
-    /// Wait for another.
+    /// Wait for the next event.
     Wait,
-    /// Open this.
+    /// Open this plan.
     Open(Opened),
     /// Leave.
     Quit,
 }
 
 impl Start {
-    /// A new plan, plans opened lately, plans in `folder` and in `plans` below it, then the examples.
+    /// Lists a new plan, the `recent` plans, the plans in `folder` and in its folder `plans`, then the examples.
     pub fn new(folder: &Path, recent: Vec<PathBuf>) -> Self {
         let mut files: Vec<PathBuf> = [folder.to_owned(), folder.join("plans")]
             .iter()
@@ -100,29 +103,29 @@ impl Start {
         let examples = EXAMPLES.iter().map(|(name, text)| Choice::Example(name, text));
         let files = recent.into_iter().chain(files).map(Choice::File);
         let choices: Vec<Choice> = [Choice::New].into_iter().chain(files).chain(examples).collect();
-        // Somebody who has plans opens one of them.
+        // A user who has plans opens one of them more often than makes a new one.
         let selected = usize::from(matches!(choices.get(1), Some(Choice::File(_))));
-        Self { choices, selected, questions: None, places: Vec::new() }
+        Self { choices, selected, questions: None, areas: Vec::new() }
     }
 
-    /// A terminal event.
-    pub fn update(&mut self, event: &Event) -> Next {
+    /// Takes a terminal event.
+    pub fn update(&mut self, event: &Event, keymap: &Keymap) -> Next {
         match event {
             Event::Key(key) if key.kind == KeyEventKind::Release => Next::Wait,
             Event::Key(key) => match &mut self.questions {
-                Some(questions) => match questions.key(&given_up(key)) {
+                Some(questions) => match questions.key(&ctrl_c_as_esc(key)) {
                     Some(next) => next,
                     None => {
                         self.questions = None;
                         Next::Wait
                     }
                 },
-                None => self.key(&given_up(key)),
+                None => self.key(&ctrl_c_as_esc(key), keymap),
             },
             Event::Mouse(mouse) if self.questions.is_none() => match mouse.kind {
                 MouseEventKind::Down(MouseButton::Left) => {
                     let at = Position::new(mouse.column, mouse.row);
-                    match self.places.iter().find(|(place, _)| place.contains(at)) {
+                    match self.areas.iter().find(|(area, _)| area.contains(at)) {
                         Some(&(_, choice)) if choice == self.selected => self.open(),
                         Some(&(_, choice)) => self.select(choice),
                         None => Next::Wait,
@@ -136,14 +139,17 @@ impl Start {
         }
     }
 
-    fn key(&mut self, key: &KeyEvent) -> Next {
-        match key.code {
-            KeyCode::Down | KeyCode::Char('j') => self.select(self.selected + 1),
-            KeyCode::Up | KeyCode::Char('k') => self.select(self.selected.saturating_sub(1)),
-            KeyCode::Home | KeyCode::Char('g') => self.select(0),
-            KeyCode::End | KeyCode::Char('G') => self.select(usize::MAX),
-            KeyCode::Enter => self.open(),
-            KeyCode::Esc | KeyCode::Char('q') => Next::Quit,
+    fn key(&mut self, key: &KeyEvent, keymap: &Keymap) -> Next {
+        match keymap.action(key) {
+            _ if key.code == KeyCode::Esc => Next::Quit,
+            Some(Action::Down) => self.select(self.selected + 1),
+            Some(Action::Up) => self.select(self.selected.saturating_sub(1)),
+            Some(Action::PageDown) => self.select(self.selected + PAGE),
+            Some(Action::PageUp) => self.select(self.selected.saturating_sub(PAGE)),
+            Some(Action::First) => self.select(0),
+            Some(Action::Last) => self.select(usize::MAX),
+            Some(Action::Open) => self.open(),
+            Some(Action::Quit) => Next::Quit,
             _ => Next::Wait,
         }
     }
@@ -167,25 +173,33 @@ impl Start {
     }
 
     /// Draws the list or the questions.
-    pub fn draw(&mut self, theme: Theme, frame: &mut Frame) {
-        let area = frame.area();
+    pub fn draw(&mut self, config: &Config, frame: &mut Frame) {
+        let (theme, area) = (config.theme, frame.area());
         frame.render_widget(Block::new().style(theme.base()), area);
         let [head, body, foot] =
             Layout::vertical([Constraint::Length(3), Constraint::Min(0), Constraint::Length(2)]).areas(area);
-        let asked = match self.questions {
+        let question = match self.questions {
             None => "Which delay is safe under a shelter of tires and cables? Open a plan:",
             Some(_) => "A new plan; everything can be changed later:",
         };
-        let words = vec![Line::styled("shelter", theme.title()), Line::styled(asked, theme.base())];
-        frame.render_widget(Paragraph::new(words).wrap(Wrap { trim: true }), head);
+        let lines = vec![Line::styled("shelter", theme.title()), Line::styled(question, theme.base())];
+        frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), head);
         let keys = match &self.questions {
             None => {
                 self.draw_choices(theme, frame, body);
-                "Enter opens · q leaves · from a list of holes: `shelter init PLAN --from HOLES.csv`"
+                let key = |action, otherwise: &str| {
+                    Some(config.keymap.label(action, false))
+                        .filter(|key| !key.is_empty())
+                        .unwrap_or_else(|| otherwise.to_owned())
+                };
+                let (open, quit) = (key(Action::Open, "a double click"), key(Action::Quit, "Esc"));
+                format!(
+                    "{open} opens · {quit} leaves · from a list of holes: `shelter init PLAN --from HOLES.csv`"
+                )
             }
             Some(questions) => {
                 questions.draw(theme, frame, body);
-                "Up Down question · Enter next, at the last: make the plan · Esc back"
+                "Up Down question · Enter next, at the last: make the plan · Esc back".to_owned()
             }
         };
         let keys = Paragraph::new(Line::styled(keys, theme.quiet()));
@@ -205,13 +219,13 @@ impl Start {
         let mut state = ListState::default().with_selected(Some(self.selected));
         frame.render_stateful_widget(List::new(self.choices.iter().enumerate().map(row)), area, &mut state);
         let shown = (state.offset()..self.choices.len()).take(usize::from(area.height));
-        self.places =
+        self.areas =
             (area.y..).zip(shown).map(|(y, choice)| (Rect { y, height: 1, ..area }, choice)).collect();
     }
 }
 
 impl Questions {
-    /// A key; `None` to go back.
+    /// Takes a key; `None` goes back to the list.
     fn key(&mut self, key: &KeyEvent) -> Option<Next> {
         let last = QUESTIONS.len() - 1;
         match key.code {
@@ -240,7 +254,7 @@ impl Questions {
         Some(Next::Wait)
     }
 
-    /// The text of the plan, or what stands against it.
+    /// The text of the plan, or the first mistake in the answers.
     fn plan(&self) -> Result<String, String> {
         let text = starter::plan(&std::array::from_fn(|n| self.answers[n].value()))?;
         Plan::parse("new plan", &text).map(|_| text).map_err(|mistakes| mistakes.first())
@@ -270,6 +284,7 @@ impl Questions {
     }
 }
 
+/// Whether a file looks like a plan.
 fn is_plan(path: &Path) -> bool {
     let small = |path: &Path| path.metadata().is_ok_and(|data| data.is_file() && data.len() <= LARGE);
     path.extension().is_some_and(|extension| extension == "toml")

@@ -1,98 +1,152 @@
-//! What the long studies have come to, as the screen shows it.
+//! The studies on the screen: the state of each, and which is shown.
 
 use std::fmt;
 use std::sync::Arc;
 
-use crate::study::NoResult;
+use crate::jobs::{Found, StudyKind};
+use crate::report::model::{Block, Report};
+use crate::report::{self, charts, notes};
+use crate::scene::fire_at_s;
 use crate::study::flight::Flight;
-use crate::worker::{Found, Kind};
+use crate::study::{Case, ComputeSettings, NoResult};
 
-/// One study.
+/// State of one study.
 #[derive(Clone, Debug, Default)]
-pub enum Progress {
+pub enum StudyState {
     /// Not begun, or cancelled.
     #[default]
     Idle,
-    /// Under way.
+    /// Computing.
     Running {
         /// Shots judged.
         done: usize,
-        /// Expected so far.
+        /// Shots expected, as far as is known.
         total: usize,
     },
-    /// Its result, kept while one looks elsewhere.
-    Done(Arc<Found>),
-    /// Without a result.
+    /// Has a result; the result stays while other screens are shown.
+    Done(Arc<Finished>),
+    /// Ended without a result.
     Failed(NoResult),
 }
 
-impl fmt::Display for Progress {
+/// The result of a study.
+#[derive(Debug)]
+pub struct Finished {
+    /// The result as computed.
+    pub found: Box<Found>,
+    /// The settings of the computation.
+    pub compute: ComputeSettings,
+    /// The result as the screen draws it.
+    pub report: Report,
+    /// Notes that commands print beside the report.
+    pub notes: Vec<String>,
+}
+
+impl Finished {
+    /// Makes the report of a result.
+    pub fn new(case: &Case, compute: ComputeSettings, found: Box<Found>) -> Self {
+        let report = match &*found {
+            Found::Sweep(sweep) => report::sweep::report(case, sweep, false),
+            Found::Orders(orders) => report::orders::report(case, orders, false),
+            Found::Scatter(draw, samples) => report::scatter::report(case, draw, samples, false),
+            Found::Size(sizing) => report::size::report(case, sizing),
+            Found::Accuracy(study) => report::accuracy::report(case, study, &[]),
+            Found::Flight(flight) => {
+                let firings = fire_at_s(&case.plan.delays[flight.option].timing);
+                let history = &flight.outcome.history;
+                let mut report = report::trace::history(history);
+                report.blocks.extend(charts::history(case, history, &firings).map(Block::Picture));
+                report
+            }
+        };
+        let notes = match &*found {
+            Found::Orders(_) => notes::orders(case).into_iter().collect(),
+            Found::Scatter(..) => notes::scatter(case),
+            _ => Vec::new(),
+        };
+        Self { found, compute, report, notes }
+    }
+}
+
+impl fmt::Display for StudyState {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Progress::Idle => Ok(()),
-            Progress::Running { done, total } => write!(f, "{} %", 100 * done / (*total).max(1)),
-            Progress::Done(_) => write!(f, "done"),
-            Progress::Failed(_) => write!(f, "no result"),
+            StudyState::Idle => Ok(()),
+            StudyState::Running { done, total } => write!(f, "{} %", 100 * done / (*total).max(1)),
+            StudyState::Done(_) => write!(f, "done"),
+            StudyState::Failed(_) => write!(f, "no result"),
         }
     }
 }
 
-/// All of them.
+/// Every study, and which is shown.
 #[derive(Clone, Debug)]
 pub struct Studies {
-    /// Which is shown.
-    pub shown: Kind,
+    /// The study shown.
+    pub shown: StudyKind,
     /// Lines scrolled.
     pub scroll: u16,
-    /// Only lines that contain this.
+    /// Only lines that contain this text are shown.
     pub filter: String,
-    progress: [Progress; Kind::ALL.len()],
+    states: [StudyState; StudyKind::ALL.len()],
 }
 
 impl Default for Studies {
     fn default() -> Self {
-        Self { shown: Kind::Sweep, scroll: 0, filter: String::new(), progress: Default::default() }
+        Self { shown: StudyKind::Sweep, scroll: 0, filter: String::new(), states: Default::default() }
     }
 }
 
 impl Studies {
-    /// How a study stands.
-    pub fn progress(&self, kind: Kind) -> &Progress {
-        &self.progress[kind as usize]
+    /// State of a study.
+    pub fn state(&self, kind: StudyKind) -> &StudyState {
+        &self.states[kind as usize]
     }
 
-    /// Notes how a study stands.
-    pub fn set(&mut self, kind: Kind, progress: Progress) {
-        self.progress[kind as usize] = progress;
+    /// Sets the state of a study.
+    pub fn set(&mut self, kind: StudyKind, state: StudyState) {
+        self.states[kind as usize] = state;
     }
 
-    /// Notes how far a study is; whether that is news.
-    pub fn advance(&mut self, kind: Kind, counts: (usize, usize)) -> bool {
-        let known =
-            matches!(self.progress(kind), Progress::Running { done, total } if (*done, *total) == counts);
-        let (done, total) = counts;
-        self.set(kind, Progress::Running { done, total });
-        !known
+    /// Whether a study computes.
+    pub fn is_running(&self, kind: StudyKind) -> bool {
+        matches!(self.state(kind), StudyState::Running { .. })
     }
 
-    /// Nothing found yet, the same study shown.
+    /// Whether any study computes.
+    pub fn busy(&self) -> bool {
+        StudyKind::ALL.into_iter().any(|kind| self.is_running(kind))
+    }
+
+    /// The result of a study, once there is one.
+    pub fn finished(&self, kind: StudyKind) -> Option<&Finished> {
+        match self.state(kind) {
+            StudyState::Done(finished) => Some(finished),
+            StudyState::Idle | StudyState::Running { .. } | StudyState::Failed(_) => None,
+        }
+    }
+
+    /// The recorded motion of an option.
+    pub fn flight(&self, option: usize) -> Option<&Flight> {
+        match &*self.finished(StudyKind::Flight)?.found {
+            Found::Flight(flight) if flight.option == option => Some(flight),
+            _ => None,
+        }
+    }
+
+    /// Drops every result; the same study stays shown.
     pub fn forget(&mut self) {
         *self = Self { shown: self.shown, ..Self::default() };
     }
 
-    /// How a study stands, in a word.
-    pub fn state(&self, kind: Kind) -> String {
-        self.progress(kind).to_string()
-    }
-
-    /// Shows the study so many places further.
-    pub fn turn(&mut self, places: isize) {
-        let count = Kind::STUDIES.len() as isize;
-        self.show(Kind::STUDIES[(self.shown as isize + places).rem_euclid(count) as usize]);
+    /// Shows the study so many tabs further.
+    pub fn turn(&mut self, by: isize) {
+        let count = StudyKind::OF_PLAN.len() as isize;
+        self.show(StudyKind::OF_PLAN[(self.shown as isize + by).rem_euclid(count) as usize]);
     }
 
     /// Shows a study.
-    pub fn show(&mut self, kind: Kind) {
+    pub fn show(&mut self, kind: StudyKind) {
         self.shown = kind;
         self.scroll = 0;
     }
@@ -100,21 +154,5 @@ impl Studies {
     /// Scrolls so many lines.
     pub fn scroll(&mut self, lines: i16) {
         self.scroll = self.scroll.saturating_add_signed(lines);
-    }
-
-    /// The recorded motion of an option.
-    pub fn flight(&self, option: usize) -> Option<&Flight> {
-        match self.progress(Kind::Flight) {
-            Progress::Done(found) => match found.as_ref() {
-                Found::Flight(flight) if flight.option == option => Some(flight),
-                _ => None,
-            },
-            _ => None,
-        }
-    }
-
-    /// Whether any computes.
-    pub fn busy(&self) -> bool {
-        self.progress.iter().any(|progress| matches!(progress, Progress::Running { .. }))
     }
 }

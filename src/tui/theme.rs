@@ -1,10 +1,11 @@
-//! Colours by role. Meaning never rests on colour alone: words and signs carry it too.
+//! Styles of the terminal by role, from the palette that all faces share. Colour never carries meaning alone: words and
+//! signs say the same.
 
 use ratatui::buffer::Buffer;
 use ratatui::style::{Color, Modifier, Style};
 use serde::Deserialize;
 
-use crate::report::ascii::substitute;
+use crate::report::ascii;
 use crate::report::palette::Role;
 use crate::verdict::Verdict;
 
@@ -22,7 +23,7 @@ pub enum Theme {
 }
 
 impl Theme {
-    /// The next one.
+    /// The next theme; the first follows the last.
     pub fn next(self) -> Self {
         match self {
             Theme::Dark => Theme::Light,
@@ -48,7 +49,7 @@ impl Theme {
         self.base().add_modifier(Modifier::BOLD)
     }
 
-    /// What may be overlooked.
+    /// Text of little importance.
     pub fn quiet(self) -> Style {
         match self {
             Theme::Dark => Style::new().fg(Color::Gray),
@@ -62,32 +63,34 @@ impl Theme {
         Style::new().add_modifier(Modifier::REVERSED)
     }
 
-    /// A verdict; blue and orange, which the colour-blind tell apart.
+    /// A verdict.
     pub fn verdict(self, verdict: Verdict) -> Style {
-        let role = Role::of(verdict);
-        let [red, green, blue] = if self == Theme::Dark { role.on_dark() } else { role.on_light() };
-        let color = Color::Rgb(red, green, blue);
-        Style::new().fg(color).add_modifier(Modifier::BOLD)
+        self.role(Role::of(verdict))
     }
 
-    /// The course of a quantity.
+    fn role(self, role: Role) -> Style {
+        let [red, green, blue] = if self == Theme::Dark { role.on_dark() } else { role.on_light() };
+        Style::new().fg(Color::Rgb(red, green, blue)).add_modifier(Modifier::BOLD)
+    }
+
+    /// The curve of a quantity.
     pub fn curve(self) -> Style {
-        self.verdict(Verdict::Pass)
+        self.role(Role::Pass)
     }
 
     /// A limit.
     pub fn limit(self) -> Style {
-        self.verdict(Verdict::Fail)
+        self.role(Role::Fail)
     }
 
     /// A firing.
     pub fn firing(self) -> Style {
-        self.verdict(Verdict::Undecided)
+        self.role(Role::Open)
     }
 }
 
-/// Word and sign of a verdict.
-pub fn word(verdict: Verdict) -> &'static str {
+/// Sign and word of a verdict.
+pub fn label(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Pass => "✓ PASS",
         Verdict::Undecided => "? OPEN",
@@ -95,7 +98,7 @@ pub fn word(verdict: Verdict) -> &'static str {
     }
 }
 
-/// Takes all colour out of a drawn screen; bold and reverse stay.
+/// Removes all colours from a drawn screen; bold and reverse stay.
 pub fn without_color(buffer: &mut Buffer) {
     for cell in &mut buffer.content {
         cell.fg = Color::Reset;
@@ -103,15 +106,17 @@ pub fn without_color(buffer: &mut Buffer) {
     }
 }
 
-/// Replaces every symbol of a drawn screen that is not ASCII. A substitute of two letters takes the blank after it.
+/// Replaces every character of a drawn screen that poor fonts lack. A substitute of two letters takes the next cell as well
+/// where that cell is blank.
 pub fn to_ascii(buffer: &mut Buffer) {
-    let cells = &mut buffer.content;
-    for n in 0..cells.len() {
-        let Some(letters) = cells[n].symbol().chars().next().and_then(substitute) else { continue };
-        let (first, rest) = letters.split_at(letters.len().min(1));
-        cells[n].set_symbol(first);
-        if let Some(next) = cells.get_mut(n + 1).filter(|next| !rest.is_empty() && next.symbol() == " ") {
-            next.set_symbol(rest);
+    for n in 0..buffer.content.len() {
+        let symbol = buffer.content[n].symbol().chars().next();
+        let Some(letters) = symbol.and_then(ascii::substitute) else { continue };
+        buffer.content[n].set_symbol(letters.get(..1).unwrap_or(" "));
+        if let (Some(second), Some(next)) = (letters.get(1..2), buffer.content.get_mut(n + 1))
+            && next.symbol() == " "
+        {
+            next.set_symbol(second);
         }
     }
 }

@@ -1,16 +1,20 @@
 //! What keys and clicks do, without a terminal.
 
-use crossterm::event::{Event, KeyCode, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+use ratatui::Terminal;
+use ratatui::backend::TestBackend;
 use ratatui::layout::Position;
+use shelter::jobs::StudyKind;
 use shelter::study::NoResult;
-use shelter::tui::app::{App, Request, Row, Screen};
-use shelter::tui::compare::SortBy;
+use shelter::tui::app::{App, Request};
 use shelter::tui::config::Config;
+use shelter::tui::options::{OptionState, SortBy};
 use shelter::tui::prompt::Purpose;
+use shelter::tui::screen::Screen;
+use shelter::tui::start::{EXAMPLES, Next, Opened, Start};
 use shelter::tui::update;
-use shelter::worker::Kind;
 
-use super::stage::{draw, draw_places, finished, key, recorded, swept, text};
+use super::stage::{draw, draw_areas, finished, key, recorded, study_ends, swept, text};
 
 fn press(app: &mut App, keys: &str) -> Request {
     keys.chars().fold(Request::None, |_, letter| key(app, KeyCode::Char(letter)))
@@ -19,7 +23,7 @@ fn press(app: &mut App, keys: &str) -> Request {
 /// Clicks on the first place where the screen shows `words`.
 fn click(app: &mut App, words: &str) -> Request {
     let screen = text(&draw(app, 120, 36));
-    app.places = draw_places(app, 120, 36);
+    app.areas = draw_areas(app, 120, 36);
     let (row, line) = screen.lines().enumerate().find(|(_, line)| line.contains(words)).expect(words);
     let column = line[..line.find(words).expect("in the line")].chars().count();
     let at = Position::new(column as u16, row as u16);
@@ -39,13 +43,13 @@ fn names(app: &App) -> Vec<&str> {
 #[test]
 fn options_are_sorted_filtered_and_compared() {
     let mut app = finished();
-    for (n, row) in app.rows.iter_mut().enumerate() {
-        let Row::Done(checked) = row else { panic!("done") };
+    for (n, row) in app.options.iter_mut().enumerate() {
+        let OptionState::Done(checked) = row else { panic!("done") };
         checked.height.value = [3.0, 1.0, 2.0, 5.0, 4.0, 7.0, 6.0][n];
     }
-    app.rows[1] = Row::Waiting;
+    app.options[1] = OptionState::Waiting;
     press(&mut app, "ooo");
-    assert_eq!(app.compare.sort, SortBy::Height);
+    assert_eq!(app.listing.sort, SortBy::Height);
     assert_eq!(app.listed(), [2, 0, 4, 3, 6, 5, 1], "those without a result are last");
     press(&mut app, "O");
     assert_eq!(app.listed(), [5, 6, 3, 4, 0, 2, 1]);
@@ -76,7 +80,7 @@ fn options_are_sorted_filtered_and_compared() {
 fn commands_are_chosen_by_name() {
     let mut app = finished();
     press(&mut app, ":finer");
-    assert_eq!(key(&mut app, KeyCode::Enter), Request::Run);
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::Check);
     press(&mut app, ":zzz");
     assert!(text(&draw(&app, 100, 30)).contains("no command has these letters"));
     assert_eq!(key(&mut app, KeyCode::Enter), Request::None);
@@ -94,11 +98,11 @@ fn clicks_do_what_keys_do() {
     assert!(app.zoom, "a second click opens");
     key(&mut app, KeyCode::Esc);
     click(&mut app, "force, kN");
-    assert_eq!(app.compare.sort, SortBy::Force);
+    assert_eq!(app.listing.sort, SortBy::Force);
     click(&mut app, "4 Studies");
     assert_eq!(app.screen, Screen::Studies);
     click(&mut app, "Orders");
-    assert_eq!(app.studies.shown, Kind::Orders);
+    assert_eq!(app.studies.shown, StudyKind::Orders);
     click(&mut app, "1 Plan");
     click(&mut app, "friction");
     click(&mut app, "friction");
@@ -120,29 +124,35 @@ fn clicks_do_what_keys_do() {
 fn a_flight_is_asked_for_once_and_played() {
     let mut app = finished();
     press(&mut app, "3");
-    assert_eq!(app.wanted(), Request::Start(Kind::Flight));
-    assert_eq!(app.wanted(), Request::None);
+    assert_eq!(app.request_flight(), Request::Study(StudyKind::Flight));
+    assert_eq!(app.request_flight(), Request::None);
     assert!(text(&draw(&app, 100, 30)).contains("recording"));
     let flight = recorded(&app, 0);
-    app.learn(Kind::Flight, Ok(flight));
+    study_ends(&mut app, StudyKind::Flight, Ok(flight));
     press(&mut app, " ");
-    assert!(app.moving());
-    app.pass(std::time::Duration::from_secs(1));
+    assert!(app.playing());
+    app.advance(std::time::Duration::from_secs(1));
     assert_eq!(app.player.time, 0.1, "a tenth of real time");
     press(&mut app, " h");
     assert!((app.player.time - 0.09).abs() < 1e-12);
-    app.places = draw_places(&app, 120, 36);
+    app.areas = draw_areas(&app, 120, 36);
     key(&mut app, KeyCode::End);
     click(&mut app, "━");
     assert_eq!(app.player.time, 0.0, "the left end of the bar");
     press(&mut app, "j");
-    assert_eq!((app.selected, app.wanted()), (1, Request::Start(Kind::Flight)));
+    assert_eq!((app.selected, app.request_flight()), (1, Request::Study(StudyKind::Flight)));
 }
 
 #[test]
 fn what_is_shown_is_offered_for_export() {
     let mut app = finished();
-    press(&mut app, "e");
+    let (stem, ending) = ("amur-three-rows-compare".to_owned(), "csv");
+    assert_eq!(
+        press(&mut app, "e"),
+        Request::NameExport(stem, ending),
+        "the event loop finds an unused name"
+    );
+    app.ask_for_file(Purpose::Export, "amur-three-rows-compare.csv");
     let prompt = app.prompt.as_ref().expect("a file is asked for");
     assert_eq!((prompt.purpose, prompt.input.value()), (Purpose::Export, "amur-three-rows-compare.csv"));
     assert_eq!(key(&mut app, KeyCode::Enter), Request::Export("amur-three-rows-compare.csv".into()));
@@ -155,8 +165,48 @@ fn keys_of_a_configuration_count() {
     let mut app = App::new(finished().case, finished().compute, &config);
     assert_eq!(press(&mut app, "q"), Request::None);
     press(&mut app, "S");
-    assert_eq!(app.compare.sort, SortBy::Name);
+    assert_eq!(app.listing.sort, SortBy::Name);
     assert!(text(&draw(&app, 100, 30)).contains("Ctrl-q quit"));
+}
+
+#[test]
+fn the_start_screen_uses_the_keys_of_the_configuration() {
+    let remapped = "[keys]\ndown = [\"n\"]\nopen = [\"ctrl-o\"]\nquit = [\"ctrl-q\"]";
+    let config = Config::parse(remapped).expect("right");
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut start = Start::new(folder.path(), Vec::new());
+    let mut press =
+        |code, modifiers| start.update(&Event::Key(KeyEvent::new(code, modifiers)), &config.keymap);
+    for letter in ['j', 'q'] {
+        assert_eq!(press(KeyCode::Char(letter), KeyModifiers::NONE), Next::Wait, "{letter} has no action");
+    }
+    assert_eq!(press(KeyCode::Enter, KeyModifiers::NONE), Next::Wait);
+    assert_eq!(press(KeyCode::Char('n'), KeyModifiers::NONE), Next::Wait);
+    let (name, plan) = EXAMPLES[0];
+    let opened = press(KeyCode::Char('o'), KeyModifiers::CONTROL);
+    assert_eq!(opened, Next::Open(Opened::Example(name, plan)), "the second line");
+    assert_eq!(press(KeyCode::Char('q'), KeyModifiers::CONTROL), Next::Quit);
+    assert_eq!(press(KeyCode::Esc, KeyModifiers::NONE), Next::Quit);
+    let mut terminal = Terminal::new(TestBackend::new(100, 30)).expect("a test terminal");
+    terminal.draw(|frame| start.draw(&config, frame)).expect("drawn");
+    assert!(text(terminal.backend().buffer()).contains("Ctrl-o opens · Ctrl-q leaves"));
+}
+
+#[test]
+fn the_order_editor_uses_the_keys_of_the_configuration() {
+    let config = Config::parse("[keys]\ndown = [\"n\"]\nleft = [\"w\"]").expect("right");
+    let mut app = App::new(finished().case, finished().compute, &config);
+    press(&mut app, "1/20 ms: order");
+    key(&mut app, KeyCode::Enter);
+    key(&mut app, KeyCode::Enter);
+    let names = |app: &App| app.editor.order.as_ref().expect("in order").names.clone();
+    assert!(text(&draw(&app, 100, 30)).contains("Firing order: w earlier, Right later"));
+    press(&mut app, "jh");
+    assert_eq!(names(&app), ["1", "2", "3"], "keys without an action do nothing");
+    press(&mut app, "nw");
+    assert_eq!(names(&app), ["2", "1", "3"]);
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::Replaced);
+    assert_eq!(app.case.plan.delays[2].timing.fire_at_ms(), [20.0, 0.0, 40.0]);
 }
 
 #[test]
@@ -181,7 +231,7 @@ fn keys_move_and_escape_closes_but_never_quits() {
     assert_eq!(app.selected, 2);
     key(&mut app, KeyCode::End);
     key(&mut app, KeyCode::Down);
-    assert_eq!(app.selected, app.rows.len() - 1);
+    assert_eq!(app.selected, app.options.len() - 1);
     key(&mut app, KeyCode::Home);
     key(&mut app, KeyCode::Char('k'));
     assert_eq!(app.selected, 0);
@@ -192,8 +242,8 @@ fn keys_move_and_escape_closes_but_never_quits() {
         assert_eq!(key(&mut app, KeyCode::Esc), Request::None);
     }
     assert_eq!(key(&mut app, KeyCode::Char('q')), Request::Quit);
-    assert_eq!(key(&mut app, KeyCode::Char('+')), Request::Run);
-    assert!(app.rows.iter().all(|row| matches!(row, Row::Waiting)));
+    assert_eq!(key(&mut app, KeyCode::Char('+')), Request::Check);
+    assert!(app.options.iter().all(|row| matches!(row, OptionState::Waiting)));
 }
 
 #[test]
@@ -201,11 +251,11 @@ fn a_study_is_cancelled_by_x_or_escape_and_escape_then_goes_back() {
     let mut app = finished();
     key(&mut app, KeyCode::Char('4'));
     key(&mut app, KeyCode::Right);
-    assert_eq!(app.studies.shown, Kind::Orders);
+    assert_eq!(app.studies.shown, StudyKind::Orders);
     assert_eq!(key(&mut app, KeyCode::Char('x')), Request::None, "nothing to cancel");
     for code in [KeyCode::Char('x'), KeyCode::Esc] {
-        assert_eq!(key(&mut app, KeyCode::Enter), Request::Start(Kind::Orders));
-        assert_eq!(key(&mut app, code), Request::Cancel(Kind::Orders));
+        assert_eq!(key(&mut app, KeyCode::Enter), Request::Study(StudyKind::Orders));
+        assert_eq!(key(&mut app, code), Request::Cancel(StudyKind::Orders));
     }
     assert_eq!(key(&mut app, KeyCode::Esc), Request::None);
     assert_eq!(app.screen, Screen::Compare);
@@ -218,7 +268,7 @@ fn lists_are_scrolled_no_further_than_their_end() {
     key(&mut app, KeyCode::Char('?'));
     (0..200).for_each(|_| drop(key(&mut app, KeyCode::Down)));
     let end = text(&draw(&app, 80, 24));
-    app.drawn(draw_places(&app, 80, 24));
+    app.note_drawn(draw_areas(&app, 80, 24));
     key(&mut app, KeyCode::Up);
     assert_ne!(text(&draw(&app, 80, 24)), end);
 }
@@ -233,19 +283,19 @@ proptest::proptest! {
         (width, height) in (1..160_u16, 1..60_u16),
     ) {
         let mut app = finished();
-        app.learn(Kind::Sweep, Ok(swept()));
+        study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
         let flight = recorded(&app, 0);
-        app.learn(Kind::Flight, Ok(flight));
-        app.learn(Kind::Scatter, Err(NoResult::NoScatter));
+        study_ends(&mut app, StudyKind::Flight, Ok(flight));
+        study_ends(&mut app, StudyKind::Scatter, Err(NoResult::NoScatter));
         for (n, letter) in keys {
             let codes = [
                 KeyCode::Up, KeyCode::Down, KeyCode::Left, KeyCode::Right, KeyCode::Enter, KeyCode::Esc,
                 KeyCode::PageUp, KeyCode::PageDown, KeyCode::Home, KeyCode::End, KeyCode::Tab,
             ];
             key(&mut app, codes.get(n).copied().unwrap_or(KeyCode::Char(letter)));
-            app.places = draw_places(&app, width, height);
+            app.areas = draw_areas(&app, width, height);
             app.click(Position::new(width / 3, height / 2));
-            app.wanted();
+            app.request_flight();
         }
     }
 }

@@ -1,19 +1,23 @@
 //! The screens, drawn without a terminal.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use crossterm::event::KeyCode;
-use ratatui::buffer::Buffer;
+use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Style};
+use shelter::jobs::StudyKind;
+use shelter::plan::Timing;
 use shelter::simulation::Failure;
 use shelter::study::NoResult;
-use shelter::tui::app::{Request, Row, Screen};
-use shelter::tui::studies::Progress;
+use shelter::tui::app::Request;
+use shelter::tui::options::OptionState;
+use shelter::tui::screen::Screen;
+use shelter::tui::studies::StudyState;
 use shelter::tui::theme::{self, Theme};
 use shelter::verdict::Verdict;
-use shelter::worker::Kind;
 
-use super::stage::{app, checked, draw, finished, key, measured, recorded, spreads, swept, text};
+use super::stage::{app, checked, draw, finished, key, measured, recorded, spreads, study_ends, swept, text};
 
 #[test]
 fn compare_at_three_sizes() {
@@ -25,9 +29,9 @@ fn compare_at_three_sizes() {
 #[test]
 fn computing_failed_and_enlarged() {
     let mut app = app();
-    app.rows[0] = Row::Done(Box::new(checked(Verdict::Pass)));
-    app.rows[1] = Row::Running { runs: 2, done: 0.45 };
-    app.rows[2] = Row::Failed(NoResult::Failed(Failure::Diverged { at: 0.3 }));
+    app.options[0] = OptionState::Done(Box::new(checked(Verdict::Pass)));
+    app.options[1] = OptionState::Running { runs: 2, done: 0.45 };
+    app.options[2] = OptionState::Failed(NoResult::Failed(Failure::Diverged { at: 0.3 }));
     app.selected = 1;
     insta::assert_snapshot!("computing", text(&draw(&app, 100, 30)));
     app.selected = 2;
@@ -61,16 +65,16 @@ fn studies_wait_run_and_show_what_they_found() {
     let mut app = finished();
     key(&mut app, KeyCode::Char('4'));
     insta::assert_snapshot!("study_idle", text(&draw(&app, 80, 24)));
-    assert_eq!(key(&mut app, KeyCode::Enter), Request::Start(Kind::Sweep));
-    app.studies.set(Kind::Sweep, Progress::Running { done: 34, total: 101 });
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::Study(StudyKind::Sweep));
+    app.studies.set(StudyKind::Sweep, StudyState::Running { done: 34, total: 101 });
     insta::assert_snapshot!("study_running", text(&draw(&app, 80, 24)));
-    app.learn(Kind::Sweep, Ok(swept()));
+    study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
     for (width, height) in [(80, 24), (120, 36)] {
         insta::assert_snapshot!(format!("sweep_{width}x{height}"), text(&draw(&app, width, height)));
     }
     key(&mut app, KeyCode::Char('2'));
     key(&mut app, KeyCode::Char('4'));
-    assert!(matches!(app.studies.progress(Kind::Sweep), Progress::Done(_)), "a result is kept");
+    assert!(matches!(app.studies.state(StudyKind::Sweep), StudyState::Done(_)), "a result is kept");
 }
 
 #[test]
@@ -90,7 +94,7 @@ fn orders_samples_and_sizes_have_a_picture() {
     let mut app = finished();
     key(&mut app, KeyCode::Char('4'));
     for (kind, found) in spreads(&app) {
-        app.learn(kind, Ok(found));
+        study_ends(&mut app, kind, Ok(found));
         app.studies.show(kind);
         let name = format!("{kind:?}").to_lowercase();
         insta::assert_snapshot!(format!("{name}_120x36"), text(&draw(&app, 120, 36)));
@@ -98,6 +102,92 @@ fn orders_samples_and_sizes_have_a_picture() {
             draw(&app, width, height);
         }
     }
+}
+
+/// A result that stays under a header with other settings says so.
+#[test]
+fn a_result_of_other_settings_is_marked() {
+    let mut app = finished();
+    key(&mut app, KeyCode::Char('4'));
+    study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+    let fresh = text(&draw(&app, 80, 24));
+    assert!(fresh.contains("\n verlet, field ─") && !fresh.contains("computes again"), "{fresh}");
+    key(&mut app, KeyCode::Char('-'));
+    let marked = text(&draw(&app, 80, 24));
+    assert!(marked.contains("computed with verlet, field; r computes again"), "{marked}");
+    assert_eq!(key(&mut app, KeyCode::Char('r')), Request::Study(StudyKind::Sweep));
+    study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+    let fresh = text(&draw(&app, 80, 24));
+    assert!(fresh.contains(" verlet, draft ") && !fresh.contains("computes again"), "{fresh}");
+}
+
+/// Foreground colours of the cells that show a text, wherever the screen shows it.
+fn colors(buffer: &Buffer, wanted: &str) -> Vec<Vec<Color>> {
+    let width = usize::from(buffer.area.width);
+    let wanted: Vec<String> = wanted.chars().map(String::from).collect();
+    let lines = buffer.content.chunks(width);
+    let hits = lines.flat_map(|line| line.windows(wanted.len()));
+    let hits = hits.filter(|cells| cells.iter().map(Cell::symbol).eq(wanted.iter().map(String::as_str)));
+    hits.map(|cells| cells.iter().map(|cell| cell.fg).collect()).collect()
+}
+
+/// A cell is coloured because it is a verdict, not because its text looks like one.
+#[test]
+fn a_blast_row_named_like_a_verdict_has_no_colour() {
+    let mut app = app();
+    let mut case = (*app.case).clone();
+    case.plan.blast_rows[0].name = "PASS-3".to_owned();
+    app.case = Arc::new(case);
+    key(&mut app, KeyCode::Char('4'));
+    for (kind, found) in spreads(&app) {
+        study_ends(&mut app, kind, Ok(found));
+    }
+    app.studies.show(StudyKind::Orders);
+    let buffer = draw(&app, 120, 36);
+    let (plain, pass, fail) =
+        (Color::Reset, app.theme.verdict(Verdict::Pass).fg, app.theme.verdict(Verdict::Fail).fg);
+    let named = colors(&buffer, "PASS-3");
+    assert_eq!(named.len(), 6, "{}", text(&buffer));
+    assert!(named.iter().flatten().all(|color| *color == plain), "{named:?}");
+    for (label, color, count) in [("PASS ", pass, 3), ("FAIL ", fail, 3)] {
+        let found = colors(&buffer, label);
+        assert_eq!(found.len(), count, "{}", text(&buffer));
+        assert!(found.iter().all(|cells| Some(cells[0]) == color), "{found:?}");
+    }
+}
+
+#[test]
+fn the_smallest_screen_shows_the_conclusion_and_the_windows_of_a_sweep() {
+    let mut app = finished();
+    key(&mut app, KeyCode::Char('4'));
+    study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+    let screen = text(&draw(&app, 60, 18));
+    assert!(
+        screen.contains("intervals tried do not pass") && screen.contains("intervals that pass: 0 ms to"),
+        "{screen}"
+    );
+    insta::assert_snapshot!("sweep_60x18", screen);
+}
+
+/// Commands print these notes to standard error.
+#[test]
+fn notes_stand_beside_the_results() {
+    let mut app = finished();
+    let mut case = (*app.case).clone();
+    case.plan.delays[1].timing = Timing::At(vec![0.0, 20.0, 40.0]);
+    case.plan.scatter.as_mut().expect("scatters").delay.sd_ms = 20.0;
+    app.case = Arc::new(case);
+    key(&mut app, KeyCode::Char('4'));
+    for (kind, found) in spreads(&app) {
+        study_ends(&mut app, kind, Ok(found));
+    }
+    app.studies.show(StudyKind::Orders);
+    let orders = text(&draw(&app, 120, 36));
+    let left_out = &app.case.plan.delays[1].name;
+    assert!(orders.contains(&format!("and left out: {left_out}")), "{orders}");
+    app.studies.show(StudyKind::Scatter);
+    let scatter = text(&draw(&app, 120, 36));
+    assert!(scatter.contains("is short for the scatter of the detonators"), "{scatter}");
 }
 
 /// Every screen in plain characters, and where each theme shows which style.
@@ -108,11 +198,11 @@ fn every_screen_in_every_theme() {
             let mut app = finished();
             app.screen = screen;
             app.selected = 4;
-            app.learn(Kind::Sweep, Ok(swept()));
-            app.learn(Kind::Accuracy, Ok(measured()));
+            study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+            study_ends(&mut app, StudyKind::Accuracy, Ok(measured()));
             let flight = recorded(&app, 4);
-            app.learn(Kind::Flight, Ok(flight));
-            app.player.ask(4);
+            study_ends(&mut app, StudyKind::Flight, Ok(flight));
+            app.player.show_option(4);
             // The second row fires; the first is in the air.
             app.player.time = 0.05;
             let mut plain = draw(&app, width, height);

@@ -8,6 +8,7 @@ use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use shelter::choice::{Accuracy, Method};
+use shelter::jobs::{Found, News, StudyKind};
 use shelter::outcome::{EndReason, History, RunEnd};
 use shelter::ropes::catalogue;
 use shelter::study::accuracy::{Measured, Row, Study};
@@ -17,12 +18,12 @@ use shelter::study::scatter::{Draw, Sample};
 use shelter::study::size::{Combination, Sizing, Trial};
 use shelter::study::sweep::{Point, Sweep};
 use shelter::study::{Bounded, Envelope};
-use shelter::study::{Case, ComputeSettings, flight};
-use shelter::tui::app::{self, App, Request};
+use shelter::study::{Case, ComputeSettings, NoResult, flight};
+use shelter::tui::app::{App, Areas, Request};
 use shelter::tui::config::Config;
+use shelter::tui::options::OptionState;
 use shelter::tui::{update, view};
 use shelter::verdict::{Estimate, Verdict};
-use shelter::worker::{Found, Kind};
 
 use super::support::shipped;
 
@@ -68,8 +69,8 @@ pub fn checked(verdict: Verdict) -> Checked {
 pub fn finished() -> App {
     let mut app = app();
     let verdicts = [Verdict::Fail, Verdict::Pass, Verdict::Undecided];
-    for (n, row) in app.rows.iter_mut().enumerate() {
-        *row = app::Row::Done(Box::new(checked(verdicts[n % 3])));
+    for (n, row) in app.options.iter_mut().enumerate() {
+        *row = OptionState::Done(Box::new(checked(verdicts[n % 3])));
     }
     app
 }
@@ -80,12 +81,12 @@ pub fn draw(app: &App, width: u16, height: u16) -> Buffer {
     terminal.backend().buffer().clone()
 }
 
-/// What a click would mean where.
-pub fn draw_places(app: &App, width: u16, height: u16) -> view::Places {
+/// Areas of the screen and what a click on each does.
+pub fn draw_areas(app: &App, width: u16, height: u16) -> Areas {
     let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("a test terminal");
-    let mut places = view::Places::new();
-    terminal.draw(|frame| places = view::draw(app, frame)).expect("drawn");
-    places
+    let mut areas = Areas::new();
+    terminal.draw(|frame| areas = view::draw(app, frame)).expect("drawn");
+    areas
 }
 
 pub fn text(buffer: &Buffer) -> String {
@@ -99,6 +100,12 @@ pub fn text(buffer: &Buffer) -> String {
 
 pub fn key(app: &mut App, code: KeyCode) -> Request {
     update(app, &Event::Key(KeyEvent::new(code, KeyModifiers::NONE)))
+}
+
+/// A study has ended, computed with the settings of the screen.
+pub fn study_ends(app: &mut App, kind: StudyKind, result: Result<Found, NoResult>) {
+    let compute = app.compute;
+    app.take_news(News::Studied { kind, compute, result: result.map(Box::new) });
 }
 
 /// A sweep with round numbers.
@@ -159,7 +166,7 @@ fn envelope(share: f64) -> Envelope {
 }
 
 /// Orders, samples and sizes with round numbers.
-pub fn spreads(app: &App) -> [(Kind, Found); 3] {
+pub fn spreads(app: &App) -> [(StudyKind, Found); 3] {
     let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     let tried = orders.iter().enumerate().map(|(number, order)| Tried {
         number,
@@ -167,7 +174,7 @@ pub fn spreads(app: &App) -> [(Kind, Found); 3] {
         interval: 0.02,
         envelope: envelope(1.5 - 0.2 * number as f64),
     });
-    let samples = (0..app.rows.len()).flat_map(|option| {
+    let samples = (0..app.options.len()).flat_map(|option| {
         (0..100).map(move |number| Sample { option, number, envelope: envelope(0.5 + 0.01 * number as f64) })
     });
     let combinations = catalogue().ropes.iter().take(8).enumerate().map(|(n, rope)| {
@@ -178,8 +185,8 @@ pub fn spreads(app: &App) -> [(Kind, Found); 3] {
     });
     let draw = Draw { samples: 100, seed: 1, certain_at: None };
     [
-        (Kind::Orders, Found::Orders(Orders::new(&app.case, tried.collect(), 1))),
-        (Kind::Scatter, Found::Scatter(draw, samples.collect())),
-        (Kind::Size, Found::Size(Sizing { combinations: combinations.collect() })),
+        (StudyKind::Orders, Found::Orders(Orders::new(&app.case, tried.collect(), 1))),
+        (StudyKind::Scatter, Found::Scatter(draw, samples.collect())),
+        (StudyKind::Size, Found::Size(Sizing { combinations: combinations.collect() })),
     ]
 }

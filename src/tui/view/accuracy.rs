@@ -1,23 +1,21 @@
-//! What accuracy costs on this plan and this machine: the accuracy levels, and both methods from coarse to fine.
+//! The cost of accuracy on this plan and this machine: the accuracy levels, and both methods from coarse to fine steps.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::style::Style;
-use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, Borders, Dataset, GraphType, Paragraph, Wrap};
+use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
-use super::chart::{Scale, chart};
-use super::studies::{message, waiting};
+use super::chart::{self, Mark};
+use super::parts::{draw_message, draw_progress};
 use crate::choice::Method;
-use crate::report::charts::{work_and_error, work_precision};
+use crate::jobs::{Found, StudyKind};
+use crate::report::charts::work_and_error;
 use crate::report::no_result;
 use crate::study::accuracy::{Measured, Study};
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
-use crate::tui::studies::Progress;
+use crate::tui::studies::StudyState;
 use crate::units;
-use crate::worker::{Found, Kind};
 
 const QUESTION: &str = "What does accuracy cost here? Both methods, coarse to fine, against a far finer run.";
 
@@ -32,32 +30,39 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     frame.render_widget(rule, area);
     let question = Line::styled(QUESTION, app.theme.title());
     let start = app.keymap.hint(Action::Open);
-    match app.studies.progress(Kind::Accuracy) {
-        Progress::Idle => {
-            let words = format!("{start} measures the selected option; it takes seconds.");
-            message(app, frame, inside, question, &words);
+    match app.studies.state(StudyKind::Accuracy) {
+        StudyState::Idle => {
+            let hint = format!("{start} measures the selected option; it takes seconds.");
+            draw_message(app, frame, inside, question, &hint);
         }
-        Progress::Failed(reason) => message(app, frame, inside, question, &no_result::message(reason)),
-        Progress::Running { done, total } => waiting(app, frame, inside, question, (*done, *total)),
-        Progress::Done(found) => {
-            let Found::Accuracy(study) = found.as_ref() else { return };
+        StudyState::Failed(failed) => {
+            draw_message(app, frame, inside, question, &no_result::message(failed));
+        }
+        StudyState::Running { done, total } => draw_progress(app, frame, inside, question, (*done, *total)),
+        StudyState::Done(finished) => {
+            let Found::Accuracy(study) = &*finished.found else { return };
             if study.option != app.selected {
                 let other = app.case.plan.delays.get(study.option).map_or("", |delay| &delay.name);
-                let words = format!("Measured for {other}. {start} measures this option instead.");
-                message(app, frame, inside, question, &words);
+                let message = format!("Measured for {other}. {start} measures this option instead.");
+                draw_message(app, frame, inside, question, &message);
             } else {
-                let words = levels(app, study);
+                let lines = levels(app, study);
                 let [table, plot] =
-                    Layout::vertical([Constraint::Length(words.len() as u16 + 1), Constraint::Min(0)])
+                    Layout::vertical([Constraint::Length(lines.len() as u16 + 1), Constraint::Min(0)])
                         .areas(inside);
-                frame.render_widget(Paragraph::new(words).wrap(Wrap { trim: false }), table);
-                draw_plot(app, study, frame, plot);
+                frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: false }), table);
+                let level = study.levels.iter().find(|(level, _)| *level == app.compute.accuracy);
+                let chosen = level.and_then(|(_, step)| work_and_error(&measured(study, *step)?));
+                let mark = chosen.map(|(time, error)| Mark::Point(time, error));
+                for chart in finished.report.charts() {
+                    chart::draw(app, chart, mark, frame, plot);
+                }
             }
         }
     }
 }
 
-/// Each level with its step, its errors before refinement and its time; that chosen is marked.
+/// A line per level: first step, errors of that step before refinement, time of a run. A mark shows the chosen level.
 fn levels<'l>(app: &App, study: &Study) -> Vec<Line<'l>> {
     let [finer, coarser] = [Action::Finer, Action::Coarser].map(|action| app.keymap.hint(action));
     let head = format!(
@@ -74,14 +79,14 @@ fn levels<'l>(app: &App, study: &Study) -> Vec<Line<'l>> {
             level.name(),
             units::milliseconds(step)
         );
-        let words = measured(study, step).map_or_else(|| "not stable".to_owned(), |m| costs(m, base));
+        let cost = measured(study, step).map_or_else(|| "not stable".to_owned(), |m| costs(m, base));
         let style = if chosen { app.theme.selected() } else { app.theme.base() };
-        lines.push(Line::from(Span::styled(start + &words, style)));
+        lines.push(Line::from(Span::styled(start + &cost, style)));
     }
     lines
 }
 
-/// The run of a level's step.
+/// The run at a step [s].
 fn measured(study: &Study, step: f64) -> Option<Measured> {
     let mut rows = study.rows.iter().filter(|row| row.method == Method::Verlet && row.step == step);
     rows.find_map(|row| row.result)
@@ -99,42 +104,4 @@ fn costs(m: Measured, base: Option<Measured>) -> String {
         percent(m.force_error),
         units::milliseconds(wall)
     )
-}
-
-/// The larger error of every run against its time, both axes logarithmic; the levels as large dots.
-fn draw_plot(app: &App, study: &Study, frame: &mut Frame, area: Rect) {
-    if area.height < 4 {
-        return;
-    }
-    let Some(picture) = work_precision(study) else { return };
-    let at = |(x, y): (f64, f64)| (picture.x.coordinate(x), picture.y.coordinate(y));
-    let series: Vec<(&str, Vec<(f64, f64)>)> = picture
-        .series
-        .iter()
-        .map(|series| (series.name, series.points.iter().copied().map(at).collect()))
-        .collect();
-    let dots = |data, style: Style, marker, name: &'static str| {
-        Dataset::default().data(data).graph_type(GraphType::Line).marker(marker).style(style).name(name)
-    };
-    let chosen = study.levels.iter().find(|(level, _)| *level == app.compute.accuracy);
-    let chosen: Vec<(f64, f64)> =
-        chosen.and_then(|(_, step)| work_and_error(&measured(study, *step)?)).into_iter().map(at).collect();
-    let points = |data, marker, name: &'static str| {
-        let style = app.theme.firing();
-        Dataset::default().data(data).graph_type(GraphType::Scatter).marker(marker).style(style).name(name)
-    };
-    let sets = vec![
-        dots(&series[1].1, app.theme.limit(), Marker::Braille, picture.series[1].name),
-        dots(&series[0].1, app.theme.curve(), Marker::Braille, picture.series[0].name),
-        points(&series[2].1, Marker::Dot, "levels"),
-        points(&chosen, Marker::Block, "chosen"),
-    ];
-    let decades = |axis: &crate::report::model::Axis| {
-        let [from, to] = axis.ends();
-        let exponents = from.round() as i32..=to.round() as i32;
-        Scale::new([from, to], exponents.map(|exponent| axis.mark(f64::from(exponent))))
-    };
-    let title = "error, %, against the time of a run, ms".to_owned();
-    let chart = chart(app, title, sets, decades(&picture.x), decades(&picture.y));
-    frame.render_widget(chart, area);
 }

@@ -1,125 +1,161 @@
-//! A quantity over time with its limit and the firing times.
+//! Charts of a report, drawn with characters.
 
 use ratatui::Frame;
-use ratatui::layout::{Constraint, Rect};
+use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::Style;
 use ratatui::symbols::Marker;
 use ratatui::text::Line;
-use ratatui::widgets::{Axis, Block, Chart, Dataset, GraphType};
+use ratatui::widgets::{self, Block, Dataset, GraphType};
 
-use crate::outcome::History;
+use crate::report::model::{Axis, Chart, Scale, SeriesKind};
 use crate::tui::app::App;
-use crate::units::Unit;
-use crate::verdict::Limits;
 
-/// What is drawn, SI.
+/// Least width and height of a chart that can be read.
+const LEAST: (u16, u16) = (20, 4);
+/// Height of a firing tick, as a share of the chart.
+const TICK: f64 = 0.12;
+/// Height of the bar below stretches that pass, as a share of the chart.
+const BAR: f64 = 0.02;
+
+/// A mark of the screen on a chart, SI.
 #[derive(Clone, Copy, Debug)]
-pub struct Curve<'a> {
+pub enum Mark {
+    /// A vertical line at a value of the axis across.
+    Across(f64),
+    /// A point.
+    Point(f64, f64),
+}
+
+/// Points drawn alike, in the coordinates of the axes.
+struct Set {
+    points: Vec<(f64, f64)>,
+    style: Style,
+    marker: Marker,
+    kind: GraphType,
+    /// Name in the legend; empty for none.
     name: &'static str,
-    unit: Unit,
-    /// Greatest value per bucket.
-    values: &'a [f64],
-    /// Width of a bucket [s].
-    width: f64,
-    limit: f64,
-    /// Firing times [s].
-    fires: &'a [f64],
-    /// Time marked [s].
-    cursor: Option<f64>,
 }
 
-/// Height and force over time.
-pub fn curves<'a>(
-    limits: &Limits,
-    history: &'a History,
-    fires: &'a [f64],
-    cursor: Option<f64>,
-) -> [Curve<'a>; 2] {
-    let height = Curve {
-        name: "flight height",
-        unit: Unit::Metre,
-        values: &history.height,
-        width: history.width,
-        limit: limits.height,
-        fires,
-        cursor,
+/// Draws charts side by side where two readable charts would not fit one above the other.
+pub fn draw_all(app: &App, charts: &[&Chart], frame: &mut Frame, area: Rect) {
+    let count = charts.len() as u16;
+    let direction = if area.height < 2 * LEAST.1 * count && area.width >= 2 * LEAST.0 * count {
+        Layout::horizontal
+    } else {
+        Layout::vertical
     };
-    let force = Curve {
-        name: "cable force",
-        unit: Unit::Kilonewton,
-        values: &history.force,
-        limit: limits.force,
-        ..height
-    };
-    [height, force]
+    let areas = direction(vec![Constraint::Fill(1); charts.len()]).split(area);
+    for (chart, area) in charts.iter().zip(areas.iter()) {
+        draw(app, chart, None, frame, *area);
+    }
 }
 
-impl Curve<'_> {
-    /// Draws the chart.
-    pub fn draw(&self, app: &App, frame: &mut Frame, area: Rect) {
-        if area.height < 3 || area.width < 20 {
-            return;
+/// Draws one chart; nothing where the area is too small to read a chart.
+pub fn draw(app: &App, chart: &Chart, mark: Option<Mark>, frame: &mut Frame, area: Rect) {
+    if area.width < LEAST.0 || area.height < LEAST.1 {
+        return;
+    }
+    let theme = app.theme;
+    let (across, up) = (chart.x.ends(), chart.y.ends());
+    let at = |(x, y): (f64, f64)| (chart.x.coordinate(x), chart.y.coordinate(y));
+    let height = |share: f64| up[0] + share * (up[1] - up[0]);
+    let column = |x: f64, top: f64| {
+        let x = chart.x.coordinate(x).clamp(across[0], across[1]);
+        vec![(x, up[0]), (x, top)]
+    };
+    let mut sets: Vec<Set> = Vec::new();
+    let mut line =
+        |points, style, marker| sets.push(Set { points, style, marker, kind: GraphType::Line, name: "" });
+    for window in &chart.windows {
+        let [from, to] = window.map(|x| chart.x.coordinate(x));
+        let cells = usize::from(area.width);
+        let points = (0..=cells).map(|n| from + (to - from) * n as f64 / cells as f64);
+        line(points.map(|x| (x, height(BAR))).collect(), theme.curve(), Marker::Block);
+    }
+    for &firing in &chart.firings {
+        line(column(firing, height(TICK)), theme.firing(), Marker::Braille);
+    }
+    if let Some(limit) = chart.limit {
+        let limit = chart.y.coordinate(limit);
+        line(across.map(|x| (x, limit)).to_vec(), theme.limit(), Marker::Dot);
+    }
+    if let Some(Mark::Across(x)) = mark {
+        line(column(x, up[1]), theme.base(), Marker::Braille);
+    }
+    let compared = chart.series.iter().any(|series| series.kind == SeriesKind::Comparison);
+    for series in &chart.series {
+        let (style, marker, kind) = match series.kind {
+            SeriesKind::Curve => (theme.curve(), Marker::Braille, GraphType::Line),
+            SeriesKind::Comparison => (theme.limit(), Marker::Braille, GraphType::Line),
+            SeriesKind::Points => (theme.firing(), Marker::Dot, GraphType::Scatter),
+        };
+        let points = series.points.iter().map(|&point| at(point)).collect();
+        sets.push(Set { points, style, marker, kind, name: if compared { series.name } else { "" } });
+    }
+    if let Some(Mark::Point(x, y)) = mark {
+        let (style, marker) = (theme.firing(), Marker::Block);
+        let (points, kind) = (vec![at((x, y))], GraphType::Scatter);
+        sets.push(Set { points, style, marker, kind, name: "chosen" });
+    }
+    let sets = sets.iter().map(|set| {
+        let drawn = Dataset::default().data(&set.points).style(set.style).marker(set.marker);
+        let drawn = drawn.graph_type(set.kind);
+        if set.name.is_empty() { drawn } else { drawn.name(set.name) }
+    });
+    let axis = |axis: &Axis, labels: Vec<f64>| {
+        let [from, to] = axis.ends();
+        widgets::Axis::default()
+            .bounds([from, to.max(from + f64::MIN_POSITIVE.max(from.abs() * 1e-9))])
+            .labels(labels.into_iter().map(|coordinate| label(axis, coordinate)))
+            .style(theme.quiet())
+    };
+    let [x, y] = [(&chart.x, 3), (&chart.y, 2)].map(|(of, count)| axis(of, labelled(of, count)));
+    let drawn = widgets::Chart::new(sets.collect())
+        .block(Block::new().title(Line::styled(title(chart, area.width), theme.quiet()).centered()))
+        .style(theme.base())
+        .x_axis(x)
+        .y_axis(y)
+        .hidden_legend_constraints((Constraint::Percentage(50), Constraint::Percentage(60)));
+    frame.render_widget(drawn, area);
+}
+
+/// Title with the key to the lines, as far as the width goes.
+fn title(chart: &Chart, width: u16) -> String {
+    let parts = [
+        ("dotted: limit", chart.limit.is_some()),
+        ("ticks: firings", !chart.firings.is_empty()),
+        ("bar below: passes", !chart.windows.is_empty()),
+    ];
+    let key: Vec<&str> = parts.iter().filter(|(_, shown)| *shown).map(|(part, _)| *part).collect();
+    let whole = format!("{} ({})", chart.title, key.join("; "));
+    if key.is_empty() || whole.chars().count() > usize::from(width) { chart.title.clone() } else { whole }
+}
+
+/// Coordinates that have a label: `count` at even distances, or every power of ten.
+fn labelled(axis: &Axis, count: usize) -> Vec<f64> {
+    let [from, to] = axis.ends();
+    match axis.scale {
+        Scale::Linear => (0..count).map(|n| from + (to - from) * n as f64 / (count - 1) as f64).collect(),
+        Scale::Logarithmic => (from.round() as i32..=to.round() as i32).map(f64::from).collect(),
+    }
+}
+
+/// Label of a coordinate with the unit: four digits, or a power of ten.
+fn label(axis: &Axis, coordinate: f64) -> String {
+    let number = match axis.scale {
+        Scale::Linear => {
+            let decimals = (3 - coordinate.abs().max(1.0).log10().floor() as i32).max(0) as usize;
+            let text = format!("{coordinate:.decimals$}");
+            if text.contains('.') {
+                text.trim_end_matches('0').trim_end_matches('.').to_owned()
+            } else {
+                text
+            }
         }
-        let size = self.unit.size();
-        let end = (self.values.len() as f64 * self.width).max(self.width);
-        let top = self.values.iter().copied().fold(self.limit, f64::max) / size * 1.08;
-        let curve: Vec<(f64, f64)> = self
-            .values
-            .iter()
-            .enumerate()
-            .map(|(n, value)| ((n as f64 + 0.5) * self.width, value / size))
-            .collect();
-        let limit = [(0.0, self.limit / size), (end, self.limit / size)];
-        let marks: Vec<[(f64, f64); 2]> =
-            self.fires.iter().map(|&at| [(at, 0.0), (at, top * 0.12)]).collect();
-        let cursor: Vec<(f64, f64)> =
-            self.cursor.iter().flat_map(|&at| [(at.min(end), 0.0), (at.min(end), top)]).collect();
-        let mut sets: Vec<Dataset> =
-            marks.iter().map(|mark| line(mark, app.theme.firing(), Marker::Braille)).collect();
-        sets.push(line(&limit, app.theme.limit(), Marker::Dot));
-        sets.push(line(&cursor, app.theme.base(), Marker::Braille));
-        sets.push(line(&curve, app.theme.curve(), Marker::Braille));
-        let key = if area.width < 50 { "dotted: limit" } else { "dotted: limit; ticks: firings" };
-        let title = format!("{}, {} ({key})", self.name, self.unit.symbol());
-        let times = [0.0, 0.5 * end, end].map(|time| format!("{time:.2} s"));
-        let chart = chart(app, title, sets, Scale::new([0.0, end], times), Scale::up_to(top));
-        frame.render_widget(chart, area);
+        Scale::Logarithmic => axis.mark(coordinate),
+    };
+    match axis.unit.symbol() {
+        "" => number,
+        symbol => format!("{number} {symbol}"),
     }
-}
-
-/// An axis.
-pub struct Scale {
-    bounds: [f64; 2],
-    labels: Vec<String>,
-}
-
-impl Scale {
-    /// From one bound to another, both labelled and perhaps more between; of some length even where they are equal.
-    pub fn new([from, to]: [f64; 2], labels: impl IntoIterator<Item = String>) -> Self {
-        let end = to.max(from + f64::MIN_POSITIVE.max(from.abs() * 1e-9));
-        Self { bounds: [from, end], labels: labels.into_iter().collect() }
-    }
-
-    /// From 0.
-    pub fn up_to(top: f64) -> Self {
-        let level = |value: f64| format!("{value:.4}").chars().take(5).collect();
-        Self::new([0.0, top], [level(0.0), level(top)])
-    }
-}
-
-/// What is drawn between two axes under a title; a legend where it has names.
-pub fn chart<'c>(app: &App, title: String, sets: Vec<Dataset<'c>>, across: Scale, up: Scale) -> Chart<'c> {
-    let quiet = app.theme.quiet();
-    let axis = |Scale { bounds, labels }| Axis::default().bounds(bounds).labels(labels).style(quiet);
-    Chart::new(sets)
-        .block(Block::new().title(Line::styled(title, quiet).centered()))
-        .style(app.theme.base())
-        .x_axis(axis(across))
-        .y_axis(axis(up))
-        .hidden_legend_constraints((Constraint::Percentage(50), Constraint::Percentage(60)))
-}
-
-/// A line through points.
-pub fn line(data: &[(f64, f64)], style: Style, marker: Marker) -> Dataset<'_> {
-    Dataset::default().data(data).graph_type(GraphType::Line).marker(marker).style(style)
 }

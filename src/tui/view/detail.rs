@@ -1,4 +1,4 @@
-//! The selected option: where and when its peaks are, why it does not pass, and both histories.
+//! The selected option: its peaks with place and time, why it does not pass, height and force over time.
 //!
 //! ```text
 //! ── 20 ms ───────────────────────────────────────
@@ -14,11 +14,13 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::chart;
 use crate::outcome::EndReason;
-use crate::report::explain::{broken, peak, reason as explain};
+use crate::report::charts;
+use crate::report::explain::{broken, peak, reason};
 use crate::report::no_result;
 use crate::scene::fire_at_s;
 use crate::study::check::Checked;
-use crate::tui::app::{App, Row};
+use crate::tui::app::App;
+use crate::tui::options::OptionState;
 use crate::units::{self, Unit, value_and_error};
 
 /// Draws the detail of the selected option.
@@ -30,13 +32,13 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         .title(Line::styled(format!(" {} ", delay.name), app.theme.title()));
     let inside = rule.inner(area);
     frame.render_widget(rule, area);
-    let checked = match &app.rows[app.selected] {
-        Row::Done(checked) => checked,
-        Row::Failed(reason) => {
-            let text = format!("No result: {}", no_result::message(reason));
+    let checked = match &app.options[app.selected] {
+        OptionState::Done(checked) => checked,
+        OptionState::Failed(failed) => {
+            let text = format!("No result: {}", no_result::message(failed));
             return frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inside);
         }
-        Row::Waiting | Row::Running { .. } => {
+        OptionState::Waiting | OptionState::Running { .. } => {
             let fires: Vec<_> = fire_at_s(&delay.timing).into_iter().map(units::milliseconds).collect();
             let text = format!("Rows fire at {}. Computing…", fires.join(", "));
             return frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inside);
@@ -45,15 +47,14 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let facts = facts(app, checked);
     let lines: u16 =
         facts.iter().map(|line| (line.width() as u16).div_ceil(inside.width.max(1)).max(1)).sum();
-    let [text, charts] =
+    let [text, rest] =
         Layout::vertical([Constraint::Length(lines.min(inside.height / 2)), Constraint::Min(0)])
             .areas(inside);
     frame.render_widget(Paragraph::new(facts).wrap(Wrap { trim: true }), text);
-    let [left, right] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(charts);
-    let fires = fire_at_s(&delay.timing);
-    let [height, force] = chart::curves(&app.case.limits, &checked.history, &fires, None);
-    height.draw(app, frame, left);
-    force.draw(app, frame, right);
+    let [left, right] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(rest);
+    let [height, force] = charts::history(&app.case, &checked.history, &fire_at_s(&delay.timing));
+    chart::draw(app, &height, None, frame, left);
+    chart::draw(app, &force, None, frame, right);
 }
 
 fn facts<'a>(app: &App, checked: &Checked) -> Vec<Line<'a>> {
@@ -77,9 +78,9 @@ fn facts<'a>(app: &App, checked: &Checked) -> Vec<Line<'a>> {
         units::seconds(checked.end.at),
     );
     let mut lines = vec![Line::from(peak), Line::styled(how, app.theme.quiet())];
-    for reason in &checked.reasons {
-        let sign = crate::tui::theme::word(reason.verdict()).chars().next().unwrap_or(' ');
-        lines.push(Line::styled(format!("{sign} {}", explain(reason)), app.theme.verdict(reason.verdict())));
+    for why in &checked.reasons {
+        let sign = crate::tui::theme::label(why.verdict()).chars().next().unwrap_or(' ');
+        lines.push(Line::styled(format!("{sign} {}", reason(why)), app.theme.verdict(why.verdict())));
     }
     if !checked.broken.is_empty() {
         lines.push(Line::styled(broken(app.case.scene(), checked), app.theme.limit()));

@@ -1,4 +1,4 @@
-//! The selected option in motion.
+//! The flight screen: the selected option in motion.
 //!
 //! ```text
 //! from above: a cell per tire   │ from the side: tires and cables
@@ -14,48 +14,43 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::canvas::{Canvas, Line as Stroke, Points};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
-use super::{Places, chart, color};
+use super::chart::{self, Mark};
+use super::parts::color;
+use crate::jobs::StudyKind;
 use crate::report::no_result;
-use crate::scene::fire_at_s;
 use crate::study::flight::Flight;
-use crate::tui::app::{App, Target};
-use crate::tui::studies::Progress;
+use crate::tui::app::{App, Areas, Target};
+use crate::tui::studies::StudyState;
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
-use crate::worker::Kind;
 
-/// A hole is shown firing for so long [s].
+/// Time for which a hole is shown firing [s].
 const FLASH: f64 = 0.03;
-/// Heights below this count as on the ground [m].
+/// Greatest height of a tire that is drawn as on the ground [m].
 const GROUND: f32 = 1e-4;
-/// Eighths of the limit, as signs.
+/// Signs for heights of one to eight eighths of the limit.
 const LEVELS: [&str; 8] = ["▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
 
 /// Draws the screen.
-pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
+pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let Some(delay) = app.case.plan.delays.get(app.selected) else { return };
     let Some(flight) = app.studies.flight(app.selected) else {
-        let words = match app.studies.progress(Kind::Flight) {
-            Progress::Failed(reason) => format!("{}: {}", delay.name, no_result::message(reason)),
+        let message = match app.studies.state(StudyKind::Flight) {
+            StudyState::Failed(failed) => format!("{}: {}", delay.name, no_result::message(failed)),
             _ => format!("{}: recording the flight…", delay.name),
         };
-        return frame.render_widget(Paragraph::new(words).wrap(Wrap { trim: true }), area);
+        return frame.render_widget(Paragraph::new(message).wrap(Wrap { trim: true }), area);
     };
-    let [views, bar, charts] =
+    let [views, bar, below] =
         Layout::vertical([Constraint::Fill(3), Constraint::Length(1), Constraint::Fill(2)]).areas(area);
     let [above, side] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(views);
     draw_above(app, flight, frame, above);
     draw_side(app, flight, frame, side);
-    draw_bar(app, flight, frame, bar, places);
-    let fires: Vec<f64> = fire_at_s(&delay.timing);
-    let history = &flight.outcome.history;
-    for (place, curve) in Layout::horizontal([Constraint::Fill(1); 2])
-        .spacing(1)
-        .split(charts)
-        .iter()
-        .zip(chart::curves(&app.case.limits, history, &fires, Some(app.player.time)))
-    {
-        curve.draw(app, frame, *place);
+    draw_bar(app, flight, frame, bar, areas);
+    let areas_below = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).split(below);
+    let charts = app.studies.finished(StudyKind::Flight).into_iter().flat_map(|done| done.report.charts());
+    for (chart_area, chart) in areas_below.iter().zip(charts) {
+        chart::draw(app, chart, Some(Mark::Across(app.player.time)), frame, *chart_area);
     }
 }
 
@@ -66,7 +61,7 @@ fn titled<'t>(app: &App, title: String) -> Block<'t> {
         .title(Line::styled(format!(" {title} "), app.theme.title()))
 }
 
-/// A cell per tire, its sign by height; where several tires share a cell, the highest.
+/// Draws the shelter from above: a sign per tire by height; of tires that share a cell, the highest.
 fn draw_above(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
     let (scene, theme) = (app.case.scene(), app.theme);
     let name = &app.case.plan.delays[app.selected].name;
@@ -89,9 +84,9 @@ fn draw_above(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
         firing[fire.tire] |= (fire.at..fire.at + FLASH).contains(&time);
     }
     for (tire, u) in flight.at(time).iter().enumerate() {
-        let place = scene.position[tire];
-        let x = ((place.x - left) / width).round().min(columns - 1.0) as usize;
-        let y = ((top - place.y) / (2.0 * width)).round().min(rows - 1.0) as usize;
+        let position = scene.position[tire];
+        let x = ((position.x - left) / width).round().min(columns - 1.0) as usize;
+        let y = ((top - position.y) / (2.0 * width)).round().min(rows - 1.0) as usize;
         let cell = &mut highest[y * usize::from(inside.width) + x];
         let (height, fires) = cell.unwrap_or((f32::MIN, false));
         *cell = Some((height.max(u[2]), fires || firing[tire]));
@@ -109,7 +104,7 @@ fn draw_above(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
     frame.render_widget(Paragraph::new(lines.collect::<Vec<_>>()), inside);
 }
 
-/// A height against its limit: a dot on the ground, more of the cell the higher, another colour past the limit.
+/// Sign and style of a height: a dot on the ground, a taller bar the higher, another colour past the limit.
 fn sign(app: &App, height: f32) -> (&'static str, Style) {
     let share = f64::from(height) / app.case.limits.height;
     if height < GROUND {
@@ -120,7 +115,7 @@ fn sign(app: &App, height: f32) -> (&'static str, Style) {
     (sign, app.theme.verdict(verdict))
 }
 
-/// Tires and cables against the ground and the limit; cables that pull stand out.
+/// Draws tires and cables from the side, with ground and limit. Taut cables stand out.
 fn draw_side(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
     let (scene, theme, axis) = (app.case.scene(), app.theme, usize::from(app.player.along_rows));
     let [left, right] = scene.extent(axis);
@@ -128,66 +123,65 @@ fn draw_side(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
     let limit = app.case.limits.height;
     let top = flight.outcome.height.value.max(limit) * 1.1;
     let frame_of = flight.at(app.player.time);
-    let place = |tire: usize| {
+    let position = |tire: usize| {
         let u = frame_of[tire];
         (scene.position[tire][axis] + f64::from(u[axis]), f64::from(u[2]))
     };
     let aloft = |tire: usize| frame_of[tire][2] > GROUND;
-    let tires: Vec<(f64, f64)> = (0..scene.mass.len()).map(place).collect();
-    let pulling = flight.taut(scene, app.player.time);
+    let tires: Vec<(f64, f64)> = (0..scene.mass.len()).map(position).collect();
+    let taut = flight.taut(scene, app.player.time);
     let seen = if axis == 0 { "across rows" } else { "along rows" };
-    let taut = pulling.iter().filter(|&&pulls| pulls).count();
-    let canvas =
-        Canvas::default()
-            .block(titled(app, format!("{seen}: {taut} of {} cables taut", scene.cables.len())))
-            .background_color(theme.base().bg.unwrap_or(Color::Reset))
-            .marker(Marker::Braille)
-            .x_bounds([left - margin, right + margin])
-            .y_bounds([-0.03 * top, top])
-            .paint(|context| {
-                let stroke = |(x1, y1), (x2, y2), color| Stroke { x1, y1, x2, y2, color };
-                let (from, to) = (left - margin, right + margin);
-                context.draw(&stroke((from, 0.0), (to, 0.0), color(theme.quiet())));
-                for wanted in [false, true] {
-                    let style = if wanted { theme.firing() } else { theme.quiet() };
-                    for (cable, _) in scene.cables.iter().zip(&pulling).filter(|(cable, pulls)| {
-                        **pulls == wanted && cable.ends.iter().any(|&end| aloft(end))
-                    }) {
-                        let [a, b] = cable.ends.map(|end| tires[end]);
-                        context.draw(&stroke(a, b, color(style)));
-                    }
-                    context.layer();
+    let count = taut.iter().filter(|&&is_taut| is_taut).count();
+    let canvas = Canvas::default()
+        .block(titled(app, format!("{seen}: {count} of {} cables taut", scene.cables.len())))
+        .background_color(theme.base().bg.unwrap_or(Color::Reset))
+        .marker(Marker::Braille)
+        .x_bounds([left - margin, right + margin])
+        .y_bounds([-0.03 * top, top])
+        .paint(|context| {
+            let stroke = |(x1, y1), (x2, y2), color| Stroke { x1, y1, x2, y2, color };
+            let (from, to) = (left - margin, right + margin);
+            context.draw(&stroke((from, 0.0), (to, 0.0), color(theme.quiet())));
+            for wanted in [false, true] {
+                let style = if wanted { theme.firing() } else { theme.quiet() };
+                for (cable, _) in scene.cables.iter().zip(&taut).filter(|(cable, is_taut)| {
+                    **is_taut == wanted && cable.ends.iter().any(|&end| aloft(end))
+                }) {
+                    let [a, b] = cable.ends.map(|end| tires[end]);
+                    context.draw(&stroke(a, b, color(style)));
                 }
-                context.draw(&Points { coords: &tires, color: color(theme.curve()) });
                 context.layer();
-                context.draw(&stroke((from, limit), (to, limit), color(theme.limit())));
-                let words = format!("limit {} m", units::value(limit, Unit::Metre));
-                context.print(from, limit, Span::styled(words, theme.limit()));
-            });
+            }
+            context.draw(&Points { coords: &tires, color: color(theme.curve()) });
+            context.layer();
+            context.draw(&stroke((from, limit), (to, limit), color(theme.limit())));
+            let label = format!("limit {} m", units::value(limit, Unit::Metre));
+            context.print(from, limit, Span::styled(label, theme.limit()));
+        });
     frame.render_widget(canvas, area);
 }
 
-/// The time shown, as text and along a bar to click.
-fn draw_bar(app: &App, flight: &Flight, frame: &mut Frame, area: Rect, places: &mut Places) {
+/// Draws the time shown, as text and on a bar that takes clicks.
+fn draw_bar(app: &App, flight: &Flight, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let player = &app.player;
     let state = if player.playing { "playing" } else { "paused " };
-    let words = format!(
+    let label = format!(
         " {state} {} of {}  x{} ",
         units::seconds(player.time),
         units::seconds(flight.end()),
         player.speed()
     );
-    let width = words.chars().count() as u16;
+    let width = label.chars().count() as u16;
     let [text, bar] = Layout::horizontal([Constraint::Length(width), Constraint::Min(0)]).areas(area);
-    frame.render_widget(Line::styled(words, app.theme.title()), text);
+    frame.render_widget(Line::styled(label, app.theme.title()), text);
     let cells = usize::from(bar.width);
-    let part = if flight.end() > 0.0 { player.time / flight.end() } else { 0.0 };
-    let at = ((cells.saturating_sub(1)) as f64 * part).round() as usize;
+    let share = if flight.end() > 0.0 { player.time / flight.end() } else { 0.0 };
+    let at = ((cells.saturating_sub(1)) as f64 * share).round() as usize;
     let line = Line::from(vec![
         Span::styled("━".repeat(at.min(cells)), app.theme.curve()),
         Span::styled("●".repeat(cells.min(1)), app.theme.title()),
         Span::styled("─".repeat(cells.saturating_sub(at + 1)), app.theme.quiet()),
     ]);
     frame.render_widget(line, bar);
-    places.push((bar, Target::Time(flight.end())));
+    areas.push((bar, Target::Time(flight.end())));
 }

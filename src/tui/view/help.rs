@@ -1,12 +1,11 @@
-//! The help: the keys of the screen shown, and what the words on it mean.
+//! The help: the keys of the screen shown, and the meaning of the words on it.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Flex, Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Clear, Padding, Paragraph};
 
-use super::Places;
-use crate::tui::app::{App, Target};
+use crate::tui::app::{App, Areas, Target};
 use crate::tui::keymap::{Action, BINDINGS, Binding};
 
 const WORDS: &[(&str, &str)] = &[
@@ -16,18 +15,18 @@ const WORDS: &[(&str, &str)] = &[
     ("±", "estimated error of the computation, not of the plan"),
 ];
 
-/// Lines of two columns, where one would not fit.
+/// Least width of a screen whose help may have two columns.
 const TWO_COLUMNS: u16 = 132;
 
-/// Draws the help over everything else: what this screen knows first, then what all know.
-pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
+/// Draws the help over everything else: first the keys of this screen, then the keys of all screens.
+pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let row = |left: String, right: &'static str| {
         Line::from(vec![Span::styled(format!("{left:14} "), app.theme.title()), Span::raw(right)])
     };
     let key = |binding: &Binding| row(app.keymap.label(binding.action, true), binding.text);
     let known = BINDINGS.iter().filter(|binding| binding.is_on(app.screen));
     let (here, everywhere): (Vec<_>, Vec<_>) = known.partition(|binding| !binding.on.is_empty());
-    let head = |words: String| Line::styled(words, app.theme.quiet());
+    let head = |title: String| Line::styled(title, app.theme.quiet());
     let mut lines = Vec::new();
     if !here.is_empty() {
         lines.push(head(format!("On the screen {}", app.screen.name())));
@@ -41,19 +40,19 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     let rows = lines.len().div_ceil(columns);
     let width = 76 * columns as u16 + 2;
     let [column] = Layout::horizontal([Constraint::Max(width)]).flex(Flex::Center).areas(area);
-    let [place] = Layout::vertical([Constraint::Max(rows as u16 + 2)]).flex(Flex::Center).areas(column);
+    let [help] = Layout::vertical([Constraint::Max(rows as u16 + 2)]).flex(Flex::Center).areas(column);
     let more = rows as u16 + 2 > area.height;
     let [up, down] = [Action::Up, Action::Down].map(|action| app.keymap.hint(action));
     let title = if more { format!(" Help: {up} {down} for more ") } else { " Help ".to_owned() };
     let block = Block::bordered().title(title).padding(Padding::horizontal(1)).style(app.theme.base());
-    let inside = block.inner(place);
-    frame.render_widget(Clear, place);
-    frame.render_widget(block, place);
+    let inside = block.inner(help);
+    frame.render_widget(Clear, help);
+    frame.render_widget(block, help);
     let parts = Layout::horizontal(vec![Constraint::Fill(1); columns]).split(inside);
-    *places = vec![(area, Target::Act(Action::Help))];
+    *areas = vec![(area, Target::Act(Action::Help))];
     for (part, lines) in parts.iter().zip(lines.chunks(rows)) {
         let over = (lines.len() as u16).saturating_sub(part.height);
-        places.push((Rect::ZERO, Target::Lines(over)));
+        areas.push((Rect::ZERO, Target::Lines(over)));
         frame.render_widget(Paragraph::new(lines.to_vec()).scroll((app.help_scroll.min(over), 0)), *part);
     }
 }

@@ -1,12 +1,12 @@
-//! What is drawn where. Every part is a function of the app and an area; none changes anything. Drawing tells which
-//! places a click means something at.
+//! Draws the screens. Every part is a function of the app and an area, and changes nothing. Drawing returns the areas that
+//! take clicks.
 //!
 //! ```text
 //! 1 Plan  2 Compare  3 Flight  4 Studies  5 Accuracy  ? Help    tabs
 //! title · plan                                    state         header
 //! limits · method · accuracy
-//! what the screen shows                                         body
-//! keys, or what is being typed                                  footer
+//! contents of the screen                                        body
+//! keys, or the line being typed                                 footer
 //! ```
 
 mod accuracy;
@@ -15,37 +15,37 @@ mod detail;
 mod flight;
 mod help;
 mod palette;
+mod parts;
 mod plan;
-mod spread;
+mod report;
 mod studies;
 mod table;
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Position, Rect};
-use ratatui::style::{Color, Style};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph, Wrap};
 
-use super::app::{App, Row, Screen, Target};
+use self::parts::draw_row;
+use super::app::{App, Areas, Target};
 use super::keymap::{Action, BINDINGS};
+use super::options::OptionState;
 use super::prompt::{Prompt, Purpose};
+use super::screen::Screen;
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
-/// Smallest screen that holds everything.
+/// Least width and height of a screen that holds everything.
 pub const LEAST: (u16, u16) = (60, 18);
 
-/// What a click means where; the last of several at a point counts.
-pub type Places = Vec<(Rect, Target)>;
-
 /// Draws the whole screen.
-pub fn draw(app: &App, frame: &mut Frame) -> Places {
-    let (area, mut places) = (frame.area(), Places::new());
+pub fn draw(app: &App, frame: &mut Frame) -> Areas {
+    let (area, mut areas) = (frame.area(), Areas::new());
     frame.render_widget(Block::new().style(app.theme.base()), area);
     if area.width < LEAST.0 || area.height < LEAST.1 {
         let text = format!("shelter needs {}x{}, has {}x{}", LEAST.0, LEAST.1, area.width, area.height);
         frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), area);
-        return places;
+        return areas;
     }
     let [tabs, header, body, footer] = Layout::vertical([
         Constraint::Length(1),
@@ -54,58 +54,38 @@ pub fn draw(app: &App, frame: &mut Frame) -> Places {
         Constraint::Length(1),
     ])
     .areas(area);
-    draw_tabs(app, frame, tabs, &mut places);
+    draw_tabs(app, frame, tabs, &mut areas);
     draw_header(app, frame, header);
     match app.screen {
-        Screen::Plan => plan::draw(app, frame, body, &mut places),
-        Screen::Compare => draw_options(app, frame, body, &mut places),
-        Screen::Flight => flight::draw(app, frame, body, &mut places),
-        Screen::Studies => studies::draw(app, frame, body, &mut places),
+        Screen::Plan => plan::draw(app, frame, body, &mut areas),
+        Screen::Compare => draw_options(app, frame, body, &mut areas),
+        Screen::Flight => flight::draw(app, frame, body, &mut areas),
+        Screen::Studies => studies::draw(app, frame, body, &mut areas),
         Screen::Accuracy => accuracy::draw(app, frame, body),
     }
     match &app.prompt {
         Some(prompt) => draw_prompt(app, prompt, frame, footer),
-        None => draw_footer(app, frame, footer, &mut places),
+        None => draw_footer(app, frame, footer, &mut areas),
     }
     if app.help {
-        help::draw(app, frame, area, &mut places);
+        help::draw(app, frame, area, &mut areas);
     }
-    places
+    areas
 }
 
-/// The table of options and the selected one below it, or that alone.
-fn draw_options(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
+/// Draws the table of options with the selected option below, or the selected option alone.
+fn draw_options(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let rows = app.listed().len().max(1) as u16 + 1;
     let table = if app.zoom { 0 } else { rows.min(area.height / 2) };
     let [list, rest] = Layout::vertical([Constraint::Length(table), Constraint::Min(0)]).areas(area);
     if !app.zoom {
-        table::draw(app, frame, list, places);
+        table::draw(app, frame, list, areas);
     }
     detail::draw(app, frame, rest);
 }
 
-/// Draws words one after another, each a place to click; stops where the next no longer fits.
-fn draw_row<'w>(
-    words: impl IntoIterator<Item = (Line<'w>, Target)>,
-    frame: &mut Frame,
-    area: Rect,
-    places: &mut Places,
-) {
-    let mut x = area.x;
-    for (word, target) in words {
-        let width = word.width() as u16;
-        if x + width > area.right() {
-            return;
-        }
-        let place = Rect { x, width, ..area };
-        frame.render_widget(word, place);
-        places.push((place, target));
-        x += width;
-    }
-}
-
-fn draw_tabs(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
-    let word = |key: String, name: &'static str, shown: bool| {
+fn draw_tabs(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+    let tab = |key: String, name: &'static str, shown: bool| {
         let style = if shown { app.theme.selected() } else { app.theme.quiet() };
         Line::from(vec![
             Span::styled(format!(" {key} "), if shown { style } else { app.theme.title() }),
@@ -114,10 +94,10 @@ fn draw_tabs(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     };
     let screens = Screen::ALL.into_iter().map(|screen| {
         let action = Action::Show(screen);
-        (word(app.keymap.label(action, false), screen.name(), screen == app.screen), Target::Act(action))
+        (tab(app.keymap.label(action, false), screen.name(), screen == app.screen), Target::Act(action))
     });
-    let help = (word(app.keymap.label(Action::Help, false), "Help", app.help), Target::Act(Action::Help));
-    draw_row(screens.chain([help]), frame, area, places);
+    let help = (tab(app.keymap.label(Action::Help, false), "Help", app.help), Target::Act(Action::Help));
+    draw_row(screens.chain([help]), frame, area, areas);
 }
 
 fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
@@ -148,7 +128,7 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
         Layout::horizontal([Constraint::Min(0), Constraint::Length(state.width() as u16 + 1)]).areas(first);
     frame.render_widget(title, left);
     frame.render_widget(state, right);
-    let filter = if app.screen == Screen::Studies { &app.studies.filter } else { &app.compare.filter };
+    let filter = if app.screen == Screen::Studies { &app.studies.filter } else { &app.listing.filter };
     let line = match &app.notice {
         Some(notice) => Line::styled(notice.as_str(), theme.limit()),
         None if !filter.is_empty() => {
@@ -160,37 +140,37 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
     frame.render_widget(line, second);
 }
 
-/// How the whole plan stands.
+/// State of the whole plan: options computed, or options that pass.
 fn summary(app: &App) -> String {
-    let done = app.rows.iter().filter(|row| matches!(row, Row::Done(_) | Row::Failed(_))).count();
-    let passed = |row: &&Row| matches!(row, Row::Done(checked) if checked.verdict == Verdict::Pass);
-    let passed = app.rows.iter().filter(passed).count();
-    if app.computing() {
-        format!("computing {done}/{}", app.rows.len())
+    let done = app.options.iter().filter(|state| !state.is_computing()).count();
+    let passed = |state: &&OptionState| matches!(state, OptionState::Done(checked) if checked.verdict == Verdict::Pass);
+    let passed = app.options.iter().filter(passed).count();
+    if app.checking() {
+        format!("computing {done}/{}", app.options.len())
     } else {
-        format!("{passed} of {} pass", app.rows.len())
+        format!("{passed} of {} pass", app.options.len())
     }
 }
 
-/// The keys of the screen first, then those of all, as many as fit beside the way out.
-fn draw_footer(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
-    let word = |action: Action, short: &'static str| {
+/// Draws keys and labels: first the keys of the screen, then the keys of all screens, as many as fit; help and quit always.
+fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+    let label = |action: Action, short: &'static str| {
         let key = Span::styled(format!(" {} ", app.keymap.label(action, false)), app.theme.title());
         let line = Line::from(vec![key, Span::styled(format!("{short} "), app.theme.quiet())]);
         (line, Target::Act(action))
     };
-    let end = [word(Action::Help, "help"), word(Action::Quit, "quit")];
+    let end = [label(Action::Help, "help"), label(Action::Quit, "quit")];
     let width: usize = end.iter().map(|(line, _)| line.width()).sum();
     let [keys, last] = Layout::horizontal([Constraint::Min(0), Constraint::Length(width as u16)]).areas(area);
     let shown = BINDINGS.iter().filter(|binding| !binding.short.is_empty() && binding.is_on(app.screen));
     let (special, general): (Vec<_>, Vec<_>) = shown.partition(|binding| !binding.on.is_empty());
-    let words =
-        special.into_iter().chain(general).map(|binding| word(binding.action, binding.short_on(app.screen)));
-    draw_row(words, frame, keys, places);
-    draw_row(end, frame, last, places);
+    let labels =
+        special.into_iter().chain(general).map(|binding| label(binding.action, binding.short_on(app.screen)));
+    draw_row(labels, frame, keys, areas);
+    draw_row(end, frame, last, areas);
 }
 
-/// What is being typed, with the cursor in it.
+/// Draws the line being typed, with the cursor.
 fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
     let head = match prompt.purpose {
         Purpose::Search if app.screen == Screen::Plan => " find (Down: next): ",
@@ -210,9 +190,4 @@ fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
     let column = head.len() + prompt.input.visual_cursor().saturating_sub(scroll);
     let x = area.x + (column as u16).min(area.width.saturating_sub(1));
     frame.set_cursor_position(Position::new(x, area.y));
-}
-
-/// The colour of a style, for what takes no style.
-fn color(style: Style) -> Color {
-    style.fg.unwrap_or(Color::Reset)
 }

@@ -1,4 +1,4 @@
-//! The command palette: commands that match what is typed, above the line it is typed in.
+//! The command palette: the commands that match the typed letters, above the line being typed.
 
 use ratatui::Frame;
 use ratatui::layout::Rect;
@@ -15,7 +15,7 @@ const MOST: u16 = 10;
 pub fn draw(app: &App, prompt: &Prompt, frame: &mut Frame, line: Rect) {
     let commands = prompt.commands();
     let height = (commands.len() as u16).clamp(1, MOST) + 2;
-    let place = Rect { y: line.y.saturating_sub(height), height, width: line.width.min(100), ..line };
+    let area = Rect { y: line.y.saturating_sub(height), height, width: line.width.min(100), ..line };
     let rows = commands.iter().enumerate().map(|(n, binding)| {
         let style = if n == prompt.selected { app.theme.selected() } else { app.theme.base() };
         Line::from(vec![
@@ -25,13 +25,13 @@ pub fn draw(app: &App, prompt: &Prompt, frame: &mut Frame, line: Rect) {
         ])
     });
     let block = Block::bordered().style(app.theme.base()).title(" Commands ");
-    frame.render_widget(Clear, place);
+    frame.render_widget(Clear, area);
     if commands.is_empty() {
         let none = Line::styled(" no command has these letters", app.theme.quiet());
-        let inside = block.inner(place);
-        frame.render_widget(block, place);
+        let inside = block.inner(area);
+        frame.render_widget(block, area);
         return frame.render_widget(none, inside);
     }
     let mut state = ListState::default().with_selected(Some(prompt.selected));
-    frame.render_stateful_widget(List::new(rows).block(block), place, &mut state);
+    frame.render_stateful_widget(List::new(rows).block(block), area, &mut state);
 }

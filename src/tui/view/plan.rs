@@ -1,4 +1,4 @@
-//! The plan: the shelter from above with its holes, and every value that is often changed.
+//! The plan screen: the values of the plan, the shelter from above with its holes, and the verdicts.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Position, Rect};
@@ -8,29 +8,30 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::canvas::{Canvas, Points};
 use ratatui::widgets::{Block, Borders, Clear, List, ListState, Paragraph, Wrap};
 
-use super::{Places, color, table};
+use super::parts::color;
+use super::table;
 use crate::scene::fire_at_s;
-use crate::tui::app::{App, Target};
+use crate::tui::app::{App, Areas, Target};
 use crate::tui::editor::Order;
 use crate::tui::keymap::Action;
 use crate::units;
 
 /// Draws the plan.
-pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
+pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let [left, right] =
         Layout::horizontal([Constraint::Percentage(55), Constraint::Percentage(45)]).spacing(1).areas(area);
-    let said = if app.editor.problem.is_some() { 4 } else { 2 };
-    let [list, message] = Layout::vertical([Constraint::Min(0), Constraint::Length(said)]).areas(left);
-    draw_fields(app, frame, list, places);
+    let lines = if app.editor.problem.is_some() { 4 } else { 2 };
+    let [list, message] = Layout::vertical([Constraint::Min(0), Constraint::Length(lines)]).areas(left);
+    draw_fields(app, frame, list, areas);
     draw_message(app, frame, message);
     let options = (app.listed().len() as u16 + 1).min(right.height / 3);
     let [shelter, verdicts] =
         Layout::vertical([Constraint::Min(0), Constraint::Length(options)]).areas(right);
     draw_shelter(app, frame, shelter);
-    table::draw(app, frame, verdicts, places);
+    table::draw(app, frame, verdicts, areas);
 }
 
-fn draw_fields(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
+fn draw_fields(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let editor = &app.editor;
     let title = if editor.unsaved() { " Plan, not saved " } else { " Plan " };
     let block = Block::new()
@@ -59,7 +60,7 @@ fn draw_fields(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     let shown = (state.offset()..editor.fields.len()).take(usize::from(inside.height));
     for (y, field) in (inside.y..).zip(shown) {
         let row = Rect { y, height: 1, ..inside };
-        places.push((row, Target::Field(field)));
+        areas.push((row, Target::Field(field)));
         if field == editor.selected {
             if let Some(input) = &editor.input {
                 let x = inside.x + (width + 3 + input.visual_cursor()) as u16;
@@ -72,7 +73,7 @@ fn draw_fields(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     }
 }
 
-/// A label in so many characters: its end, which tells what it is, stays whole.
+/// A label shortened to so many characters. Its end names the value, and stays whole.
 fn shortened(label: &str, width: usize) -> String {
     let count = label.chars().count();
     if count <= width {
@@ -86,44 +87,49 @@ fn shortened(label: &str, width: usize) -> String {
     format!("{start}…: {end}")
 }
 
-/// The rows in their order of firing, below or above the value they belong to.
+/// Draws the blast rows in order of firing, below or above the value of the plan.
 fn draw_order(app: &App, order: &Order, frame: &mut Frame, value: Rect) {
     let height = (order.names.len() as u16 + 2).min(frame.area().height);
     let below = value.y + 1 + height <= frame.area().bottom();
     let y = if below { value.y + 1 } else { value.y.saturating_sub(height) };
-    let place = Rect { y, height, ..value }.intersection(frame.area());
+    let area = Rect { y, height, ..value }.intersection(frame.area());
     let rows = order.names.iter().enumerate().map(|(n, name)| {
         let style = if n == order.selected { app.theme.selected() } else { app.theme.base() };
         Line::styled(format!(" {}. row {name} ", n + 1), style)
     });
-    let block = Block::bordered().title(" Firing order: Left earlier, Right later ").style(app.theme.base());
+    let [left, right] = [Action::Left, Action::Right].map(|action| app.keymap.hint(action));
+    let title = format!(" Firing order: {left} earlier, {right} later ");
+    let block = Block::bordered().title(title).style(app.theme.base());
     let mut state = ListState::default().with_selected(Some(order.selected));
-    frame.render_widget(Clear, place);
-    frame.render_stateful_widget(List::new(rows).block(block), place, &mut state);
+    frame.render_widget(Clear, area);
+    frame.render_stateful_widget(List::new(rows).block(block), area, &mut state);
 }
 
 fn draw_message(app: &App, frame: &mut Frame, area: Rect) {
     let editor = &app.editor;
     let line = match &editor.problem {
         Some(problem) => Line::styled(problem.clone(), app.theme.limit()),
-        None if editor.order.is_some() => Line::styled(
-            "Up Down select a row, Left Right move it · Enter takes it, Esc leaves it",
-            app.theme.quiet(),
-        ),
+        None if editor.order.is_some() => {
+            let [up, down, left, right] =
+                [Action::Up, Action::Down, Action::Left, Action::Right].map(|action| app.keymap.hint(action));
+            let hint =
+                format!("{up} {down} select a row, {left} {right} move it · Enter takes it, Esc leaves it");
+            Line::styled(hint, app.theme.quiet())
+        }
         None if editor.input.is_some() => {
             Line::styled("Enter takes it, Esc leaves it, Ctrl-u clears", app.theme.quiet())
         }
         None => {
             let [open, left, right] =
                 [Action::Open, Action::Left, Action::Right].map(|action| app.keymap.hint(action));
-            let words = format!("{open} edits · {left} {right} step through values and ropes");
-            Line::styled(words, app.theme.quiet())
+            let hint = format!("{open} edits · {left} {right} step through values and ropes");
+            Line::styled(hint, app.theme.quiet())
         }
     };
     frame.render_widget(Paragraph::new(line).wrap(Wrap { trim: true }), area);
 }
 
-/// Tires as points; holes in the colour of their turn in the selected option, with its firing times below.
+/// Draws the shelter from above: a point per tire, a sign per hole. The colour of a hole says its turn in the selected option.
 fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
     let (case, theme) = (&app.case, app.theme);
     let Some(delay) = case.plan.delays.get(app.selected) else { return };
@@ -153,7 +159,7 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
     }
     let others: Vec<(f64, f64)> =
         tires.iter().zip(&fires).filter(|(_, fires)| !**fires).map(|(place, _)| *place).collect();
-    // Characters are put where a point is or to the left of it, points where they are nearest: half a cell between.
+    // The canvas puts a character half a cell left of and above a point with the same coordinates: move the characters.
     let inside = block.inner(area);
     let half = |length: f64, cells: u16| 0.5 * (length + 2.0 * margin) / f64::from(cells.max(2) - 1);
     let (right_by, down_by) = (half(right - left, inside.width), half(top - bottom, inside.height));
@@ -176,7 +182,7 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
     frame.render_widget(canvas, area);
 }
 
-/// The turn as a character: 1 to 9, then letters.
+/// Sign of a turn: 1 to 9, then letters.
 fn sign(turn: usize) -> String {
     char::from_digit((turn as u32 + 1).min(35), 36).unwrap_or('+').to_string()
 }

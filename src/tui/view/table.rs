@@ -1,21 +1,21 @@
-//! One row per delay option; columns come and go with the width.
+//! The table of delay options: a row per option, as many columns as the width holds.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Row as Cells, Table, TableState};
 
-use super::Places;
 use crate::report::no_result;
 use crate::report::spark::sparkline;
 use crate::study::check::Checked;
-use crate::tui::app::{App, Row, Target};
-use crate::tui::compare::SortBy;
+use crate::tui::app::{App, Areas, Target};
+use crate::tui::options::OptionState;
+use crate::tui::options::SortBy;
 use crate::tui::theme;
 use crate::units::{self, Unit, margin_percent, value_and_error};
 use crate::verdict::{Estimate, Verdict};
 
-/// A column: head, width, and the least width of the screen that shows it.
+/// A column: head, width, and the least width of a screen that shows the column.
 struct Column {
     head: &'static str,
     sort: SortBy,
@@ -25,7 +25,7 @@ struct Column {
 }
 
 const VERDICT: u16 = 6;
-/// Characters of an option's name that always show.
+/// Least number of characters of an option's name.
 const LEAST_NAME: u16 = 8;
 
 const COLUMNS: &[Column] = &[
@@ -73,15 +73,15 @@ const COLUMNS: &[Column] = &[
     },
 ];
 
-/// A quantity, or how much more it is than that of the baseline; both errors count then.
+/// A quantity with its error, or its difference from the baseline with the sum of both errors.
 fn against(app: &App, checked: &Checked, of: fn(&Checked) -> Estimate, unit: Unit) -> String {
     let mine = of(checked);
     match app.baseline() {
         Some((_, base)) if !std::ptr::eq(base, checked) => {
             let base = of(base);
             let difference = mine.value - base.value;
-            let words = value_and_error(difference, mine.error + base.error, unit);
-            if difference >= 0.0 { format!("+{words}") } else { words }
+            let text = value_and_error(difference, mine.error + base.error, unit);
+            if difference >= 0.0 { format!("+{text}") } else { text }
         }
         _ => value_and_error(mine.value, mine.error, unit),
     }
@@ -92,8 +92,8 @@ fn percent(margin: f64) -> String {
 }
 
 /// Draws the table.
-pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
-    // A number is shown whole or not at all.
+pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+    // A column whose numbers would be cut is left out.
     let mut room = area.width.saturating_sub(LEAST_NAME + VERDICT + 2);
     let fits = |column: &&Column| {
         let fits = area.width >= column.from && room > column.width;
@@ -103,7 +103,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     let columns: Vec<&Column> = COLUMNS.iter().filter(fits).collect();
     let longest = app.case.plan.delays.iter().map(|delay| delay.name.chars().count()).max().unwrap_or(0);
     let fixed: u16 = columns.iter().map(|column| column.width + 1).sum::<u16>() + VERDICT + 2;
-    // Names need their room more than small sparklines.
+    // Below 80 characters names are more useful than short sparklines.
     let sparks = if area.width >= 80 { 16 } else { 0 };
     let name = (longest.max(6) as u16 + 1).min(area.width.saturating_sub(fixed + sparks).max(LEAST_NAME));
     let spark = (area.width.saturating_sub(fixed + name + 2) / 2).min(40);
@@ -116,9 +116,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     let listed = app.listed();
     let rows = listed.iter().map(|&option| row(app, option, &columns, (name, spark)));
     let widths = heads.iter().map(|head| Constraint::Length(head.2));
-    // Of several columns of one quantity the first is marked.
-    let marked = heads.iter().position(|head| head.1 == app.compare.sort);
-    let mark = if app.compare.reversed { "▼" } else { "▲" };
+    // Several columns may sort by the same quantity: the first has the mark.
+    let marked = heads.iter().position(|head| head.1 == app.listing.sort);
+    let mark = if app.listing.reversed { "▼" } else { "▲" };
     let cells = heads.iter().enumerate().map(|(n, head)| {
         let line = Line::from(format!("{}{}", head.0, if marked == Some(n) { mark } else { "" }));
         if (2..2 + columns.len()).contains(&n) { line.right_aligned() } else { line }
@@ -129,26 +129,26 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, places: &mut Places) {
     frame.render_stateful_widget(table, area, &mut state);
     let mut x = area.x;
     for (_, sort, width) in heads {
-        places.push((Rect { x, width, height: 1, ..area }, Target::Sort(sort)));
+        areas.push((Rect { x, width, height: 1, ..area }, Target::Sort(sort)));
         x += width + 1;
     }
     let shown = listed.iter().skip(state.offset()).take(usize::from(area.height.saturating_sub(1)));
     for (y, &option) in (area.y + 1..).zip(shown) {
-        places.push((Rect { y, height: 1, ..area }, Target::Option(option)));
+        areas.push((Rect { y, height: 1, ..area }, Target::Option(option)));
     }
     if listed.is_empty() && area.height > 1 {
-        let none = format!("no option has '{}' in its name or verdict; Esc shows all", app.compare.filter);
+        let none = format!("no option has '{}' in its name or verdict; Esc shows all", app.listing.filter);
         frame.render_widget(Line::styled(none, app.theme.quiet()), Rect { y: area.y + 1, height: 1, ..area });
     }
 }
 
 fn row<'r>(app: &'r App, option: usize, columns: &[&Column], (name, spark): (u16, u16)) -> Cells<'r> {
     let style = if option == app.selected { app.theme.selected() } else { app.theme.base() };
-    let mark = if app.compare.baseline == Some(option) { "=" } else { "" };
-    let words = format!("{mark}{}", app.case.plan.delays[option].name);
-    let mut cells = vec![Line::styled(format!("{words:0$.0$}", usize::from(name)), style)];
-    match &app.rows[option] {
-        Row::Done(checked) => {
+    let mark = if app.listing.baseline == Some(option) { "=" } else { "" };
+    let label = format!("{mark}{}", app.case.plan.delays[option].name);
+    let mut cells = vec![Line::styled(format!("{label:0$.0$}", usize::from(name)), style)];
+    match &app.options[option] {
+        OptionState::Done(checked) => {
             cells.push(verdict(app, checked.verdict));
             cells
                 .extend(columns.iter().map(|column| Line::from((column.cell)(app, checked)).right_aligned()));
@@ -158,12 +158,12 @@ fn row<'r>(app: &'r App, option: usize, columns: &[&Column], (name, spark): (u16
             cells.push(spark(&history.height, limits.height));
             cells.push(spark(&history.force, limits.force));
         }
-        Row::Failed(reason) => {
+        OptionState::Failed(failed) => {
             cells.push(verdict(app, Verdict::Undecided));
-            cells.push(Line::from(no_result::message(reason)));
+            cells.push(Line::from(no_result::message(failed)));
         }
-        Row::Waiting => cells.push(Line::styled("waits", app.theme.quiet())),
-        Row::Running { runs, done } => {
+        OptionState::Waiting => cells.push(Line::styled("waits", app.theme.quiet())),
+        OptionState::Running { runs, done } => {
             cells.push(Line::styled(format!("{:>3.0} %", done * 100.0), app.theme.quiet()));
             cells.push(Line::styled(bar(*done, 15), app.theme.quiet()));
             cells.push(Line::styled(format!("run {}", runs + 1), app.theme.quiet()));
@@ -173,7 +173,7 @@ fn row<'r>(app: &'r App, option: usize, columns: &[&Column], (name, spark): (u16
 }
 
 fn verdict(app: &App, verdict: Verdict) -> Line<'static> {
-    Line::from(Span::styled(theme::word(verdict), app.theme.verdict(verdict)))
+    Line::from(Span::styled(theme::label(verdict), app.theme.verdict(verdict)))
 }
 
 fn bar(done: f64, width: usize) -> String {

@@ -1,0 +1,23 @@
+//! Notes about a plan that readers of a study need beside its report.
+
+use super::scatter::swap_warning;
+use crate::plan::Timing;
+use crate::study::Case;
+use crate::study::scatter::swaps;
+
+/// Least probability of a swap of blast rows that deserves a warning.
+pub const SWAP: f64 = 1e-4;
+
+/// The delay options that a study of orders leaves out at the intervals of the plan; `None` where there is no such option.
+pub fn orders(case: &Case) -> Option<String> {
+    let own = case.plan.delays.iter().filter(|delay| matches!(delay.timing, Timing::At(_)));
+    let names: Vec<&str> = own.map(|delay| delay.name.as_str()).collect();
+    (!names.is_empty())
+        .then(|| format!("note: without an interval of their own, and left out: {}", names.join("; ")))
+}
+
+/// Warnings of blast rows that may fire in the wrong order, when the detonators scatter as the plan says.
+pub fn scatter(case: &Case) -> Vec<String> {
+    let swaps = case.plan.scatter.map(|spec| swaps(case, &spec, SWAP)).unwrap_or_default();
+    swaps.iter().map(|swap| format!("warning: {}", swap_warning(case, swap))).collect()
+}

@@ -1,0 +1,39 @@
+//! The screens, and what stands on each.
+
+/// A screen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Screen {
+    /// The plan, to be changed.
+    Plan,
+    /// The delay options side by side.
+    #[default]
+    Compare,
+    /// The selected option in motion.
+    Flight,
+    /// Sweep, orders, scatter, size.
+    Studies,
+    /// The cost of accuracy.
+    Accuracy,
+}
+
+impl Screen {
+    /// Every screen, in the order of the keys.
+    pub const ALL: [Screen; 5] =
+        [Screen::Plan, Screen::Compare, Screen::Flight, Screen::Studies, Screen::Accuracy];
+
+    /// The screen so many further; the first follows the last.
+    pub fn turned(self, by: usize) -> Self {
+        Self::ALL[(self as usize + by) % Self::ALL.len()]
+    }
+
+    /// The name on its tab.
+    pub fn name(self) -> &'static str {
+        match self {
+            Screen::Plan => "Plan",
+            Screen::Compare => "Compare",
+            Screen::Flight => "Flight",
+            Screen::Studies => "Studies",
+            Screen::Accuracy => "Accuracy",
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Parts that several screens share.
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::{Color, Style};
+use ratatui::text::Line;
+use ratatui::widgets::{Gauge, Paragraph, Wrap};
+
+use crate::tui::app::{App, Areas, Target};
+use crate::tui::keymap::Action;
+
+/// Draws labels side by side, each an area to click; leaves out the labels that do not fit.
+pub fn draw_row<'l>(
+    labels: impl IntoIterator<Item = (Line<'l>, Target)>,
+    frame: &mut Frame,
+    area: Rect,
+    areas: &mut Areas,
+) {
+    let mut x = area.x;
+    for (label, target) in labels {
+        let width = label.width() as u16;
+        if x + width > area.right() {
+            return;
+        }
+        let label_area = Rect { x, width, ..area };
+        frame.render_widget(label, label_area);
+        areas.push((label_area, target));
+        x += width;
+    }
+}
+
+/// Draws the question of a study and how far the study is: shots judged and expected.
+pub fn draw_progress(
+    app: &App,
+    frame: &mut Frame,
+    area: Rect,
+    question: Line<'_>,
+    (done, total): (usize, usize),
+) {
+    let [text, bar] = Layout::vertical([Constraint::Length(2), Constraint::Length(1)]).areas(area);
+    frame.render_widget(Paragraph::new(question), text);
+    let share = if total > 0 { done as f64 / total as f64 } else { 0.0 };
+    let label = format!("{done} of {total} shots · {} cancels", app.keymap.hint(Action::Cancel));
+    let gauge = Gauge::default().ratio(share.clamp(0.0, 1.0)).label(label).gauge_style(app.theme.curve());
+    frame.render_widget(gauge, bar);
+}
+
+/// Draws the question of a study, and a message in place of its answer.
+pub fn draw_message(app: &App, frame: &mut Frame, area: Rect, question: Line<'_>, message: &str) {
+    let mut lines = vec![question, Line::default()];
+    lines.extend(message.lines().map(|line| Line::styled(line, app.theme.base())));
+    frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), area);
+}
+
+/// Foreground colour of a style, for canvases, which take no style.
+pub fn color(style: Style) -> Color {
+    style.fg.unwrap_or(Color::Reset)
+}

@@ -1,0 +1,164 @@
+//! The terminal's face of a report: sentences and tables as styled lines, charts as pictures.
+
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+
+use crate::report::model::{Align, Block, Cell, Column, Report, Row, Shown, Table};
+use crate::tui::theme::Theme;
+
+/// Bars of a sparkline.
+const BARS: usize = 16;
+/// Rows shown at each end of a ranking.
+const RANKED: usize = 100;
+/// Blank columns between two columns of a table.
+const GAP: usize = 2;
+
+/// The lines of a report, `width` columns wide at most: first the conclusion, then notes, sentences and tables. Of the
+/// sentences and rows only those that contain `filter` are kept.
+pub fn lines(
+    report: &Report,
+    notes: &[String],
+    filter: &str,
+    theme: Theme,
+    width: u16,
+) -> Vec<Line<'static>> {
+    let width = usize::from(width.max(1));
+    let filter = filter.to_lowercase();
+    let kept = |text: &str| text.to_lowercase().contains(&filter);
+    let mut lines = Vec::new();
+    if let Some(conclusion) = &report.conclusion {
+        let label = conclusion.verdict.label();
+        let mut wrapped = wrapped(&format!("{label}: {}", conclusion.text), width).into_iter();
+        let first = wrapped.next().unwrap_or_default();
+        let rest = first.strip_prefix(label).unwrap_or_default().to_owned();
+        lines.push(Line::from(vec![Span::styled(label, theme.verdict(conclusion.verdict)), Span::raw(rest)]));
+        lines.extend(wrapped.map(Line::raw));
+    }
+    let notes = notes.iter().flat_map(|note| wrapped(note, width));
+    lines.extend(notes.map(|line| Line::styled(line, theme.firing())));
+    for block in &report.blocks {
+        match block {
+            Block::Text(sentences) => {
+                let sentences = sentences.iter().filter(|sentence| kept(sentence));
+                lines.extend(sentences.flat_map(|sentence| wrapped(sentence, width)).map(Line::raw));
+            }
+            Block::Table(table) => {
+                lines.extend(table_lines(table, &kept, theme).into_iter().map(|line| cut(line, width)));
+            }
+            Block::Chart(_) | Block::Picture(_) => {}
+        }
+    }
+    lines
+}
+
+/// Heading and rows of a table, with a blank line above; none where people see no column or no row is kept.
+fn table_lines(table: &Table, kept: &impl Fn(&str) -> bool, theme: Theme) -> Vec<Line<'static>> {
+    let seen = |column: &Column| matches!(column.shown, Shown::People | Shown::Text);
+    let columns: Vec<usize> = (0..table.columns.len()).filter(|&n| seen(&table.columns[n])).collect();
+    let (rows, left_out) = match table.rows.split_at(table.rows.len().min(RANKED)) {
+        (first, rest) if table.ranked && rest.len() > RANKED => {
+            let (left_out, last) = rest.split_at(rest.len() - RANKED);
+            (vec![first, last], left_out.len())
+        }
+        _ => (vec![&table.rows[..]], 0),
+    };
+    if columns.is_empty() {
+        return Vec::new();
+    }
+    let label = |row: &Row, n: usize| row.cells[n].label(BARS);
+    let headings = [|column: &Column| column.label(), |column: &Column| column.subheading.to_owned()];
+    let headings: Vec<Vec<String>> = headings
+        .iter()
+        .map(|heading| columns.iter().map(|&n| heading(&table.columns[n])).collect())
+        .filter(|heading: &Vec<String>| heading.iter().any(|label| !label.is_empty()))
+        .collect();
+    let mut widths = vec![0; columns.len()];
+    let labels = rows.iter().flat_map(|part| part.iter());
+    let labels = labels.map(|row| columns.iter().map(|&n| label(row, n)).collect::<Vec<_>>());
+    for cells in headings.iter().cloned().chain(labels) {
+        for (width, cell) in widths.iter_mut().zip(&cells) {
+            *width = Span::raw(cell).width().max(*width);
+        }
+    }
+    let padded = |text: String, column: usize, style: Style| {
+        let blank = " ".repeat(widths[column].saturating_sub(Span::raw(&text).width()));
+        let gap = " ".repeat(if column + 1 < columns.len() { GAP } else { 0 });
+        match table.columns[columns[column]].align {
+            Align::Left => [Span::styled(text, style), Span::raw(blank + &gap)],
+            Align::Right => [Span::raw(blank), Span::styled(text + &gap, style)],
+        }
+    };
+    let mut lines = vec![Line::default()];
+    for heading in headings {
+        let cells = heading.into_iter().enumerate();
+        lines.push(Line::from_iter(cells.flat_map(|(n, text)| padded(text, n, theme.quiet()))));
+    }
+    let count = lines.len();
+    for (part, rows) in rows.iter().enumerate() {
+        if part > 0 {
+            lines.push(Line::styled(format!("… {left_out} more"), theme.quiet()));
+        }
+        for row in rows.iter() {
+            let known = match &row.missing {
+                Some(_) => columns.iter().take_while(|&&n| row.cells[n] != Cell::Nothing).count(),
+                None => columns.len(),
+            };
+            let cells = columns[..known].iter().enumerate();
+            let mut line = Line::from_iter(
+                cells.flat_map(|(column, &n)| padded(label(row, n), column, style(&row.cells[n], theme))),
+            );
+            line.extend(row.missing.clone().map(Span::raw));
+            if kept(&line.to_string()) {
+                lines.push(line);
+                let details = row.details.iter();
+                lines.extend(details.map(|detail| {
+                    Line::styled(format!("    {}", detail.text), theme.verdict(detail.verdict))
+                }));
+            }
+        }
+    }
+    if lines.len() == count { Vec::new() } else { lines }
+}
+
+/// Style of a cell by the type of its value.
+fn style(cell: &Cell, theme: Theme) -> Style {
+    match cell {
+        Cell::Verdict(verdict) => theme.verdict(*verdict),
+        Cell::Sparkline { .. } => theme.curve(),
+        _ => Style::new(),
+    }
+}
+
+/// A sentence as lines of at most `width` columns, broken between words where that is possible.
+fn wrapped(sentence: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in sentence.split(' ') {
+        let last = lines.len() - 1;
+        let joined = if lines[last].is_empty() { word.to_owned() } else { format!("{} {word}", lines[last]) };
+        if Span::raw(&joined).width() <= width || lines[last].is_empty() {
+            lines[last] = joined;
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines
+}
+
+/// A line without the part beyond `width` columns.
+fn cut(line: Line<'static>, width: usize) -> Line<'static> {
+    let mut room = width;
+    let spans = line.spans.into_iter().map(|span| {
+        let mut text = String::new();
+        for letter in span.content.chars() {
+            let wide = Span::raw(letter.to_string()).width();
+            if wide > room {
+                room = 0;
+                break;
+            }
+            room -= wide;
+            text.push(letter);
+        }
+        Span::styled(text, span.style)
+    });
+    Line::from(spans.collect::<Vec<_>>())
+}
