@@ -25,7 +25,7 @@ const PATIENCE: Duration = Duration::from_secs(30);
 
 impl Watched {
     fn open(plan: &str, arguments: &[&str], columns: u16, rows: u16) -> Self {
-        let plan = shipped(plan);
+        let plan = if Path::new(plan).is_absolute() { plan.to_owned() } else { shipped(plan) };
         let all = [&[plan.as_str()], arguments].concat();
         Self::start(&all, Path::new(env!("CARGO_MANIFEST_DIR")), columns, rows)
     }

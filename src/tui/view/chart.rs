@@ -9,6 +9,7 @@ use ratatui::widgets::{self, Block, Dataset, GraphType};
 
 use crate::report::model::{Axis, Chart, Scale, SeriesKind};
 use crate::tui::app::App;
+use crate::units::Unit;
 
 /// Least width and height of a chart that can be read.
 const LEAST: (u16, u16) = (20, 4);
@@ -39,12 +40,10 @@ struct Set {
 /// Draws charts side by side where two readable charts would not fit one above the other.
 pub fn draw_all(app: &App, charts: &[&Chart], frame: &mut Frame, area: Rect) {
     let count = charts.len() as u16;
-    let direction = if area.height < 2 * LEAST.1 * count && area.width >= 2 * LEAST.0 * count {
-        Layout::horizontal
-    } else {
-        Layout::vertical
-    };
-    let areas = direction(vec![Constraint::Fill(1); charts.len()]).split(area);
+    let side_by_side = area.height < 2 * LEAST.1 * count && area.width >= 2 * LEAST.0 * count;
+    let direction = if side_by_side { Layout::horizontal } else { Layout::vertical };
+    let areas =
+        direction(vec![Constraint::Fill(1); charts.len()]).spacing(u16::from(side_by_side)).split(area);
     for (chart, area) in charts.iter().zip(areas.iter()) {
         draw(app, chart, None, frame, *area);
     }
@@ -119,22 +118,26 @@ pub fn draw(app: &App, chart: &Chart, mark: Option<Mark>, frame: &mut Frame, are
     frame.render_widget(drawn, area);
 }
 
-/// Title with the key to the lines, as far as the width goes.
+/// Title with the key to the lines: as much of both as the width holds.
 fn title(chart: &Chart, width: u16) -> String {
     let parts = [
         ("dotted: limit", chart.limit.is_some()),
         ("ticks: firings", !chart.firings.is_empty()),
         ("bar below: passes", !chart.windows.is_empty()),
     ];
-    let key: Vec<&str> = parts.iter().filter(|(_, shown)| *shown).map(|(part, _)| *part).collect();
-    let whole = format!("{} ({})", chart.title, key.join("; "));
-    if key.is_empty() || whole.chars().count() > usize::from(width) { chart.title.clone() } else { whole }
+    let parts: Vec<&str> = parts.iter().filter(|(_, shown)| *shown).map(|(part, _)| *part).collect();
+    let keyed = |title: &str, parts: &[&str]| format!("{title} ({})", parts.join("; "));
+    let first = &parts[..parts.len().min(1)];
+    let titles = [keyed(&chart.title, &parts), keyed(&chart.title, first), keyed(chart.y.name, first)];
+    let fits = |title: &String| !parts.is_empty() && title.chars().count() <= usize::from(width);
+    titles.into_iter().find(fits).unwrap_or_else(|| chart.title.clone())
 }
 
-/// Coordinates that have a label: `count` at even distances, or every power of ten.
+/// Coordinates that have a label: `count` at even distances, both ends of a count, or every power of ten.
 fn labelled(axis: &Axis, count: usize) -> Vec<f64> {
     let [from, to] = axis.ends();
     match axis.scale {
+        Scale::Linear if axis.unit == Unit::One => vec![from, to],
         Scale::Linear => (0..count).map(|n| from + (to - from) * n as f64 / (count - 1) as f64).collect(),
         Scale::Logarithmic => (from.round() as i32..=to.round() as i32).map(f64::from).collect(),
     }
