@@ -37,8 +37,8 @@ pub fn draw_progress(
     question: Line<'_>,
     (done, total): (usize, usize),
 ) {
-    let [text, bar] = Layout::vertical([Constraint::Length(2), Constraint::Length(1)]).areas(area);
-    frame.render_widget(Paragraph::new(question), text);
+    let [text, bar] = Layout::vertical([Constraint::Length(3), Constraint::Length(1)]).areas(area);
+    frame.render_widget(Paragraph::new(question).wrap(Wrap { trim: true }), text);
     let share = if total > 0 { done as f64 / total as f64 } else { 0.0 };
     let label = format!("{done} of {total} shots · {} cancels", app.keymap.hint(Action::Cancel));
     let gauge = Gauge::default().ratio(share.clamp(0.0, 1.0)).label(label).gauge_style(app.theme.curve());
