@@ -7,7 +7,7 @@ use std::time::Duration;
 use clap::Args;
 
 use super::arguments::{Compute, FormatArg, Look};
-use super::plans::open_option;
+use super::load_plans::open_option;
 use super::print::print;
 use super::run_study::{Finished, run_study};
 use super::status::{Status, failed};

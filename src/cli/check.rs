@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{Compute, FormatArg, Look};
-use super::checks::{check_all, print_checks};
-use super::plans::open_all;
+use super::check_plans::{check_all, print_checks};
+use super::load_plans::open_all;
 use super::status::{Status, failed};
 
 #[derive(Args)]

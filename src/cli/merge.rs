@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{FormatArg, Look};
-use super::findings::{Answer, print_findings};
+use super::print_findings::{Answer, print_findings};
 use super::status::{Status, wrong};
 use crate::plan::PlanSource;
 use crate::study::Case;

@@ -7,15 +7,15 @@
 mod accuracy;
 mod arguments;
 mod check;
-mod checks;
-mod findings;
+mod check_plans;
 mod init;
+mod load_plans;
 mod merge;
-mod open;
+mod open_terminal;
 mod orders;
 mod packaging;
-mod plans;
 mod print;
+mod print_findings;
 mod report;
 mod ropes;
 mod run_study;
@@ -126,8 +126,8 @@ pub fn run() -> ExitCode {
         (Some(Command::Man), _) => packaging::man(),
         (Some(Command::Schema), _) => packaging::schema(),
         (Some(Command::Config), _) => packaging::config(),
-        (None, Some(plan)) => open::plan(&plan, &cli.compute, &cli.look),
-        (None, None) => open::start(&cli.compute, &cli.look),
+        (None, Some(plan)) => open_terminal::plan(&plan, &cli.compute, &cli.look),
+        (None, None) => open_terminal::start(&cli.compute, &cli.look),
     };
     status::ended(done)
 }

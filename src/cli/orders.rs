@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{Compute, FormatArg, Look, intervals, shard};
-use super::findings::{Answer, print_findings};
-use super::plans::open;
+use super::load_plans::open;
+use super::print_findings::{Answer, print_findings};
 use super::run_study::{Finished, run_study};
 use super::status::{Status, failed, wrong};
 use crate::report::notes;

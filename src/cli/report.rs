@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::arguments::{Compute, FormatArg, Look};
-use super::checks::{check_all, print_checks};
-use super::plans::open;
+use super::check_plans::{check_all, print_checks};
+use super::load_plans::open;
 use super::print::print_text;
 use super::status::{Status, failed, wrong};
 use crate::file;

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{Compute, DrawArguments, FormatArg, Look, intervals};
-use super::plans::open;
+use super::load_plans::open;
 use super::print::print;
 use super::run_study::run_study;
 use super::status::{Status, failed, wrong};

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{Compute, FormatArg, Look, intervals};
-use super::plans::open_option;
+use super::load_plans::open_option;
 use super::print::print;
 use super::run_study::{Finished, run_study};
 use super::status::{Status, failed, wrong};

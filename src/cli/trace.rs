@@ -8,7 +8,7 @@ use std::time::Instant;
 use clap::Args;
 
 use super::arguments::{Compute, FormatArg, Look, positive};
-use super::plans::open_option;
+use super::load_plans::open_option;
 use super::status::{Status, wrong};
 use crate::report;
 use crate::scene::{Scene, TireId, seconds};

@@ -1,12 +1,13 @@
 //! `check` as a report: one row a delay option.
 
-use super::columns::{FORCE, HEIGHT, VERDICT, force, height};
 use super::explain::{broken, compute_label, reason};
 use super::model::{Block, Cell, Column, Conclusion, Detail, Report, Row, Shown, Table};
+use super::shared_columns::{FORCE, HEIGHT, VERDICT, force, height};
 use super::{limit_facts, no_result};
 use crate::plan::DelayOption;
-use crate::study::check::{Checked, Reason};
-use crate::study::plans::{Results, verdict};
+use crate::study::check::Checked;
+use crate::study::check_all::{Results, verdict};
+use crate::study::reason::Reason;
 use crate::study::{Case, NoResult};
 use crate::units::Unit;
 use crate::verdict::Verdict;

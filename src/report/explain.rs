@@ -3,7 +3,8 @@
 use crate::outcome::Broken;
 use crate::scene::Scene;
 use crate::study::ComputeSettings;
-use crate::study::check::{Checked, EarlyEnd, Quantity, Reason};
+use crate::study::check::Checked;
+use crate::study::reason::{EarlyEnd, Quantity, Reason};
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::Verdict;
 

@@ -14,7 +14,6 @@ pub mod accuracy;
 pub mod ascii;
 pub mod charts;
 pub mod check;
-pub mod columns;
 pub mod csv;
 pub mod explain;
 #[cfg(feature = "page")]
@@ -28,6 +27,7 @@ pub mod orders;
 pub mod palette;
 pub mod ropes;
 pub mod scatter;
+pub mod shared_columns;
 pub mod size;
 pub mod spark;
 pub mod sweep;

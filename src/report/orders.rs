@@ -1,8 +1,8 @@
 //! `orders` as a report: one row an order, from the worst to the best.
 
 use super::charts;
-use super::columns::{FORCE, HEIGHT, INTERVAL, VERDICT, force, height};
 use super::model::{Block, Cell, Column, Conclusion, Report, Table};
+use super::shared_columns::{FORCE, HEIGHT, INTERVAL, VERDICT, force, height};
 use super::{limit_facts, row_names};
 use crate::study::Case;
 use crate::study::orders::{Orders, Tried};

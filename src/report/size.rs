@@ -1,8 +1,8 @@
 //! `size` as a report: the lightest combinations that hold.
 
 use super::charts;
-use super::columns::{FORCE, HEIGHT, force, height};
 use super::model::{Block, Cell, Column, Conclusion, Report, Table};
+use super::shared_columns::{FORCE, HEIGHT, force, height};
 use crate::study::Case;
 use crate::study::size::{Combination, Sizing, Trial, Untried};
 use crate::units::{self, Unit};

@@ -1,8 +1,8 @@
 //! `sweep` as a report: charts against the interval, the intervals that pass, the worst and the best.
 
 use super::charts;
-use super::columns::{FORCE, HEIGHT, INTERVAL, VERDICT, force, height};
 use super::model::{Block, Cell, Column, Conclusion, Report, Shown, Table};
+use super::shared_columns::{FORCE, HEIGHT, INTERVAL, VERDICT, force, height};
 use super::{limit_facts, row_names};
 use crate::study::Case;
 use crate::study::sweep::{Point, Sweep};

@@ -5,7 +5,7 @@
 //! cables. Where a cable is missing (at the end of a mesh row) its slot stays empty, so that a run continues from row to row.
 //! Long runs are cut into blocks. A block is the unit that sleeps and wakes.
 
-use super::lists::Lists;
+use super::compressed_rows::CompressedRows;
 use super::pack::LANES;
 use crate::scene::{Cable, Scene};
 
@@ -70,7 +70,7 @@ impl Blocks {
         cable.resize(cable.len().next_multiple_of(LANES) + LANES, NONE);
         let weight = cable.iter().map(|&c| if c == NONE { 0.0 } else { weight[c as usize] }).collect();
         let packs = scene.mass.len().div_ceil(LANES);
-        Self { blocks, weight, ends: Ends(Lists::new(2 * packs, &acting)), cable }
+        Self { blocks, weight, ends: Ends(CompressedRows::new(2 * packs, &acting)), cable }
     }
 
     /// Index in the scene of the cable in a slot of a block.
@@ -120,7 +120,7 @@ fn runs(cables: &[Cable]) -> Vec<Run> {
 /// For each pack of tires, the elements of the cables that act on its first tire: those whose first end is there, and
 /// those whose second end is there. The next tire of the pack has the next element.
 #[derive(Clone, Debug)]
-pub struct Ends(Lists);
+pub struct Ends(CompressedRows);
 
 impl Ends {
     /// Elements of the cables with their first end at the first tire of `pack`, and of those with their second end there.

@@ -12,10 +12,10 @@
 
 mod cable;
 mod clock;
+mod compressed_rows;
 mod contact;
 mod failure;
 mod kick;
-mod lists;
 mod mirror;
 mod newmark;
 mod pack;

@@ -9,7 +9,7 @@
 use fixedbitset::FixedBitSet;
 
 use super::cable::{Block, Blocks};
-use super::lists::Lists;
+use super::compressed_rows::CompressedRows;
 use super::pack::LANES;
 use crate::scene::Cable;
 
@@ -17,9 +17,9 @@ use crate::scene::Cable;
 #[derive(Debug)]
 pub struct Ties {
     /// Blocks with an end at each pack (`n_packs`).
-    blocks: Lists,
+    blocks: CompressedRows,
     /// Each pack and the packs tied to it (`n_packs`).
-    neighbours: Lists,
+    neighbours: CompressedRows,
     n_blocks: usize,
 }
 
@@ -51,7 +51,8 @@ impl Ties {
 
     fn new(n_packs: usize, n_blocks: usize, at_packs: Vec<(u32, u32)>, mut tied: Vec<(u32, u32)>) -> Self {
         tied.extend((0..n_packs as u32).map(|pack| (pack, pack)));
-        let (blocks, neighbours) = (Lists::sorted(n_packs, at_packs), Lists::sorted(n_packs, tied));
+        let (blocks, neighbours) =
+            (CompressedRows::sorted(n_packs, at_packs), CompressedRows::sorted(n_packs, tied));
         Self { blocks, neighbours, n_blocks }
     }
 }
@@ -172,7 +173,7 @@ pub mod tests {
         pub fn with_everything(self) -> Self {
             let packs = 0..self.neighbours.keys() as u32;
             let all = packs.clone().flat_map(|a| packs.clone().map(move |b| (a, b)));
-            Self { neighbours: Lists::sorted(packs.len(), all.collect()), ..self }
+            Self { neighbours: CompressedRows::sorted(packs.len(), all.collect()), ..self }
         }
     }
 

@@ -6,9 +6,10 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
+use super::reason::{Reason, limited, reasons};
 use super::{Case, ComputeSettings, error};
 use crate::choice::{Accuracy, Method};
-use crate::outcome::{Broken, EndReason, History, Outcome, Peak, RunEnd};
+use crate::outcome::{Broken, History, Outcome, Peak, RunEnd};
 use crate::scene::Shot;
 use crate::simulation::{Failure, Settings};
 use crate::verdict::{Estimate, Limits, Verdict};
@@ -52,102 +53,6 @@ pub struct Checked {
     pub total_steps: usize,
 }
 
-/// Why an option does not pass.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Reason {
-    /// A value is past its limit, or too near to the limit to tell.
-    Limit {
-        /// The quantity.
-        quantity: Quantity,
-        /// Fail or undecided.
-        verdict: Verdict,
-        /// The computed value with its error.
-        estimate: Estimate,
-        /// The limit [SI unit of the quantity].
-        limit: f64,
-    },
-    /// Cables break; their number.
-    Broken(usize),
-    /// The run ends too early for a verdict.
-    EndsEarly {
-        /// End of the run [s].
-        end: f64,
-        /// What the run leaves open.
-        open: EarlyEnd,
-    },
-}
-
-impl Reason {
-    /// The verdict that this reason leads to: fail or undecided.
-    pub fn verdict(&self) -> Verdict {
-        match self {
-            Reason::Limit { verdict, .. } => *verdict,
-            Reason::Broken(_) => Verdict::Fail,
-            Reason::EndsEarly { .. } => Verdict::Undecided,
-        }
-    }
-}
-
-/// What a run that ends too early leaves open.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum EarlyEnd {
-    /// The last hole fires at this time [s].
-    HolesUnfired(f64),
-    /// Tires are in the air: they rise, or will pull at cables as they fall.
-    TiresInAir,
-    /// The force is greatest at the very end.
-    ForceGrowing,
-    /// Tires move on, and their drift has a limit.
-    TiresMoving,
-}
-
-/// What the run of a shot leaves open, where the run ends too early for a verdict.
-fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<EarlyEnd> {
-    let last = shot.firings.last().map_or(0.0, |firing| firing.at);
-    if last >= case.plan.simulation.duration_s.unwrap_or(f64::INFINITY) {
-        return Some(EarlyEnd::HolesUnfired(last));
-    }
-    if outcome.end.reason == EndReason::AtRest {
-        return None;
-    }
-    if outcome.tires_in_air {
-        return Some(EarlyEnd::TiresInAir);
-    }
-    // The greatest of all samples is the last one, or the one before.
-    if outcome.force.value > 0.0 && outcome.force.at > outcome.end.at - 2.5 * outcome.step {
-        return Some(EarlyEnd::ForceGrowing);
-    }
-    case.limits.drift.map(|_| EarlyEnd::TiresMoving)
-}
-
-/// A quantity that has a limit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// Flight height [m].
-    Height,
-    /// Cable force [N].
-    Force,
-    /// Drift at the end [m].
-    Drift,
-}
-
-/// Why a run of a shot does not pass, given its height, force and drift with their errors; empty for a pass.
-pub fn reasons(
-    case: &Case,
-    shot: &Shot,
-    outcome: &Outcome,
-    [height, force, drift]: [Estimate; 3],
-) -> Vec<Reason> {
-    let limits = limited(height, force, drift, &case.limits).map(|(quantity, estimate, limit)| {
-        Reason::Limit { quantity, verdict: estimate.against(limit), estimate, limit }
-    });
-    let broken = Some(outcome.broken.len()).filter(|&count| count > 0).map(Reason::Broken);
-    let end = case.plan.simulation.duration_s.unwrap_or(outcome.end.at);
-    let early = early(case, shot, outcome).map(|open| Reason::EndsEarly { end, open });
-    let all = limits.chain(broken).chain(early);
-    all.filter(|reason| reason.verdict() != Verdict::Pass).collect()
-}
-
 /// Progress of a check.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
@@ -187,17 +92,6 @@ impl Checked {
         };
         verdict(1.0) != Verdict::Undecided && verdict(1.0) == verdict(SURE)
     }
-}
-
-/// The quantities that have a limit, each with its estimate and its limit.
-fn limited(
-    height: Estimate,
-    force: Estimate,
-    drift: Estimate,
-    limits: &Limits,
-) -> impl Iterator<Item = (Quantity, Estimate, f64)> {
-    let always = [(Quantity::Height, height, limits.height), (Quantity::Force, force, limits.force)];
-    always.into_iter().chain(limits.drift.map(|limit| (Quantity::Drift, drift, limit)))
 }
 
 /// Judges one delay option. `watch` sees the progress and may stop the check.

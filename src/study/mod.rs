@@ -6,14 +6,15 @@
 pub mod accuracy;
 pub mod batch;
 pub mod check;
+pub mod check_all;
 mod envelope;
 pub mod error;
 pub mod flight;
 pub mod merge;
 mod no_result;
 pub mod orders;
-pub mod plans;
 mod progress;
+pub mod reason;
 pub mod scatter;
 pub mod size;
 pub mod sweep;

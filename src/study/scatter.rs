@@ -13,7 +13,8 @@ use rand_distr::{Distribution, LogNormal, Normal};
 use serde::{Deserialize, Serialize};
 
 use super::batch::{each, envelopes};
-use super::check::{Reason, check_shot, reasons, start_step};
+use super::check::{check_shot, start_step};
+use super::reason::{Reason, reasons};
 use super::{Case, ComputeSettings, Envelope, NoResult, Progress, Shard};
 use crate::outcome::Peak;
 use crate::plan::ScatterSpec;

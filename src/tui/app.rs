@@ -1,4 +1,4 @@
-//! Everything that the screen shows, and how news changes it. `act` holds the effects of keys and clicks.
+//! Everything that the screen shows, and how news changes it. `actions` holds the effects of keys and clicks.
 //!
 //! The app does no input or output. It returns a [`Request`], and the event loop serves the request.
 

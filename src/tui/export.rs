@@ -10,7 +10,7 @@ use crate::file;
 use crate::jobs::{Found, StudyKind};
 use crate::report::{self, charts, html};
 use crate::scene::fire_at_s;
-use crate::study::plans::Results;
+use crate::study::check_all::Results;
 
 /// Writes the contents of the screen to a new file, in the format of the file's ending; or says why not.
 pub fn write(app: &App, path: &Path) -> Result<(), String> {

@@ -3,7 +3,7 @@
 //! The loop waits for a key, a click or news, updates the [`App`], and draws when something changed. Every way out gives
 //! the terminal back: quitting, an error, a panic, a signal.
 
-mod act;
+mod actions;
 pub mod app;
 pub mod config;
 pub mod editor;

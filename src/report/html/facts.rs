@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::choice::OnOverload;
 use crate::plan::{LaunchTargets, Layout, Plan};
-use crate::study::plans::Results;
+use crate::study::check_all::Results;
 use crate::study::{Case, ComputeSettings};
 use crate::units::{self, Unit};
 

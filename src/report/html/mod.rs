@@ -19,7 +19,7 @@ use super::palette::Role;
 use super::{charts, check, explain};
 use crate::scene::fire_at_s;
 use crate::study::Case;
-use crate::study::plans::Results;
+use crate::study::check_all::Results;
 use crate::verdict::Verdict;
 
 const STYLE: &str = "

@@ -9,7 +9,7 @@ use crate::report::{explain, no_result};
 use crate::scene::{Scene, TireId, fire_at_s};
 use crate::study::Case;
 use crate::study::check::Checked;
-use crate::study::plans::{Results, verdict};
+use crate::study::check_all::{Results, verdict};
 use crate::verdict::{Estimate, Verdict};
 
 /// The document of one plan.

@@ -11,10 +11,10 @@
 
 mod accuracy;
 mod chart;
+mod command_palette;
 mod detail;
 mod flight;
 mod help;
-mod palette;
 mod parts;
 mod plan;
 mod report;
@@ -180,7 +180,7 @@ fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
         Purpose::SaveAs => " save the plan as: ",
     };
     if prompt.purpose == Purpose::Palette {
-        palette::draw(app, prompt, frame, area);
+        command_palette::draw(app, prompt, frame, area);
     }
     let room = usize::from(area.width).saturating_sub(head.len() + 1);
     let scroll = prompt.input.visual_scroll(room);

@@ -1,16 +1,16 @@
 //! A list of indices for each of many keys, in compressed rows: two allocations for all lists.
 
-/// Lists of indices by key.
+/// CompressedRows of indices by key.
 #[derive(Clone, Debug)]
-pub struct Lists {
+pub struct CompressedRows {
     /// Offset of each key's list in `items`, and the end of the last list (`n_keys` + 1).
     start: Vec<u32>,
-    /// Lists of all keys, one after the other.
+    /// CompressedRows of all keys, one after the other.
     items: Vec<u32>,
 }
 
-impl Lists {
-    /// Lists of `(key, item)` pairs for the keys from 0 to `keys`; the items of a key keep the order of the pairs.
+impl CompressedRows {
+    /// CompressedRows of `(key, item)` pairs for the keys from 0 to `keys`; the items of a key keep the order of the pairs.
     pub fn new(keys: usize, pairs: &[(u32, u32)]) -> Self {
         let mut start = vec![0; keys + 1];
         for &(key, _) in pairs {
@@ -28,7 +28,7 @@ impl Lists {
         Self { start, items }
     }
 
-    /// Lists of `(key, item)` pairs in any order, some more than once: each list ascends and holds an item once.
+    /// CompressedRows of `(key, item)` pairs in any order, some more than once: each list ascends and holds an item once.
     pub fn sorted(keys: usize, mut pairs: Vec<(u32, u32)>) -> Self {
         pairs.sort_unstable();
         pairs.dedup();
@@ -54,7 +54,7 @@ mod tests {
     #[test]
     fn items_keep_their_order_unless_sorted() {
         let pairs = [(2, 7), (0, 5), (2, 1), (2, 7)];
-        let [ordered, sorted] = [Lists::new(3, &pairs), Lists::sorted(3, pairs.to_vec())];
+        let [ordered, sorted] = [CompressedRows::new(3, &pairs), CompressedRows::sorted(3, pairs.to_vec())];
         assert_eq!([0, 1, 2].map(|key| ordered.of(key).to_vec()), [vec![5], vec![], vec![7, 1, 7]]);
         assert_eq!([0, 1, 2].map(|key| sorted.of(key).to_vec()), [vec![5], vec![], vec![1, 7]]);
         assert_eq!(sorted.keys(), 3);

@@ -11,7 +11,7 @@ use super::status::Status;
 use crate::report::check::report;
 use crate::report::json::CheckDocument;
 use crate::report::model::Report;
-use crate::study::plans::{Results, check_plans};
+use crate::study::check_all::{Results, check_plans};
 use crate::study::{Case, NoResult};
 
 /// Checks all options of all cases in parallel. Returns results in the order of plans and options.

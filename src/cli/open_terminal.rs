@@ -5,9 +5,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::arguments::{Compute, FormatArg, Look};
-use super::checks::{check_all, print_checks};
+use super::check_plans::{check_all, print_checks};
 use super::status::{Status, failed, wrong};
-use super::{plans, print_help};
+use super::{load_plans, print_help};
 use crate::jobs::Jobs;
 use crate::plan::PlanSource;
 use crate::study::Case;
@@ -17,7 +17,7 @@ use crate::tui::{self, app::App};
 
 /// Opens a plan in the terminal; where output is no terminal, says the same as `check`.
 pub fn plan(plan: &Path, compute: &Compute, look: &Look) -> io::Result<Status> {
-    let Some(case) = plans::open(plan, look) else { return Ok(Status::Wrong) };
+    let Some(case) = load_plans::open(plan, look) else { return Ok(Status::Wrong) };
     if !io::stdout().is_terminal() {
         let cases = [case];
         return match check_all(&cases, compute) {
