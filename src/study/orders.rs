@@ -1,7 +1,7 @@
 //! The orders in which the blast rows can fire, ranked from the worst to the best.
 //!
-//! Up to [`MOST_ROWS`] rows all orders are tried. With more rows the orders are searched: random orders first; then, from
-//! the worst and from the best order found, exchanges of two rows as long as an exchange leads further. A search may miss
+//! Up to [`MOST_ROWS`] rows all orders are tried. With more rows the orders are searched: random orders first; then
+//! exchanges of two rows in the worst and in the best order found, until no exchange leads further. A search may miss
 //! the worst order; its result says so.
 
 use itertools::Itertools;
@@ -19,8 +19,6 @@ use crate::verdict::Verdict;
 pub const MOST_ROWS: usize = 7;
 /// Number of random orders of a search, per interval.
 const RANDOM: usize = 1000;
-/// Greatest number of rounds of exchanges, per interval and direction (toward the worst, toward the best).
-const ROUNDS: usize = 8;
 
 /// One order at one interval.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -131,21 +129,22 @@ fn search(
         }));
         let first = tried.len();
         add(case, &mut tried, starts, interval, compute, progress)?;
-        for sign in [1.0, -1.0] {
-            let rank = |tried: &Tried| sign * tried.envelope.utilization(&case.limits);
-            for _ in 0..ROUNDS {
-                let here = tried[first..].iter().max_by(|a, b| rank(a).total_cmp(&rank(b))).cloned();
-                let Some(here) = here else { break };
+        // Exchanges of the worst order and of the best order, until all exchanges of both are known.
+        loop {
+            let before = tried.len();
+            for sign in [1.0, -1.0] {
+                let rank = |tried: &Tried| sign * tried.envelope.utilization(&case.limits);
+                let end = tried[first..].iter().reduce(|a, b| if rank(b) > rank(a) { b } else { a });
+                let Some(end) = end.cloned() else { return Ok(tried) };
                 let exchanged = (0..rows.len()).array_combinations().map(|[a, b]| {
-                    let mut order = here.order.clone();
+                    let mut order = end.order.clone();
                     order.swap(a, b);
                     order
                 });
-                let before = tried.len();
                 add(case, &mut tried, exchanged.collect(), interval, compute, progress)?;
-                if !tried[before..].iter().any(|next| rank(next) > rank(&here)) {
-                    break;
-                }
+            }
+            if tried.len() == before {
+                break;
             }
         }
     }
