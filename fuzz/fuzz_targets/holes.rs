@@ -7,9 +7,9 @@ use shelter::plan::import::plan_from_holes;
 
 fuzz_target!(|text: &str| {
     match plan_from_holes("holes.csv", text) {
-        Ok(plan) => {
-            if let Err(mistakes) = Plan::parse("plan.toml", &plan) {
-                panic!("{}\n{plan}", mistakes.render(false));
+        Ok(imported) => {
+            if let Err(mistakes) = Plan::parse("plan.toml", &imported.text) {
+                panic!("{}\n{}", mistakes.render(false), imported.text);
             }
         }
         Err(mistakes) => assert!(!mistakes.render(false).is_empty()),

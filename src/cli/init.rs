@@ -29,7 +29,10 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         Some(list) => {
             let read = PlanSource::read(list).and_then(|list| plan_from_holes(&list.path, &list.text));
             match read {
-                Ok(text) => text,
+                Ok(imported) => {
+                    imported.notes.iter().for_each(|note| eprintln!("note: {note}"));
+                    imported.text
+                }
                 Err(mistakes) => {
                     eprint!("{}", mistakes.render(look.colored(io::stderr().is_terminal())));
                     return Ok(Status::Wrong);

@@ -1,11 +1,13 @@
 //! Plans from lists of holes: the formats that load, and what is said of those that do not.
 
-use shelter::plan::import::plan_from_holes;
-use shelter::plan::{LaunchTargets, Plan, Timing};
+use std::path::Path;
+
+use shelter::plan::import::{Imported, plan_from_holes};
+use shelter::plan::{LaunchTargets, Plan, PlanSource, Timing};
 use shelter::study::Case;
 
 fn imported(list: &str) -> Plan {
-    let text = plan_from_holes("holes.csv", list).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let text = plan_from_holes("holes.csv", list).unwrap_or_else(|mistakes| panic!("{mistakes}")).text;
     Plan::parse("plan.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"))
 }
 
@@ -114,11 +116,48 @@ fn every_bad_line_is_named_with_its_remedy() {
     insta::assert_snapshot!(told.join("\n"));
 }
 
+/// Every list is read rightly, or refused with its line and a remedy: no value, time or row is guessed or dropped unsaid.
+#[test]
+fn lists_are_read_or_refused_and_never_guessed() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/lists");
+    let entries = std::fs::read_dir(folder).expect("the lists are there");
+    let mut files: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    files.sort();
+    assert!(files.len() >= 40);
+    let mut outcomes = String::new();
+    for file in files {
+        let name = file.file_name().and_then(|name| name.to_str()).expect("UTF-8").to_owned();
+        let read = PlanSource::read(&file).and_then(|list| plan_from_holes(&name, &list.text));
+        outcomes += &format!("## {name}\n");
+        match read {
+            Ok(Imported { text, notes }) => {
+                let plan =
+                    Plan::parse("plan.toml", &text).unwrap_or_else(|mistakes| panic!("{name}: {mistakes}"));
+                notes.iter().for_each(|note| outcomes += &format!("{note}\n"));
+                for row in &plan.blast_rows {
+                    let LaunchTargets::Holes(holes) = &row.targets else { panic!("{name}: no holes") };
+                    let at: Vec<_> =
+                        holes.iter().map(|hole| format!("({}, {})", hole.x_m, hole.y_m)).collect();
+                    outcomes += &format!("    row {:?}: {}\n", row.name, at.join(" "));
+                }
+                outcomes += &format!("    {:?}\n", plan.delays[0].timing);
+            }
+            Err(mistakes) => {
+                for (line, column, message, remedy) in mistakes.iter() {
+                    outcomes += &format!("refused: {line}:{column} {message}\n    {remedy}\n");
+                }
+            }
+        }
+        outcomes.push('\n');
+    }
+    insta::assert_snapshot!(outcomes);
+}
+
 proptest::proptest! {
     /// Nothing that is not a list of holes does harm, and whatever is accepted is a plan.
     #[test]
     fn any_text_is_a_plan_or_a_mistake(list in "(id|x|y|row|fire_ms|delay_ms|from|[-0-9.,;e \t]{0,12}|\n){0,40}") {
-        if let Ok(text) = plan_from_holes("holes.csv", &list) {
+        if let Ok(Imported { text, .. }) = plan_from_holes("holes.csv", &list) {
             proptest::prop_assert!(Plan::parse("plan.toml", &text).is_ok(), "{text}");
         }
     }

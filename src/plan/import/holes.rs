@@ -3,6 +3,9 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
+use super::columns::{Column, find, looks_like_timing, plain};
+use super::number::{self, Decimals};
+use super::table::{Line, split};
 use crate::plan::diagnostic::Mistake;
 use crate::plan::keys::{Key, delay, hole};
 use crate::plan::read::nearest;
@@ -28,50 +31,9 @@ pub struct ListedHole {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Holes {
     pub holes: Vec<ListedHole>,
+    /// What was left out of the list, or read in one of several possible ways.
+    pub notes: Vec<String>,
 }
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Column {
-    Id,
-    X,
-    Y,
-    Row,
-    Fire,
-    Delay,
-    From,
-    Launch,
-}
-
-/// Names of the columns in a header, in small letters and without signs or spaces.
-const HEADERS: &[(Column, &[&str])] = &[
-    (Column::Id, &["id", "hole", "holeid", "holename", "holeno", "holenumber", "number", "no", "name"]),
-    (
-        Column::X,
-        &["x", "xm", "east", "easting", "eastingm", "startx", "startxlocation", "collarx", "xcollar"],
-    ),
-    (
-        Column::Y,
-        &["y", "ym", "north", "northing", "northingm", "starty", "startylocation", "collary", "ycollar"],
-    ),
-    (Column::Row, &["row", "rowid", "rowname", "rowno", "blastrow"]),
-    (
-        Column::Fire,
-        &[
-            "firems",
-            "fireatms",
-            "firetime",
-            "firetimems",
-            "firingtime",
-            "firingtimems",
-            "initiationtime",
-            "initiationtimems",
-            "holetime",
-        ],
-    ),
-    (Column::Delay, &["delay", "delayms", "timingdelay", "timingdelayms", "timingdelaymilliseconds"]),
-    (Column::From, &["from", "fromid", "fromhole", "fromholeid"]),
-    (Column::Launch, &["launch", "launchms", "launchmpers", "launchvelocity", "v0"]),
-];
 
 /// Lists that Kirra writes without a header: the number of columns, and the index of each column that is read.
 const KIRRA: &[(usize, &[(Column, usize)])] = &[
@@ -91,33 +53,28 @@ fn mistake(span: Range<usize>, message: impl Into<String>, remedy: impl Into<Str
 
 /// All holes of the list, or all its mistakes.
 pub fn read(source: &str) -> Result<Holes, Vec<Mistake>> {
-    let first = source.lines().next().unwrap_or_default();
-    let separator =
-        [b';', b'\t', b','].into_iter().find(|&byte| first.contains(char::from(byte))).unwrap_or(b',');
-    let mut reader = csv::ReaderBuilder::new()
-        .delimiter(separator)
-        .has_headers(false)
-        .flexible(true)
-        .trim(csv::Trim::All)
-        .from_reader(source.as_bytes());
-    let mut records = Vec::new();
-    for record in reader.records() {
-        match record {
-            Ok(record) => records.push(record),
-            Err(error) => {
-                return Err(vec![mistake(0..0, format!("the table cannot be read: {error}"), REMEDY)]);
-            }
-        }
-    }
-    records.retain(|record| record.iter().any(|field| !field.is_empty()));
-    let Some(head) = records.first() else {
+    let table = split(source, REMEDY)?;
+    let Some(first) = table.lines.first() else {
         return Err(vec![mistake(0..0, "the list of holes is empty", REMEDY)]);
     };
-    let columns = columns(head, source)?;
-    let named = head.iter().all(|field| number(field).is_none());
+    let mut notes: Vec<String> =
+        table.titles.iter().map(|title| format!("left out: the line `{title}`")).collect();
+    let columns = if table.has_header { named_columns(first, &mut notes)? } else { columns_of_kirra(first)? };
+    let lines = &table.lines[usize::from(table.has_header)..];
+    let comma = decimal_comma(lines, &columns, &mut notes)?;
     let (mut holes, mut mistakes) = (Vec::new(), Vec::new());
-    for record in records.iter().skip(usize::from(named)) {
-        holes.extend(read_hole(record, &columns, source, &mut mistakes));
+    for line in lines {
+        // A separator at the end of a line adds a value that is empty.
+        let values = line.values.iter().rposition(|value| !value.is_empty()).map_or(0, |last| last + 1);
+        if values > first.values.len() || line.values.len() < first.values.len() {
+            let message =
+                format!("the line has {} values for {} columns", line.values.len(), first.values.len());
+            let remedy =
+                "write one value for each column; decimals with a point, or values separated by semicolons";
+            mistakes.push(mistake(line.span.clone(), message, remedy));
+            continue;
+        }
+        holes.extend(read_hole(line, &columns, comma, &mut mistakes));
     }
     let mut positions = HashSet::new();
     for hole in &holes {
@@ -129,46 +86,47 @@ pub fn read(source: &str) -> Result<Holes, Vec<Mistake>> {
     if holes.is_empty() && mistakes.is_empty() {
         mistakes.push(mistake(0..0, "the list has no hole", "write one line for each hole"));
     }
-    if mistakes.is_empty() { Ok(Holes { holes }) } else { Err(mistakes) }
+    if mistakes.is_empty() { Ok(Holes { holes, notes }) } else { Err(mistakes) }
 }
 
-fn span(record: &csv::StringRecord, source: &str) -> Range<usize> {
-    let start = record.position().map_or(0, |position| position.byte() as usize).min(source.len());
-    let line = source.get(start..).unwrap_or_default();
-    let skipped = line.len() - line.trim_start().len();
-    let end = line.trim_start().find(['\r', '\n']).unwrap_or(line.len() - skipped);
-    start + skipped..start + skipped + end
+/// Index of every column of a list that Kirra writes without a header: from the number of values.
+fn columns_of_kirra(first: &Line) -> Result<Vec<(Column, usize)>, Vec<Mistake>> {
+    let known = KIRRA.iter().find(|(count, _)| *count == first.values.len());
+    known.map(|(_, columns)| columns.to_vec()).ok_or_else(|| {
+        let message = format!("a table of {} columns without a header", first.values.len());
+        vec![mistake(first.span.clone(), message, REMEDY)]
+    })
 }
 
-/// Index of every column that is read: from the header, or without a header from the number of columns.
-fn columns(head: &csv::StringRecord, source: &str) -> Result<Vec<(Column, usize)>, Vec<Mistake>> {
-    let line = span(head, source);
-    if head.iter().any(|field| number(field).is_some()) {
-        let known = KIRRA.iter().find(|(count, _)| *count == head.len());
-        return known.map(|(_, columns)| columns.to_vec()).ok_or_else(|| {
-            let message = format!("a table of {} columns without a header", head.len());
-            vec![mistake(line, message, REMEDY)]
-        });
-    }
-    let plain = |field: &str| field.to_lowercase().replace(|c: char| !c.is_alphanumeric(), "");
+/// Index of every column that is read, from its name in the header; notes the columns that are left out.
+fn named_columns(header: &Line, notes: &mut Vec<String>) -> Result<Vec<(Column, usize)>, Vec<Mistake>> {
+    let line = &header.span;
     let mut found: Vec<(Column, usize)> = Vec::new();
-    let mut mistakes = Vec::new();
-    for (n, field) in head.iter().enumerate() {
-        let name = plain(field);
-        let Some((column, _)) = HEADERS.iter().find(|(_, names)| names.contains(&name.as_str())) else {
+    let (mut mistakes, mut left_out) = (Vec::new(), Vec::new());
+    for (n, name) in header.values.iter().enumerate() {
+        let Some(column) = find(name) else {
+            if looks_like_timing(name) {
+                let message = format!(
+                    "the column `{name}` looks like a firing time, a delay or a row, and is not known"
+                );
+                let remedy = "call it fire_ms if it is the firing time in ms counted from the first hole, delay_ms if it is a delay in ms after the hole in a column `from`, or row; else remove it";
+                mistakes.push(mistake(line.clone(), message, remedy));
+            } else if !name.is_empty() {
+                left_out.push(format!("`{name}`"));
+            }
             continue;
         };
-        if found.iter().any(|(known, _)| known == column) {
+        if found.iter().any(|(known, _)| *known == column) {
             let message =
-                format!("two columns are a hole's {column:?}; the second is `{field}`").to_lowercase();
+                format!("two columns are a hole's {column:?}; the second is `{name}`").to_lowercase();
             mistakes.push(mistake(line.clone(), message, "rename or remove one of them"));
         }
-        found.push((*column, n));
+        found.push((column, n));
     }
     let has = |column: Column| found.iter().any(|(known, _)| *known == column);
     for (column, word) in [(Column::X, "x"), (Column::Y, "y")] {
         if !has(column) {
-            let all: Vec<String> = head.iter().map(plain).collect();
+            let all: Vec<String> = header.values.iter().map(|name| plain(name)).collect();
             let near = nearest(word, all.iter().map(String::as_str))
                 .map(|near| format!("is it `{near}`? "))
                 .unwrap_or_default();
@@ -177,44 +135,87 @@ fn columns(head: &csv::StringRecord, source: &str) -> Result<Vec<(Column, usize)
     }
     if has(Column::Delay) && !has(Column::From) && !has(Column::Fire) {
         let remedy = "call it fire_ms if it counts from the first hole; if it counts from another hole, add a column `from` that names it";
-        mistakes.push(mistake(line, "a delay without saying after what", remedy));
+        mistakes.push(mistake(line.clone(), "a delay without saying after what", remedy));
+    }
+    if !left_out.is_empty() {
+        notes.push(format!("left out: the columns {}", left_out.join(", ")));
     }
     if mistakes.is_empty() { Ok(found) } else { Err(mistakes) }
 }
 
-/// A number, with a decimal point or a decimal comma.
-fn number(field: &str) -> Option<f64> {
-    field.parse().or_else(|_| field.replace(',', ".").parse()).ok().filter(|number: &f64| number.is_finite())
+/// Whether the numbers of the list have decimal commas; notes it where they have.
+fn decimal_comma(
+    lines: &[Line],
+    columns: &[(Column, usize)],
+    notes: &mut Vec<String>,
+) -> Result<bool, Vec<Mistake>> {
+    let numeric = |column: &Column| {
+        matches!(column, Column::X | Column::Y | Column::Fire | Column::Delay | Column::Launch)
+    };
+    let numbers = |line: &'_ Line| -> Vec<String> {
+        let of = |(column, n): &(Column, usize)| {
+            numeric(column).then(|| line.values.get(*n).cloned().unwrap_or_default())
+        };
+        columns.iter().filter_map(of).collect()
+    };
+    let all: Vec<String> = lines.iter().flat_map(numbers).collect();
+    let with_comma = || all.iter().find(|value| value.contains(',')).map_or("", String::as_str);
+    let wrong = |message: String, remedy: &str| {
+        let line = lines.iter().find(|line| numbers(line).iter().any(|value| value.contains(',')));
+        Err(vec![mistake(line.map_or(0..0, |line| line.span.clone()), message, remedy)])
+    };
+    match number::decimals(all.iter().map(String::as_str)) {
+        Decimals::Point => Ok(false),
+        Decimals::Comma => {
+            notes.push(format!(
+                "numbers have decimal commas: `{0}` is read as {1}",
+                with_comma(),
+                with_comma().replace(',', ".")
+            ));
+            Ok(true)
+        }
+        Decimals::Mixed => wrong(
+            format!("`{}` has a comma, other numbers have a decimal point", with_comma()),
+            "write all numbers with decimal points, and without signs between thousands",
+        ),
+        Decimals::Ambiguous => wrong(
+            format!("`{}` may be a decimal number or thousands", with_comma()),
+            "write all numbers with decimal points, and without signs between thousands",
+        ),
+    }
 }
 
 fn read_hole(
-    record: &csv::StringRecord,
+    line: &Line,
     columns: &[(Column, usize)],
-    source: &str,
+    comma: bool,
     mistakes: &mut Vec<Mistake>,
 ) -> Option<ListedHole> {
     let before = mistakes.len();
-    let line = span(record, source);
     let field = |column: Column| {
         let n = columns.iter().find(|(known, _)| *known == column)?.1;
         let empty =
             |field: &&str| !["", "na", "nan", "null", "none"].contains(&field.to_lowercase().as_str());
-        record.get(n).filter(empty)
+        line.values.get(n).map(String::as_str).filter(empty)
     };
     let mut value = |column: Column, word: &str, key: &Key, must: bool| {
         let range = key.kind.range();
         let found = field(column);
-        match found.map(|text| (text, number(text))) {
+        match found.map(|text| (text, number::value(text, comma))) {
             Some((_, Some(number))) if range.contains(&number) => Some(number),
             Some((text, _)) => {
                 let message = format!("{word} is `{text}`");
                 let remedy = format!("write a number from {} to {}", range.start(), range.end());
-                mistakes.push(mistake(line.clone(), message, remedy));
+                mistakes.push(mistake(line.span.clone(), message, remedy));
                 None
             }
             None if must => {
                 let message = format!("the line has no {word}");
-                mistakes.push(mistake(line.clone(), message, "write a number in metres, or remove the line"));
+                mistakes.push(mistake(
+                    line.span.clone(),
+                    message,
+                    "write a number in metres, or remove the line",
+                ));
                 None
             }
             None => None,
@@ -227,8 +228,7 @@ fn read_hole(
     let text = |column: Column| field(column).map(str::to_owned);
     // Kirra writes `Pattern:::Hole`.
     let from = text(Column::From).map(|from| from.rsplit(":::").next().unwrap_or_default().to_owned());
-    let number = record.position().map_or(0, csv::Position::line);
-    let id = text(Column::Id).unwrap_or_else(|| number.to_string());
+    let id = text(Column::Id).unwrap_or_else(|| line.number.to_string());
     if mistakes.len() > before {
         return None;
     }
@@ -241,6 +241,6 @@ fn read_hole(
         delay_ms,
         from,
         launch_m_s,
-        span: line,
+        span: line.span.clone(),
     })
 }

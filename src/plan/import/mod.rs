@@ -1,6 +1,9 @@
 //! A starter plan from a list of holes, as blast design programs export it.
 
+mod columns;
 mod holes;
+mod number;
+mod table;
 mod timing;
 
 use std::fmt::Write;
@@ -20,12 +23,21 @@ const HEIGHT_M: f64 = 1.8;
 /// Intervals of the delay options where the list has no firing times [ms].
 const INTERVALS_MS: [f64; 3] = [17.0, 25.0, 42.0];
 
-/// The text of a plan for a list of holes: `text` holds values separated by commas, semicolons or tabs, `name` is the file.
+/// A plan from a list of holes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Imported {
+    /// Text of the plan.
+    pub text: String,
+    /// What was read, and what was left out; one sentence each.
+    pub notes: Vec<String>,
+}
+
+/// A plan for a list of holes: `text` holds values separated by commas, semicolons or tabs, `name` is the file.
 ///
 /// The header names the columns: hole, x and y in metres, and one of: a row; a firing time (`fire_ms`, counted from the
 /// first hole); a delay after another hole (`delay_ms` and `from`). A list without a header is read as one of Kirra's, which
 /// have 4, 7, 9, 12 or 14 columns.
-pub fn plan_from_holes(name: &str, text: &str) -> Result<String, Diagnostics> {
+pub fn plan_from_holes(name: &str, text: &str) -> Result<Imported, Diagnostics> {
     let source = text.strip_prefix('\u{feff}').unwrap_or(text);
     let wrong = |mistakes| Diagnostics::new(name, source, mistakes);
     let table = read(source).map_err(wrong)?;
@@ -39,7 +51,21 @@ pub fn plan_from_holes(name: &str, text: &str) -> Result<String, Diagnostics> {
             "are x and y in metres? split the list into blasts",
         ));
     }
-    Ok(write(name, &layout, &table.holes, &groups))
+    let mut notes = vec![summary(&table.holes, &groups)];
+    notes.extend(table.notes);
+    Ok(Imported { text: write(name, &layout, &table.holes, &groups), notes })
+}
+
+/// What was read, in one sentence: holes, blast rows, first and last firing time.
+fn summary(holes: &[ListedHole], groups: &[Group]) -> String {
+    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let read = format!("read {} in {}", count(holes.len(), "hole"), count(groups.len(), "blast row"));
+    let last = groups.last().and_then(|group| group.fire_ms);
+    match (last, groups.len()) {
+        (Some(last), _) => format!("{read}, which fire from 0 to {last} ms"),
+        (None, 1) => format!("{read}: the list has no rows and no firing times, so all holes fire at once"),
+        (None, _) => format!("{read}; the list has no firing times: the delay options are assumed"),
+    }
 }
 
 /// A grid of tires over all holes.

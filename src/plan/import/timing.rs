@@ -85,9 +85,13 @@ fn firing_times(holes: &[ListedHole]) -> Result<Vec<f64>, Vec<Mistake>> {
 /// Firing time of every hole [ms]: the sum of the delays along its chain. A hole that follows itself, or no hole, begins a
 /// chain.
 fn chained_times(holes: &[ListedHole]) -> Result<Vec<f64>, Vec<Mistake>> {
-    let by_id: HashMap<&str, usize> =
-        holes.iter().enumerate().map(|(n, hole)| (hole.id.as_str(), n)).collect();
-    let mut mistakes = Vec::new();
+    let (mut by_id, mut mistakes): (HashMap<&str, usize>, _) = (HashMap::new(), Vec::new());
+    for (n, hole) in holes.iter().enumerate() {
+        if by_id.insert(hole.id.as_str(), n).is_some() {
+            let message = format!("hole {} is listed twice, so a delay after it has two meanings", hole.id);
+            mistakes.push(wrong(hole, message, "give every hole a name of its own"));
+        }
+    }
     let mut times: Vec<Option<f64>> = vec![None; holes.len()];
     for n in 0..holes.len() {
         let (mut chain, mut at) = (Vec::new(), n);

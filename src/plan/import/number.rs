@@ -1,0 +1,90 @@
+//! Numbers of a list of holes, with decimal points or with decimal commas: told apart for the whole list, never guessed.
+
+/// How the numbers of a list are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Decimals {
+    /// With decimal points, or without decimals.
+    Point,
+    /// With decimal commas.
+    Comma,
+    /// Some with points, some with commas.
+    Mixed,
+    /// With commas that may separate decimals or thousands.
+    Ambiguous,
+}
+
+/// How the `values` of a list are written.
+pub fn decimals<'v>(values: impl Iterator<Item = &'v str>) -> Decimals {
+    let (mut points, mut commas, mut sure) = (false, false, false);
+    for value in values {
+        let value = without_spaces(value);
+        points |= value.contains('.') && value.parse::<f64>().is_ok();
+        if value.contains(',') && value.replace(',', "").parse::<f64>().is_ok() {
+            commas = true;
+            sure |= !may_be_thousands(&value);
+        }
+    }
+    match (points, commas) {
+        (_, false) => Decimals::Point,
+        (true, true) => Decimals::Mixed,
+        (false, true) if sure => Decimals::Comma,
+        (false, true) => Decimals::Ambiguous,
+    }
+}
+
+/// The number that a value is, with a decimal point or, where `comma`, with one decimal comma.
+pub fn value(text: &str, comma: bool) -> Option<f64> {
+    let mut text = without_spaces(text);
+    if comma && text.matches(',').count() == 1 && !text.contains('.') {
+        text = text.replace(',', ".");
+    }
+    text.parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+/// Whether every comma is followed by three digits, after one to three digits that do not begin with 0: `1,234`.
+fn may_be_thousands(text: &str) -> bool {
+    let mut groups = text.trim_start_matches(['+', '-']).split(',');
+    let digits = |group: &str| group.bytes().all(|byte| byte.is_ascii_digit());
+    let first = groups
+        .next()
+        .is_some_and(|first| digits(first) && (1..=3).contains(&first.len()) && !first.starts_with('0'));
+    first && groups.all(|group| digits(group) && group.len() == 3)
+}
+
+/// The text without the spaces that separate thousands: `512 345,10`.
+fn without_spaces(text: &str) -> String {
+    let space = |c: char| matches!(c, ' ' | '\u{a0}' | '\u{202f}');
+    let whole = text.split(['.', ',']).next().unwrap_or_default();
+    let mut groups = whole.trim_start_matches(['+', '-']).split(space);
+    let digits = |group: &str| group.bytes().all(|byte| byte.is_ascii_digit());
+    let first = groups.next().is_some_and(|first| digits(first) && (1..=3).contains(&first.len()));
+    let grouped = first && groups.all(|group| digits(group) && group.len() == 3);
+    if grouped { text.replace(space, "") } else { text.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimal_commas_are_told_from_thousands() {
+        let of = |values: &[&str]| decimals(values.iter().copied());
+        assert_eq!(of(&["1.5", "2", "B1"]), Decimals::Point);
+        assert_eq!(of(&["512 345,10", "1,234"]), Decimals::Comma);
+        assert_eq!(of(&["0,250"]), Decimals::Comma);
+        assert_eq!(of(&["1,234", "12"]), Decimals::Ambiguous);
+        assert_eq!(of(&["1,234,567"]), Decimals::Ambiguous);
+        assert_eq!(of(&["1,5", "1.5"]), Decimals::Mixed);
+    }
+
+    #[test]
+    fn values_are_numbers_or_none() {
+        assert_eq!(value("512 345,10", true), Some(512_345.10));
+        assert_eq!(value("-1\u{a0}234,5", true), Some(-1234.5));
+        assert_eq!(value("1,5", false), None);
+        assert_eq!(value("1,234.5", true), None);
+        assert_eq!(value("1,234,567", true), None);
+        assert_eq!(value("51 23", true), None);
+        assert_eq!(value("inf", true), None);
+    }
+}

@@ -1,0 +1,105 @@
+//! The lines of a list of holes: what separates the values, which line is the header, how many values a line has.
+
+use std::ops::Range;
+
+use super::columns::{Column, find};
+use crate::plan::diagnostic::Mistake;
+
+/// One line of the list.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// Values, without spaces around them.
+    pub values: Vec<String>,
+    /// Number of the line in the source, from 1.
+    pub number: u64,
+    /// Bytes of the line in the source.
+    pub span: Range<usize>,
+}
+
+/// The lines of a list, from the header on; blank lines are left out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// Whether the first line names the columns.
+    pub has_header: bool,
+    /// Header and holes.
+    pub lines: Vec<Line>,
+    /// Lines before the header.
+    pub titles: Vec<String>,
+}
+
+/// Characters that may separate values; of two that fit alike, the first counts.
+const SEPARATORS: [u8; 3] = [b';', b'\t', b','];
+/// The header is among so many lines.
+const HEADER_WITHIN: usize = 12;
+
+/// Splits the source into lines of values.
+pub fn split(source: &str, remedy: &str) -> Result<Table, Vec<Mistake>> {
+    let wrong = |message: String| vec![Mistake { span: 0..0, message, remedy: remedy.to_owned() }];
+    // Spreadsheets write the separator into a line of its own.
+    let declared = source.lines().next().and_then(|line| line.trim().strip_prefix("sep="));
+    let tried: Vec<u8> = match declared.map(str::as_bytes) {
+        Some([]) => vec![b'\t'],
+        Some(bytes) => vec![bytes[0]],
+        None => SEPARATORS.to_vec(),
+    };
+    let mut found: Option<(usize, Vec<Line>)> = None;
+    for &separator in &tried {
+        let lines =
+            lines(source, separator).map_err(|error| wrong(format!("the table cannot be read: {error}")));
+        let Ok(lines) = lines else { continue };
+        let names_both = |line: &Line| {
+            let named = |column: Column| line.values.iter().any(|name| find(name) == Some(column));
+            named(Column::X) && named(Column::Y)
+        };
+        let header = lines.iter().take(HEADER_WITHIN).position(names_both);
+        if let Some(at) = header.filter(|&at| found.as_ref().is_none_or(|(best, _)| at < *best)) {
+            found = Some((at, lines));
+        }
+    }
+    if let Some((at, mut all)) = found {
+        let title = |line: &Line| source.get(line.span.clone()).unwrap_or_default().trim().to_owned();
+        let titles = all[..at].iter().map(title).filter(|title| !title.starts_with("sep=")).collect();
+        return Ok(Table { has_header: true, lines: all.split_off(at), titles });
+    }
+    // No line names x and y: either the list has no header, or its header is to be corrected.
+    let first = source.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
+    let fits = |separator: &u8| first.contains(char::from(*separator));
+    let separator = tried.iter().copied().find(fits).unwrap_or(b',');
+    let mut lines =
+        lines(source, separator).map_err(|error| wrong(format!("the table cannot be read: {error}")))?;
+    if declared.is_some() && !lines.is_empty() {
+        lines.remove(0);
+    }
+    let is_name = |value: &String| super::number::value(value, true).is_none();
+    let has_header = lines.first().is_some_and(|line| line.values.iter().all(is_name));
+    Ok(Table { has_header, lines, titles: Vec::new() })
+}
+
+fn lines(source: &str, separator: u8) -> Result<Vec<Line>, csv::Error> {
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(separator)
+        .has_headers(false)
+        .flexible(true)
+        .trim(csv::Trim::All)
+        .from_reader(source.as_bytes());
+    let mut lines = Vec::new();
+    for record in reader.records() {
+        let record = record?;
+        if record.iter().any(|value| !value.is_empty()) {
+            lines.push(Line {
+                values: record.iter().map(str::to_owned).collect(),
+                number: record.position().map_or(0, csv::Position::line),
+                span: span(&record, source),
+            });
+        }
+    }
+    Ok(lines)
+}
+
+fn span(record: &csv::StringRecord, source: &str) -> Range<usize> {
+    let start = record.position().map_or(0, |position| position.byte() as usize).min(source.len());
+    let line = source.get(start..).unwrap_or_default();
+    let skipped = line.len() - line.trim_start().len();
+    let end = line.trim_start().find(['\r', '\n']).unwrap_or(line.len() - skipped);
+    start + skipped..start + skipped + end
+}
