@@ -58,10 +58,16 @@ fn read_text(path: &Path) -> Result<String, (String, &'static str)> {
             "a plan is a short text: check the path",
         ));
     }
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) || bytes.contains(&0) {
+        return Err((
+            "the file is UTF-16 text, or no text".to_owned(),
+            "save it as UTF-8, for example with: iconv -f UTF-16 -t UTF-8 OLD > NEW (without a mark at its start: -f UTF-16LE)",
+        ));
+    }
     String::from_utf8(bytes).map_err(|error| {
         (
             format!("the file is not UTF-8 text from byte {} on", error.utf8_error().valid_up_to()),
-            "save it as UTF-8",
+            "save it as UTF-8, for example with: iconv -f WINDOWS-1251 -t UTF-8 OLD > NEW (Western Europe: -f WINDOWS-1252)",
         )
     })
 }
