@@ -133,7 +133,7 @@ fn write(name: &str, cover: &Cover, holes: &[ListedHole], groups: &[Group]) -> S
                 hole.y_m - origin[1],
                 hole::LAUNCH_M_S.name,
                 hole.launch_m_s.unwrap_or(LAUNCH_M_S),
-                hole.id.replace(char::is_control, " "),
+                hole.id,
             );
         }
         text += "]\n";

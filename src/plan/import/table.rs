@@ -57,7 +57,8 @@ pub fn split(source: &str, remedy: &str) -> Result<Table, Vec<Mistake>> {
         }
     }
     if let Some((at, mut all)) = found {
-        let title = |line: &Line| source.get(line.span.clone()).unwrap_or_default().trim().to_owned();
+        let title =
+            |line: &Line| source.get(line.span.clone()).unwrap_or_default().replace(char::is_control, " ");
         let titles = all[..at].iter().map(title).filter(|title| !title.starts_with("sep=")).collect();
         return Ok(Table { has_header: true, lines: all.split_off(at), titles });
     }
@@ -87,7 +88,11 @@ fn lines(source: &str, separator: u8) -> Result<Vec<Line>, csv::Error> {
         let record = record?;
         if record.iter().any(|value| !value.is_empty()) {
             lines.push(Line {
-                values: record.iter().map(str::to_owned).collect(),
+                // A plan refuses names with control characters.
+                values: record
+                    .iter()
+                    .map(|value| value.replace(char::is_control, " ").trim().to_owned())
+                    .collect(),
                 number: record.position().map_or(0, csv::Position::line),
                 span: span(&record, source),
             });
