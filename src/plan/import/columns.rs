@@ -157,7 +157,7 @@ const TIMING: &[&str] = &[
     "reihe",
 ];
 /// Whole words of names that stand for a firing time or a row.
-const TIMING_WORDS: &[&str] = &["row", "rows", "ms", "ряд", "ряда", "мс", "fila", "t"];
+const TIMING_WORDS: &[&str] = &["row", "rows", "ms", "ряд", "ряда", "мс", "fila"];
 
 /// A name in small letters, without signs and spaces.
 pub fn plain(name: &str) -> String {
@@ -176,6 +176,7 @@ pub fn looks_like_timing(name: &str) -> bool {
     let whole = plain(name);
     let words = name.split(|c: char| !c.is_alphanumeric()).map(str::to_lowercase);
     !whole.ends_with("timestamp")
-        && (TIMING.iter().any(|part| whole.contains(part))
+        && (whole == "t"
+            || TIMING.iter().any(|part| whole.contains(part))
             || words.into_iter().any(|word| TIMING_WORDS.contains(&word.as_str())))
 }

@@ -167,11 +167,8 @@ fn decimal_comma(
     match number::decimals(all.iter().map(String::as_str)) {
         Decimals::Point => Ok(false),
         Decimals::Comma => {
-            notes.push(format!(
-                "numbers have decimal commas: `{0}` is read as {1}",
-                with_comma(),
-                with_comma().replace(',', ".")
-            ));
+            let read = number::value(with_comma(), true).map_or(String::new(), |number| number.to_string());
+            notes.push(format!("numbers have decimal commas: `{}` is read as {read}", with_comma()));
             Ok(true)
         }
         Decimals::Mixed => wrong(

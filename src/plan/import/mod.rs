@@ -63,7 +63,10 @@ fn summary(holes: &[ListedHole], groups: &[Group]) -> String {
     let last = groups.last().and_then(|group| group.fire_ms);
     match (last, groups.len()) {
         (Some(last), _) => format!("{read}, which fire from 0 to {last} ms"),
-        (None, 1) => format!("{read}: the list has no rows and no firing times, so all holes fire at once"),
+        (None, 1) if holes.iter().all(|hole| hole.row.is_none()) => {
+            format!("{read}: the list has no rows and no firing times, so all holes fire at once")
+        }
+        (None, 1) => format!("{read}: all holes are of one row, so all fire at once"),
         (None, _) => format!("{read}; the list has no firing times: the delay options are assumed"),
     }
 }
