@@ -126,6 +126,6 @@ impl Ends {
     /// Elements of the cables with their first end at the first tire of `pack`, and of those with their second end there.
     #[inline(always)]
     pub fn of(&self, pack: usize) -> [&[u32]; 2] {
-        [0, 1].map(|side| self.0.of(2 * pack + side))
+        [self.0.of(2 * pack), self.0.of(2 * pack + 1)]
     }
 }

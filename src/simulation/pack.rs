@@ -144,7 +144,9 @@ impl<S: Simd> Wide<S> {
     /// Absolute values.
     #[inline(always)]
     pub fn abs(self) -> Self {
-        Self { value: self.simd.abs_f64s(self.value), ..self }
+        // `Simd::abs_f64s` calls a function that may be compiled apart, for narrower registers.
+        let all_but_sign = self.simd.splat_f64s(f64::from_bits(i64::MAX as u64));
+        Self { value: self.simd.and_f64s(all_but_sign, self.value), ..self }
     }
 
     /// The greater number of each pair.

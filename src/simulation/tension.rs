@@ -59,7 +59,7 @@ impl<'a> Tension<'a> {
         Slices {
             weight: &self.weight[..n],
             change: &mut self.change[..n],
-            force: self.force.slices_mut().map(|part| &mut part[..n]),
+            force: self.force.slices_mut(),
             state: &mut self.state[..n],
         }
     }
@@ -135,7 +135,7 @@ impl Slices<'_> {
         let Block { first: cable, len, memory } = block;
         let rest_length = Wide::splat(simd, cable.rest_length);
         let stiffness = Wide::splat(simd, cable.stiffness);
-        let span = [0, 1, 2].map(|c| Wide::splat(simd, cable.span[c]));
+        let span: [Wide<S>; 3] = std::array::from_fn(|c| Wide::splat(simd, cable.span[c]));
         let slack2 = rest_length * rest_length;
         let eighth = Wide::splat(simd, 0.125) * stiffness;
         let span2 = square(span);
@@ -143,10 +143,12 @@ impl Slices<'_> {
         // All slices have one length, so that one check of bounds serves them all.
         let room = len.next_multiple_of(LANES);
         let elements = *memory..memory + room;
-        let at_ends = cable.ends.map(|from| u.map(|component| &component[from..from + room]));
+        let end = |from: usize| -> [&[f64]; 3] { std::array::from_fn(|c| &u[c][from..from + room]) };
+        let at_ends = [end(cable.ends[0]), end(cable.ends[1])];
         let weights = &self.weight[elements.clone()];
         let changes = &mut self.change[elements.clone()];
-        let forces = self.force.each_mut().map(|force| &mut force[elements.clone()]);
+        let [x, y, z] = &mut self.force;
+        let forces = [&mut x[elements.clone()], &mut y[elements.clone()], &mut z[elements.clone()]];
         let states = &mut self.state[elements];
         let (mut energy, mut greatest) = ([0.0; LANES], [0.0; LANES]);
         for at in (0..room).step_by(Wide::<S>::LEN) {

@@ -76,8 +76,8 @@ impl Events<'_> {
     pub fn tires<S: Simd>(&self, simd: S, state: State<'_>, at: usize) -> Tires<S> {
         let State { u, v, forces, masses: [mass, inverse] } = state;
         Tires {
-            u: [0, 1, 2].map(|c| Wide::load(simd, u[c], at)),
-            v: [0, 1, 2].map(|c| Wide::load(simd, v[c], at)),
+            u: std::array::from_fn(|c| Wide::load(simd, u[c], at)),
+            v: std::array::from_fn(|c| Wide::load(simd, v[c], at)),
             f: forces.sum_at(simd, self.part.blocks.ends.of(at / LANES), at % LANES),
             mass: Wide::load(simd, mass, at),
             inverse: Wide::load(simd, inverse, at),
