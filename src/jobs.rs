@@ -54,17 +54,17 @@ impl StudyKind {
 /// Result of a study.
 #[derive(Clone, Debug)]
 pub enum Found {
-    /// Of [`StudyKind::Sweep`].
+    /// Result of [`StudyKind::Sweep`].
     Sweep(Sweep),
-    /// Of [`StudyKind::Orders`].
+    /// Result of [`StudyKind::Orders`].
     Orders(Orders),
-    /// Of [`StudyKind::Scatter`].
+    /// Result of [`StudyKind::Scatter`].
     Scatter(Draw, Vec<Sample>),
-    /// Of [`StudyKind::Size`].
+    /// Result of [`StudyKind::Size`].
     Size(Sizing),
-    /// Of [`StudyKind::Flight`].
+    /// Result of [`StudyKind::Flight`].
     Flight(Flight),
-    /// Of [`StudyKind::Accuracy`].
+    /// Result of [`StudyKind::Accuracy`].
     Accuracy(accuracy::Study),
 }
 
@@ -238,7 +238,7 @@ impl Job {
                 }
                 self.progress.flow()
             });
-            checked.map(Box::new).map_err(|failure| self.progress.reason(failure))
+            checked.map(Box::new).map_err(|failure| self.progress.no_result(failure))
         });
         self.tell(News::Checked { option, result });
     }

@@ -27,7 +27,7 @@
 //! The library alone, without command line, terminal and charts: `default-features = false`. The programs in `examples/`
 //! check a plan and step through a motion.
 //!
-//! # The house
+//! # Map of the modules
 //!
 //! One way in, one way through:
 //!
@@ -47,15 +47,15 @@
 //! | [`outcome`] | | peaks, ledger, histories of a run | any other module |
 //! | [`simulation`] | scene, shot, step | an [`Outcome`](outcome::Outcome) or a [`Failure`](simulation::Failure) | [`plan`], [`ropes`], [`file`], [`units`]; options, limits, screens |
 //! | [`verdict`] | value, error, limit | pass, fail, undecided | any other module |
-//! | [`study`] | a plan made ready | verdicts refined until sure; sweeps, orders, scatter, sizes; accuracy tables, traces, flights | formats |
+//! | [`study`] | a plan made ready | verdicts refined until sure; sweeps, orders, scatter, sizes; accuracy tables, traces, flights | formats, except that of a share (`study::merge`) |
 //! | [`report`] | study results | text, JSON, CSV, a page of HTML | terminals |
 //! | [`jobs`] | a check or a study to begin | news: progress, results; the newest request of a kind wins | [`report`]; screens |
 //! | [`tui`] | keys and events | a screen | physics |
 //! | [`cli`] | the command line | an exit status | physics |
 //!
 //! A module may use the modules above it in this table, except those linked under "what it must not know". The test `layers`
-//! reads both from here and holds them. The command line and the terminal UI are two
-//! faces of the same studies: `jobs` calls the very function that `shelter check` calls.
+//! reads both from here and holds them. The command line and the terminal are two ways to call the same studies: `jobs`
+//! calls the very function that `shelter check` calls.
 //!
 //! # Rules
 //!

@@ -1,8 +1,8 @@
 //! Commands: what users type becomes a study, a report and an exit status. clap stops here.
 //!
-//! One file a command, and no command knows another. They share: [`arguments`], [`plans`] (opening), [`run_study`]
-//! (threads, progress, signals), [`print`] (formats), [`status`] (exit status), and for results that several commands
-//! print [`checks`] and [`findings`].
+//! One file per command, and no command uses another. They share [`arguments`], [`load_plans`], [`run_study`] (threads,
+//! progress, signals), [`print`](mod@print) (formats) and [`status`] (exit status). Results that several commands print are
+//! in [`check_plans`] and [`print_findings`]. `packaging` holds the small commands for packagers.
 
 mod accuracy;
 mod arguments;

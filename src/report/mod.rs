@@ -4,7 +4,7 @@
 //! |---|---|
 //! | what a report is | [`model`] |
 //! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`scatter`], [`size`], [`accuracy`], [`ropes`], [`trace`] |
-//! | words, charts and columns that reports share | [`explain`], [`no_result`], [`notes`], [`charts`], [`columns`] |
+//! | words, charts and columns that reports share | [`explain`], [`no_result`], [`notes`], [`charts`], [`shared_columns`] |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |
 //! | what faces share | [`palette`], [`ascii`], [`spark`], labels of cells |
 //!

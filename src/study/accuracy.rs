@@ -134,7 +134,7 @@ fn run(
         let start = Instant::now();
         let outcome = match case.model.run(shot, &settings, &mut |_| progress.flow()) {
             Ok(outcome) => outcome,
-            Err(stopped @ Failure::Stopped { .. }) => return Err(progress.reason(stopped)),
+            Err(stopped @ Failure::Stopped { .. }) => return Err(progress.no_result(stopped)),
             Err(_) => return Ok(None),
         };
         let wall = start.elapsed();

@@ -7,8 +7,8 @@ use super::envelope::Envelope;
 use super::{Case, ComputeSettings, NoResult, Progress};
 use crate::scene::Shot;
 
-/// Does `work` for every job, in parallel. Returns the results in the order of the jobs, whatever the number of threads;
-/// `None` for the jobs that the time did not suffice for.
+/// Does `work` for every job, in parallel. Returns the results in the order of the jobs; `None` where the time ran out. The
+/// number of threads does not change the results.
 pub fn each<J: Sync, T: Send>(
     jobs: &[J],
     progress: &Progress,
@@ -43,7 +43,7 @@ pub fn judge(
 ) -> Result<Vec<Option<Envelope>>, NoResult> {
     envelopes(shots, progress, |shot| {
         let checked = check_shot(case, shot, compute, &mut |_| progress.flow());
-        checked.map(|checked| Envelope::of(&checked)).map_err(|failure| progress.reason(failure))
+        checked.map(|checked| Envelope::of(&checked)).map_err(|failure| progress.no_result(failure))
     })
 }
 

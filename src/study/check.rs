@@ -53,9 +53,9 @@ pub struct Checked {
     pub total_steps: usize,
 }
 
-/// Progress of a check.
+/// Position of a check: finished runs, and simulated time of the present run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Progress {
+pub struct CheckStep {
     /// Number of finished runs.
     pub runs: usize,
     /// Simulated time that the present run has reached [s].
@@ -74,7 +74,7 @@ pub fn start_step(case: &Case, method: Method, accuracy: Accuracy) -> f64 {
     implicit * longest.min(fraction * case.scene().critical_step())
 }
 
-/// Rungs a verdict may climb below the first: to a step 64 times finer.
+/// Greatest number of steps below the first: the finest step is 64 times finer.
 const FINEST: i32 = 12;
 
 /// Factor on the error with which a verdict must still stand. The error itself holds in about 19 of 20 runs; a verdict
@@ -99,7 +99,7 @@ pub fn check(
     case: &Case,
     option: usize,
     compute: &ComputeSettings,
-    watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    watch: &mut dyn FnMut(CheckStep) -> ControlFlow<()>,
 ) -> Result<Checked, Failure> {
     check_shot(case, &case.shots[option], compute, watch)
 }
@@ -109,7 +109,7 @@ pub fn check_shot(
     case: &Case,
     shot: &Shot,
     compute: &ComputeSettings,
-    watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    watch: &mut dyn FnMut(CheckStep) -> ControlFlow<()>,
 ) -> Result<Checked, Failure> {
     let begun = Instant::now();
     let first = compute.step.unwrap_or_else(|| start_step(case, compute.method, compute.accuracy));
@@ -119,7 +119,7 @@ pub fn check_shot(
         let start = Instant::now();
         let outcome = case
             .model
-            .run(shot, &settings, &mut |motion| watch(Progress { runs: done, time: motion.time() }))?;
+            .run(shot, &settings, &mut |motion| watch(CheckStep { runs: done, time: motion.time() }))?;
         done += 1;
         Ok((outcome, start.elapsed()))
     };
@@ -133,10 +133,11 @@ pub fn check_shot(
     checked.ok_or(Failure::Stopped { at: 0.0 })
 }
 
-/// Runs a ladder of steps, the coarsest first: the neighbours of `first`, then `first`, then finer steps until `is_sure`
-/// says so of all runs so far. Where `fixed`, no step is finer than `first`, except where `first` has no other neighbour.
+/// Runs a ladder of steps, the coarsest first: the coarser neighbours of `first`, then `first`, then finer steps.
 ///
-/// `is_sure` sees the run that gives the values last. No step is run twice.
+/// After each run with at least one neighbour, `is_sure` gets all runs so far, the run that gives the values last. The
+/// ladder ends when `is_sure` returns true. Where `fixed`, the ladder ends at `first`; if every coarser neighbour failed,
+/// one finer run gives the error, and the values stay at `first`. No step is run twice.
 fn climb<R>(
     first: f64,
     fixed: bool,

@@ -22,7 +22,8 @@ pub fn check_plans(
     let checked = each(&jobs, progress, |&(n, option)| {
         let (case, compute) = &cases[n];
         let checked = guarded(|| {
-            check(case, option, compute, &mut |_| progress.flow()).map_err(|failure| progress.reason(failure))
+            check(case, option, compute, &mut |_| progress.flow())
+                .map_err(|failure| progress.no_result(failure))
         });
         match checked {
             Err(ended @ (NoResult::Stopped | NoResult::OutOfTime)) => Err(ended),

@@ -22,7 +22,7 @@ fn or_infinite<'d, D: Deserializer<'d>>(from: D) -> Result<f64, D::Error> {
 }
 
 impl Bounded {
-    /// Of a run that failed.
+    /// Value of a run that failed: unknown, so infinite.
     const UNKNOWN: Self = Self { value: f64::INFINITY, error: f64::INFINITY };
 }
 
@@ -46,7 +46,7 @@ pub struct Envelope {
 }
 
 impl Envelope {
-    /// Of a run that failed.
+    /// Envelope of a run that failed: undecided, with infinite values.
     pub const UNKNOWN: Self = Self {
         verdict: Verdict::Undecided,
         height: Bounded::UNKNOWN,
@@ -54,12 +54,12 @@ impl Envelope {
         drift: Bounded::UNKNOWN,
     };
 
-    /// Of a checked shot.
+    /// Envelope of a checked shot.
     pub fn of(checked: &Checked) -> Self {
         Self::new(checked.verdict, [checked.height, checked.force, checked.drift])
     }
 
-    /// Of a verdict on height, force and drift.
+    /// Envelope of a verdict and its height, force and drift, in this order.
     pub fn new(verdict: Verdict, estimates: [Estimate; 3]) -> Self {
         let [height, force, drift] = estimates.map(Bounded::from);
         Self { verdict, height, force, drift }

@@ -60,7 +60,7 @@ pub fn record(
         }
         progress.flow()
     });
-    let outcome = outcome.map_err(|failure| progress.reason(failure))?;
+    let outcome = outcome.map_err(|failure| progress.no_result(failure))?;
     if times.last().is_some_and(|&last| last < now) {
         times.push(now);
         displacements.extend_from_slice(&latest);

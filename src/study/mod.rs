@@ -1,7 +1,7 @@
 //! Studies: which shots of a plan are run, how often and how finely, to answer one question of the user.
 //!
 //! A [`Case`] is a plan made ready to run. Each study takes a case and returns plain data, which every face draws.
-//! Studies do not print, do not parse and do not compute physics.
+//! Studies do not print and do not compute physics. Only `merge` reads and writes a file format: that of shares.
 
 pub mod accuracy;
 pub mod batch;

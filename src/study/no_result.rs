@@ -1,4 +1,4 @@
-//! Why an option or a study has no result: typed up to the face that tells it.
+//! Why an option or a study has no result.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 

@@ -57,7 +57,7 @@ impl Progress {
     }
 
     /// Why a run of this study has no result: a run that was ended has no failure of its own.
-    pub fn reason(&self, failure: Failure) -> NoResult {
+    pub fn no_result(&self, failure: Failure) -> NoResult {
         match failure {
             Failure::Stopped { .. } if self.stopped() => NoResult::Stopped,
             Failure::Stopped { .. } => NoResult::OutOfTime,

@@ -60,7 +60,7 @@ pub fn scatter(
     let options: Vec<usize> = (0..case.shots.len()).collect();
     let errors = each(&options, progress, |&option| {
         let checked = check_shot(case, &case.shots[option], compute, &mut |_| progress.flow())
-            .map_err(|failure| progress.reason(failure))?;
+            .map_err(|failure| progress.no_result(failure))?;
         // From the first step to the last, the error falls at least with the square of the step.
         let coarser = (start(case, compute) / checked.step).powi(2).max(1.0);
         let relative = |of: Estimate| if of.value > 0.0 { of.error / of.value * coarser } else { 0.0 };
@@ -137,7 +137,7 @@ fn judge_sample(
         step: start(case, compute),
         duration: case.plan.simulation.duration_s,
     };
-    let reason = |failure| progress.reason(failure);
+    let reason = |failure| progress.no_result(failure);
     let outcome = case.model.run(shot, &settings, &mut |_| progress.flow()).map_err(reason)?;
     let estimate = |peak: Peak, relative: f64| {
         let Peak { value, at, index } = peak;

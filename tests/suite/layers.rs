@@ -51,7 +51,7 @@ fn imports_point_one_way() {
     }
 }
 
-/// A plan becomes SI in one file; everything else of `scene` stands without plans.
+/// In `scene`, only the file that builds scenes knows plans.
 #[test]
 fn only_the_builder_of_scenes_knows_plans() {
     let knows =
