@@ -31,7 +31,7 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
         Verdict::Pass if partial => Verdict::Undecided,
         verdict => verdict,
     };
-    let text = format!("{} of {all} orders pass", orders.passing());
+    let text = format!("{} of {all} orders pass{}", orders.passing(), if partial { " so far" } else { "" });
     let picture = charts::orders(case, orders);
     Report {
         blocks: vec![Block::Text(vec![head]), Block::Table(table), Block::Picture(picture)],

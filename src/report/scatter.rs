@@ -36,7 +36,8 @@ pub fn report(case: &Case, draw: &Draw, samples: &[Sample], partial: bool) -> Re
     let rows = options.map(|(option, delay)| row(&delay.name, &summary(samples, option))).collect();
     let table = Table { columns: COLUMNS.to_vec(), rows, ranked: false };
     let failures = samples.iter().filter(|sample| sample.envelope.verdict != Verdict::Pass).count();
-    let mut text = format!("{failures} of {} samples fail", samples.len());
+    let mut text =
+        format!("{failures} of {} samples fail{}", samples.len(), if partial { " so far" } else { "" });
     if let Some(bound) = draw.certain_at {
         let bound = 1e2 * bound;
         text += &format!("; what is asked is that every option surely fails less often than {bound} %");

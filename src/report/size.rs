@@ -29,7 +29,7 @@ const COMBINATIONS: [Column; 8] = [
     Column::scripts(&["total_mass_kg"]),
     Column::scripts(&["holds"]),
     Column::scripts(&["tried"]),
-    Column::scripts(&["utilization"]),
+    Column::scripts(&["use_of_limits"]),
 ];
 
 /// The report of all combinations.

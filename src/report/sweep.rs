@@ -31,7 +31,7 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
         blocks.push(Block::Text(vec![head]));
         blocks.extend(charts::sweep(case, sweep).map(Block::Chart));
         blocks.push(Block::Table(ends(case, sweep)));
-        blocks.push(Block::Text(vec![windows(sweep)]));
+        blocks.push(Block::Text(vec![windows(sweep, partial)]));
     }
     let point = |&Point { interval, envelope }: &Point| {
         vec![
@@ -56,13 +56,17 @@ fn ends(case: &Case, sweep: &Sweep) -> Table {
     Table::new(&ENDS, ends.into_iter().filter_map(end))
 }
 
-fn windows(sweep: &Sweep) -> String {
+fn windows(sweep: &Sweep, partial: bool) -> String {
+    let so_far = if partial { " so far" } else { "" };
     let window = |[from, to]: &[f64; 2]| {
         format!("{} to {}", units::exact_milliseconds(*from), units::exact_milliseconds(*to))
     };
     match sweep.windows().as_slice() {
         [] => "no interval tried passes".to_owned(),
-        some => format!("intervals that pass: {}", some.iter().map(window).collect::<Vec<_>>().join(" · ")),
+        some => format!(
+            "intervals that pass{so_far}: {}",
+            some.iter().map(window).collect::<Vec<_>>().join(" · ")
+        ),
     }
 }
 

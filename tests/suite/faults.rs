@@ -178,6 +178,17 @@ fn a_closed_pipe_ends_it_quietly() {
     }
 }
 
+#[test]
+fn a_closed_pipe_does_not_turn_a_fail_into_a_pass() {
+    let mut child = Command::new(PROGRAM)
+        .args(["check", &shipped("amur-three-rows.toml"), "--accuracy", "draft"])
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    drop(child.stdout.take());
+    assert_eq!(child.wait().expect("it ends").code(), Some(1));
+}
+
 /// A plan that comes through a pipe is read as it comes.
 #[cfg(unix)]
 #[test]

@@ -128,13 +128,16 @@ const NAMES: &[(Column, &[&str])] = &[
         Column::From,
         &["from", "fromid", "fromhole", "fromholeid", "отскважины", "desde", "von", "vonbohrloch"],
     ),
-    (Column::Launch, &["launch", "launchms", "launchmpers", "launchvelocity", "v0"]),
+    (Column::Launch, &["launch", "launchmpers", "launchvelocity", "v0"]),
 ];
 
 /// Parts of names that stand for a firing time, a delay or a row.
 const TIMING: &[&str] = &[
     "time",
     "timing",
+    "interval",
+    "period",
+    "launchms",
     "delay",
     "fire",
     "firing",
@@ -157,7 +160,7 @@ const TIMING: &[&str] = &[
     "reihe",
 ];
 /// Whole words of names that stand for a firing time or a row.
-const TIMING_WORDS: &[&str] = &["row", "rows", "ms", "ряд", "ряда", "мс", "fila"];
+const TIMING_WORDS: &[&str] = &["row", "rows", "ms", "lag", "ttd", "ряд", "ряда", "мс", "fila"];
 
 /// A name in small letters, without signs and spaces.
 pub fn plain(name: &str) -> String {
@@ -166,6 +169,12 @@ pub fn plain(name: &str) -> String {
 
 /// The column of this name.
 pub fn find(name: &str) -> Option<Column> {
+    // Without its signs a velocity in m/s would look like a time in ms.
+    if ["launch m/s", "launch_m_s", "launch (m/s)", "launch, m/s"]
+        .contains(&name.trim().to_lowercase().as_str())
+    {
+        return Some(Column::Launch);
+    }
     let name = plain(name);
     NAMES.iter().find(|(_, names)| names.contains(&name.as_str())).map(|(column, _)| *column)
 }

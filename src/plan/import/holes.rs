@@ -60,15 +60,23 @@ pub fn read(source: &str) -> Result<Holes, Vec<Mistake>> {
     let mut notes: Vec<String> =
         table.titles.iter().map(|title| format!("left out: the line `{title}`")).collect();
     let columns = if table.has_header { named_columns(first, &mut notes)? } else { columns_of_kirra(first)? };
+    if !table.has_header {
+        notes.push(format!(
+            "the list has no header: its {} columns are read as Kirra writes them",
+            first.values.len()
+        ));
+    }
     let lines = &table.lines[usize::from(table.has_header)..];
+    // Cells without a name at the end of a header are not columns.
+    let width = first.values.iter().rposition(|value| !value.is_empty()).map_or(0, |last| last + 1);
+    let width = if table.has_header { width } else { first.values.len() };
     let comma = decimal_comma(lines, &columns, &mut notes)?;
     let (mut holes, mut mistakes) = (Vec::new(), Vec::new());
     for line in lines {
         // A separator at the end of a line adds a value that is empty.
         let values = line.values.iter().rposition(|value| !value.is_empty()).map_or(0, |last| last + 1);
-        if values > first.values.len() || line.values.len() < first.values.len() {
-            let message =
-                format!("the line has {} values for {} columns", line.values.len(), first.values.len());
+        if values > width || line.values.len() < width {
+            let message = format!("the line has {} values for {width} columns", line.values.len());
             let remedy =
                 "write one value for each column; decimals with a point, or values separated by semicolons";
             mistakes.push(mistake(line.span.clone(), message, remedy));
@@ -103,6 +111,7 @@ fn named_columns(header: &Line, notes: &mut Vec<String>) -> Result<Vec<(Column, 
     let line = &header.span;
     let mut found: Vec<(Column, usize)> = Vec::new();
     let (mut mistakes, mut left_out) = (Vec::new(), Vec::new());
+    let names = header.values.iter().rposition(|name| !name.is_empty()).map_or(0, |last| last + 1);
     for (n, name) in header.values.iter().enumerate() {
         let Some(column) = find(name) else {
             if looks_like_timing(name) {
@@ -111,6 +120,9 @@ fn named_columns(header: &Line, notes: &mut Vec<String>) -> Result<Vec<(Column, 
                 );
                 let remedy = "call it fire_ms if it is the firing time in ms counted from the first hole, delay_ms if it is a delay in ms after the hole in a column `from`, or row; else remove it";
                 mistakes.push(mistake(line.clone(), message, remedy));
+            } else if name.is_empty() && n < names {
+                let message = format!("column {} has no name", n + 1);
+                mistakes.push(mistake(line.clone(), message, "name it, or remove it"));
             } else if !name.is_empty() {
                 left_out.push(format!("`{name}`"));
             }
@@ -132,6 +144,14 @@ fn named_columns(header: &Line, notes: &mut Vec<String>) -> Result<Vec<(Column, 
                 .unwrap_or_default();
             mistakes.push(mistake(line.clone(), format!("no column is {word}"), format!("{near}{REMEDY}")));
         }
+    }
+    if has(Column::From) && !has(Column::Delay) && !has(Column::Fire) {
+        let remedy = "name the column of the delays delay_ms, or remove the column `from`";
+        mistakes.push(mistake(
+            line.clone(),
+            "holes that follow others, without a column of their delays",
+            remedy,
+        ));
     }
     if has(Column::Delay) && !has(Column::From) && !has(Column::Fire) {
         let remedy = "call it fire_ms if it counts from the first hole; if it counts from another hole, add a column `from` that names it";

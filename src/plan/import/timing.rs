@@ -19,6 +19,16 @@ pub struct Group {
 /// The groups of a list, in the order of their firing times; without times, in the order of the list.
 pub fn groups(table: &Holes) -> Result<Vec<Group>, Vec<Mistake>> {
     let times = times(&table.holes)?;
+    let without_row = table.holes.iter().filter(|hole| hole.row.is_none());
+    if times.is_none() && table.holes.iter().any(|hole| hole.row.is_some()) {
+        let mistake = |hole: &ListedHole| {
+            wrong(hole, format!("hole {} has no row", hole.id), "give every hole a row, or none")
+        };
+        let mistakes: Vec<Mistake> = without_row.map(mistake).collect();
+        if !mistakes.is_empty() {
+            return Err(mistakes);
+        }
+    }
     let (mut groups, mut known): (Vec<Group>, HashMap<String, usize>) = (Vec::new(), HashMap::new());
     for (n, hole) in table.holes.iter().enumerate() {
         let fire_ms = times.as_ref().map(|times| times[n]);
@@ -54,6 +64,9 @@ fn times(holes: &[ListedHole]) -> Result<Option<Vec<f64>>, Vec<Mistake>> {
         return Ok(None);
     }
     let mut times = if absolute { firing_times(holes)? } else { chained_times(holes)? };
+    if absolute && holes.iter().all(|hole| hole.delay_ms.is_some() && hole.from.is_some()) {
+        agree(holes, &times)?;
+    }
     let first = times.iter().copied().fold(f64::INFINITY, f64::min);
     times.iter_mut().for_each(|time| *time -= first);
     match times.iter().position(|time| !delay::AT_MS.kind.range().contains(time)) {
@@ -63,6 +76,22 @@ fn times(holes: &[ListedHole]) -> Result<Option<Vec<f64>>, Vec<Mistake>> {
             Err(vec![wrong(&holes[late], message, "are the delays in milliseconds?")])
         }
     }
+}
+
+/// Firing times and delays after other holes must tell the same, where a list has both.
+fn agree(holes: &[ListedHole], times: &[f64]) -> Result<(), Vec<Mistake>> {
+    let chained = chained_times(holes)?;
+    let first = |times: &[f64]| times.iter().copied().fold(f64::INFINITY, f64::min);
+    let (start, chained_start) = (first(times), first(&chained));
+    let differs = |n: &usize| ((times[*n] - start) - (chained[*n] - chained_start)).abs() > 0.5;
+    let Some(n) = (0..holes.len()).find(differs) else { return Ok(()) };
+    let message = format!(
+        "hole {} fires at {} ms by its firing time and at {} ms by the delays",
+        holes[n].id,
+        times[n] - start,
+        chained[n] - chained_start
+    );
+    Err(vec![wrong(&holes[n], message, "remove the column that is wrong")])
 }
 
 fn wrong(hole: &ListedHole, message: String, remedy: &str) -> Mistake {
@@ -86,7 +115,22 @@ fn firing_times(holes: &[ListedHole]) -> Result<Vec<f64>, Vec<Mistake>> {
 /// chain.
 fn chained_times(holes: &[ListedHole]) -> Result<Vec<f64>, Vec<Mistake>> {
     let (mut by_id, mut mistakes): (HashMap<&str, usize>, _) = (HashMap::new(), Vec::new());
+    let mut starters = 0;
     for (n, hole) in holes.iter().enumerate() {
+        let follows_itself = hole.from.as_ref() == Some(&hole.id);
+        if hole.from.is_some() && !follows_itself && hole.delay_ms.is_none() {
+            let message = format!("hole {} follows another and has no delay", hole.id);
+            mistakes.push(wrong(hole, message, "write its delay in ms"));
+        }
+        starters += usize::from(hole.from.is_none());
+        if hole.from.is_none() && starters > 1 {
+            let message = format!("hole {} follows no hole, like another before it", hole.id);
+            mistakes.push(wrong(
+                hole,
+                message,
+                "name the hole before it in `from`; a hole that starts names itself",
+            ));
+        }
         if by_id.insert(hole.id.as_str(), n).is_some() {
             let message = format!("hole {} is listed twice, so a delay after it has two meanings", hole.id);
             mistakes.push(wrong(hole, message, "give every hole a name of its own"));

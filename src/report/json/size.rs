@@ -31,7 +31,8 @@ struct CombinationResult {
     border_rows: usize,
     tires: usize,
     total_mass_kg: f64,
-    utilization: Option<f64>,
+    /// Utilization; scripts know the key by this name.
+    use_of_limits: Option<f64>,
     worst: Option<Values>,
 }
 
@@ -44,7 +45,7 @@ impl CombinationResult {
             border_rows: *border_rows,
             tires: *tires,
             total_mass_kg: *total_mass,
-            utilization: trial.ok().map(|trial| trial.utilization),
+            use_of_limits: trial.ok().map(|trial| trial.utilization),
             worst: trial.ok().map(|trial| Values::of(&trial.worst)),
         }
     }
