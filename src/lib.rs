@@ -42,7 +42,7 @@
 //! | [`file`] | a text | a file, whole or not at all | any other module; the meaning of the text |
 //! | [`choice`] | a name | method, accuracy level and other named choices of a plan | any other module; the effect of a choice |
 //! | [`ropes`] | a data file | the rope catalogue | any other module |
-//! | [`plan`] | TOML | a valid [`Plan`](plan::Plan), or every mistake with its remedy | physics |
+//! | [`plan`] | TOML | a valid [`Plan`], or every mistake with its remedy | physics |
 //! | [`scene`] | a plan | masses, cables, firings as flat SI arrays | [`ropes`]; how motion is computed |
 //! | [`outcome`] | | peaks, ledger, histories of a run | any other module |
 //! | [`simulation`] | scene, shot, step | an [`Outcome`](outcome::Outcome) or a [`Failure`](simulation::Failure) | [`plan`], [`ropes`], [`file`], [`units`]; options, limits, screens |
@@ -60,7 +60,7 @@
 //! # Rules
 //!
 //! - A [`Scene`](scene::Scene) is never changed once built; everything that moves lives in a stepper.
-//! - Plan units become SI where a plan becomes a [`Case`](study::Case): scene, shots and limits. SI becomes words in `units`.
+//! - Plan units become SI where a plan becomes a [`Case`]: scene, shots and limits. SI becomes words in `units`.
 //! - What goes wrong in a run is a value, never a panic and never a pass.
 //! - The same plan gives the same numbers for any number of threads.
 //!
