@@ -53,7 +53,7 @@ impl StudyKind {
 
 /// Result of a study.
 #[derive(Clone, Debug)]
-pub enum Found {
+pub enum StudyResult {
     /// Result of [`StudyKind::Sweep`].
     Sweep(Sweep),
     /// Result of [`StudyKind::Orders`].
@@ -65,7 +65,7 @@ pub enum Found {
     /// Result of [`StudyKind::Flight`].
     Flight(Flight),
     /// Result of [`StudyKind::Accuracy`].
-    Accuracy(accuracy::Study),
+    Accuracy(accuracy::AccuracyTable),
 }
 
 /// News of a job.
@@ -103,7 +103,7 @@ pub enum News {
         /// The settings it computed with.
         compute: ComputeSettings,
         /// Its result.
-        result: Result<Box<Found>, NoResult>,
+        result: Result<Box<StudyResult>, NoResult>,
     },
 }
 
@@ -138,7 +138,7 @@ struct Job {
 }
 
 impl Jobs {
-    /// No job yet. Each job will use so many threads; 0: one per core.
+    /// No job yet. Each job will use `threads` threads; 0: one per core.
     pub fn new(threads: usize) -> Self {
         let cores = || thread::available_parallelism().map_or(1, usize::from);
         let threads = if threads == 0 { cores() } else { threads };
@@ -243,27 +243,27 @@ impl Job {
         self.tell(News::Checked { option, result });
     }
 
-    fn study(&self, kind: StudyKind, option: usize) -> Result<Found, NoResult> {
+    fn study(&self, kind: StudyKind, option: usize) -> Result<StudyResult, NoResult> {
         let Self { case, compute, progress, .. } = self;
         match kind {
             StudyKind::Sweep => {
                 let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
-                sweep(case, &order, &INTERVALS, compute, progress).map(Found::Sweep)
+                sweep(case, &order, &INTERVALS, compute, progress).map(StudyResult::Sweep)
             }
             StudyKind::Orders => {
                 let intervals = case.intervals();
                 let tried = orders(case, &intervals, Shard::WHOLE, compute, progress)?;
-                Ok(Found::Orders(Orders::new(case, tried, intervals.len())))
+                Ok(StudyResult::Orders(Orders::new(case, tried, intervals.len())))
             }
             StudyKind::Scatter => {
                 let spec = case.plan.scatter.ok_or(NoResult::NoScatter)?;
                 let samples = scatter(case, &spec, &DRAW, Shard::WHOLE, compute, progress)?;
-                Ok(Found::Scatter(DRAW, samples))
+                Ok(StudyResult::Scatter(DRAW, samples))
             }
-            StudyKind::Size => size(&case.plan, &Demand::Options, compute, progress).map(Found::Size),
-            StudyKind::Flight => record(case, option, compute, progress).map(Found::Flight),
+            StudyKind::Size => size(&case.plan, &Demand::Options, compute, progress).map(StudyResult::Size),
+            StudyKind::Flight => record(case, option, compute, progress).map(StudyResult::Flight),
             StudyKind::Accuracy => {
-                accuracy::measure(case, option, LONGEST_RUN, progress).map(Found::Accuracy)
+                accuracy::measure(case, option, LONGEST_RUN, progress).map(StudyResult::Accuracy)
             }
         }
     }

@@ -81,12 +81,12 @@ pub fn computed(value: f64, unit: Unit) -> String {
     rounded(value / unit.size(), unit.most_decimals() + 1)
 }
 
-/// A number with so many decimals: `0.122`.
+/// A number with `decimals` decimals: `0.122`.
 pub fn rounded(number: f64, decimals: usize) -> String {
     format!("{number:.decimals$}")
 }
 
-/// A share of 1 as percent with so many decimals: `52 %`.
+/// A share of 1 as percent with `decimals` decimals: `52 %`.
 pub fn percent(share: f64, decimals: usize) -> String {
     format!("{} %", rounded(100.0 * share, decimals))
 }

@@ -9,7 +9,7 @@ use clap::Args;
 use super::arguments::{Compute, FormatArg, Look};
 use super::load_plans::open_option;
 use super::print::print;
-use super::run_study::{Finished, run_study};
+use super::run_study::{Completed, run_study};
 use super::status::{Status, failed};
 use crate::choice::Method;
 use crate::report::accuracy::report;
@@ -38,7 +38,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         return Ok(Status::Wrong);
     };
     let measured = run_study(&arguments.compute, |progress| measure(&case, option, PATIENCE, progress));
-    let Finished { value: study, partial } = match measured {
+    let Completed { value: study, partial } = match measured {
         Ok(finished) => finished,
         Err(reason) => return failed(&reason),
     };

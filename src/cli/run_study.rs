@@ -20,7 +20,7 @@ const LONG: Duration = Duration::from_secs(60);
 const WATCHED: Duration = Duration::from_secs(1);
 
 /// A study that ended.
-pub struct Finished<T> {
+pub struct Completed<T> {
     /// Its result.
     pub value: T,
     /// Whether the time was up before all shots were judged.
@@ -31,7 +31,7 @@ pub struct Finished<T> {
 pub fn run_study<T: Send>(
     compute: &Compute,
     work: impl FnOnce(&Progress) -> Result<T, NoResult> + Send,
-) -> Result<Finished<T>, NoResult> {
+) -> Result<Completed<T>, NoResult> {
     let (progress, signal) = (Progress::default(), Arc::new(AtomicBool::new(false)));
     #[cfg(unix)]
     for number in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM, signal_hook::consts::SIGHUP] {
@@ -77,7 +77,7 @@ pub fn run_study<T: Send>(
     if partial {
         eprintln!("the time was up after {done} of {total} shots; what follows is partial");
     }
-    Ok(Finished { value, partial })
+    Ok(Completed { value, partial })
 }
 
 /// Runs `work` on the threads asked for.

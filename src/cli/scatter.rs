@@ -8,7 +8,7 @@ use clap::Args;
 use super::arguments::{Compute, DrawArguments, FormatArg, Look, shard};
 use super::load_plans::open;
 use super::print_findings::{Answer, print_findings};
-use super::run_study::{Finished, run_study};
+use super::run_study::{Completed, run_study};
 use super::status::{Status, failed, wrong};
 use crate::report::notes;
 use crate::study::merge::{Findings, Question};
@@ -49,7 +49,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         run_study(&arguments.compute, |progress| scatter(&case, &spec, &draw, shard, &settings, progress));
     match samples {
         Err(reason) => failed(&reason),
-        Ok(Finished { value: samples, partial }) => {
+        Ok(Completed { value: samples, partial }) => {
             let question = Question::Scatter { spec, draw };
             let answer =
                 Answer { case: &case, question, settings, findings: Findings::Scatter(samples), partial };

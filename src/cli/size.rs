@@ -13,6 +13,7 @@ use super::status::{Status, failed, wrong};
 use crate::file;
 use crate::plan::{Layout, edit};
 use crate::report::json::SizeDocument;
+use crate::report::no_result;
 use crate::report::size::report;
 use crate::ropes::catalogue;
 use crate::study::orders::{MOST_ROWS, is_complete};
@@ -92,7 +93,7 @@ fn choose(arguments: &Arguments, case: &mut Case) -> Result<Demand, String> {
         return Err("a list layout has no border rows: leave them out".to_owned());
     }
     if arguments.scatter {
-        let spec = case.plan.scatter.ok_or(NoResult::NoScatter.to_string())?;
+        let spec = case.plan.scatter.ok_or_else(|| no_result::message(&NoResult::NoScatter))?;
         return Ok(Demand::Samples(spec, arguments.draw.draw()));
     }
     if arguments.draw.is_given() {

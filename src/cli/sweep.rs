@@ -8,7 +8,7 @@ use clap::Args;
 use super::arguments::{Compute, FormatArg, Look, intervals};
 use super::load_plans::open_option;
 use super::print::print;
-use super::run_study::{Finished, run_study};
+use super::run_study::{Completed, run_study};
 use super::status::{Status, failed, wrong};
 use crate::plan::Timing;
 use crate::report::json::SweepDocument;
@@ -50,7 +50,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     });
     match swept {
         Err(reason) => failed(&reason),
-        Ok(Finished { value: swept, partial }) => {
+        Ok(Completed { value: swept, partial }) => {
             let document = || SweepDocument::new(&case, &swept, partial);
             print(&[report(&case, &swept, partial)], document, arguments.format, look)
         }

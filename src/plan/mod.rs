@@ -40,7 +40,7 @@ pub struct Plan {
     /// Blast rows in the order listed.
     pub blast_rows: Vec<BlastRow>,
     /// Limits that an option must keep to pass.
-    pub limits: Limits,
+    pub limits: LimitsSpec,
     /// Delay options in the order listed; never empty.
     pub delays: Vec<DelayOption>,
     /// Settings of the simulation.
@@ -232,7 +232,7 @@ pub struct Hole {
 
 /// Limits of a passing option.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
+pub struct LimitsSpec {
     /// Greatest flight height of any tire [m].
     pub flight_height_m: f64,
     /// Smallest ratio of breaking force to greatest force.

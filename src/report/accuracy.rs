@@ -3,7 +3,7 @@
 use super::charts;
 use super::model::{Block, Cell, Column, Report, Row, Table};
 use crate::choice::Method;
-use crate::study::accuracy::{CLASSES, PAPER, PaperRow, Study};
+use crate::study::accuracy::{AccuracyTable, CLASSES, PAPER, PaperRow};
 use crate::study::{Case, accuracy};
 use crate::units::{self, Unit};
 
@@ -33,7 +33,7 @@ const PAPER_COLUMNS: [Column; 7] = [
 
 /// The report of one option; `paper` holds our values for the source paper's table, by method, where the plan is the
 /// paper's.
-pub fn report(case: &Case, study: &Study, paper: &[(Method, Vec<PaperRow>)]) -> Report {
+pub fn report(case: &Case, study: &AccuracyTable, paper: &[(Method, Vec<PaperRow>)]) -> Report {
     let mut blocks = vec![Block::Table(steps(study))];
     blocks.extend(charts::work_precision(study).map(Block::Chart));
     blocks.push(Block::Text(CLASSES.iter().map(|&class| cheapest(study, class)).collect()));
@@ -47,7 +47,7 @@ pub fn report(case: &Case, study: &Study, paper: &[(Method, Vec<PaperRow>)]) -> 
     }
 }
 
-fn steps(study: &Study) -> Table {
+fn steps(study: &AccuracyTable) -> Table {
     let row = |row: &accuracy::Row| {
         let mut cells = vec![Cell::Nothing; STEPS.len()];
         cells[0] = Cell::Text(row.method.name().to_owned());
@@ -71,7 +71,7 @@ fn steps(study: &Study) -> Table {
 }
 
 /// The cheapest step of each method within a class of errors.
-fn cheapest(study: &Study, class: (f64, f64)) -> String {
+fn cheapest(study: &AccuracyTable, class: (f64, f64)) -> String {
     let methods = [Method::Verlet, Method::Newmark];
     let best = methods.map(|method| study.cheapest(method, class));
     let found = methods.into_iter().zip(best).map(|(method, best)| match best {

@@ -3,7 +3,7 @@
 use super::model::{Axis, Chart, Scale, Series, SeriesKind};
 use crate::choice::Method;
 use crate::outcome::History;
-use crate::study::accuracy::{Measured, Study};
+use crate::study::accuracy::{AccuracyTable, Measured};
 use crate::study::orders::Orders;
 use crate::study::scatter::Sample;
 use crate::study::size::{Combination, Sizing};
@@ -65,7 +65,7 @@ fn axis(name: &'static str, unit: Unit, range: [f64; 2]) -> Axis {
 }
 
 /// The larger error of every run against its time, both on logarithmic axes; `None` where no run has both.
-pub fn work_precision(study: &Study) -> Option<Chart> {
+pub fn work_precision(study: &AccuracyTable) -> Option<Chart> {
     let runs = |method: Method| {
         let rows = study.rows.iter().filter(move |row| row.method == method);
         rows.filter_map(|row| Some((row.step, work_and_error(&row.result?)?)))

@@ -177,7 +177,7 @@ pub enum Cell {
     Count(usize),
     /// A number as the plan or the catalogue gives it.
     Number(f64),
-    /// A number at so many decimals.
+    /// A number, and its number of decimals.
     Rounded(f64, usize),
     /// A value with its error, one-sided.
     Estimate {

@@ -11,11 +11,14 @@ pub fn message(no_result: &NoResult) -> String {
     }
 }
 
-/// Remedy for a run that failed by itself.
+/// Remedy for a run that failed by itself, and for a plan that lacks what the study needs.
 fn remedy(no_result: &NoResult) -> Option<&'static str> {
     match no_result {
         NoResult::Failed(Failure::Step { .. } | Failure::Diverged { .. } | Failure::Unsettled { .. }) => {
             Some("choose a smaller --dt")
+        }
+        NoResult::NoScatter => {
+            Some("add a section such as\n\n[scatter]\ndetonator = \"pyrotechnic\"\nlaunch_cv_percent = 10")
         }
         _ => None,
     }

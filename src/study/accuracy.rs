@@ -45,7 +45,7 @@ pub struct Measured {
 
 /// Speed against accuracy of one option.
 #[derive(Clone, Debug)]
-pub struct Study {
+pub struct AccuracyTable {
     /// Index of the delay option.
     pub option: usize,
     /// Rows of both methods, each from the longest step to the shortest.
@@ -70,7 +70,7 @@ pub fn measure(
     option: usize,
     patience: Duration,
     progress: &Progress,
-) -> Result<Study, NoResult> {
+) -> Result<AccuracyTable, NoResult> {
     let levels = [Accuracy::Draft, Accuracy::Field, Accuracy::Reference]
         .map(|level| (level, start_step(case, Method::Verlet, level)));
     let reference_step = levels[2].1 / FINER;
@@ -104,10 +104,10 @@ pub fn measure(
             rows.push(Row { method, step, result });
         }
     }
-    Ok(Study { option, rows, reference_step, levels })
+    Ok(AccuracyTable { option, rows, reference_step, levels })
 }
 
-impl Study {
+impl AccuracyTable {
     /// The longest step of a method at which this step and all shorter steps are within a class; with its computing time.
     pub fn cheapest(&self, method: Method, class: (f64, f64)) -> Option<(f64, Duration)> {
         let within = |row: &&Row| {

@@ -35,7 +35,7 @@ pub fn each<J: Sync, T: Send>(
 }
 
 /// Judges every shot, refined until its verdict is sure; `None` for the shots that the time did not suffice for.
-pub fn judge(
+pub fn judge_shots(
     case: &Case,
     shots: &[Shot],
     compute: &ComputeSettings,

@@ -125,7 +125,7 @@ pub fn check_shot(
     };
     let mut checked = None;
     climb(first, compute.step.is_some(), run, |runs| {
-        let judged = judge(case, shot, compute, runs, begun.elapsed());
+        let judged = judged(case, shot, compute, runs, begun.elapsed());
         let sure = judged.is_sure(&case.limits);
         checked = Some(judged);
         sure
@@ -168,7 +168,7 @@ fn climb<R>(
 }
 
 /// Judges a shot by a ladder of runs; the last run gives the values.
-fn judge(
+fn judged(
     case: &Case,
     shot: &Shot,
     compute: &ComputeSettings,

@@ -29,9 +29,7 @@ pub enum NoResult {
     #[error("no delay option has an interval")]
     NoInterval,
     /// The plan does not say what scatters.
-    #[error(
-        "the plan does not say what scatters: add a section such as\n\n[scatter]\ndetonator = \"pyrotechnic\"\nlaunch_cv_percent = 10"
-    )]
+    #[error("the plan does not say what scatters")]
     NoScatter,
 }
 

@@ -10,7 +10,7 @@ use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
-use super::batch::judge;
+use super::batch::judge_shots;
 use super::{Case, ComputeSettings, Envelope, NoResult, Progress, Shard};
 use crate::scene::Shot;
 use crate::verdict::Verdict;
@@ -46,8 +46,8 @@ impl Orders {
     /// Ranks the orders that one or many machines tried, at `intervals` intervals.
     pub fn new(case: &Case, mut tried: Vec<Tried>, intervals: usize) -> Self {
         let complete = is_complete(case) && tried.len() == count(case, intervals);
-        let share = |tried: &Tried| tried.envelope.utilization(&case.limits);
-        tried.sort_by(|a, b| share(b).total_cmp(&share(a)).then(a.number.cmp(&b.number)));
+        let utilization = |tried: &Tried| tried.envelope.utilization(&case.limits);
+        tried.sort_by(|a, b| utilization(b).total_cmp(&utilization(a)).then(a.number.cmp(&b.number)));
         Self { ranked: tried, complete }
     }
 
@@ -104,7 +104,7 @@ fn judge_orders(
     progress: &Progress,
 ) -> Result<Vec<Tried>, NoResult> {
     let shots: Vec<Shot> = jobs.iter().map(|(_, (order, interval))| case.shot(order, *interval)).collect();
-    let envelopes = judge(case, &shots, compute, progress)?;
+    let envelopes = judge_shots(case, &shots, compute, progress)?;
     let tried = |((number, (order, interval)), envelope): (Job, Option<Envelope>)| {
         envelope.map(|envelope| Tried { number, order, interval, envelope })
     };

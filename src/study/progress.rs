@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use super::NoResult;
 use crate::simulation::Failure;
 
-/// Progress of a study, shared between the threads that compute and the face that shows it.
+/// Progress of a study, shared between the threads that compute and the view that shows it.
 #[derive(Debug, Default)]
 pub struct Progress {
     stopped: AtomicBool,
@@ -41,7 +41,7 @@ impl Progress {
         (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed))
     }
 
-    /// Announces so many more shots.
+    /// Announces `more` shots.
     pub(super) fn expect(&self, more: usize) {
         self.total.fetch_add(more, Ordering::Relaxed);
     }

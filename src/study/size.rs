@@ -7,7 +7,7 @@
 
 use itertools::Itertools;
 
-use super::batch::judge;
+use super::batch::judge_shots;
 use super::scatter::{Draw, Sample, scatter};
 use super::{Bounded, Case, ComputeSettings, Envelope, NoResult, Progress, Shard};
 use crate::plan::{Layout, Plan, ScatterSpec};
@@ -188,7 +188,7 @@ fn try_out(
     let mut judged: Vec<Envelope> = Vec::new();
     for chunk in order.chunks(AT_ONCE) {
         let part: Vec<Shot> = chunk.iter().map(|&n| shots[n].clone()).collect();
-        let envelopes = judge(case, &part, compute, progress)?;
+        let envelopes = judge_shots(case, &part, compute, progress)?;
         let Some(envelopes) = envelopes.into_iter().collect::<Option<Vec<_>>>() else { return Ok(None) };
         let failed = envelopes.iter().position(|envelope| envelope.verdict != Verdict::Pass);
         judged.extend(envelopes);

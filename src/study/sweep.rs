@@ -1,6 +1,6 @@
 //! Height and force against the interval between rows, and the intervals that pass.
 
-use super::batch::judge;
+use super::batch::judge_shots;
 use super::{Case, ComputeSettings, Envelope, Intervals, NoResult, Progress};
 use crate::scene::Shot;
 use crate::verdict::Verdict;
@@ -41,7 +41,7 @@ pub fn sweep(
     }
     let judged = |intervals: Vec<f64>| -> Result<Vec<Point>, NoResult> {
         let shots: Vec<Shot> = intervals.iter().map(|&interval| case.shot(order, interval)).collect();
-        let envelopes = judge(case, &shots, compute, progress)?;
+        let envelopes = judge_shots(case, &shots, compute, progress)?;
         let point = |(interval, envelope): (f64, Option<_>)| Some(Point { interval, envelope: envelope? });
         // Out of time: keep the points before the first interval without a result, so that windows have no gaps.
         Ok(intervals.into_iter().zip(envelopes).map_while(point).collect())
@@ -60,8 +60,8 @@ pub fn sweep(
 }
 
 fn jumps(case: &Case, a: &Point, b: &Point) -> bool {
-    let share = |point: &Point| point.envelope.utilization(&case.limits);
-    a.envelope.verdict != b.envelope.verdict || (share(a) - share(b)).abs() > JUMP
+    let utilization = |point: &Point| point.envelope.utilization(&case.limits);
+    a.envelope.verdict != b.envelope.verdict || (utilization(a) - utilization(b)).abs() > JUMP
 }
 
 impl Sweep {
@@ -93,6 +93,6 @@ impl Sweep {
 }
 
 fn by_utilization(case: &Case, a: &Point, b: &Point) -> std::cmp::Ordering {
-    let share = |point: &Point| point.envelope.utilization(&case.limits);
-    share(a).total_cmp(&share(b))
+    let utilization = |point: &Point| point.envelope.utilization(&case.limits);
+    utilization(a).total_cmp(&utilization(b))
 }

@@ -175,7 +175,7 @@ impl App {
         self.edited(edit)
     }
 
-    /// Selects the field so many lines further, and the option of that field.
+    /// Selects the field `lines` further down, and the option of that field.
     fn select_field(&mut self, lines: isize) -> Request {
         self.editor.select(lines);
         self.follow_field();

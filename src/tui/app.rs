@@ -15,7 +15,7 @@ use super::options::{Listing, OptionState, SortBy};
 use super::player::Player;
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
-use super::studies::{Finished, Studies, StudyState};
+use super::studies::{ShownStudy, Studies, StudyState};
 use super::theme::Theme;
 use crate::jobs::{News, StudyKind};
 use crate::plan::{Plan, PlanSource};
@@ -64,7 +64,7 @@ pub enum Target {
     Field(usize),
     /// Shows a study.
     Study(StudyKind),
-    /// No click: the area can be scrolled by so many lines at most.
+    /// No click: the greatest number of lines the area can be scrolled.
     Lines(u16),
     /// Shows a time: 0 at the left end of the area, this time [s] at the right end.
     Time(f64),
@@ -163,7 +163,7 @@ impl App {
         Some((option, self.checked(option)?))
     }
 
-    /// Selects the option so many lines further down the list.
+    /// Selects the option `lines` further down the list; negative: further up.
     pub(super) fn select_listed(&mut self, lines: isize) {
         let listed = self.listed();
         let line = listed.iter().position(|&option| option == self.selected);
@@ -308,7 +308,7 @@ impl App {
                 self.studies.set(kind, StudyState::Running { done, total });
             }
             News::Studied { kind, compute, result } => {
-                let finish = |found| StudyState::Done(Arc::new(Finished::new(&self.case, compute, found)));
+                let finish = |found| StudyState::Done(Arc::new(ShownStudy::new(&self.case, compute, found)));
                 let state = result.map_or_else(StudyState::Failed, finish);
                 self.studies.set(kind, state);
             }

@@ -5,9 +5,9 @@ use std::path::Path;
 use super::app::App;
 use super::options::OptionState;
 use super::screen::Screen;
-use super::studies::Finished;
+use super::studies::ShownStudy;
 use crate::file;
-use crate::jobs::{Found, StudyKind};
+use crate::jobs::{StudyKind, StudyResult};
 use crate::report::{self, charts, html};
 use crate::scene::fire_at_s;
 use crate::study::check_all::Results;
@@ -49,7 +49,7 @@ fn svg(app: &App) -> Result<String, String> {
 }
 
 /// The study on the screen, once it has a result.
-fn finished(app: &App) -> Result<&Finished, String> {
+fn finished(app: &App) -> Result<&ShownStudy, String> {
     let kind = match app.screen {
         Screen::Flight => StudyKind::Flight,
         Screen::Accuracy => StudyKind::Accuracy,
@@ -57,8 +57,10 @@ fn finished(app: &App) -> Result<&Finished, String> {
     };
     let finished = app.studies.finished(kind).ok_or("nothing is shown yet")?;
     match &*finished.found {
-        Found::Flight(flight) if flight.option != app.selected => Err("nothing is shown yet".to_owned()),
-        Found::Accuracy(study) if study.option != app.selected => {
+        StudyResult::Flight(flight) if flight.option != app.selected => {
+            Err("nothing is shown yet".to_owned())
+        }
+        StudyResult::Accuracy(study) if study.option != app.selected => {
             Err("the selected option is not measured yet".to_owned())
         }
         _ => Ok(finished),

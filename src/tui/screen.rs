@@ -21,7 +21,7 @@ impl Screen {
     pub const ALL: [Screen; 5] =
         [Screen::Plan, Screen::Compare, Screen::Flight, Screen::Studies, Screen::Accuracy];
 
-    /// The screen so many further; the first follows the last.
+    /// The screen `by` places further; the first follows the last.
     pub fn turned(self, by: usize) -> Self {
         Self::ALL[(self as usize + by) % Self::ALL.len()]
     }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::jobs::{Found, StudyKind};
+use crate::jobs::{StudyKind, StudyResult};
 use crate::report::model::{Block, Report};
 use crate::report::{self, charts, notes};
 use crate::scene::fire_at_s;
@@ -24,16 +24,16 @@ pub enum StudyState {
         total: usize,
     },
     /// Has a result; the result stays while other screens are shown.
-    Done(Arc<Finished>),
+    Done(Arc<ShownStudy>),
     /// Ended without a result.
     Failed(NoResult),
 }
 
 /// The result of a study.
 #[derive(Debug)]
-pub struct Finished {
+pub struct ShownStudy {
     /// The result as computed.
-    pub found: Box<Found>,
+    pub found: Box<StudyResult>,
     /// The settings of the computation.
     pub compute: ComputeSettings,
     /// The result as the screen draws it.
@@ -42,16 +42,16 @@ pub struct Finished {
     pub notes: Vec<String>,
 }
 
-impl Finished {
+impl ShownStudy {
     /// Makes the report of a result.
-    pub fn new(case: &Case, compute: ComputeSettings, found: Box<Found>) -> Self {
+    pub fn new(case: &Case, compute: ComputeSettings, found: Box<StudyResult>) -> Self {
         let report = match &*found {
-            Found::Sweep(sweep) => report::sweep::report(case, sweep, false),
-            Found::Orders(orders) => report::orders::report(case, orders, false),
-            Found::Scatter(draw, samples) => report::scatter::report(case, draw, samples, false),
-            Found::Size(sizing) => report::size::report(case, sizing),
-            Found::Accuracy(study) => report::accuracy::report(case, study, &[]),
-            Found::Flight(flight) => {
+            StudyResult::Sweep(sweep) => report::sweep::report(case, sweep, false),
+            StudyResult::Orders(orders) => report::orders::report(case, orders, false),
+            StudyResult::Scatter(draw, samples) => report::scatter::report(case, draw, samples, false),
+            StudyResult::Size(sizing) => report::size::report(case, sizing),
+            StudyResult::Accuracy(study) => report::accuracy::report(case, study, &[]),
+            StudyResult::Flight(flight) => {
                 let firings = fire_at_s(&case.plan.delays[flight.option].timing);
                 let history = &flight.outcome.history;
                 let mut report = report::trace::history(history);
@@ -60,8 +60,8 @@ impl Finished {
             }
         };
         let notes = match &*found {
-            Found::Orders(_) => notes::orders(case).into_iter().collect(),
-            Found::Scatter(..) => notes::scatter(case),
+            StudyResult::Orders(_) => notes::orders(case).into_iter().collect(),
+            StudyResult::Scatter(..) => notes::scatter(case),
             _ => Vec::new(),
         };
         Self { found, compute, report, notes }
@@ -119,7 +119,7 @@ impl Studies {
     }
 
     /// The result of a study, once there is one.
-    pub fn finished(&self, kind: StudyKind) -> Option<&Finished> {
+    pub fn finished(&self, kind: StudyKind) -> Option<&ShownStudy> {
         match self.state(kind) {
             StudyState::Done(finished) => Some(finished),
             StudyState::Idle | StudyState::Running { .. } | StudyState::Failed(_) => None,
@@ -129,7 +129,7 @@ impl Studies {
     /// The recorded motion of an option.
     pub fn flight(&self, option: usize) -> Option<&Flight> {
         match &*self.finished(StudyKind::Flight)?.found {
-            Found::Flight(flight) if flight.option == option => Some(flight),
+            StudyResult::Flight(flight) if flight.option == option => Some(flight),
             _ => None,
         }
     }
@@ -139,7 +139,7 @@ impl Studies {
         *self = Self { shown: self.shown, ..Self::default() };
     }
 
-    /// Shows the study so many tabs further.
+    /// Shows the study `by` tabs further; the first follows the last.
     pub fn turn(&mut self, by: isize) {
         let count = StudyKind::OF_PLAN.len() as isize;
         self.show(StudyKind::OF_PLAN[(self.shown as isize + by).rem_euclid(count) as usize]);
@@ -151,7 +151,7 @@ impl Studies {
         self.scroll = 0;
     }
 
-    /// Scrolls so many lines.
+    /// Scrolls down by `lines`; negative: up.
     pub fn scroll(&mut self, lines: i16) {
         self.scroll = self.scroll.saturating_add_signed(lines);
     }

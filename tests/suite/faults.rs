@@ -88,7 +88,7 @@ fn a_save_killed_as_it_begins_leaves_the_old_plan_or_the_new_one() {
     }
 }
 
-/// The disk may hold so many more blocks and no more: the old text stays until all of the new one is written, and nothing
+/// The disk is full after a few blocks: the old text stays until all of the new one is written, and nothing
 /// else is left behind.
 #[cfg(unix)]
 #[test]
@@ -97,7 +97,7 @@ fn a_full_disk_leaves_the_old_plan() {
     let (plan, old, _) = small_plan(folder.path());
     for blocks in [0, 1, 2, 5, 10, 20, 40, 50] {
         fs::write(&plan, &old).expect("written");
-        // A file may grow to so many blocks of 512 bytes; beyond that writing fails as on a full disk.
+        // A file may grow to `blocks` blocks of 512 bytes; beyond that writing fails as on a full disk.
         let script =
             format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" size --write --accuracy draft \"$1\"");
         let output = Command::new("sh").args(["-c", &script, PROGRAM]).arg(&plan).output().expect("it runs");

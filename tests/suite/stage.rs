@@ -8,10 +8,10 @@ use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use shelter::choice::{Accuracy, Method};
-use shelter::jobs::{Found, News, StudyKind};
+use shelter::jobs::{News, StudyKind, StudyResult};
 use shelter::outcome::{EndReason, History, RunEnd};
 use shelter::ropes::catalogue;
-use shelter::study::accuracy::{Measured, Row, Study};
+use shelter::study::accuracy::{AccuracyTable, Measured, Row};
 use shelter::study::check::Checked;
 use shelter::study::orders::{Orders, Tried};
 use shelter::study::reason::{Quantity, Reason};
@@ -104,13 +104,13 @@ pub fn key(app: &mut App, code: KeyCode) -> Request {
 }
 
 /// A study has ended, computed with the settings of the screen.
-pub fn study_ends(app: &mut App, kind: StudyKind, result: Result<Found, NoResult>) {
+pub fn study_ends(app: &mut App, kind: StudyKind, result: Result<StudyResult, NoResult>) {
     let compute = app.compute;
     app.take_news(News::Studied { kind, compute, result: result.map(Box::new) });
 }
 
 /// A sweep with round numbers.
-pub fn swept() -> Found {
+pub fn swept() -> StudyResult {
     let point = |n: usize| {
         let share = (n as f64 * 0.3).sin().abs();
         let verdict = if share < 0.8 { Verdict::Pass } else { Verdict::Fail };
@@ -121,11 +121,11 @@ pub fn swept() -> Found {
             envelope: Envelope { verdict, height, force, drift: Bounded::default() },
         }
     };
-    Found::Sweep(Sweep { order: vec![0, 1, 2], points: (0..51).map(point).collect() })
+    StudyResult::Sweep(Sweep { order: vec![0, 1, 2], points: (0..51).map(point).collect() })
 }
 
 /// What accuracy costs, with round numbers.
-pub fn measured() -> Found {
+pub fn measured() -> StudyResult {
     let levels = [(Accuracy::Draft, 8e-4), (Accuracy::Field, 4e-4), (Accuracy::Reference, 1e-4)];
     let row = |n: i32, method: Method| {
         let part = 0.5_f64.powi(n);
@@ -146,13 +146,13 @@ pub fn measured() -> Found {
     };
     let rows =
         [Method::Verlet, Method::Newmark].iter().flat_map(|&method| (0..6).map(move |n| row(n, method)));
-    Found::Accuracy(Study { option: 4, rows: rows.collect(), reference_step: 1e-5, levels })
+    StudyResult::Accuracy(AccuracyTable { option: 4, rows: rows.collect(), reference_step: 1e-5, levels })
 }
 
 /// The motion of an option, at a fixed step.
-pub fn recorded(app: &App, option: usize) -> Found {
+pub fn recorded(app: &App, option: usize) -> StudyResult {
     let compute = ComputeSettings { step: Some(5e-4), ..app.compute };
-    Found::Flight(flight::record(&app.case, option, &compute, &Default::default()).expect("a flight"))
+    StudyResult::Flight(flight::record(&app.case, option, &compute, &Default::default()).expect("a flight"))
 }
 
 /// What is kept of a shot that uses so much of its limits.
@@ -167,7 +167,7 @@ fn envelope(share: f64) -> Envelope {
 }
 
 /// Orders, samples and sizes with round numbers.
-pub fn spreads(app: &App) -> [(StudyKind, Found); 3] {
+pub fn spreads(app: &App) -> [(StudyKind, StudyResult); 3] {
     let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     let tried = orders.iter().enumerate().map(|(number, order)| Tried {
         number,
@@ -186,8 +186,8 @@ pub fn spreads(app: &App) -> [(StudyKind, Found); 3] {
     });
     let draw = Draw { samples: 100, seed: 1, certain_at: None };
     [
-        (StudyKind::Orders, Found::Orders(Orders::new(&app.case, tried.collect(), 1))),
-        (StudyKind::Scatter, Found::Scatter(draw, samples.collect())),
-        (StudyKind::Size, Found::Size(Sizing { combinations: combinations.collect() })),
+        (StudyKind::Orders, StudyResult::Orders(Orders::new(&app.case, tried.collect(), 1))),
+        (StudyKind::Scatter, StudyResult::Scatter(draw, samples.collect())),
+        (StudyKind::Size, StudyResult::Size(Sizing { combinations: combinations.collect() })),
     ]
 }

@@ -29,7 +29,7 @@ pub struct Table {
 
 /// Characters that may separate values; of two that fit alike, the first counts.
 const SEPARATORS: [u8; 3] = [b';', b'\t', b','];
-/// The header is among so many lines.
+/// Number of lines among which the header is looked for.
 const HEADER_WITHIN: usize = 12;
 
 /// Splits the source into lines of values.

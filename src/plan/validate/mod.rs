@@ -12,7 +12,7 @@ use self::study::{read_scatter, read_size};
 use super::diagnostic::Diagnostics;
 use super::keys::{self, cable, ground, limits, simulation, tire};
 use super::read::{At, Mistakes, SectionReader};
-use super::{CableSpec, Limits, Plan, SimulationSpec, TireSpec};
+use super::{CableSpec, LimitsSpec, Plan, SimulationSpec, TireSpec};
 use crate::ropes::catalogue;
 
 /// The plan of a text, or all mistakes; messages name the file `path`.
@@ -98,8 +98,8 @@ fn read_friction(section: SectionReader<'_>) -> f64 {
     friction
 }
 
-fn read_limits(section: SectionReader<'_>) -> Limits {
-    let spec = Limits {
+fn read_limits(section: SectionReader<'_>) -> LimitsSpec {
+    let spec = LimitsSpec {
         flight_height_m: section.number(&limits::FLIGHT_HEIGHT_M),
         cable_safety_factor: section.number(&limits::CABLE_SAFETY_FACTOR),
         drift_m: section.number_if(&limits::DRIFT_M),

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::choice::Method;
 use crate::study::Case;
-use crate::study::accuracy::{Row, Study};
+use crate::study::accuracy::{AccuracyTable, Row};
 
 /// The document of one option.
 #[derive(Serialize)]
@@ -65,7 +65,7 @@ impl StepResult {
 
 impl AccuracyDocument {
     /// The document of a study.
-    pub fn new(case: &Case, study: &Study) -> Self {
+    pub fn new(case: &Case, study: &AccuracyTable) -> Self {
         let choice = |dt_s| Choice { method: Method::Verlet.name(), dt_s };
         let [draft, field, reference] = study.levels.map(|(_, step)| choice(step));
         Self {

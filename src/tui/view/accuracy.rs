@@ -8,10 +8,10 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use super::chart::{self, Mark};
 use super::parts::{draw_message, draw_progress};
 use crate::choice::Method;
-use crate::jobs::{Found, StudyKind};
+use crate::jobs::{StudyKind, StudyResult};
 use crate::report::charts::work_and_error;
 use crate::report::no_result;
-use crate::study::accuracy::{Measured, Study};
+use crate::study::accuracy::{AccuracyTable, Measured};
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
@@ -40,7 +40,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         }
         StudyState::Running { done, total } => draw_progress(app, frame, inside, question, (*done, *total)),
         StudyState::Done(finished) => {
-            let Found::Accuracy(study) = &*finished.found else { return };
+            let StudyResult::Accuracy(study) = &*finished.found else { return };
             if study.option != app.selected {
                 let other = app.case.plan.delays.get(study.option).map_or("", |delay| &delay.name);
                 let message = format!("Measured for {other}. {start} measures this option instead.");
@@ -63,7 +63,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
 }
 
 /// A line per level: first step, errors of that step before refinement, time of a run. A mark shows the chosen level.
-fn levels<'l>(app: &App, study: &Study) -> Vec<Line<'l>> {
+fn levels<'l>(app: &App, study: &AccuracyTable) -> Vec<Line<'l>> {
     let [finer, coarser] = [Action::Finer, Action::Coarser].map(|action| app.keymap.hint(action));
     let head = format!(
         "  {:10} {:>10} {:>11} {:>11} {:>11}  {finer} and {coarser} choose",
@@ -87,7 +87,7 @@ fn levels<'l>(app: &App, study: &Study) -> Vec<Line<'l>> {
 }
 
 /// The run at a step [s].
-fn measured(study: &Study, step: f64) -> Option<Measured> {
+fn measured(study: &AccuracyTable, step: f64) -> Option<Measured> {
     let mut rows = study.rows.iter().filter(|row| row.method == Method::Verlet && row.step == step);
     rows.find_map(|row| row.result)
 }

@@ -73,7 +73,7 @@ fn draw_fields(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     }
 }
 
-/// A label shortened to so many characters. Its end names the value, and stays whole.
+/// A label shortened to `width` characters. Its end names the value, and stays whole.
 fn shortened(label: &str, width: usize) -> String {
     let count = label.chars().count();
     if count <= width {

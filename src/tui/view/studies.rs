@@ -20,7 +20,7 @@ use crate::report::explain::compute_label;
 use crate::report::no_result;
 use crate::tui::app::{App, Areas, Target};
 use crate::tui::keymap::Action;
-use crate::tui::studies::{Finished, StudyState};
+use crate::tui::studies::{ShownStudy, StudyState};
 
 /// Least height of a body that keeps a third for charts, whatever the length of the text.
 const ROOM_FOR_CHARTS: u16 = 15;
@@ -82,7 +82,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
 }
 
 /// The settings that a result was computed with; a warning where the settings are others now.
-fn settings(app: &App, finished: &Finished) -> Line<'static> {
+fn settings(app: &App, finished: &ShownStudy) -> Line<'static> {
     let label = compute_label(&finished.compute);
     if finished.compute == app.compute {
         return Line::styled(format!(" {label} "), app.theme.title());
@@ -92,7 +92,7 @@ fn settings(app: &App, finished: &Finished) -> Line<'static> {
 }
 
 /// Draws the notes and the report of a study. The text may be scrolled; the charts take the rest of the area.
-fn draw_finished(app: &App, finished: &Finished, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let mut all = lines(&finished.report, &finished.notes, &app.studies.filter, app.theme, area.width);
     let charts = finished.report.charts();
     let charts: Vec<_> = match app.studies.shown {
