@@ -15,12 +15,9 @@ mod clock;
 mod compressed_rows;
 mod contact;
 mod failure;
-mod kick;
-mod mirror;
 mod newmark;
 mod pack;
 mod record;
-mod tension;
 mod verlet;
 mod wake;
 

@@ -9,17 +9,21 @@
 //! A tire that lands or is fired at within the step is integrated phase by phase instead
 //! ([`TireStep::integrate`](super::contact::TireStep::integrate)), so that landing and launch have their own time. A cable
 //! that becomes taut or slack within the step gets a force that gives the right amplitude
-//! ([`Slices::evaluate`](super::tension::Slices::evaluate)). The method is of second order, symplectic between events, and
+//! ([`Slices::evaluate`](tension::Slices::evaluate)). The method is of second order, symplectic between events, and
 //! stable for h < 2/ω with ω² ≤ max (2/m) Σ k ([`Scene::frequency_bound`](crate::scene::Scene::frequency_bound)). Cables
 //! have no damping.
 
+mod kick;
+mod mirror;
 mod stepper;
+mod tension;
 
 use std::sync::OnceLock;
 
+use self::mirror::Quotient;
 use self::stepper::Stepper;
 use super::cable::Blocks;
-use super::mirror::Quotient;
+
 use super::pack::LANES;
 use super::wake::Ties;
 use super::{Failure, Settings, Watcher};

@@ -4,8 +4,8 @@ use pulp::Simd;
 
 use super::events::{Events, Integrated, State};
 use super::{StepTotals, Stepper};
-use crate::simulation::mirror::Image;
 use crate::simulation::pack::{LANES, Wide};
+use crate::simulation::verlet::mirror::Image;
 
 /// Second pass; compiled for each instruction set and chosen at run time.
 pub(super) struct MoveTires<'s, 'a>(pub &'s mut Stepper<'a>, pub &'s mut StepTotals);

@@ -8,10 +8,10 @@ use pulp::{Scalar, Simd};
 use super::{DueFiring, Part, StepTotals};
 use crate::outcome::Peak;
 use crate::simulation::contact::TireStep;
-use crate::simulation::kick::Tires;
 use crate::simulation::pack::{LANES, Pack, Wide};
 use crate::simulation::record::Record;
-use crate::simulation::tension::CableForces;
+use crate::simulation::verlet::kick::Tires;
+use crate::simulation::verlet::tension::CableForces;
 
 /// Result of a tire that was integrated through the step by itself.
 #[derive(Clone, Copy, Debug)]

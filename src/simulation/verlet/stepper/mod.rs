@@ -16,7 +16,7 @@ use crate::simulation::clock::Clock;
 use crate::simulation::contact::support;
 use crate::simulation::pack::{Field, LANES, Pack};
 use crate::simulation::record::Record;
-use crate::simulation::tension::Tension;
+use crate::simulation::verlet::tension::Tension;
 use crate::simulation::wake::Wake;
 use crate::simulation::{Failure, Motion, Settings, Watcher};
 

@@ -4,8 +4,8 @@ use std::borrow::Cow;
 
 use pulp::Simd;
 
-use super::cable::{Block, Blocks};
-use super::pack::{Aligned, Field, LANES, Pack, Wide};
+use crate::simulation::cable::{Block, Blocks};
+use crate::simulation::pack::{Aligned, Field, LANES, Pack, Wide};
 
 /// State of all cables from one step to the next, and their forces.
 #[derive(Debug)]

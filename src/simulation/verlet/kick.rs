@@ -1,8 +1,8 @@
-//! Kick and drift of the tires in one register: steps 2 and 3 of [`super::verlet`].
+//! Kick and drift of the tires in one register: steps 2 and 3 of [`super`].
 
 use pulp::Simd;
 
-use super::pack::Wide;
+use crate::simulation::pack::Wide;
 
 /// Tires at the start of a step.
 #[derive(Clone, Copy)]
