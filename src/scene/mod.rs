@@ -5,12 +5,14 @@
 
 mod build;
 mod mirror;
+mod nearby;
 mod shot;
 
 use nalgebra::Vector3;
 
 pub use build::{fire_at_s, seconds};
 pub use mirror::Mirror;
+pub use nearby::{Symmetry, nearby};
 pub use shot::{Firing, Shot};
 
 /// The shelter at rest, before any hole fires.
