@@ -14,7 +14,7 @@ use rayon::iter::{ParallelBridge, ParallelIterator};
 use crate::study::check::{Checked, check};
 use crate::study::flight::{Flight, record};
 use crate::study::orders::{Orders, orders};
-use crate::study::scatter::{Draw, Sample, scatter};
+use crate::study::scatter::{Sample, Sampling, scatter};
 use crate::study::size::{Demand, Sizing, size};
 use crate::study::sweep::{Sweep, sweep};
 use crate::study::{Case, ComputeSettings, Intervals, NoResult, Progress, Shard, accuracy, guarded};
@@ -59,7 +59,7 @@ pub enum StudyResult {
     /// Result of [`StudyKind::Orders`].
     Orders(Orders),
     /// Result of [`StudyKind::Scatter`].
-    Scatter(Draw, Vec<Sample>),
+    Scatter(Sampling, Vec<Sample>),
     /// Result of [`StudyKind::Size`].
     Size(Sizing),
     /// Result of [`StudyKind::Flight`].
@@ -108,7 +108,7 @@ pub enum News {
 }
 
 /// Samples of every option.
-const DRAW: Draw = Draw { samples: 1000, seed: 1, certain_at: None };
+const SAMPLING: Sampling = Sampling { samples: 1000, seed: 1, certain_at: None };
 /// Intervals swept [s].
 const INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: 5e-3 };
 /// Longest run that [`StudyKind::Accuracy`] makes.
@@ -257,8 +257,8 @@ impl Job {
             }
             StudyKind::Scatter => {
                 let spec = case.plan.scatter.ok_or(NoResult::NoScatter)?;
-                let samples = scatter(case, &spec, &DRAW, Shard::WHOLE, compute, progress)?;
-                Ok(StudyResult::Scatter(DRAW, samples))
+                let samples = scatter(case, &spec, &SAMPLING, Shard::WHOLE, compute, progress)?;
+                Ok(StudyResult::Scatter(SAMPLING, samples))
             }
             StudyKind::Size => size(&case.plan, &Demand::Options, compute, progress).map(StudyResult::Size),
             StudyKind::Flight => record(case, option, compute, progress).map(StudyResult::Flight),

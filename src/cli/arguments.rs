@@ -9,7 +9,7 @@ use crate::choice::{Accuracy, Method, UnknownName};
 use crate::plan::Plan;
 use crate::report::text::Style;
 use crate::scene::seconds;
-use crate::study::scatter::Draw;
+use crate::study::scatter::Sampling;
 use crate::study::{ComputeSettings, Intervals, Shard};
 
 /// How to compute.
@@ -98,7 +98,7 @@ pub enum FormatArg {
 
 /// How many samples, from which seed.
 #[derive(Args, Clone, Copy)]
-pub struct DrawArguments {
+pub struct SamplingArguments {
     /// Samples of every option; default: 1000
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     samples: Option<u32>,
@@ -110,10 +110,10 @@ pub struct DrawArguments {
     until_certain: Option<f64>,
 }
 
-impl DrawArguments {
+impl SamplingArguments {
     /// The samples asked for.
-    pub fn draw(self) -> Draw {
-        Draw {
+    pub fn sampling(self) -> Sampling {
+        Sampling {
             samples: self.samples.unwrap_or(1000) as usize,
             seed: self.seed.unwrap_or(1),
             certain_at: self.until_certain.map(|percent| percent * 1e-2),

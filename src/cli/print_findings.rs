@@ -37,12 +37,12 @@ pub fn print_findings(
     }
     let Answer { case, question, findings, partial, .. } = answer;
     match (findings, question) {
-        (Findings::Scatter(samples), Question::Scatter { spec, draw }) => {
+        (Findings::Scatter(samples), Question::Scatter { spec, sampling }) => {
             let document = || {
                 let swaps = swaps(case, &spec, SWAP);
-                ScatterDocument::new(case, &draw, &samples, &swaps, partial)
+                ScatterDocument::new(case, &sampling, &samples, &swaps, partial)
             };
-            print(&[scatter::report(case, &draw, &samples, partial)], document, format, look)
+            print(&[scatter::report(case, &sampling, &samples, partial)], document, format, look)
         }
         (Findings::Orders(tried), Question::Orders { intervals_s }) => {
             let orders = Orders::new(case, tried, intervals_s.len());

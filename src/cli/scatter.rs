@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, DrawArguments, FormatArg, Look, shard};
+use super::arguments::{Compute, FormatArg, Look, SamplingArguments, shard};
 use super::load_plans::open;
 use super::print_findings::{Answer, print_findings};
 use super::run_study::{Completed, run_study};
@@ -20,7 +20,7 @@ pub struct Arguments {
     /// Plan to study, with a section [scatter]; `-` reads standard input
     plan: PathBuf,
     #[command(flatten)]
-    draw: DrawArguments,
+    sampling: SamplingArguments,
     /// This machine's share; `shelter merge` joins the shares
     #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with_all = ["until_certain", "timeout", "format"])]
     shard: Option<Shard>,
@@ -38,19 +38,20 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
     let Some(spec) = case.plan.scatter else { return failed(&NoResult::NoScatter) };
     notes::scatter(&case).iter().for_each(|note| eprintln!("{note}"));
-    let draw = arguments.draw.draw();
-    if draw.samples.saturating_mul(case.shots.len()) > MOST_SAMPLES {
+    let sampling = arguments.sampling.sampling();
+    if sampling.samples.saturating_mul(case.shots.len()) > MOST_SAMPLES {
         let message =
             format!("more than {MOST_SAMPLES} samples of all options do not fit into memory: take fewer");
         return wrong(&message);
     }
     let (settings, shard) = (arguments.compute.settings(&case.plan), arguments.shard.unwrap_or(Shard::WHOLE));
-    let samples =
-        run_study(&arguments.compute, |progress| scatter(&case, &spec, &draw, shard, &settings, progress));
+    let samples = run_study(&arguments.compute, |progress| {
+        scatter(&case, &spec, &sampling, shard, &settings, progress)
+    });
     match samples {
         Err(reason) => failed(&reason),
         Ok(Completed { value: samples, partial }) => {
-            let question = Question::Scatter { spec, draw };
+            let question = Question::Scatter { spec, sampling };
             let answer =
                 Answer { case: &case, question, settings, findings: Findings::Scatter(samples), partial };
             print_findings(answer, arguments.shard, arguments.format, look)

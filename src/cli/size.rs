@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, DrawArguments, FormatArg, Look, intervals};
+use super::arguments::{Compute, FormatArg, Look, SamplingArguments, intervals};
 use super::load_plans::open;
 use super::print::print;
 use super::run_study::run_study;
@@ -34,7 +34,7 @@ pub struct Arguments {
     #[arg(long, conflicts_with = "any_order")]
     scatter: bool,
     #[command(flatten)]
-    draw: DrawArguments,
+    sampling: SamplingArguments,
     /// Family of ropes; default: that of [size], else the whole catalogue
     #[arg(long, value_name = "FAMILY")]
     ropes: Option<String>,
@@ -94,9 +94,9 @@ fn choose(arguments: &Arguments, case: &mut Case) -> Result<Demand, String> {
     }
     if arguments.scatter {
         let spec = case.plan.scatter.ok_or_else(|| no_result::message(&NoResult::NoScatter))?;
-        return Ok(Demand::Samples(spec, arguments.draw.draw()));
+        return Ok(Demand::Samples(spec, arguments.sampling.sampling()));
     }
-    if arguments.draw.is_given() {
+    if arguments.sampling.is_given() {
         return Err("--samples, --seed and --until-certain are of --scatter: add it".to_owned());
     }
     if !arguments.any_order {

@@ -4,7 +4,7 @@ use super::charts;
 use super::limit_facts;
 use super::model::{Block, Cell, Column, Conclusion, Report, Row, Table};
 use crate::study::Case;
-use crate::study::scatter::{Draw, Sample, Summary, Swap, summary, verdict};
+use crate::study::scatter::{Sample, Sampling, Summary, Swap, summary, verdict};
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
@@ -31,22 +31,22 @@ const COLUMNS: [Column; 7] = [
 ];
 
 /// The report of all samples, which is partial where the time was up.
-pub fn report(case: &Case, draw: &Draw, samples: &[Sample], partial: bool) -> Report {
+pub fn report(case: &Case, sampling: &Sampling, samples: &[Sample], partial: bool) -> Report {
     let options = case.plan.delays.iter().enumerate();
     let rows = options.map(|(option, delay)| row(&delay.name, &summary(samples, option))).collect();
     let table = Table { columns: COLUMNS.to_vec(), rows, ranked: false };
     let failures = samples.iter().filter(|sample| sample.envelope.verdict != Verdict::Pass).count();
     let mut text =
         format!("{failures} of {} samples fail{}", samples.len(), if partial { " so far" } else { "" });
-    if let Some(bound) = draw.certain_at {
+    if let Some(bound) = sampling.certain_at {
         let bound = 1e2 * bound;
         text += &format!("; what is asked is that every option surely fails less often than {bound} %");
     }
-    let verdict = match verdict(case, draw, samples) {
+    let verdict = match verdict(case, sampling, samples) {
         Verdict::Pass if partial => Verdict::Undecided,
         verdict => verdict,
     };
-    let head = format!("up to {} samples of each option, seed {}", draw.samples, draw.seed);
+    let head = format!("up to {} samples of each option, seed {}", sampling.samples, sampling.seed);
     let mut blocks = vec![Block::Text(vec![head]), Block::Table(table)];
     blocks.extend(charts::scatter(case, samples).map(Block::Picture));
     Report { blocks, conclusion: Some(Conclusion { verdict, text }), ..limit_facts(case) }

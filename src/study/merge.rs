@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use super::orders::Tried;
-use super::scatter::{Draw, Sample};
+use super::scatter::{Sample, Sampling};
 use super::{Case, ComputeSettings, Shard};
 use crate::plan::ScatterSpec;
 
@@ -27,7 +27,7 @@ pub enum Question {
         /// Scatter of detonators, launches and friction.
         spec: ScatterSpec,
         /// Number of samples and seed.
-        draw: Draw,
+        sampling: Sampling,
     },
 }
 
@@ -67,7 +67,7 @@ pub enum Findings {
 }
 
 /// Name of this format of shares.
-const SCHEMA: &str = "shelter.shard/2";
+const SCHEMA: &str = "shelter.shard/3";
 /// Version of this program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 

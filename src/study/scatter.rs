@@ -33,9 +33,9 @@ pub struct Sample {
     pub envelope: Envelope,
 }
 
-/// Number of samples, and their seed.
+/// Number of samples of each option, their seed, and when to stop.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Draw {
+pub struct Sampling {
     /// Number of samples of each option.
     pub samples: usize,
     /// Seed of the random numbers.
@@ -52,7 +52,7 @@ const LOOK_EVERY: usize = 200;
 pub fn scatter(
     case: &Case,
     spec: &ScatterSpec,
-    draw: &Draw,
+    sampling: &Sampling,
     shard: Shard,
     compute: &ComputeSettings,
     progress: &Progress,
@@ -68,7 +68,7 @@ pub fn scatter(
     })?;
     let Some(errors) = errors.into_iter().collect::<Option<Vec<_>>>() else { return Ok(Vec::new()) };
     let judge_one = |&(option, number): &(usize, usize)| {
-        let shot = drawn(&case.shots[option], spec, draw.seed, option, number);
+        let shot = drawn(&case.shots[option], spec, sampling.seed, option, number);
         judge_sample(case, &shot, &errors[option], compute, progress)
     };
     let judge = |jobs: Vec<(usize, usize)>| -> Result<Vec<Sample>, NoResult> {
@@ -78,20 +78,20 @@ pub fn scatter(
         };
         Ok(jobs.into_iter().zip(envelopes).filter_map(sample).collect())
     };
-    if draw.certain_at.is_none() {
-        let all = itertools::iproduct!(options, 0..draw.samples);
+    if sampling.certain_at.is_none() {
+        let all = itertools::iproduct!(options, 0..sampling.samples);
         return judge(all.filter(|&(_, number)| shard.has(number)).collect());
     }
     let mut all = Vec::new();
     for option in options {
         let mut samples: Vec<Sample> = Vec::new();
-        while samples.len() < draw.samples && !is_certain(&samples, draw) && !progress.expired() {
+        while samples.len() < sampling.samples && !is_certain(&samples, sampling) && !progress.expired() {
             let from = samples.len();
-            let next = from..(from + LOOK_EVERY).min(draw.samples);
+            let next = from..(from + LOOK_EVERY).min(sampling.samples);
             samples.extend(judge(next.map(|number| (option, number)).collect())?);
         }
-        if progress.expired() && !is_certain(&samples, draw) {
-            progress.expect(draw.samples - samples.len());
+        if progress.expired() && !is_certain(&samples, sampling) {
+            progress.expect(sampling.samples - samples.len());
         }
         all.extend(samples);
     }
@@ -102,17 +102,17 @@ fn start(case: &Case, compute: &ComputeSettings) -> f64 {
     compute.step.unwrap_or_else(|| start_step(case, compute.method, compute.accuracy))
 }
 
-fn is_certain(samples: &[Sample], draw: &Draw) -> bool {
-    let Some(bound) = draw.certain_at.filter(|_| !samples.is_empty()) else { return false };
+fn is_certain(samples: &[Sample], sampling: &Sampling) -> bool {
+    let Some(bound) = sampling.certain_at.filter(|_| !samples.is_empty()) else { return false };
     let failures = samples.iter().filter(|sample| sample.envelope.verdict != Verdict::Pass).count();
     let [low, high] = wilson(failures, samples.len());
     high < bound || low > bound
 }
 
-/// The verdict on all options: a pass where no sample fails, or where surely fewer fail than `draw.certain_at`.
-pub fn verdict(case: &Case, draw: &Draw, samples: &[Sample]) -> Verdict {
+/// The verdict on all options: a pass where no sample fails, or where surely fewer fail than `sampling.certain_at`.
+pub fn verdict(case: &Case, sampling: &Sampling, samples: &[Sample]) -> Verdict {
     Verdict::worst((0..case.shots.len()).map(|option| summary(samples, option)).map(|summary| {
-        let [passes, fails] = match draw.certain_at {
+        let [passes, fails] = match sampling.certain_at {
             Some(bound) => [summary.interval[1] < bound, summary.interval[0] > bound],
             None => [summary.samples > 0 && summary.failures == 0, summary.failures > summary.undecided],
         };

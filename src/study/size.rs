@@ -8,7 +8,7 @@
 use itertools::Itertools;
 
 use super::batch::judge_shots;
-use super::scatter::{Draw, Sample, scatter};
+use super::scatter::{Sample, Sampling, scatter};
 use super::{Bounded, Case, ComputeSettings, Envelope, NoResult, Progress, Shard};
 use crate::plan::{Layout, Plan, ScatterSpec};
 use crate::ropes::{Rope, catalogue};
@@ -23,7 +23,7 @@ pub enum Demand {
     /// Every order of the blast rows (at most [`MOST_ROWS`](super::orders::MOST_ROWS)) at each of these intervals [s].
     AnyOrder(Vec<f64>),
     /// 99 % of the samples of every option.
-    Samples(ScatterSpec, Draw),
+    Samples(ScatterSpec, Sampling),
 }
 
 /// Fraction of the samples that may fail.
@@ -176,8 +176,8 @@ fn try_out(
     let shots = match demand {
         Demand::Options => case.shots.clone(),
         Demand::AnyOrder(intervals) => all_orders(case, intervals),
-        Demand::Samples(spec, draw) => {
-            let samples = scatter(case, spec, draw, Shard::WHOLE, compute, progress)?;
+        Demand::Samples(spec, sampling) => {
+            let samples = scatter(case, spec, sampling, Shard::WHOLE, compute, progress)?;
             return Ok((!progress.expired()).then(|| most_hold(case, &samples)));
         }
     };

@@ -48,7 +48,9 @@ impl ShownStudy {
         let report = match &*found {
             StudyResult::Sweep(sweep) => report::sweep::report(case, sweep, false),
             StudyResult::Orders(orders) => report::orders::report(case, orders, false),
-            StudyResult::Scatter(draw, samples) => report::scatter::report(case, draw, samples, false),
+            StudyResult::Scatter(sampling, samples) => {
+                report::scatter::report(case, sampling, samples, false)
+            }
             StudyResult::Size(sizing) => report::size::report(case, sizing),
             StudyResult::Accuracy(study) => report::accuracy::report(case, study, &[]),
             StudyResult::Flight(flight) => {

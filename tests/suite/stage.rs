@@ -15,7 +15,7 @@ use shelter::study::accuracy::{AccuracyTable, Measured, Row};
 use shelter::study::check::Checked;
 use shelter::study::orders::{Orders, Tried};
 use shelter::study::reason::{Quantity, Reason};
-use shelter::study::scatter::{Draw, Sample};
+use shelter::study::scatter::{Sample, Sampling};
 use shelter::study::size::{Combination, Sizing, Trial};
 use shelter::study::sweep::{Point, Sweep};
 use shelter::study::{Bounded, Envelope};
@@ -184,10 +184,10 @@ pub fn spreads(app: &App) -> [(StudyKind, StudyResult); 3] {
         let (total_mass, trial) = (14_000.0 + 100.0 * n as f64, Ok(trial));
         Combination { rope, tire_mass: 280.0, border_rows: 0, tires: 50, total_mass, trial }
     });
-    let draw = Draw { samples: 100, seed: 1, certain_at: None };
+    let sampling = Sampling { samples: 100, seed: 1, certain_at: None };
     [
         (StudyKind::Orders, StudyResult::Orders(Orders::new(&app.case, tried.collect(), 1))),
-        (StudyKind::Scatter, StudyResult::Scatter(draw, samples.collect())),
+        (StudyKind::Scatter, StudyResult::Scatter(sampling, samples.collect())),
         (StudyKind::Size, StudyResult::Size(Sizing { combinations: combinations.collect() })),
     ]
 }

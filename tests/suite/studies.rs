@@ -7,7 +7,7 @@ use shelter::plan::{DelayScatter, Plan, ScatterSpec};
 use shelter::ropes::catalogue;
 use shelter::study::check::{check, check_shot};
 use shelter::study::orders::{Orders, Tried, orders};
-use shelter::study::scatter::{Draw, drawn, scatter, summary, swaps};
+use shelter::study::scatter::{Sampling, drawn, scatter, summary, swaps};
 use shelter::study::size::{Demand, size};
 use shelter::study::sweep::sweep;
 use shelter::study::{Case, ComputeSettings, Intervals, Shard};
@@ -194,8 +194,8 @@ simulation = { accuracy = "draft" }
     let compute = ComputeSettings::of(&case.plan);
     let covered = (0..300)
         .filter(|&seed| {
-            let draw = Draw { samples: 100, seed, certain_at: None };
-            let samples = scatter(&case, &spec, &draw, Shard::WHOLE, &compute, &Progress::default());
+            let sampling = Sampling { samples: 100, seed, certain_at: None };
+            let samples = scatter(&case, &spec, &sampling, Shard::WHOLE, &compute, &Progress::default());
             let [low, high] = summary(&samples.expect("a result"), 0).interval;
             (low..=high).contains(&exact)
         })

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::Limits;
 use crate::report::scatter::{failure_share, swap_warning};
 use crate::study::Case;
-use crate::study::scatter::{Draw, Sample, Summary, Swap, summary};
+use crate::study::scatter::{Sample, Sampling, Summary, Swap, summary};
 
 /// The document of all samples.
 #[derive(Serialize)]
@@ -58,7 +58,7 @@ impl OptionResult {
 
 impl ScatterDocument {
     /// The document of all samples, which is partial where the time was up.
-    pub fn new(case: &Case, draw: &Draw, samples: &[Sample], swaps: &[Swap], partial: bool) -> Self {
+    pub fn new(case: &Case, sampling: &Sampling, samples: &[Sample], swaps: &[Swap], partial: bool) -> Self {
         let delays = case.plan.delays.iter().enumerate();
         Self {
             schema: "shelter.scatter/1",
@@ -66,8 +66,8 @@ impl ScatterDocument {
             title: case.title().to_owned(),
             partial,
             limits: Limits::of(case),
-            samples: draw.samples,
-            seed: draw.seed,
+            samples: sampling.samples,
+            seed: sampling.seed,
             options: delays
                 .map(|(option, delay)| OptionResult::new(&delay.name, &summary(samples, option)))
                 .collect(),
