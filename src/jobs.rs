@@ -17,7 +17,9 @@ use crate::study::orders::{Orders, orders};
 use crate::study::scatter::{Sample, Sampling, scatter};
 use crate::study::size::{Demand, Sizing, size};
 use crate::study::sweep::{Sweep, sweep};
-use crate::study::{Case, ComputeSettings, Intervals, NoResult, Progress, Shard, accuracy, guarded};
+use crate::study::{
+    Case, ComputeSettings, Intervals, NoResult, Progress, Shard, accuracy, guarded, thread_pool,
+};
 
 /// A study that the terminal offers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -152,7 +154,7 @@ impl Jobs {
         let job = self.job(case, compute);
         end(self.check.replace(Arc::clone(&job.progress)));
         let options = 0..case.shots.len();
-        match pool(self.threads.min(options.len())) {
+        match thread_pool(self.threads.min(options.len())) {
             Ok(pool) => pool.spawn(move || options.par_bridge().for_each(|option| job.check(option))),
             Err(none) => options.for_each(|option| {
                 job.tell(News::Checked { option, result: Err(none.clone()) });
@@ -166,7 +168,7 @@ impl Jobs {
         end(self.studies[kind as usize].replace(Arc::clone(&job.progress)));
         self.told[kind as usize] = (0, 0);
         let tell = move |job: &Job, result| job.tell(News::Studied { kind, compute, result });
-        match pool(self.threads) {
+        match thread_pool(self.threads) {
             Ok(pool) => pool.spawn(move || tell(&job, guarded(|| job.study(kind, option).map(Box::new)))),
             Err(none) => tell(&job, Err(none)),
         }
@@ -212,12 +214,6 @@ fn end(job: Option<Arc<Progress>>) {
     job.iter().for_each(|progress| progress.stop());
 }
 
-/// The threads of one job; they end with its work.
-fn pool(threads: usize) -> Result<rayon::ThreadPool, NoResult> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    pool.map_err(|error| NoResult::NoThreads(error.to_string()))
-}
-
 impl Job {
     fn tell(&self, news: News) {
         // No receiver: the program quits, and nobody waits for the news.
@@ -248,22 +244,24 @@ impl Job {
         match kind {
             StudyKind::Sweep => {
                 let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
-                sweep(case, &order, &INTERVALS, compute, progress).map(StudyResult::Sweep)
+                Ok(StudyResult::Sweep(sweep(case, &order, &INTERVALS, compute, progress)?.value))
             }
             StudyKind::Orders => {
                 let intervals = case.intervals();
-                let tried = orders(case, &intervals, Shard::WHOLE, compute, progress)?;
+                let tried = orders(case, &intervals, Shard::WHOLE, compute, progress)?.value;
                 Ok(StudyResult::Orders(Orders::new(case, tried, intervals.len())))
             }
             StudyKind::Scatter => {
                 let spec = case.plan.scatter.ok_or(NoResult::NoScatter)?;
-                let samples = scatter(case, &spec, &SAMPLING, Shard::WHOLE, compute, progress)?;
+                let samples = scatter(case, &spec, &SAMPLING, Shard::WHOLE, compute, progress)?.value;
                 Ok(StudyResult::Scatter(SAMPLING, samples))
             }
-            StudyKind::Size => size(&case.plan, &Demand::Options, compute, progress).map(StudyResult::Size),
+            StudyKind::Size => {
+                Ok(StudyResult::Size(size(&case.plan, &Demand::Options, compute, progress)?.value))
+            }
             StudyKind::Flight => record(case, option, compute, progress).map(StudyResult::Flight),
             StudyKind::Accuracy => {
-                accuracy::measure(case, option, LONGEST_RUN, progress).map(StudyResult::Accuracy)
+                Ok(StudyResult::Accuracy(accuracy::measure(case, option, LONGEST_RUN, progress)?.value))
             }
         }
     }

@@ -9,11 +9,12 @@ use clap::Args;
 use super::arguments::{Compute, FormatArg, Look};
 use super::load_plans::open_option;
 use super::print::print;
-use super::run_study::{Completed, run_study};
+use super::run_study::run_study;
 use super::status::{Status, failed};
 use crate::choice::Method;
 use crate::report::accuracy::report;
 use crate::report::json::AccuracyDocument;
+use crate::study::Found;
 use crate::study::accuracy::{PaperRow, measure, paper_table};
 
 /// Runs that are expected to take longer are left out.
@@ -38,7 +39,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         return Ok(Status::Wrong);
     };
     let measured = run_study(&arguments.compute, |progress| measure(&case, option, PATIENCE, progress));
-    let Completed { value: study, partial } = match measured {
+    let Found { value: study, partial } = match measured {
         Ok(finished) => finished,
         Err(reason) => return failed(&reason),
     };

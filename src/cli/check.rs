@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{Compute, FormatArg, Look};
-use super::check_plans::{check_all, print_checks};
+use super::check_plans::{check_plans, print_checks};
 use super::load_plans::open_all;
 use super::status::{Status, failed};
 
@@ -27,7 +27,7 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     let Some(cases) = open_all(&arguments.plans, look) else { return Ok(Status::Wrong) };
-    match check_all(&cases, &arguments.compute) {
+    match check_plans(&cases, &arguments.compute) {
         Ok(checked) => print_checks(&cases, &checked, arguments.any, arguments.format, look),
         Err(reason) => failed(&reason),
     }

@@ -11,13 +11,13 @@ use super::status::Status;
 use crate::report::check::report;
 use crate::report::json::CheckDocument;
 use crate::report::model::Report;
-use crate::study::check_all::{Results, check_plans};
+use crate::study::check_all::{Results, check_all};
 use crate::study::{Case, NoResult};
 
 /// Checks all options of all cases in parallel. Returns results in the order of plans and options.
-pub fn check_all(cases: &[Case], compute: &Compute) -> Result<Vec<Results>, NoResult> {
+pub fn check_plans(cases: &[Case], compute: &Compute) -> Result<Vec<Results>, NoResult> {
     let cases: Vec<_> = cases.iter().map(|case| (case, compute.settings(&case.plan))).collect();
-    Ok(run_study(compute, |progress| check_plans(&cases, progress))?.value)
+    Ok(run_study(compute, |progress| check_all(&cases, progress))?.value)
 }
 
 /// One document for one plan, a list of documents for several.

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::arguments::{Compute, FormatArg, Look};
-use super::check_plans::{check_all, print_checks};
+use super::check_plans::{check_plans, print_checks};
 use super::status::{Status, failed, wrong};
 use super::{load_plans, print_help};
 use crate::jobs::Jobs;
@@ -20,7 +20,7 @@ pub fn plan(plan: &Path, compute: &Compute, look: &Look) -> io::Result<Status> {
     let Some(case) = load_plans::open(plan, look) else { return Ok(Status::Wrong) };
     if !io::stdout().is_terminal() {
         let cases = [case];
-        return match check_all(&cases, compute) {
+        return match check_plans(&cases, compute) {
             Ok(checked) => print_checks(&cases, &checked, false, FormatArg::Text, look),
             Err(reason) => failed(&reason),
         };

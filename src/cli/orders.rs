@@ -8,12 +8,12 @@ use clap::Args;
 use super::arguments::{Compute, FormatArg, Look, intervals, shard};
 use super::load_plans::open;
 use super::print_findings::{Answer, print_findings};
-use super::run_study::{Completed, run_study};
+use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::report::notes;
 use crate::study::merge::{Findings, Question};
 use crate::study::orders::{MOST_ROWS, count, is_complete, orders};
-use crate::study::{Intervals, Shard};
+use crate::study::{Found, Intervals, Shard};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -57,7 +57,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         run_study(&arguments.compute, |progress| orders(&case, &intervals_s, shard, &settings, progress));
     match tried {
         Err(reason) => failed(&reason),
-        Ok(Completed { value: tried, partial }) => {
+        Ok(Found { value: tried, partial }) => {
             let question = Question::Orders { intervals_s };
             let answer =
                 Answer { case: &case, question, settings, findings: Findings::Orders(tried), partial };

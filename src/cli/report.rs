@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::arguments::{Compute, FormatArg, Look};
-use super::check_plans::{check_all, print_checks};
+use super::check_plans::{check_plans, print_checks};
 use super::load_plans::open;
 use super::print::print_text;
 use super::status::{Status, failed, wrong};
@@ -38,7 +38,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
         return wrong("page and results cannot both go to standard output: write the page to a file");
     }
     let cases = [case];
-    let checked = match check_all(&cases, &arguments.compute) {
+    let checked = match check_plans(&cases, &arguments.compute) {
         Ok(checked) => checked,
         Err(reason) => return failed(&reason),
     };

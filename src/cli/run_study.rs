@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::arguments::Compute;
-use crate::study::{NoResult, Progress};
+use crate::study::{Finding, NoResult, Progress, thread_pool};
 
 /// Time between two looks at progress and signals.
 const LOOK: Duration = Duration::from_millis(50);
@@ -19,19 +19,11 @@ const LONG: Duration = Duration::from_secs(60);
 /// Time that a study runs before its duration is estimated.
 const WATCHED: Duration = Duration::from_secs(1);
 
-/// A study that ended.
-pub struct Completed<T> {
-    /// Its result.
-    pub value: T,
-    /// Whether the time was up before all shots were judged.
-    pub partial: bool,
-}
-
 /// Runs `work`. Progress and the estimate of its duration show only where standard error is a terminal.
 pub fn run_study<T: Send>(
     compute: &Compute,
-    work: impl FnOnce(&Progress) -> Result<T, NoResult> + Send,
-) -> Result<Completed<T>, NoResult> {
+    work: impl FnOnce(&Progress) -> Finding<T> + Send,
+) -> Finding<T> {
     let (progress, signal) = (Progress::default(), Arc::new(AtomicBool::new(false)));
     #[cfg(unix)]
     for number in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM, signal_hook::consts::SIGHUP] {
@@ -47,7 +39,7 @@ pub fn run_study<T: Send>(
         let study = scope.spawn(|| {
             // Gone with this thread, whether it returns or panics.
             let _ended = ended;
-            on_threads(compute, || work(&progress))
+            on_threads(compute, || work(&progress))?
         });
         while end.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
             let (done, total) = progress.counts();
@@ -71,19 +63,15 @@ pub fn run_study<T: Send>(
         study.join()
     });
     bar.finish_and_clear();
-    let value = result.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
-    let (done, total) = progress.counts();
-    let partial = progress.expired() && done < total;
-    if partial {
+    let found = result.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+    if found.partial {
+        let (done, total) = progress.counts();
         eprintln!("the time was up after {done} of {total} shots; what follows is partial");
     }
-    Ok(Completed { value, partial })
+    Ok(found)
 }
 
 /// Runs `work` on the threads asked for.
-fn on_threads<T: Send>(compute: &Compute, work: impl FnOnce() -> T + Send) -> T {
-    match rayon::ThreadPoolBuilder::new().num_threads(compute.threads.unwrap_or(0).into()).build() {
-        Ok(pool) => pool.install(work),
-        Err(_) => work(),
-    }
+fn on_threads<T: Send>(compute: &Compute, work: impl FnOnce() -> T + Send) -> Result<T, NoResult> {
+    Ok(thread_pool(compute.threads.unwrap_or(0).into())?.install(work))
 }

@@ -8,12 +8,12 @@ use clap::Args;
 use super::arguments::{Compute, FormatArg, Look, SamplingArguments, shard};
 use super::load_plans::open;
 use super::print_findings::{Answer, print_findings};
-use super::run_study::{Completed, run_study};
+use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::report::notes;
 use crate::study::merge::{Findings, Question};
 use crate::study::scatter::scatter;
-use crate::study::{NoResult, Shard};
+use crate::study::{Found, NoResult, Shard};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -50,7 +50,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     });
     match samples {
         Err(reason) => failed(&reason),
-        Ok(Completed { value: samples, partial }) => {
+        Ok(Found { value: samples, partial }) => {
             let question = Question::Scatter { spec, sampling };
             let answer =
                 Answer { case: &case, question, settings, findings: Findings::Scatter(samples), partial };

@@ -8,13 +8,13 @@ use clap::Args;
 use super::arguments::{Compute, FormatArg, Look, intervals};
 use super::load_plans::open_option;
 use super::print::print;
-use super::run_study::{Completed, run_study};
+use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::plan::Timing;
 use crate::report::json::SweepDocument;
 use crate::report::sweep::report;
-use crate::study::Intervals;
 use crate::study::sweep::sweep;
+use crate::study::{Found, Intervals};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -50,7 +50,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     });
     match swept {
         Err(reason) => failed(&reason),
-        Ok(Completed { value: swept, partial }) => {
+        Ok(Found { value: swept, partial }) => {
             let document = || SweepDocument::new(&case, &swept, partial);
             print(&[report(&case, &swept, partial)], document, arguments.format, look)
         }

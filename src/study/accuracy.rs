@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use super::check::start_step;
-use super::{Case, NoResult, Progress, error};
+use super::{Case, Finding, Found, NoResult, Progress, error};
 use crate::choice::{Accuracy, Method};
 use crate::outcome::Outcome;
 use crate::plan::Timing;
@@ -70,7 +70,7 @@ pub fn measure(
     option: usize,
     patience: Duration,
     progress: &Progress,
-) -> Result<AccuracyTable, NoResult> {
+) -> Finding<AccuracyTable> {
     let levels = [Accuracy::Draft, Accuracy::Field, Accuracy::Reference]
         .map(|level| (level, start_step(case, Method::Verlet, level)));
     let reference_step = levels[2].1 / FINER;
@@ -79,7 +79,7 @@ pub fn measure(
     let reference = run(case, shot, Method::Verlet, reference_step, progress)?;
     progress.advance();
     let coarsest = (0.95 * case.scene().critical_step()).min(8e-3);
-    let mut rows = Vec::new();
+    let (mut rows, mut partial) = (Vec::new(), false);
     for method in [Method::Verlet, Method::Newmark] {
         let mut steps: Vec<f64> = (0..STEPS).map(|n| coarsest * error::RATIO.powi(-n)).collect();
         if method == Method::Verlet {
@@ -91,11 +91,14 @@ pub fn measure(
         }
         let mut last = Duration::ZERO;
         for step in steps.into_iter().take_while(|&step| step > reference_step) {
-            if 2 * last > patience || progress.expired() {
+            if 2 * last > patience {
                 break;
             }
             let result = match run(case, shot, method, step, progress) {
-                Err(NoResult::OutOfTime) => break,
+                Err(NoResult::OutOfTime) => {
+                    partial = true;
+                    break;
+                }
                 result => result?,
             };
             progress.advance();
@@ -104,7 +107,7 @@ pub fn measure(
             rows.push(Row { method, step, result });
         }
     }
-    Ok(AccuracyTable { option, rows, reference_step, levels })
+    Ok(Found { value: AccuracyTable { option, rows, reference_step, levels }, partial })
 }
 
 impl AccuracyTable {

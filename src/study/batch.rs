@@ -7,6 +7,12 @@ use super::envelope::Envelope;
 use super::{Case, ComputeSettings, NoResult, Progress};
 use crate::scene::Shot;
 
+/// `threads` threads to compute on, one per core where 0; they end once the pool is dropped and its work is done.
+pub fn thread_pool(threads: usize) -> Result<rayon::ThreadPool, NoResult> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map_err(|error| NoResult::NoThreads(error.to_string()))
+}
+
 /// Does `work` for every job, in parallel. Returns the results in the order of the jobs; `None` where the time ran out. The
 /// number of threads does not change the results.
 pub fn each<J: Sync, T: Send>(

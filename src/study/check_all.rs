@@ -2,7 +2,7 @@
 
 use super::batch::each;
 use super::check::{Checked, check};
-use super::{Case, ComputeSettings, NoResult, Progress, guarded};
+use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, guarded};
 use crate::verdict::Verdict;
 
 /// Results of the options of one plan, in their order (`n_options`).
@@ -10,10 +10,7 @@ pub type Results = Vec<Result<Checked, NoResult>>;
 
 /// Checks every option of every case. Returns the results by case; an option that the time did not suffice for has the
 /// result [`NoResult::OutOfTime`].
-pub fn check_plans(
-    cases: &[(&Case, ComputeSettings)],
-    progress: &Progress,
-) -> Result<Vec<Results>, NoResult> {
+pub fn check_all(cases: &[(&Case, ComputeSettings)], progress: &Progress) -> Finding<Vec<Results>> {
     let jobs: Vec<(usize, usize)> = cases
         .iter()
         .enumerate()
@@ -32,10 +29,11 @@ pub fn check_plans(
         }
     })?;
     let mut results: Vec<Results> = cases.iter().map(|_| Vec::new()).collect();
+    let partial = checked.iter().any(Option::is_none);
     for ((n, _), checked) in jobs.into_iter().zip(checked) {
         results[n].push(checked.unwrap_or(Err(NoResult::OutOfTime)));
     }
-    Ok(results)
+    Ok(Found { value: results, partial })
 }
 
 /// The verdict on a plan: the worst of its options, or the best where one passing option is enough.

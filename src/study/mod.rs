@@ -1,6 +1,7 @@
 //! Studies: which shots of a plan are run, how often and how finely, to answer one question of the user.
 //!
-//! A [`Case`] is a plan made ready to run. Each study takes a case and returns plain data, which every face draws.
+//! A [`Case`] is a plan made ready to run. A study takes a case and returns plain data, which every face draws; `size` takes a
+//! plan and makes a case of each combination.
 //! Studies do not print and do not compute physics. Only `merge` reads and writes a file format: that of shares.
 
 pub mod accuracy;
@@ -10,6 +11,7 @@ pub mod check_all;
 mod envelope;
 pub mod error;
 pub mod flight;
+mod found;
 pub mod merge;
 mod no_result;
 pub mod orders;
@@ -22,7 +24,9 @@ pub mod trace;
 
 use std::path::Path;
 
+pub use batch::thread_pool;
 pub use envelope::{Bounded, Envelope};
+pub use found::{Finding, Found};
 pub use no_result::{NoResult, guarded};
 pub use progress::Progress;
 use serde::{Deserialize, Serialize};

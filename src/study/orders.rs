@@ -11,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
 use super::batch::judge_shots;
-use super::{Case, ComputeSettings, Envelope, NoResult, Progress, Shard};
+use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard};
 use crate::scene::Shot;
 use crate::verdict::Verdict;
 
@@ -80,7 +80,7 @@ pub fn orders(
     shard: Shard,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Vec<Tried>, NoResult> {
+) -> Finding<Vec<Tried>> {
     if intervals.is_empty() {
         return Err(NoResult::NoInterval);
     }
@@ -102,13 +102,14 @@ fn judge_orders(
     jobs: Vec<Job>,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Vec<Tried>, NoResult> {
+) -> Finding<Vec<Tried>> {
     let shots: Vec<Shot> = jobs.iter().map(|(_, (order, interval))| case.shot(order, *interval)).collect();
     let envelopes = judge_shots(case, &shots, compute, progress)?;
     let tried = |((number, (order, interval)), envelope): (Job, Option<Envelope>)| {
         envelope.map(|envelope| Tried { number, order, interval, envelope })
     };
-    Ok(jobs.into_iter().zip(envelopes).filter_map(tried).collect())
+    let partial = envelopes.contains(&None);
+    Ok(Found { value: jobs.into_iter().zip(envelopes).filter_map(tried).collect(), partial })
 }
 
 fn search(
@@ -116,9 +117,9 @@ fn search(
     intervals: &[f64],
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Vec<Tried>, NoResult> {
+) -> Finding<Vec<Tried>> {
     let rows: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
-    let mut tried: Vec<Tried> = Vec::new();
+    let (mut tried, mut partial): (Vec<Tried>, _) = (Vec::new(), false);
     for (n, &interval) in intervals.iter().enumerate() {
         let mut random = ChaCha8Rng::seed_from_u64(n as u64);
         let mut starts = vec![rows.clone(), rows.iter().rev().copied().collect()];
@@ -128,30 +129,31 @@ fn search(
             order
         }));
         let first = tried.len();
-        add(case, &mut tried, starts, interval, compute, progress)?;
+        partial |= add(case, &mut tried, starts, interval, compute, progress)?;
         // Exchanges of the worst order and of the best order, until all exchanges of both are known.
         loop {
             let before = tried.len();
             for sign in [1.0, -1.0] {
                 let rank = |tried: &Tried| sign * tried.envelope.utilization(&case.limits);
                 let end = tried[first..].iter().reduce(|a, b| if rank(b) > rank(a) { b } else { a });
-                let Some(end) = end.cloned() else { return Ok(tried) };
+                let Some(end) = end.cloned() else { return Ok(Found { value: tried, partial }) };
                 let exchanged = (0..rows.len()).array_combinations().map(|[a, b]| {
                     let mut order = end.order.clone();
                     order.swap(a, b);
                     order
                 });
-                add(case, &mut tried, exchanged.collect(), interval, compute, progress)?;
+                partial |= add(case, &mut tried, exchanged.collect(), interval, compute, progress)?;
             }
             if tried.len() == before {
                 break;
             }
         }
     }
-    Ok(tried)
+    Ok(Found { value: tried, partial })
 }
 
-/// Judges the orders that have not been tried at this interval, and adds them to `tried`.
+/// Judges the orders that have not been tried at this interval, and adds them to `tried`. Returns whether the time was up
+/// before all of them were judged.
 fn add(
     case: &Case,
     tried: &mut Vec<Tried>,
@@ -159,12 +161,12 @@ fn add(
     interval: f64,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<(), NoResult> {
+) -> Result<bool, NoResult> {
     let known: std::collections::HashSet<&[usize]> =
         tried.iter().filter(|t| t.interval == interval).map(|t| t.order.as_slice()).collect();
     let new = orders.into_iter().unique().filter(|order| !known.contains(order.as_slice()));
     let jobs = new.enumerate().map(|(n, order)| (tried.len() + n, (order, interval))).collect();
-    let judged = judge_orders(case, jobs, compute, progress)?;
-    tried.extend(judged);
-    Ok(())
+    let Found { value, partial } = judge_orders(case, jobs, compute, progress)?;
+    tried.extend(value);
+    Ok(partial)
 }

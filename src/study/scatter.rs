@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use super::batch::{each, envelopes};
 use super::check::{check_shot, start_step};
 use super::reason::{Reason, reasons};
-use super::{Case, ComputeSettings, Envelope, NoResult, Progress, Shard};
+use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard};
 use crate::outcome::Peak;
 use crate::plan::ScatterSpec;
 use crate::scene::{Firing, Shot, fire_at_s};
@@ -56,7 +56,7 @@ pub fn scatter(
     shard: Shard,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Vec<Sample>, NoResult> {
+) -> Finding<Vec<Sample>> {
     let options: Vec<usize> = (0..case.shots.len()).collect();
     let errors = each(&options, progress, |&option| {
         let checked = check_shot(case, &case.shots[option], compute, &mut |_| progress.flow())
@@ -66,34 +66,39 @@ pub fn scatter(
         let relative = |of: Estimate| if of.value > 0.0 { of.error / of.value * coarser } else { 0.0 };
         Ok([relative(checked.height), relative(checked.force), relative(checked.drift)])
     })?;
-    let Some(errors) = errors.into_iter().collect::<Option<Vec<_>>>() else { return Ok(Vec::new()) };
+    let Some(errors) = errors.into_iter().collect::<Option<Vec<_>>>() else {
+        return Ok(Found { value: Vec::new(), partial: true });
+    };
     let judge_one = |&(option, number): &(usize, usize)| {
         let shot = drawn(&case.shots[option], spec, sampling.seed, option, number);
         judge_sample(case, &shot, &errors[option], compute, progress)
     };
-    let judge = |jobs: Vec<(usize, usize)>| -> Result<Vec<Sample>, NoResult> {
+    let judge = |jobs: Vec<(usize, usize)>| -> Finding<Vec<Sample>> {
         let envelopes = envelopes(&jobs, progress, judge_one)?;
+        let partial = envelopes.contains(&None);
         let sample = |((option, number), envelope): (_, Option<Envelope>)| {
             envelope.map(|envelope| Sample { option, number, envelope })
         };
-        Ok(jobs.into_iter().zip(envelopes).filter_map(sample).collect())
+        Ok(Found { value: jobs.into_iter().zip(envelopes).filter_map(sample).collect(), partial })
     };
     if sampling.certain_at.is_none() {
         let all = itertools::iproduct!(options, 0..sampling.samples);
         return judge(all.filter(|&(_, number)| shard.has(number)).collect());
     }
-    let mut all = Vec::new();
+    let mut all = Found { value: Vec::new(), partial: false };
     for option in options {
         let mut samples: Vec<Sample> = Vec::new();
-        while samples.len() < sampling.samples && !is_certain(&samples, sampling) && !progress.expired() {
+        while samples.len() < sampling.samples && !is_certain(&samples, sampling) {
             let from = samples.len();
             let next = from..(from + LOOK_EVERY).min(sampling.samples);
-            samples.extend(judge(next.map(|number| (option, number)).collect())?);
+            let judged = judge(next.map(|number| (option, number)).collect())?;
+            samples.extend(judged.value);
+            if judged.partial {
+                all.partial = true;
+                break;
+            }
         }
-        if progress.expired() && !is_certain(&samples, sampling) {
-            progress.expect(sampling.samples - samples.len());
-        }
-        all.extend(samples);
+        all.value.extend(samples);
     }
     Ok(all)
 }

@@ -9,7 +9,7 @@ use itertools::Itertools;
 
 use super::batch::judge_shots;
 use super::scatter::{Sample, Sampling, scatter};
-use super::{Bounded, Case, ComputeSettings, Envelope, NoResult, Progress, Shard};
+use super::{Bounded, Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard};
 use crate::plan::{Layout, Plan, ScatterSpec};
 use crate::ropes::{Rope, catalogue};
 use crate::scene::Shot;
@@ -110,12 +110,7 @@ impl Sizing {
 }
 
 /// Tries the combinations that the plan allows, until the time is up.
-pub fn size(
-    plan: &Plan,
-    demand: &Demand,
-    compute: &ComputeSettings,
-    progress: &Progress,
-) -> Result<Sizing, NoResult> {
+pub fn size(plan: &Plan, demand: &Demand, compute: &ComputeSettings, progress: &Progress) -> Finding<Sizing> {
     let family = |rope: &&Rope| plan.size.family.as_ref().is_none_or(|family| *family == rope.family);
     let by_stiffness = catalogue()
         .ropes
@@ -157,7 +152,9 @@ pub fn size(
         let strength = |c: &Combination| c.rope.breaking_force_kn;
         a.total_mass.total_cmp(&b.total_mass).then(strength(a).total_cmp(&strength(b)))
     });
-    Ok(Sizing { combinations })
+    let sizing = Sizing { combinations };
+    let partial = sizing.untried(Untried::OutOfTime) > 0;
+    Ok(Found { value: sizing, partial })
 }
 
 fn total_mass(case: &Case, rope: &Rope) -> f64 {
@@ -177,8 +174,9 @@ fn try_out(
         Demand::Options => case.shots.clone(),
         Demand::AnyOrder(intervals) => all_orders(case, intervals),
         Demand::Samples(spec, sampling) => {
-            let samples = scatter(case, spec, sampling, Shard::WHOLE, compute, progress)?;
-            return Ok((!progress.expired()).then(|| most_hold(case, &samples)));
+            let Found { value: samples, partial } =
+                scatter(case, spec, sampling, Shard::WHOLE, compute, progress)?;
+            return Ok((!partial).then(|| most_hold(case, &samples)));
         }
     };
     let mut order: Vec<usize> = (0..shots.len()).collect();

@@ -1,7 +1,7 @@
 //! Height and force against the interval between rows, and the intervals that pass.
 
 use super::batch::judge_shots;
-use super::{Case, ComputeSettings, Envelope, Intervals, NoResult, Progress};
+use super::{Case, ComputeSettings, Envelope, Finding, Found, Intervals, NoResult, Progress};
 use crate::scene::Shot;
 use crate::verdict::Verdict;
 
@@ -35,13 +35,15 @@ pub fn sweep(
     intervals: &Intervals,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Sweep, NoResult> {
+) -> Finding<Sweep> {
     if case.plan.blast_rows.len() < 2 {
         return Err(NoResult::SingleRow);
     }
-    let judged = |intervals: Vec<f64>| -> Result<Vec<Point>, NoResult> {
+    let mut partial = false;
+    let mut judged = |intervals: Vec<f64>| -> Result<Vec<Point>, NoResult> {
         let shots: Vec<Shot> = intervals.iter().map(|&interval| case.shot(order, interval)).collect();
         let envelopes = judge_shots(case, &shots, compute, progress)?;
+        partial |= envelopes.contains(&None);
         let point = |(interval, envelope): (f64, Option<_>)| Some(Point { interval, envelope: envelope? });
         // Out of time: keep the points before the first interval without a result, so that windows have no gaps.
         Ok(intervals.into_iter().zip(envelopes).map_while(point).collect())
@@ -56,7 +58,7 @@ pub fn sweep(
         points.extend(judged(between)?);
         points.sort_by(|a, b| a.interval.total_cmp(&b.interval));
     }
-    Ok(Sweep { order: order.to_vec(), points })
+    Ok(Found { value: Sweep { order: order.to_vec(), points }, partial })
 }
 
 fn jumps(case: &Case, a: &Point, b: &Point) -> bool {

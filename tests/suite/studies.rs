@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use shelter::plan::{DelayScatter, Plan, ScatterSpec};
 use shelter::ropes::catalogue;
 use shelter::study::check::{check, check_shot};
+use shelter::study::check_all::check_all;
 use shelter::study::orders::{Orders, Tried, orders};
 use shelter::study::scatter::{Sampling, drawn, scatter, summary, swaps};
 use shelter::study::size::{Demand, size};
@@ -54,7 +55,7 @@ fn a_sweep_is_the_check_of_every_interval() {
     let case = case(3, "");
     let intervals = Intervals { from: 0.0, to: 0.12, step: 0.01 };
     let swept = sweep(&case, &[0, 1, 2], &intervals, &ComputeSettings::of(&case.plan), &Progress::default());
-    let swept = swept.expect("a result");
+    let swept = swept.expect("a result").value;
     assert!(swept.points.len() >= 13, "{}", swept.points.len());
     for point in &swept.points {
         assert_eq!(point.envelope, judged(&case, &[0, 1, 2], point.interval));
@@ -76,7 +77,7 @@ fn all_orders_are_tried_and_ranked() {
     let intervals = [0.02, 0.045];
     let compute = ComputeSettings::of(&case.plan);
     let tried = orders(&case, &intervals, Shard::WHOLE, &compute, &Progress::default()).expect("a result");
-    let ranked = Orders::new(&case, tried, intervals.len()).ranked;
+    let ranked = Orders::new(&case, tried.value, intervals.len()).ranked;
     let share = |envelope: &Envelope| envelope.utilization(&case.limits);
     let all = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     let mut brute: Vec<f64> = intervals
@@ -105,7 +106,7 @@ fn many_rows_are_searched() {
     plan.delays.clear();
     let case = Case::new(plan);
     let tried = orders(&case, &[0.002], Shard::WHOLE, &ComputeSettings::of(&case.plan), &Progress::default());
-    let tried = tried.expect("a result");
+    let tried = tried.expect("a result").value;
     assert!(tried.len() > 1000);
     let different: HashSet<&[usize]> = tried.iter().map(|t| t.order.as_slice()).collect();
     assert_eq!(different.len(), tried.len());
@@ -142,7 +143,7 @@ fn the_lightest_shelter_is_that_of_brute_force() {
     let more = size_keys.replace("FAMILY", family) + "\ncable = { rope = \"GOST 2688-80 6.2\" }";
     let plan = plan(2, &more);
     let compute = ComputeSettings::of(&plan);
-    let sizing = size(&plan, &Demand::Options, &compute, &Progress::default()).expect("a result");
+    let sizing = size(&plan, &Demand::Options, &compute, &Progress::default()).expect("a result").value;
     let mut lightest = f64::INFINITY;
     for rope in catalogue().ropes.iter().filter(|rope| rope.family == family) {
         for (mass, border) in [(150.0, 0), (150.0, 1), (400.0, 0), (400.0, 1)] {
@@ -196,7 +197,7 @@ simulation = { accuracy = "draft" }
         .filter(|&seed| {
             let sampling = Sampling { samples: 100, seed, certain_at: None };
             let samples = scatter(&case, &spec, &sampling, Shard::WHOLE, &compute, &Progress::default());
-            let [low, high] = summary(&samples.expect("a result"), 0).interval;
+            let [low, high] = summary(&samples.expect("a result").value, 0).interval;
             (low..=high).contains(&exact)
         })
         .count();
@@ -244,6 +245,34 @@ fn rows_that_may_swap_are_named() {
     assert_eq!(swaps.len(), 1, "the option of 45 ms is safe: {swaps:?}");
     assert_eq!((swaps[0].option, swaps[0].rows), (0, [0, 1]));
     assert!((swaps[0].probability - 0.078_65).abs() < 1e-4, "{}", swaps[0].probability);
+}
+
+/// A study says itself whether its time was up before all shots were judged.
+#[test]
+fn a_study_without_time_is_partial() {
+    let case = case(2, "scatter = { launch_cv_percent = 10 }");
+    let compute = ComputeSettings { step: Some(2e-3), ..ComputeSettings::of(&case.plan) };
+    let intervals = Intervals { from: 0.0, to: 0.02, step: 0.01 };
+    let spec = case.plan.scatter.expect("what scatters");
+    let partial = |progress: &Progress| {
+        let sampling = |certain_at| Sampling { samples: 3, seed: 1, certain_at };
+        let scattered = |certain_at| {
+            scatter(&case, &spec, &sampling(certain_at), Shard::WHOLE, &compute, progress)
+                .map(|found| found.partial)
+        };
+        [
+            sweep(&case, &[0, 1], &intervals, &compute, progress).map(|found| found.partial),
+            orders(&case, &[0.02], Shard::WHOLE, &compute, progress).map(|found| found.partial),
+            size(&case.plan, &Demand::Options, &compute, progress).map(|found| found.partial),
+            check_all(&[(&case, compute)], progress).map(|found| found.partial),
+            scattered(None),
+            scattered(Some(0.01)),
+        ]
+    };
+    let out_of_time = Progress::default();
+    out_of_time.expire();
+    assert_eq!(partial(&out_of_time), [const { Ok(true) }; 6]);
+    assert_eq!(partial(&Progress::default()), [const { Ok(false) }; 6]);
 }
 
 #[test]
