@@ -2,24 +2,27 @@
 //!
 //! One file per command, and no command uses another. They share [`arguments`], [`load_plans`], [`run_study`] (threads,
 //! progress, signals), [`print`](mod@print) (formats) and [`status`] (exit status). Results that several commands print are
-//! in [`check_plans`] and [`print_findings`]. `packaging` holds the small commands for packagers.
+//! in [`check_plans`] and [`print_findings`].
 
 mod accuracy;
 mod arguments;
 mod check;
 mod check_plans;
+mod completions;
+mod config;
 mod init;
 mod load_plans;
+mod man;
 mod merge;
 mod open_terminal;
 mod orders;
-mod packaging;
 mod print;
 mod print_findings;
 mod report;
 mod ropes;
 mod run_study;
 mod scatter;
+mod schema;
 mod size;
 mod status;
 mod sweep;
@@ -76,7 +79,7 @@ enum Command {
     /// A commented starter plan
     Init(init::Arguments),
     /// Shell completions
-    Completions(packaging::Completions),
+    Completions(completions::Arguments),
     /// The manual page
     Man,
     /// The keys of a plan as a JSON Schema, for editors
@@ -122,10 +125,10 @@ pub fn run() -> ExitCode {
         (Some(Command::Report(arguments)), _) => report::run(&arguments, &cli.look),
         (Some(Command::Ropes(arguments)), _) => ropes::run(&arguments, &cli.look),
         (Some(Command::Init(arguments)), _) => init::run(&arguments, &cli.look),
-        (Some(Command::Completions(arguments)), _) => packaging::completions(&arguments),
-        (Some(Command::Man), _) => packaging::man(),
-        (Some(Command::Schema), _) => packaging::schema(),
-        (Some(Command::Config), _) => packaging::config(),
+        (Some(Command::Completions(arguments)), _) => completions::run(&arguments),
+        (Some(Command::Man), _) => man::run(),
+        (Some(Command::Schema), _) => schema::run(),
+        (Some(Command::Config), _) => config::run(),
         (None, Some(plan)) => open_terminal::plan(&plan, &cli.compute, &cli.look),
         (None, None) => open_terminal::start(&cli.compute, &cli.look),
     };

@@ -17,11 +17,12 @@ pub fn print<D: Serialize>(
     look: &Look,
 ) -> io::Result<Status> {
     let style = look.style(io::stdout().is_terminal());
-    let printed = print_text(&match format {
+    let text = match format {
         FormatArg::Text => reports.iter().map(|report| text::text(report, style)).collect(),
-        FormatArg::Json => json::text(&document()),
-        FormatArg::Csv => csv::csv(reports),
-    });
+        FormatArg::Json => json::text(&document())?,
+        FormatArg::Csv => csv::csv(reports)?,
+    };
+    let printed = print_text(&text);
     // A reader that has gone away changes nothing about the verdict.
     printed.or_else(|error| if error.kind() == io::ErrorKind::BrokenPipe { Ok(()) } else { Err(error) })?;
     Ok(Status::of(reports))

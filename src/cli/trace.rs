@@ -6,14 +6,15 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
+use itertools::Itertools;
 
 use super::arguments::{Compute, FormatArg, Look, positive};
 use super::load_plans::open_option;
-use super::status::{Status, wrong};
+use super::status::{self, Status, wrong};
 use crate::report;
+use crate::report::json::TraceDocument;
 use crate::scene::{Scene, TireId, seconds};
-use crate::simulation::{Failure, Settings};
-use crate::study::check::start_step;
+use crate::simulation::Failure;
 use crate::study::trace::{Chosen, trace};
 
 #[derive(Args)]
@@ -43,16 +44,12 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     let Some((case, option)) = open_option(&arguments.plan, arguments.option.as_deref(), look) else {
         return Ok(Status::Wrong);
     };
-    let mut chosen = match chosen(case.scene(), arguments) {
+    let mut chosen = match choose(case.scene(), arguments) {
         Ok(chosen) => chosen,
         Err(message) => return wrong(&message),
     };
     let compute = arguments.compute.settings(&case.plan);
-    let settings = Settings {
-        method: compute.method,
-        step: compute.step.unwrap_or_else(|| start_step(&case, compute.method, compute.accuracy)),
-        duration: case.plan.simulation.duration_s,
-    };
+    let settings = case.settings(compute.method, compute.first_step(&case));
     let (begun, timeout) = (Instant::now(), arguments.compute.timeout);
     let in_time = || match timeout {
         Some(timeout) if begun.elapsed().as_secs_f64() > timeout => ControlFlow::Break(()),
@@ -64,7 +61,7 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
             Err(failure) => return failed(&failure),
         }
     }
-    let mut rows = Rows::begin(arguments.format, report::trace::header(case.scene(), &chosen))?;
+    let mut rows = Rows::begin(arguments.format, &report::trace::header(case.scene(), &chosen))?;
     let every = arguments.every.map_or(settings.step, seconds);
     let mut written = Ok(());
     let done = trace(&case, option, &settings, &chosen, every, &mut |row| {
@@ -81,50 +78,45 @@ fn failed(failure: &Failure) -> io::Result<Status> {
         eprintln!("the time was up at {at:.3} s of the motion");
         return Ok(Status::Fail);
     }
-    wrong(&report::no_result::message(&failure.clone().into()))
+    status::failed(&failure.clone().into())
 }
 
 /// Writes rows as they come.
-struct Rows {
-    out: BufWriter<io::StdoutLock<'static>>,
-    json: bool,
-    first: bool,
+enum Rows {
+    Csv(Out),
+    Json(TraceDocument<Out>),
 }
 
+type Out = BufWriter<io::StdoutLock<'static>>;
+
 impl Rows {
-    fn begin(format: FormatArg, header: Vec<String>) -> io::Result<Self> {
+    fn begin(format: FormatArg, columns: &[String]) -> io::Result<Self> {
         let mut out = BufWriter::new(io::stdout().lock());
-        let json = matches!(format, FormatArg::Json);
-        if json {
-            let columns = serde_json::to_string(&header)?;
-            write!(out, "{{ \"schema\": \"shelter.trace/1\", \"columns\": {columns}, \"rows\": [")?;
-        } else {
-            writeln!(out, "{}", header.join(","))?;
+        match format {
+            FormatArg::Json => TraceDocument::begin(out, columns).map(Rows::Json),
+            FormatArg::Text | FormatArg::Csv => {
+                writeln!(out, "{}", columns.join(","))?;
+                Ok(Rows::Csv(out))
+            }
         }
-        Ok(Self { out, json, first: true })
     }
 
     fn row(&mut self, row: &[f64]) -> io::Result<()> {
-        let cells: Vec<String> = row.iter().map(f64::to_string).collect();
-        if self.json {
-            let comma = if self.first { "" } else { "," };
-            write!(self.out, "{comma}\n  [{}]", cells.join(", "))?;
-        } else {
-            writeln!(self.out, "{}", cells.join(","))?;
+        match self {
+            Rows::Csv(out) => writeln!(out, "{}", row.iter().join(",")),
+            Rows::Json(document) => document.row(row),
         }
-        self.first = false;
-        Ok(())
     }
 
-    fn end(mut self) -> io::Result<()> {
-        if self.json {
-            writeln!(self.out, "\n] }}")?;
+    fn end(self) -> io::Result<()> {
+        match self {
+            Rows::Csv(mut out) => out.flush(),
+            Rows::Json(document) => document.end(),
         }
-        self.out.flush()
     }
 }
 
-fn chosen(scene: &Scene, arguments: &Arguments) -> Result<Chosen, String> {
+fn choose(scene: &Scene, arguments: &Arguments) -> Result<Chosen, String> {
     let tires = arguments.tire.iter().map(|text| find_tire(scene, text)).collect::<Result<_, _>>()?;
     let cables = arguments.cable.iter().map(|text| find_cable(scene, text)).collect::<Result<_, _>>()?;
     Ok(Chosen { tires, cables })

@@ -1,18 +1,20 @@
 //! The face for scripts: tables as CSV, numbers SI and with all their digits.
 
+use std::io;
+
 use csv::Writer;
 use serde::Serialize;
 
 use super::model::{Block, Cell, Report, Row, Table};
 
 /// All tables of all reports that have the same keys, below one header.
-pub fn csv(reports: &[Report]) -> String {
+pub fn csv(reports: &[Report]) -> io::Result<String> {
     let blocks = reports.iter().flat_map(|report| &report.blocks);
     let tables = blocks.filter_map(|block| match block {
         Block::Table(table) if !keys(table).is_empty() => Some(table),
         _ => None,
     });
-    write(&tables.collect::<Vec<_>>()).unwrap_or_else(|error| format!("{error}\n"))
+    Ok(write(&tables.collect::<Vec<_>>())?)
 }
 
 fn keys(table: &Table) -> Vec<&'static str> {

@@ -26,12 +26,13 @@ pub fn write(app: &App, path: &Path) -> Result<(), String> {
 
 /// The tables of the screen.
 pub fn csv(app: &App) -> Result<String, String> {
-    Ok(match app.screen {
+    let text = match app.screen {
         Screen::Plan | Screen::Compare => {
             report::csv::csv(&[report::check::report(&app.case, &results(app)?, false)])
         }
         _ => report::csv::csv(std::slice::from_ref(&finished(app)?.report)),
-    })
+    };
+    text.map_err(|error| error.to_string())
 }
 
 /// The charts of the screen.

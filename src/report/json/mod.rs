@@ -7,6 +7,9 @@ mod ropes;
 mod scatter;
 mod size;
 mod sweep;
+mod trace;
+
+use std::io;
 
 use serde::Serialize;
 
@@ -17,14 +20,13 @@ pub use self::ropes::RopesDocument;
 pub use self::scatter::ScatterDocument;
 pub use self::size::SizeDocument;
 pub use self::sweep::SweepDocument;
+pub use self::trace::TraceDocument;
 use crate::study::{Case, Envelope};
 use crate::verdict::Verdict;
 
 /// A document with a line end.
-pub fn text(document: &impl Serialize) -> String {
-    let mut text = serde_json::to_string_pretty(document).unwrap_or_else(|error| format!("\"{error}\""));
-    text.push('\n');
-    text
+pub fn text(document: &impl Serialize) -> io::Result<String> {
+    Ok(serde_json::to_string_pretty(document)? + "\n")
 }
 
 /// Limits of a plan.
