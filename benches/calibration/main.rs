@@ -13,7 +13,7 @@ use shelter::choice::{Accuracy, Method};
 use shelter::outcome::Outcome;
 use shelter::plan::Plan;
 use shelter::simulation::{Model, Settings};
-use shelter::study::check::{check, start_step};
+use shelter::study::check::check;
 use shelter::study::{Case, ComputeSettings};
 use shelter::verdict::{Limits, Verdict};
 
@@ -76,7 +76,8 @@ fn compare(n: u64, accuracy: Accuracy) -> Tried {
     let plan = Plan::parse("", PLAN).unwrap_or_else(|mistakes| panic!("{mistakes}"));
     let mut case = Case::new(plan);
     (case.model, case.shots) = (Model::new(scene), vec![shot]);
-    let field = start_step(&case, Method::Verlet, Accuracy::Field);
+    let at_level = |accuracy| ComputeSettings { method: Method::Verlet, accuracy, step: None };
+    let field = at_level(Accuracy::Field).first_step(&case);
     let settings = Settings { method: Method::Verlet, step: field / FINER, duration: None };
     let truth: Outcome = case
         .model
@@ -89,14 +90,14 @@ fn compare(n: u64, accuracy: Accuracy) -> Tried {
     };
     let (height, force) = (near(truth.height.value), near(truth.force.value).max(1.0));
     case.limits = Limits { height, force, drift: None, breaking_force: force };
-    let mut compute = ComputeSettings { method: Method::Verlet, accuracy, step: None };
+    let mut compute = at_level(accuracy);
     let judge = |compute: &ComputeSettings| {
         check(&case, 0, compute, &mut |_| ControlFlow::Continue(()))
             .unwrap_or_else(|failure| panic!("scene {n}: {failure}"))
     };
     let judged = judge(&compute);
     // The errors of the level's own step, before any refinement.
-    compute.step = Some(start_step(&case, Method::Verlet, accuracy));
+    compute.step = Some(compute.first_step(&case));
     let first = judge(&compute);
     let relative = |value: f64, of: f64| (value / of.max(f64::MIN_POSITIVE)).abs();
     let (h, f) = (truth.height.value, truth.force.value);

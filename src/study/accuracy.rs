@@ -5,8 +5,7 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use super::check::start_step;
-use super::{Case, Finding, Found, NoResult, Progress, error};
+use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, error};
 use crate::choice::{Accuracy, Method};
 use crate::outcome::Outcome;
 use crate::plan::Timing;
@@ -71,8 +70,8 @@ pub fn measure(
     patience: Duration,
     progress: &Progress,
 ) -> Finding<AccuracyTable> {
-    let levels = [Accuracy::Draft, Accuracy::Field, Accuracy::Reference]
-        .map(|level| (level, start_step(case, Method::Verlet, level)));
+    let levels =
+        [Accuracy::Draft, Accuracy::Field, Accuracy::Reference].map(|level| (level, first_step(case, level)));
     let reference_step = levels[2].1 / FINER;
     let shot = &case.shots[option];
     progress.expect(2 * STEPS as usize + levels.len() + 1);
@@ -110,6 +109,11 @@ pub fn measure(
     Ok(Found { value: AccuracyTable { option, rows, reference_step, levels }, partial })
 }
 
+/// Step at which refinement starts at an accuracy level, by `verlet` [s].
+fn first_step(case: &Case, accuracy: Accuracy) -> f64 {
+    ComputeSettings { method: Method::Verlet, accuracy, step: None }.first_step(case)
+}
+
 impl AccuracyTable {
     /// The longest step of a method at which this step and all shorter steps are within a class; with its computing time.
     pub fn cheapest(&self, method: Method, class: (f64, f64)) -> Option<(f64, Duration)> {
@@ -130,7 +134,7 @@ fn run(
     step: f64,
     progress: &Progress,
 ) -> Result<Option<(Outcome, Duration)>, NoResult> {
-    let settings = Settings { method, step, duration: case.plan.simulation.duration_s };
+    let settings = case.settings(method, step);
     let mut best: Option<(Outcome, Duration)> = None;
     let begun = Instant::now();
     for _ in 0..5 {

@@ -6,12 +6,11 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use super::reason::{Reason, limited, reasons};
+use super::reason::{Reason, find_reasons, limited};
 use super::{Case, ComputeSettings, error};
-use crate::choice::{Accuracy, Method};
 use crate::outcome::{Broken, History, Outcome, Peak, RunEnd};
 use crate::scene::Shot;
-use crate::simulation::{Failure, Settings};
+use crate::simulation::Failure;
 use crate::verdict::{Estimate, Limits, Verdict};
 
 /// A judged delay option.
@@ -62,18 +61,6 @@ pub struct CheckStep {
     pub time: f64,
 }
 
-/// Step at which refinement starts [s]: a fraction of the explicit stability limit, and at most the step that resolves
-/// a landing.
-pub fn start_step(case: &Case, method: Method, accuracy: Accuracy) -> f64 {
-    let (fraction, longest): (f64, f64) = match accuracy {
-        Accuracy::Draft => (0.2, 2e-3),
-        Accuracy::Field => (0.1, 1e-3),
-        Accuracy::Reference => (0.025, 2.5e-4),
-    };
-    let implicit = if method == Method::Newmark { 0.25 } else { 1.0 };
-    implicit * longest.min(fraction * case.scene().critical_step())
-}
-
 /// Greatest number of steps below the first: the finest step is 64 times finer.
 const FINEST: i32 = 12;
 
@@ -95,6 +82,10 @@ impl Checked {
 }
 
 /// Judges one delay option. `watch` sees the progress and may stop the check.
+///
+/// # Panics
+///
+/// Where the plan has no delay option with the index `option`.
 pub fn check(
     case: &Case,
     option: usize,
@@ -112,10 +103,9 @@ pub fn check_shot(
     watch: &mut dyn FnMut(CheckStep) -> ControlFlow<()>,
 ) -> Result<Checked, Failure> {
     let begun = Instant::now();
-    let first = compute.step.unwrap_or_else(|| start_step(case, compute.method, compute.accuracy));
     let mut done = 0;
     let run = |step: f64| {
-        let settings = Settings { method: compute.method, step, duration: case.plan.simulation.duration_s };
+        let settings = case.settings(compute.method, step);
         let start = Instant::now();
         let outcome = case
             .model
@@ -124,8 +114,8 @@ pub fn check_shot(
         Ok((outcome, start.elapsed()))
     };
     let mut checked = None;
-    climb(first, compute.step.is_some(), run, |runs| {
-        let judged = judged(case, shot, compute, runs, begun.elapsed());
+    climb(compute.first_step(case), compute.step.is_some(), run, |runs| {
+        let judged = judge(case, shot, compute, runs, begun.elapsed());
         let sure = judged.is_sure(&case.limits);
         checked = Some(judged);
         sure
@@ -168,7 +158,7 @@ fn climb<R>(
 }
 
 /// Judges a shot by a ladder of runs; the last run gives the values.
-fn judged(
+fn judge(
     case: &Case,
     shot: &Shot,
     compute: &ComputeSettings,
@@ -185,7 +175,7 @@ fn judged(
     let height = estimate(|outcome| outcome.height);
     let force = estimate(|outcome| outcome.force);
     let drift = estimate(|outcome| outcome.drift);
-    let reasons = reasons(case, shot, &last.0, [height, force, drift]);
+    let reasons = find_reasons(case, shot, &last.0, [height, force, drift]);
     Checked {
         verdict: Verdict::worst(reasons.iter().map(Reason::verdict)),
         reasons,

@@ -2,11 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::check::start_step;
 use super::{Case, ComputeSettings, NoResult, Progress};
 use crate::outcome::Outcome;
 use crate::scene::{Cable, Scene};
-use crate::simulation::{Motion, Settings};
+use crate::simulation::Motion;
 
 /// Motion of one option, sampled at even times.
 #[derive(Clone, Debug)]
@@ -30,21 +29,24 @@ const FRAMES: [usize; 2] = [16, 1024];
 /// Runs one option once, at its first step, and records frames.
 ///
 /// Memory is bounded for runs of any length: a full recording drops every second frame.
+///
+/// # Panics
+///
+/// Where the plan has no delay option with the index `option`.
 pub fn record(
     case: &Case,
     option: usize,
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Flight, NoResult> {
-    let step = compute.step.unwrap_or_else(|| start_step(case, compute.method, compute.accuracy));
-    let settings = Settings { method: compute.method, step, duration: case.plan.simulation.duration_s };
+    let settings = case.settings(compute.method, compute.first_step(case));
     let tires = case.scene().mass.len();
     let most = (MOST_KEPT / tires.max(1)).clamp(FRAMES[0], FRAMES[1]) / 2 * 2;
     let (mut times, mut displacements) = (Vec::new(), Vec::new());
     // The shelter at rest, before the first hole.
     times.push(0.0);
     displacements.resize(tires, [0.0; 3]);
-    let mut every = step;
+    let mut every = settings.step;
     let (mut latest, mut now) = (vec![[0.0; 3]; tires], 0.0);
     let outcome = case.model.run(&case.shots[option], &settings, &mut |motion| {
         now = motion.time();

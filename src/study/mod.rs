@@ -8,6 +8,7 @@ pub mod accuracy;
 pub mod batch;
 pub mod check;
 pub mod check_all;
+mod compute;
 mod envelope;
 pub mod error;
 pub mod flight;
@@ -25,16 +26,17 @@ pub mod trace;
 use std::path::Path;
 
 pub use batch::thread_pool;
+pub use compute::ComputeSettings;
 pub use envelope::{Bounded, Envelope};
 pub use found::{Finding, Found};
 pub use no_result::{NoResult, guarded};
 pub use progress::Progress;
 use serde::{Deserialize, Serialize};
 
-use crate::choice::{Accuracy, Method};
+use crate::choice::Method;
 use crate::plan::{Diagnostics, Plan, PlanSource, Timing};
 use crate::scene::{Scene, Shot, seconds};
-use crate::simulation::Model;
+use crate::simulation::{Model, Settings};
 use crate::verdict::Limits;
 
 /// A plan made ready to run.
@@ -106,39 +108,15 @@ impl Case {
         self.model.scene()
     }
 
+    /// Settings of a run by `method` at `step` [s], which ends where the plan says.
+    pub fn settings(&self, method: Method, step: f64) -> Settings {
+        Settings { method, step, duration: self.plan.simulation.duration_s }
+    }
+
     /// Number of tires that `method` integrates: the greatest of all options. Mirror planes of shelter and shot make it
     /// smaller than the number of tires.
     pub fn modelled_tires(&self, method: Method) -> usize {
         self.shots.iter().map(|shot| self.model.modelled_tires(method, shot)).max().unwrap_or(0)
-    }
-}
-
-/// Method and accuracy of a computation: those of the plan, unless the user overrides them.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ComputeSettings {
-    /// Time integration method.
-    pub method: Method,
-    /// Accuracy level; it sets the step at which refinement starts.
-    pub accuracy: Accuracy,
-    /// Fixed step [s]; `None`: the step follows from the accuracy and is refined.
-    pub step: Option<f64>,
-}
-
-impl ComputeSettings {
-    /// The settings that a plan asks for.
-    pub fn of(plan: &Plan) -> Self {
-        Self { method: plan.simulation.method, accuracy: plan.simulation.accuracy, step: None }
-    }
-
-    /// Follows a change of plan from `old` to `new`: a setting that the user has not overridden takes its value from `new`.
-    pub fn follow(&mut self, old: &Plan, new: &Plan) {
-        let (old, new) = (Self::of(old), Self::of(new));
-        if self.method == old.method {
-            self.method = new.method;
-        }
-        if self.accuracy == old.accuracy {
-            self.accuracy = new.accuracy;
-        }
     }
 }
 

@@ -85,7 +85,7 @@ pub enum Quantity {
 }
 
 /// Why a run of a shot does not pass, given its height, force and drift with their errors; empty for a pass.
-pub fn reasons(
+pub fn find_reasons(
     case: &Case,
     shot: &Shot,
     outcome: &Outcome,

@@ -13,13 +13,12 @@ use rand_distr::{Distribution, LogNormal, Normal};
 use serde::{Deserialize, Serialize};
 
 use super::batch::{each, envelopes};
-use super::check::{check_shot, start_step};
-use super::reason::{Reason, reasons};
+use super::check::check_shot;
+use super::reason::{Reason, find_reasons};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard};
 use crate::outcome::Peak;
 use crate::plan::ScatterSpec;
 use crate::scene::{Firing, Shot, fire_at_s};
-use crate::simulation::Settings;
 use crate::verdict::{Estimate, Verdict};
 
 /// One sample of one option.
@@ -62,7 +61,7 @@ pub fn scatter(
         let checked = check_shot(case, &case.shots[option], compute, &mut |_| progress.flow())
             .map_err(|failure| progress.no_result(failure))?;
         // From the first step to the last, the error falls at least with the square of the step.
-        let coarser = (start(case, compute) / checked.step).powi(2).max(1.0);
+        let coarser = (compute.first_step(case) / checked.step).powi(2).max(1.0);
         let relative = |of: Estimate| if of.value > 0.0 { of.error / of.value * coarser } else { 0.0 };
         Ok([relative(checked.height), relative(checked.force), relative(checked.drift)])
     })?;
@@ -103,10 +102,6 @@ pub fn scatter(
     Ok(all)
 }
 
-fn start(case: &Case, compute: &ComputeSettings) -> f64 {
-    compute.step.unwrap_or_else(|| start_step(case, compute.method, compute.accuracy))
-}
-
 fn is_certain(samples: &[Sample], sampling: &Sampling) -> bool {
     let Some(bound) = sampling.certain_at.filter(|_| !samples.is_empty()) else { return false };
     let failures = samples.iter().filter(|sample| sample.envelope.verdict != Verdict::Pass).count();
@@ -137,11 +132,7 @@ fn judge_sample(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Envelope, NoResult> {
-    let settings = Settings {
-        method: compute.method,
-        step: start(case, compute),
-        duration: case.plan.simulation.duration_s,
-    };
+    let settings = case.settings(compute.method, compute.first_step(case));
     let reason = |failure| progress.no_result(failure);
     let outcome = case.model.run(shot, &settings, &mut |_| progress.flow()).map_err(reason)?;
     let estimate = |peak: Peak, relative: f64| {
@@ -151,7 +142,7 @@ fn judge_sample(
     let [height, force, drift] = *relative_error;
     let estimates =
         [estimate(outcome.height, height), estimate(outcome.force, force), estimate(outcome.drift, drift)];
-    let reasons = reasons(case, shot, &outcome, estimates);
+    let reasons = find_reasons(case, shot, &outcome, estimates);
     let verdict = Verdict::worst(reasons.iter().map(Reason::verdict));
     let too_near = |reason: &Reason| matches!(reason, Reason::Limit { verdict: Verdict::Undecided, .. });
     if verdict == Verdict::Undecided && reasons.iter().any(too_near) && compute.step.is_none() {

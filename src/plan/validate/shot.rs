@@ -88,16 +88,15 @@ fn read_holes(section: &SectionReader<'_>, gravity: f64) -> Vec<Hole> {
     if holes.is_empty() {
         section.wrong(&blast_row::HOLES, "a blast row without a hole", "list its holes, or remove the row");
     }
-    let read = |hole: SectionReader<'_>| {
-        let read = Hole {
-            x_m: hole.number(&hole::X_M),
-            y_m: hole.number(&hole::Y_M),
-            launch_m_s: read_launch(&hole, gravity),
-        };
-        hole.finish();
-        read
-    };
-    holes.into_iter().map(read).collect()
+    holes.into_iter().map(|hole| read_hole(hole, gravity)).collect()
+}
+
+fn read_hole(section: SectionReader<'_>, gravity: f64) -> Hole {
+    let x_m = section.number(&hole::X_M);
+    let y_m = section.number(&hole::Y_M);
+    let launch_m_s = read_launch(&section, gravity);
+    section.finish();
+    Hole { x_m, y_m, launch_m_s }
 }
 
 fn check_row(section: &SectionReader<'_>, layout: Option<&Layout>, row: f64) {

@@ -44,7 +44,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
             return frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inside);
         }
     };
-    let facts = facts(app, checked);
+    let facts = fact_lines(app, checked);
     let lines: u16 =
         facts.iter().map(|line| (line.width() as u16).div_ceil(inside.width.max(1)).max(1)).sum();
     let [text, rest] =
@@ -57,7 +57,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     chart::draw(app, &force, None, frame, right);
 }
 
-fn facts<'a>(app: &App, checked: &Checked) -> Vec<Line<'a>> {
+fn fact_lines<'a>(app: &App, checked: &Checked) -> Vec<Line<'a>> {
     let [highest, hardest] = peak(app.case.scene(), checked);
     let peak = format!(
         "height {} m, {highest} · force {} kN, {hardest} · drift {} m",
