@@ -24,11 +24,12 @@ impl fmt::Display for UnknownName {
 
 impl std::error::Error for UnknownName {}
 
-/// Declares an enum whose variants have one name each; serde, `Display` and `FromStr` use these names.
+/// Declares an enum whose variants have one name each; serde, `Display` and `FromStr` use these names. An enum has a default
+/// where its key may be left out of a plan.
 macro_rules! choice {
     (
         $(#[$about:meta])*
-        $choice:ident, default $default:ident { $( $(#[$about_variant:meta])* $variant:ident = $name:literal, )+ }
+        $choice:ident $(, default $default:ident)? { $( $(#[$about_variant:meta])* $variant:ident = $name:literal, )+ }
     ) => {
         $(#[$about])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -37,8 +38,10 @@ macro_rules! choice {
         }
 
         impl $choice {
-            /// The choice where a plan says nothing.
-            pub const DEFAULT: Self = Self::$default;
+            $(
+                /// The choice where a plan says nothing.
+                pub const DEFAULT: Self = Self::$default;
+            )?
             /// Every choice, in the order of declaration.
             pub const ALL: &'static [Self] = &[$(Self::$variant),+];
             /// Names of all choices, in the same order.
@@ -47,12 +50,6 @@ macro_rules! choice {
             /// The name in plans, on the command line and in results.
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$variant => $name),+ }
-            }
-        }
-
-        impl Default for $choice {
-            fn default() -> Self {
-                Self::DEFAULT
             }
         }
 
@@ -97,7 +94,7 @@ choice! {
 
 choice! {
     /// How the tires of a shelter lie.
-    LayoutKind, default Grid {
+    LayoutKind {
         /// Rows and columns.
         Grid = "grid",
         /// Rows and columns of corner tires, and one tire at the centre of every cell.
@@ -109,7 +106,7 @@ choice! {
 
 choice! {
     /// Neighbours that a cable may tie.
-    Link, default Row {
+    Link {
         /// Neighbours within a row (along x).
         Row = "row",
         /// Neighbours within a column (along y).
@@ -131,7 +128,7 @@ choice! {
 
 choice! {
     /// Kind of detonator; each kind has its own scatter of firing times.
-    Detonator, default Electronic {
+    Detonator {
         /// Electronic.
         Electronic = "electronic",
         /// Pyrotechnic, in the hole.

@@ -214,12 +214,12 @@ impl<'s> SectionReader<'s> {
         self.name_if(key)?.value.parse().ok()
     }
 
-    /// A choice; its absence is a mistake where the key is required.
-    pub fn choice<T: FromStr + std::default::Default>(&self, key: &Key) -> T {
+    /// A choice; `otherwise` where the plan has none, which is a mistake where the key is required.
+    pub fn choice<T: FromStr>(&self, key: &Key, otherwise: T) -> T {
         if key.required && !self.has(key) {
             self.missing(key);
         }
-        self.choice_if(key).unwrap_or_default()
+        self.choice_if(key).unwrap_or(otherwise)
     }
 
     /// Bytes of the value of `key`; those of the section's header where it has no such key.

@@ -9,7 +9,7 @@ use crate::plan::{Layout, ListedTire, Mesh, TireSpec};
 
 pub fn read_layout(section: SectionReader<'_>, mistakes: &Mistakes) -> Option<Layout> {
     let before = mistakes.count();
-    let layout = match section.choice(&shelter::LAYOUT) {
+    let layout = match section.choice(&shelter::LAYOUT, LayoutKind::Grid) {
         LayoutKind::List => read_list(&section, mistakes),
         LayoutKind::Grid => Layout::Grid(read_mesh(&section, 1)),
         LayoutKind::Quincunx => Layout::Quincunx(read_mesh(&section, 2)),

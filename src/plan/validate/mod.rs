@@ -13,6 +13,7 @@ use super::diagnostic::Diagnostics;
 use super::keys::{self, cable, ground, limits, simulation, tire};
 use super::read::{At, Mistakes, SectionReader};
 use super::{CableSpec, LimitsSpec, Plan, SimulationSpec, TireSpec};
+use crate::choice::{Accuracy, Method, OnOverload};
 use crate::ropes::catalogue;
 
 /// The plan of a text, or all mistakes; messages name the file `path`.
@@ -75,8 +76,8 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
 fn read_simulation(section: SectionReader<'_>) -> SimulationSpec {
     let spec = SimulationSpec {
         duration_s: section.number_if(&simulation::DURATION_S),
-        accuracy: section.choice(&simulation::ACCURACY),
-        method: section.choice(&simulation::METHOD),
+        accuracy: section.choice(&simulation::ACCURACY, Accuracy::DEFAULT),
+        method: section.choice(&simulation::METHOD, Method::DEFAULT),
         gravity_m_s2: section.number(&simulation::GRAVITY_M_S2),
     };
     section.finish();
@@ -118,7 +119,7 @@ fn read_cable(section: SectionReader<'_>, mistakes: &Mistakes) -> CableSpec {
         breaking_force_kn: breaking_force_kn * termination_percent * 1e-2,
         slack_percent: section.number(&cable::SLACK_PERCENT),
         termination_percent,
-        on_overload: section.choice(&cable::ON_OVERLOAD),
+        on_overload: section.choice(&cable::ON_OVERLOAD, OnOverload::DEFAULT),
     };
     section.finish();
     spec
