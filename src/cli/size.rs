@@ -11,7 +11,7 @@ use super::print::print;
 use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::file;
-use crate::plan::{Layout, edit};
+use crate::plan::{Layout, Plan, SizeSpec, edit};
 use crate::report::json::SizeDocument;
 use crate::report::no_result;
 use crate::report::size::report;
@@ -52,16 +52,20 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
-    let Some(mut case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
+    let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
     if arguments.write && case.source.path == "-" {
         return wrong("--write has no file to write into: give the plan by its name");
     }
-    let demand = match choose(arguments, &mut case) {
+    let plan = match choose_sizes(arguments, &case.plan) {
+        Ok(size) => Plan { size, ..case.plan.clone() },
+        Err(message) => return wrong(&message),
+    };
+    let demand = match choose_demand(arguments, &case) {
         Ok(demand) => demand,
         Err(message) => return wrong(&message),
     };
     let settings = arguments.compute.settings(&case.plan);
-    let sized = run_study(&arguments.compute, |progress| size(&case.plan, &demand, &settings, progress));
+    let sized = run_study(&arguments.compute, |progress| size(&plan, &demand, &settings, progress));
     let sizing = match sized {
         Ok(finished) => finished.value,
         Err(reason) => return failed(&reason),
@@ -74,8 +78,9 @@ pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     Ok(status)
 }
 
-/// Puts the choices of the command line into the plan. Returns what the shelter must hold.
-fn choose(arguments: &Arguments, case: &mut Case) -> Result<Demand, String> {
+/// What may be chosen: the section `[size]` of the plan, with the choices of the command line in it.
+fn choose_sizes(arguments: &Arguments, plan: &Plan) -> Result<SizeSpec, String> {
+    let mut choices = plan.size.clone();
     if let Some(family) = &arguments.ropes {
         let families = catalogue().families();
         if !families.contains(&family.as_str()) {
@@ -84,14 +89,19 @@ fn choose(arguments: &Arguments, case: &mut Case) -> Result<Demand, String> {
                 families.join(", ")
             ));
         }
-        case.plan.size.family = Some(family.clone());
+        choices.family = Some(family.clone());
     }
     if let Some(border) = arguments.border {
-        case.plan.size.most_border_rows = border.into();
+        choices.most_border_rows = border.into();
     }
-    if case.plan.size.most_border_rows > 0 && matches!(case.plan.layout, Layout::List { .. }) {
+    if choices.most_border_rows > 0 && matches!(plan.layout, Layout::List { .. }) {
         return Err("a list layout has no border rows: leave them out".to_owned());
     }
+    Ok(choices)
+}
+
+/// What the shelter must hold.
+fn choose_demand(arguments: &Arguments, case: &Case) -> Result<Demand, String> {
     if arguments.scatter {
         let spec = case.plan.scatter.ok_or_else(|| no_result::message(&NoResult::NoScatter))?;
         return Ok(Demand::Samples(spec, arguments.sampling.sampling()));

@@ -56,7 +56,7 @@ pub fn wrong(message: &str) -> io::Result<Status> {
     Ok(Status::Wrong)
 }
 
-/// Tells why a study has no result.
+/// Tells why a study has no result, with the remedy as arguments.
 pub fn failed(reason: &NoResult) -> io::Result<Status> {
     match reason {
         NoResult::Stopped => {
@@ -68,6 +68,7 @@ pub fn failed(reason: &NoResult) -> io::Result<Status> {
             Ok(Status::Fail)
         }
         NoResult::NoInterval => wrong(&format!("{reason}: give --interval FROM..TO:STEP")),
+        NoResult::Failed(_) => wrong(&format!("{reason}: choose a finer --accuracy or a smaller --dt")),
         _ => wrong(&no_result::message(reason)),
     }
 }

@@ -1,7 +1,10 @@
-//! Why an option or a study has no result, in words, with the remedy on the command line.
+//! Why an option or a study has no result, in words, with the remedy in words of the plan.
 
 use crate::simulation::Failure;
 use crate::study::NoResult;
+
+/// Remedy for a run that failed at its step.
+pub const FINER: &str = "choose a finer accuracy or a smaller step";
 
 /// Reason of a missing result, followed by the remedy if there is one.
 pub fn message(no_result: &NoResult) -> String {
@@ -15,7 +18,7 @@ pub fn message(no_result: &NoResult) -> String {
 fn remedy(no_result: &NoResult) -> Option<&'static str> {
     match no_result {
         NoResult::Failed(Failure::Step { .. } | Failure::Diverged { .. } | Failure::Unsettled { .. }) => {
-            Some("choose a smaller --dt")
+            Some(FINER)
         }
         NoResult::NoScatter => {
             Some("add a section such as\n\n[scatter]\ndetonator = \"pyrotechnic\"\nlaunch_cv_percent = 10")
@@ -31,7 +34,10 @@ mod tests {
     #[test]
     fn only_a_run_that_failed_by_itself_has_a_remedy() {
         let diverged = message(&Failure::Diverged { at: 0.3 }.into());
-        assert_eq!(diverged, "the motion is no longer finite at 0.3 s: choose a smaller --dt");
+        assert_eq!(
+            diverged,
+            "the motion is no longer finite at 0.3 s: choose a finer accuracy or a smaller step"
+        );
         assert_eq!(message(&Failure::Stopped { at: 0.3 }.into()), "stopped at 0.3 s before the end");
     }
 }

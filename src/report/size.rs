@@ -2,6 +2,7 @@
 
 use super::charts;
 use super::model::{Block, Cell, Column, Conclusion, Report, Table};
+use super::no_result::FINER;
 use super::shared_columns::{FORCE, HEIGHT, force, height};
 use crate::study::Case;
 use crate::study::size::{Combination, Sizing, Trial, Untried};
@@ -81,10 +82,11 @@ fn parts(combination: &Combination) -> [Cell; 5] {
 /// How many combinations were tried, and why the others were not.
 fn tried(sizing: &Sizing) -> Vec<String> {
     let mut lines = vec![format!("{} of {} combinations tried", sizing.tried(), sizing.combinations.len())];
+    let unstable = format!("the motion cannot be computed at this step: {FINER}");
     let reasons = [
         (Untried::SameStiffnessFails, "a stronger rope of the same stiffness already fails"),
         (Untried::OutOfTime, "the time was up"),
-        (Untried::Unstable, "the motion cannot be computed at this step: choose a smaller --dt"),
+        (Untried::Unstable, unstable.as_str()),
     ];
     for (why, reason) in reasons {
         match sizing.untried(why) {
