@@ -8,8 +8,7 @@ use clap::Args;
 use super::arguments::Look;
 use super::status::Status;
 use crate::file;
-use crate::plan::PlanSource;
-use crate::plan::import::plan_from_holes;
+use crate::plan::import::plan_from_file;
 
 /// The starter plan.
 pub const STARTER: &str = include_str!("../../plans/amur-three-rows.toml");
@@ -18,27 +17,24 @@ pub const STARTER: &str = include_str!("../../plans/amur-three-rows.toml");
 pub struct Arguments {
     /// File to write, never overwritten; default: standard output
     file: Option<PathBuf>,
-    /// Build the plan from a list of holes, as Kirra and others export it
-    #[arg(long, value_name = "HOLES.csv")]
+    /// Build the plan from a list of holes, as Kirra and others export it, or from a design of SHOTPlus (.spf)
+    #[arg(long, value_name = "HOLES")]
     from: Option<PathBuf>,
 }
 
 pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
     let text = match &arguments.from {
         None => STARTER.to_owned(),
-        Some(list) => {
-            let read = PlanSource::read(list).and_then(|list| plan_from_holes(&list.path, &list.text));
-            match read {
-                Ok(imported) => {
-                    imported.notes.iter().for_each(|note| eprintln!("note: {note}"));
-                    imported.text
-                }
-                Err(mistakes) => {
-                    eprint!("{}", mistakes.render(look.colored(io::stderr().is_terminal())));
-                    return Ok(Status::Wrong);
-                }
+        Some(list) => match plan_from_file(list) {
+            Ok(imported) => {
+                imported.notes.iter().for_each(|note| eprintln!("note: {note}"));
+                imported.text
             }
-        }
+            Err(mistakes) => {
+                eprint!("{}", mistakes.render(look.colored(io::stderr().is_terminal())));
+                return Ok(Status::Wrong);
+            }
+        },
     };
     let Some(path) = arguments.file.as_ref().filter(|path| path.as_os_str() != "-") else {
         io::stdout().write_all(text.as_bytes())?;

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use super::{Diagnostics, Plan, validate};
 
-/// Largest plan file read [bytes].
-const MOST_BYTES: u64 = 64 << 20;
+/// Largest file read [bytes].
+pub(super) const MOST_BYTES: u64 = 64 << 20;
 
 /// The path and the text of a plan or of a list of holes; both empty where the program made the plan.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -21,7 +21,7 @@ impl PlanSource {
     /// Reads a file; `-` is standard input.
     pub fn read(path: &Path) -> Result<Self, Diagnostics> {
         let name = path.display().to_string();
-        match read_text(path) {
+        match read_bytes(path).and_then(text_of) {
             Ok(text) => Ok(Self { path: name, text }),
             Err((message, remedy)) => Err(Diagnostics::unreadable(&name, message, remedy)),
         }
@@ -33,8 +33,11 @@ impl PlanSource {
     }
 }
 
-/// The text of a file, or a message with its remedy.
-fn read_text(path: &Path) -> Result<String, (String, &'static str)> {
+/// A message with its remedy.
+pub(super) type Unreadable = (String, &'static str);
+
+/// The bytes of a file; `-` is standard input.
+pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, Unreadable> {
     let cannot = |error: std::io::Error| {
         let remedy = match error.kind() {
             std::io::ErrorKind::NotFound => {
@@ -58,6 +61,11 @@ fn read_text(path: &Path) -> Result<String, (String, &'static str)> {
             "a plan is a short text: check the path",
         ));
     }
+    Ok(bytes)
+}
+
+/// The text that bytes are.
+pub(super) fn text_of(bytes: Vec<u8>) -> Result<String, Unreadable> {
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) || bytes.contains(&0) {
         return Err((
             "the file is UTF-16 text, or no text".to_owned(),

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use shelter::plan::import::{Imported, plan_from_holes};
-use shelter::plan::{LaunchTargets, Plan, PlanSource, Timing};
+use shelter::plan::import::{Imported, plan_from_file, plan_from_holes};
+use shelter::plan::{LaunchTargets, Plan, Timing};
 use shelter::study::Case;
 
 fn imported(list: &str) -> Plan {
@@ -43,7 +43,7 @@ fn firing_times_group_holes_whatever_separates_the_columns() {
     for list in [
         "id,x,y,fire_ms\n1,0,0,100\n2,2,0,100\n3,0,2,125\n",
         "\u{feff}ID;Easting;Northing;Firing time (ms)\r\n1;0,0;0;100\r\n2;2,0;0;100\r\n3;0;2,0;125\r\n",
-        "hole_id\tx_m\ty_m\tinitiation_time\n1\t0\t0\t100\n\n2\t2\t0\t100\n3\t0\t2\t125",
+        "hole_id\tx_m\ty_m\tinitiation_time_ms\n1\t0\t0\t100\n\n2\t2\t0\t100\n3\t0\t2\t125",
     ] {
         let plan = imported(list);
         assert_eq!(rows_and_times(&plan), expected, "{list}");
@@ -56,15 +56,17 @@ fn delays_after_other_holes_add_up() {
     assert_eq!(rows_and_times(&plan), (vec![("0 ms", 1), ("17 ms", 1), ("59 ms", 1)], vec![0.0, 17.0, 59.0]));
 }
 
-/// Kirra's layouts of 4, 12 and 14 columns without a header and of 35 with one, as its documentation describes them.
+/// Kirra's layouts of 12 and 14 columns without a header and of 35 with one, as its documentation describes them.
 #[test]
 fn kirra_exports_load_as_they_are() {
-    let plan = imported("H1,478746.054,6772335.082,405.5\nH2,478750.438,6772336.474,405.4\n");
-    assert_eq!(rows_and_times(&plan).0, [("1", 2)]);
     let twelve = "1,0,0,10,0,0,0,165,Production,B:::1,0,red\n2,4,0,10,4,0,0,165,Production,B:::1,17,red\n";
     assert_eq!(rows_and_times(&imported(twelve)).1, [0.0, 17.0]);
     let fourteen = "B,hole,1,0,0,10,0,0,0,165,Production,B:::1,0,red\nB,hole,2,4,0,10,4,0,0,165,Production,B:::1,17,red\n";
     assert_eq!(rows_and_times(&imported(fourteen)).1, [0.0, 17.0]);
+    // Each of two patterns has a hole 1.
+    let two = fourteen.to_owned()
+        + "C,hole,1,0,4,10,0,4,0,165,Production,B:::2,25,red\nC,hole,2,4,4,10,4,4,0,165,Production,C:::1,9,red\n";
+    assert_eq!(rows_and_times(&imported(&two)).1, [0.0, 17.0, 42.0, 51.0]);
     let header = "entityName,entityType,holeID,startXLocation,startYLocation,startZLocation,endXLocation,endYLocation,endZLocation,gradeXLocation, gradeYLocation, gradeZLocation, subdrillAmount, subdrillLength, benchHeight, holeDiameter,holeType,fromHoleID,timingDelayMilliseconds,colorHexDecimal,holeLengthCalculated,holeAngle,holeBearing,initiationTime,measuredLength,measuredLengthTimeStamp,measuredMass,measuredMassTimeStamp,measuredComment,measuredCommentTimeStamp, rowID, posID, burden, spacing, connectorCurve";
     let line = |id: usize, from: usize, delay: usize, time: usize, row: usize| {
         let x = 4.5 * id as f64;
@@ -84,6 +86,7 @@ fn every_bad_line_is_named_with_its_remedy() {
         "\n\n",
         "id,x,y,row\n",
         "id,x,y,delay\n1,0,0,17\n2,2,0,34\n",
+        "id,x,y,delay_ms\n1,0,0,17\n2,2,0,34\n",
         "id,easting\n1,0\n",
         "id,x,y,z,t,u\n1,2\n",
         "1,2,3,4,5\n2,3,4,5,6\n",
@@ -91,11 +94,11 @@ fn every_bad_line_is_named_with_its_remedy() {
         "id,x,y,fire_ms\n1,0,0,10\n2,2,0,\n3,4,0,-5\n4,6,0,1e999\n",
         "id,x,y,from,delay_ms\n1,0,0,2,5\n2,2,0,1,5\n3,4,0,9,5\n",
         "id,x,y,X\n1,0,0,0\n",
-        "id,x,y\n1,0,0\n2,1e6,1e6\n",
+        "id,x,y\n1,0,0\n2,1000000,1000000\n",
         "id,x,y,launch_m_s\n1,0,0,-6\n",
         "id,x,y\n\"1,0,0\n",
         "id;x;y;delay_ms;from\n1;0;0;0666666666666666666666666,1\n23w;%;3;0;17;1\n",
-        "id,x,y,from,delay_ms\n1,0,0,1,0\n2,2,0,1,9e8\n3,4,0,2,9e8\n",
+        "id,x,y,from,delay_ms\n1,0,0,1,0\n2,2,0,1,900000000\n3,4,0,2,900000000\n",
         "id,x,y,launch_m_s\n1,0,0,20000\n",
     ];
     let told: Vec<String> = lists
@@ -127,7 +130,7 @@ fn lists_are_read_or_refused_and_never_guessed() {
     let mut outcomes = String::new();
     for file in files {
         let name = file.file_name().and_then(|name| name.to_str()).expect("UTF-8").to_owned();
-        let read = PlanSource::read(&file).and_then(|list| plan_from_holes(&name, &list.text));
+        let read = plan_from_file(&file);
         outcomes += &format!("## {name}\n");
         match read {
             Ok(Imported { text, notes }) => {

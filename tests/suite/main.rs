@@ -24,6 +24,8 @@ mod reference;
 mod scenes;
 mod schema;
 mod screens;
+#[cfg(feature = "shotplus")]
+mod shotplus;
 mod stage;
 mod studies;
 mod support;

@@ -1,51 +1,71 @@
-//! Reads a list of holes: finds the columns, reads the lines, and collects every mistake.
+//! Reads a list of holes: its lines become holes, and every mistake is collected.
 
 use std::collections::HashSet;
 use std::ops::Range;
 
-use super::columns::{Column, find, looks_like_timing, plain};
+use super::columns::Column;
+use super::header::{Columns, REMEDY, with_header, without_header};
 use super::number::{self, Decimals};
-use super::table::{Line, split};
+use super::table::{Line, Table, split};
 use crate::plan::diagnostic::Mistake;
 use crate::plan::keys::{Key, delay, hole};
-use crate::plan::read::nearest;
 
 /// One hole of the list.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ListedHole {
+    /// Its name; `Pattern:::Hole` in a list of several patterns.
     pub id: String,
     pub x_m: f64,
     pub y_m: f64,
     pub row: Option<String>,
-    /// Firing time, counted from the first hole of the blast [ms].
+    /// Firing time [ms].
     pub fire_ms: Option<f64>,
     /// Delay after the hole `from` [ms].
     pub delay_ms: Option<f64>,
     pub from: Option<String>,
     pub launch_m_s: Option<f64>,
+    /// Mass of its explosive [kg].
+    pub charge_kg: Option<f64>,
     /// Bytes of the line in the source.
     pub span: Range<usize>,
 }
 
 /// The whole list.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Holes {
     pub holes: Vec<ListedHole>,
-    /// What was left out of the list, or read in one of several possible ways.
+    /// What was left out.
+    pub left_out: Vec<String>,
+    /// What was read in one of several possible ways.
     pub notes: Vec<String>,
 }
 
-/// Lists that Kirra writes without a header: the number of columns, and the index of each column that is read.
-const KIRRA: &[(usize, &[(Column, usize)])] = &[
-    (4, &[(Column::Id, 0), (Column::X, 1), (Column::Y, 2)]),
-    (7, &[(Column::Id, 0), (Column::X, 1), (Column::Y, 2)]),
-    (9, &[(Column::Id, 0), (Column::X, 1), (Column::Y, 2)]),
-    (12, &[(Column::Id, 0), (Column::X, 1), (Column::Y, 2), (Column::From, 9), (Column::Delay, 10)]),
-    (14, &[(Column::Id, 2), (Column::X, 3), (Column::Y, 4), (Column::From, 11), (Column::Delay, 12)]),
+/// Names of lines that sum up a list, in small letters.
+const SUMS: &[&str] = &[
+    "total",
+    "totals",
+    "sum",
+    "mean",
+    "average",
+    "avg",
+    "min",
+    "max",
+    "count",
+    "итого",
+    "всего",
+    "сумма",
+    "среднее",
+    "suma",
+    "promedio",
+    "media",
+    "summe",
+    "gesamt",
+    "mittel",
+    "mittelwert",
+    "durchschnitt",
 ];
-
-const REMEDY: &str =
-    "name the columns in the first line: hole, x, y in metres, and row, or fire_ms, or delay_ms and from";
+/// Signs that begin a line which is switched off.
+const REMARKS: &[&str] = &["#", "//", "%", "!"];
 
 fn mistake(span: Range<usize>, message: impl Into<String>, remedy: impl Into<String>) -> Mistake {
     Mistake { span, message: message.into(), remedy: remedy.into() }
@@ -57,163 +77,164 @@ pub fn read(source: &str) -> Result<Holes, Vec<Mistake>> {
     let Some(first) = table.lines.first() else {
         return Err(vec![mistake(0..0, "the list of holes is empty", REMEDY)]);
     };
-    let mut notes: Vec<String> =
-        table.titles.iter().map(|title| format!("left out: the line `{title}`")).collect();
-    let columns = if table.has_header { named_columns(first, &mut notes)? } else { columns_of_kirra(first)? };
-    if !table.has_header {
-        notes.push(format!(
-            "the list has no header: its {} columns are read as Kirra writes them",
-            first.values.len()
-        ));
+    let columns = if table.has_header { with_header(first)? } else { without_header(first)? };
+    let mut list = Holes { notes: columns.note.iter().cloned().collect(), ..Holes::default() };
+    list.left_out.extend(table.titles.iter().map(|title| format!("the line `{title}`")));
+    if !columns.left_out.is_empty() {
+        list.left_out.push(format!("the columns {}", columns.left_out.join(", ")));
     }
-    let lines = &table.lines[usize::from(table.has_header)..];
-    // Cells without a name at the end of a header are not columns.
-    let width = first.values.iter().rposition(|value| !value.is_empty()).map_or(0, |last| last + 1);
-    let width = if table.has_header { width } else { first.values.len() };
-    let comma = decimal_comma(lines, &columns, &mut notes)?;
-    let (mut holes, mut mistakes) = (Vec::new(), Vec::new());
-    for line in lines {
+    let comma = decimal_comma(&table, &columns, &mut list.notes)?;
+    let (mut patterns, mut unnamed, mut mistakes) = (Vec::new(), Vec::new(), Vec::new());
+    for line in &table.lines[usize::from(table.has_header)..] {
         // A separator at the end of a line adds a value that is empty.
         let values = line.values.iter().rposition(|value| !value.is_empty()).map_or(0, |last| last + 1);
-        if values > width || line.values.len() < width {
-            let message = format!("the line has {} values for {width} columns", line.values.len());
+        if values > columns.width || line.values.len() < columns.width {
+            let count = line.values.len();
+            let s = if count == 1 { "" } else { "s" };
+            let message = format!("the line has {count} value{s} for {} columns", columns.width);
             let remedy =
                 "write one value for each column; decimals with a point, or values separated by semicolons";
             mistakes.push(mistake(line.span.clone(), message, remedy));
             continue;
         }
-        holes.extend(read_hole(line, &columns, comma, &mut mistakes));
+        if let Some(hole) = read_hole(line, &columns, comma, &mut mistakes) {
+            unnamed.extend(
+                columns.index(Column::Id).filter(|&n| line.values[n].is_empty()).map(|_| line.span.clone()),
+            );
+            list.holes.push(hole);
+            patterns.push(columns.index(Column::Pattern).map(|n| line.values[n].clone()).unwrap_or_default());
+        }
     }
-    let mut positions = HashSet::new();
-    for hole in &holes {
-        if !positions.insert([hole.x_m + 0.0, hole.y_m + 0.0].map(f64::to_bits)) {
+    if unnamed.len() < list.holes.len() {
+        let message = "the line does not name its hole, unlike others";
+        let remedy = "name it, or remove the line if it is no hole";
+        mistakes.extend(unnamed.into_iter().map(|line| mistake(line, message, remedy)));
+    }
+    remarks(&list.holes, &mut mistakes);
+    rows(&list.holes, &mut mistakes);
+    positions(&list.holes, &mut mistakes);
+    if list.holes.is_empty() && mistakes.is_empty() {
+        mistakes.push(mistake(0..0, "the list has no hole", "write one line for each hole"));
+    }
+    name_patterns(&mut list, &patterns);
+    if mistakes.is_empty() { Ok(list) } else { Err(mistakes) }
+}
+
+/// No two holes may lie in one place.
+pub fn positions(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
+    let mut known = HashSet::new();
+    for hole in holes {
+        if !known.insert([hole.x_m + 0.0, hole.y_m + 0.0].map(f64::to_bits)) {
             let message = format!("hole {} lies where another does", hole.id);
             mistakes.push(mistake(hole.span.clone(), message, "correct its x and y, or remove the line"));
         }
     }
-    if holes.is_empty() && mistakes.is_empty() {
-        mistakes.push(mistake(0..0, "the list has no hole", "write one line for each hole"));
+}
+
+/// A sign that begins the names of some holes only may have switched their lines off.
+fn remarks(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
+    for sign in REMARKS {
+        let marked = |hole: &&ListedHole| hole.id.starts_with(sign);
+        if !holes.iter().all(|hole| marked(&hole)) {
+            mistakes.extend(holes.iter().filter(marked).map(|hole| {
+                let message = format!("the line begins with `{sign}`, unlike others");
+                mistake(hole.span.clone(), message, "remove the line if it is a remark, else the sign")
+            }));
+        }
     }
-    if mistakes.is_empty() { Ok(Holes { holes, notes }) } else { Err(mistakes) }
 }
 
-/// Index of every column of a list that Kirra writes without a header: from the number of values.
-fn columns_of_kirra(first: &Line) -> Result<Vec<(Column, usize)>, Vec<Mistake>> {
-    let known = KIRRA.iter().find(|(count, _)| *count == first.values.len());
-    known.map(|(_, columns)| columns.to_vec()).ok_or_else(|| {
-        let message = format!("a table of {} columns without a header", first.values.len());
-        vec![mistake(first.span.clone(), message, REMEDY)]
-    })
-}
-
-/// Index of every column that is read, from its name in the header; notes the columns that are left out.
-fn named_columns(header: &Line, notes: &mut Vec<String>) -> Result<Vec<(Column, usize)>, Vec<Mistake>> {
-    let line = &header.span;
-    let mut found: Vec<(Column, usize)> = Vec::new();
-    let (mut mistakes, mut left_out) = (Vec::new(), Vec::new());
-    let names = header.values.iter().rposition(|name| !name.is_empty()).map_or(0, |last| last + 1);
-    for (n, name) in header.values.iter().enumerate() {
-        let Some(column) = find(name) else {
-            if looks_like_timing(name) {
-                let message = format!(
-                    "the column `{name}` looks like a firing time, a delay or a row, and is not known"
-                );
-                let remedy = "call it fire_ms if it is the firing time in ms counted from the first hole, delay_ms if it is a delay in ms after the hole in a column `from`, or row; else remove it";
-                mistakes.push(mistake(line.clone(), message, remedy));
-            } else if name.is_empty() && n < names {
-                let message = format!("column {} has no name", n + 1);
-                mistakes.push(mistake(line.clone(), message, "name it, or remove it"));
-            } else if !name.is_empty() {
-                left_out.push(format!("`{name}`"));
-            }
+/// Rows of the same number must be written alike.
+fn rows(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
+    let mut known: Vec<(f64, &str)> = Vec::new();
+    for hole in holes {
+        let Some((row, number)) = hole.row.as_deref().and_then(|row| Some((row, row.parse::<f64>().ok()?)))
+        else {
             continue;
         };
-        if found.iter().any(|(known, _)| *known == column) {
-            let message =
-                format!("two columns are a hole's {column:?}; the second is `{name}`").to_lowercase();
-            mistakes.push(mistake(line.clone(), message, "rename or remove one of them"));
-        }
-        found.push((column, n));
-    }
-    let has = |column: Column| found.iter().any(|(known, _)| *known == column);
-    for (column, word) in [(Column::X, "x"), (Column::Y, "y")] {
-        if !has(column) {
-            let all: Vec<String> = header.values.iter().map(|name| plain(name)).collect();
-            let near = nearest(word, all.iter().map(String::as_str))
-                .map(|near| format!("is it `{near}`? "))
-                .unwrap_or_default();
-            mistakes.push(mistake(line.clone(), format!("no column is {word}"), format!("{near}{REMEDY}")));
+        match known.iter().find(|(known, _)| *known == number) {
+            None => known.push((number, row)),
+            Some((_, first)) if *first == row => {}
+            Some((_, first)) => {
+                let message = format!("the row is `{row}`, the same as `{first}` written otherwise");
+                mistakes.push(mistake(hole.span.clone(), message, "write each row in one way"));
+            }
         }
     }
-    if has(Column::From) && !has(Column::Delay) && !has(Column::Fire) {
-        let remedy = "name the column of the delays delay_ms, or remove the column `from`";
-        mistakes.push(mistake(
-            line.clone(),
-            "holes that follow others, without a column of their delays",
-            remedy,
-        ));
+}
+
+/// Gives holes their whole names, `Pattern:::Hole`, where the list has several patterns; else leaves the pattern out.
+fn name_patterns(list: &mut Holes, patterns: &[String]) {
+    let different: Vec<&String> = {
+        let mut known = HashSet::new();
+        patterns.iter().filter(|pattern| known.insert(*pattern)).collect()
+    };
+    let several = different.len() > 1;
+    for (hole, pattern) in list.holes.iter_mut().zip(patterns) {
+        let whole = |id: &str| if id.contains(":::") { id.to_owned() } else { format!("{pattern}:::{id}") };
+        if several {
+            hole.id = whole(&hole.id);
+            hole.row = hole.row.as_deref().map(whole);
+            hole.from = hole.from.as_deref().map(whole);
+        } else if let Some((before, id)) = hole.from.as_deref().and_then(|from| from.split_once(":::"))
+            && (pattern.is_empty() || before == pattern)
+        {
+            hole.from = Some(id.to_owned());
+        }
     }
-    if has(Column::Delay) && !has(Column::From) && !has(Column::Fire) {
-        let remedy = "call it fire_ms if it counts from the first hole; if it counts from another hole, add a column `from` that names it";
-        mistakes.push(mistake(line.clone(), "a delay without saying after what", remedy));
+    if several {
+        let names: Vec<String> = different.iter().map(|pattern| format!("`{pattern}`")).collect();
+        list.notes.push(format!("the patterns {} are read as one shot", names.join(", ")));
     }
-    if !left_out.is_empty() {
-        notes.push(format!("left out: the columns {}", left_out.join(", ")));
-    }
-    if mistakes.is_empty() { Ok(found) } else { Err(mistakes) }
 }
 
 /// Whether the numbers of the list have decimal commas; notes it where they have.
-fn decimal_comma(
-    lines: &[Line],
-    columns: &[(Column, usize)],
-    notes: &mut Vec<String>,
-) -> Result<bool, Vec<Mistake>> {
-    let numeric = |column: &Column| {
-        matches!(column, Column::X | Column::Y | Column::Fire | Column::Delay | Column::Launch)
+fn decimal_comma(table: &Table, columns: &Columns, notes: &mut Vec<String>) -> Result<bool, Vec<Mistake>> {
+    let lines = &table.lines[usize::from(table.has_header)..];
+    let numeric = [Column::X, Column::Y, Column::Fire, Column::Delay, Column::Launch];
+    let read: Vec<usize> = numeric.iter().filter_map(|&column| columns.index(column)).collect();
+    let others = |n: usize| columns.read.iter().all(|(_, known)| *known != n);
+    // Columns that are not read tell decimal commas, too.
+    let counts = |&(n, value): &(usize, &String)| {
+        read.contains(&n) || others(n) && number::surely_decimal_comma(value)
     };
     let numbers = |line: &'_ Line| -> Vec<String> {
-        let of = |(column, n): &(Column, usize)| {
-            numeric(column).then(|| line.values.get(*n).cloned().unwrap_or_default())
-        };
-        columns.iter().filter_map(of).collect()
+        line.values.iter().enumerate().filter(counts).map(|(_, value)| value.clone()).collect()
     };
     let all: Vec<String> = lines.iter().flat_map(numbers).collect();
-    let with_comma = || all.iter().find(|value| value.contains(',')).map_or("", String::as_str);
-    let wrong = |message: String, remedy: &str| {
-        let line = lines.iter().find(|line| numbers(line).iter().any(|value| value.contains(',')));
+    let with = |sign: char| all.iter().find(|value| value.contains(sign)).map_or("", String::as_str);
+    let wrong = |sign: char, message: String, remedy: &str| {
+        let line = lines.iter().find(|line| numbers(line).iter().any(|value| value.contains(sign)));
         Err(vec![mistake(line.map_or(0..0, |line| line.span.clone()), message, remedy)])
     };
-    match number::decimals(all.iter().map(String::as_str)) {
+    let plain = "write all numbers with decimal points, and without signs between thousands";
+    match number::decimals(all.iter().map(String::as_str), table.separator != b',') {
         Decimals::Point => Ok(false),
         Decimals::Comma => {
-            let read = number::value(with_comma(), true).map_or(String::new(), |number| number.to_string());
-            notes.push(format!("numbers have decimal commas: `{}` is read as {read}", with_comma()));
+            let read = number::value(with(','), true).map_or(String::new(), |number| number.to_string());
+            notes.push(format!("numbers have decimal commas: `{}` is read as {read}", with(',')));
             Ok(true)
         }
-        Decimals::Mixed => wrong(
-            format!("`{}` has a comma, other numbers have a decimal point", with_comma()),
-            "write all numbers with decimal points, and without signs between thousands",
-        ),
-        Decimals::Ambiguous => wrong(
-            format!("`{}` may be a decimal number or thousands", with_comma()),
-            "write all numbers with decimal points, and without signs between thousands",
+        Decimals::Mixed => {
+            wrong(',', format!("`{}` has a comma, other numbers have a decimal point", with(',')), plain)
+        }
+        Decimals::AmbiguousComma => {
+            wrong(',', format!("`{}` may be a decimal number or thousands", with(',')), plain)
+        }
+        Decimals::AmbiguousPoint => wrong(
+            '.',
+            format!("`{}` may be a decimal number or thousands", with('.')),
+            "if the points are decimal points, separate the values by commas; else remove the points",
         ),
     }
 }
 
-fn read_hole(
-    line: &Line,
-    columns: &[(Column, usize)],
-    comma: bool,
-    mistakes: &mut Vec<Mistake>,
-) -> Option<ListedHole> {
+fn read_hole(line: &Line, columns: &Columns, comma: bool, mistakes: &mut Vec<Mistake>) -> Option<ListedHole> {
     let before = mistakes.len();
     let field = |column: Column| {
-        let n = columns.iter().find(|(known, _)| *known == column)?.1;
         let empty =
             |field: &&str| !["", "na", "nan", "null", "none"].contains(&field.to_lowercase().as_str());
-        line.values.get(n).map(String::as_str).filter(empty)
+        line.values.get(columns.index(column)?).map(String::as_str).filter(empty)
     };
     let mut value = |column: Column, word: &str, key: &Key, must: bool| {
         let range = key.kind.range();
@@ -222,7 +243,11 @@ fn read_hole(
             Some((_, Some(number))) if range.contains(&number) => Some(number),
             Some((text, _)) => {
                 let message = format!("{word} is `{text}`");
-                let remedy = format!("write a number from {} to {}", range.start(), range.end());
+                let remedy = format!(
+                    "write a number from {} to {}, all its digits and no unit",
+                    range.start(),
+                    range.end()
+                );
                 mistakes.push(mistake(line.span.clone(), message, remedy));
                 None
             }
@@ -243,9 +268,20 @@ fn read_hole(
     let delay_ms = value(Column::Delay, "the delay", &delay::INTERVAL_MS, false);
     let launch_m_s = value(Column::Launch, "the launch velocity", &hole::LAUNCH_M_S, false);
     let text = |column: Column| field(column).map(str::to_owned);
-    // Kirra writes `Pattern:::Hole`.
-    let from = text(Column::From).map(|from| from.rsplit(":::").next().unwrap_or_default().to_owned());
     let id = text(Column::Id).unwrap_or_else(|| line.number.to_string());
+    let sums_up = |name: &&str| SUMS.contains(&name.to_lowercase().trim_end_matches([':', ' ']));
+    if let Some(name) = [id.as_str(), line.values[0].as_str()].into_iter().find(sums_up) {
+        let message = format!("the line `{name}` seems to sum up others");
+        mistakes.push(mistake(line.span.clone(), message, "remove it"));
+    }
+    if line.runs_on {
+        let message = "a value runs over several lines";
+        mistakes.push(mistake(
+            line.span.clone(),
+            message,
+            "is a quotation mark missing? write each hole in one line",
+        ));
+    }
     if mistakes.len() > before {
         return None;
     }
@@ -256,8 +292,9 @@ fn read_hole(
         row: text(Column::Row),
         fire_ms,
         delay_ms,
-        from,
+        from: text(Column::From),
         launch_m_s,
+        charge_kg: None,
         span: line.span.clone(),
     })
 }

@@ -1,17 +1,22 @@
 //! A starter plan from a list of holes, as blast design programs export it.
 
 mod columns;
+mod header;
 mod holes;
 mod number;
+#[cfg(feature = "shotplus")]
+mod shotplus;
 mod table;
 mod timing;
 
 use std::fmt::Write;
+use std::path::Path;
 
-use self::holes::{ListedHole, read};
-use self::timing::{Group, groups};
+use self::holes::{Holes, ListedHole};
+use self::timing::{Group, Timed, delays_are_whole, timed};
 use super::Diagnostics;
 use super::keys::{MOST_TIRES, blast_row, delay, hole};
+use super::source::{Unreadable, read_bytes, text_of};
 use super::starter::{self, LAUNCH_M_S, Shelter, USUAL, header, line, quoted};
 
 /// Distances of holes [m] at which the tires lie as far apart as the holes; else the spacing is the usual one.
@@ -32,17 +37,50 @@ pub struct Imported {
     pub notes: Vec<String>,
 }
 
+/// A plan for the list of holes in a file; `-` is standard input. A ZIP archive is a design of SHOTPlus, anything else a table
+/// as [`plan_from_holes`] takes it.
+pub fn plan_from_file(path: &Path) -> Result<Imported, Diagnostics> {
+    let name = path.display().to_string();
+    let unreadable = |(message, remedy): Unreadable| Diagnostics::unreadable(&name, message, remedy);
+    let bytes = read_bytes(path).map_err(unreadable)?;
+    if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06") {
+        plan_from_design(&name, &bytes)
+    } else if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("spf")) {
+        let message = "the file is no ZIP archive, as designs of SHOTPlus 6 are".to_owned();
+        Err(unreadable((message, "copy it again, or save it in SHOTPlus 6 again")))
+    } else {
+        plan_from_holes(&name, &text_of(bytes).map_err(unreadable)?)
+    }
+}
+
+#[cfg(feature = "shotplus")]
+fn plan_from_design(name: &str, archive: &[u8]) -> Result<Imported, Diagnostics> {
+    let unreadable = |(message, remedy): Unreadable| Diagnostics::unreadable(name, message, remedy);
+    let xml = shotplus::list(archive).map_err(unreadable)?;
+    let holes = shotplus::read(&xml).map_err(|mistakes| Diagnostics::new(name, &xml, mistakes))?;
+    plan(name, &xml, holes)
+}
+
+#[cfg(not(feature = "shotplus"))]
+fn plan_from_design(name: &str, _: &[u8]) -> Result<Imported, Diagnostics> {
+    let message = "designs of SHOTPlus are not read by this build".to_owned();
+    Err(Diagnostics::unreadable(name, message, "build it with the feature `shotplus`"))
+}
+
 /// A plan for a list of holes: `text` holds values separated by commas, semicolons or tabs, `name` is the file.
 ///
 /// The header names the columns: hole, x and y in metres, and one of: a row; a firing time (`fire_ms`, counted from the
-/// first hole); a delay after another hole (`delay_ms` and `from`). A list without a header is read as one of Kirra's, which
-/// have 4, 7, 9, 12 or 14 columns.
+/// first hole); a delay after another hole (`delay_ms` and `from`). Of lists without a header those of Kirra that name the
+/// hole before each are read.
 pub fn plan_from_holes(name: &str, text: &str) -> Result<Imported, Diagnostics> {
     let source = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let wrong = |mistakes| Diagnostics::new(name, source, mistakes);
-    let table = read(source).map_err(wrong)?;
-    let groups = groups(&table).map_err(wrong)?;
-    let layout = Cover::of(&table.holes);
+    let holes = holes::read(source).map_err(|mistakes| Diagnostics::new(name, source, mistakes))?;
+    plan(name, source, holes)
+}
+
+fn plan(name: &str, source: &str, list: Holes) -> Result<Imported, Diagnostics> {
+    let timed = timed(&list).map_err(|mistakes| Diagnostics::new(name, source, mistakes))?;
+    let layout = Cover::of(&list.holes);
     if layout.rows.saturating_mul(layout.columns) > MOST_TIRES {
         let message = "the holes lie too far apart for one shelter".to_owned();
         return Err(Diagnostics::unreadable(
@@ -51,24 +89,39 @@ pub fn plan_from_holes(name: &str, text: &str) -> Result<Imported, Diagnostics> 
             "are x and y in metres? split the list into blasts",
         ));
     }
-    let mut notes = vec![summary(&table.holes, &groups)];
-    notes.extend(table.notes);
-    Ok(Imported { text: write(name, &layout, &table.holes, &groups), notes })
+    let text = write(name, &layout, &list.holes, &timed.groups);
+    let mut notes = vec![summary(&list, &timed)];
+    notes.extend(list.notes);
+    Ok(Imported { text, notes })
 }
 
-/// What was read, in one sentence: holes, blast rows, first and last firing time.
-fn summary(holes: &[ListedHole], groups: &[Group]) -> String {
+/// What was read, in one line: holes, blast rows, first and last firing time, what was left out.
+fn summary(list: &Holes, timed: &Timed) -> String {
+    let holes = &list.holes;
     let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
-    let read = format!("read {} in {}", count(holes.len(), "hole"), count(groups.len(), "blast row"));
-    let last = groups.last().and_then(|group| group.fire_ms);
-    match (last, groups.len()) {
-        (Some(last), _) => format!("{read}, which fire from 0 to {last} ms"),
+    let read = format!("read {} in {}", count(holes.len(), "hole"), count(timed.groups.len(), "blast row"));
+    let last = timed.groups.last().and_then(|group| group.fire_ms);
+    let mut line = match (last, timed.groups.len()) {
+        (Some(_), 1) => format!("{read}: all fire at {} ms, at once", timed.first_ms),
+        (Some(last), _) => {
+            let end = ((timed.first_ms + last) * 1e6).round() / 1e6;
+            format!("{read}, which fire from {} to {end} ms", timed.first_ms)
+        }
         (None, 1) if holes.iter().all(|hole| hole.row.is_none()) => {
             format!("{read}: the list has no rows and no firing times, so all holes fire at once")
         }
         (None, 1) => format!("{read}: all holes are of one row, so all fire at once"),
         (None, _) => format!("{read}; the list has no firing times: the delay options are assumed"),
+    };
+    let mut left_out = list.left_out.clone();
+    let has_delays = holes.iter().any(|hole| hole.delay_ms.is_some());
+    if has_delays && holes.iter().any(|hole| hole.fire_ms.is_some()) && !delays_are_whole(holes) {
+        left_out.push("the delays after other holes, which not every hole has".to_owned());
     }
+    if !left_out.is_empty() {
+        line += &format!("; left out: {}", left_out.join("; "));
+    }
+    line
 }
 
 /// A grid of tires over all holes.
@@ -129,7 +182,7 @@ fn write(name: &str, cover: &Cover, holes: &[ListedHole], groups: &[Group]) -> S
             let hole = &holes[hole];
             let _ = writeln!(
                 text,
-                "    {{ {} = {:.3}, {} = {:.3}, {} = {:?} }}, # {}",
+                "    {{ {} = {:.3}, {} = {:.3}, {} = {:?} }}, # {}{}",
                 hole::X_M.name,
                 hole.x_m - origin[0],
                 hole::Y_M.name,
@@ -137,6 +190,7 @@ fn write(name: &str, cover: &Cover, holes: &[ListedHole], groups: &[Group]) -> S
                 hole::LAUNCH_M_S.name,
                 hole.launch_m_s.unwrap_or(LAUNCH_M_S),
                 hole.id,
+                hole.charge_kg.map_or(String::new(), |mass| format!(", {mass:.1} kg")),
             );
         }
         text += "]\n";

@@ -10,30 +10,46 @@ pub enum Decimals {
     /// Some with points, some with commas.
     Mixed,
     /// With commas that may separate decimals or thousands.
-    Ambiguous,
+    AmbiguousComma,
+    /// With points that may separate decimals or thousands.
+    AmbiguousPoint,
 }
 
-/// How the `values` of a list are written.
-pub fn decimals<'v>(values: impl Iterator<Item = &'v str>) -> Decimals {
-    let (mut points, mut commas, mut sure) = (false, false, false);
+/// How the `values` of a list are written; `european` where points may separate thousands.
+pub fn decimals<'v>(values: impl Iterator<Item = &'v str>, european: bool) -> Decimals {
+    let (mut points, mut sure_point, mut commas, mut sure_comma) = (false, !european, false, false);
     for value in values {
         let value = without_spaces(value);
-        points |= value.contains('.') && value.parse::<f64>().is_ok();
+        if value.contains('.') && value.parse::<f64>().is_ok() {
+            points = true;
+            sure_point |= !may_be_thousands(&value, '.');
+        }
         if value.contains(',') && value.replace(',', "").parse::<f64>().is_ok() {
             commas = true;
-            sure |= !may_be_thousands(&value);
+            sure_comma |= !may_be_thousands(&value, ',');
         }
     }
     match (points, commas) {
+        (true, false) if !sure_point => Decimals::AmbiguousPoint,
         (_, false) => Decimals::Point,
         (true, true) => Decimals::Mixed,
-        (false, true) if sure => Decimals::Comma,
-        (false, true) => Decimals::Ambiguous,
+        (false, true) if sure_comma => Decimals::Comma,
+        (false, true) => Decimals::AmbiguousComma,
     }
 }
 
-/// The number that a value is, with a decimal point or, where `comma`, with one decimal comma.
+/// Whether a value is a number with a decimal comma, and not one with thousands.
+pub fn surely_decimal_comma(text: &str) -> bool {
+    let text = without_spaces(text);
+    value(&text, true).is_some() && text.contains(',') && !may_be_thousands(&text, ',')
+}
+
+/// The number that a value is, with a decimal point or, where `comma`, with one decimal comma. Numbers with an exponent are
+/// none: spreadsheets that write `4.78E+05` have dropped digits.
 pub fn value(text: &str, comma: bool) -> Option<f64> {
+    if text.contains(['e', 'E']) {
+        return None;
+    }
     let mut text = without_spaces(text);
     if comma && text.matches(',').count() == 1 && !text.contains('.') {
         text = text.replace(',', ".");
@@ -41,9 +57,9 @@ pub fn value(text: &str, comma: bool) -> Option<f64> {
     text.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
-/// Whether every comma is followed by three digits, after one to three digits that do not begin with 0: `1,234`.
-fn may_be_thousands(text: &str) -> bool {
-    let mut groups = text.trim_start_matches(['+', '-']).split(',');
+/// Whether every `sign` is followed by three digits, after one to three digits that do not begin with 0: `1,234`.
+fn may_be_thousands(text: &str, sign: char) -> bool {
+    let mut groups = text.trim_start_matches(['+', '-']).split(sign);
     let digits = |group: &str| group.bytes().all(|byte| byte.is_ascii_digit());
     let first = groups
         .next()
@@ -68,13 +84,23 @@ mod tests {
 
     #[test]
     fn decimal_commas_are_told_from_thousands() {
-        let of = |values: &[&str]| decimals(values.iter().copied());
+        let of = |values: &[&str]| decimals(values.iter().copied(), false);
+        let european = |values: &[&str]| decimals(values.iter().copied(), true);
         assert_eq!(of(&["1.5", "2", "B1"]), Decimals::Point);
         assert_eq!(of(&["512 345,10", "1,234"]), Decimals::Comma);
         assert_eq!(of(&["0,250"]), Decimals::Comma);
-        assert_eq!(of(&["1,234", "12"]), Decimals::Ambiguous);
-        assert_eq!(of(&["1,234,567"]), Decimals::Ambiguous);
+        assert_eq!(of(&["1,234", "12"]), Decimals::AmbiguousComma);
+        assert_eq!(of(&["1,234,567"]), Decimals::AmbiguousComma);
         assert_eq!(of(&["1,5", "1.5"]), Decimals::Mixed);
+        assert_eq!(of(&["1.560", "12"]), Decimals::Point);
+        assert_eq!(european(&["1.560", "12"]), Decimals::AmbiguousPoint);
+        assert_eq!(european(&["1.560", "0.000"]), Decimals::Point);
+        assert_eq!(european(&["1.560", "5403.210"]), Decimals::Point);
+        assert!(
+            surely_decimal_comma("12,5")
+                && !surely_decimal_comma("0,255,0")
+                && !surely_decimal_comma("1,234")
+        );
     }
 
     #[test]
@@ -86,5 +112,6 @@ mod tests {
         assert_eq!(value("1,234,567", true), None);
         assert_eq!(value("51 23", true), None);
         assert_eq!(value("inf", true), None);
+        assert_eq!(value("4.78E+05", false), None);
     }
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::columns::{Column, find};
+use super::columns::{Column, Meaning, meaning};
 use crate::plan::diagnostic::Mistake;
 
 /// One line of the list.
@@ -14,6 +14,8 @@ pub struct Line {
     pub number: u64,
     /// Bytes of the line in the source.
     pub span: Range<usize>,
+    /// Whether one value holds separators and several lines: it has perhaps swallowed holes.
+    pub runs_on: bool,
 }
 
 /// The lines of a list, from the header on; blank lines are left out.
@@ -25,6 +27,8 @@ pub struct Table {
     pub lines: Vec<Line>,
     /// Lines before the header.
     pub titles: Vec<String>,
+    /// What separates the values.
+    pub separator: u8,
 }
 
 /// Characters that may separate values; of two that fit alike, the first counts.
@@ -42,25 +46,26 @@ pub fn split(source: &str, remedy: &str) -> Result<Table, Vec<Mistake>> {
         Some(bytes) => vec![bytes[0]],
         None => SEPARATORS.to_vec(),
     };
-    let mut found: Option<(usize, Vec<Line>)> = None;
+    let mut found: Option<(usize, Vec<Line>, u8)> = None;
     for &separator in &tried {
         let lines =
             lines(source, separator).map_err(|error| wrong(format!("the table cannot be read: {error}")));
         let Ok(lines) = lines else { continue };
         let names_both = |line: &Line| {
-            let named = |column: Column| line.values.iter().any(|name| find(name) == Some(column));
+            let named =
+                |column: Column| line.values.iter().any(|name| meaning(name) == Meaning::Known(column));
             named(Column::X) && named(Column::Y)
         };
         let header = lines.iter().take(HEADER_WITHIN).position(names_both);
-        if let Some(at) = header.filter(|&at| found.as_ref().is_none_or(|(best, _)| at < *best)) {
-            found = Some((at, lines));
+        if let Some(at) = header.filter(|&at| found.as_ref().is_none_or(|(best, ..)| at < *best)) {
+            found = Some((at, lines, separator));
         }
     }
-    if let Some((at, mut all)) = found {
+    if let Some((at, mut all, separator)) = found {
         let title =
             |line: &Line| source.get(line.span.clone()).unwrap_or_default().replace(char::is_control, " ");
         let titles = all[..at].iter().map(title).filter(|title| !title.starts_with("sep=")).collect();
-        return Ok(Table { has_header: true, lines: all.split_off(at), titles });
+        return Ok(Table { has_header: true, lines: all.split_off(at), titles, separator });
     }
     // No line names x and y: either the list has no header, or its header is to be corrected.
     let first = source.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
@@ -73,7 +78,7 @@ pub fn split(source: &str, remedy: &str) -> Result<Table, Vec<Mistake>> {
     }
     let is_name = |value: &String| super::number::value(value, true).is_none();
     let has_header = lines.first().is_some_and(|line| line.values.iter().all(is_name));
-    Ok(Table { has_header, lines, titles: Vec::new() })
+    Ok(Table { has_header, lines, titles: Vec::new(), separator })
 }
 
 fn lines(source: &str, separator: u8) -> Result<Vec<Line>, csv::Error> {
@@ -95,6 +100,9 @@ fn lines(source: &str, separator: u8) -> Result<Vec<Line>, csv::Error> {
                     .collect(),
                 number: record.position().map_or(0, csv::Position::line),
                 span: span(&record, source),
+                runs_on: record
+                    .iter()
+                    .any(|value| value.contains(['\n', '\r']) && value.contains(char::from(separator))),
             });
         }
     }

@@ -17,8 +17,21 @@ pub struct Group {
 }
 
 /// The groups of a list, in the order of their firing times; without times, in the order of the list.
-pub fn groups(table: &Holes) -> Result<Vec<Group>, Vec<Mistake>> {
-    let times = times(&table.holes)?;
+#[derive(Clone, Debug, PartialEq)]
+pub struct Timed {
+    pub groups: Vec<Group>,
+    /// Firing time of the first hole as the list counts it [ms].
+    pub first_ms: f64,
+}
+
+/// Groups the holes of a list.
+pub fn timed(table: &Holes) -> Result<Timed, Vec<Mistake>> {
+    let listed = times(&table.holes)?;
+    let first_ms = listed.iter().flatten().copied().fold(f64::INFINITY, f64::min);
+    // To the nanosecond, so that a difference has no false digits.
+    let after_first = |time: &f64| ((time - first_ms) * 1e6).round() / 1e6;
+    let times = listed.map(|times| times.iter().map(after_first).collect::<Vec<_>>());
+    within_range(&table.holes, times.as_deref().unwrap_or_default())?;
     let without_row = table.holes.iter().filter(|hole| hole.row.is_none());
     if times.is_none() && table.holes.iter().any(|hole| hole.row.is_some()) {
         let mistake = |hole: &ListedHole| {
@@ -48,7 +61,7 @@ pub fn groups(table: &Holes) -> Result<Vec<Group>, Vec<Mistake>> {
     if let Some(rows) = rows.filter(|rows| rows.iter().collect::<HashSet<_>>().len() == rows.len()) {
         groups.iter_mut().zip(rows).for_each(|(group, row)| group.name = row);
     }
-    Ok(groups)
+    Ok(Timed { groups, first_ms })
 }
 
 /// The row of a group, where all its holes are of one row.
@@ -57,25 +70,31 @@ fn one_row(holes: &[ListedHole], group: &Group) -> Option<String> {
     group.holes.iter().all(|&hole| holes[hole].row.as_ref() == Some(&row)).then_some(row)
 }
 
-/// Firing time of every hole [ms], the first at 0 (n_holes); `None` where the list has no times.
+/// Firing time of every hole as the list counts it [ms] (n_holes); `None` where the list has no times.
 fn times(holes: &[ListedHole]) -> Result<Option<Vec<f64>>, Vec<Mistake>> {
     let absolute = holes.iter().any(|hole| hole.fire_ms.is_some());
     if !absolute && holes.iter().all(|hole| hole.delay_ms.is_none()) {
         return Ok(None);
     }
-    let mut times = if absolute { firing_times(holes)? } else { chained_times(holes)? };
-    if absolute && holes.iter().all(|hole| hole.delay_ms.is_some() && hole.from.is_some()) {
+    let times = if absolute { firing_times(holes)? } else { chained_times(holes)? };
+    if absolute && delays_are_whole(holes) {
         agree(holes, &times)?;
     }
-    let first = times.iter().copied().fold(f64::INFINITY, f64::min);
-    times.iter_mut().for_each(|time| *time -= first);
-    match times.iter().position(|time| !delay::AT_MS.kind.range().contains(time)) {
-        None => Ok(Some(times)),
-        Some(late) => {
-            let message = format!("hole {} fires {} ms after the first", holes[late].id, times[late]);
-            Err(vec![wrong(&holes[late], message, "are the delays in milliseconds?")])
-        }
-    }
+    Ok(Some(times))
+}
+
+/// A plan holds the times after the first hole [ms].
+fn within_range(holes: &[ListedHole], times: &[f64]) -> Result<(), Vec<Mistake>> {
+    let Some(late) = times.iter().position(|time| !delay::AT_MS.kind.range().contains(time)) else {
+        return Ok(());
+    };
+    let message = format!("hole {} fires {} ms after the first", holes[late].id, times[late]);
+    Err(vec![wrong(&holes[late], message, "are the delays in milliseconds?")])
+}
+
+/// Whether every hole has a delay after another.
+pub fn delays_are_whole(holes: &[ListedHole]) -> bool {
+    holes.iter().all(|hole| hole.delay_ms.is_some() && hole.from.is_some())
 }
 
 /// Firing times and delays after other holes must tell the same, where a list has both.

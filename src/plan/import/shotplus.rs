@@ -1,0 +1,276 @@
+//! Reads a design of SHOTPlus 6 (`.spf`): a ZIP archive whose `BlisData.Xml` lists the holes.
+//!
+//! Every hole states its firing time itself: `FiringTime` [ms] is the sum of the shortest way of ties from a lead-in and of the
+//! delay in the hole, and 0.0001 ms for every tie on the way, by which SHOTPlus orders holes; `FiringTime` of its initiators
+//! is the same without that addition. Ties therefore need not be added up. Coordinates are in metres, angles in degrees from the
+//! vertical, weights in kilograms.
+
+use std::collections::BTreeMap;
+use std::io::{Cursor, Read};
+use std::ops::Range;
+
+use quick_xml::Reader;
+use quick_xml::escape::resolve_predefined_entity;
+use quick_xml::events::Event;
+use zip::ZipArchive;
+
+use super::holes::{Holes, ListedHole, positions};
+use crate::plan::diagnostic::Mistake;
+use crate::plan::keys::{Key, delay, hole};
+use crate::plan::source::{MOST_BYTES, Unreadable, text_of};
+
+/// The file of the archive that lists the holes.
+const LIST: &str = "BlisData.Xml";
+/// Elements above what is said of a hole.
+const HOLE: [&str; 3] = ["BlisBlastData", "Holes", "Hole"];
+/// Greatest difference of two times that are the same [ms]: the addition for a thousand ties.
+const SAME_MS: f64 = 0.1;
+const REMEDY: &str = "save the design in SHOTPlus 6 again, or export its holes as a table";
+
+/// The XML that lists the holes.
+pub fn list(archive: &[u8]) -> Result<String, Unreadable> {
+    let broken = |error: &dyn std::fmt::Display| (format!("the archive cannot be read: {error}"), REMEDY);
+    let mut archive = ZipArchive::new(Cursor::new(archive)).map_err(|error| broken(&error))?;
+    let Some(index) = archive.index_for_name(LIST) else {
+        let message = format!("the archive holds no {LIST}, so it is no design of SHOTPlus 6");
+        let workbook = archive.index_for_name("xl/workbook.xml").is_some();
+        return Err((message, if workbook { "save the sheet of the workbook as CSV" } else { REMEDY }));
+    };
+    let mut bytes = Vec::new();
+    let entry = archive.by_index(index).map_err(|error| broken(&error))?;
+    entry.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(|error| broken(&error))?;
+    if bytes.len() as u64 > MOST_BYTES {
+        return Err((format!("{LIST} is larger than {} MB", MOST_BYTES >> 20), REMEDY));
+    }
+    let text = text_of(bytes).map_err(|(message, _)| (format!("{LIST}: {message}"), REMEDY))?;
+    Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
+}
+
+/// All holes of the list, or all its mistakes.
+pub fn read(xml: &str) -> Result<Holes, Vec<Mistake>> {
+    let elements = holes(xml)?;
+    let (mut list, mut mistakes) = (Holes::default(), Vec::new());
+    let (dummies, holes): (Vec<_>, Vec<_>) =
+        elements.iter().partition(|hole| matches!(hole.text("IsDummy"), Some("true" | "1")));
+    let detonators = holes.iter().any(|hole| hole.has_detonator());
+    let (mut moved_m, mut steepest_deg) = (0.0_f64, 0.0_f64);
+    for (n, hole) in holes.iter().enumerate() {
+        let Some(listed) = hole.listed(n, detonators, &mut mistakes) else { continue };
+        let actual = ["X", "Y"].map(|axis| hole.number(&format!("ActualCoordinates/{axis}")));
+        if let [Some(x), Some(y)] = actual {
+            moved_m = moved_m.max((x - listed.x_m).hypot(y - listed.y_m));
+        }
+        steepest_deg = steepest_deg.max(hole.number("DesignAngle").unwrap_or(0.0).abs());
+        list.holes.push(listed);
+    }
+    positions(&list.holes, &mut mistakes);
+    if list.holes.is_empty() && mistakes.is_empty() {
+        mistakes.push(wrong(0..0, format!("{LIST} lists no hole that fires"), REMEDY));
+    }
+    if !mistakes.is_empty() {
+        return Err(mistakes);
+    }
+    if !dummies.is_empty() {
+        let names: Vec<&str> = dummies.iter().filter_map(|hole| hole.text("HoleId")).collect();
+        list.left_out.push(format!("the dummy holes {}", names.join(", ")));
+    }
+    if steepest_deg > 0.0 {
+        list.left_out
+            .push(format!("the angles of the holes, up to {steepest_deg} degrees from the vertical"));
+    }
+    if moved_m > 0.001 {
+        list.notes.push(format!("collars lie as designed; as drilled they lie up to {moved_m:.3} m away"));
+    }
+    if !detonators {
+        list.notes.push("no hole has a detonator: the firing times are those of the surface".to_owned());
+    }
+    let charges: Vec<f64> = list.holes.iter().filter_map(|hole| hole.charge_kg).collect();
+    if !charges.is_empty() {
+        list.notes.push(format!(
+            "{} of {} holes hold {:.1} kg of explosive, written beside the holes as remarks",
+            charges.len(),
+            list.holes.len(),
+            charges.iter().sum::<f64>()
+        ));
+    }
+    Ok(list)
+}
+
+fn wrong(span: Range<usize>, message: String, remedy: &str) -> Mistake {
+    Mistake { span, message, remedy: remedy.to_owned() }
+}
+
+/// What the XML says of one hole.
+struct Element {
+    /// Texts by path, such as `DesignCoordinates/X`, in the order of the XML.
+    texts: BTreeMap<String, Vec<String>>,
+    /// Bytes of its tag in the XML.
+    span: Range<usize>,
+}
+
+impl Element {
+    fn all(&self, path: &str) -> &[String] {
+        self.texts.get(path).map_or(&[], Vec::as_slice)
+    }
+
+    /// The text at a path, where there is exactly one.
+    fn text(&self, path: &str) -> Option<&str> {
+        if let [text] = self.all(path) { Some(text.as_str()).filter(|text| !text.is_empty()) } else { None }
+    }
+
+    fn number(&self, path: &str) -> Option<f64> {
+        self.text(path)?.parse().ok().filter(|number: &f64| number.is_finite())
+    }
+
+    fn has_detonator(&self) -> bool {
+        !self.all("InitSysLoading/Initiators/FiringTime").is_empty()
+    }
+
+    /// The hole, or what keeps it from being one.
+    fn listed(&self, n: usize, detonators: bool, mistakes: &mut Vec<Mistake>) -> Option<ListedHole> {
+        let before = mistakes.len();
+        let id = self.text("HoleId").map_or_else(|| format!("number {}", n + 1), str::to_owned);
+        let mut say =
+            |message: String, remedy: &str| mistakes.push(wrong(self.span.clone(), message, remedy));
+        let mut number = |path: &str, key: &Key| {
+            let number = self.number(path).filter(|number| key.kind.range().contains(number));
+            if number.is_none() {
+                let text = self.all(path).join(" and ");
+                let message = format!("hole {id}: {path} is `{text}`");
+                say(
+                    message,
+                    "it must be one number: correct the hole in SHOTPlus, tie it in, and save again",
+                );
+            }
+            number
+        };
+        let x_m = number("DesignCoordinates/X", &hole::X_M);
+        let y_m = number("DesignCoordinates/Y", &hole::Y_M);
+        let stated_ms = number("FiringTime", &delay::INTERVAL_MS);
+        let fire_ms = stated_ms.and_then(|stated_ms| self.fire_ms(&id, stated_ms, detonators, mistakes));
+        if mistakes.len() > before {
+            return None;
+        }
+        Some(ListedHole {
+            x_m: x_m?,
+            y_m: y_m?,
+            row: None,
+            // Without what SHOTPlus adds for its ties.
+            fire_ms: Some((fire_ms? * 100.0).round() / 100.0),
+            delay_ms: None,
+            from: None,
+            launch_m_s: None,
+            charge_kg: self.charge_kg(),
+            span: self.span.clone(),
+            id,
+        })
+    }
+
+    /// Firing time of the only charge [ms].
+    fn fire_ms(
+        &self,
+        id: &str,
+        stated_ms: f64,
+        detonators: bool,
+        mistakes: &mut Vec<Mistake>,
+    ) -> Option<f64> {
+        let times = self.all("InitSysLoading/Initiators/FiringTime");
+        let decks = self.all("InitSysLoading/Initiators/ExDeckIndex");
+        let mut say = |message: String, remedy: &str| {
+            mistakes.push(wrong(self.span.clone(), message, remedy));
+            None
+        };
+        if times.is_empty() {
+            if !detonators {
+                return Some(stated_ms);
+            }
+            let message = format!("hole {id} has no detonator, unlike others: its firing time is not sure");
+            return say(message, "give it one, or make it a dummy hole");
+        }
+        let parsed: Option<Vec<f64>> = times.iter().map(|time| time.parse().ok()).collect();
+        let Some(parsed) = parsed.filter(|_| decks.len() == times.len()) else {
+            return say(format!("hole {id}: its detonators fire at {} ms", times.join(", ")), REMEDY);
+        };
+        // The first detonator of a charge fires it.
+        let mut charges: BTreeMap<&str, f64> = BTreeMap::new();
+        for (deck, time) in decks.iter().zip(parsed) {
+            let first = charges.entry(deck.as_str()).or_insert(time);
+            *first = first.min(time);
+        }
+        let range = |from: fn(f64, f64) -> f64| charges.values().copied().reduce(from).unwrap_or(f64::NAN);
+        let (first, last) = (range(f64::min), range(f64::max));
+        if last - first > SAME_MS {
+            let message = format!(
+                "hole {id} has charges that fire at {first} and {last} ms; a plan has one time for a hole"
+            );
+            return say(
+                message,
+                "export the holes as a table, with the time of the charge that lifts the cover",
+            );
+        }
+        if (first - stated_ms).abs() > SAME_MS {
+            let message = format!("hole {id} fires at {stated_ms} ms, its detonator at {first} ms");
+            return say(message, "let SHOTPlus compute the firing times again, and save the design");
+        }
+        Some(first)
+    }
+
+    /// Mass of the explosive in all decks [kg]; `None` where there is none.
+    fn charge_kg(&self) -> Option<f64> {
+        let kinds = self.all("DesignLoading/Decks/Type");
+        let weights = self.all("DesignLoading/Decks/Weight");
+        let of =
+            |(kind, weight): (&String, &String)| weight.parse::<f64>().ok().filter(|_| kind == "Explosive");
+        let mass = kinds.iter().zip(weights).filter_map(of).sum();
+        Some(mass).filter(|&mass| mass > 0.0 && kinds.len() == weights.len())
+    }
+}
+
+/// All holes of the XML.
+fn holes(xml: &str) -> Result<Vec<Element>, Vec<Mistake>> {
+    let mut reader = Reader::from_str(xml);
+    reader.config_mut().expand_empty_elements = true;
+    let broken = |at: u64, error: String| {
+        let at = (at as usize).min(xml.len());
+        vec![wrong(at..at, format!("{LIST} is damaged: {error}"), REMEDY)]
+    };
+    let (mut path, mut text, mut holes): (Vec<String>, String, Vec<Element>) = Default::default();
+    loop {
+        let start = reader.buffer_position() as usize;
+        match reader.read_event().map_err(|error| broken(reader.error_position(), error.to_string()))? {
+            Event::Start(tag) => {
+                path.push(tag.local_name().as_ref().to_owned());
+                text.clear();
+                if path == HOLE {
+                    holes.push(Element {
+                        texts: BTreeMap::new(),
+                        span: start..reader.buffer_position() as usize,
+                    });
+                }
+            }
+            Event::End(_) => {
+                if let (Some(hole), Some((above, below))) =
+                    (holes.last_mut(), path.split_at_checked(HOLE.len()))
+                    && above == HOLE
+                {
+                    let text = text.trim().replace(char::is_control, " ");
+                    hole.texts.entry(below.join("/")).or_default().push(text);
+                }
+                path.pop();
+                text.clear();
+            }
+            Event::Text(part) => text += &part.xml10_content(),
+            Event::CData(part) => text += &part.xml10_content(),
+            Event::GeneralRef(name) => {
+                let sign = name.resolve_char_ref().ok().flatten().map(String::from);
+                let sign =
+                    sign.or_else(|| resolve_predefined_entity(&name.xml10_content()).map(str::to_owned));
+                text +=
+                    &sign.ok_or_else(|| broken(start as u64, "an entity that is not known".to_owned()))?;
+            }
+            Event::Eof if path.is_empty() => return Ok(holes),
+            Event::Eof => return Err(broken(xml.len() as u64, "it ends too early".to_owned())),
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,210 @@
+//! Designs of SHOTPlus: what is read of them, and what is said of those that do not load.
+
+use std::io::{Cursor, Write};
+use std::path::Path;
+
+use shelter::Plan;
+use shelter::plan::LaunchTargets;
+use shelter::plan::import::{Imported, plan_from_file};
+use zip::write::SimpleFileOptions;
+
+use crate::support::{shelter, text};
+
+/// One hole as SHOTPlus 6.25 writes it, cut to what is read: name, collar, firing time, detonators (deck, time) and weight.
+fn hole(id: &str, [x, y]: [f64; 2], fire_ms: f64, detonators: &[(usize, f64)], weight: f64) -> String {
+    let initiators: String = detonators
+        .iter()
+        .map(|(deck, time)| {
+            format!(
+                "<Initiators><ExDeckIndex>{deck}</ExDeckIndex><FiringTime>{time}</FiringTime></Initiators>"
+            )
+        })
+        .collect();
+    format!(
+        r#"<Hole><Index>0</Index><HoleId>{id}</HoleId>
+<DesignCoordinates><X xmlns="">{x}</X><Y xmlns="">{y}</Y><Z xmlns="">5390</Z></DesignCoordinates>
+<ActualCoordinates><X xmlns="">{x}</X><Y xmlns="">{y}</Y><Z xmlns="">5390</Z></ActualCoordinates>
+<DesignAngle>0</DesignAngle><FiringTime>{fire_ms}</FiringTime><Comment /><IsDummy>false</IsDummy>
+<DesignLoading><Decks><Weight>{weight}</Weight><Type>Explosive</Type></Decks>
+<Decks><Weight>0</Weight><Type>Stemming</Type></Decks></DesignLoading>
+<InitSysLoading>{initiators}</InitSysLoading></Hole>
+"#
+    )
+}
+
+/// Three holes: 500 ms in every hole, ties of 17 and 25 ms.
+fn three() -> [String; 3] {
+    [
+        hole("B1", [9544.0, 19286.0], 500.0, &[(0, 500.0)], 45.984),
+        hole("A&amp;2", [9546.0, 19286.0], 517.0001, &[(0, 517.0)], 45.984),
+        hole("7", [9544.0, 19288.5], 542.0002, &[(0, 542.0)], 47.0),
+    ]
+}
+
+fn xml(holes: &[String]) -> String {
+    format!(
+        "\u{feff}<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<BlisBlastData xmlns=\"http://www.orica.com/namespaces/blis\">\n\
+         <Holes>\n{}</Holes>\n<FiringTimes><FiringTime xmlns=\"\"><FiringTime>1</FiringTime></FiringTime></FiringTimes>\n\
+         </BlisBlastData>\n",
+        holes.concat()
+    )
+}
+
+fn archive(files: &[(&str, &[u8])]) -> Vec<u8> {
+    let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
+    for (name, bytes) in files {
+        archive.start_file(*name, SimpleFileOptions::default()).expect("a file");
+        archive.write_all(bytes).expect("written");
+    }
+    archive.finish().expect("an archive").into_inner()
+}
+
+fn design(holes: &[String]) -> Vec<u8> {
+    archive(&[("Header.Xml", b"<FileHeader />"), ("BlisData.Xml", xml(holes).as_bytes())])
+}
+
+/// What becomes of a file: notes and plan, or every mistake.
+fn outcome(bytes: &[u8], name: &str) -> Result<(Vec<String>, Plan, String), String> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join(name);
+    std::fs::write(&path, bytes).expect("written");
+    match plan_from_file(&path) {
+        Ok(Imported { text, notes }) => {
+            let plan =
+                Plan::parse("plan.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"));
+            Ok((notes, plan, text))
+        }
+        Err(mistakes) => {
+            Err(mistakes.iter().map(|(_, _, message, remedy)| format!("{message}\n    {remedy}\n")).collect())
+        }
+    }
+}
+
+#[test]
+fn a_design_becomes_the_plan_it_says() {
+    let (notes, plan, text) = outcome(&design(&three()), "blast.spf").expect("a plan");
+    assert_eq!(
+        notes,
+        [
+            "read 3 holes in 3 blast rows, which fire from 500 to 542 ms",
+            "3 of 3 holes hold 139.0 kg of explosive, written beside the holes as remarks"
+        ]
+    );
+    // What SHOTPlus adds for every tie is gone.
+    assert_eq!(plan.delays[0].timing.fire_at_ms(), [0.0, 17.0, 42.0]);
+    let places: Vec<_> = plan
+        .blast_rows
+        .iter()
+        .map(|row| {
+            let LaunchTargets::Holes(holes) = &row.targets else { panic!("holes") };
+            (holes[0].x_m, holes[0].y_m)
+        })
+        .collect();
+    assert_eq!(places, [(2.0, 2.0), (4.0, 2.0), (2.0, 4.5)]);
+    for remark in ["# B1, 46.0 kg", "# A&2, 46.0 kg", "# 7, 47.0 kg"] {
+        assert!(text.contains(remark), "{text}");
+    }
+}
+
+/// Dummy holes, inclined holes, holes drilled elsewhere, designs without detonators: each is said.
+#[test]
+fn what_a_plan_does_not_hold_is_said() {
+    let [first, second, third] = three();
+    let dummy = second.replace("<IsDummy>false", "<IsDummy>true");
+    let inclined = third.replace("<DesignAngle>0", "<DesignAngle>12.5");
+    let drilled =
+        first.replace("<ActualCoordinates><X xmlns=\"\">9544", "<ActualCoordinates><X xmlns=\"\">9544.25");
+    let (notes, plan, _) = outcome(&design(&[drilled, dummy, inclined]), "blast.spf").expect("a plan");
+    assert_eq!(plan.blast_rows.len(), 2);
+    let expected = [
+        "read 2 holes in 2 blast rows, which fire from 500 to 542 ms; left out: the dummy holes A&2; the angles of the holes, up to 12.5 degrees from the vertical",
+        "collars lie as designed; as drilled they lie up to 0.250 m away",
+        "2 of 2 holes hold 93.0 kg of explosive, written beside the holes as remarks",
+    ];
+    assert_eq!(notes, expected);
+    let untimed = [hole("1", [0.0, 0.0], 0.0, &[], 0.0), hole("2", [2.0, 0.0], 17.0001, &[], 0.0)];
+    let (notes, plan, _) = outcome(&design(&untimed), "blast.spf").expect("a plan");
+    assert_eq!(plan.delays[0].timing.fire_at_ms(), [0.0, 17.0]);
+    let expected = [
+        "read 2 holes in 2 blast rows, which fire from 0 to 17 ms",
+        "no hole has a detonator: the firing times are those of the surface",
+    ];
+    assert_eq!(notes, expected);
+}
+
+#[test]
+fn a_design_that_does_not_say_it_all_is_refused_by_name() {
+    let [first, second, third] = three();
+    let at = [9550.0, 19286.0];
+    let with = |hole: String| design(&[first.clone(), hole]);
+    let whole = design(&three());
+    let blis = xml(&three());
+    let mut flipped = whole.clone();
+    let middle = whole.len() / 2;
+    flipped[middle] ^= 0x55;
+    let only = |text: &str| archive(&[("BlisData.Xml", text.as_bytes())]);
+    let files: Vec<(&str, Vec<u8>)> = vec![
+        ("cut off", whole[..whole.len() - 40].to_vec()),
+        ("a byte flipped", flipped),
+        ("an empty archive", archive(&[])),
+        ("no list of holes", archive(&[("Header.Xml", b"<FileHeader />")])),
+        ("a workbook", archive(&[("xl/workbook.xml", b"<workbook />")])),
+        ("64 MB of spaces", archive(&[("BlisData.Xml", &vec![b' '; (64 << 20) + 1])])),
+        ("no XML", only("hole,x,y\n")),
+        ("another XML", only("<Blast><Holes><Hole><HoleId>1</HoleId></Hole></Holes></Blast>")),
+        ("XML cut off", only(&blis[..blis.len() / 2])),
+        ("tags crossed", only(&blis.replacen("</HoleId>", "</Index>", 1))),
+        ("an entity", only(&blis.replacen("&amp;", "&bomb;", 1))),
+        ("Latin letters of one byte", archive(&[("BlisData.Xml", b"<BlisBlastData>\xe9</BlisBlastData>")])),
+        ("no holes", design(&[])),
+        ("no X", with(second.replace("9546", ""))),
+        ("a decimal comma", with(second.replacen("9546", "9546,5", 1))),
+        ("no firing time", with(second.replace("<FiringTime>517.0001</FiringTime>", ""))),
+        ("not tied in", with(hole("4", at, 1e10, &[(0, 1e10)], 46.0))),
+        ("two firing times", with(second.replace("<Comment />", "<FiringTime>600</FiringTime>"))),
+        ("two charges", with(hole("4", at, 500.0, &[(0, 500.0), (1, 525.0)], 46.0))),
+        ("a detonator at another time", with(hole("4", at, 517.0, &[(0, 542.0)], 46.0))),
+        ("no detonator, unlike others", with(hole("4", at, 17.0, &[], 0.0))),
+        ("a detonator without a charge", with(second.replace("<ExDeckIndex>0</ExDeckIndex>", ""))),
+        ("in one place", design(&[first.clone(), third.replace("19288.5", "19286")])),
+        (
+            "a name of control characters",
+            with(second.replace("A&amp;2", "&#27;[31m").replace("9546", "east")),
+        ),
+    ];
+    let mut told = String::new();
+    for (what, bytes) in files {
+        let refused = outcome(&bytes, "blast.spf").err().unwrap_or_else(|| panic!("{what} is read"));
+        told += &format!("## {what}\n{refused}\n");
+    }
+    let no_archive = outcome(b"hole,x,y\n1,0,0\n", "blast.SPF").expect_err("no archive");
+    insta::assert_snapshot!(format!("{told}## a table named .SPF\n{no_archive}"));
+}
+
+/// Two detonators in one charge are one shot: the first fires it.
+#[test]
+fn a_second_detonator_does_not_move_a_charge() {
+    let second = hole("2", [9546.0, 19286.0], 517.0, &[(0, 542.0), (0, 517.0)], 46.0);
+    let (_, plan, _) = outcome(&design(&[three()[0].clone(), second]), "blast.spf").expect("a plan");
+    assert_eq!(plan.delays[0].timing.fire_at_ms(), [0.0, 17.0]);
+}
+
+/// What a file holds counts, not its name; a broken one ends with 2 and nothing is written.
+#[test]
+fn the_program_knows_designs_by_their_content() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let whole = design(&three());
+    std::fs::write(path("holes.csv"), &whole).expect("written");
+    std::fs::write(path("broken.csv"), &whole[..whole.len() / 2]).expect("written");
+    let read = shelter(&["init", &path("plan.toml"), "--from", &path("holes.csv")]);
+    assert_eq!(read.status.code(), Some(0));
+    assert!(
+        text(&read.stderr).starts_with("note: read 3 holes in 3 blast rows, which fire from 500 to 542 ms\n")
+    );
+    assert!(Path::new(&path("plan.toml")).exists());
+    let refused = shelter(&["init", &path("none.toml"), "--from", &path("broken.csv")]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(text(&refused.stderr).contains("the archive cannot be read"), "{}", text(&refused.stderr));
+    assert!(!Path::new(&path("none.toml")).exists());
+}
