@@ -6,11 +6,12 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
-/// Replaces a file with `text` whole: whoever reads it, or a loss of power, finds the old text or the new.
+/// Replaces the contents of a file by `text`, all at once: a reader, also after a loss of power, finds the old text or the new
+/// text, never a part.
 ///
 /// Files that may not be written stay as they are; a device or a pipe is written to, not replaced.
 pub fn save(path: &Path, text: &str) -> io::Result<()> {
-    // A link stays a link: what it names is replaced.
+    // A link stays a link: the file it points to is replaced.
     let path = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
     replace(&path, text).map_err(|error| named(&path, &error))
 }

@@ -5,19 +5,19 @@
 /// A quantity as views show it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
-    /// From metres.
+    /// Length [m].
     Metre,
-    /// From newtons.
+    /// Force [N], shown in kN.
     Kilonewton,
-    /// From seconds.
+    /// Time [s].
     Second,
-    /// From seconds.
+    /// Time [s], shown in ms.
     Millisecond,
-    /// From kilograms.
+    /// Mass [kg], shown in t.
     Tonne,
-    /// From shares of 1.
+    /// Share of 1, shown in %.
     Percent,
-    /// Counts and pure numbers.
+    /// Count or pure number, shown as it is.
     One,
 }
 

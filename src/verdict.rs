@@ -1,18 +1,23 @@
-//! The verdict on a value with an error, given a limit.
+//! Pass, fail or undecided: the verdict on a value with an error, given a limit, and the worst of several verdicts.
 //!
-//! Values, one-sided errors and limits come in; a [`Verdict`] goes out. This module does not know where they come from.
+//! Values, one-sided errors and limits come in; a [`Verdict`] goes out. This module does not know where they come from. What
+//! else can keep an option from passing stands in `study::reason`.
 
 use serde::{Deserialize, Serialize};
 
-/// Whether a delay option keeps its limits.
+/// Whether a value, a shot or a delay option keeps its limits.
+///
+/// The undecided verdict has two words: people read OPEN, scripts read `undecided`. Both are fixed by the interface that scripts
+/// and readers know.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
-    /// Value + error is within every limit.
+    /// Value + error is within every limit, and nothing else keeps the shot from passing.
     Pass,
-    /// Neither a pass nor a fail at the finest step allowed.
+    /// Neither a pass nor a fail: a value is too near its limit even at the finest step allowed, the run ends too early to
+    /// tell, or the run has no result.
     Undecided,
-    /// Value − error is past some limit.
+    /// Value − error is past some limit, or a cable breaks.
     Fail,
 }
 

@@ -1,4 +1,4 @@
-//! A result as data, and its faces.
+//! A result as data, and its faces: the renderers that draw it as text, CSV, JSON and HTML.
 //!
 //! | what | where |
 //! |---|---|

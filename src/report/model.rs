@@ -218,17 +218,17 @@ pub enum Cell {
 pub struct Chart {
     /// What is drawn: `flight height against the interval`.
     pub title: String,
-    /// Across.
+    /// Horizontal axis.
     pub x: Axis,
-    /// Upwards.
+    /// Vertical axis.
     pub y: Axis,
     /// Drawn in this order.
     pub series: Vec<Series>,
-    /// Limit of the quantity on the upward axis.
+    /// Limit of the quantity on the vertical axis.
     pub limit: Option<f64>,
-    /// Stretches of the axis across that pass.
+    /// Ranges of the horizontal axis that pass.
     pub windows: Vec<[f64; 2]>,
-    /// Firing times on the axis across.
+    /// Firing times, on the horizontal axis.
     pub firings: Vec<f64>,
 }
 
@@ -261,7 +261,7 @@ pub struct Series {
     pub name: &'static str,
     /// What the points are.
     pub kind: SeriesKind,
-    /// Across and upwards.
+    /// Values on the horizontal and on the vertical axis.
     pub points: Vec<(f64, f64)>,
 }
 

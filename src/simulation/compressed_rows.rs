@@ -1,16 +1,16 @@
-//! A list of indices for each of many keys, in compressed rows: two allocations for all lists.
+//! Lists of indices, one per key, in compressed rows: two allocations for all lists.
 
-/// CompressedRows of indices by key.
+/// Lists of indices, one per key.
 #[derive(Clone, Debug)]
 pub struct CompressedRows {
     /// Offset of each key's list in `items`, and the end of the last list (`n_keys` + 1).
     start: Vec<u32>,
-    /// CompressedRows of all keys, one after the other.
+    /// Items of all keys, one list after the other (`n_items`).
     items: Vec<u32>,
 }
 
 impl CompressedRows {
-    /// CompressedRows of `(key, item)` pairs for the keys from 0 to `keys`; the items of a key keep the order of the pairs.
+    /// Lists of the `(key, item)` pairs, for the keys from 0 to `keys` − 1; the items of a key keep the order of the pairs.
     pub fn new(keys: usize, pairs: &[(u32, u32)]) -> Self {
         let mut start = vec![0; keys + 1];
         for &(key, _) in pairs {
@@ -28,7 +28,7 @@ impl CompressedRows {
         Self { start, items }
     }
 
-    /// CompressedRows of `(key, item)` pairs in any order, some more than once: each list ascends and holds an item once.
+    /// Lists of the `(key, item)` pairs, in any order and some more than once; each list ascends and holds an item once.
     pub fn sorted(keys: usize, mut pairs: Vec<(u32, u32)>) -> Self {
         pairs.sort_unstable();
         pairs.dedup();

@@ -1,4 +1,4 @@
-//! Failures of a run. A message says what is wrong; the command line adds the remedy.
+//! Failures of a run. A message says what is wrong; `report` adds the remedy.
 
 use crate::choice::Method;
 

@@ -6,6 +6,7 @@ mod breaking;
 mod calibration;
 mod check;
 mod closed_forms;
+mod documents;
 mod extremes;
 mod faults;
 mod flight;

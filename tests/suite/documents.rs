@@ -1,0 +1,60 @@
+//! Names that the documents and the docs of the source give exist: tests, keys, functions.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+const DOCUMENTS: [&str; 3] = ["README.md", "CONTRIBUTING.md", "benches/RESULTS.md"];
+
+/// Files below `folder` that end in `ending`.
+fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).expect("the folder is readable").flatten().map(|entry| entry.path());
+    let inside = |path: PathBuf| match path.is_dir() {
+        true => files(&path, ending),
+        false => vec![path],
+    };
+    let all = entries.flat_map(inside);
+    all.filter(|path| path.extension().is_some_and(|found| found == ending)).collect()
+}
+
+fn read(path: impl AsRef<Path>) -> String {
+    fs::read_to_string(path).expect("the file is readable")
+}
+
+/// Lines that are comments, or that are not.
+fn lines(text: &str, comments: bool) -> String {
+    let wanted = |line: &&str| line.trim_start().starts_with("//") == comments;
+    text.lines().filter(wanted).collect::<Vec<_>>().join("\n")
+}
+
+/// Backticked names in snake case, such as those of tests, and the filters of `cargo test`.
+fn names(text: &str) -> Vec<&str> {
+    let is_name = |name: &&str| {
+        let snake = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+        name.trim_matches('_').contains('_') && name.chars().all(snake)
+    };
+    let mut names: Vec<&str> =
+        text.lines().flat_map(|line| line.split('`').skip(1).step_by(2)).filter(is_name).collect();
+    let commands = ["cargo test --lib ", "cargo test --test suite "];
+    let filters = commands.iter().flat_map(|command| text.split(command).skip(1));
+    let ends = |c: char| !c.is_alphanumeric() && c != '_';
+    names.extend(filters.filter_map(|rest| rest.split(ends).next()).filter(|name| !name.is_empty()));
+    names
+}
+
+#[test]
+fn names_in_documents_and_comments_exist() {
+    let folders = ["src", "tests", "benches", "examples"].map(|folder| Path::new(ROOT).join(folder));
+    let sources: Vec<String> = folders.iter().flat_map(|folder| files(folder, "rs")).map(read).collect();
+    let code: Vec<String> = sources.iter().map(|text| lines(text, false)).collect();
+    let known: BTreeSet<&str> =
+        code.iter().flat_map(|text| text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_')).collect();
+    let documents = DOCUMENTS.map(|name| read(Path::new(ROOT).join(name)));
+    let comments = sources.iter().map(|text| lines(text, true));
+    let texts: Vec<String> = documents.into_iter().chain(comments).collect();
+    let named: Vec<&str> = texts.iter().flat_map(|text| names(text)).collect();
+    assert!(named.contains(&"tires_asleep_would_not_have_moved"), "names of tests are found");
+    let unknown: BTreeSet<&str> = named.into_iter().filter(|name| !known.contains(name)).collect();
+    assert!(unknown.is_empty(), "no code has these names: {unknown:?}");
+}
