@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::arguments::{Compute, FormatArg, Look};
 use super::print::print;
 use super::run_study::run_study;
-use super::status::Status;
+use super::status::{FINER, Status};
 use crate::report::check::report;
 use crate::report::json::CheckDocument;
 use crate::report::model::Report;
@@ -45,5 +45,9 @@ pub fn print_checks(
             _ => Documents::Several(all),
         }
     };
-    print(&reports, documents, format, look)
+    let status = print(&reports, documents, format, look)?;
+    if checked.iter().flatten().any(|result| matches!(result, Err(NoResult::Failed(_)))) {
+        eprintln!("a run failed: {FINER}");
+    }
+    Ok(status)
 }

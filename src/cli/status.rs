@@ -56,6 +56,9 @@ pub fn wrong(message: &str) -> io::Result<Status> {
     Ok(Status::Wrong)
 }
 
+/// Remedy for a run that failed at its step.
+pub const FINER: &str = "choose a finer --accuracy or a smaller --dt";
+
 /// Tells why a study has no result, with the remedy as arguments.
 pub fn failed(reason: &NoResult) -> io::Result<Status> {
     match reason {
@@ -68,7 +71,7 @@ pub fn failed(reason: &NoResult) -> io::Result<Status> {
             Ok(Status::Fail)
         }
         NoResult::NoInterval => wrong(&format!("{reason}: give --interval FROM..TO:STEP")),
-        NoResult::Failed(_) => wrong(&format!("{reason}: choose a finer --accuracy or a smaller --dt")),
+        NoResult::Failed(_) => wrong(&format!("{reason}: {FINER}")),
         _ => wrong(&no_result::message(reason)),
     }
 }

@@ -177,7 +177,8 @@ fn csv_has_a_row_per_option() {
 fn a_step_past_the_stability_limit_is_refused_by_name() {
     let output = on("paper-5-tire.toml", &["check", "--dt", "0.1"]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(text(&output.stdout).contains("--dt"));
+    assert!(text(&output.stdout).contains("a finer accuracy or a smaller step"));
+    assert!(text(&output.stderr).contains("--dt"));
 }
 
 #[test]

@@ -32,7 +32,8 @@ fn lines(text: &str, comments: bool) -> String {
 fn names(text: &str) -> Vec<&str> {
     let is_name = |name: &&str| {
         let snake = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-        name.trim_matches('_').contains('_') && name.chars().all(snake)
+        // `n_tires` is the length of an array.
+        name.trim_matches('_').contains('_') && name.chars().all(snake) && !name.starts_with("n_")
     };
     let mut names: Vec<&str> =
         text.lines().flat_map(|line| line.split('`').skip(1).step_by(2)).filter(is_name).collect();
