@@ -208,3 +208,30 @@ fn the_program_knows_designs_by_their_content() {
     assert!(text(&refused.stderr).contains("the archive cannot be read"), "{}", text(&refused.stderr));
     assert!(!Path::new(&path("none.toml")).exists());
 }
+
+proptest::proptest! {
+    /// No damage does harm: what is accepted is a plan, what is not is told.
+    #[test]
+    fn any_damage_is_a_plan_or_a_mistake(
+        changes in proptest::collection::vec((0.0..1.0_f64, "(<Hole>|</Hole>|<X>|é|&|;|[0-9.<>/ a-z]){0,3}"), 0..4),
+        cut in proptest::option::of(0.0..1.0_f64),
+    ) {
+        let mut list = xml(&three());
+        for (at, text) in changes {
+            let mut at = (at * list.len() as f64) as usize;
+            while !list.is_char_boundary(at) {
+                at -= 1;
+            }
+            list.insert_str(at, &text);
+        }
+        let mut bytes = archive(&[("BlisData.Xml", list.as_bytes())]);
+        bytes.truncate((cut.unwrap_or(1.0) * bytes.len() as f64) as usize);
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("blast.spf");
+        std::fs::write(&path, &bytes).expect("written");
+        match plan_from_file(&path) {
+            Ok(Imported { text, .. }) => proptest::prop_assert!(Plan::parse("plan.toml", &text).is_ok(), "{text}"),
+            Err(mistakes) => proptest::prop_assert!(!mistakes.render(false).is_empty()),
+        }
+    }
+}

@@ -1,6 +1,6 @@
 //! Reads a list of holes: its lines become holes, and every mistake is collected.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 use super::columns::Column;
@@ -146,19 +146,14 @@ fn remarks(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
 
 /// Rows of the same number must be written alike.
 fn rows(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
-    let mut known: Vec<(f64, &str)> = Vec::new();
+    let mut known: HashMap<u64, &str> = HashMap::new();
     for hole in holes {
-        let Some((row, number)) = hole.row.as_deref().and_then(|row| Some((row, row.parse::<f64>().ok()?)))
-        else {
-            continue;
-        };
-        match known.iter().find(|(known, _)| *known == number) {
-            None => known.push((number, row)),
-            Some((_, first)) if *first == row => {}
-            Some((_, first)) => {
-                let message = format!("the row is `{row}`, the same as `{first}` written otherwise");
-                mistakes.push(mistake(hole.span.clone(), message, "write each row in one way"));
-            }
+        let Some(row) = hole.row.as_deref() else { continue };
+        let Ok(number) = row.parse::<f64>() else { continue };
+        let first = *known.entry(number.to_bits()).or_insert(row);
+        if first != row {
+            let message = format!("the row is `{row}`, the same as `{first}` written otherwise");
+            mistakes.push(mistake(hole.span.clone(), message, "write each row in one way"));
         }
     }
 }

@@ -21,6 +21,8 @@ use super::starter::{self, LAUNCH_M_S, Shelter, USUAL, header, line, quoted};
 
 /// Distances of holes [m] at which the tires lie as far apart as the holes; else the spacing is the usual one.
 const NEAR_M: std::ops::RangeInclusive<f64> = 1.0..=3.0;
+/// Holes whose median distance is less [m] are not in metres.
+const TOO_NEAR_M: f64 = 0.1;
 /// Rows of tires beyond the outermost holes, on each side.
 const MARGIN: usize = 1;
 /// Limit of flight height in the plan written [m]; the user replaces it.
@@ -80,7 +82,16 @@ pub fn plan_from_holes(name: &str, text: &str) -> Result<Imported, Diagnostics> 
 
 fn plan(name: &str, source: &str, list: Holes) -> Result<Imported, Diagnostics> {
     let timed = timed(&list).map_err(|mistakes| Diagnostics::new(name, source, mistakes))?;
-    let layout = Cover::of(&list.holes);
+    let nearest = nearest_distance(&list.holes);
+    if nearest < TOO_NEAR_M {
+        let message = format!("most holes lie less than {TOO_NEAR_M} m from another");
+        return Err(Diagnostics::unreadable(
+            name,
+            message,
+            "are x and y in metres? convert degrees or kilometres",
+        ));
+    }
+    let layout = Cover::of(&list.holes, nearest);
     if layout.rows.saturating_mul(layout.columns) > MOST_TIRES {
         let message = "the holes lie too far apart for one shelter".to_owned();
         return Err(Diagnostics::unreadable(
@@ -134,8 +145,8 @@ struct Cover {
 }
 
 impl Cover {
-    fn of(holes: &[ListedHole]) -> Self {
-        let nearest = nearest_distance(holes);
+    /// Over holes that lie `nearest` apart [m].
+    fn of(holes: &[ListedHole], nearest: f64) -> Self {
         let spacing_m =
             if NEAR_M.contains(&nearest) { (nearest * 100.0).round() / 100.0 } else { USUAL.spacing_m };
         let range = |of: fn(&ListedHole) -> f64| {
