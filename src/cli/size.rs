@@ -30,7 +30,7 @@ pub struct Arguments {
     /// With --any-order: intervals in ms; default: those of the delay options
     #[arg(long, value_name = "FROM..TO:STEP", value_parser = intervals, requires = "any_order", allow_hyphen_values = true)]
     interval: Option<Intervals>,
-    /// 99 % of the samples of every option must pass
+    /// 99 % of the samples of every option must pass; with --until-certain, surely all but that share
     #[arg(long, conflicts_with = "any_order")]
     scatter: bool,
     #[command(flatten)]

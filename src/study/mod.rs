@@ -6,6 +6,7 @@
 
 pub mod accuracy;
 pub mod batch;
+mod certainty;
 pub mod check;
 pub mod check_all;
 mod compute;

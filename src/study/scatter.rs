@@ -13,6 +13,7 @@ use rand_distr::{Distribution, LogNormal, Normal};
 use serde::{Deserialize, Serialize};
 
 use super::batch::{each, envelopes};
+use super::certainty::{LOOK_EVERY, certain};
 use super::check::check_shot;
 use super::reason::{Reason, find_reasons};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard};
@@ -39,13 +40,10 @@ pub struct Sampling {
     pub samples: usize,
     /// Seed of the random numbers.
     pub seed: u64,
-    /// Bound on the failure probability; an option stops once its 95 % interval lies on one side of the bound. `None`: all
-    /// samples are drawn.
+    /// Bound on the failure probability; an option stops once it surely lies on one side of the bound. `None`: all samples are
+    /// drawn.
     pub certain_at: Option<f64>,
 }
-
-/// Number of samples between two tests whether the verdict of an option is certain.
-const LOOK_EVERY: usize = 200;
 
 /// Draws and judges the samples of every option; only the share `shard` of them.
 pub fn scatter(
@@ -56,6 +54,9 @@ pub fn scatter(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Finding<Vec<Sample>> {
+    if sampling.certain_at.is_some() && shard != Shard::WHOLE {
+        return Err(NoResult::SharedUntilCertain);
+    }
     let options: Vec<usize> = (0..case.shots.len()).collect();
     let errors = each(&options, progress, |&option| {
         let checked = check_shot(case, &case.shots[option], compute, &mut |_| progress.flow())
@@ -87,7 +88,9 @@ pub fn scatter(
     let mut all = Found { value: Vec::new(), partial: false };
     for option in options {
         let mut samples: Vec<Sample> = Vec::new();
-        while samples.len() < sampling.samples && !is_certain(&samples, sampling) {
+        while samples.len() < sampling.samples
+            && certain_verdict(&samples, sampling.certain_at) == Verdict::Undecided
+        {
             let from = samples.len();
             let next = from..(from + LOOK_EVERY).min(sampling.samples);
             let judged = judge(next.map(|number| (option, number)).collect())?;
@@ -102,21 +105,19 @@ pub fn scatter(
     Ok(all)
 }
 
-fn is_certain(samples: &[Sample], sampling: &Sampling) -> bool {
-    let Some(bound) = sampling.certain_at.filter(|_| !samples.is_empty()) else { return false };
+/// The certain verdict on the samples of one option, given the bound; undecided where none is certain, or no bound is given.
+fn certain_verdict(samples: &[Sample], bound: Option<f64>) -> Verdict {
     let failures = samples.iter().filter(|sample| sample.envelope.verdict != Verdict::Pass).count();
-    let [low, high] = wilson(failures, samples.len());
-    high < bound || low > bound
+    bound.map_or(Verdict::Undecided, |bound| certain(failures, samples.len(), bound))
 }
 
 /// The verdict on all options: a pass where no sample fails, or where surely fewer fail than `sampling.certain_at`.
 pub fn verdict(case: &Case, sampling: &Sampling, samples: &[Sample]) -> Verdict {
     Verdict::worst((0..case.shots.len()).map(|option| summary(samples, option)).map(|summary| {
-        let [passes, fails] = match sampling.certain_at {
-            Some(bound) => [summary.interval[1] < bound, summary.interval[0] > bound],
-            None => [summary.samples > 0 && summary.failures == 0, summary.failures > summary.undecided],
-        };
-        match (passes, fails) {
+        if let Some(bound) = sampling.certain_at {
+            return certain(summary.failures, summary.samples, bound);
+        }
+        match (summary.samples > 0 && summary.failures == 0, summary.failures > summary.undecided) {
             (true, _) => Verdict::Pass,
             (_, true) => Verdict::Fail,
             _ => Verdict::Undecided,

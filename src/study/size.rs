@@ -8,7 +8,7 @@
 use itertools::Itertools;
 
 use super::batch::judge_shots;
-use super::scatter::{Sample, Sampling, scatter};
+use super::scatter::{self, Sample, Sampling, scatter};
 use super::{Bounded, Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard};
 use crate::plan::{Layout, Plan, ScatterSpec};
 use crate::ropes::{Rope, catalogue};
@@ -22,11 +22,11 @@ pub enum Demand {
     Options,
     /// Every order of the blast rows (at most [`MOST_ROWS`](super::orders::MOST_ROWS)) at each of these intervals [s].
     AnyOrder(Vec<f64>),
-    /// 99 % of the samples of every option.
+    /// 99 % of the samples of every option; where the sampling has a bound, surely fewer failures than the bound.
     Samples(ScatterSpec, Sampling),
 }
 
-/// Fraction of the samples that may fail.
+/// Fraction of the samples that may fail where the sampling has no bound.
 const MAY_FAIL: f64 = 0.01;
 /// Number of shots judged together before a failure ends the trial. A fixed number: the shots judged do not depend on the
 /// number of threads.
@@ -176,7 +176,7 @@ fn try_out(
         Demand::Samples(spec, sampling) => {
             let Found { value: samples, partial } =
                 scatter(case, spec, sampling, Shard::WHOLE, compute, progress)?;
-            return Ok((!partial).then(|| most_hold(case, &samples)));
+            return Ok((!partial).then(|| most_hold(case, sampling, &samples)));
         }
     };
     let mut order: Vec<usize> = (0..shots.len()).collect();
@@ -204,18 +204,22 @@ fn all_orders(case: &Case, intervals: &[f64]) -> Vec<Shot> {
     itertools::iproduct!(intervals, &orders).map(|(&interval, order)| case.shot(order, interval)).collect()
 }
 
-/// Trial by samples: the combination holds where 99 % of the samples of every option pass.
-fn most_hold(case: &Case, samples: &[Sample]) -> Trial {
-    let holds = (0..case.shots.len()).all(|option| {
+/// Trial by samples: the combination holds where few enough samples of every option fail.
+fn most_hold(case: &Case, sampling: &Sampling, samples: &[Sample]) -> Trial {
+    let few_fail = (0..case.shots.len()).all(|option| {
         let mine = || samples.iter().filter(|sample| sample.option == option);
         let failures = mine().filter(|sample| sample.envelope.verdict != Verdict::Pass).count();
         failures as f64 <= MAY_FAIL * mine().count() as f64
     });
+    let (may_fail, holds) = match sampling.certain_at {
+        Some(bound) => (bound, scatter::verdict(case, sampling, samples) == Verdict::Pass),
+        None => (MAY_FAIL, few_fail),
+    };
     let mut envelopes: Vec<Envelope> = samples.iter().map(|sample| sample.envelope).collect();
     let share = |envelope: &Envelope| envelope.utilization(&case.limits);
     envelopes.sort_by(|a, b| share(a).total_cmp(&share(b)));
     // The samples that may fail do not count for the worst shot.
-    let counting = ((1.0 - MAY_FAIL) * envelopes.len() as f64).ceil() as usize;
+    let counting = ((1.0 - may_fail) * envelopes.len() as f64).ceil() as usize;
     Trial { shots: samples.len(), ..trial(case, &envelopes[..counting], holds) }
 }
 

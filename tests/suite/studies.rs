@@ -11,7 +11,7 @@ use shelter::study::orders::{Orders, Tried, orders};
 use shelter::study::scatter::{Sampling, drawn, scatter, summary, swaps};
 use shelter::study::size::{Demand, size};
 use shelter::study::sweep::sweep;
-use shelter::study::{Case, ComputeSettings, Intervals, Shard};
+use shelter::study::{Case, ComputeSettings, Intervals, NoResult, Shard};
 use shelter::study::{Envelope, Progress};
 use shelter::verdict::Verdict;
 
@@ -273,6 +273,35 @@ fn a_study_without_time_is_partial() {
     out_of_time.expire();
     assert_eq!(partial(&out_of_time), [const { Ok(true) }; 6]);
     assert_eq!(partial(&Progress::default()), [const { Ok(false) }; 6]);
+}
+
+/// A share of the samples cannot tell when the verdict on all of them is certain.
+#[test]
+fn samples_until_certain_are_not_shared() {
+    let case = case(2, "scatter = { launch_cv_percent = 10 }");
+    let sampling = Sampling { samples: 3, seed: 1, certain_at: Some(0.01) };
+    let spec = case.plan.scatter.expect("what scatters");
+    let compute = ComputeSettings::of(&case.plan);
+    let share = Shard { index: 1, of: 2 };
+    let shared = scatter(&case, &spec, &sampling, share, &compute, &Progress::default());
+    assert_eq!(shared, Err(NoResult::SharedUntilCertain));
+}
+
+/// With a bound, few samples prove nothing: a shelter whose few samples all pass does not hold for sure.
+#[test]
+fn a_shelter_sized_for_samples_must_hold_surely() {
+    let more = "size = { ropes = \"GOST 2688-80\" }\ncable = { rope = \"GOST 2688-80 6.2\" }\n\
+                scatter = { launch_cv_percent = 1 }";
+    let plan = plan(1, more);
+    let spec = plan.scatter.expect("what scatters");
+    let compute = ComputeSettings { step: Some(2e-3), ..ComputeSettings::of(&plan) };
+    let found = |certain_at, samples| {
+        let demand = Demand::Samples(spec, Sampling { samples, seed: 1, certain_at });
+        let sizing = size(&plan, &demand, &compute, &Progress::default()).expect("a result").value;
+        sizing.found().is_some()
+    };
+    assert!(found(None, 20));
+    assert!(!found(Some(0.05), 20) && found(Some(0.05), 400));
 }
 
 #[test]
