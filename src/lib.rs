@@ -3,9 +3,7 @@
 //! # From a plan to a verdict
 //!
 //! ```
-//! use std::ops::ControlFlow;
-//!
-//! use shelter::{Case, ComputeSettings, Plan, Verdict, check};
+//! use shelter::{Case, ComputeSettings, Plan, Verdict};
 //!
 //! let text = r#"
 //! shelter = { layout = "grid", rows = 2, columns = 3, spacing_m = 1.5 }
@@ -18,14 +16,15 @@
 //! "#;
 //! let case = Case::new(Plan::parse("plan.toml", text)?);
 //! let compute = ComputeSettings::of(&case.plan);
-//! let checked = check(&case, 0, &compute, &mut |_| ControlFlow::Continue(()))?;
+//! let checked = case.check(0, &compute)?;
 //! assert_eq!(checked.verdict, Verdict::Pass);
 //! assert!(checked.height.value + checked.height.error < 1.5);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! The library alone, without command line, terminal and charts: `default-features = false`. The programs in `examples/`
-//! check a plan and step through a motion.
+//! check a plan, sweep an interval and step through a motion. The library may change between any two versions; what stays is said
+//! in CHANGELOG.md.
 //!
 //! # Map of the modules
 //!
@@ -42,7 +41,7 @@
 //! | [`file`] | a text | a file, whole or not at all | any other module; the meaning of the text |
 //! | [`choice`] | a name | method, accuracy level and other named choices of a plan | any other module; the effect of a choice |
 //! | [`ropes`] | a data file | the rope catalogue | any other module |
-//! | [`plan`] | TOML | a valid [`Plan`], or every mistake with its remedy | physics |
+//! | [`plan`] | TOML | a valid [`Plan`], or every mistake with its remedy | how a shelter moves |
 //! | [`scene`] | a plan | masses, cables, firings as flat SI arrays | [`ropes`]; how motion is computed |
 //! | [`outcome`] | | peaks, ledger, histories of a run | any other module |
 //! | [`simulation`] | scene, shot, step | an [`Outcome`](outcome::Outcome) or a [`Failure`](simulation::Failure) | [`plan`], [`ropes`], [`file`], [`units`]; options, limits, screens |
@@ -60,18 +59,26 @@
 //! # Rules
 //!
 //! - A [`Scene`](scene::Scene) is never changed once built; everything that moves lives in a stepper.
-//! - Plan units become SI where a plan becomes a [`Case`]: scene, shots and limits. SI becomes words in `units`.
-//! - What goes wrong in a run is a value, never a panic and never a pass.
+//! - Plan units become SI where a plan becomes a [`Case`]: scene, shots and limits. Only `[scatter]` keeps the units of its keys
+//!   until samples are drawn. SI becomes words in `units`.
+//! - What goes wrong in a run is a value, never a panic and never a pass. Functions that take the index of an option panic where
+//!   there is no such option.
 //! - The same plan gives the same numbers for any number of threads.
 //!
 //! # Words
 //!
 //! A *hole* fires under a tire and launches it; holes that fire together are a *blast row*; the *interval* between rows, or
 //! their *order*, makes a *delay option*. A *shelter* is tires (point masses) tied by *cables* that only pull. A cable is
-//! *taut* or *slack*; a tire on the ground *sticks* or *slips*. Everything else is the vocabulary of contact dynamics.
+//! *taut* or *slack*; a tire on the ground *sticks* or *slips*.
+//!
+//! The *utilization* of a shot is its greatest value over its limit. A *judged shot* is its verdict with height, force and drift,
+//! each with its error ([`Envelope`](study::Envelope)). A check climbs a *ladder* of steps, each a fixed ratio finer than the one
+//! before. A *sampling* says how many samples are drawn, from which seed, and when to stop. A *face* is one way to show a report:
+//! text, CSV, JSON, page or terminal. Everything else is the vocabulary of contact dynamics.
 
 pub mod choice;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
 pub mod file;
 pub mod jobs;
@@ -83,6 +90,7 @@ pub mod scene;
 pub mod simulation;
 pub mod study;
 #[cfg(feature = "tui")]
+#[doc(hidden)]
 pub mod tui;
 pub mod units;
 pub mod verdict;

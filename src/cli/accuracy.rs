@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, Look};
+use super::arguments::{Compute, FormatArg, LookArguments};
 use super::load_plans::open_option;
 use super::print::print;
 use super::run_study::run_study;
@@ -34,7 +34,7 @@ pub struct Arguments {
     compute: Compute,
 }
 
-pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
+pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some((case, option)) = open_option(&arguments.plan, arguments.option.as_deref(), look) else {
         return Ok(Status::Wrong);
     };

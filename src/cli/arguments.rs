@@ -46,7 +46,7 @@ impl Compute {
 
 /// How output looks.
 #[derive(Args, Clone)]
-pub struct Look {
+pub struct LookArguments {
     /// ASCII characters only, for poor fonts
     #[arg(long, global = true)]
     pub ascii: bool,
@@ -55,7 +55,7 @@ pub struct Look {
     pub color: ColorArg,
 }
 
-impl Look {
+impl LookArguments {
     /// Style of text on a stream that is or is not a terminal.
     pub fn style(&self, terminal: bool) -> Style {
         Style { ascii: self.ascii || terminal && !shows_unicode(), color: self.colored(terminal) }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, Look};
+use super::arguments::{Compute, FormatArg, LookArguments};
 use super::check_plans::{check_plans, print_checks};
 use super::load_plans::open_all;
 use super::status::{Status, failed};
@@ -25,7 +25,7 @@ pub struct Arguments {
     any: bool,
 }
 
-pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
+pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(cases) = open_all(&arguments.plans, look) else { return Ok(Status::Wrong) };
     match check_plans(&cases, &arguments.compute) {
         Ok(checked) => print_checks(&cases, &checked, arguments.any, arguments.format, look),

@@ -4,7 +4,7 @@ use std::io;
 
 use serde::Serialize;
 
-use super::arguments::{Compute, FormatArg, Look};
+use super::arguments::{Compute, FormatArg, LookArguments};
 use super::print::print;
 use super::run_study::run_study;
 use super::status::{FINER, Status};
@@ -34,7 +34,7 @@ pub fn print_checks(
     checked: &[Results],
     any: bool,
     format: FormatArg,
-    look: &Look,
+    look: &LookArguments,
 ) -> io::Result<Status> {
     let pairs = || cases.iter().zip(checked);
     let reports: Vec<Report> = pairs().map(|(case, results)| report(case, results, any)).collect();

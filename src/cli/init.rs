@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::Look;
+use super::arguments::LookArguments;
 use super::status::Status;
 use crate::file;
 use crate::plan::import::plan_from_file;
@@ -22,7 +22,7 @@ pub struct Arguments {
     from: Option<PathBuf>,
 }
 
-pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
+pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let text = match &arguments.from {
         None => STARTER.to_owned(),
         Some(list) => match plan_from_file(list) {

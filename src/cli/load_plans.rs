@@ -3,18 +3,18 @@
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 
-use super::arguments::Look;
+use super::arguments::LookArguments;
 use crate::study::Case;
 
 /// Opens plans. Prints every mistake of every plan; `None` where there is a mistake.
-pub fn open_all<'a>(paths: impl IntoIterator<Item = &'a PathBuf>, look: &Look) -> Option<Vec<Case>> {
+pub fn open_all<'a>(paths: impl IntoIterator<Item = &'a PathBuf>, look: &LookArguments) -> Option<Vec<Case>> {
     // All of them are opened before the first mistake ends the command.
     let cases: Vec<Option<Case>> = paths.into_iter().map(|path| open(path, look)).collect();
     cases.into_iter().collect()
 }
 
 /// Opens a plan. Prints its mistakes; `None` where it has one.
-pub fn open(path: &Path, look: &Look) -> Option<Case> {
+pub fn open(path: &Path, look: &LookArguments) -> Option<Case> {
     let opened = Case::load(path);
     if let Err(mistakes) = &opened {
         eprint!("{}", mistakes.render(look.colored(io::stderr().is_terminal())));
@@ -24,7 +24,7 @@ pub fn open(path: &Path, look: &Look) -> Option<Case> {
 
 /// Opens a plan and finds the delay option of this name, the first option without a name. Prints what is wrong; `None`
 /// where something is.
-pub fn open_option(plan: &Path, option: Option<&str>, look: &Look) -> Option<(Case, usize)> {
+pub fn open_option(plan: &Path, option: Option<&str>, look: &LookArguments) -> Option<(Case, usize)> {
     let case = open(plan, look)?;
     match find_option(&case, option) {
         Ok(option) => Some((case, option)),

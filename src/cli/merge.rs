@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{FormatArg, Look};
+use super::arguments::{FormatArg, LookArguments};
 use super::print_findings::{Answer, print_findings};
 use super::status::{Status, wrong};
 use crate::plan::PlanSource;
@@ -22,7 +22,7 @@ pub struct Arguments {
     format: FormatArg,
 }
 
-pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
+pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let mut shares = Vec::new();
     for file in &arguments.files {
         match std::fs::read_to_string(file) {

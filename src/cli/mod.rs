@@ -35,7 +35,7 @@ use std::process::ExitCode;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
 
-use self::arguments::{Compute, Look};
+use self::arguments::{Compute, LookArguments};
 
 /// Which blasting delay is safe under a shelter of tires and cables.
 ///
@@ -51,7 +51,7 @@ struct Cli {
     #[command(flatten)]
     compute: Compute,
     #[command(flatten)]
-    look: Look,
+    look: LookArguments,
 }
 
 #[derive(Subcommand)]

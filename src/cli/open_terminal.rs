@@ -4,7 +4,7 @@ use std::io::{self, IsTerminal};
 use std::path::Path;
 use std::sync::Arc;
 
-use super::arguments::{Compute, FormatArg, Look};
+use super::arguments::{Compute, FormatArg, LookArguments};
 use super::check_plans::{check_plans, print_checks};
 use super::status::{Status, failed, wrong};
 use super::{load_plans, print_help};
@@ -16,7 +16,7 @@ use crate::tui::start::{Opened, Start};
 use crate::tui::{self, app::App};
 
 /// Opens a plan in the terminal; where output is no terminal, says the same as `check`.
-pub fn plan(plan: &Path, compute: &Compute, look: &Look) -> io::Result<Status> {
+pub fn plan(plan: &Path, compute: &Compute, look: &LookArguments) -> io::Result<Status> {
     let Some(case) = load_plans::open(plan, look) else { return Ok(Status::Wrong) };
     if !io::stdout().is_terminal() {
         let cases = [case];
@@ -38,7 +38,7 @@ pub fn plan(plan: &Path, compute: &Compute, look: &Look) -> io::Result<Status> {
 }
 
 /// Without a plan: offers what there is; where output is no terminal, the help.
-pub fn start(compute: &Compute, look: &Look) -> io::Result<Status> {
+pub fn start(compute: &Compute, look: &LookArguments) -> io::Result<Status> {
     if !io::stdout().is_terminal() {
         print_help()?;
         return Ok(Status::Wrong);
@@ -80,7 +80,7 @@ fn needs_keyboard(compute: &Compute) -> io::Result<()> {
     Err(io::Error::other(wrong))
 }
 
-fn screen(config: &Config, look: &Look) -> tui::Look {
+fn screen(config: &Config, look: &LookArguments) -> tui::Look {
     tui::Look { ascii: config.ascii || look.style(true).ascii, color: look.colored(true) }
 }
 
@@ -89,7 +89,7 @@ fn show(
     file: Option<&Path>,
     config: &Config,
     compute: &Compute,
-    look: &Look,
+    look: &LookArguments,
 ) -> io::Result<Status> {
     let threads = compute.threads.unwrap_or(0).into();
     let jobs = Jobs::new(threads);

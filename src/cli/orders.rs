@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, Look, intervals, shard};
+use super::arguments::{Compute, FormatArg, LookArguments, intervals, shard};
 use super::load_plans::open;
 use super::print_findings::{Answer, print_findings};
 use super::run_study::run_study;
@@ -35,7 +35,7 @@ pub struct Arguments {
 /// Orders and intervals together, some 200 bytes each.
 const MOST_ORDERS: usize = 5_000_000;
 
-pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
+pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
     let intervals_s = arguments.interval.map_or_else(|| case.intervals(), |interval| interval.values());
     if arguments.interval.is_none() {

@@ -4,7 +4,7 @@ use std::io::{self, IsTerminal, Write};
 
 use serde::Serialize;
 
-use super::arguments::{FormatArg, Look};
+use super::arguments::{FormatArg, LookArguments};
 use super::status::Status;
 use crate::report::model::Report;
 use crate::report::{csv, json, text};
@@ -14,7 +14,7 @@ pub fn print<D: Serialize>(
     reports: &[Report],
     document: impl FnOnce() -> D,
     format: FormatArg,
-    look: &Look,
+    look: &LookArguments,
 ) -> io::Result<Status> {
     let style = look.style(io::stdout().is_terminal());
     let text = match format {

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use super::arguments::{FormatArg, Look};
+use super::arguments::{FormatArg, LookArguments};
 use super::print::{print, print_text};
 use super::status::{Status, wrong};
 use crate::report::json::{OrdersDocument, ScatterDocument};
@@ -28,7 +28,7 @@ pub fn print_findings(
     answer: Answer<'_>,
     shard: Option<Shard>,
     format: FormatArg,
-    look: &Look,
+    look: &LookArguments,
 ) -> io::Result<Status> {
     if let Some(shard) = shard {
         let Answer { case, question, settings, findings, .. } = answer;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, Look};
+use super::arguments::{Compute, FormatArg, LookArguments};
 use super::check_plans::{check_plans, print_checks};
 use super::load_plans::open;
 use super::print::print_text;
@@ -27,7 +27,7 @@ pub struct Arguments {
     compute: Compute,
 }
 
-pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
+pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
     let Arguments { plan, output, .. } = arguments;
     let same = |a: &Path, b: &Path| a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b));

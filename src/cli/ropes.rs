@@ -4,7 +4,7 @@ use std::io;
 
 use clap::Args;
 
-use super::arguments::{FormatArg, Look};
+use super::arguments::{FormatArg, LookArguments};
 use super::print::print;
 use super::status::Status;
 use crate::report::json::RopesDocument;
@@ -21,7 +21,7 @@ pub struct Arguments {
     format: FormatArg,
 }
 
-pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
+pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let catalogue = catalogue();
     let report = if arguments.terminations { terminations(catalogue) } else { ropes(catalogue) };
     print(&[report], || RopesDocument::new(catalogue), arguments.format, look)

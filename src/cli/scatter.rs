@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, Look, SamplingArguments, shard};
+use super::arguments::{Compute, FormatArg, LookArguments, SamplingArguments, shard};
 use super::load_plans::open;
 use super::print_findings::{Answer, print_findings};
 use super::run_study::run_study;
@@ -34,7 +34,7 @@ pub struct Arguments {
 /// Samples of all options together, some 100 bytes each.
 const MOST_SAMPLES: usize = 20_000_000;
 
-pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
+pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
     let Some(spec) = case.plan.scatter else { return failed(&NoResult::NoScatter) };
     notes::scatter(&case).iter().for_each(|note| eprintln!("{note}"));

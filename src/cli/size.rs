@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, Look, SamplingArguments, intervals};
+use super::arguments::{Compute, FormatArg, LookArguments, SamplingArguments, intervals};
 use super::load_plans::open;
 use super::print::print;
 use super::run_study::run_study;
@@ -51,7 +51,7 @@ pub struct Arguments {
     compute: Compute,
 }
 
-pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
+pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
     if arguments.write && case.source.path == "-" {
         return wrong("--write has no file to write into: give the plan by its name");

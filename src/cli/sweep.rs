@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, Look, intervals};
+use super::arguments::{Compute, FormatArg, LookArguments, intervals};
 use super::load_plans::open_option;
 use super::print::print;
 use super::run_study::run_study;
@@ -33,7 +33,7 @@ pub struct Arguments {
     compute: Compute,
 }
 
-pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
+pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some((case, option)) = open_option(&arguments.plan, arguments.option.as_deref(), look) else {
         return Ok(Status::Wrong);
     };

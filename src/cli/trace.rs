@@ -8,7 +8,7 @@ use std::time::Instant;
 use clap::Args;
 use itertools::Itertools;
 
-use super::arguments::{Compute, FormatArg, Look, positive};
+use super::arguments::{Compute, FormatArg, LookArguments, positive};
 use super::load_plans::open_option;
 use super::status::{self, Status, wrong};
 use crate::report;
@@ -40,7 +40,7 @@ pub struct Arguments {
     compute: Compute,
 }
 
-pub fn run(arguments: &Arguments, look: &Look) -> io::Result<Status> {
+pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some((case, option)) = open_option(&arguments.plan, arguments.option.as_deref(), look) else {
         return Ok(Status::Wrong);
     };

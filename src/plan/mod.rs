@@ -2,7 +2,8 @@
 //!
 //! [`Plan::load`] reads TOML and reports every mistake at once, each with file, line, column and remedy
 //! ([`Diagnostics`]). A [`Plan`] that exists is valid: later stages never check it again. [`keys`] holds the table of all keys.
-//! This module knows no physics, and no units except those of the keys.
+//! This module does not know how a shelter moves, and no units except those of the keys. Keys that say the same in two ways become
+//! one value as they are read: the free flight height h of a test tire becomes its launch velocity √(2 g h).
 
 mod diagnostic;
 pub mod edit;
@@ -269,15 +270,18 @@ impl Timing {
     pub fn fire_at_ms(&self) -> Vec<f64> {
         match self {
             Timing::At(times) => times.clone(),
-            Timing::Interval { order, interval_ms } => {
-                let mut at = vec![0.0; order.len()];
-                for (turn, &row) in order.iter().enumerate() {
-                    at[row] = turn as f64 * interval_ms;
-                }
-                at
-            }
+            Timing::Interval { order, interval_ms } => fire_in_turn(order, *interval_ms),
         }
     }
+}
+
+/// Firing time of each blast row where the rows fire in `order`, `interval` apart (`n_blast_rows`), in the unit of `interval`.
+pub fn fire_in_turn(order: &[usize], interval: f64) -> Vec<f64> {
+    let mut at = vec![0.0; order.len()];
+    for (turn, &row) in order.iter().enumerate() {
+        at[row] = turn as f64 * interval;
+    }
+    at
 }
 
 /// Settings of the simulation.

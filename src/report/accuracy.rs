@@ -48,7 +48,7 @@ pub fn report(case: &Case, study: &AccuracyTable, paper: &[(Method, Vec<PaperRow
 }
 
 fn steps(study: &AccuracyTable) -> Table {
-    let row = |row: &accuracy::Row| {
+    let row = |row: &accuracy::StepRow| {
         let mut cells = vec![Cell::Nothing; STEPS.len()];
         cells[0] = Cell::Text(row.method.name().to_owned());
         cells[1] = Cell::Time(row.step);

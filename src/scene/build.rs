@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::{Cable, Scene, Shot, TireId};
 use crate::choice::{Link, OnOverload};
-use crate::plan::{BlastRow, LaunchTargets, Layout, Mesh, Plan, Timing};
+use crate::plan::{BlastRow, LaunchTargets, Layout, Mesh, Plan, Timing, fire_in_turn};
 
 /// Firing time of each blast row [s] (`n_blast_rows`).
 pub fn fire_at_s(timing: &Timing) -> Vec<f64> {
@@ -25,11 +25,7 @@ impl Shot {
 
     /// Shot of blast rows fired in `order` under `scene`, `interval` [s] apart.
     pub fn in_order(scene: &Scene, rows: &[BlastRow], order: &[usize], interval: f64) -> Self {
-        let mut at = vec![0.0; rows.len()];
-        for (turn, &row) in order.iter().enumerate() {
-            at[row] = turn as f64 * interval;
-        }
-        Self::of_rows(scene, rows, &at)
+        Self::of_rows(scene, rows, &fire_in_turn(order, interval))
     }
 
     /// Shot of blast rows fired at the times `at` [s] under `scene` (`n_blast_rows`).

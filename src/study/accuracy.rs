@@ -14,7 +14,7 @@ use crate::simulation::{Failure, Settings};
 
 /// One method at one step.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct StepRow {
     /// Time integration method.
     pub method: Method,
     /// Step [s].
@@ -48,7 +48,7 @@ pub struct AccuracyTable {
     /// Index of the delay option.
     pub option: usize,
     /// Rows of both methods, each from the longest step to the shortest.
-    pub rows: Vec<Row>,
+    pub rows: Vec<StepRow>,
     /// Step of the converged run [s]; its method is `verlet`.
     pub reference_step: f64,
     /// Accuracy levels, each with its first step [s].
@@ -103,7 +103,7 @@ pub fn measure(
             progress.advance();
             last = result.as_ref().map_or(last, |(_, wall)| *wall);
             let result = result.map(|(outcome, wall)| compared(&outcome, wall, reference.as_ref()));
-            rows.push(Row { method, step, result });
+            rows.push(StepRow { method, step, result });
         }
     }
     Ok(Found { value: AccuracyTable { option, rows, reference_step, levels }, partial })
@@ -117,7 +117,7 @@ fn first_step(case: &Case, accuracy: Accuracy) -> f64 {
 impl AccuracyTable {
     /// The longest step of a method at which this step and all shorter steps are within a class; with its computing time.
     pub fn cheapest(&self, method: Method, class: (f64, f64)) -> Option<(f64, Duration)> {
-        let within = |row: &&Row| {
+        let within = |row: &&StepRow| {
             let good = |m: &Measured| m.height_error <= class.0 && m.force_error <= class.1;
             row.result.as_ref().is_some_and(good)
         };

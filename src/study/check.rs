@@ -95,6 +95,17 @@ pub fn check(
     check_shot(case, &case.shots[option], compute, watch)
 }
 
+impl Case {
+    /// Judges one delay option; [`check`] is the same with a watcher.
+    ///
+    /// # Panics
+    ///
+    /// Where the plan has no delay option with the index `option`.
+    pub fn check(&self, option: usize, compute: &ComputeSettings) -> Result<Checked, Failure> {
+        check(self, option, compute, &mut |_| ControlFlow::Continue(()))
+    }
+}
+
 /// Judges any shot under the shelter of a case.
 pub fn check_shot(
     case: &Case,

@@ -132,7 +132,7 @@ fn read_share(name: &str, text: &str) -> Result<(Head, Findings), String> {
         format!("{name}:{line}: {error}; a share is what `shelter orders` or `scatter` wrote with --shard")
     };
     let (first, rest) = text.split_once('\n').ok_or_else(|| wrong(1, &"the file has no second line"))?;
-    let Kind { schema, version } = serde_json::from_str(first).map_err(|error| wrong(1, &error))?;
+    let Origin { schema, version } = serde_json::from_str(first).map_err(|error| wrong(1, &error))?;
     if schema != SCHEMA || version != VERSION {
         return Err(format!(
             "{name}: a share of format {schema}, version {version}, but this is {SCHEMA}, version {VERSION}: compute all shares and merge them with one version"
@@ -170,7 +170,7 @@ fn read_share(name: &str, text: &str) -> Result<(Head, Findings), String> {
 
 /// What the first line of any version says.
 #[derive(Deserialize)]
-struct Kind {
+struct Origin {
     schema: String,
     version: String,
 }

@@ -11,7 +11,7 @@ use shelter::choice::{Accuracy, Method};
 use shelter::jobs::{News, StudyKind, StudyResult};
 use shelter::outcome::{EndReason, History, RunEnd};
 use shelter::ropes::catalogue;
-use shelter::study::accuracy::{AccuracyTable, Measured, Row};
+use shelter::study::accuracy::{AccuracyTable, Measured, StepRow};
 use shelter::study::check::Checked;
 use shelter::study::orders::{Orders, Tried};
 use shelter::study::reason::{Quantity, Reason};
@@ -130,7 +130,7 @@ pub fn measured() -> StudyResult {
     let row = |n: i32, method: Method| {
         let part = 0.5_f64.powi(n);
         let cost = if method == Method::Verlet { 1.0 } else { 50.0 };
-        Row {
+        StepRow {
             method,
             step: 8e-4 * part,
             result: Some(Measured {

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::choice::Method;
 use crate::study::Case;
-use crate::study::accuracy::{AccuracyTable, Row};
+use crate::study::accuracy::{AccuracyTable, StepRow};
 
 /// The document of one option.
 #[derive(Serialize)]
@@ -13,7 +13,7 @@ pub struct AccuracyDocument {
     plan: String,
     option: String,
     rows: Vec<StepResult>,
-    reference: Choice,
+    reference: MethodAndStep,
     recommended: Recommended,
 }
 
@@ -33,20 +33,20 @@ struct StepResult {
 }
 
 #[derive(Serialize)]
-struct Choice {
+struct MethodAndStep {
     method: &'static str,
     dt_s: f64,
 }
 
 #[derive(Serialize)]
 struct Recommended {
-    draft: Choice,
-    field: Choice,
-    reference: Choice,
+    draft: MethodAndStep,
+    field: MethodAndStep,
+    reference: MethodAndStep,
 }
 
 impl StepResult {
-    fn of(row: &Row) -> Self {
+    fn of(row: &StepRow) -> Self {
         let result = row.result.as_ref();
         Self {
             method: row.method.name(),
@@ -66,7 +66,7 @@ impl StepResult {
 impl AccuracyDocument {
     /// The document of a study.
     pub fn new(case: &Case, study: &AccuracyTable) -> Self {
-        let choice = |dt_s| Choice { method: Method::Verlet.name(), dt_s };
+        let choice = |dt_s| MethodAndStep { method: Method::Verlet.name(), dt_s };
         let [draft, field, reference] = study.levels.map(|(_, step)| choice(step));
         Self {
             schema: "shelter.accuracy/1",

@@ -7,7 +7,7 @@ use pulp::Simd;
 use crate::simulation::cable::{Block, Blocks};
 use crate::simulation::pack::{Aligned, Field, LANES, Pack, Wide};
 
-/// State of all cables from one step to the next, and their forces.
+/// CableState of all cables from one step to the next, and their forces.
 #[derive(Debug)]
 pub struct Tension<'a> {
     /// Number of cables of the whole scene that each element stands for; 0 for an empty slot (`n_elements`).
@@ -16,13 +16,13 @@ pub struct Tension<'a> {
     change: Aligned,
     /// Force on the first tire of each cable, as mean over the step [N] (`n_elements`); see [`Slices::evaluate`].
     force: Field,
-    /// State of the cables in each register, at the first element of the register (`n_elements`).
-    state: Vec<State>,
+    /// CableState of the cables in each register, at the first element of the register (`n_elements`).
+    state: Vec<CableState>,
 }
 
-/// State of the cables in one register at the last evaluation.
+/// CableState of the cables in one register at the last evaluation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum State {
+enum CableState {
     /// All cables are slack, and were slack one step earlier.
     Slack,
     /// All cables are slack; some were taut one step earlier.
@@ -41,14 +41,14 @@ pub struct Stress {
 }
 
 impl<'a> Tension<'a> {
-    /// State at rest.
+    /// CableState at rest.
     pub fn new(blocks: &'a Blocks) -> Self {
         let elements = blocks.weight.len();
         Self {
             weight: Cow::Borrowed(&blocks.weight),
             change: Aligned::zeros(elements),
             force: Field::zeros(elements),
-            state: vec![State::Slack; elements],
+            state: vec![CableState::Slack; elements],
         }
     }
 
@@ -99,7 +99,7 @@ pub struct Slices<'a> {
     weight: &'a [f64],
     change: &'a mut [f64],
     force: [&'a mut [f64]; 3],
-    state: &'a mut [State],
+    state: &'a mut [CableState],
 }
 
 impl Slices<'_> {
@@ -165,18 +165,18 @@ impl Slices<'_> {
             let was = states[at];
             let taut = zero.less(excess).and(exists);
             if taut.any() {
-                states[at] = State::Taut;
+                states[at] = CableState::Taut;
             } else {
-                states[at] = State::Slack;
+                states[at] = CableState::Slack;
                 match was {
-                    State::Slack => continue,
-                    State::Slackened => {
+                    CableState::Slack => continue,
+                    CableState::Slackened => {
                         for c in 0..3 {
                             zero.store(forces[c], at);
                         }
                         continue;
                     }
-                    State::Taut => states[at] = State::Slackened,
+                    CableState::Taut => states[at] = CableState::Slackened,
                 }
             }
             let length = length2.sqrt();

@@ -1,0 +1,24 @@
+//! Sweeps the interval between the rows of a plan and prints the intervals that pass:
+//! `cargo run --release --no-default-features --example sweep -- PLAN`.
+
+use std::error::Error;
+use std::path::Path;
+
+use shelter::study::sweep::sweep;
+use shelter::study::{Intervals, Progress};
+use shelter::units::milliseconds;
+use shelter::{Case, ComputeSettings};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let path = std::env::args().nth(1).unwrap_or_else(|| "plans/amur-three-rows.toml".to_owned());
+    let case = Case::load(Path::new(&path))?;
+    let compute = ComputeSettings::of(&case.plan);
+    let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
+    let intervals = Intervals { from: 0.0, to: 0.1, step: 0.01 };
+    // Another thread may read the progress, or end the study.
+    let swept = sweep(&case, &order, &intervals, &compute, &Progress::default())?.value;
+    for [from, to] in swept.windows() {
+        println!("{} to {} pass", milliseconds(from), milliseconds(to));
+    }
+    Ok(())
+}
