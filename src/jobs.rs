@@ -21,9 +21,23 @@ use crate::study::{
     Case, ComputeSettings, Intervals, NoResult, Progress, Shard, accuracy, guarded, thread_pool,
 };
 
-/// A study that the terminal offers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StudyKind {
+/// Declares the kinds of studies and the list of all of them, in one order.
+macro_rules! study_kinds {
+    ($( $(#[$about:meta])* $kind:ident, )+) => {
+        /// A study that the terminal offers.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum StudyKind {
+            $( $(#[$about])* $kind, )+
+        }
+
+        impl StudyKind {
+            /// Every kind, in the order of declaration.
+            pub const ALL: [StudyKind; [$(StudyKind::$kind),+].len()] = [$(StudyKind::$kind),+];
+        }
+    };
+}
+
+study_kinds! {
     /// Intervals from 0 to 500 ms, rows in the order listed.
     Sweep,
     /// All orders at the intervals of the delay options.
@@ -39,16 +53,7 @@ pub enum StudyKind {
 }
 
 impl StudyKind {
-    /// Every kind, in the order of declaration.
-    pub const ALL: [StudyKind; 6] = [
-        StudyKind::Sweep,
-        StudyKind::Orders,
-        StudyKind::Scatter,
-        StudyKind::Size,
-        StudyKind::Flight,
-        StudyKind::Accuracy,
-    ];
-    /// The kinds that answer a question about the whole plan.
+    /// The kinds that answer a question about the whole plan, in the order of their tabs.
     pub const OF_PLAN: [StudyKind; 4] =
         [StudyKind::Sweep, StudyKind::Orders, StudyKind::Scatter, StudyKind::Size];
 }

@@ -1,25 +1,58 @@
 //! `accuracy` as a report: what every step costs and how wrong it is, with the source paper's table where the plan is its.
 
 use super::charts;
-use super::model::{Block, Cell, Column, Report, Row, Table};
+use super::model::{Block, Cell, Column, Field, Report, Table};
 use crate::choice::Method;
-use crate::study::accuracy::{AccuracyTable, CLASSES, PAPER, PaperRow};
-use crate::study::{Case, accuracy};
+use crate::study::Case;
+use crate::study::accuracy::{AccuracyTable, CLASSES, Measured, PAPER, PaperRow, StepRow};
 use crate::units::{self, Unit};
 
-const STEPS: [Column; 11] = [
-    Column::words(&["method"], "method"),
-    Column::numbers(&["dt_s"], "step", Unit::One),
-    Column::numbers(&["steps"], "steps", Unit::One),
-    Column::scripts(&["stable"]),
-    Column::numbers(&["flight_height_m"], "height", Unit::Metre),
-    Column::numbers(&["cable_force_n"], "force", Unit::Kilonewton),
-    Column::numbers(&["height_error"], "height error", Unit::One),
-    Column::numbers(&["force_error"], "force error", Unit::One),
-    Column::numbers(&["energy_residual"], "residual", Unit::One),
-    Column::numbers(&["wall_s"], "time", Unit::One),
-    Column::words(&[], "level"),
-];
+/// One method at one step.
+struct MeasuredRow<'a> {
+    study: &'a AccuracyTable,
+    row: &'a StepRow,
+}
+
+impl MeasuredRow<'_> {
+    /// A cell of the measured run; nothing where the method is not stable.
+    fn of(&self, cell: impl FnOnce(&Measured) -> Cell) -> Cell {
+        self.row.result.as_ref().map_or(Cell::Nothing, cell)
+    }
+
+    /// The accuracy level that starts at this step.
+    fn level(&self) -> Cell {
+        let of_level = |step: f64| step == self.row.step && self.row.method == Method::Verlet;
+        let level = self.study.levels.iter().find(|(_, step)| of_level(*step));
+        level.map_or(Cell::Nothing, |(level, _)| Cell::Text(level.name().to_owned()))
+    }
+}
+
+fn fields<'a>() -> [Field<MeasuredRow<'a>>; 11] {
+    let number = |key, heading| Column::numbers(key, heading, Unit::One);
+    [
+        Field::new(Column::words(&["method"], "method"), |row| Cell::Text(row.row.method.name().to_owned())),
+        Field::new(number(&["dt_s"], "step"), |row| Cell::Time(row.row.step)),
+        Field::new(number(&["steps"], "steps"), |row| row.of(|m| Cell::Count(m.steps))),
+        Field::new(Column::scripts(&["stable"]), |row| Cell::Flag(row.row.result.is_some())),
+        Field::new(Column::numbers(&["flight_height_m"], "height", Unit::Metre), |row| {
+            row.of(|m| Cell::Value(m.height, Unit::Metre))
+        }),
+        Field::new(Column::numbers(&["cable_force_n"], "force", Unit::Kilonewton), |row| {
+            row.of(|m| Cell::Value(m.force, Unit::Kilonewton))
+        }),
+        Field::new(number(&["height_error"], "height error"), |row| {
+            row.of(|m| Cell::RelativeError(m.height_error))
+        }),
+        Field::new(number(&["force_error"], "force error"), |row| {
+            row.of(|m| Cell::RelativeError(m.force_error))
+        }),
+        Field::new(number(&["energy_residual"], "residual"), |row| {
+            row.of(|m| Cell::Residual(m.energy_residual))
+        }),
+        Field::new(number(&["wall_s"], "time"), |row| row.of(|m| Cell::Time(m.wall.as_secs_f64()))),
+        Field::new(Column::words(&[], "level"), |row| row.of(|_| row.level())),
+    ]
+}
 
 const PAPER_COLUMNS: [Column; 7] = [
     Column::numbers(&[], "step", Unit::One),
@@ -48,26 +81,11 @@ pub fn report(case: &Case, study: &AccuracyTable, paper: &[(Method, Vec<PaperRow
 }
 
 fn steps(study: &AccuracyTable) -> Table {
-    let row = |row: &accuracy::StepRow| {
-        let mut cells = vec![Cell::Nothing; STEPS.len()];
-        cells[0] = Cell::Text(row.method.name().to_owned());
-        cells[1] = Cell::Time(row.step);
-        cells[3] = Cell::Flag(row.result.is_some());
-        let Some(m) = row.result else {
-            return Row { cells, missing: Some("not stable".to_owned()), details: Vec::new() };
-        };
-        let level = study.levels.iter().find(|(_, step)| *step == row.step && row.method == Method::Verlet);
-        cells[2] = Cell::Count(m.steps);
-        cells[4] = Cell::Value(m.height, Unit::Metre);
-        cells[5] = Cell::Value(m.force, Unit::Kilonewton);
-        cells[6] = Cell::RelativeError(m.height_error);
-        cells[7] = Cell::RelativeError(m.force_error);
-        cells[8] = Cell::Residual(m.energy_residual);
-        cells[9] = Cell::Time(m.wall.as_secs_f64());
-        cells[10] = level.map_or(Cell::Nothing, |(level, _)| Cell::Text(level.name().to_owned()));
-        Row { cells, ..Row::default() }
-    };
-    Table { columns: STEPS.to_vec(), rows: study.rows.iter().map(row).collect(), ranked: false }
+    let mut table = Table::of(&fields(), study.rows.iter().map(|row| MeasuredRow { study, row }));
+    for (drawn, row) in table.rows.iter_mut().zip(&study.rows) {
+        drawn.missing = row.result.is_none().then(|| "not stable".to_owned());
+    }
+    table
 }
 
 /// The cheapest step of each method within a class of errors.

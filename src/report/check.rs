@@ -1,7 +1,7 @@
 //! `check` as a report: one row a delay option.
 
 use super::explain::{broken, compute_label, reason};
-use super::model::{Block, Cell, Column, Conclusion, Detail, Report, Row, Shown, Table};
+use super::model::{Block, Cell, Column, Conclusion, Detail, Field, Report, Shown, Table};
 use super::shared_columns::{FORCE, HEIGHT, VERDICT, force, height};
 use super::{limit_facts, no_result};
 use crate::plan::DelayOption;
@@ -12,26 +12,87 @@ use crate::study::{Case, NoResult};
 use crate::units::Unit;
 use crate::verdict::Verdict;
 
-const COLUMNS: &[Column] = &[
-    Column::scripts(&["plan"]),
-    Column::words(&["option"], "option"),
-    Column::words(&[], "rows fire, as listed, at").shown(Shown::Page),
-    VERDICT,
-    HEIGHT,
-    Column::scripts(&["flight_height_at_s"]),
-    Column::scripts(&["flight_height_tire"]),
-    FORCE,
-    Column::scripts(&["cable_force_at_s"]),
-    Column::scripts(&["cable_force_cable"]),
-    Column::numbers(&["cable_safety_factor"], "factor", Unit::One),
-    DRIFT,
-    Column::scripts(&["broken_cables"]),
-    Column::scripts(&["dt_s"]),
-    Column::scripts(&["energy_residual"]),
-    Column::scripts(&["reasons"]),
-    Column::words(&[], "height over time").shown(Shown::Text),
-    Column::words(&[], "force over time").shown(Shown::Text),
-];
+/// A delay option and its result.
+struct OptionRow<'a> {
+    case: &'a Case,
+    delay: &'a DelayOption,
+    result: &'a Result<Checked, NoResult>,
+}
+
+impl OptionRow<'_> {
+    /// A cell of the result; nothing where there is none.
+    fn of(&self, cell: impl FnOnce(&Checked) -> Cell) -> Cell {
+        self.result.as_ref().map_or(Cell::Nothing, cell)
+    }
+
+    fn verdict(&self) -> Verdict {
+        self.result.as_ref().map_or(Verdict::Undecided, |checked| checked.verdict)
+    }
+
+    /// Why the option does not pass, or has no result.
+    fn reasons(&self) -> String {
+        match self.result {
+            Ok(checked) => checked.reasons.iter().map(reason).collect::<Vec<_>>().join("; "),
+            Err(reason) => no_result::message(reason),
+        }
+    }
+
+    /// Firing times of the rows in the order of the plan: `0, 20, 40 ms`.
+    fn firing(&self) -> String {
+        let times: Vec<String> = self.delay.timing.fire_at_ms().iter().map(f64::to_string).collect();
+        format!("{} ms", times.join(", "))
+    }
+}
+
+fn fields<'a>() -> [Field<OptionRow<'a>>; 18] {
+    let words = |heading| Column::words(&[], heading).shown(Shown::Text);
+    [
+        Field::new(Column::scripts(&["plan"]), |row| Cell::Text(row.case.source.path.clone())),
+        Field::new(Column::words(&["option"], "option"), |row| Cell::Text(row.delay.name.clone())),
+        Field::new(Column::words(&[], "rows fire, as listed, at").shown(Shown::Page), |row| {
+            Cell::Text(row.firing())
+        }),
+        Field::new(VERDICT, |row| Cell::Verdict(row.verdict())),
+        Field::new(HEIGHT, |row| row.of(|checked| height(checked.height.into()))),
+        Field::new(Column::scripts(&["flight_height_at_s"]), |row| {
+            row.of(|checked| Cell::Number(checked.height.at))
+        }),
+        Field::new(Column::scripts(&["flight_height_tire"]), |row| {
+            row.of(|checked| Cell::Text(row.case.scene().tire[checked.height.index].to_string()))
+        }),
+        Field::new(FORCE, |row| row.of(|checked| force(checked.force.into()))),
+        Field::new(Column::scripts(&["cable_force_at_s"]), |row| {
+            row.of(|checked| Cell::Number(checked.force.at))
+        }),
+        Field::new(Column::scripts(&["cable_force_cable"]), |row| {
+            row.of(|checked| Cell::Text(row.case.scene().cable_name(checked.force.index)))
+        }),
+        Field::new(Column::numbers(&["cable_safety_factor"], "factor", Unit::One), |row| {
+            row.of(|checked| Cell::Factor(checked.safety_factor))
+        }),
+        Field::new(DRIFT, |row| {
+            row.of(|Checked { drift, .. }| Cell::Estimate {
+                value: drift.value,
+                error: drift.error,
+                unit: Unit::Metre,
+            })
+        }),
+        Field::new(Column::scripts(&["broken_cables"]), |row| {
+            row.of(|checked| Cell::Count(checked.broken.len()))
+        }),
+        Field::new(Column::scripts(&["dt_s"]), |row| row.of(|checked| Cell::Number(checked.step))),
+        Field::new(Column::scripts(&["energy_residual"]), |row| {
+            row.of(|checked| Cell::Number(checked.energy_residual))
+        }),
+        Field::new(Column::scripts(&["reasons"]), |row| Cell::Text(row.reasons())),
+        Field::new(words("height over time"), |row| {
+            row.of(|checked| bars(&checked.history.height, row.case.limits.height))
+        }),
+        Field::new(words("force over time"), |row| {
+            row.of(|checked| bars(&checked.history.force, row.case.limits.force))
+        }),
+    ]
+}
 
 /// Greatest drift and its error.
 const DRIFT: Column = Column::numbers(&["drift_m", "drift_error_m"], "drift", Unit::Metre);
@@ -44,11 +105,14 @@ pub fn report(case: &Case, results: &Results, any: bool) -> Report {
         column => *column,
     };
     let options = case.plan.delays.iter().zip(results);
-    let table = Table {
-        columns: COLUMNS.iter().map(shown).collect(),
-        rows: options.map(|(delay, result)| row(case, delay, result)).collect(),
-        ranked: false,
-    };
+    let mut table = Table::of(&fields(), options.map(|(delay, result)| OptionRow { case, delay, result }));
+    table.columns = table.columns.iter().map(shown).collect();
+    for (row, result) in table.rows.iter_mut().zip(results) {
+        match result {
+            Ok(checked) => row.details = details(case, checked),
+            Err(reason) => row.missing = Some(no_result::message(reason)),
+        }
+    }
     let passed = results.iter().flatten().filter(|checked| checked.verdict == Verdict::Pass).count();
     let mut text = format!("{passed} of {} options pass", results.len());
     if let Some(checked) = results.iter().flatten().next() {
@@ -61,57 +125,8 @@ pub fn report(case: &Case, results: &Results, any: bool) -> Report {
     }
 }
 
-fn row(case: &Case, delay: &DelayOption, result: &Result<Checked, NoResult>) -> Row {
-    match result {
-        Ok(checked) => {
-            Row { cells: cells(case, delay, checked), missing: None, details: details(case, checked) }
-        }
-        Err(reason) => {
-            let message = no_result::message(reason);
-            let mut cells = vec![Cell::Nothing; COLUMNS.len()];
-            let [plan, option, firing, verdict, ..] = cells.as_mut_slice() else { return Row::default() };
-            [*plan, *option, *firing, *verdict] = names(case, delay, Verdict::Undecided);
-            if let Some(at) = COLUMNS.iter().position(|column| column.keys == ["reasons"]) {
-                cells[at] = Cell::Text(message.clone());
-            }
-            Row { cells, missing: Some(message), details: Vec::new() }
-        }
-    }
-}
-
-fn names(case: &Case, delay: &DelayOption, verdict: Verdict) -> [Cell; 4] {
-    let times: Vec<String> = delay.timing.fire_at_ms().iter().map(f64::to_string).collect();
-    [
-        Cell::Text(case.source.path.clone()),
-        Cell::Text(delay.name.clone()),
-        Cell::Text(format!("{} ms", times.join(", "))),
-        Cell::Verdict(verdict),
-    ]
-}
-
-fn cells(case: &Case, delay: &DelayOption, checked: &Checked) -> Vec<Cell> {
-    let (scene, history) = (case.scene(), &checked.history);
-    let reasons: Vec<String> = checked.reasons.iter().map(reason).collect();
-    let drift = Cell::Estimate { value: checked.drift.value, error: checked.drift.error, unit: Unit::Metre };
-    let bars = |series: &[f64], top: f64| Cell::Sparkline { series: series.to_vec(), top };
-    let mut cells = Vec::from(names(case, delay, checked.verdict));
-    cells.extend([
-        height(checked.height.into()),
-        Cell::Number(checked.height.at),
-        Cell::Text(scene.tire[checked.height.index].to_string()),
-        force(checked.force.into()),
-        Cell::Number(checked.force.at),
-        Cell::Text(scene.cable_name(checked.force.index)),
-        Cell::Factor(checked.safety_factor),
-        drift,
-        Cell::Count(checked.broken.len()),
-        Cell::Number(checked.step),
-        Cell::Number(checked.energy_residual),
-        Cell::Text(reasons.join("; ")),
-        bars(&history.height, case.limits.height),
-        bars(&history.force, case.limits.force),
-    ]);
-    cells
+fn bars(series: &[f64], top: f64) -> Cell {
+    Cell::Sparkline { series: series.to_vec(), top }
 }
 
 fn details(case: &Case, checked: &Checked) -> Vec<Detail> {

@@ -70,9 +70,14 @@ fn fields<'a>(table: &Table, row: &'a Row) -> Vec<Field<'a>> {
             | Cell::RelativeError(number)
             | Cell::Residual(number) => vec![Field::Number(*number)],
         };
-        let missing = column.keys.len().saturating_sub(written.len());
-        fields.extend(written.into_iter().take(column.keys.len()));
-        fields.extend(vec![Field::Nothing; missing]);
+        if column.keys.is_empty() {
+            continue;
+        }
+        // A cell without a value leaves all its fields empty; any other cell has a number for each key.
+        let empty = vec![Field::Nothing; column.keys.len()];
+        let written = if written.is_empty() { empty } else { written };
+        debug_assert_eq!(written.len(), column.keys.len(), "{:?}", column.keys);
+        fields.extend(written);
     }
     fields
 }

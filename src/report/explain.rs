@@ -6,7 +6,7 @@ use crate::study::ComputeSettings;
 use crate::study::check::Checked;
 use crate::study::reason::{EarlyEnd, Quantity, Reason};
 use crate::units::{self, Unit, value_and_error};
-use crate::verdict::Verdict;
+use crate::verdict::{Estimate, Verdict};
 
 /// Why an option did not pass, in words.
 pub fn reason(reason: &Reason) -> String {
@@ -63,7 +63,7 @@ pub fn compute_label(compute: &ComputeSettings) -> String {
 }
 
 /// Where and when height and force were greatest.
-pub fn peak(scene: &Scene, checked: &Checked) -> [String; 2] {
+fn peak(scene: &Scene, checked: &Checked) -> [String; 2] {
     let Checked { height, force, .. } = checked;
     let lifted = format!("tire {}, {}", scene.tire[height.index], units::seconds(height.at));
     let pulled = format!("cable {}, {}", scene.cable_name(force.index), units::seconds(force.at));
@@ -84,6 +84,20 @@ pub fn broken(scene: &Scene, checked: &Checked) -> String {
     let more = checked.broken.len().saturating_sub(BROKEN);
     let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
     format!("broken: {}{rest}", names.join(", "))
+}
+
+/// Greatest height, force and drift, with their errors, places and times.
+pub fn peaks(scene: &Scene, checked: &Checked) -> String {
+    let [highest, hardest] = peak(scene, checked);
+    let value = |of: &Estimate, unit: Unit| {
+        format!("{} {}", value_and_error(of.value, of.error, unit), unit.symbol())
+    };
+    format!(
+        "height {}, {highest} · force {}, {hardest} · drift {}",
+        value(&checked.height, Unit::Metre),
+        value(&checked.force, Unit::Kilonewton),
+        value(&checked.drift, Unit::Metre),
+    )
 }
 
 /// How the values of an option were computed, and where its peaks are.

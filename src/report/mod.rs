@@ -4,7 +4,7 @@
 //! |---|---|
 //! | what a report is | [`model`] |
 //! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`scatter`], [`size`], [`accuracy`], [`ropes`], [`trace`] |
-//! | words, charts and columns that reports share | [`explain`], [`no_result`], [`notes`], [`charts`], [`shared_columns`] |
+//! | words, charts and columns that reports share | [`explain`], [`limits`], [`no_result`], [`notes`], [`charts`], [`shared_columns`] |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |
 //! | what faces share | [`palette`], [`ascii`], [`spark`], labels of cells |
 //!
@@ -20,6 +20,7 @@ pub mod explain;
 pub mod html;
 pub mod json;
 mod label;
+pub mod limits;
 pub mod model;
 pub mod no_result;
 pub mod notes;
@@ -36,7 +37,6 @@ pub mod trace;
 
 use self::model::Report;
 use crate::study::Case;
-use crate::units::{self, Unit};
 
 /// Names of blast rows.
 fn row_names(case: &Case, rows: &[usize]) -> Vec<String> {
@@ -47,17 +47,11 @@ fn row_names(case: &Case, rows: &[usize]) -> Vec<String> {
 fn limit_facts(case: &Case) -> Report {
     let (plan, scene) = (&case.plan, case.scene());
     let mut facts = format!(
-        "{} tires, {} cables · limits: height {} m, cable force {} kN (breaking force {} kN / {})",
+        "{} tires, {} cables · limits: {}",
         scene.mass.len(),
         scene.cables.len(),
-        units::value(case.limits.height, Unit::Metre),
-        units::value(case.limits.force, Unit::Kilonewton),
-        units::value(case.limits.breaking_force, Unit::Kilonewton),
-        plan.limits.cable_safety_factor,
+        limits::limits(case)
     );
-    if let Some(drift) = case.limits.drift {
-        facts += &format!(", drift {} m", units::value(drift, Unit::Metre));
-    }
     if let Some(duration) = plan.simulation.duration_s {
         facts += &format!(" · followed for {duration} s at most");
     }

@@ -80,11 +80,37 @@ pub struct Column {
     pub shown: Shown,
 }
 
+/// A column, and its cell in the row of an item.
+#[derive(Debug)]
+pub struct Field<T> {
+    /// The column.
+    pub column: Column,
+    /// The cell of an item.
+    pub cell: fn(&T) -> Cell,
+}
+
+impl<T> Field<T> {
+    /// A field of `column`.
+    pub const fn new(column: Column, cell: fn(&T) -> Cell) -> Self {
+        Self { column, cell }
+    }
+}
+
 impl Table {
-    /// A table of columns and of the cells of its rows.
+    /// A table of columns and of the cells of its rows, one cell a column.
     pub fn new(columns: &[Column], rows: impl IntoIterator<Item = Vec<Cell>>) -> Self {
-        let rows = rows.into_iter().map(|cells| Row { cells, ..Row::default() }).collect();
-        Self { columns: columns.to_vec(), rows, ranked: false }
+        let row = |cells: Vec<Cell>| {
+            debug_assert_eq!(cells.len(), columns.len(), "one cell a column");
+            Row { cells, ..Row::default() }
+        };
+        Self { columns: columns.to_vec(), rows: rows.into_iter().map(row).collect(), ranked: false }
+    }
+
+    /// A table with a row for each item.
+    pub fn of<T>(fields: &[Field<T>], items: impl IntoIterator<Item = T>) -> Self {
+        let columns: Vec<Column> = fields.iter().map(|field| field.column).collect();
+        let cells = |item: T| fields.iter().map(|field| (field.cell)(&item)).collect();
+        Self::new(&columns, items.into_iter().map(cells))
     }
 }
 

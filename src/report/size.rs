@@ -1,6 +1,7 @@
 //! `size` as a report: the lightest combinations that hold.
 
 use super::charts;
+use super::limits::limits_of_any_rope;
 use super::model::{Block, Cell, Column, Conclusion, Report, Table};
 use super::no_result::FINER;
 use super::shared_columns::{FORCE, HEIGHT, force, height};
@@ -35,7 +36,6 @@ const COMBINATIONS: [Column; 8] = [
 
 /// The report of all combinations.
 pub fn report(case: &Case, sizing: &Sizing) -> Report {
-    let limits = &case.plan.limits;
     let frontier = sizing.frontier();
     let rows = frontier.iter().filter_map(|combination| {
         let trial = combination.trial.ok()?;
@@ -59,10 +59,7 @@ pub fn report(case: &Case, sizing: &Sizing) -> Report {
     blocks.push(Block::Picture(charts::size(sizing)));
     Report {
         title: format!("{} · {}", case.title(), case.source.path),
-        facts: vec![format!(
-            "limits: height {} m, breaking force / {}",
-            limits.flight_height_m, limits.cable_safety_factor
-        )],
+        facts: vec![format!("limits: {}", limits_of_any_rope(case))],
         blocks,
         conclusion: Some(conclusion(sizing)),
     }

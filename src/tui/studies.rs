@@ -45,26 +45,23 @@ pub struct ShownStudy {
 impl ShownStudy {
     /// Makes the report of a result.
     pub fn new(case: &Case, compute: ComputeSettings, found: Box<StudyResult>) -> Self {
-        let report = match &*found {
-            StudyResult::Sweep(sweep) => report::sweep::report(case, sweep, false),
-            StudyResult::Orders(orders) => report::orders::report(case, orders, false),
-            StudyResult::Scatter(sampling, samples) => {
-                report::scatter::report(case, sampling, samples, false)
+        let (report, notes) = match &*found {
+            StudyResult::Sweep(sweep) => (report::sweep::report(case, sweep, false), Vec::new()),
+            StudyResult::Orders(orders) => {
+                (report::orders::report(case, orders, false), notes::orders(case).into_iter().collect())
             }
-            StudyResult::Size(sizing) => report::size::report(case, sizing),
-            StudyResult::Accuracy(study) => report::accuracy::report(case, study, &[]),
+            StudyResult::Scatter(sampling, samples) => {
+                (report::scatter::report(case, sampling, samples, false), notes::scatter(case))
+            }
+            StudyResult::Size(sizing) => (report::size::report(case, sizing), Vec::new()),
+            StudyResult::Accuracy(study) => (report::accuracy::report(case, study, &[]), Vec::new()),
             StudyResult::Flight(flight) => {
                 let firings = fire_at_s(&case.plan.delays[flight.option].timing);
                 let history = &flight.outcome.history;
                 let mut report = report::trace::history(history);
                 report.blocks.extend(charts::history(case, history, &firings).map(Block::Picture));
-                report
+                (report, Vec::new())
             }
-        };
-        let notes = match &*found {
-            StudyResult::Orders(_) => notes::orders(case).into_iter().collect(),
-            StudyResult::Scatter(..) => notes::scatter(case),
-            _ => Vec::new(),
         };
         Self { found, compute, report, notes }
     }
@@ -143,8 +140,9 @@ impl Studies {
 
     /// Shows the study `by` tabs further; the first follows the last.
     pub fn turn(&mut self, by: isize) {
-        let count = StudyKind::OF_PLAN.len() as isize;
-        self.show(StudyKind::OF_PLAN[(self.shown as isize + by).rem_euclid(count) as usize]);
+        let kinds = StudyKind::OF_PLAN;
+        let shown = kinds.iter().position(|kind| *kind == self.shown).unwrap_or(0) as isize;
+        self.show(kinds[(shown + by).rem_euclid(kinds.len() as isize) as usize]);
     }
 
     /// Shows a study.

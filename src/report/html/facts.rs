@@ -4,9 +4,9 @@ use maud::{Markup, html};
 
 use crate::choice::OnOverload;
 use crate::plan::{LaunchTargets, Layout, Plan};
+use crate::report::limits::limits;
 use crate::study::check_all::Results;
 use crate::study::{Case, ComputeSettings};
-use crate::units::{self, Unit};
 
 /// The plan as a table.
 pub fn shelter(case: &Case) -> Markup {
@@ -15,22 +15,12 @@ pub fn shelter(case: &Case) -> Markup {
         Some(rope) => format!("{rope}, termination {} %", plan.cable.termination_percent),
         None => format!("EA {} kN", plan.cable.axial_stiffness_kn),
     };
-    let limits = [
-        Some(format!("flight height {} m", units::value(case.limits.height, Unit::Metre))),
-        Some(format!(
-            "cable force {} kN (breaking force {} kN / {})",
-            units::value(case.limits.force, Unit::Kilonewton),
-            units::value(case.limits.breaking_force, Unit::Kilonewton),
-            plan.limits.cable_safety_factor
-        )),
-        case.limits.drift.map(|drift| format!("drift {} m", units::value(drift, Unit::Metre))),
-    ];
     html! {
         table {
             tr { th { "Tires" } td { (scene.mass.len()) " of " (plan.tire.mass_kg) " kg, " (layout(plan)) ", " (rims(plan.tire.outer_diameter_m)) } }
             tr { th { "Cables" } td { (scene.cables.len()) ", " (cable) ", slack " (plan.cable.slack_percent) " %" (if plan.cable.on_overload == OnOverload::Break { "; past its breaking force a cable is gone" } else { "" }) } }
             tr { th { "Friction" } td { (plan.friction) } }
-            tr { th { "Limits" } td { (limits.into_iter().flatten().collect::<Vec<_>>().join("; ")) } }
+            tr { th { "Limits" } td { (limits(case)) } }
             @for row in &plan.blast_rows {
                 tr { th { "Blast row " (row.name) } td { (launched(&row.targets)) } }
             }

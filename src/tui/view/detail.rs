@@ -15,13 +15,13 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use super::chart;
 use crate::outcome::EndReason;
 use crate::report::charts;
-use crate::report::explain::{broken, peak, reason};
+use crate::report::explain::{broken, peaks, reason};
 use crate::report::no_result;
 use crate::scene::fire_at_s;
 use crate::study::check::Checked;
 use crate::tui::app::App;
 use crate::tui::options::OptionState;
-use crate::units::{self, Unit, value_and_error};
+use crate::units;
 
 /// Draws the detail of the selected option.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
@@ -58,13 +58,6 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
 }
 
 fn fact_lines<'a>(app: &App, checked: &Checked) -> Vec<Line<'a>> {
-    let [highest, hardest] = peak(app.case.scene(), checked);
-    let peak = format!(
-        "height {} m, {highest} · force {} kN, {hardest} · drift {} m",
-        value_and_error(checked.height.value, checked.height.error, Unit::Metre),
-        value_and_error(checked.force.value, checked.force.error, Unit::Kilonewton),
-        value_and_error(checked.drift.value, checked.drift.error, Unit::Metre),
-    );
     let how = format!(
         "step {} · {} runs in {} · energy residual {:.0e} · {} {}",
         units::milliseconds(checked.step),
@@ -77,7 +70,7 @@ fn fact_lines<'a>(app: &App, checked: &Checked) -> Vec<Line<'a>> {
         },
         units::seconds(checked.end.at),
     );
-    let mut lines = vec![Line::from(peak), Line::styled(how, app.theme.quiet())];
+    let mut lines = vec![Line::from(peaks(app.case.scene(), checked)), Line::styled(how, app.theme.quiet())];
     for why in &checked.reasons {
         let sign = crate::tui::theme::label(why.verdict()).chars().next().unwrap_or(' ');
         lines.push(Line::styled(format!("{sign} {}", reason(why)), app.theme.verdict(why.verdict())));

@@ -32,7 +32,8 @@ use super::keymap::{Action, BINDINGS};
 use super::options::OptionState;
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
-use crate::units::{self, Unit};
+use crate::report::explain::compute_label;
+use crate::report::limits::limits_in_short;
 use crate::verdict::Verdict;
 
 /// Least width and height of a screen that holds everything.
@@ -102,19 +103,7 @@ fn draw_tabs(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
 
 fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
     let (case, theme) = (&app.case, app.theme);
-    let mut about = format!(
-        "limits: height {} m, force {} kN",
-        units::value(case.limits.height, Unit::Metre),
-        units::value(case.limits.force, Unit::Kilonewton),
-    );
-    if let Some(drift) = case.limits.drift {
-        about += &format!(", drift {} m", units::value(drift, Unit::Metre));
-    }
-    let level = match app.compute.step {
-        Some(step) => format!("step {}", units::milliseconds(step)),
-        None => app.compute.accuracy.name().to_owned(),
-    };
-    about += &format!(" · {}, {level}", app.compute.method.name());
+    let mut about = format!("limits: {} · {}", limits_in_short(case), compute_label(&app.compute));
     about += &format!(" · {} tires, {} cables", case.scene().mass.len(), case.scene().cables.len());
     let unsaved = if app.editor.unsaved() { " *not saved*" } else { "" };
     let title = Line::from(vec![

@@ -1,0 +1,31 @@
+//! The limits of a plan in words, the same in every face.
+
+use crate::study::Case;
+use crate::units::{self, Unit};
+
+/// Height, cable force with its breaking force, and drift where it has a limit.
+pub fn limits(case: &Case) -> String {
+    let [force, breaking] = [case.limits.force, case.limits.breaking_force].map(kilonewtons);
+    let factor = case.plan.limits.cable_safety_factor;
+    with_force(case, &format!("cable force {force} (breaking force {breaking} / {factor})"))
+}
+
+/// The limits where room is short: the force without its breaking force.
+pub fn limits_in_short(case: &Case) -> String {
+    with_force(case, &format!("force {}", kilonewtons(case.limits.force)))
+}
+
+/// The limits under any rope: the force as a share of the rope's breaking force.
+pub fn limits_of_any_rope(case: &Case) -> String {
+    with_force(case, &format!("breaking force / {}", case.plan.limits.cable_safety_factor))
+}
+
+fn with_force(case: &Case, force: &str) -> String {
+    let metres = |length: f64| format!("{} m", units::value(length, Unit::Metre));
+    let drift = case.limits.drift.map_or_else(String::new, |drift| format!(", drift {}", metres(drift)));
+    format!("height {}, {force}{drift}", metres(case.limits.height))
+}
+
+fn kilonewtons(force: f64) -> String {
+    format!("{} kN", units::value(force, Unit::Kilonewton))
+}
