@@ -16,7 +16,7 @@ use crate::study::flight::{Flight, record};
 use crate::study::orders::{Orders, orders};
 use crate::study::scatter::{Sample, Sampling, scatter};
 use crate::study::size::{Demand, Sizing, size};
-use crate::study::sweep::{Sweep, sweep};
+use crate::study::sweep::{GAP, Sweep, sweep};
 use crate::study::{
     Case, ComputeSettings, Intervals, NoResult, Progress, Shard, accuracy, guarded, thread_pool,
 };
@@ -117,7 +117,7 @@ pub enum News {
 /// Samples of every option.
 const SAMPLING: Sampling = Sampling { samples: 1000, seed: 1, certain_at: None };
 /// Intervals swept [s].
-const INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: 5e-3 };
+const INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: GAP };
 /// Longest run that [`StudyKind::Accuracy`] makes.
 const LONGEST_RUN: Duration = Duration::from_secs(1);
 /// Least time between two pieces of news about an option that computes.

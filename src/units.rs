@@ -132,7 +132,7 @@ pub fn short(number: f64) -> String {
 
 /// Seconds as milliseconds with all digits that were computed: `30.625 ms`.
 pub fn exact_milliseconds(time: f64) -> String {
-    format!("{} ms", (time * 1e9).round() * 1e-6)
+    format!("{} ms", (time * 1e9).round() / 1e6)
 }
 
 /// A ratio of breaking force to force: `2.11`, or `none` where no cable pulls.
@@ -182,5 +182,6 @@ mod tests {
         assert_eq!(milliseconds(1.2), "1200 ms");
         assert_eq!(exact_milliseconds(0.030625), "30.625 ms");
         assert_eq!(exact_milliseconds(0.1), "100 ms");
+        assert_eq!(exact_milliseconds(0.0353875), "35.3875 ms");
     }
 }

@@ -20,8 +20,8 @@ use crate::study::{Found, Intervals};
 pub struct Arguments {
     /// Plan to sweep; `-` reads standard input
     plan: PathBuf,
-    /// Intervals in ms; where the curve jumps, intervals between them are tried as well
-    #[arg(long, value_name = "FROM..TO:STEP", default_value = "0..500:5", value_parser = intervals, allow_hyphen_values = true)]
+    /// Intervals in ms; where intervals pass or the curve jumps, intervals between them are tried as well
+    #[arg(long, value_name = "FROM..TO:STEP", default_value = "0..500:0.25", value_parser = intervals, allow_hyphen_values = true)]
     interval: Intervals,
     /// Delay option whose order of rows is swept; default: rows in the order listed
     #[arg(long, value_name = "NAME")]

@@ -38,7 +38,7 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> [Chart; 2] {
         let point = |point: &Point| (point.interval, of(&point.envelope));
         // A run that failed has no value.
         let points = sweep.points.iter().map(point).filter(|(_, value)| value.is_finite()).collect();
-        Chart { windows: sweep.windows(), ..limited(interval, (name, unit), points, limit) }
+        Chart { windows: sweep.windows.clone(), ..limited(interval, (name, unit), points, limit) }
     };
     [
         chart(HEIGHT, Unit::Metre, |envelope| envelope.height.value, case.limits.height),

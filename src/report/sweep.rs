@@ -1,11 +1,11 @@
-//! `sweep` as a report: charts against the interval, the intervals that pass, the worst and the best.
+//! `sweep` as a report: charts against the interval, the windows that pass, the worst and the recommended interval.
 
 use super::charts;
 use super::model::{Block, Cell, Column, Conclusion, Report, Shown, Table};
 use super::shared_columns::{FORCE, HEIGHT, INTERVAL, VERDICT, force, height};
 use super::{limit_facts, row_names};
 use crate::study::Case;
-use crate::study::sweep::{Point, Sweep};
+use crate::study::sweep::{Point, Recommended, Sweep};
 use crate::units;
 use crate::verdict::Verdict;
 
@@ -17,7 +17,7 @@ const POINTS: [Column; 4] = [
     VERDICT.shown(Shown::Scripts),
 ];
 
-/// The worst and the best interval, for people.
+/// The worst and the recommended interval, for people.
 const ENDS: [Column; 5] =
     [Column::words(&[], ""), INTERVAL.unread(), VERDICT.unread(), HEIGHT.unread(), FORCE.unread()];
 
@@ -31,7 +31,7 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
         blocks.push(Block::Text(vec![head]));
         blocks.extend(charts::sweep(case, sweep).map(Block::Chart));
         blocks.push(Block::Table(ends(case, sweep)));
-        blocks.push(Block::Text(vec![windows(sweep, partial)]));
+        blocks.push(Block::Text(windows(sweep, partial)));
     }
     let point = |&Point { interval, envelope }: &Point| {
         vec![
@@ -46,7 +46,7 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
 }
 
 fn ends(case: &Case, sweep: &Sweep) -> Table {
-    let ends = [("worst", sweep.worst(case)), ("best", sweep.best(case))];
+    let ends = [("worst", sweep.worst(case)), ("recommended", sweep.best())];
     let end = |(name, point): (&str, Option<&Point>)| {
         let Point { interval, envelope } = *point?;
         let name = Cell::Text(name.to_owned());
@@ -56,18 +56,48 @@ fn ends(case: &Case, sweep: &Sweep) -> Table {
     Table::new(&ENDS, ends.into_iter().filter_map(end))
 }
 
-fn windows(sweep: &Sweep, partial: bool) -> String {
+/// Windows narrower than this are counted, not listed [s].
+const NARROW: f64 = 1e-3;
+
+/// The windows, how closely they were tried, and how the recommended interval was chosen.
+fn windows(sweep: &Sweep, partial: bool) -> Vec<String> {
+    if sweep.windows.is_empty() {
+        return vec!["no interval tried passes".to_owned()];
+    }
     let so_far = if partial { " so far" } else { "" };
+    let (wide, narrow): (Vec<_>, Vec<_>) = sweep.windows.iter().partition(|[from, to]| to - from >= NARROW);
     let window = |[from, to]: &[f64; 2]| {
         format!("{} to {}", units::exact_milliseconds(*from), units::exact_milliseconds(*to))
     };
-    match sweep.windows().as_slice() {
-        [] => "no interval tried passes".to_owned(),
-        some => format!(
-            "intervals that pass{so_far}: {}",
-            some.iter().map(window).collect::<Vec<_>>().join(" · ")
-        ),
+    let mut lines = Vec::new();
+    if !wide.is_empty() {
+        let list: Vec<_> = wide.iter().copied().map(window).collect();
+        lines.push(format!("windows that pass{so_far}: {}", list.join(" · ")));
+        let inside = |point: &&Point| wide.iter().any(|[from, to]| (*from..=*to).contains(&point.interval));
+        lines.push(format!(
+            "all {} points tried in them pass, at most {} apart",
+            sweep.points.iter().filter(inside).count(),
+            units::exact_milliseconds(sweep.largest_gap())
+        ));
     }
+    if !narrow.is_empty() {
+        let single = narrow.iter().filter(|[from, to]| from == to).count();
+        lines.push(format!(
+            "besides {} narrower than {}, of which {single} single points: too narrow to aim at",
+            narrow.len(),
+            units::exact_milliseconds(NARROW)
+        ));
+    }
+    if let Some(Recommended { interval, room, utilization }) = sweep.recommended {
+        lines.push(format!(
+            "recommended {}: the largest product of room and unused utilization. Within {} on either side (10 ms count at \
+             most) every point tried uses at most {} of the limits",
+            units::exact_milliseconds(interval),
+            units::exact_milliseconds(room),
+            units::percent((1e3 * utilization).ceil() * 1e-3, 1)
+        ));
+    }
+    lines
 }
 
 /// Passes only where every interval of the range was tried and passes.
@@ -102,7 +132,10 @@ mod tests {
             let point =
                 |(n, &verdict): (usize, &Verdict)| Point { interval: n as f64, envelope: envelope(verdict) };
             let points = verdicts.iter().enumerate().map(point).collect();
-            let Conclusion { verdict, text } = conclusion(&Sweep { order: vec![0, 1], points }, partial);
+            let Conclusion { verdict, text } = conclusion(
+                &Sweep { order: vec![0, 1], points, windows: Vec::new(), recommended: None },
+                partial,
+            );
             format!("{}: {text}", verdict.label())
         };
         use Verdict::{Fail, Pass, Undecided};

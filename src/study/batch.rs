@@ -47,10 +47,18 @@ pub fn judge_shots(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Vec<Option<Envelope>>, NoResult> {
-    envelopes(shots, progress, |shot| {
-        let checked = check_shot(case, shot, compute, &mut |_| progress.flow());
-        checked.map(|checked| Envelope::of(&checked)).map_err(|failure| progress.no_result(failure))
-    })
+    envelopes(shots, progress, |shot| judge_shot(case, shot, compute, progress))
+}
+
+/// Judges one shot, refined until its verdict is sure.
+pub fn judge_shot(
+    case: &Case,
+    shot: &Shot,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<Envelope, NoResult> {
+    let checked = check_shot(case, shot, compute, &mut |_| progress.flow());
+    checked.map(|checked| Envelope::of(&checked)).map_err(|failure| progress.no_result(failure))
 }
 
 /// Computes the envelope of every job, like [`each`]. A job whose run fails has the envelope [`Envelope::UNKNOWN`]; where

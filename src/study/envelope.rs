@@ -65,6 +65,12 @@ impl Envelope {
         Self { verdict, height, force, drift }
     }
 
+    /// The same envelope with `times` every error added to its value, and no error left.
+    pub fn with_errors(&self, times: f64) -> Self {
+        let add = |of: Bounded| Bounded { value: of.value + times * of.error, error: 0.0 };
+        Self { height: add(self.height), force: add(self.force), drift: add(self.drift), ..*self }
+    }
+
     /// Utilization: the greatest value over its limit; above 1 the shot fails.
     pub fn utilization(&self, limits: &Limits) -> f64 {
         let drift = limits.drift.map_or(0.0, |limit| self.drift.value / limit);

@@ -20,6 +20,7 @@ pub mod orders;
 mod progress;
 pub mod reason;
 pub mod scatter;
+mod screen;
 pub mod size;
 pub mod sweep;
 pub mod trace;

@@ -1,8 +1,23 @@
-//! Height and force against the interval between rows, and the intervals that pass.
+//! Height and force against the interval between rows, and the windows of intervals that pass.
+//!
+//! 1. The intervals asked for are tried, and those of the plan's own options.
+//! 2. The interval in the middle of a *gap* between two neighbours is tried, too, where the gap is wider than [`GAP`] and a
+//!    neighbour passes, where only one neighbour passes, or where both pass but the gap is not *calm*. Gaps are halved down
+//!    to [`FINEST`].
+//! 3. A gap of width w is calm where u + s w ≤ 1. u is the greater upper bound (value + error) of the utilization at its two
+//!    neighbours; s is the steepest change of utilization with the interval in this gap and the one on either side.
+//! 4. A window is a row of passing intervals with calm gaps no wider than [`GAP`]. Its ends are intervals that were tried.
+//!
+//! The plan's own intervals are judged as `check` does, the others by a screen: at steps as coarse as their distance from the
+//! limits allows.
 
-use super::batch::judge_shots;
+use std::collections::BTreeSet;
+
+use super::batch::{envelopes, judge_shot};
+use super::screen::{is_sure, screen};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, Intervals, NoResult, Progress};
-use crate::scene::Shot;
+use crate::plan::Timing;
+use crate::scene::{Shot, seconds};
 use crate::verdict::Verdict;
 
 /// One interval.
@@ -21,14 +36,31 @@ pub struct Sweep {
     pub order: Vec<usize>,
     /// Points in ascending order of the interval.
     pub points: Vec<Point>,
+    /// Windows: ranges of intervals [s] in which every interval tried passes; the ends were tried.
+    pub windows: Vec<[f64; 2]>,
+    /// The recommended interval; `None` where no window is wider than a point.
+    pub recommended: Option<Recommended>,
 }
 
-/// Difference of utilization between two neighbours from which the interval between them is tried, too.
-const JUMP: f64 = 0.1;
-/// How often the distance between two neighbours is halved at most.
-const HALVINGS: usize = 3;
+/// An interval deep inside a safe window.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Recommended {
+    /// Interval between successive rows [s].
+    pub interval: f64,
+    /// Room on either side [s]: every interval tried within this distance passes.
+    pub room: f64,
+    /// Greatest utilization of all intervals tried within the room, errors included.
+    pub utilization: f64,
+}
 
-/// Sweeps the interval between the rows of `order`, more closely where the utilization jumps or the verdict changes.
+/// Greatest distance between neighbouring points inside a window [s].
+pub const GAP: f64 = 0.25e-3;
+/// Gaps as narrow as this are not halved [s].
+const FINEST: f64 = GAP / 8.0;
+/// Room that counts for a recommended interval [s]: more than detonators scatter.
+const ENOUGH_ROOM: f64 = 10e-3;
+
+/// Sweeps the interval between the rows of `order`.
 pub fn sweep(
     case: &Case,
     order: &[usize],
@@ -39,31 +71,161 @@ pub fn sweep(
     if case.plan.blast_rows.len() < 2 {
         return Err(NoResult::SingleRow);
     }
-    let mut partial = false;
-    let mut judged = |intervals: Vec<f64>| -> Result<Vec<Point>, NoResult> {
-        let shots: Vec<Shot> = intervals.iter().map(|&interval| case.shot(order, interval)).collect();
-        let envelopes = judge_shots(case, &shots, compute, progress)?;
-        partial |= envelopes.contains(&None);
-        let point = |(interval, envelope): (f64, Option<_>)| Some(Point { interval, envelope: envelope? });
-        // Out of time: keep the points before the first interval without a result, so that windows have no gaps.
-        Ok(intervals.into_iter().zip(envelopes).map_while(point).collect())
-    };
-    let mut points = judged(intervals.values())?;
-    for _ in 0..HALVINGS {
-        let between: Vec<f64> = points
-            .windows(2)
-            .filter(|pair| jumps(case, &pair[0], &pair[1]))
-            .map(|pair| 0.5 * (pair[0].interval + pair[1].interval))
-            .collect();
-        points.extend(judged(between)?);
+    let own: BTreeSet<i64> = own_intervals(case, order).into_iter().map(nanoseconds).collect();
+    let [from, to] = [intervals.from, intervals.to].map(nanoseconds);
+    let mut next: BTreeSet<i64> = intervals.values().into_iter().map(nanoseconds).collect();
+    next.extend(own.range(from..=to));
+    let (mut points, mut partial): (Vec<Point>, bool) = (Vec::new(), false);
+    while !next.is_empty() {
+        let jobs: Vec<i64> = next.iter().copied().collect();
+        let judged = match envelopes(&jobs, progress, |&at| {
+            let shot = case.shot(order, in_seconds(at));
+            judge(case, &shot, compute, own.contains(&at), progress)
+        }) {
+            // Where every run between points fails, the points stand.
+            Err(NoResult::Failed(_)) if !points.is_empty() => vec![Some(Envelope::UNKNOWN); jobs.len()],
+            judged => judged?,
+        };
+        partial |= judged.contains(&None);
+        // Out of time: gaps keep the width they have, and windows end there.
+        let new = jobs.into_iter().zip(judged);
+        points.extend(
+            new.filter_map(|(at, envelope)| Some(Point { interval: in_seconds(at), envelope: envelope? })),
+        );
         points.sort_by(|a, b| a.interval.total_cmp(&b.interval));
+        next.clear();
+        if !partial {
+            next.extend(middles(case, &points));
+        }
     }
-    Ok(Found { value: Sweep { order: order.to_vec(), points }, partial })
+    let windows = windows(case, &points);
+    let recommended = recommend(case, &points, &windows);
+    Ok(Found { value: Sweep { order: order.to_vec(), points, windows, recommended }, partial })
 }
 
-fn jumps(case: &Case, a: &Point, b: &Point) -> bool {
-    let utilization = |point: &Point| point.envelope.utilization(&case.limits);
-    a.envelope.verdict != b.envelope.verdict || (utilization(a) - utilization(b)).abs() > JUMP
+/// Intervals of the options that fire the rows at one interval [s], and of the options that fire them in this order.
+fn own_intervals(case: &Case, order: &[usize]) -> Vec<f64> {
+    let mut own = case.intervals();
+    for (delay, shot) in case.plan.delays.iter().zip(&case.shots) {
+        if let Timing::At(at_ms) = &delay.timing {
+            let interval = seconds(at_ms[order[1]] - at_ms[order[0]]);
+            if interval >= 0.0 && case.shot(order, interval).firings == shot.firings {
+                own.push(interval);
+            }
+        }
+    }
+    own
+}
+
+/// Whole nanoseconds, so that no interval has digits that nobody asked for.
+fn nanoseconds(interval: f64) -> i64 {
+    (interval * 1e9).round() as i64
+}
+
+fn in_seconds(nanoseconds: i64) -> f64 {
+    nanoseconds as f64 / 1e9
+}
+
+/// Judges the shot of one interval by a screen; as `check` does where `exactly`, or where the step is fixed.
+fn judge(
+    case: &Case,
+    shot: &Shot,
+    compute: &ComputeSettings,
+    exactly: bool,
+    progress: &Progress,
+) -> Result<Envelope, NoResult> {
+    if exactly || compute.step.is_some() {
+        judge_shot(case, shot, compute, progress)
+    } else {
+        screen(case, shot, compute, progress, |envelope| is_sure(case, envelope))
+    }
+}
+
+fn passes(point: &Point) -> bool {
+    point.envelope.verdict == Verdict::Pass
+}
+
+/// Middles of the gaps to be halved [ns].
+fn middles(case: &Case, points: &[Point]) -> Vec<i64> {
+    let halved = |&n: &usize| {
+        let (a, b) = (&points[n], &points[n + 1]);
+        let width = b.interval - a.interval;
+        let count = usize::from(passes(a)) + usize::from(passes(b));
+        let wanted = match count {
+            0 => false,
+            1 => true,
+            _ => !is_calm(case, points, n),
+        };
+        width > 1.01 * FINEST && (wanted || count > 0 && width > 1.01 * GAP)
+    };
+    let middle = |n: usize| (nanoseconds(points[n].interval) + nanoseconds(points[n + 1].interval)) / 2;
+    (0..points.len().saturating_sub(1)).filter(halved).map(middle).collect()
+}
+
+/// Whether no interval in the gap after point `n` can reach a limit, as far as its neighbours tell.
+fn is_calm(case: &Case, points: &[Point], n: usize) -> bool {
+    let slope = |pair: &[Point]| {
+        let change = (utilization(case, &pair[1]) - utilization(case, &pair[0])).abs();
+        change / (pair[1].interval - pair[0].interval)
+    };
+    let near = &points[n.saturating_sub(1)..points.len().min(n + 3)];
+    let steepest = near.windows(2).map(slope).fold(0.0, f64::max);
+    let width = points[n + 1].interval - points[n].interval;
+    let greater = upper(case, &points[n]).max(upper(case, &points[n + 1]));
+    greater + steepest * width <= 1.0
+}
+
+fn utilization(case: &Case, point: &Point) -> f64 {
+    point.envelope.utilization(&case.limits)
+}
+
+/// Utilization with the errors added.
+fn upper(case: &Case, point: &Point) -> f64 {
+    point.envelope.with_errors(1.0).utilization(&case.limits)
+}
+
+fn windows(case: &Case, points: &[Point]) -> Vec<[f64; 2]> {
+    let joined = |n: usize| {
+        let (a, b) = (&points[n], &points[n + 1]);
+        passes(a) && passes(b) && b.interval - a.interval <= 1.01 * GAP && is_calm(case, points, n)
+    };
+    let mut windows: Vec<[f64; 2]> = Vec::new();
+    for n in (0..points.len()).filter(|&n| passes(&points[n])) {
+        match windows.last_mut() {
+            Some(window) if n > 0 && joined(n - 1) => window[1] = points[n].interval,
+            _ => windows.push([points[n].interval; 2]),
+        }
+    }
+    windows
+}
+
+/// The interval and the room r around it for which r × (1 − greatest utilization within r) is greatest.
+fn recommend(case: &Case, points: &[Point], windows: &[[f64; 2]]) -> Option<Recommended> {
+    let mut best: Option<(f64, Recommended)> = None;
+    for &[from, to] in windows {
+        let first = points.partition_point(|point| point.interval < from);
+        let inside = &points[first..points.partition_point(|point| point.interval <= to)];
+        for (n, &Point { interval, .. }) in inside.iter().enumerate() {
+            let most = ENOUGH_ROOM.min(interval - from).min(to - interval);
+            let (mut low, mut high, mut greatest) = (n, n, upper(case, &inside[n]));
+            // The room grows point by point, to the nearer one first.
+            loop {
+                let left = low.checked_sub(1).map_or(f64::INFINITY, |n| interval - inside[n].interval);
+                let right = inside.get(high + 1).map_or(f64::INFINITY, |point| point.interval - interval);
+                let room = left.min(right).min(most);
+                let score = room * (1.0 - greatest);
+                if best.is_none_or(|(least, _)| score > least) && score > 0.0 {
+                    best = Some((score, Recommended { interval, room, utilization: greatest }));
+                }
+                if left.min(right) > most {
+                    break;
+                }
+                (low, high) = if left <= right { (low - 1, high) } else { (low, high + 1) };
+                greatest = greatest.max(upper(case, &inside[if left <= right { low } else { high }]));
+            }
+        }
+    }
+    best.map(|(_, recommended)| recommended)
 }
 
 impl Sweep {
@@ -73,28 +235,23 @@ impl Sweep {
         [at(self.points.first()), at(self.points.last())]
     }
 
-    /// Windows: ranges of intervals [s] in which every interval tried passes.
-    pub fn windows(&self) -> Vec<[f64; 2]> {
-        let passing = |point: &&Point| point.envelope.verdict == Verdict::Pass;
-        self.points
-            .chunk_by(|a, b| (a.envelope.verdict == Verdict::Pass) == (b.envelope.verdict == Verdict::Pass))
-            .filter(|stretch| stretch.first().is_some_and(|point| passing(&point)))
-            .filter_map(|stretch| Some([stretch.first()?.interval, stretch.last()?.interval]))
-            .collect()
+    /// Greatest distance between neighbouring points inside any window [s].
+    pub fn largest_gap(&self) -> f64 {
+        let gap = |pair: &[Point]| {
+            let inside = |[from, to]: &[f64; 2]| *from <= pair[0].interval && pair[1].interval <= *to;
+            self.windows.iter().any(inside).then(|| pair[1].interval - pair[0].interval)
+        };
+        self.points.windows(2).filter_map(gap).fold(0.0, f64::max)
     }
 
     /// The point of the greatest utilization.
     pub fn worst(&self, case: &Case) -> Option<&Point> {
-        self.points.iter().max_by(|a, b| by_utilization(case, a, b))
+        self.points.iter().max_by(|a, b| utilization(case, a).total_cmp(&utilization(case, b)))
     }
 
-    /// The point of the least utilization.
-    pub fn best(&self, case: &Case) -> Option<&Point> {
-        self.points.iter().min_by(|a, b| by_utilization(case, a, b))
+    /// The point of the recommended interval.
+    pub fn best(&self) -> Option<&Point> {
+        let interval = self.recommended?.interval;
+        self.points.iter().find(|point| point.interval == interval)
     }
-}
-
-fn by_utilization(case: &Case, a: &Point, b: &Point) -> std::cmp::Ordering {
-    let utilization = |point: &Point| point.envelope.utilization(&case.limits);
-    utilization(a).total_cmp(&utilization(b))
 }

@@ -18,8 +18,10 @@ pub struct SweepDocument {
     limits: Limits,
     points: Vec<IntervalResult>,
     windows_s: Vec<[f64; 2]>,
+    largest_gap_s: f64,
+    recommended_s: Option<f64>,
+    recommended_room_s: Option<f64>,
     worst: Option<IntervalResult>,
-    best: Option<IntervalResult>,
 }
 
 #[derive(Serialize)]
@@ -46,9 +48,11 @@ impl SweepDocument {
             order: row_names(case, &sweep.order),
             limits: Limits::of(case),
             points: sweep.points.iter().map(IntervalResult::of).collect(),
-            windows_s: sweep.windows(),
+            windows_s: sweep.windows.clone(),
+            largest_gap_s: sweep.largest_gap(),
+            recommended_s: sweep.recommended.map(|recommended| recommended.interval),
+            recommended_room_s: sweep.recommended.map(|recommended| recommended.room),
             worst: sweep.worst(case).map(IntervalResult::of),
-            best: sweep.best(case).map(IntervalResult::of),
         }
     }
 }

@@ -1,0 +1,75 @@
+//! The verdict on a shot that is one of thousands: run at coarse steps first, and no finer than its verdict needs.
+//!
+//! A check begins at the step of the accuracy level and refines until the verdict is sure. A screen begins at the coarsest
+//! step that is stable, refines by [`error::RATIO`] until it has seen enough, and ends at the latest at the step at which
+//! a check begins.
+
+use super::reason::{Reason, find_reasons};
+use super::{Case, ComputeSettings, Envelope, NoResult, Progress, error};
+use crate::choice::Accuracy;
+use crate::outcome::{Outcome, Peak};
+use crate::scene::Shot;
+use crate::simulation::Failure;
+use crate::verdict::{Estimate, Verdict};
+
+/// Number of steps above the first step of `field`: the coarsest is 8 times that, 0.8 of the critical step.
+const COARSER: i32 = 6;
+/// Factor on the error of a coarse run with which a pass must still stand.
+const SURE_PASS: f64 = 3.0;
+/// The same of a fail.
+const SURE_FAIL: f64 = 2.0;
+
+/// Judges a shot at ever finer steps until `enough` has seen enough.
+pub fn screen(
+    case: &Case,
+    shot: &Shot,
+    compute: &ComputeSettings,
+    progress: &Progress,
+    enough: impl Fn(&Envelope) -> bool,
+) -> Result<Envelope, NoResult> {
+    let last = compute.first_step(case);
+    let field = ComputeSettings { accuracy: Accuracy::Field, step: None, ..*compute };
+    let mut step = field.first_step(case) * error::RATIO.powi(COARSER);
+    let mut runs: Vec<Outcome> = Vec::new();
+    loop {
+        // The last step is exactly that of a check.
+        let is_last = step < 1.01 * last;
+        step = if is_last { last } else { step };
+        match case.model.run(shot, &case.settings(compute.method, step), &mut |_| progress.flow()) {
+            Ok(outcome) => runs.push(outcome),
+            Err(Failure::Step { .. } | Failure::Diverged { .. } | Failure::Unsettled { .. }) if !is_last => {}
+            Err(failure) => return Err(progress.no_result(failure)),
+        }
+        if runs.len() > 1 || is_last {
+            let envelope = judge(case, shot, &runs);
+            if is_last || enough(&envelope) {
+                return Ok(envelope);
+            }
+        }
+        step /= error::RATIO;
+    }
+}
+
+/// The last run judged, with the runs before as its neighbours.
+fn judge(case: &Case, shot: &Shot, runs: &[Outcome]) -> Envelope {
+    let (last, before) = (&runs[runs.len() - 1], &runs[..runs.len() - 1]);
+    let before = &before[before.len().saturating_sub(error::NEIGHBOURS)..];
+    let estimate = |of: fn(&Outcome) -> Peak| {
+        let Peak { value, at, index } = of(last);
+        let near = before.iter().map(|outcome| (outcome.step, of(outcome).value));
+        Estimate { value, error: error::estimate(last.step, value, near), at, index }
+    };
+    let estimates =
+        [estimate(|outcome| outcome.height), estimate(|outcome| outcome.force), estimate(|outcome| outcome.drift)];
+    let reasons = find_reasons(case, shot, last, estimates);
+    Envelope::new(Verdict::worst(reasons.iter().map(Reason::verdict)), estimates)
+}
+
+/// Whether the values of a screen lie so far from all limits that its verdict stands.
+pub fn is_sure(case: &Case, screened: &Envelope) -> bool {
+    match screened.verdict {
+        Verdict::Pass => screened.with_errors(SURE_PASS).utilization(&case.limits) <= 1.0,
+        Verdict::Fail => screened.with_errors(-SURE_FAIL).utilization(&case.limits) > 1.0,
+        Verdict::Undecided => false,
+    }
+}
