@@ -6,7 +6,7 @@ use std::path::Path;
 
 use shelter::study::sweep::sweep;
 use shelter::study::{Intervals, Progress};
-use shelter::units::milliseconds;
+use shelter::units::exact_milliseconds;
 use shelter::{Case, ComputeSettings};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -17,8 +17,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let intervals = Intervals { from: 0.0, to: 0.1, step: 0.01 };
     // Another thread may read the progress, or end the study.
     let swept = sweep(&case, &order, &intervals, &compute, &Progress::default())?.value;
-    for [from, to] in swept.windows() {
-        println!("{} to {} pass", milliseconds(from), milliseconds(to));
+    for [from, to] in swept.windows {
+        println!("{} to {} pass", exact_milliseconds(from), exact_milliseconds(to));
     }
     Ok(())
 }

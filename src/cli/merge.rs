@@ -7,10 +7,11 @@ use clap::Args;
 
 use super::arguments::{FormatArg, LookArguments};
 use super::print_findings::{Answer, print_findings};
-use super::status::{Status, wrong};
+use super::status::{Status, failed, wrong};
 use crate::plan::PlanSource;
-use crate::study::Case;
-use crate::study::merge::{Head, merge};
+use crate::study::merge::{Findings, Head, merge};
+use crate::study::orders::refine;
+use crate::study::{Case, Found, Progress};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -42,6 +43,14 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         return wrong("the shares hold results that do not belong to their plan: one share is damaged");
     }
     let Head { question, compute, .. } = head;
+    // Only all shares together tell which orders may be the worst.
+    let findings = match findings {
+        Findings::Orders(tried) => match refine(&case, tried, &compute, &Progress::default()) {
+            Ok(Found { value: tried, .. }) => Findings::Orders(tried),
+            Err(reason) => return failed(&reason),
+        },
+        samples => samples,
+    };
     let answer = Answer { case: &case, question, settings: compute, findings, partial: false };
     print_findings(answer, None, arguments.format, look)
 }

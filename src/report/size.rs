@@ -6,6 +6,7 @@ use super::model::{Block, Cell, Column, Conclusion, Report, Table};
 use super::no_result::FINER;
 use super::shared_columns::{FORCE, HEIGHT, force, height};
 use crate::study::Case;
+use crate::study::nearby::CHANGE;
 use crate::study::size::{Combination, Sizing, Trial, Untried};
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
@@ -23,7 +24,7 @@ const FRONTIER: [Column; 8] = [
 ];
 
 /// Every combination, for scripts.
-const COMBINATIONS: [Column; 8] = [
+const COMBINATIONS: [Column; 9] = [
     Column::scripts(&["rope"]),
     Column::scripts(&["tire_mass_kg"]),
     Column::scripts(&["border_rows"]),
@@ -32,6 +33,7 @@ const COMBINATIONS: [Column; 8] = [
     Column::scripts(&["holds"]),
     Column::scripts(&["tried"]),
     Column::scripts(&["use_of_limits"]),
+    Column::scripts(&["nearby_failures"]),
 ];
 
 /// The report of all combinations.
@@ -52,7 +54,13 @@ pub fn report(case: &Case, sizing: &Sizing) -> Report {
     let all = sizing.combinations.iter().map(|combination| {
         let trial = combination.trial.ok();
         let used = trial.map_or(Cell::Nothing, |trial| Cell::Utilization(trial.utilization));
-        let told = [Cell::Flag(trial.is_some_and(|trial| trial.holds)), Cell::Flag(trial.is_some()), used];
+        let nearby = trial.and_then(|trial| trial.nearby);
+        let told = [
+            Cell::Flag(trial.is_some_and(|trial| trial.holds)),
+            Cell::Flag(trial.is_some()),
+            used,
+            nearby.map_or(Cell::Nothing, |nearby| Cell::Count(nearby.failures)),
+        ];
         parts(combination).into_iter().chain(told).collect()
     });
     blocks.push(Block::Table(Table::new(&COMBINATIONS, all)));
@@ -91,6 +99,13 @@ fn tried(sizing: &Sizing) -> Vec<String> {
             count => lines.push(format!("{count} not tried: {reason}")),
         }
     }
+    if sizing.fragile() > 0 {
+        lines.push(format!(
+            "{} not chosen: the plan's own shots pass, but shots with inputs changed by up to {} do not all pass",
+            sizing.fragile(),
+            units::percent(CHANGE, 0)
+        ));
+    }
     lines
 }
 
@@ -117,8 +132,15 @@ pub(super) fn nearest(sizing: &Sizing) -> Option<(&Combination, Trial)> {
 }
 
 fn sentence(combination: &Combination, trial: &Trial) -> String {
+    let nearby = match trial.nearby.map(|nearby| (nearby.failures, nearby.judged)) {
+        None | Some((_, 0)) => String::new(),
+        Some((0, judged)) => format!(", and {judged} with inputs changed by up to 1 %"),
+        Some((failures, judged)) => {
+            format!(", but {failures} of {judged} fail with inputs changed by up to 1 %")
+        }
+    };
     format!(
-        "{}, tires of {} kg, {}: {} t in all, {} of the limits used, {} judged",
+        "{}, tires of {} kg, {}: {} t in all, {} of the limits used, {} judged{nearby}",
         combination.rope.name,
         combination.tire_mass,
         counted(combination.border_rows, "border row"),

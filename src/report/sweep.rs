@@ -81,17 +81,12 @@ fn windows(sweep: &Sweep, partial: bool) -> Vec<String> {
         ));
     }
     if !narrow.is_empty() {
-        let single = narrow.iter().filter(|[from, to]| from == to).count();
-        lines.push(format!(
-            "besides {} narrower than {}, of which {single} single points: too narrow to aim at",
-            narrow.len(),
-            units::exact_milliseconds(NARROW)
-        ));
+        let narrowest = units::exact_milliseconds(NARROW);
+        lines.push(format!("not listed: {} windows and points narrower than {narrowest}", narrow.len()));
     }
     if let Some(Recommended { interval, room, utilization }) = sweep.recommended {
         lines.push(format!(
-            "recommended {}: the largest product of room and unused utilization. Within {} on either side (10 ms count at \
-             most) every point tried uses at most {} of the limits",
+            "recommended {}: within {} of it at most {} of the limits are used, the most room x margin",
             units::exact_milliseconds(interval),
             units::exact_milliseconds(room),
             units::percent((1e3 * utilization).ceil() * 1e-3, 1)

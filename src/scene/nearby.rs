@@ -59,14 +59,30 @@ pub fn nearby(scene: &Scene, shot: &Shot, relative: f64, symmetry: Symmetry, num
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::Plan;
+    use crate::scene::TireId;
+    use nalgebra::Vector3;
 
+    /// Four tires in a square with slack cables, all fired.
     fn case() -> (Scene, Shot) {
-        let text = include_str!("../../plans/amur-three-rows.toml");
-        let plan = Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
-        let scene = Scene::build(&plan);
-        let shot = Shot::new(&scene, &plan.blast_rows, &plan.delays[2].timing);
-        (scene, shot)
+        let place = |n: usize| Vector3::new((n % 2) as f64, (n / 2) as f64, 0.0);
+        let cable = |ends: [usize; 2]| {
+            let span = place(ends[1]) - place(ends[0]);
+            let rest_length = 1.02 * span.norm();
+            Cable { ends, rest_length, stiffness: 1e6 / rest_length, span }
+        };
+        let mut scene = Scene {
+            position: (0..4).map(place).collect(),
+            mass: vec![280.0; 4],
+            tire: (1..=4).map(TireId::Listed).collect(),
+            cables: [[0, 1], [0, 2], [1, 3], [2, 3]].map(cable).into(),
+            friction: 0.5,
+            gravity: 9.81,
+            breaking_force: None,
+            mirrors: Vec::new(),
+        };
+        scene.find_mirrors();
+        let fire = |tire: usize| Firing { at: 0.02 * tire as f64, tire, launch: 6.0 };
+        (scene, Shot::from_firings((0..4).map(fire).collect()))
     }
 
     #[test]

@@ -15,6 +15,7 @@ pub mod error;
 pub mod flight;
 mod found;
 pub mod merge;
+pub mod nearby;
 mod no_result;
 pub mod orders;
 mod progress;

@@ -1,8 +1,14 @@
 //! The orders in which the blast rows can fire, ranked from the worst to the best.
 //!
-//! Up to [`MOST_ROWS`] rows all orders are tried. With more rows the orders are searched: random orders first; then
-//! exchanges of two rows in the worst and in the best order found, until no exchange leads further. A search may miss
-//! the worst order; its result says so.
+//! 1. Up to [`MOST_ROWS`] rows all orders are judged by a screen, at coarse steps. Where the shelter is its own mirror image,
+//!    an order and its mirrored order are judged once.
+//! 2. The hardest orders are judged as `check` does, then every order whose screened utilization plus [`REACH`] times its
+//!    error is above the worst utilization found so far, until none is left; in the same way for the best.
+//!
+//! With more rows the orders are searched: random orders first; then exchanges of two rows in the worst [`CLIMBERS`] of
+//! them and in the best, until no exchange leads further. A search may miss the worst order; its result says so.
+
+use std::collections::{HashMap, HashSet};
 
 use itertools::Itertools;
 use rand::SeedableRng;
@@ -10,13 +16,25 @@ use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
-use super::batch::judge_shots;
+use super::batch::{envelopes, judge_shots};
+use super::screen::{is_sure, screen};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard};
+use crate::plan::BlastRow;
 use crate::scene::Shot;
 use crate::verdict::Verdict;
 
-/// Greatest number of blast rows whose orders are all tried: 5,040 orders.
-pub const MOST_ROWS: usize = 7;
+/// Greatest number of blast rows whose orders are all tried: 40,320 orders.
+pub const MOST_ROWS: usize = 8;
+/// Greatest number of blast rows at which the screen of every order goes on until its verdict is sure.
+const MOST_SURE_ROWS: usize = 7;
+/// Number of runs of a screen with more rows.
+const RUNS: usize = 3;
+/// Factor on the error of a screen within which an order may still be the worst or the best.
+const REACH: f64 = 4.0;
+/// Number of orders refined together: a fixed number, so that the number of threads changes nothing.
+const AT_ONCE: usize = 32;
+/// Number of orders of a search that are improved by exchanges towards the worst, and towards the best.
+const CLIMBERS: usize = 24;
 /// Number of random orders of a search, per interval.
 const RANDOM: usize = 1000;
 
@@ -46,8 +64,9 @@ impl Orders {
     /// Ranks the orders that one or many machines tried, at `intervals` intervals.
     pub fn new(case: &Case, mut tried: Vec<Tried>, intervals: usize) -> Self {
         let complete = is_complete(case) && tried.len() == count(case, intervals);
-        let utilization = |tried: &Tried| tried.envelope.utilization(&case.limits);
-        tried.sort_by(|a, b| utilization(b).total_cmp(&utilization(a)).then(a.number.cmp(&b.number)));
+        tried.sort_by(|a, b| {
+            utilization(case, b).total_cmp(&utilization(case, a)).then(a.number.cmp(&b.number))
+        });
         Self { ranked: tried, complete }
     }
 
@@ -88,23 +107,123 @@ pub fn orders(
     if !is_complete(case) {
         return search(case, intervals, compute, progress);
     }
+    let twin = twin(case);
     let all = intervals
         .iter()
         .flat_map(|&interval| (0..rows).permutations(rows).map(move |order| (order, interval)));
-    let jobs: Vec<_> = all.enumerate().filter(|(number, _)| shard.has(*number)).collect();
-    judge_orders(case, jobs, compute, progress)
+    let jobs: Vec<Job> = all.enumerate().collect();
+    let own = |(number, (order, _)): &&Job| shard.has(*number) && *order <= mirrored(order, &twin);
+    let first: Vec<Job> = jobs.iter().filter(own).cloned().collect();
+    let found = screen_orders(case, first, compute, progress)?;
+    let per_interval = jobs.len() / intervals.len();
+    let mut tried = Vec::with_capacity(2 * found.value.len());
+    for one in found.value {
+        let order = mirrored(&one.order, &twin);
+        if order != one.order {
+            let number = one.number - one.number % per_interval + rank(&order);
+            tried.push(Tried { number, order, ..one });
+        }
+        tried.push(one);
+    }
+    tried.sort_by_key(|tried| tried.number);
+    if found.partial || shard != Shard::WHOLE {
+        return Ok(Found { value: tried, partial: found.partial });
+    }
+    refine(case, tried, compute, progress)
 }
 
 type Job = (usize, (Vec<usize>, f64));
 
-fn judge_orders(
+/// Blast row that is the mirror image of each blast row; `None` where the shelter has no mirror plane that moves rows.
+fn twin(case: &Case) -> Option<Vec<usize>> {
+    let holes = |image: &dyn Fn(usize) -> usize| -> Vec<Vec<(usize, u64)>> {
+        let row = |row: &BlastRow| {
+            let targets = case.scene().targets(&row.targets).into_iter();
+            targets.map(|(tire, launch)| (image(tire), launch.to_bits())).sorted().collect()
+        };
+        case.plan.blast_rows.iter().map(row).collect()
+    };
+    let rows = holes(&|tire| tire);
+    case.scene().mirrors.iter().find_map(|mirror| {
+        let images = holes(&|tire| mirror.image[tire]);
+        let twin: Vec<usize> =
+            images.iter().map(|image| rows.iter().position(|row| row == image)).collect::<Option<_>>()?;
+        let returns = twin.iter().enumerate().all(|(row, &other)| twin[other] == row);
+        (returns && twin.iter().enumerate().any(|(row, &other)| row != other)).then_some(twin)
+    })
+}
+
+fn mirrored(order: &[usize], twin: &Option<Vec<usize>>) -> Vec<usize> {
+    order.iter().map(|&row| twin.as_ref().map_or(row, |twin| twin[row])).collect()
+}
+
+/// Number of a permutation in lexicographic order.
+fn rank(order: &[usize]) -> usize {
+    let smaller = |n: usize| order[n + 1..].iter().filter(|&&later| later < order[n]).count();
+    (0..order.len()).fold(0, |rank, n| rank * (order.len() - n) + smaller(n))
+}
+
+fn utilization(case: &Case, tried: &Tried) -> f64 {
+    tried.envelope.utilization(&case.limits)
+}
+
+/// Judges as `check` does, at every interval, the orders that may be the worst or the best, until none is left.
+pub fn refine(
+    case: &Case,
+    mut tried: Vec<Tried>,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Finding<Vec<Tried>> {
+    let twin = twin(case);
+    let mut refined = HashSet::new();
+    let intervals: Vec<f64> = tried.iter().map(|tried| tried.interval).dedup().collect();
+    // Towards the worst, then towards the best.
+    for (interval, sign) in itertools::iproduct!(intervals, [1.0, -1.0]) {
+        loop {
+            let mine = |n: &usize| tried[*n].interval == interval;
+            let known = (0..tried.len()).filter(|n| mine(n) && refined.contains(n));
+            let farthest =
+                known.map(|n| sign * utilization(case, &tried[n])).fold(f64::NEG_INFINITY, f64::max);
+            let reach =
+                |n: usize| sign * tried[n].envelope.with_errors(sign * REACH).utilization(&case.limits);
+            let next: Vec<usize> = (0..tried.len())
+                .filter(|n| mine(n) && !refined.contains(n) && reach(*n) > farthest)
+                .filter(|&n| tried[n].order <= mirrored(&tried[n].order, &twin))
+                .sorted_by(|&a, &b| reach(b).total_cmp(&reach(a)))
+                .take(AT_ONCE)
+                .collect();
+            if next.is_empty() {
+                break;
+            }
+            let shots: Vec<Shot> = next.iter().map(|&n| case.shot(&tried[n].order, interval)).collect();
+            for (n, envelope) in next.into_iter().zip(judge_shots(case, &shots, compute, progress)?) {
+                let Some(envelope) = envelope else { return Ok(Found { value: tried, partial: true }) };
+                let image = mirrored(&tried[n].order, &twin);
+                let image =
+                    (0..tried.len()).find(|&m| tried[m].interval == interval && tried[m].order == image);
+                for n in image.into_iter().chain([n]) {
+                    tried[n].envelope = envelope;
+                    refined.insert(n);
+                }
+            }
+        }
+    }
+    Ok(Found { value: tried, partial: false })
+}
+
+/// Judges orders by a screen.
+fn screen_orders(
     case: &Case,
     jobs: Vec<Job>,
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Finding<Vec<Tried>> {
-    let shots: Vec<Shot> = jobs.iter().map(|(_, (order, interval))| case.shot(order, *interval)).collect();
-    let envelopes = judge_shots(case, &shots, compute, progress)?;
+    let enough = |envelope: &Envelope, runs: usize| {
+        is_sure(case, envelope, runs) || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= RUNS
+    };
+    let envelopes = envelopes(&jobs, progress, |(_, (order, interval))| {
+        screen(case, &case.shot(order, *interval), compute, progress, enough)
+    })?;
     let tried = |((number, (order, interval)), envelope): (Job, Option<Envelope>)| {
         envelope.map(|envelope| Tried { number, order, interval, envelope })
     };
@@ -119,7 +238,7 @@ fn search(
     progress: &Progress,
 ) -> Finding<Vec<Tried>> {
     let rows: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
-    let (mut tried, mut partial): (Vec<Tried>, _) = (Vec::new(), false);
+    let mut tried: Vec<Tried> = Vec::new();
     for (n, &interval) in intervals.iter().enumerate() {
         let mut random = ChaCha8Rng::seed_from_u64(n as u64);
         let mut starts = vec![rows.clone(), rows.iter().rev().copied().collect()];
@@ -129,44 +248,73 @@ fn search(
             order
         }));
         let first = tried.len();
-        partial |= add(case, &mut tried, starts, interval, compute, progress)?;
-        // Exchanges of the worst order and of the best order, until all exchanges of both are known.
-        loop {
-            let before = tried.len();
-            for sign in [1.0, -1.0] {
-                let rank = |tried: &Tried| sign * tried.envelope.utilization(&case.limits);
-                let end = tried[first..].iter().reduce(|a, b| if rank(b) > rank(a) { b } else { a });
-                let Some(end) = end.cloned() else { return Ok(Found { value: tried, partial }) };
-                let exchanged = (0..rows.len()).array_combinations().map(|[a, b]| {
-                    let mut order = end.order.clone();
-                    order.swap(a, b);
-                    order
-                });
-                partial |= add(case, &mut tried, exchanged.collect(), interval, compute, progress)?;
+        if add(case, &mut tried, first, starts, interval, compute, progress)? {
+            return Ok(Found { value: tried, partial: true });
+        }
+        let mut climbers: Vec<(f64, Vec<usize>)> = Vec::new();
+        for sign in [1.0, -1.0] {
+            let rank = |tried: &&Tried| -sign * utilization(case, tried);
+            let hardest = tried[first..].iter().sorted_by(|a, b| rank(a).total_cmp(&rank(b)));
+            climbers.extend(hardest.take(CLIMBERS).map(|tried| (sign, tried.order.clone())));
+        }
+        // All climbers take a step at once; those that meet become one.
+        while !climbers.is_empty() {
+            let all = climbers.iter().flat_map(|(_, order)| exchanges(order)).unique().collect();
+            if add(case, &mut tried, first, all, interval, compute, progress)? {
+                return Ok(Found { value: tried, partial: true });
             }
-            if tried.len() == before {
-                break;
-            }
+            let known: HashMap<&[usize], f64> =
+                tried[first..].iter().map(|t| (t.order.as_slice(), utilization(case, t))).collect();
+            let step = |(sign, order): (f64, Vec<usize>)| {
+                let value = |order: &Vec<usize>| sign * known[order.as_slice()];
+                let next = exchanges(&order).max_by(|a, b| value(a).total_cmp(&value(b)))?;
+                (value(&next) > value(&order)).then_some((sign, next))
+            };
+            climbers = climbers
+                .into_iter()
+                .filter_map(step)
+                .unique_by(|(sign, order)| (*sign > 0.0, order.clone()))
+                .collect();
         }
     }
-    Ok(Found { value: tried, partial })
+    refine(case, tried, compute, progress)
 }
 
-/// Judges the orders that have not been tried at this interval, and adds them to `tried`. Returns whether the time was up
-/// before all of them were judged.
+/// All orders that differ by an exchange of two rows.
+fn exchanges(order: &[usize]) -> impl Iterator<Item = Vec<usize>> {
+    (0..order.len()).array_combinations().map(move |[a, b]| {
+        let mut order = order.to_vec();
+        order.swap(a, b);
+        order
+    })
+}
+
+/// Judges the orders that are not among `tried[first..]`, and adds them; returns whether the time was up.
 fn add(
     case: &Case,
     tried: &mut Vec<Tried>,
+    first: usize,
     orders: Vec<Vec<usize>>,
     interval: f64,
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<bool, NoResult> {
-    let known: std::collections::HashSet<&[usize]> =
-        tried.iter().filter(|t| t.interval == interval).map(|t| t.order.as_slice()).collect();
+    let known: HashSet<&[usize]> = tried[first..].iter().map(|t| t.order.as_slice()).collect();
     let new = orders.into_iter().unique().filter(|order| !known.contains(order.as_slice()));
     let jobs = new.enumerate().map(|(n, order)| (tried.len() + n, (order, interval))).collect();
-    let Found { value, partial } = judge_orders(case, jobs, compute, progress)?;
+    let Found { value, partial } = screen_orders(case, jobs, compute, progress)?;
     tried.extend(value);
     Ok(partial)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn permutations_are_numbered_as_they_are_listed() {
+        for (number, order) in (0..5).permutations(5).enumerate() {
+            assert_eq!(rank(&order), number);
+        }
+    }
 }

@@ -16,16 +16,18 @@ use crate::verdict::{Estimate, Verdict};
 const COARSER: i32 = 6;
 /// Factor on the error of a coarse run with which a pass must still stand.
 const SURE_PASS: f64 = 3.0;
-/// The same of a fail.
+/// Least number of runs behind a pass: two may agree by luck.
+const RUNS_OF_PASS: usize = 3;
+/// The same as [`SURE_PASS`] of a fail.
 const SURE_FAIL: f64 = 2.0;
 
-/// Judges a shot at ever finer steps until `enough` has seen enough.
+/// Judges a shot at ever finer steps until `enough` has seen enough: the last run judged, and the number of runs.
 pub fn screen(
     case: &Case,
     shot: &Shot,
     compute: &ComputeSettings,
     progress: &Progress,
-    enough: impl Fn(&Envelope) -> bool,
+    enough: impl Fn(&Envelope, usize) -> bool,
 ) -> Result<Envelope, NoResult> {
     let last = compute.first_step(case);
     let field = ComputeSettings { accuracy: Accuracy::Field, step: None, ..*compute };
@@ -42,7 +44,7 @@ pub fn screen(
         }
         if runs.len() > 1 || is_last {
             let envelope = judge(case, shot, &runs);
-            if is_last || enough(&envelope) {
+            if is_last || enough(&envelope, runs.len()) {
                 return Ok(envelope);
             }
         }
@@ -59,16 +61,21 @@ fn judge(case: &Case, shot: &Shot, runs: &[Outcome]) -> Envelope {
         let near = before.iter().map(|outcome| (outcome.step, of(outcome).value));
         Estimate { value, error: error::estimate(last.step, value, near), at, index }
     };
-    let estimates =
-        [estimate(|outcome| outcome.height), estimate(|outcome| outcome.force), estimate(|outcome| outcome.drift)];
+    let estimates = [
+        estimate(|outcome| outcome.height),
+        estimate(|outcome| outcome.force),
+        estimate(|outcome| outcome.drift),
+    ];
     let reasons = find_reasons(case, shot, last, estimates);
     Envelope::new(Verdict::worst(reasons.iter().map(Reason::verdict)), estimates)
 }
 
-/// Whether the values of a screen lie so far from all limits that its verdict stands.
-pub fn is_sure(case: &Case, screened: &Envelope) -> bool {
+/// Whether the values of a screen of `runs` runs lie so far from all limits that its verdict stands.
+pub fn is_sure(case: &Case, screened: &Envelope, runs: usize) -> bool {
     match screened.verdict {
-        Verdict::Pass => screened.with_errors(SURE_PASS).utilization(&case.limits) <= 1.0,
+        Verdict::Pass => {
+            runs >= RUNS_OF_PASS && screened.with_errors(SURE_PASS).utilization(&case.limits) <= 1.0
+        }
         Verdict::Fail => screened.with_errors(-SURE_FAIL).utilization(&case.limits) > 1.0,
         Verdict::Undecided => false,
     }

@@ -4,10 +4,15 @@
 //! flies lower and pulls longer; so one combination says nothing about another, with one exception: ropes of equal
 //! stiffness move the shelter alike, and the stronger rope holds wherever the weaker one holds. The strongest rope of each
 //! stiffness is tried first. Where it fails, the other ropes of that stiffness are not tried.
+//!
+//! A combination that holds is a choice only if it also holds with inputs a little different from the plan: [`judge_nearby`]
+//! judges shots near those that it must hold. From the lightest on, every combination with more margin than the choices
+//! before is tried so. Samples ([`Demand::Samples`]) are such shots already.
 
 use itertools::Itertools;
 
 use super::batch::judge_shots;
+use super::nearby::{Nearby, judge_nearby};
 use super::scatter::{self, Sample, Sampling, scatter};
 use super::{Bounded, Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard};
 use crate::plan::{Layout, Plan, ScatterSpec};
@@ -28,6 +33,8 @@ pub enum Demand {
 
 /// Fraction of the samples that may fail where the sampling has no bound.
 const MAY_FAIL: f64 = 0.01;
+/// Number of orders, the hardest ones, that are judged with nearby inputs.
+const HARDEST: usize = 8;
 /// Number of shots judged together before a failure ends the trial. A fixed number: the shots judged do not depend on the
 /// number of threads.
 const AT_ONCE: usize = 32;
@@ -71,6 +78,15 @@ pub struct Trial {
     pub utilization: f64,
     /// Number of shots judged.
     pub shots: usize,
+    /// Shots with nearby inputs; `None` where none were judged.
+    pub nearby: Option<Nearby>,
+}
+
+impl Trial {
+    /// Whether the combination is a choice: it holds, and no nearby shot fails.
+    pub fn is_choice(&self) -> bool {
+        self.holds && self.nearby.is_none_or(|nearby| nearby.failures == 0)
+    }
 }
 
 /// Result of sizing.
@@ -81,16 +97,16 @@ pub struct Sizing {
 }
 
 impl Sizing {
-    /// The lightest combination that holds; of equally light ones, that of the weakest rope.
+    /// The lightest choice; of equally light ones, that of the weakest rope.
     pub fn found(&self) -> Option<&Combination> {
-        self.combinations.iter().find(|c| c.trial.is_ok_and(|trial| trial.holds))
+        self.combinations.iter().find(|c| c.trial.is_ok_and(|trial| trial.is_choice()))
     }
 
-    /// Combinations that hold with a smaller utilization than every lighter combination that holds.
+    /// Choices with a smaller utilization than every lighter choice.
     pub fn frontier(&self) -> Vec<&Combination> {
         let mut least = f64::INFINITY;
         let better = |c: &&Combination| {
-            let used = c.trial.ok().filter(|trial| trial.holds).map(|trial| trial.utilization);
+            let used = c.trial.ok().filter(Trial::is_choice).map(|trial| trial.utilization);
             let better = used.is_some_and(|used| used < least);
             least = used.unwrap_or(least).min(least);
             better
@@ -101,6 +117,14 @@ impl Sizing {
     /// Number of combinations that were tried.
     pub fn tried(&self) -> usize {
         self.combinations.iter().filter(|c| c.trial.is_ok()).count()
+    }
+
+    /// Number of combinations that hold as planned but not with nearby inputs.
+    pub fn fragile(&self) -> usize {
+        self.combinations
+            .iter()
+            .filter(|c| c.trial.is_ok_and(|trial| trial.holds && !trial.is_choice()))
+            .count()
     }
 
     /// Number of combinations that were not tried for reason `why`.
@@ -120,7 +144,7 @@ pub fn size(plan: &Plan, demand: &Demand, compute: &ComputeSettings, progress: &
     let own = [plan.tire.mass_kg];
     let masses = if plan.size.tire_mass_kg.is_empty() { &own[..] } else { &plan.size.tire_mass_kg };
     let most_border = if matches!(plan.layout, Layout::List { .. }) { 0 } else { plan.size.most_border_rows };
-    let mut combinations = Vec::new();
+    let mut tried: Vec<(Combination, Vec<usize>)> = Vec::new();
     // Index of the shot at which the last combination failed: the next combination likely fails at it, too.
     let mut likeliest = 0;
     // The bit patterns of positive numbers sort like the numbers.
@@ -133,26 +157,47 @@ pub fn size(plan: &Plan, demand: &Demand, compute: &ComputeSettings, progress: &
         for rope in ropes {
             let case = Case::new(plan.with(rope, tire_mass, border_rows));
             let (tires, total_mass) = (case.scene().mass.len(), total_mass(&case, rope));
+            let mut hardest = Vec::new();
             let trial = if progress.expired() {
                 Err(Untried::OutOfTime)
             } else if held {
                 match try_out(&case, demand, compute, &mut likeliest, progress) {
                     Err(NoResult::Failed(_)) => Err(Untried::Unstable),
                     Err(ended) => return Err(ended),
-                    Ok(trial) => trial.ok_or(Untried::OutOfTime),
+                    Ok(None) => Err(Untried::OutOfTime),
+                    Ok(Some((trial, shots))) => {
+                        hardest = shots;
+                        Ok(trial)
+                    }
                 }
             } else {
                 Err(Untried::SameStiffnessFails)
             };
             held = trial.is_ok_and(|trial| trial.holds);
-            combinations.push(Combination { rope, tire_mass, border_rows, tires, total_mass, trial });
+            let combination = Combination { rope, tire_mass, border_rows, tires, total_mass, trial };
+            tried.push((combination, hardest));
         }
     }
-    combinations.sort_by(|a, b| {
+    tried.sort_by(|(a, _), (b, _)| {
         let strength = |c: &Combination| c.rope.breaking_force_kn;
         a.total_mass.total_cmp(&b.total_mass).then(strength(a).total_cmp(&strength(b)))
     });
-    let sizing = Sizing { combinations };
+    let mut least = f64::INFINITY;
+    for (combination, hardest) in &mut tried {
+        if let Ok(trial) = combination.trial
+            && trial.holds
+            && trial.utilization < least
+        {
+            let case = Case::new(plan.with(combination.rope, combination.tire_mass, combination.border_rows));
+            let shots = shots(&case, demand);
+            let hardest: Vec<Shot> = hardest.iter().map(|&n| shots[n].clone()).collect();
+            let nearby = judge_nearby(&case, &hardest, compute, progress)?;
+            let judged = Trial { nearby, ..trial };
+            combination.trial = if nearby.is_some() { Ok(judged) } else { Err(Untried::OutOfTime) };
+            least = if judged.is_choice() { trial.utilization } else { least };
+        }
+    }
+    let sizing = Sizing { combinations: tried.into_iter().map(|(combination, _)| combination).collect() };
     let partial = sizing.untried(Untried::OutOfTime) > 0;
     Ok(Found { value: sizing, partial })
 }
@@ -163,22 +208,29 @@ fn total_mass(case: &Case, rope: &Rope) -> f64 {
     scene.mass.iter().sum::<f64>() + length * rope.mass_kg_per_m
 }
 
+/// The shots that the shelter of `case` must hold; none for samples, which are drawn.
+fn shots(case: &Case, demand: &Demand) -> Vec<Shot> {
+    match demand {
+        Demand::Options => case.shots.clone(),
+        Demand::AnyOrder(intervals) => all_orders(case, intervals),
+        Demand::Samples(..) => Vec::new(),
+    }
+}
+
+/// Tries one combination; the second part of the result is the shots to be judged with nearby inputs, hardest first.
 fn try_out(
     case: &Case,
     demand: &Demand,
     compute: &ComputeSettings,
     likeliest: &mut usize,
     progress: &Progress,
-) -> Result<Option<Trial>, NoResult> {
-    let shots = match demand {
-        Demand::Options => case.shots.clone(),
-        Demand::AnyOrder(intervals) => all_orders(case, intervals),
-        Demand::Samples(spec, sampling) => {
-            let Found { value: samples, partial } =
-                scatter(case, spec, sampling, Shard::WHOLE, compute, progress)?;
-            return Ok((!partial).then(|| most_hold(case, sampling, &samples)));
-        }
-    };
+) -> Result<Option<(Trial, Vec<usize>)>, NoResult> {
+    if let Demand::Samples(spec, sampling) = demand {
+        let Found { value: samples, partial } =
+            scatter(case, spec, sampling, Shard::WHOLE, compute, progress)?;
+        return Ok((!partial).then(|| (most_hold(case, sampling, &samples), Vec::new())));
+    }
+    let shots = shots(case, demand);
     let mut order: Vec<usize> = (0..shots.len()).collect();
     if *likeliest < shots.len() {
         order.swap(0, *likeliest);
@@ -195,7 +247,11 @@ fn try_out(
             break;
         }
     }
-    Ok(Some(trial(case, &judged, judged.iter().all(|envelope| envelope.verdict == Verdict::Pass))))
+    let trial = trial(case, &judged, judged.iter().all(|envelope| envelope.verdict == Verdict::Pass));
+    let share = |&n: &usize| -judged[n].utilization(&case.limits);
+    let hardest = (0..judged.len()).sorted_by(|a, b| share(a).total_cmp(&share(b)));
+    let most = if *demand == Demand::Options { shots.len() } else { HARDEST };
+    Ok(Some((trial, hardest.map(|n| order[n]).take(most).collect())))
 }
 
 fn all_orders(case: &Case, intervals: &[f64]) -> Vec<Shot> {
@@ -228,5 +284,5 @@ fn trial(case: &Case, judged: &[Envelope], holds: bool) -> Trial {
     let none = Envelope { verdict: Verdict::Pass, height: zero, force: zero, drift: zero };
     let share = |envelope: &Envelope| envelope.utilization(&case.limits);
     let worst = judged.iter().copied().max_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or(none);
-    Trial { holds, worst, utilization: share(&worst), shots: judged.len() }
+    Trial { holds, worst, utilization: share(&worst), shots: judged.len(), nearby: None }
 }

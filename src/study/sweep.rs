@@ -8,10 +8,11 @@
 //!    neighbours; s is the steepest change of utilization with the interval in this gap and the one on either side.
 //! 4. A window is a row of passing intervals with calm gaps no wider than [`GAP`]. Its ends are intervals that were tried.
 //!
-//! The plan's own intervals are judged as `check` does, the others by a screen: at steps as coarse as their distance from the
-//! limits allows.
+//! The plan's own intervals, the ends of windows and the recommended interval are judged as `check` does, the others by a
+//! screen: at steps as coarse as their distance from the limits allows. Where utilization jumps, the interval of the jump
+//! depends on the step a little; so a window is narrowed until both ends pass.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::batch::{envelopes, judge_shot};
 use super::screen::{is_sure, screen};
@@ -71,36 +72,43 @@ pub fn sweep(
     if case.plan.blast_rows.len() < 2 {
         return Err(NoResult::SingleRow);
     }
-    let own: BTreeSet<i64> = own_intervals(case, order).into_iter().map(nanoseconds).collect();
+    let mut exact: BTreeSet<i64> = own_intervals(case, order).into_iter().map(nanoseconds).collect();
     let [from, to] = [intervals.from, intervals.to].map(nanoseconds);
     let mut next: BTreeSet<i64> = intervals.values().into_iter().map(nanoseconds).collect();
-    next.extend(own.range(from..=to));
-    let (mut points, mut partial): (Vec<Point>, bool) = (Vec::new(), false);
-    while !next.is_empty() {
+    next.extend(exact.range(from..=to));
+    let mut tried: BTreeMap<i64, Envelope> = BTreeMap::new();
+    loop {
         let jobs: Vec<i64> = next.iter().copied().collect();
         let judged = match envelopes(&jobs, progress, |&at| {
             let shot = case.shot(order, in_seconds(at));
-            judge(case, &shot, compute, own.contains(&at), progress)
+            judge(case, &shot, compute, exact.contains(&at), progress)
         }) {
             // Where every run between points fails, the points stand.
-            Err(NoResult::Failed(_)) if !points.is_empty() => vec![Some(Envelope::UNKNOWN); jobs.len()],
+            Err(NoResult::Failed(_)) if !tried.is_empty() => vec![Some(Envelope::UNKNOWN); jobs.len()],
             judged => judged?,
         };
-        partial |= judged.contains(&None);
         // Out of time: gaps keep the width they have, and windows end there.
-        let new = jobs.into_iter().zip(judged);
-        points.extend(
-            new.filter_map(|(at, envelope)| Some(Point { interval: in_seconds(at), envelope: envelope? })),
-        );
-        points.sort_by(|a, b| a.interval.total_cmp(&b.interval));
-        next.clear();
-        if !partial {
-            next.extend(middles(case, &points));
+        let partial = judged.contains(&None);
+        tried.extend(jobs.into_iter().zip(judged).filter_map(|(at, envelope)| Some((at, envelope?))));
+        let points: Vec<Point> =
+            tried.iter().map(|(&at, &envelope)| Point { interval: in_seconds(at), envelope }).collect();
+        next = if partial { BTreeSet::new() } else { middles(case, &points).into_iter().collect() };
+        if !next.is_empty() {
+            continue;
         }
+        let windows = windows(case, &points);
+        let recommended = recommend(case, &points, &windows);
+        let wide = windows.iter().filter(|[from, to]| from < to).flatten();
+        let told = wide.copied().chain(recommended.map(|recommended| recommended.interval)).map(nanoseconds);
+        next = told.filter(|at| !exact.contains(at)).collect();
+        if partial || next.is_empty() {
+            return Ok(Found {
+                value: Sweep { order: order.to_vec(), points, windows, recommended },
+                partial,
+            });
+        }
+        exact.extend(&next);
     }
-    let windows = windows(case, &points);
-    let recommended = recommend(case, &points, &windows);
-    Ok(Found { value: Sweep { order: order.to_vec(), points, windows, recommended }, partial })
 }
 
 /// Intervals of the options that fire the rows at one interval [s], and of the options that fire them in this order.
@@ -137,7 +145,7 @@ fn judge(
     if exactly || compute.step.is_some() {
         judge_shot(case, shot, compute, progress)
     } else {
-        screen(case, shot, compute, progress, |envelope| is_sure(case, envelope))
+        screen(case, shot, compute, progress, |envelope, runs| is_sure(case, envelope, runs))
     }
 }
 
@@ -253,5 +261,85 @@ impl Sweep {
     pub fn best(&self) -> Option<&Point> {
         let interval = self.recommended?.interval;
         self.points.iter().find(|point| point.interval == interval)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::Plan;
+    use crate::study::Bounded;
+
+    /// Tries a shelter whose height is `height` [m] at an interval [ms], limit 1 m, at first every `step` [ms] up to 20 ms.
+    fn tried(step: f64, height: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
+        let text = include_str!("../../plans/amur-three-rows.toml")
+            .replace("flight_height_m = 1.8", "flight_height_m = 1");
+        let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+        let point = |at: i64| {
+            let value = height(at as f64 * 1e-6);
+            let verdict = if value > 1.0 { Verdict::Fail } else { Verdict::Pass };
+            let height = Bounded { value, error: 0.0 };
+            let envelope = Envelope { verdict, height, force: Bounded::default(), drift: Bounded::default() };
+            Point { interval: in_seconds(at), envelope }
+        };
+        let count = (20.0 / step) as i64;
+        let mut points: Vec<Point> = (0..=count).map(|n| point((n as f64 * step * 1e6) as i64)).collect();
+        loop {
+            let next = middles(&case, &points);
+            if next.is_empty() {
+                return windows(&case, &points);
+            }
+            points.extend(next.into_iter().map(point));
+            points.sort_by(|a, b| a.interval.total_cmp(&b.interval));
+        }
+    }
+
+    /// Whether any window holds the interval `at` [ms].
+    fn hold(windows: &[[f64; 2]], at: f64) -> bool {
+        windows.iter().any(|[from, to]| (*from..=*to).contains(&(at * 1e-3)))
+    }
+
+    #[test]
+    fn a_peak_between_two_points_that_pass_is_found() {
+        let peak = |at: f64| (1.05 - (at - 10.125_f64).abs()).max(0.5);
+        for step in [0.25, 5.0] {
+            let windows = tried(step, peak);
+            assert!(!hold(&windows, 10.125) && !hold(&windows, 10.09), "{windows:?}");
+            assert!(hold(&windows, 9.5) && hold(&windows, 10.9), "{windows:?}");
+        }
+    }
+
+    #[test]
+    fn an_edge_is_a_point_that_passes_close_to_one_that_does_not() {
+        let windows = tried(5.0, |at| 0.1 * at);
+        let [from, to] = windows[0];
+        assert!(from == 0.0 && to <= 0.01 && to > 0.0099, "{windows:?}");
+    }
+
+    #[test]
+    fn the_recommended_interval_is_deep_and_not_a_minimum_in_a_narrow_window() {
+        // Utilization 0.1 from 2 to 2.4 ms, 0.6 from 5 to 12 ms, past the limit elsewhere.
+        let height = |at: f64| match at {
+            2.0..=2.4 => 0.1,
+            5.0..=12.0 => 0.6,
+            _ => 1.5,
+        };
+        let text = include_str!("../../plans/amur-three-rows.toml")
+            .replace("flight_height_m = 1.8", "flight_height_m = 1");
+        let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+        let points: Vec<Point> = (0..=150)
+            .map(|n| {
+                let value = height(0.1 * f64::from(n));
+                let verdict = if value > 1.0 { Verdict::Fail } else { Verdict::Pass };
+                let height = Bounded { value, error: 0.0 };
+                let envelope =
+                    Envelope { verdict, height, force: Bounded::default(), drift: Bounded::default() };
+                Point { interval: in_seconds(i64::from(n) * 100_000), envelope }
+            })
+            .collect();
+        let windows = windows(&case, &points);
+        let recommended = recommend(&case, &points, &windows).expect("two windows");
+        assert!((recommended.interval - 8.5e-3).abs() < 1e-9 && (recommended.room - 3.4e-3).abs() < 1e-9);
+        assert_eq!(recommended.utilization, 0.6);
     }
 }

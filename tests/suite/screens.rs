@@ -163,7 +163,7 @@ fn the_smallest_screen_shows_the_conclusion_and_the_windows_of_a_sweep() {
     study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
     let screen = text(&draw(&app, 60, 18));
     assert!(
-        screen.contains("intervals tried do not pass") && screen.contains("intervals that pass: 0 ms to"),
+        screen.contains("intervals tried do not pass") && screen.contains("windows that pass: 0 ms to"),
         "{screen}"
     );
     insta::assert_snapshot!("sweep_60x18", screen);

@@ -13,11 +13,12 @@ use shelter::outcome::{EndReason, History, RunEnd};
 use shelter::ropes::catalogue;
 use shelter::study::accuracy::{AccuracyTable, Measured, StepRow};
 use shelter::study::check::Checked;
+use shelter::study::nearby::Nearby;
 use shelter::study::orders::{Orders, Tried};
 use shelter::study::reason::{Quantity, Reason};
 use shelter::study::scatter::{Sample, Sampling};
 use shelter::study::size::{Combination, Sizing, Trial};
-use shelter::study::sweep::{Point, Sweep};
+use shelter::study::sweep::{Point, Recommended, Sweep};
 use shelter::study::{Bounded, Envelope};
 use shelter::study::{Case, ComputeSettings, NoResult, flight};
 use shelter::tui::app::{App, Areas, Request};
@@ -121,7 +122,14 @@ pub fn swept() -> StudyResult {
             envelope: Envelope { verdict, height, force, drift: Bounded::default() },
         }
     };
-    StudyResult::Sweep(Sweep { order: vec![0, 1, 2], points: (0..51).map(point).collect() })
+    let windows = vec![[0.0, 0.03], [0.08, 0.13], [0.18, 0.24], [0.29, 0.34], [0.39, 0.44], [0.5, 0.5]];
+    let recommended = Some(Recommended { interval: 0.21, room: 0.01, utilization: 0.2 });
+    StudyResult::Sweep(Sweep {
+        order: vec![0, 1, 2],
+        points: (0..51).map(point).collect(),
+        windows,
+        recommended,
+    })
 }
 
 /// What accuracy costs, with round numbers.
@@ -180,7 +188,9 @@ pub fn spreads(app: &App) -> [(StudyKind, StudyResult); 3] {
     });
     let combinations = catalogue().ropes.iter().take(8).enumerate().map(|(n, rope)| {
         let share = 1.5 - 0.1 * n as f64;
-        let trial = Trial { holds: share < 1.0, worst: envelope(share), utilization: share, shots: 7 };
+        let nearby = Some(Nearby { judged: 168, failures: 0 });
+        let trial =
+            Trial { holds: share < 1.0, worst: envelope(share), utilization: share, shots: 7, nearby };
         let (total_mass, trial) = (14_000.0 + 100.0 * n as f64, Ok(trial));
         Combination { rope, tire_mass: 280.0, border_rows: 0, tires: 50, total_mass, trial }
     });

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::Values;
 use crate::report::size::nearest;
 use crate::study::Case;
+use crate::study::nearby::Nearby;
 use crate::study::size::{Combination, Sizing, Untried};
 
 /// The document of all combinations.
@@ -18,6 +19,8 @@ pub struct SizeDocument {
     lightest: Option<CombinationResult>,
     tried: usize,
     not_tried: usize,
+    /// Combinations that hold as planned but not with nearby inputs.
+    fragile: usize,
     partial: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     nearest: Option<CombinationResult>,
@@ -34,6 +37,14 @@ struct CombinationResult {
     /// Utilization; scripts know the key by this name.
     use_of_limits: Option<f64>,
     worst: Option<Values>,
+    nearby: Option<NearbyResult>,
+}
+
+/// Shots with inputs changed by up to 1 %.
+#[derive(Serialize)]
+struct NearbyResult {
+    judged: usize,
+    failures: usize,
 }
 
 impl CombinationResult {
@@ -47,6 +58,10 @@ impl CombinationResult {
             total_mass_kg: *total_mass,
             use_of_limits: trial.ok().map(|trial| trial.utilization),
             worst: trial.ok().map(|trial| Values::of(&trial.worst)),
+            nearby: trial
+                .ok()
+                .and_then(|trial| trial.nearby)
+                .map(|Nearby { judged, failures }| NearbyResult { judged, failures }),
         }
     }
 }
@@ -64,6 +79,7 @@ impl SizeDocument {
             lightest: found.map(CombinationResult::of),
             tried: sizing.tried(),
             not_tried: sizing.combinations.len() - sizing.tried(),
+            fragile: sizing.fragile(),
             partial: sizing.untried(Untried::OutOfTime) > 0,
             nearest: nearest.map(|(combination, _)| CombinationResult::of(combination)),
             frontier: sizing.frontier().into_iter().map(CombinationResult::of).collect(),

@@ -1,0 +1,112 @@
+//! Do windows hold between their points, and do orders find the worst? Compares both with brute force over `check`.
+//!
+//! `cargo bench --bench studies -- sweep` checks intervals [`CLOSE`] apart inside the windows of the shipped plans and of ten
+//! random ones, rim to rim. `cargo bench --bench studies -- orders 6 10` checks all orders of 6 rows of 10 random plans, rim to
+//! rim and centre to centre, at three intervals.
+
+mod plans;
+
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use itertools::Itertools;
+use rayon::prelude::*;
+use shelter::study::check::check_shot;
+use shelter::study::orders::orders;
+use shelter::study::sweep::sweep;
+use shelter::study::{Case, ComputeSettings, Envelope, Intervals, Progress, Shard};
+use shelter::verdict::Verdict;
+
+/// Distance between the intervals that are checked inside windows [s].
+const CLOSE: f64 = 0.05e-3;
+/// Intervals at which orders are compared [s].
+const INTERVALS: [f64; 3] = [0.009, 0.042, 0.109];
+
+fn main() {
+    let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
+    let number =
+        |n: usize, default: usize| words.get(n).and_then(|word| word.parse().ok()).unwrap_or(default);
+    match words.first().map(String::as_str) {
+        Some("orders") => compare_orders(number(1, 6), number(2, 10) as u64),
+        _ => compare_windows(number(1, 10) as u64),
+    }
+}
+
+fn checked(case: &Case, order: &[usize], interval: f64) -> Envelope {
+    let compute = ComputeSettings::of(&case.plan);
+    let checked = check_shot(case, &case.shot(order, interval), &compute, &mut |_| ControlFlow::Continue(()));
+    checked.map_or(Envelope::UNKNOWN, |checked| Envelope::of(&checked))
+}
+
+fn compare_windows(random: u64) {
+    println!(
+        "| plan | points tried | windows, wider than a point | together, ms | widest gap, ms | checked inside | do not pass | sweep, s |"
+    );
+    println!("|---|---|---|---|---|---|---|---|");
+    let shipped = ["amur-three-rows", "point-blasting", "large-50x50"].map(|name| {
+        let case = Case::load(format!("plans/{name}.toml").as_ref());
+        (name.to_owned(), case.unwrap_or_else(|mistakes| panic!("{mistakes}")))
+    });
+    let random = (0..random).map(|n| (format!("random {n}"), plans::case(n, None, true)));
+    let (mut inside, mut failures) = (0, 0);
+    for (name, case) in shipped.into_iter().chain(random) {
+        let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
+        let intervals = Intervals { from: 0.0, to: 0.5, step: 0.25e-3 };
+        let (begun, compute) = (Instant::now(), ComputeSettings::of(&case.plan));
+        let swept = sweep(&case, &order, &intervals, &compute, &Progress::default());
+        let (swept, wall) = (swept.expect("a result").value, begun.elapsed().as_secs_f64());
+        let close = (0..=10_000).map(|n| n as f64 * CLOSE);
+        let close: Vec<f64> =
+            close.filter(|at| swept.windows.iter().any(|[from, to]| (*from..=*to).contains(at))).collect();
+        let bad = |at: &&f64| checked(&case, &order, **at).verdict != Verdict::Pass;
+        let bad = close.par_iter().filter(bad).count();
+        let wide: Vec<f64> =
+            swept.windows.iter().map(|[from, to]| to - from).filter(|wide| *wide > 0.0).collect();
+        println!(
+            "| {name} | {} | {}, {} | {:.1} | {:.3} | {} | {bad} | {wall:.2} |",
+            swept.points.len(),
+            swept.windows.len(),
+            wide.len(),
+            1e3 * wide.iter().sum::<f64>(),
+            1e3 * swept.largest_gap(),
+            close.len(),
+        );
+        (inside, failures) = (inside + close.len(), failures + bad);
+    }
+    println!("\n{failures} of {inside} do not pass: {:.2} %", 100.0 * failures as f64 / inside as f64);
+}
+
+fn compare_orders(rows: usize, random: u64) {
+    println!(
+        "| plan | interval, ms | worst of all, error | short of it | best of all | above it | orders, s | all checked, s |"
+    );
+    println!("|---|---|---|---|---|---|---|---|");
+    for (n, rim) in itertools::iproduct!(0..random, [true, false]) {
+        let case = plans::case(n, Some(rows), rim);
+        let compute = ComputeSettings::of(&case.plan);
+        let ends = |all: &[Envelope]| {
+            let order = |a: &f64, b: &f64| a.total_cmp(b);
+            let all = all.iter().map(|envelope| envelope.utilization(&case.limits));
+            [all.clone().max_by(order), all.min_by(order)].map(|end| end.expect("an order"))
+        };
+        for interval in INTERVALS {
+            let begun = Instant::now();
+            let found = orders(&case, &[interval], Shard::WHOLE, &compute, &Progress::default());
+            let (found, wall) = (found.expect("a result").value, begun.elapsed().as_secs_f64());
+            let found: Vec<Envelope> = found.iter().map(|tried| tried.envelope).collect();
+            let (begun, all) = (Instant::now(), (0..rows).permutations(rows).collect_vec());
+            let brute: Vec<Envelope> = all.par_iter().map(|order| checked(&case, order, interval)).collect();
+            let ([worst, best], [high, low]) = (ends(&found), ends(&brute));
+            let [upper, _] = ends(&brute.iter().map(|envelope| envelope.with_errors(1.0)).collect_vec());
+            println!(
+                "| {n}, {} | {:.0} | {high:.4}, {:.4} | {:.3} % | {low:.4} | {:.3} % | {wall:.1} | {:.1} |",
+                if rim { "rim to rim" } else { "centre to centre" },
+                1e3 * interval,
+                upper - high,
+                100.0 * (1.0 - worst / high),
+                100.0 * (best / low - 1.0),
+                begun.elapsed().as_secs_f64(),
+            );
+        }
+    }
+}
