@@ -10,15 +10,12 @@ use crate::verdict::Verdict;
 
 const COLUMNS: [Column; 5] = [Column::words(&["order"], "order"), INTERVAL, VERDICT, HEIGHT, FORCE];
 
-/// How far searches fall short of the worst; `benches/RESULTS.md`, "Orders and windows", has the measurement.
-const SHORTFALL: &str = "benches/RESULTS.md has the shortfall";
-
 /// The report of all orders tried, which is partial where the time was up.
 pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
     let all = orders.ranked.len();
     let head = match orders.complete {
         true => format!("{all} orders and intervals, all there are, worst first"),
-        false => format!("{all} orders searched: the worst may not be among them ({SHORTFALL}), worst first"),
+        false => format!("{all} orders searched: the worst may not be among them, worst first"),
     };
     let row = |tried: &Tried| {
         vec![
