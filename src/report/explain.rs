@@ -14,6 +14,10 @@ pub fn reason(reason: &Reason) -> String {
         Reason::Limit { quantity, verdict, estimate, limit } => (quantity, verdict, estimate, limit),
         Reason::Broken(1) => return "a cable breaks".to_owned(),
         Reason::Broken(count) => return format!("{count} cables break"),
+        Reason::EnergyResidual(residual) => {
+            let residual = units::percent(*residual, 1);
+            return format!("the energy balance is off by {residual}: the step is too long for this motion");
+        }
         Reason::EndsEarly { end, open } => return ends_early(*end, *open),
     };
     let (name, unit) = match quantity {
@@ -46,9 +50,7 @@ fn ends_early(end: f64, open: EarlyEnd) -> String {
             format!("the run ends at {end} with force at its greatest: give a longer duration_s, or none")
         }
         EarlyEnd::TiresMoving => {
-            format!(
-                "tires still move at {end}, and their drift has a limit: give a longer duration_s, or none"
-            )
+            format!("tires still move at {end} and may pull harder later: give a longer duration_s")
         }
     }
 }

@@ -6,7 +6,7 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use super::reason::{Reason, find_reasons, limited};
+use super::reason::{Reason, closes, find_reasons, limited};
 use super::{Case, ComputeSettings, error};
 use crate::outcome::{Broken, History, Outcome, Peak, RunEnd};
 use crate::scene::Shot;
@@ -69,7 +69,7 @@ const FINEST: i32 = 12;
 const SURE: f64 = 2.0;
 
 impl Checked {
-    /// Whether the verdict of the limits would stand with errors [`SURE`] times larger.
+    /// Whether the verdict of the limits would stand with errors [`SURE`] times larger, and the energy balance closes for a pass.
     fn is_sure(&self, limits: &Limits) -> bool {
         let verdict = |times: f64| {
             let larger = |estimate: Estimate| Estimate { error: times * estimate.error, ..estimate };
@@ -77,7 +77,12 @@ impl Checked {
                 .map(|(_, estimate, limit)| larger(estimate).against(limit));
             Verdict::worst(each)
         };
-        verdict(1.0) != Verdict::Undecided && verdict(1.0) == verdict(SURE)
+        let stands = verdict(1.0) == verdict(SURE);
+        match verdict(1.0) {
+            Verdict::Pass => stands && closes(self.energy_residual),
+            Verdict::Fail => stands,
+            Verdict::Undecided => false,
+        }
     }
 }
 

@@ -5,6 +5,10 @@ use crate::outcome::{EndReason, Outcome};
 use crate::scene::Shot;
 use crate::verdict::{Estimate, Limits, Verdict};
 
+/// Greatest energy residual of a run that may pass, over the energy put in. A greater one says that the step is too long for
+/// the motion, whatever neighbouring steps say.
+const MOST_RESIDUAL: f64 = 0.01;
+
 /// Why an option does not pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reason {
@@ -21,6 +25,8 @@ pub enum Reason {
     },
     /// Cables break; their number.
     Broken(usize),
+    /// The energy residual over the energy put in is greater than [`MOST_RESIDUAL`].
+    EnergyResidual(f64),
     /// The run ends too early for a verdict.
     EndsEarly {
         /// End of the run [s].
@@ -36,7 +42,7 @@ impl Reason {
         match self {
             Reason::Limit { verdict, .. } => *verdict,
             Reason::Broken(_) => Verdict::Fail,
-            Reason::EndsEarly { .. } => Verdict::Undecided,
+            Reason::EnergyResidual(_) | Reason::EndsEarly { .. } => Verdict::Undecided,
         }
     }
 }
@@ -50,7 +56,7 @@ pub enum EarlyEnd {
     TiresInAir,
     /// The force is greatest at the very end.
     ForceGrowing,
-    /// Tires move on, and their drift has a limit.
+    /// Tires move on, and may pull harder later.
     TiresMoving,
 }
 
@@ -70,7 +76,7 @@ fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<EarlyEnd> {
     if outcome.force.value > 0.0 && outcome.force.at > outcome.end.at - 2.5 * outcome.step {
         return Some(EarlyEnd::ForceGrowing);
     }
-    case.limits.drift.map(|_| EarlyEnd::TiresMoving)
+    Some(EarlyEnd::TiresMoving)
 }
 
 /// A quantity that has a limit.
@@ -95,10 +101,17 @@ pub fn find_reasons(
         Reason::Limit { quantity, verdict: estimate.against(limit), estimate, limit }
     });
     let broken = Some(outcome.broken.len()).filter(|&count| count > 0).map(Reason::Broken);
+    let residual = Some(outcome.ledger.residual()).filter(|&residual| !closes(residual));
+    let residual = residual.map(Reason::EnergyResidual);
     let end = case.plan.simulation.duration_s.unwrap_or(outcome.end.at);
     let early = early(case, shot, outcome).map(|open| Reason::EndsEarly { end, open });
-    let all = limits.chain(broken).chain(early);
+    let all = limits.chain(broken).chain(residual).chain(early);
     all.filter(|reason| reason.verdict() != Verdict::Pass).collect()
+}
+
+/// Whether the energy balance of a run closes well enough for a pass; `residual` over the energy put in.
+pub(super) fn closes(residual: f64) -> bool {
+    residual <= MOST_RESIDUAL
 }
 
 /// The quantities that have a limit, each with its estimate and its limit.

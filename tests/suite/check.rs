@@ -49,6 +49,49 @@ fn a_run_that_ends_early_is_no_pass() {
     assert_eq!(check(late, "1.7").0, "pass");
 }
 
+/// Without friction the shelter never comes to rest, and its cables may pull harder than they did so far.
+#[test]
+fn tires_that_still_move_are_no_pass() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plan.toml");
+    let text = std::fs::read_to_string(shipped("paper-5-tire.toml")).expect("a plan");
+    for (friction, duration, open) in [("0", "", true), ("0.5", "", false), ("0", "duration_s = 2.0", true)] {
+        let text = text.replace("friction = 0.5", &format!("friction = {friction}"));
+        let text = text.replace("breaking_force_kn = 20.4", "breaking_force_kn = 1e6");
+        std::fs::write(&path, text.replace("duration_s = 1.0", duration)).expect("written");
+        let output = shelter(&["check", path.to_str().expect("UTF-8"), "--format", "json"]);
+        for option in json(&output)["options"].as_array().expect("options") {
+            let reasons = option["reasons"].to_string();
+            assert_eq!(option["verdict"], if open { "undecided" } else { "pass" }, "{reasons}");
+            assert_eq!(reasons.contains("tires still move"), open, "{reasons}");
+        }
+    }
+}
+
+/// Cables of 0.1 mm between rims are so stiff that a long step loses energy; such a run passes nothing, and is refined where
+/// the step is not fixed.
+#[test]
+fn a_run_that_loses_energy_is_no_pass() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plan.toml");
+    let text = std::fs::read_to_string(shipped("paper-5-tire.toml")).expect("a plan");
+    let text = text.replace("breaking_force_kn = 20.4", "breaking_force_kn = 1e6");
+    std::fs::write(&path, text.replace("mass_kg = 280", "mass_kg = 280\nouter_diameter_m = 0.9999")).expect("written");
+    let mut gated = 0;
+    for step in ["1e-4", "5e-5", "2e-5", "1e-5", "5e-6", "2e-6"] {
+        let output = shelter(&["check", path.to_str().expect("UTF-8"), "--dt", step, "--format", "json"]);
+        for option in json(&output)["options"].as_array().into_iter().flatten() {
+            let residual = option["energy_residual"].as_f64().unwrap_or(0.0);
+            if residual > 0.01 {
+                gated += 1;
+                assert_ne!(option["verdict"], "pass");
+                assert!(option["reasons"].to_string().contains("energy balance"), "{}", option["reasons"]);
+            }
+        }
+    }
+    assert!(gated > 0, "no run lost energy");
+}
+
 const TWO_TIRES: &str = r#"
 shelter = { layout = "list", tire = [{ x_m = 0, y_m = 0 }, { x_m = 5, y_m = 0 }, { x_m = 10, y_m = 0 }], cable = [{ from = 1, to = 2 }] }
 tire = { mass_kg = 280 }

@@ -233,3 +233,43 @@ fn both_methods_name_the_same_end_around_rest() {
         assert!(reason == expected || (duration - landing).abs() < h, "{reason:?} after {duration} s");
     }
 }
+
+/// A tire is drawn aside by a constant acceleration a and thrown across by a short cable, which then hangs slack. From there
+/// on it slides along a curve: with φ the angle between velocity and pull, v sin φ / tan(φ/2)^(μg/a) stays the same. The
+/// velocity comes from displacements one step apart, so that the ratio at two times differs from 1 by O(h²).
+#[test]
+fn validates_curved_slide_and_its_second_order() {
+    let (mass, friction, far) = (280.0, 0.5, 1e7);
+    let pull = friction * GRAVITY;
+    for method in METHODS {
+        let error = |h: f64| {
+            let mut scene = tires(&[(0.0, 0.0), (far, 0.0), (0.0, 4.0)], mass);
+            (scene.mass[1], scene.mass[2]) = (1e12, 1e12);
+            tie(&mut scene, 0, 1, 1.0, 0.5);
+            // Half of its length is stretched.
+            scene.cables[0].stiffness = mass * pull / (0.5 * far);
+            tie(&mut scene, 0, 2, 1e6, 0.975);
+            let (mut last, mut invariants) = (Vector3::zeros(), [f64::NAN; 2]);
+            let times = [0.1, 0.4];
+            watch(&scene, &fire(&[0], 0.0), settings(method, h, Some(0.41)), |motion| {
+                let now = motion.displacement(0);
+                let velocity = (now - last) / h;
+                last = now;
+                let angle = velocity.y.atan2(velocity.x);
+                let invariant = velocity.y / (0.5 * angle).tan().powf(friction * GRAVITY / pull);
+                for (invariant_at, at) in invariants.iter_mut().zip(times) {
+                    if (motion.time() - at).abs() < 0.5 * h {
+                        assert_eq!(motion.force(1), 0.0, "the short cable hangs slack");
+                        *invariant_at = invariant;
+                    }
+                }
+            });
+            (invariants[1] / invariants[0] - 1.0).abs()
+        };
+        let errors = [2e-3, 1e-3, 5e-4].map(error);
+        for pair in errors.windows(2) {
+            let order = (pair[0] / pair[1]).log2();
+            assert!(order > 1.8, "{method:?}: order {order} from {errors:?}");
+        }
+    }
+}

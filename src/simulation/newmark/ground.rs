@@ -23,10 +23,10 @@ impl Stepper<'_> {
         self.friction(free, sliding).cap_magnitude(2.0 * sliding.norm() / h)
     }
 
-    /// Sideways velocity at the end of the step without friction [m/s]; friction acts against this velocity.
+    /// Sideways velocity at the end of the step without the friction at the end [m/s]; that friction acts against this velocity.
     fn sliding(&self, tire: usize, h: f64) -> Vector2<f64> {
-        let force = (self.f_start[tire] + self.f[tire]).xy();
-        self.v[tire].xy() + force * (0.5 * h / self.scene.mass[tire])
+        let acceleration = self.a[tire].xy() + self.f[tire].xy() / self.scene.mass[tire];
+        self.v[tire].xy() + acceleration * (0.5 * h)
     }
 
     /// Whether a tire that is on the ground at the end of the step landed within the step.
@@ -57,7 +57,7 @@ impl Stepper<'_> {
         if free.z > 0.0 && !lands {
             return Ground::Free;
         }
-        let within_cone = self.sliding(tire, h).norm() <= self.friction * (-free.z).max(0.0) * h;
+        let within_cone = self.sliding(tire, h).norm() <= self.friction * (-free.z).max(0.0) * (0.5 * h);
         match assumed {
             Ground::Stick if !within_cone => Ground::Slip,
             Ground::Slip if !lands && within_cone => Ground::Stick,

@@ -47,7 +47,7 @@ impl<S: Simd> Tires<S> {
     pub fn kick(&self, simd: S) -> Kicked<S> {
         let Self { u, v, f, mass, inverse, step, friction, gravity } = *self;
         let (zero, half) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5));
-        let (one, tiny) = (Wide::splat(simd, 1.0), Wide::splat(simd, f64::MIN_POSITIVE));
+        let tiny = Wide::splat(simd, f64::MIN_POSITIVE);
         let free = [
             step.times_plus(f[0] * inverse, v[0]),
             step.times_plus(f[1] * inverse, v[1]),
@@ -56,14 +56,25 @@ impl<S: Simd> Tires<S> {
         let supported = u[2].at_most(zero).and(free[2].less(zero));
         // Sideways speed that friction can take from a supported tire: μ times the normal impulse per mass, −v*₃.
         let loss = friction * (zero - free[2]);
-        let sideways2 = free[0].times_plus(free[0], free[1] * free[1]);
-        // Part of the sideways velocity that friction leaves.
-        let mut part_left = supported.select(zero, one);
-        if supported.and((loss * loss).less(sideways2)).any() {
-            let slipping = one - loss / sideways2.sqrt().max(tiny);
-            part_left = supported.select(slipping.max(zero), one);
+        let mut after = [
+            supported.select(zero, free[0]),
+            supported.select(zero, free[1]),
+            supported.select(zero, free[2]),
+        ];
+        let slips = supported.and((loss * loss).less(free[0].times_plus(free[0], free[1] * free[1])));
+        if slips.any() {
+            // Friction acts against the velocity at tₙ, the mean of the velocities before and after the kick. That mean is
+            // parallel to the mean without friction, unless friction takes more than all of it: the tire then turns round.
+            let mean = [half * (v[0] + free[0]), half * (v[1] + free[1])];
+            let half_loss = half * loss;
+            let goes_on = (half_loss * half_loss).at_most(mean[0].times_plus(mean[0], mean[1] * mean[1]));
+            let against = [goes_on.select(mean[0], free[0]), goes_on.select(mean[1], free[1])];
+            let speed = against[0].times_plus(against[0], against[1] * against[1]).sqrt();
+            let taken = (zero - loss) / speed.max(tiny);
+            for c in 0..2 {
+                after[c] = slips.select(taken.times_plus(against[c], free[c]), after[c]);
+            }
         }
-        let after = [free[0] * part_left, free[1] * part_left, supported.select(zero, free[2])];
         let (mut moved, mut speed2, mut work, mut motion) = (u, zero, zero, u[2].abs());
         for c in 0..3 {
             let mean = half * (v[c] + after[c]);
