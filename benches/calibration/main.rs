@@ -1,119 +1,62 @@
-//! Are the reported errors right? Compares them with true errors over random scenes, smooth and hard.
+//! Are the reported errors right? Compares them with true errors over random scenes of fourteen regimes.
 //!
-//! `cargo bench --bench calibration -- 300` prints how often the true error is within the reported one, how wide the
-//! reported ones are, how many verdicts flip against the reference, and what refining only open verdicts saves.
-//! The truth is a run at a step [`FINER`] times finer.
+//! `cargo bench --bench calibration -- 40` takes 40 scenes of each regime and prints, for every level, how often the true
+//! error is within the reported error, how wide reported errors are, how many verdicts flip against the truth, how many stay
+//! open, and what refining only open verdicts saves.
 
-mod scenes;
+mod compare;
+mod regimes;
 
-use std::ops::ControlFlow;
-
+use compare::{Compared, QUANTITIES, compare, median, within};
 use rayon::prelude::*;
-use shelter::choice::{Accuracy, Method};
-use shelter::outcome::Outcome;
-use shelter::plan::Plan;
-use shelter::simulation::{Model, Settings};
-use shelter::study::check::check;
-use shelter::study::{Case, ComputeSettings};
-use shelter::verdict::{Limits, Verdict};
+use regimes::Regime;
+use shelter::choice::Accuracy;
+use shelter::verdict::Verdict;
 
-/// How much finer the reference is than the field step.
-const FINER: f64 = 128.0;
-/// First scene used here; the estimate's margin was fitted on scenes 30,000 to 30,599.
+/// First scene of each regime used here; margins were fitted on scenes 1,000 to 1,059 and 2,000 to 2,059.
 const FIRST: u64 = 10_000;
-
-const PLAN: &str = r#"
-shelter = { layout = "grid", rows = 1, columns = 1, spacing_m = 1 }
-tire = { mass_kg = 1 }
-cable = { axial_stiffness_kn = 1, breaking_force_kn = 1 }
-ground = { friction = 0 }
-blast_row = [{ name = "1", under_row = 1, launch_m_s = 1 }]
-limits = { flight_height_m = 1, cable_safety_factor = 1 }
-delay = [{ name = "1", interval_ms = 0 }]
-"#;
-
-struct Tried {
-    reported: [f64; 2],
-    truth: [f64; 2],
-    verdict: Verdict,
-    right: Verdict,
-    steps: f64,
-    steps_at_finest: f64,
-}
+/// Limits drawn for each scene.
+const LIMITS: usize = 4;
 
 fn main() {
-    let count = std::env::args().filter_map(|argument| argument.parse().ok()).next().unwrap_or(300_u64);
-    for accuracy in [Accuracy::Draft, Accuracy::Field] {
-        let tried: Vec<Tried> =
-            (FIRST..FIRST + count).into_par_iter().map(|n| compare(n, accuracy)).collect();
-        println!("\n{accuracy:?}: {count} random scenes, truth at 1/{FINER} of the field step\n");
-        println!("| | within the reported error | median true error | median reported | reported / true |");
-        println!("|---|---|---|---|---|");
-        for (quantity, name) in ["height", "force"].into_iter().enumerate() {
-            let within = tried.iter().filter(|t| t.truth[quantity] <= t.reported[quantity]).count();
-            let truth = median(tried.iter().map(|t| t.truth[quantity]));
-            let reported = median(tried.iter().map(|t| t.reported[quantity]));
+    let count = std::env::args().filter_map(|argument| argument.parse().ok()).next().unwrap_or(40_u64);
+    let scenes: Vec<(Regime, u64)> =
+        Regime::ALL.iter().flat_map(|&regime| (FIRST..FIRST + count).map(move |n| (regime, n))).collect();
+    for &accuracy in Accuracy::ALL {
+        let all: Vec<Compared> =
+            scenes.par_iter().map(|&(regime, n)| compare(regime, n, accuracy, LIMITS)).collect();
+        println!("\n{}: {} scenes\n", accuracy.name(), all.len());
+        println!("| regime | height | force | drift |");
+        println!("|---|---|---|---|");
+        let percents = |of: &dyn Fn(usize) -> f64| [0, 1, 2].map(|q| format!("{:.1} %", of(q))).join(" | ");
+        for regime in Regime::ALL {
+            let own = |q| within(all.iter().filter(|c| c.regime == regime), q);
+            println!("| {regime:?} | {} |", percents(&own));
+        }
+        println!("| all | {} |", percents(&|q| within(all.iter(), q)));
+        println!("\n| | median true error | median reported | reported / true |");
+        println!("|---|---|---|---|");
+        for (q, name) in QUANTITIES.into_iter().enumerate() {
+            let pulled = || all.iter().filter(|c| c.reported[q] > 0.0);
+            let (truth, reported) =
+                (median(pulled().map(|c| c.truth[q])), median(pulled().map(|c| c.reported[q])));
             println!(
-                "| {name} | {:.1} % | {:.4} % | {:.4} % | {:.1} |",
-                100.0 * within as f64 / count as f64,
+                "| {name} | {:.4} % | {:.4} % | {:.1} |",
                 100.0 * truth,
                 100.0 * reported,
                 reported / truth
             );
         }
-        let undecided = tried.iter().filter(|t| t.verdict == Verdict::Undecided).count();
-        let flips = tried.iter().filter(|t| t.verdict != Verdict::Undecided && t.verdict != t.right).count();
-        let (steps, finest): (f64, f64) =
-            tried.iter().fold((0.0, 0.0), |sum, t| (sum.0 + t.steps, sum.1 + t.steps_at_finest));
-        println!("\nlimits 0.01 to 10 % from the true values: {flips} verdicts flip, {undecided} undecided,");
-        println!("{:.1} % of the steps that all runs at the finest step would take", 100.0 * steps / finest);
+        let verdicts: Vec<_> = all.iter().flat_map(|c| &c.verdicts).collect();
+        let open = verdicts.iter().filter(|(found, _)| *found == Verdict::Undecided).count();
+        let flips =
+            verdicts.iter().filter(|(found, right)| *found != Verdict::Undecided && found != right).count();
+        println!(
+            "\n{} limits 0.01 to 10 % from the true values: {flips} verdicts flip, {open} open",
+            verdicts.len()
+        );
+        let sum = |of: fn(&Compared) -> usize| all.iter().map(of).sum::<usize>() as f64;
+        let share = sum(|c| c.steps) / sum(|c| c.steps_at_finest);
+        println!("{:.1} % of the steps that single runs at the step of the truth take", 100.0 * share);
     }
-}
-
-/// Errors are relative to the true value; limits are drawn near it.
-fn compare(n: u64, accuracy: Accuracy) -> Tried {
-    let (scene, shot) = scenes::scene(n);
-    let plan = Plan::parse("", PLAN).unwrap_or_else(|mistakes| panic!("{mistakes}"));
-    let mut case = Case::new(plan);
-    (case.model, case.shots) = (Model::new(scene), vec![shot]);
-    let at_level = |accuracy| ComputeSettings { method: Method::Verlet, accuracy, step: None };
-    let field = at_level(Accuracy::Field).first_step(&case);
-    let settings = Settings { method: Method::Verlet, step: field / FINER, duration: None };
-    let truth: Outcome = case
-        .model
-        .run(&case.shots[0], &settings, &mut |_| ControlFlow::Continue(()))
-        .unwrap_or_else(|failure| panic!("scene {n}: {failure}"));
-    let mut random = scenes::Random(n);
-    let mut near = |value: f64| {
-        let distance = 10_f64.powf(random.between(-4.0, -1.0));
-        value * (1.0 + if random.between(0.0, 1.0) < 0.5 { distance } else { -distance })
-    };
-    let (height, force) = (near(truth.height.value), near(truth.force.value).max(1.0));
-    case.limits = Limits { height, force, drift: None, breaking_force: force };
-    let mut compute = at_level(accuracy);
-    let judge = |compute: &ComputeSettings| {
-        check(&case, 0, compute, &mut |_| ControlFlow::Continue(()))
-            .unwrap_or_else(|failure| panic!("scene {n}: {failure}"))
-    };
-    let judged = judge(&compute);
-    // The errors of the level's own step, before any refinement.
-    compute.step = Some(compute.first_step(&case));
-    let first = judge(&compute);
-    let relative = |value: f64, of: f64| (value / of.max(f64::MIN_POSITIVE)).abs();
-    let (h, f) = (truth.height.value, truth.force.value);
-    let fails = h > height || f > force;
-    Tried {
-        reported: [relative(first.height.error, h), relative(first.force.error, f)],
-        truth: [relative(first.height.value - h, h), relative(first.force.value - f, f)],
-        verdict: judged.verdict,
-        right: if fails { Verdict::Fail } else { Verdict::Pass },
-        steps: judged.total_steps as f64,
-        steps_at_finest: truth.steps as f64 * 64.0 / FINER,
-    }
-}
-
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }

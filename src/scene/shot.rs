@@ -1,5 +1,8 @@
 //! Firings of one shot: which tire is launched when, and how fast.
 
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
 /// Impulse of one hole on one tire.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Firing {
@@ -35,9 +38,60 @@ impl Shot {
         Self { firings, friction: None }
     }
 
+    /// Two shots near this one, to both sides of it: what is greater in one is smaller in the other.
+    ///
+    /// Friction, and for each firing time the time itself and all launch velocities, change by factors of their own, drawn
+    /// between `relative`/2 and `relative` from 1. A shot that is its own image under a reflection stays so. `friction` is that
+    /// of the scene. The same `number` gives the same two shots.
+    pub fn both_sides(&self, friction: f64, relative: f64, number: u64) -> [Self; 2] {
+        [1.0, -1.0].map(|side| {
+            let mut random = ChaCha8Rng::seed_from_u64(number);
+            let mut factor = || {
+                let size = random.random_range(0.5..1.0) * if random.random() { relative } else { -relative };
+                1.0 + side * size
+            };
+            let friction = Some(self.friction.unwrap_or(friction) * factor());
+            let mut firings = self.firings.clone();
+            for volley in firings.chunk_by_mut(|a, b| a.at == b.at) {
+                let (time, launch) = (factor(), factor());
+                for firing in volley {
+                    firing.at *= time;
+                    firing.launch *= launch;
+                }
+            }
+            Self { friction, ..Self::from_firings(firings) }
+        })
+    }
+
     /// Whether the shot is its own image under a reflection; `image` is the image of each tire (`n_tires`).
     pub fn is_mirrored(&self, image: &[usize]) -> bool {
         let reflected = self.firings.iter().map(|f| Firing { tire: image[f.tire], ..*f }).collect();
         Self::from_firings(reflected).firings == self.firings
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shots_to_both_sides_have_the_shot_in_their_middle() {
+        let firings = [(0.0, 0, 6.0), (0.0, 1, 6.0), (0.02, 2, 5.0), (0.02, 3, 5.0)];
+        let shot = Shot::from_firings(firings.map(|(at, tire, launch)| Firing { at, tire, launch }).to_vec());
+        let mut sides = Vec::new();
+        for number in 0..20 {
+            let [more, less] = shot.both_sides(0.5, 1e-3, number);
+            let friction = [more.friction, less.friction].map(|friction| friction.expect("its own friction"));
+            assert!((friction[0] + friction[1] - 1.0).abs() < 1e-15);
+            assert!((friction[0] - 0.5).abs() >= 0.5 * 0.5e-3);
+            for ((more, less), firing) in more.firings.iter().zip(&less.firings).zip(&shot.firings) {
+                assert!((more.at + less.at - 2.0 * firing.at).abs() < 1e-15);
+                assert!((more.launch + less.launch - 2.0 * firing.launch).abs() < 1e-14);
+                assert!((more.launch / firing.launch - 1.0).abs() <= 1e-3);
+            }
+            assert!(more.is_mirrored(&[1, 0, 3, 2]), "a shelter and its image fire alike");
+            sides.push(more.firings[0].launch > 6.0);
+        }
+        assert!(sides.contains(&true) && sides.contains(&false));
     }
 }

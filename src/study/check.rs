@@ -3,14 +3,16 @@
 //! The option is run at a ladder of steps; each step is [`error::RATIO`] times finer than the one before. The finest run
 //! gives the values. The coarser runs give the errors. While the verdict is open, a finer run is added.
 
+use std::cell::{Cell, RefCell};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use super::reason::{Reason, closes, find_reasons, limited};
 use super::{Case, ComputeSettings, error};
+use crate::choice::Accuracy;
 use crate::outcome::{Broken, History, Outcome, Peak, RunEnd};
 use crate::scene::Shot;
-use crate::simulation::Failure;
+use crate::simulation::{Failure, Motion};
 use crate::verdict::{Estimate, Limits, Verdict};
 
 /// A judged delay option.
@@ -119,36 +121,90 @@ pub fn check_shot(
     watch: &mut dyn FnMut(CheckStep) -> ControlFlow<()>,
 ) -> Result<Checked, Failure> {
     let begun = Instant::now();
-    let mut done = 0;
-    let run = |step: f64| {
+    let (done, watch) = (Cell::new(0), RefCell::new(watch));
+    let run = |shot: &Shot, step: f64| {
         let settings = case.settings(compute.method, step);
         let start = Instant::now();
-        let outcome = case
-            .model
-            .run(shot, &settings, &mut |motion| watch(CheckStep { runs: done, time: motion.time() }))?;
-        done += 1;
-        Ok((outcome, start.elapsed()))
+        let look =
+            |motion: &dyn Motion| (watch.borrow_mut())(CheckStep { runs: done.get(), time: motion.time() });
+        let outcome = case.model.run(shot, &settings, &mut { look })?;
+        done.set(done.get() + 1);
+        Ok(Run { outcome, wall: start.elapsed() })
     };
     let mut checked = None;
-    climb(compute.first_step(case), compute.step.is_some(), run, |runs| {
-        let judged = judge(case, shot, compute, runs, begun.elapsed());
-        let sure = judged.is_sure(&case.limits);
-        checked = Some(judged);
-        sure
-    })?;
+    climb(
+        compute.first_step(case),
+        compute.step.is_some(),
+        |step| run(shot, step),
+        |runs, last| {
+            let mut judged = judge(case, shot, compute, runs, &[]);
+            if last || judged.is_sure(&case.limits) {
+                let pairs = nearby(case, shot, compute, coarsest(runs).outcome.step, run)?;
+                judged = judge(case, shot, compute, runs, &pairs);
+            }
+            judged.total_wall = begun.elapsed();
+            let sure = judged.is_sure(&case.limits);
+            checked = Some(judged);
+            Ok(sure)
+        },
+    )?;
     checked.ok_or(Failure::Stopped { at: 0.0 })
+}
+
+/// A finished run and its computing time.
+struct Run {
+    outcome: Outcome,
+    wall: Duration,
+}
+
+/// The runs that give the errors of the last of `runs`.
+fn neighbours(runs: &[Run]) -> &[Run] {
+    let last = runs.len() - 1;
+    &runs[last.saturating_sub(error::NEIGHBOURS)..last]
+}
+
+/// The coarsest of the neighbours of the last run.
+fn coarsest(runs: &[Run]) -> &Run {
+    &neighbours(runs)[0]
+}
+
+/// Change of inputs of nearby shots at the step of the field level and above. At finer steps it falls with the square of the
+/// step, as the error does.
+const NEARBY: f64 = 1e-3;
+
+/// Pairs of runs of nearby shots at `step` [s]; without the pairs of which a run fails.
+fn nearby(
+    case: &Case,
+    shot: &Shot,
+    compute: &ComputeSettings,
+    step: f64,
+    run: impl Fn(&Shot, f64) -> Result<Run, Failure>,
+) -> Result<Vec<[Run; 2]>, Failure> {
+    let field = ComputeSettings { accuracy: Accuracy::Field, step: None, ..*compute }.first_step(case);
+    let finer = step / (field * error::RATIO.powi(error::NEIGHBOURS as i32));
+    let relative = NEARBY * finer.powi(2).min(1.0);
+    let mut pairs = Vec::new();
+    for number in 0..error::PAIRS {
+        let [more, less] = shot.both_sides(case.scene().friction, relative, number);
+        match run(&more, step).and_then(|more| Ok([more, run(&less, step)?])) {
+            Ok(pair) => pairs.push(pair),
+            Err(stopped @ Failure::Stopped { .. }) => return Err(stopped),
+            Err(_) => {}
+        }
+    }
+    Ok(pairs)
 }
 
 /// Runs a ladder of steps, the coarsest first: the coarser neighbours of `first`, then `first`, then finer steps.
 ///
-/// After each run with at least one neighbour, `is_sure` gets all runs so far, the run that gives the values last. The
-/// ladder ends when `is_sure` returns true. Where `fixed`, the ladder ends at `first`; if every coarser neighbour failed,
+/// After each run with at least one neighbour, `is_sure` gets all runs so far, the run that gives the values last, and whether
+/// no finer run can follow. The ladder ends when `is_sure` returns true. Where `fixed`, the ladder ends at `first`; if every coarser neighbour failed,
 /// one finer run gives the error, and the values stay at `first`. No step is run twice.
 fn climb<R>(
     first: f64,
     fixed: bool,
     mut run: impl FnMut(f64) -> Result<R, Failure>,
-    mut is_sure: impl FnMut(&[R]) -> bool,
+    mut is_sure: impl FnMut(&[R], bool) -> Result<bool, Failure>,
 ) -> Result<(), Failure> {
     let rung = |n: i32| first * error::RATIO.powi(n);
     let mut runs = Vec::new();
@@ -166,32 +222,31 @@ fn climb<R>(
             runs.insert(0, run(rung(-1))?);
         }
         // A single run has no error: its neighbour is the next finer run.
-        if runs.len() >= 2 && (is_sure(&runs) || fixed) {
+        let last = fixed || finer == FINEST;
+        if runs.len() >= 2 && (is_sure(&runs, last)? || last) {
             break;
         }
     }
     Ok(())
 }
 
-/// Judges a shot by a ladder of runs; the last run gives the values.
-fn judge(
-    case: &Case,
-    shot: &Shot,
-    compute: &ComputeSettings,
-    runs: &[(Outcome, Duration)],
-    total_wall: Duration,
-) -> Checked {
-    let count = runs.len();
-    let (last, before) = (&runs[count - 1], &runs[count.saturating_sub(1 + error::NEIGHBOURS)..count - 1]);
+/// Judges a shot by a ladder of runs, of which the last gives the values, and by `pairs` of nearby shots at the step of the
+/// coarsest neighbour.
+fn judge(case: &Case, shot: &Shot, compute: &ComputeSettings, runs: &[Run], pairs: &[[Run; 2]]) -> Checked {
+    let last = &runs[runs.len() - 1];
     let estimate = |of: fn(&Outcome) -> Peak| {
-        let Peak { value, at, index } = of(&last.0);
-        let near = before.iter().map(|(outcome, _)| (outcome.step, of(outcome).value));
-        Estimate { value, error: error::estimate(last.0.step, value, near), at, index }
+        let Peak { value, at, index } = of(&last.outcome);
+        let near = neighbours(runs).iter().map(|run| (run.outcome.step, of(&run.outcome).value));
+        let error = error::estimate(last.outcome.step, value, near);
+        let between = of(&coarsest(runs).outcome).value;
+        let pairs = pairs.iter().map(|pair| pair.each_ref().map(|run| of(&run.outcome).value));
+        Estimate { value, error: error::widened(error, between, pairs), at, index }
     };
     let height = estimate(|outcome| outcome.height);
     let force = estimate(|outcome| outcome.force);
     let drift = estimate(|outcome| outcome.drift);
-    let reasons = find_reasons(case, shot, &last.0, [height, force, drift]);
+    let outcome = &last.outcome;
+    let reasons = find_reasons(case, shot, outcome, [height, force, drift]);
     Checked {
         verdict: Verdict::worst(reasons.iter().map(Reason::verdict)),
         reasons,
@@ -199,17 +254,17 @@ fn judge(
         force,
         drift,
         safety_factor: case.limits.breaking_force / force.value,
-        broken: last.0.broken.clone(),
-        history: last.0.history.clone(),
+        broken: outcome.broken.clone(),
+        history: outcome.history.clone(),
         compute: *compute,
-        step: last.0.step,
-        steps: last.0.steps,
-        energy_residual: last.0.ledger.residual(),
-        end: last.0.end,
-        wall: last.1,
-        total_wall,
-        runs: count,
-        total_steps: runs.iter().map(|(outcome, _)| outcome.steps).sum(),
+        step: outcome.step,
+        steps: outcome.steps,
+        energy_residual: outcome.ledger.residual(),
+        end: outcome.end,
+        wall: last.wall,
+        total_wall: Duration::ZERO,
+        runs: runs.len() + 2 * pairs.len(),
+        total_steps: runs.iter().chain(pairs.iter().flatten()).map(|run| run.outcome.steps).sum(),
     }
 }
 
@@ -226,9 +281,9 @@ mod tests {
             let failure = Failure::Unsettled { what: Iteration::ContactRegion, at: 0.0 };
             if step > coarsest { Err(failure) } else { Ok(step) }
         };
-        let is_sure = |runs: &[f64]| {
+        let is_sure = |runs: &[f64], _: bool| {
             values = runs[runs.len() - 1];
-            values <= sure_at
+            Ok(values <= sure_at)
         };
         climb(1.0, fixed, run, is_sure).expect("fine steps work");
         (asked, values)

@@ -1,54 +1,32 @@
 //! Are the reported errors right? A small version of `cargo bench --bench calibration`.
 
-#[path = "../../benches/calibration/scenes.rs"]
-mod scenes;
+#[path = "../../benches/calibration/compare.rs"]
+#[allow(dead_code)]
+mod compare;
+#[path = "../../benches/calibration/regimes.rs"]
+mod regimes;
 
 use std::ops::ControlFlow;
 
-use shelter::choice::{Accuracy, Method};
-use shelter::simulation::{Model, Settings};
-use shelter::study::error::{NEIGHBOURS, RATIO, estimate};
+use shelter::choice::Accuracy;
+use shelter::study::error::{NEIGHBOURS, PAIRS};
 
+use self::compare::{compare, median, within};
+use self::regimes::Regime;
 use super::support::shipped;
 
-/// 160 random scenes, smooth and hard, against a step 64 times finer: the true error is within the reported one in 19 of 20,
-/// and the reported one is at most 5 times too wide in the median. The scenes are fixed, so the outcome is.
+/// 140 random scenes of 14 regimes, against a step 64 times finer: the true error is within the reported one in 19 of 20, and
+/// the reported one is at most 6 times too wide in the median. The scenes are fixed, so the outcome is.
 #[test]
 fn reported_errors_hold_and_are_not_too_wide() {
-    let mut within = [0; 2];
-    let mut errors: [Vec<(f64, f64)>; 2] = Default::default();
-    const SCENES: u64 = 160;
-    for n in 0..SCENES {
-        let (scene, shot) = scenes::scene(20_000 + n);
-        let model = Model::new(scene);
-        let step = (0.1 * model.scene().critical_step()).min(1e-3);
-        let run = |step: f64| {
-            let settings = Settings { method: Method::Verlet, step, duration: None };
-            let out = model.run(&shot, &settings, &mut |_| ControlFlow::Continue(()));
-            let out = out.expect("the run has an outcome");
-            [out.height.value, out.force.value]
-        };
-        let (value, truth) = (run(step), run(step / 64.0));
-        let near: Vec<_> =
-            (1..=NEIGHBOURS as i32).map(|n| RATIO.powi(n) * step).map(|s| (s, run(s))).collect();
-        for quantity in 0..2 {
-            let neighbours = near.iter().map(|(step, value)| (*step, value[quantity]));
-            let reported = estimate(step, value[quantity], neighbours);
-            let error = (value[quantity] - truth[quantity]).abs();
-            within[quantity] += usize::from(error <= reported);
-            let scale = truth[quantity].max(f64::MIN_POSITIVE);
-            errors[quantity].push((reported / scale, error / scale));
-        }
-    }
-    for quantity in 0..2 {
-        assert!(within[quantity] * 20 >= SCENES as usize * 19, "{} of {SCENES} hold", within[quantity]);
-        let median = |of: fn(&(f64, f64)) -> f64| {
-            let mut all: Vec<f64> = errors[quantity].iter().map(of).collect();
-            all.sort_by(f64::total_cmp);
-            all[all.len() / 2]
-        };
-        let ratio = median(|e| e.0) / median(|e| e.1);
-        assert!(ratio <= 5.0, "{ratio} times too wide");
+    let scenes = Regime::ALL.iter().flat_map(|&regime| (20_000..20_010).map(move |n| (regime, n)));
+    let all: Vec<_> = scenes.map(|(regime, n)| compare(regime, n, Accuracy::Field, 1)).collect();
+    for quantity in 0..3 {
+        let hold = within(all.iter(), quantity);
+        assert!(hold >= 95.0, "{hold} % of {}", compare::QUANTITIES[quantity]);
+        let ratio =
+            median(all.iter().map(|c| c.reported[quantity])) / median(all.iter().map(|c| c.truth[quantity]));
+        assert!(ratio <= 6.0, "{ratio} times too wide");
     }
 }
 
@@ -67,7 +45,7 @@ fn only_open_verdicts_cost_more() {
         check(&case, 4, &compute, &mut |_| ControlFlow::Continue(())).expect("the run has an outcome")
     };
     let far = judge(3.0);
-    assert_eq!(far.runs, 1 + NEIGHBOURS);
+    assert_eq!(far.runs, 1 + NEIGHBOURS + 2 * PAIRS as usize);
     let near = judge(far.height.value * (1.0 + 1e-6));
     assert!(near.runs > far.runs, "{} runs", near.runs);
     assert!(near.height.error < far.height.error);

@@ -76,7 +76,8 @@ fn a_run_that_loses_energy_is_no_pass() {
     let path = folder.path().join("plan.toml");
     let text = std::fs::read_to_string(shipped("paper-5-tire.toml")).expect("a plan");
     let text = text.replace("breaking_force_kn = 20.4", "breaking_force_kn = 1e6");
-    std::fs::write(&path, text.replace("mass_kg = 280", "mass_kg = 280\nouter_diameter_m = 0.9999")).expect("written");
+    std::fs::write(&path, text.replace("mass_kg = 280", "mass_kg = 280\nouter_diameter_m = 0.9999"))
+        .expect("written");
     let mut gated = 0;
     for step in ["1e-4", "5e-5", "2e-5", "1e-5", "5e-6", "2e-6"] {
         let output = shelter(&["check", path.to_str().expect("UTF-8"), "--dt", step, "--format", "json"]);
