@@ -27,7 +27,7 @@ impl MeasuredRow<'_> {
     }
 }
 
-fn fields<'a>() -> [Field<MeasuredRow<'a>>; 11] {
+fn fields<'a>() -> [Field<MeasuredRow<'a>>; 13] {
     let number = |key, heading| Column::numbers(key, heading, Unit::One);
     [
         Field::new(Column::words(&["method"], "method"), |row| Cell::Text(row.row.method.name().to_owned())),
@@ -40,11 +40,17 @@ fn fields<'a>() -> [Field<MeasuredRow<'a>>; 11] {
         Field::new(Column::numbers(&["cable_force_n"], "force", Unit::Kilonewton), |row| {
             row.of(|m| Cell::Value(m.force, Unit::Kilonewton))
         }),
+        Field::new(Column::numbers(&["drift_m"], "drift", Unit::Metre), |row| {
+            row.of(|m| Cell::Value(m.drift, Unit::Metre))
+        }),
         Field::new(number(&["height_error"], "height error"), |row| {
             row.of(|m| Cell::RelativeError(m.height_error))
         }),
         Field::new(number(&["force_error"], "force error"), |row| {
             row.of(|m| Cell::RelativeError(m.force_error))
+        }),
+        Field::new(number(&["drift_error"], "drift error"), |row| {
+            row.of(|m| Cell::RelativeError(m.drift_error))
         }),
         Field::new(number(&["energy_residual"], "residual"), |row| {
             row.of(|m| Cell::Residual(m.energy_residual))

@@ -32,10 +32,14 @@ pub struct Measured {
     pub height: f64,
     /// Greatest cable force [N].
     pub force: f64,
+    /// Greatest drift at the end [m].
+    pub drift: f64,
     /// |height − reference| / reference.
     pub height_error: f64,
     /// |force − reference| / reference.
     pub force_error: f64,
+    /// |drift − reference| / reference.
+    pub drift_error: f64,
     /// Ledger residual over the energy put in.
     pub energy_residual: f64,
     /// Least computing time of a few runs.
@@ -164,8 +168,10 @@ fn compared(outcome: &Outcome, wall: Duration, reference: Option<&(Outcome, Dura
         steps: outcome.steps,
         height: outcome.height.value,
         force: outcome.force.value,
+        drift: outcome.drift.value,
         height_error: error(outcome.height.value, |o| o.height.value),
         force_error: error(outcome.force.value, |o| o.force.value),
+        drift_error: error(outcome.drift.value, |o| o.drift.value),
         energy_residual: outcome.ledger.residual(),
         wall,
     }

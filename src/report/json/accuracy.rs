@@ -26,8 +26,10 @@ struct StepResult {
     stable: bool,
     flight_height_m: Option<f64>,
     cable_force_n: Option<f64>,
+    drift_m: Option<f64>,
     height_error: Option<f64>,
     force_error: Option<f64>,
+    drift_error: Option<f64>,
     energy_residual: Option<f64>,
     wall_s: Option<f64>,
 }
@@ -55,8 +57,10 @@ impl StepResult {
             stable: result.is_some(),
             flight_height_m: result.map(|m| m.height),
             cable_force_n: result.map(|m| m.force),
+            drift_m: result.map(|m| m.drift),
             height_error: result.map(|m| m.height_error),
             force_error: result.map(|m| m.force_error),
+            drift_error: result.map(|m| m.drift_error),
             energy_residual: result.map(|m| m.energy_residual),
             wall_s: result.map(|m| m.wall.as_secs_f64()),
         }

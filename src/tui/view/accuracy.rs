@@ -66,15 +66,15 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
 fn levels<'l>(app: &App, study: &AccuracyTable) -> Vec<Line<'l>> {
     let [finer, coarser] = [Action::Finer, Action::Coarser].map(|action| app.keymap.hint(action));
     let head = format!(
-        "  {:10} {:>10} {:>11} {:>11} {:>11}  {finer} and {coarser} choose",
-        "level", "first step", "height", "force", "one run"
+        "  {:9} {:>9} {:>10} {:>10} {:>10} {:>8} {finer} and {coarser} choose",
+        "level", "1st step", "height err", "force err", "drift err", "one run"
     );
     let mut lines = vec![Line::styled(head, app.theme.quiet())];
     let base = measured(study, study.levels[0].1);
     for (level, step) in study.levels {
         let chosen = level == app.compute.accuracy && app.compute.step.is_none();
         let start = format!(
-            "{} {:10} {:>10} ",
+            "{} {:9} {:>9} ",
             if chosen { ">" } else { " " },
             level.name(),
             units::milliseconds(step)
@@ -96,12 +96,13 @@ fn costs(m: Measured, base: Option<Measured>) -> String {
     let percent = |error: f64| format!("{:.4} %", error * 100.0);
     let wall = m.wall.as_secs_f64();
     let times = base.map_or_else(String::new, |base| {
-        format!("  {:.1} times draft", wall / base.wall.as_secs_f64().max(f64::MIN_POSITIVE))
+        format!(" {:.1} times draft", wall / base.wall.as_secs_f64().max(f64::MIN_POSITIVE))
     });
     format!(
-        "{:>11} {:>11} {:>11}{times}",
+        "{:>10} {:>10} {:>10} {:>8}{times}",
         percent(m.height_error),
         percent(m.force_error),
+        percent(m.drift_error),
         units::milliseconds(wall)
     )
 }
