@@ -74,12 +74,6 @@ pub fn compare(regime: Regime, n: u64, accuracy: Accuracy, limits: usize) -> Com
         case.limits = Limits { height, force, drift: None, breaking_force: force };
         let judged = judge(&case, &at_level(accuracy));
         let right = if exact[0] > height || exact[1] > force { Verdict::Fail } else { Verdict::Pass };
-        if judged.verdict != Verdict::Undecided && judged.verdict != right {
-            eprintln!(
-                "{regime:?} {n} {accuracy:?} {:?} h {:?} lim {height} true {} f {:?} lim {force} true {} step {} runs {}",
-                judged.verdict, judged.height, exact[0], judged.force, exact[1], judged.step, judged.runs
-            );
-        }
         verdicts.push((judged.verdict, right));
         steps += judged.total_steps;
     }

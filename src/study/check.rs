@@ -66,9 +66,9 @@ pub struct CheckStep {
 /// Greatest number of steps below the first: the finest step is 64 times finer.
 const FINEST: i32 = 12;
 
-/// Factor on the error with which a verdict must still stand. The error itself holds in about 19 of 20 runs; a verdict
-/// should hold in more.
-const SURE: f64 = 2.0;
+/// Factor on the error with which a verdict must still stand. The error itself holds in 19 of 20 runs; a verdict must hold
+/// in more: with a factor of 2, 4 of 4,480 limits near true values were passed or failed wrongly.
+const SURE: f64 = 3.0;
 
 impl Checked {
     /// Whether the verdict of the limits would stand with errors [`SURE`] times larger, and the energy balance closes for a pass.

@@ -172,7 +172,9 @@ impl<'a> Stepper<'a> {
             let energy = firing.launch * (*velocity + 0.5 * firing.launch);
             *velocity += firing.launch;
             self.record.ledger.put_in += self.scene.mass[firing.tire] * energy;
-            self.region.ground[firing.tire] = Ground::Free;
+            if firing.launch != 0.0 {
+                self.region.ground[firing.tire] = Ground::Free;
+            }
             self.wake.set_moving(firing.tire, true);
             self.clock.fired += 1;
         }
