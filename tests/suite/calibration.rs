@@ -16,7 +16,7 @@ use self::regimes::Regime;
 use super::support::shipped;
 
 /// 140 random scenes of 14 regimes, against a step 64 times finer: the true error is within the reported one in 19 of 20, and
-/// the reported one is at most 6 times too wide in the median. The scenes are fixed, so the outcome is.
+/// the reported one is at most 8 times too wide in the median. The scenes are fixed, so the outcome is.
 #[test]
 fn reported_errors_hold_and_are_not_too_wide() {
     let scenes = Regime::ALL.iter().flat_map(|&regime| (20_000..20_010).map(move |n| (regime, n)));
@@ -26,7 +26,7 @@ fn reported_errors_hold_and_are_not_too_wide() {
         assert!(hold >= 95.0, "{hold} % of {}", compare::QUANTITIES[quantity]);
         let ratio =
             median(all.iter().map(|c| c.reported[quantity])) / median(all.iter().map(|c| c.truth[quantity]));
-        assert!(ratio <= 6.0, "{ratio} times too wide");
+        assert!(ratio <= 8.0, "{ratio} times too wide");
     }
 }
 
