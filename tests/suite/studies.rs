@@ -231,7 +231,9 @@ fn the_lightest_shelter_is_that_of_brute_force() {
     let size_keys = "size = { tire_mass_kg = [150, 400], ropes = \"FAMILY\", most_border_rows = 1 }";
     let family = catalogue().families()[0];
     let more = size_keys.replace("FAMILY", family) + "\ncable = { rope = \"GOST 2688-80 6.2\" }";
-    let plan = plan(2, &more);
+    let mut plan = plan(2, &more);
+    // So that the thinnest rope holds as planned, and not with inputs changed a little.
+    plan.limits.cable_safety_factor = 2.6;
     let compute = ComputeSettings::of(&plan);
     let sizing = size(&plan, &Demand::Options, &compute, &Progress::default()).expect("a result").value;
     let (mut lightest, mut fragile) = (f64::INFINITY, 0);
