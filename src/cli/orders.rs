@@ -12,7 +12,7 @@ use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::report::notes;
 use crate::study::merge::{Findings, Question};
-use crate::study::orders::{MOST_ROWS, count, is_complete, orders};
+use crate::study::orders::{MOST_ROWS, count, orders, tries_all};
 use crate::study::{Found, Intervals, Shard};
 
 #[derive(Args)]
@@ -41,12 +41,12 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if arguments.interval.is_none() {
         notes::orders(&case).iter().for_each(|note| eprintln!("{note}"));
     }
-    if arguments.shard.is_some() && !is_complete(&case) {
+    if arguments.shard.is_some() && !tries_all(&case) {
         return wrong(&format!(
             "orders of more than {MOST_ROWS} rows are searched, not shared: leave out --shard"
         ));
     }
-    if is_complete(&case) && count(&case, intervals_s.len()) > MOST_ORDERS {
+    if tries_all(&case) && count(&case, intervals_s.len()) > MOST_ORDERS {
         let message = format!(
             "more than {MOST_ORDERS} orders and intervals do not fit into memory: take fewer intervals"
         );

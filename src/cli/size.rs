@@ -16,7 +16,7 @@ use crate::report::json::SizeDocument;
 use crate::report::no_result;
 use crate::report::size::report;
 use crate::ropes::catalogue;
-use crate::study::orders::{MOST_ROWS, is_complete};
+use crate::study::orders::{MOST_ROWS, tries_all};
 use crate::study::size::{Combination, Demand, size};
 use crate::study::{Case, Intervals, NoResult};
 
@@ -112,7 +112,7 @@ fn choose_demand(arguments: &Arguments, case: &Case) -> Result<Demand, String> {
     if !arguments.any_order {
         return Ok(Demand::Options);
     }
-    if !is_complete(case) {
+    if !tries_all(case) {
         return Err(format!("--any-order tries all orders of at most {MOST_ROWS} blast rows"));
     }
     let intervals = arguments.interval.map_or_else(|| case.intervals(), |interval| interval.values());

@@ -103,23 +103,30 @@ fn tried(sizing: &Sizing) -> Vec<String> {
         lines.push(format!(
             "{} not chosen: the plan's own shots pass, but shots with inputs changed by up to {} do not all pass",
             sizing.fragile(),
-            units::percent(CHANGE, 0)
+            change()
         ));
     }
     lines
 }
 
+/// Change of the inputs of nearby shots.
+fn change() -> String {
+    units::percent(CHANGE, 0)
+}
+
 fn conclusion(sizing: &Sizing) -> Conclusion {
-    let out_of_time = sizing.untried(Untried::OutOfTime) > 0;
-    let open = out_of_time || sizing.untried(Untried::Unstable) > 0;
+    let open = sizing.untried(Untried::OutOfTime) > 0 || sizing.untried(Untried::Unstable) > 0;
     let found = sizing.found().and_then(|found| Some((found, found.trial.ok()?)));
     let (verdict, text) = match found {
         // A lighter one may hold among those that are left.
-        Some((found, trial)) if out_of_time => {
+        Some((found, trial)) if open => {
             (Verdict::Undecided, format!("lightest so far {}", sentence(found, &trial)))
         }
         Some((found, trial)) => (Verdict::Pass, format!("lightest {}", sentence(found, &trial))),
         None if open => (Verdict::Undecided, "no combination tried so far holds".to_owned()),
+        None if sizing.fragile() > 0 => {
+            (Verdict::Fail, format!("no combination holds with inputs changed by up to {}", change()))
+        }
         None => (Verdict::Fail, "no combination holds".to_owned()),
     };
     Conclusion { verdict, text }
@@ -134,9 +141,9 @@ pub(super) fn nearest(sizing: &Sizing) -> Option<(&Combination, Trial)> {
 fn sentence(combination: &Combination, trial: &Trial) -> String {
     let nearby = match trial.nearby.map(|nearby| (nearby.failures, nearby.judged)) {
         None | Some((_, 0)) => String::new(),
-        Some((0, judged)) => format!(", and {judged} with inputs changed by up to 1 %"),
+        Some((0, judged)) => format!(", and {judged} with inputs changed by up to {}", change()),
         Some((failures, judged)) => {
-            format!(", but {failures} of {judged} fail with inputs changed by up to 1 %")
+            format!(", but {failures} of {judged} fail with inputs changed by up to {}", change())
         }
     };
     format!(

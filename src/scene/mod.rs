@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 
 pub use build::{fire_at_s, seconds};
 pub use mirror::Mirror;
-pub use nearby::{Symmetry, nearby};
+pub use nearby::nearby;
 pub use shot::{Firing, Shot};
 
 /// The shelter at rest, before any hole fires.

@@ -9,34 +9,19 @@ use super::{Cable, Firing, Scene, Shot};
 /// length of a cable.
 const LENGTH: f64 = 0.1;
 
-/// Whether changed inputs keep the mirror planes of the shelter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Symmetry {
-    /// All masses change by one factor, all launch velocities by another.
-    Kept,
-    /// The mass of every tire and the launch velocity of every hole change by a factor of their own.
-    Broken,
-}
-
 /// Shelter and shot number `number` near `scene` and `shot`. It is the same for any number of threads.
 ///
-/// Masses, launch velocities, axial stiffness and friction change by factors drawn evenly from 1 − `relative` to
-/// 1 + `relative`; the unstretched length of all cables changes by one factor within a tenth of that. A cable that is not
+/// Every mass and every launch velocity, the axial stiffness of all cables, and friction change by factors drawn evenly from
+/// 1 − `relative` to 1 + `relative`; the unstretched length of all cables changes by one factor within a tenth of that. A cable that is not
 /// tight does not become tight. Positions, ties and firing times stay.
-pub fn nearby(scene: &Scene, shot: &Shot, relative: f64, symmetry: Symmetry, number: u64) -> (Scene, Shot) {
+pub fn nearby(scene: &Scene, shot: &Shot, relative: f64, number: u64) -> (Scene, Shot) {
     let mut random = ChaCha8Rng::seed_from_u64(number);
     let mut factor = move |relative: f64| 1.0 + relative * (2.0 * random.random::<f64>() - 1.0);
     let [friction, axial_stiffness] = [factor(relative), factor(relative)];
     let length = factor(LENGTH * relative);
-    let common = [factor(relative), factor(relative)];
-    let mut factors = |common: f64, count: usize| -> Vec<f64> {
-        match symmetry {
-            Symmetry::Kept => vec![common; count],
-            Symmetry::Broken => (0..count).map(|_| factor(relative)).collect(),
-        }
-    };
-    let mass = factors(common[0], scene.mass.len());
-    let launch = factors(common[1], shot.firings.len());
+    let mass = scene.mass.iter().map(|mass| mass * factor(relative)).collect();
+    let launched = |firing: &Firing| Firing { launch: firing.launch * factor(relative), ..*firing };
+    let firings = shot.firings.iter().map(launched).collect();
     let cable = |cable: &Cable| {
         let span = cable.span.norm();
         let rest_length = (cable.rest_length * length).max(span.min(cable.rest_length));
@@ -44,15 +29,12 @@ pub fn nearby(scene: &Scene, shot: &Shot, relative: f64, symmetry: Symmetry, num
         Cable { rest_length, stiffness, ..*cable }
     };
     let near = Scene {
-        mass: scene.mass.iter().zip(mass).map(|(mass, factor)| mass * factor).collect(),
+        mass,
         cables: scene.cables.iter().map(cable).collect(),
         friction: scene.friction * friction,
-        mirrors: if symmetry == Symmetry::Kept { scene.mirrors.clone() } else { Vec::new() },
+        mirrors: Vec::new(),
         ..scene.clone()
     };
-    let firings = shot.firings.iter().zip(launch);
-    let firings =
-        firings.map(|(firing, factor)| Firing { launch: firing.launch * factor, ..*firing }).collect();
     (near, Shot { firings, friction: shot.friction.map(|own| own * friction) })
 }
 
@@ -91,34 +73,29 @@ mod tests {
         let shot = Shot { friction: Some(0.4), ..shot };
         let mut most = [0.0_f64; 5];
         for number in 0..200 {
-            for symmetry in [Symmetry::Kept, Symmetry::Broken] {
-                let (near, fired) = nearby(&scene, &shot, 0.01, symmetry, number);
-                let cables = || near.cables.iter().zip(&scene.cables);
-                let changes: [Vec<f64>; 5] = [
-                    near.mass.iter().zip(&scene.mass).map(|(near, mass)| near / mass).collect(),
-                    fired.firings.iter().zip(&shot.firings).map(|(near, f)| near.launch / f.launch).collect(),
-                    cables()
-                        .map(|(near, c)| near.stiffness * near.rest_length / (c.stiffness * c.rest_length))
-                        .collect(),
-                    vec![near.friction / scene.friction, fired.friction.expect("its own friction") / 0.4],
-                    cables().map(|(near, c)| 1.0 + 10.0 * (near.rest_length / c.rest_length - 1.0)).collect(),
-                ];
-                for (most, changes) in most.iter_mut().zip(&changes) {
-                    *most = changes.iter().fold(*most, |most, change| most.max((change - 1.0).abs()));
-                }
-                let alike = |of: &[f64]| of.iter().all(|change| (change - of[0]).abs() < 1e-12);
-                let all = changes.iter().map(|changes| alike(changes)).collect::<Vec<_>>();
-                let one_by_one = symmetry == Symmetry::Broken;
-                assert_eq!(all, [!one_by_one, !one_by_one, true, true, true]);
-                assert_eq!(near.mirrors.is_empty(), one_by_one);
-                assert_eq!((&near.position, near.gravity), (&scene.position, scene.gravity));
-                assert!(cables().all(|(near, cable)| (near.ends, near.span) == (cable.ends, cable.span)));
-                assert!(
-                    fired.firings.iter().zip(&shot.firings).all(|(n, f)| (n.at, n.tire) == (f.at, f.tire))
-                );
-                let again = nearby(&scene, &shot, 0.01, symmetry, number);
-                assert_eq!((again.0.mass, again.1), (near.mass, fired));
+            let (near, fired) = nearby(&scene, &shot, 0.01, number);
+            let cables = || near.cables.iter().zip(&scene.cables);
+            let changes: [Vec<f64>; 5] = [
+                near.mass.iter().zip(&scene.mass).map(|(near, mass)| near / mass).collect(),
+                fired.firings.iter().zip(&shot.firings).map(|(near, f)| near.launch / f.launch).collect(),
+                cables()
+                    .map(|(near, c)| near.stiffness * near.rest_length / (c.stiffness * c.rest_length))
+                    .collect(),
+                vec![near.friction / scene.friction, fired.friction.expect("its own friction") / 0.4],
+                cables().map(|(near, c)| 1.0 + 10.0 * (near.rest_length / c.rest_length - 1.0)).collect(),
+            ];
+            for (most, changes) in most.iter_mut().zip(&changes) {
+                *most = changes.iter().fold(*most, |most, change| most.max((change - 1.0).abs()));
             }
+            let alike = |of: &[f64]| of.iter().all(|change| (change - of[0]).abs() < 1e-12);
+            let all = changes.iter().map(|changes| alike(changes)).collect::<Vec<_>>();
+            assert_eq!(all, [false, false, true, true, true]);
+            assert!(near.mirrors.is_empty());
+            assert_eq!((&near.position, near.gravity), (&scene.position, scene.gravity));
+            assert!(cables().all(|(near, cable)| (near.ends, near.span) == (cable.ends, cable.span)));
+            assert!(fired.firings.iter().zip(&shot.firings).all(|(n, f)| (n.at, n.tire) == (f.at, f.tire)));
+            let again = nearby(&scene, &shot, 0.01, number);
+            assert_eq!((again.0.mass, again.1), (near.mass, fired));
         }
         assert!(most.iter().all(|most| (0.009..=0.01 + 1e-12).contains(most)), "{most:?}");
     }
@@ -128,7 +105,7 @@ mod tests {
         let (mut scene, shot) = case();
         scene.cables.iter_mut().for_each(|cable| cable.rest_length = cable.span.norm());
         for number in 0..20 {
-            let (near, _) = nearby(&scene, &shot, 0.01, Symmetry::Kept, number);
+            let (near, _) = nearby(&scene, &shot, 0.01, number);
             assert!(near.cables.iter().all(|cable| cable.rest_length >= cable.span.norm()));
         }
     }

@@ -6,6 +6,7 @@ use super::check::check_shot;
 use super::envelope::Envelope;
 use super::{Case, ComputeSettings, NoResult, Progress};
 use crate::scene::Shot;
+use crate::simulation::Failure;
 
 /// `threads` threads to compute on, one per core where 0; they end once the pool is dropped and its work is done.
 pub fn thread_pool(threads: usize) -> Result<rayon::ThreadPool, NoResult> {
@@ -68,23 +69,43 @@ pub fn envelopes<J: Sync>(
     progress: &Progress,
     work: impl Fn(&J) -> Result<Envelope, NoResult> + Sync,
 ) -> Result<Vec<Option<Envelope>>, NoResult> {
-    let done = each(jobs, progress, |job| match work(job) {
-        Err(NoResult::Failed(failure)) => Ok(Err(failure)),
-        result => result.map(Ok),
-    })?;
+    let done = results(jobs, progress, work)?;
     if done.iter().flatten().all(Result::is_err)
         && let Some(Err(failure)) = done.iter().flatten().next()
     {
         return Err(NoResult::Failed(failure.clone()));
     }
-    Ok(done.into_iter().map(|result| result.map(|envelope| envelope.unwrap_or(Envelope::UNKNOWN))).collect())
+    Ok(done.into_iter().map(|result| result.map(known)).collect())
+}
+
+/// Like [`envelopes`], for a part of the jobs of a study: all of them may fail.
+pub fn part_of_envelopes<J: Sync>(
+    jobs: &[J],
+    progress: &Progress,
+    work: impl Fn(&J) -> Result<Envelope, NoResult> + Sync,
+) -> Result<Vec<Option<Envelope>>, NoResult> {
+    Ok(results(jobs, progress, work)?.into_iter().map(|result| result.map(known)).collect())
+}
+
+fn known(result: Result<Envelope, Failure>) -> Envelope {
+    result.unwrap_or(Envelope::UNKNOWN)
+}
+
+fn results<J: Sync>(
+    jobs: &[J],
+    progress: &Progress,
+    work: impl Fn(&J) -> Result<Envelope, NoResult> + Sync,
+) -> Result<Vec<Option<Result<Envelope, Failure>>>, NoResult> {
+    each(jobs, progress, |job| match work(job) {
+        Err(NoResult::Failed(failure)) => Ok(Err(failure)),
+        result => result.map(Ok),
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::no_result::guarded;
     use super::*;
-    use crate::simulation::Failure;
     use crate::verdict::Verdict;
 
     #[test]

@@ -64,7 +64,7 @@ pub struct CheckStep {
 }
 
 /// Greatest number of steps below the first: the finest step is 64 times finer.
-const FINEST: i32 = 12;
+const MOST_REFINEMENTS: i32 = 12;
 
 /// Factor on the error with which a verdict must still stand. The error itself holds in 19 of 20 runs; a verdict must hold
 /// in more: with a factor of 2, 4 of 4,480 limits near true values were passed or failed wrongly.
@@ -121,7 +121,7 @@ pub fn check_shot(
     watch: &mut dyn FnMut(CheckStep) -> ControlFlow<()>,
 ) -> Result<Checked, Failure> {
     let begun = Instant::now();
-    let (done, watch) = (Cell::new(0), RefCell::new(watch));
+    let (done, steps, watch) = (Cell::new(0), Cell::new(0), RefCell::new(watch));
     let run = |shot: &Shot, step: f64| {
         let settings = case.settings(compute.method, step);
         let start = Instant::now();
@@ -129,6 +129,7 @@ pub fn check_shot(
             |motion: &dyn Motion| (watch.borrow_mut())(CheckStep { runs: done.get(), time: motion.time() });
         let outcome = case.model.run(shot, &settings, &mut { look })?;
         done.set(done.get() + 1);
+        steps.set(steps.get() + outcome.steps);
         Ok(Run { outcome, wall: start.elapsed() })
     };
     let mut checked = None;
@@ -137,12 +138,12 @@ pub fn check_shot(
         compute.step.is_some(),
         |step| run(shot, step),
         |runs, last| {
-            let mut judged = judge(case, shot, compute, runs, &[]);
+            let cost = || Cost { runs: done.get(), steps: steps.get(), wall: begun.elapsed() };
+            let mut judged = judge(case, shot, compute, runs, &[], cost());
             if last || judged.is_sure(&case.limits) {
-                let pairs = nearby(case, shot, compute, coarsest(runs).outcome.step, run)?;
-                judged = judge(case, shot, compute, runs, &pairs);
+                let pairs = run_pairs(case, shot, compute, coarsest(runs).outcome.step, run)?;
+                judged = judge(case, shot, compute, runs, &pairs, cost());
             }
-            judged.total_wall = begun.elapsed();
             let sure = judged.is_sure(&case.limits);
             checked = Some(judged);
             Ok(sure)
@@ -154,6 +155,13 @@ pub fn check_shot(
 /// A finished run and its computing time.
 struct Run {
     outcome: Outcome,
+    wall: Duration,
+}
+
+/// What all runs of a check cost so far.
+struct Cost {
+    runs: usize,
+    steps: usize,
     wall: Duration,
 }
 
@@ -170,10 +178,10 @@ fn coarsest(runs: &[Run]) -> &Run {
 
 /// Change of inputs of nearby shots at the step of the field level and above. At finer steps it falls with the square of the
 /// step, as the error does.
-const NEARBY: f64 = 1e-3;
+const PAIR_CHANGE: f64 = 1e-3;
 
 /// Pairs of runs of nearby shots at `step` [s]; without the pairs of which a run fails.
-fn nearby(
+fn run_pairs(
     case: &Case,
     shot: &Shot,
     compute: &ComputeSettings,
@@ -182,7 +190,7 @@ fn nearby(
 ) -> Result<Vec<[Run; 2]>, Failure> {
     let field = ComputeSettings { accuracy: Accuracy::Field, step: None, ..*compute }.first_step(case);
     let finer = step / (field * error::RATIO.powi(error::NEIGHBOURS as i32));
-    let relative = NEARBY * finer.powi(2).min(1.0);
+    let relative = PAIR_CHANGE * finer.powi(2).min(1.0);
     let mut pairs = Vec::new();
     for number in 0..error::PAIRS {
         let [more, less] = shot.both_sides(case.scene().friction, relative, number);
@@ -215,14 +223,14 @@ fn climb<R>(
             Err(stopped) => return Err(stopped),
         }
     }
-    for finer in 0..=FINEST {
+    for finer in 0..=MOST_REFINEMENTS {
         runs.push(run(rung(-finer))?);
         if runs.len() < 2 && fixed {
             // The finer run tells the error; the values stay at the step asked for.
             runs.insert(0, run(rung(-1))?);
         }
         // A single run has no error: its neighbour is the next finer run.
-        let last = fixed || finer == FINEST;
+        let last = fixed || finer == MOST_REFINEMENTS;
         if runs.len() >= 2 && (is_sure(&runs, last)? || last) {
             break;
         }
@@ -232,7 +240,14 @@ fn climb<R>(
 
 /// Judges a shot by a ladder of runs, of which the last gives the values, and by `pairs` of nearby shots at the step of the
 /// coarsest neighbour.
-fn judge(case: &Case, shot: &Shot, compute: &ComputeSettings, runs: &[Run], pairs: &[[Run; 2]]) -> Checked {
+fn judge(
+    case: &Case,
+    shot: &Shot,
+    compute: &ComputeSettings,
+    runs: &[Run],
+    pairs: &[[Run; 2]],
+    cost: Cost,
+) -> Checked {
     let last = &runs[runs.len() - 1];
     let estimate = |of: fn(&Outcome) -> Peak| {
         let Peak { value, at, index } = of(&last.outcome);
@@ -262,9 +277,9 @@ fn judge(case: &Case, shot: &Shot, compute: &ComputeSettings, runs: &[Run], pair
         energy_residual: outcome.ledger.residual(),
         end: outcome.end,
         wall: last.wall,
-        total_wall: Duration::ZERO,
-        runs: runs.len() + 2 * pairs.len(),
-        total_steps: runs.iter().chain(pairs.iter().flatten()).map(|run| run.outcome.steps).sum(),
+        total_wall: cost.wall,
+        runs: cost.runs,
+        total_steps: cost.steps,
     }
 }
 

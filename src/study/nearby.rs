@@ -1,14 +1,14 @@
 //! Whether shots still pass where every input is a little different from the plan.
 
-use super::batch::{envelopes, judge_shot};
+use super::batch::{judge_shot, part_of_envelopes};
 use super::screen::{is_sure, screen};
 use super::{Case, ComputeSettings, NoResult, Progress};
-use crate::scene::{Shot, Symmetry, nearby};
+use crate::scene::{Shot, nearby};
 use crate::simulation::Model;
 use crate::verdict::Verdict;
 
 /// Nearby shots of each shot.
-pub const NEARBY: u64 = 24;
+pub const PER_SHOT: u64 = 24;
 /// Change of the inputs.
 pub const CHANGE: f64 = 0.01;
 /// Number of nearby shots judged together before a failure ends the trial: a fixed number, so that the number of threads
@@ -24,7 +24,7 @@ pub struct Nearby {
     pub failures: usize,
 }
 
-/// Judges [`NEARBY`] shots near each of `shots`, until some do not pass; `None` where the time ran out.
+/// Judges [`PER_SHOT`] shots near each of `shots`, until some do not pass; `None` where the time ran out.
 ///
 /// Inputs change by up to [`CHANGE`], tire by tire and hole by hole.
 pub fn judge_nearby(
@@ -33,11 +33,11 @@ pub fn judge_nearby(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Option<Nearby>, NoResult> {
-    let jobs: Vec<(&Shot, u64)> = itertools::iproduct!(shots, 0..NEARBY).collect();
+    let jobs: Vec<(&Shot, u64)> = itertools::iproduct!(shots, 0..PER_SHOT).collect();
     let mut found = Nearby::default();
     for chunk in jobs.chunks(AT_ONCE) {
-        let judged = envelopes(chunk, progress, |&(shot, number)| {
-            let (scene, shot) = nearby(case.scene(), shot, CHANGE, Symmetry::Broken, number);
+        let judged = part_of_envelopes(chunk, progress, |&(shot, number)| {
+            let (scene, shot) = nearby(case.scene(), shot, CHANGE, number);
             let case = Case { model: Model::new(scene), ..case.clone() };
             let screened =
                 screen(&case, &shot, compute, progress, |envelope, runs| is_sure(&case, envelope, runs))?;

@@ -16,7 +16,7 @@ use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
-use super::batch::{envelopes, judge_shots};
+use super::batch::{judge_shot, part_of_envelopes};
 use super::screen::{is_sure, screen};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard};
 use crate::plan::BlastRow;
@@ -27,10 +27,10 @@ use crate::verdict::Verdict;
 pub const MOST_ROWS: usize = 8;
 /// Greatest number of blast rows at which the screen of every order goes on until its verdict is sure.
 const MOST_SURE_ROWS: usize = 7;
-/// Number of runs of a screen with more rows.
+/// Number of runs of a screen with more rows than [`MOST_SURE_ROWS`].
 const RUNS: usize = 3;
 /// Factor on the error of a screen within which an order may still be the worst or the best.
-const REACH: f64 = 4.0;
+const REACH: f64 = 6.0;
 /// Number of orders refined together: a fixed number, so that the number of threads changes nothing.
 const AT_ONCE: usize = 32;
 /// Number of orders of a search that are improved by exchanges towards the worst, and towards the best.
@@ -63,7 +63,7 @@ pub struct Orders {
 impl Orders {
     /// Ranks the orders that one or many machines tried, at `intervals` intervals.
     pub fn new(case: &Case, mut tried: Vec<Tried>, intervals: usize) -> Self {
-        let complete = is_complete(case) && tried.len() == count(case, intervals);
+        let complete = tries_all(case) && tried.len() == count(case, intervals);
         tried.sort_by(|a, b| {
             utilization(case, b).total_cmp(&utilization(case, a)).then(a.number.cmp(&b.number))
         });
@@ -84,11 +84,11 @@ impl Orders {
 
 /// Number of possible orders, times the number of intervals.
 pub fn count(case: &Case, intervals: usize) -> usize {
-    (1..=case.plan.blast_rows.len()).product::<usize>().saturating_mul(intervals)
+    (1..=case.plan.blast_rows.len()).fold(intervals, usize::saturating_mul)
 }
 
 /// Whether the plan has few enough rows that all orders are tried.
-pub fn is_complete(case: &Case) -> bool {
+pub fn tries_all(case: &Case) -> bool {
     case.plan.blast_rows.len() <= MOST_ROWS
 }
 
@@ -104,8 +104,17 @@ pub fn orders(
         return Err(NoResult::NoInterval);
     }
     let rows = case.plan.blast_rows.len();
-    if !is_complete(case) {
-        return search(case, intervals, compute, progress);
+    // Where no run at all succeeds, the first order tells why.
+    let known = |found: Found<Vec<Tried>>| {
+        if found.value.iter().all(|tried| tried.envelope == Envelope::UNKNOWN) {
+            for tried in found.value.iter().take(1) {
+                judge_shot(case, &case.shot(&tried.order, tried.interval), compute, progress)?;
+            }
+        }
+        Ok(found)
+    };
+    if !tries_all(case) {
+        return search(case, intervals, compute, progress).and_then(known);
     }
     let twin = twin(case);
     let all = intervals
@@ -127,9 +136,9 @@ pub fn orders(
     }
     tried.sort_by_key(|tried| tried.number);
     if found.partial || shard != Shard::WHOLE {
-        return Ok(Found { value: tried, partial: found.partial });
+        return known(Found { value: tried, partial: found.partial });
     }
-    refine(case, tried, compute, progress)
+    refine(case, tried, compute, progress).and_then(known)
 }
 
 type Job = (usize, (Vec<usize>, f64));
@@ -176,19 +185,27 @@ pub fn refine(
 ) -> Finding<Vec<Tried>> {
     let twin = twin(case);
     let mut refined = HashSet::new();
+    let index: HashMap<(u64, Vec<usize>), usize> =
+        tried.iter().enumerate().map(|(n, t)| ((t.interval.to_bits(), t.order.clone()), n)).collect();
+    let image_of = |t: &Tried| index.get(&(t.interval.to_bits(), mirrored(&t.order, &twin))).copied();
+    let images: Vec<Option<usize>> = tried.iter().map(image_of).collect();
     let intervals: Vec<f64> = tried.iter().map(|tried| tried.interval).dedup().collect();
     // Towards the worst, then towards the best.
     for (interval, sign) in itertools::iproduct!(intervals, [1.0, -1.0]) {
         loop {
             let mine = |n: &usize| tried[*n].interval == interval;
-            let known = (0..tried.len()).filter(|n| mine(n) && refined.contains(n));
+            let is_known = |n: &usize| tried[*n].envelope != Envelope::UNKNOWN;
+            let judged = (0..tried.len()).filter(|n| mine(n) && refined.contains(n) && is_known(n));
             let farthest =
-                known.map(|n| sign * utilization(case, &tried[n])).fold(f64::NEG_INFINITY, f64::max);
-            let reach =
-                |n: usize| sign * tried[n].envelope.with_errors(sign * REACH).utilization(&case.limits);
+                judged.map(|n| sign * utilization(case, &tried[n])).fold(f64::NEG_INFINITY, f64::max);
+            // An order whose runs failed may be the worst, and is not the best.
+            let reach = |n: usize| match is_known(&n) {
+                true => sign * tried[n].envelope.with_errors(sign * REACH).utilization(&case.limits),
+                false => sign * f64::INFINITY,
+            };
             let next: Vec<usize> = (0..tried.len())
                 .filter(|n| mine(n) && !refined.contains(n) && reach(*n) > farthest)
-                .filter(|&n| tried[n].order <= mirrored(&tried[n].order, &twin))
+                .filter(|&n| images[n].is_none_or(|image| n <= image))
                 .sorted_by(|&a, &b| reach(b).total_cmp(&reach(a)))
                 .take(AT_ONCE)
                 .collect();
@@ -196,12 +213,11 @@ pub fn refine(
                 break;
             }
             let shots: Vec<Shot> = next.iter().map(|&n| case.shot(&tried[n].order, interval)).collect();
-            for (n, envelope) in next.into_iter().zip(judge_shots(case, &shots, compute, progress)?) {
+            let judged =
+                part_of_envelopes(&shots, progress, |shot| judge_shot(case, shot, compute, progress))?;
+            for (n, envelope) in next.into_iter().zip(judged) {
                 let Some(envelope) = envelope else { return Ok(Found { value: tried, partial: true }) };
-                let image = mirrored(&tried[n].order, &twin);
-                let image =
-                    (0..tried.len()).find(|&m| tried[m].interval == interval && tried[m].order == image);
-                for n in image.into_iter().chain([n]) {
+                for n in images[n].into_iter().chain([n]) {
                     tried[n].envelope = envelope;
                     refined.insert(n);
                 }
@@ -221,7 +237,7 @@ fn screen_orders(
     let enough = |envelope: &Envelope, runs: usize| {
         is_sure(case, envelope, runs) || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= RUNS
     };
-    let envelopes = envelopes(&jobs, progress, |(_, (order, interval))| {
+    let envelopes = part_of_envelopes(&jobs, progress, |(_, (order, interval))| {
         screen(case, &case.shot(order, *interval), compute, progress, enough)
     })?;
     let tried = |((number, (order, interval)), envelope): (Job, Option<Envelope>)| {

@@ -1,9 +1,10 @@
 //! The verdict on a shot that is one of thousands: run at coarse steps first, and no finer than its verdict needs.
 //!
-//! A check begins at the step of the accuracy level and refines until the verdict is sure. A screen begins at the coarsest
-//! step that is stable, refines by [`error::RATIO`] until it has seen enough, and ends at the latest at the step at which
-//! a check begins.
+//! A check begins at the step of the accuracy level and refines until the verdict is sure. A screen begins at 8 times the step
+//! of the field level, refines by [`error::RATIO`] until it has seen enough, and ends at the latest at the step at which a check
+//! begins. Where the step is fixed, or too few of the coarse runs succeed, the shot is checked instead.
 
+use super::batch::judge_shot;
 use super::reason::{Reason, find_reasons};
 use super::{Case, ComputeSettings, Envelope, NoResult, Progress, error};
 use crate::choice::Accuracy;
@@ -12,16 +13,17 @@ use crate::scene::Shot;
 use crate::simulation::Failure;
 use crate::verdict::{Estimate, Verdict};
 
-/// Number of steps above the first step of `field`: the coarsest is 8 times that, 0.8 of the critical step.
+/// Number of steps above the first step of `field`: the coarsest is 8 times that, with `verlet` at most 0.8 of the critical
+/// step.
 const COARSER: i32 = 6;
 /// Factor on the error of a coarse run with which a pass must still stand.
-const SURE_PASS: f64 = 3.0;
+const SURE_PASS: f64 = 4.5;
 /// Least number of runs behind a pass: two may agree by luck.
 const RUNS_OF_PASS: usize = 3;
-/// The same as [`SURE_PASS`] of a fail.
-const SURE_FAIL: f64 = 2.0;
+/// Factor on the error of a coarse run with which a fail must still stand.
+const SURE_FAIL: f64 = 3.0;
 
-/// Judges a shot at ever finer steps until `enough` has seen enough: the last run judged, and the number of runs.
+/// Judges a shot at ever finer steps until `enough`, which gets the last run judged and the number of runs, returns true.
 pub fn screen(
     case: &Case,
     shot: &Shot,
@@ -29,6 +31,9 @@ pub fn screen(
     progress: &Progress,
     enough: impl Fn(&Envelope, usize) -> bool,
 ) -> Result<Envelope, NoResult> {
+    if compute.step.is_some() {
+        return judge_shot(case, shot, compute, progress);
+    }
     let last = compute.first_step(case);
     let field = ComputeSettings { accuracy: Accuracy::Field, step: None, ..*compute };
     let mut step = field.first_step(case) * error::RATIO.powi(COARSER);
@@ -42,7 +47,10 @@ pub fn screen(
             Err(Failure::Step { .. } | Failure::Diverged { .. } | Failure::Unsettled { .. }) if !is_last => {}
             Err(failure) => return Err(progress.no_result(failure)),
         }
-        if runs.len() > 1 || is_last {
+        if is_last && runs.len() < RUNS_OF_PASS {
+            return judge_shot(case, shot, compute, progress);
+        }
+        if runs.len() > 1 {
             let envelope = judge(case, shot, &runs);
             if is_last || enough(&envelope, runs.len()) {
                 return Ok(envelope);

@@ -173,7 +173,11 @@ pub fn size(plan: &Plan, demand: &Demand, compute: &ComputeSettings, progress: &
             } else {
                 Err(Untried::SameStiffnessFails)
             };
-            held = trial.is_ok_and(|trial| trial.holds);
+            // Weaker ropes of the same stiffness fail where this one fails; where it is not stable, they are not either.
+            held = match trial {
+                Ok(trial) => trial.holds,
+                Err(why) => why != Untried::SameStiffnessFails,
+            };
             let combination = Combination { rope, tire_mass, border_rows, tires, total_mass, trial };
             tried.push((combination, hardest));
         }
@@ -248,8 +252,8 @@ fn try_out(
         }
     }
     let trial = trial(case, &judged, judged.iter().all(|envelope| envelope.verdict == Verdict::Pass));
-    let share = |&n: &usize| -judged[n].utilization(&case.limits);
-    let hardest = (0..judged.len()).sorted_by(|a, b| share(a).total_cmp(&share(b)));
+    let utilization = |n: usize| judged[n].utilization(&case.limits);
+    let hardest = (0..judged.len()).sorted_by(|&a, &b| utilization(b).total_cmp(&utilization(a)));
     let most = if *demand == Demand::Options { shots.len() } else { HARDEST };
     Ok(Some((trial, hardest.map(|n| order[n]).take(most).collect())))
 }

@@ -3,7 +3,7 @@
 //! 1. The intervals asked for are tried, and those of the plan's own options.
 //! 2. The interval in the middle of a *gap* between two neighbours is tried, too, where the gap is wider than [`GAP`] and a
 //!    neighbour passes, where only one neighbour passes, or where both pass but the gap is not *calm*. Gaps are halved down
-//!    to [`FINEST`].
+//!    to [`NARROWEST`].
 //! 3. A gap of width w is calm where u + s w ≤ 1. u is the greater upper bound (value + error) of the utilization at its two
 //!    neighbours; s is the steepest change of utilization with the interval in this gap and the one on either side.
 //! 4. A window is a row of passing intervals with calm gaps no wider than [`GAP`]. Its ends are intervals that were tried.
@@ -18,7 +18,7 @@ use super::batch::{envelopes, judge_shot};
 use super::screen::{is_sure, screen};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, Intervals, NoResult, Progress};
 use crate::plan::Timing;
-use crate::scene::{Shot, seconds};
+use crate::scene::seconds;
 use crate::verdict::Verdict;
 
 /// One interval.
@@ -57,7 +57,9 @@ pub struct Recommended {
 /// Greatest distance between neighbouring points inside a window [s].
 pub const GAP: f64 = 0.25e-3;
 /// Gaps as narrow as this are not halved [s].
-const FINEST: f64 = GAP / 8.0;
+const NARROWEST: f64 = GAP / 8.0;
+/// Factor on the errors of two points, with which the limits must be out of reach between them.
+const CALM: f64 = 1.5;
 /// Room that counts for a recommended interval [s]: more than detonators scatter.
 const ENOUGH_ROOM: f64 = 10e-3;
 
@@ -81,7 +83,12 @@ pub fn sweep(
         let jobs: Vec<i64> = next.iter().copied().collect();
         let judged = match envelopes(&jobs, progress, |&at| {
             let shot = case.shot(order, in_seconds(at));
-            judge(case, &shot, compute, exact.contains(&at), progress)
+            match exact.contains(&at) {
+                true => judge_shot(case, &shot, compute, progress),
+                false => {
+                    screen(case, &shot, compute, progress, |envelope, runs| is_sure(case, envelope, runs))
+                }
+            }
         }) {
             // Where every run between points fails, the points stand.
             Err(NoResult::Failed(_)) if !tried.is_empty() => vec![Some(Envelope::UNKNOWN); jobs.len()],
@@ -134,21 +141,6 @@ fn in_seconds(nanoseconds: i64) -> f64 {
     nanoseconds as f64 / 1e9
 }
 
-/// Judges the shot of one interval by a screen; as `check` does where `exactly`, or where the step is fixed.
-fn judge(
-    case: &Case,
-    shot: &Shot,
-    compute: &ComputeSettings,
-    exactly: bool,
-    progress: &Progress,
-) -> Result<Envelope, NoResult> {
-    if exactly || compute.step.is_some() {
-        judge_shot(case, shot, compute, progress)
-    } else {
-        screen(case, shot, compute, progress, |envelope, runs| is_sure(case, envelope, runs))
-    }
-}
-
 fn passes(point: &Point) -> bool {
     point.envelope.verdict == Verdict::Pass
 }
@@ -164,7 +156,7 @@ fn middles(case: &Case, points: &[Point]) -> Vec<i64> {
             1 => true,
             _ => !is_calm(case, points, n),
         };
-        width > 1.01 * FINEST && (wanted || count > 0 && width > 1.01 * GAP)
+        width > 1.01 * NARROWEST && (wanted || count > 0 && width > 1.01 * GAP)
     };
     let middle = |n: usize| (nanoseconds(points[n].interval) + nanoseconds(points[n + 1].interval)) / 2;
     (0..points.len().saturating_sub(1)).filter(halved).map(middle).collect()
@@ -179,8 +171,8 @@ fn is_calm(case: &Case, points: &[Point], n: usize) -> bool {
     let near = &points[n.saturating_sub(1)..points.len().min(n + 3)];
     let steepest = near.windows(2).map(slope).fold(0.0, f64::max);
     let width = points[n + 1].interval - points[n].interval;
-    let greater = upper(case, &points[n]).max(upper(case, &points[n + 1]));
-    greater + steepest * width <= 1.0
+    let highest = |point: &Point| point.envelope.with_errors(CALM).utilization(&case.limits);
+    highest(&points[n]).max(highest(&points[n + 1])) + steepest * width <= 1.0
 }
 
 fn utilization(case: &Case, point: &Point) -> f64 {
@@ -221,15 +213,22 @@ fn recommend(case: &Case, points: &[Point], windows: &[[f64; 2]]) -> Option<Reco
                 let left = low.checked_sub(1).map_or(f64::INFINITY, |n| interval - inside[n].interval);
                 let right = inside.get(high + 1).map_or(f64::INFINITY, |point| point.interval - interval);
                 let room = left.min(right).min(most);
+                // The points at the end of the room count.
+                if left <= room {
+                    low -= 1;
+                    greatest = greatest.max(upper(case, &inside[low]));
+                }
+                if right <= room {
+                    high += 1;
+                    greatest = greatest.max(upper(case, &inside[high]));
+                }
                 let score = room * (1.0 - greatest);
                 if best.is_none_or(|(least, _)| score > least) && score > 0.0 {
                     best = Some((score, Recommended { interval, room, utilization: greatest }));
                 }
-                if left.min(right) > most {
+                if left.min(right) > room {
                     break;
                 }
-                (low, high) = if left <= right { (low - 1, high) } else { (low, high + 1) };
-                greatest = greatest.max(upper(case, &inside[if left <= right { low } else { high }]));
             }
         }
     }

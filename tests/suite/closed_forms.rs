@@ -292,9 +292,8 @@ fn tires_that_slide_round_corners_are_of_second_order() {
         };
         let steps = [8e-4, 4e-4, 2e-4];
         let exact = ends(steps[2] / 32.0);
-        let error = |h: f64| -> f64 {
-            ends(h).iter().zip(&exact).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
-        };
+        let error =
+            |h: f64| -> f64 { ends(h).iter().zip(&exact).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max) };
         let errors = steps.map(error);
         let order = 0.5 * (errors[0] / errors[2]).log2();
         assert!(order > 1.7, "{method:?}: order {order} from {errors:?}");

@@ -6,12 +6,12 @@ use std::ops::ControlFlow;
 use itertools::Itertools;
 use shelter::plan::{DelayScatter, LaunchTargets, Plan, ScatterSpec, Timing};
 use shelter::ropes::catalogue;
-use shelter::scene::{Shot, Symmetry, nearby};
+use shelter::scene::{Shot, nearby};
 use shelter::simulation::Model;
 use shelter::study::check::{check, check_shot};
 use shelter::study::check_all::check_all;
-use shelter::study::nearby::{CHANGE, NEARBY};
-use shelter::study::orders::{Orders, Tried, orders};
+use shelter::study::nearby::{CHANGE, PER_SHOT};
+use shelter::study::orders::{Orders, Tried, orders, refine};
 use shelter::study::scatter::{Sampling, drawn, scatter, summary, swaps};
 use shelter::study::size::{Demand, size};
 use shelter::study::sweep::{GAP, Point, sweep};
@@ -97,7 +97,7 @@ fn a_sweep_is_the_check_of_every_interval() {
     let shown = |point: &Point| format!("{}", point.interval);
     assert!(swept.points.iter().all(|point| shown(point).len() <= "0.000000001".len()));
     let recommended = swept.recommended.expect("a window");
-    let near = |point: &&Point| (point.interval - recommended.interval).abs() < recommended.room;
+    let near = |point: &&Point| (point.interval - recommended.interval).abs() <= recommended.room;
     for point in swept.points.iter().filter(near) {
         assert!(point.envelope.with_errors(1.0).utilization(&case.limits) <= recommended.utilization);
     }
@@ -141,9 +141,8 @@ fn orders_find_the_worst_and_the_best_of_brute_force() {
     }
 }
 
-/// Where the shelter is its own mirror image, an order and its mirrored order have the same result, computed once.
-#[test]
-fn mirrored_orders_are_judged_once() {
+/// Four rows, the last two of which are the mirror images of the first two.
+fn mirrored_case() -> Case {
     let mut plan = plan(4, "");
     let launch = plan.blast_rows[0].targets.clone();
     plan.blast_rows[3].targets = match (launch, &plan.blast_rows[3].targets) {
@@ -158,7 +157,47 @@ fn mirrored_orders_are_judged_once() {
         }
         _ => panic!("rows"),
     };
-    let case = Case::new(plan);
+    Case::new(plan)
+}
+
+/// A search may have tried an order without its mirrored order, and a screen may have failed.
+#[test]
+fn an_order_without_its_mirrored_order_is_refined() {
+    let case = mirrored_case();
+    let order = vec![3, 2, 1, 0];
+    let tried = Tried { number: 0, order: order.clone(), interval: 0.045, envelope: Envelope::UNKNOWN };
+    let compute = ComputeSettings::of(&case.plan);
+    let refined = refine(&case, vec![tried], &compute, &Progress::default()).expect("a result").value;
+    assert_eq!(refined[0].envelope, judged(&case, &order, 0.045));
+}
+
+/// With a fixed step no study chooses steps of its own.
+#[test]
+fn a_fixed_step_is_the_step_of_every_shot() {
+    let case = case(3, "");
+    let compute = ComputeSettings { step: Some(1e-3), ..ComputeSettings::of(&case.plan) };
+    let fixed = |order: &[usize], interval: f64| {
+        let shot = case.shot(order, interval);
+        let checked = check_shot(&case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
+        Envelope::of(&checked.expect("a result"))
+    };
+    let progress = Progress::default();
+    let tried = orders(&case, &[0.045], Shard::WHOLE, &compute, &progress).expect("a result").value;
+    assert_eq!(tried.len(), 6);
+    for tried in tried {
+        assert_eq!(tried.envelope, fixed(&tried.order, tried.interval));
+    }
+    let intervals = Intervals { from: 0.03, to: 0.031, step: 0.001 };
+    let swept = sweep(&case, &[0, 1, 2], &intervals, &compute, &progress).expect("a result").value;
+    for point in swept.points {
+        assert_eq!(point.envelope, fixed(&[0, 1, 2], point.interval));
+    }
+}
+
+/// Where the shelter is its own mirror image, an order and its mirrored order have the same result, computed once.
+#[test]
+fn mirrored_orders_are_judged_once() {
+    let case = mirrored_case();
     let compute = ComputeSettings::of(&case.plan);
     let progress = Progress::default();
     let tried =
@@ -245,7 +284,7 @@ fn the_lightest_shelter_is_that_of_brute_force() {
                 checked.expect("a result").verdict == Verdict::Pass
             };
             let near = |shot: &Shot, number: u64| {
-                let (scene, shot) = nearby(case.scene(), shot, CHANGE, Symmetry::Broken, number);
+                let (scene, shot) = nearby(case.scene(), shot, CHANGE, number);
                 passes(&Case { model: Model::new(scene), ..case.clone() }, &shot)
             };
             let length: f64 = case.scene().cables.iter().map(|cable| cable.rest_length).sum();
@@ -253,7 +292,7 @@ fn the_lightest_shelter_is_that_of_brute_force() {
             if total >= lightest || !case.shots.iter().all(|shot| passes(&case, shot)) {
                 continue;
             }
-            if case.shots.iter().all(|shot| (0..NEARBY).all(|n| near(shot, n))) {
+            if case.shots.iter().all(|shot| (0..PER_SHOT).all(|n| near(shot, n))) {
                 lightest = total;
             } else {
                 fragile += 1;
