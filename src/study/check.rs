@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use super::reason::{Reason, closes, find_reasons, limited};
 use super::{Case, ComputeSettings, error};
 use crate::choice::Accuracy;
-use crate::outcome::{Broken, History, Outcome, Peak, RunEnd};
+use crate::outcome::{Broken, History, Outcome, Peak, RunEnd, slice_at};
 use crate::scene::Shot;
 use crate::simulation::{Failure, Motion};
 use crate::verdict::{Estimate, Limits, Verdict};
@@ -238,6 +238,25 @@ fn climb<R>(
     Ok(())
 }
 
+/// Number of equal parts of a run in which rivals of its greatest value are looked for.
+const SLICES: usize = 32;
+
+/// A greatest value whose error reaches up to its rivals: peaks at other times that are smaller in this run, and that may
+/// be greater within an error of their own.
+fn beside_rivals(runs: &[Run], greatest: Estimate, of: fn(&History) -> &Vec<f64>) -> Estimate {
+    let last = &runs[runs.len() - 1].outcome;
+    let slices = |outcome: &Outcome| outcome.history.slices::<SLICES>(of(&outcome.history), last.end.at);
+    let (own, near) =
+        (slices(last), neighbours(runs).iter().map(|run| (run.outcome.step, slices(&run.outcome))));
+    let near: Vec<_> = near.collect();
+    let top = slice_at::<SLICES>(greatest.at, last.end.at);
+    let reach =
+        |n: usize| own[n] + error::estimate(last.step, own[n], near.iter().map(|(step, v)| (*step, v[n])));
+    let others = (0..SLICES).filter(|n| n.abs_diff(top) > 1);
+    let highest = others.map(reach).fold(0.0, f64::max);
+    Estimate { error: greatest.error.max(highest - greatest.value), ..greatest }
+}
+
 /// Judges a shot by a ladder of runs, of which the last gives the values, and by `pairs` of nearby shots at the step of the
 /// coarsest neighbour.
 fn judge(
@@ -257,8 +276,8 @@ fn judge(
         let pairs = pairs.iter().map(|pair| pair.each_ref().map(|run| of(&run.outcome).value));
         Estimate { value, error: error::widened(error, between, pairs), at, index }
     };
-    let height = estimate(|outcome| outcome.height);
-    let force = estimate(|outcome| outcome.force);
+    let height = beside_rivals(runs, estimate(|outcome| outcome.height), |history| &history.height);
+    let force = beside_rivals(runs, estimate(|outcome| outcome.force), |history| &history.force);
     let drift = estimate(|outcome| outcome.drift);
     let outcome = &last.outcome;
     let reasons = find_reasons(case, shot, outcome, [height, force, drift]);

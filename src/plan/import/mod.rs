@@ -15,6 +15,7 @@ use std::path::Path;
 use self::holes::{Holes, ListedHole};
 use self::timing::{Group, Timed, delays_are_whole, timed};
 use super::Diagnostics;
+use super::diagnostic::Mistake;
 use super::keys::{MOST_TIRES, blast_row, delay, hole};
 use super::source::{Unreadable, read_bytes, text_of};
 use super::starter::{self, LAUNCH_M_S, Shelter, USUAL, header, line, quoted};
@@ -81,7 +82,8 @@ pub fn plan_from_holes(name: &str, text: &str) -> Result<Imported, Diagnostics> 
 }
 
 fn plan(name: &str, source: &str, list: Holes) -> Result<Imported, Diagnostics> {
-    let timed = timed(&list).map_err(|mistakes| Diagnostics::new(name, source, mistakes))?;
+    let timed = launches_are_whole(&list.holes).and_then(|()| timed(&list));
+    let timed = timed.map_err(|mistakes| Diagnostics::new(name, source, mistakes))?;
     let nearest = nearest_distance(&list.holes);
     if nearest < TOO_NEAR_M {
         let message = format!("most holes lie less than {TOO_NEAR_M} m from another");
@@ -102,8 +104,25 @@ fn plan(name: &str, source: &str, list: Holes) -> Result<Imported, Diagnostics> 
     }
     let text = write(name, &layout, &list.holes, &timed.groups);
     let mut notes = vec![summary(&list, &timed)];
+    let launch =
+        if list.holes.iter().all(|hole| hole.launch_m_s.is_none()) { "launch velocities, " } else { "" };
+    notes.push(format!("assumed, put in yours: {launch}tires, rope, slack, friction and limits"));
     notes.extend(list.notes);
     Ok(Imported { text, notes })
+}
+
+/// Launch velocities stand at every hole, or at none.
+fn launches_are_whole(holes: &[ListedHole]) -> Result<(), Vec<Mistake>> {
+    let without: Vec<&ListedHole> = holes.iter().filter(|hole| hole.launch_m_s.is_none()).collect();
+    if without.is_empty() || without.len() == holes.len() {
+        return Ok(());
+    }
+    let mistake = |hole: &&ListedHole| Mistake {
+        span: hole.span.clone(),
+        message: format!("hole {} has no launch velocity", hole.id),
+        remedy: "give every hole one, or none".to_owned(),
+    };
+    Err(without.iter().map(mistake).collect())
 }
 
 /// What was read, in one line: holes, blast rows, first and last firing time, what was left out.
@@ -122,7 +141,13 @@ fn summary(list: &Holes, timed: &Timed) -> String {
             format!("{read}: the list has no rows and no firing times, so all holes fire at once")
         }
         (None, 1) => format!("{read}: all holes are of one row, so all fire at once"),
-        (None, _) => format!("{read}; the list has no firing times: the delay options are assumed"),
+        (None, _) => {
+            let names: Vec<&str> = timed.groups.iter().map(|group| group.name.as_str()).collect();
+            let order = names.join(", ");
+            format!(
+                "{read}, fired in the order of the list: {order}; it has no firing times: the delay options are assumed"
+            )
+        }
     };
     let mut left_out = list.left_out.clone();
     let has_delays = holes.iter().any(|hole| hole.delay_ms.is_some());
