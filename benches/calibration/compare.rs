@@ -9,7 +9,8 @@ use shelter::study::check::{Checked, check};
 use shelter::study::{Case, ComputeSettings};
 use shelter::verdict::{Limits, Verdict};
 
-use super::regimes::{Random, Regime};
+use super::random::Random;
+use super::regimes::Regime;
 
 /// How much finer the truth is than the field level.
 pub const FINER: f64 = 64.0;

@@ -5,6 +5,7 @@
 //! open, and what refining only open verdicts saves.
 
 mod compare;
+mod random;
 mod regimes;
 
 use compare::{Compared, QUANTITIES, compare, median, within};

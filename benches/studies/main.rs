@@ -5,6 +5,9 @@
 //! rim and centre to centre, at three intervals.
 
 mod plans;
+#[allow(dead_code)]
+#[path = "../calibration/random.rs"]
+mod random;
 
 use std::ops::ControlFlow;
 use std::time::Instant;

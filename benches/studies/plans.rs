@@ -4,28 +4,9 @@ use shelter::Plan;
 use shelter::study::sweep::sweep;
 use shelter::study::{Case, ComputeSettings, Intervals, Progress};
 
-/// A small generator with a documented algorithm (SplitMix64), so that plans never change.
-struct Random(u64);
+use super::random::Random;
 
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-
-    fn whole(&mut self, low: usize, high: usize) -> usize {
-        self.between(low as f64, high as f64 + 1.0) as usize
-    }
-}
-
-/// Plan number `n` with `rows` blast rows, or 2 to 4; its limits lie within what 26 intervals reach.
+/// Plan number `n` with `rows` blast rows, or 2 to 4; its limits lie within what 26 intervals and the plan's own reach.
 pub fn case(n: u64, rows: Option<usize>, rim_to_rim: bool) -> Case {
     // Limits that no interval keeps: a sweep tries nothing between.
     let strict = build(n, rows, rim_to_rim, [0.001, 0.01]);

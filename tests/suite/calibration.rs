@@ -3,6 +3,8 @@
 #[path = "../../benches/calibration/compare.rs"]
 #[allow(dead_code)]
 mod compare;
+#[path = "../../benches/calibration/random.rs"]
+mod random;
 #[path = "../../benches/calibration/regimes.rs"]
 mod regimes;
 
