@@ -7,10 +7,11 @@ use std::cell::{Cell, RefCell};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
+use super::ladder::{estimates, nearest};
 use super::reason::{Reason, closes, find_reasons, limited};
 use super::{Case, ComputeSettings, error};
 use crate::choice::Accuracy;
-use crate::outcome::{Broken, History, Outcome, Peak, RunEnd, slice_at};
+use crate::outcome::{Broken, History, Outcome, RunEnd};
 use crate::scene::Shot;
 use crate::simulation::{Failure, Motion};
 use crate::verdict::{Estimate, Limits, Verdict};
@@ -141,7 +142,8 @@ pub fn check_shot(
             let cost = || Cost { runs: done.get(), steps: steps.get(), wall: begun.elapsed() };
             let mut judged = judge(case, shot, compute, runs, &[], cost());
             if last || judged.is_sure(&case.limits) {
-                let pairs = run_pairs(case, shot, compute, coarsest(runs).outcome.step, run)?;
+                let coarsest = &runs[nearest(runs.len()).start];
+                let pairs = run_pairs(case, shot, compute, coarsest.outcome.step, run)?;
                 judged = judge(case, shot, compute, runs, &pairs, cost());
             }
             let sure = judged.is_sure(&case.limits);
@@ -163,17 +165,6 @@ struct Cost {
     runs: usize,
     steps: usize,
     wall: Duration,
-}
-
-/// The runs that give the errors of the last of `runs`.
-fn neighbours(runs: &[Run]) -> &[Run] {
-    let last = runs.len() - 1;
-    &runs[last.saturating_sub(error::NEIGHBOURS)..last]
-}
-
-/// The coarsest of the neighbours of the last run.
-fn coarsest(runs: &[Run]) -> &Run {
-    &neighbours(runs)[0]
 }
 
 /// Change of inputs of nearby shots at the step of the field level and above. At finer steps it falls with the square of the
@@ -206,8 +197,8 @@ fn run_pairs(
 /// Runs a ladder of steps, the coarsest first: the coarser neighbours of `first`, then `first`, then finer steps.
 ///
 /// After each run with at least one neighbour, `is_sure` gets all runs so far, the run that gives the values last, and whether
-/// no finer run can follow. The ladder ends when `is_sure` returns true. Where `fixed`, the ladder ends at `first`; if every coarser neighbour failed,
-/// one finer run gives the error, and the values stay at `first`. No step is run twice.
+/// no finer run can follow. The ladder ends when `is_sure` returns true. Where `fixed`, the ladder ends at `first`; if every
+/// coarser neighbour failed, one finer run gives the error, and the values stay at `first`. No step is run twice.
 fn climb<R>(
     first: f64,
     fixed: bool,
@@ -238,25 +229,6 @@ fn climb<R>(
     Ok(())
 }
 
-/// Number of equal parts of a run in which rivals of its greatest value are looked for.
-const SLICES: usize = 32;
-
-/// A greatest value whose error reaches up to its rivals: peaks at other times that are smaller in this run, and that may
-/// be greater within an error of their own.
-fn beside_rivals(runs: &[Run], greatest: Estimate, of: fn(&History) -> &Vec<f64>) -> Estimate {
-    let last = &runs[runs.len() - 1].outcome;
-    let slices = |outcome: &Outcome| outcome.history.slices::<SLICES>(of(&outcome.history), last.end.at);
-    let (own, near) =
-        (slices(last), neighbours(runs).iter().map(|run| (run.outcome.step, slices(&run.outcome))));
-    let near: Vec<_> = near.collect();
-    let top = slice_at::<SLICES>(greatest.at, last.end.at);
-    let reach =
-        |n: usize| own[n] + error::estimate(last.step, own[n], near.iter().map(|(step, v)| (*step, v[n])));
-    let others = (0..SLICES).filter(|n| n.abs_diff(top) > 1);
-    let highest = others.map(reach).fold(0.0, f64::max);
-    Estimate { error: greatest.error.max(highest - greatest.value), ..greatest }
-}
-
 /// Judges a shot by a ladder of runs, of which the last gives the values, and by `pairs` of nearby shots at the step of the
 /// coarsest neighbour.
 fn judge(
@@ -268,17 +240,10 @@ fn judge(
     cost: Cost,
 ) -> Checked {
     let last = &runs[runs.len() - 1];
-    let estimate = |of: fn(&Outcome) -> Peak| {
-        let Peak { value, at, index } = of(&last.outcome);
-        let near = neighbours(runs).iter().map(|run| (run.outcome.step, of(&run.outcome).value));
-        let error = error::estimate(last.outcome.step, value, near);
-        let between = of(&coarsest(runs).outcome).value;
-        let pairs = pairs.iter().map(|pair| pair.each_ref().map(|run| of(&run.outcome).value));
-        Estimate { value, error: error::widened(error, between, pairs), at, index }
-    };
-    let height = beside_rivals(runs, estimate(|outcome| outcome.height), |history| &history.height);
-    let force = beside_rivals(runs, estimate(|outcome| outcome.force), |history| &history.force);
-    let drift = estimate(|outcome| outcome.drift);
+    let outcomes: Vec<&Outcome> = runs.iter().map(|run| &run.outcome).collect();
+    let pairs: Vec<[&Outcome; 2]> =
+        pairs.iter().map(|pair| pair.each_ref().map(|run| &run.outcome)).collect();
+    let [height, force, drift] = estimates(&outcomes, &pairs);
     let outcome = &last.outcome;
     let reasons = find_reasons(case, shot, outcome, [height, force, drift]);
     Checked {

@@ -14,6 +14,7 @@ mod envelope;
 pub mod error;
 pub mod flight;
 mod found;
+mod ladder;
 pub mod merge;
 pub mod nearby;
 mod no_result;

@@ -5,13 +5,14 @@
 //! begins. Where the step is fixed, or too few of the coarse runs succeed, the shot is checked instead.
 
 use super::batch::judge_shot;
+use super::ladder::estimates;
 use super::reason::{Reason, find_reasons};
 use super::{Case, ComputeSettings, Envelope, NoResult, Progress, error};
 use crate::choice::Accuracy;
-use crate::outcome::{Outcome, Peak};
+use crate::outcome::Outcome;
 use crate::scene::Shot;
 use crate::simulation::Failure;
-use crate::verdict::{Estimate, Verdict};
+use crate::verdict::Verdict;
 
 /// Number of steps above the first step of `field`: the coarsest is 8 times that, with `verlet` at most 0.8 of the critical
 /// step.
@@ -62,19 +63,9 @@ pub fn screen(
 
 /// The last run judged, with the runs before as its neighbours.
 fn judge(case: &Case, shot: &Shot, runs: &[Outcome]) -> Envelope {
-    let (last, before) = (&runs[runs.len() - 1], &runs[..runs.len() - 1]);
-    let before = &before[before.len().saturating_sub(error::NEIGHBOURS)..];
-    let estimate = |of: fn(&Outcome) -> Peak| {
-        let Peak { value, at, index } = of(last);
-        let near = before.iter().map(|outcome| (outcome.step, of(outcome).value));
-        Estimate { value, error: error::estimate(last.step, value, near), at, index }
-    };
-    let estimates = [
-        estimate(|outcome| outcome.height),
-        estimate(|outcome| outcome.force),
-        estimate(|outcome| outcome.drift),
-    ];
-    let reasons = find_reasons(case, shot, last, estimates);
+    let all: Vec<&Outcome> = runs.iter().collect();
+    let estimates = estimates(&all, &[]);
+    let reasons = find_reasons(case, shot, all[all.len() - 1], estimates);
     Envelope::new(Verdict::worst(reasons.iter().map(Reason::verdict)), estimates)
 }
 

@@ -1,0 +1,51 @@
+//! Height, force and drift of a shot with their errors, from runs at a ladder of steps. A check and a screen judge by these.
+
+use std::ops::Range;
+
+use super::error::{NEIGHBOURS, estimate, widened};
+use crate::outcome::{History, Outcome, Peak, slice_at};
+use crate::verdict::Estimate;
+
+/// Number of equal parts of a run in which rivals of its greatest value are looked for.
+const SLICES: usize = 32;
+
+/// Height, force and drift of the last of `runs`. The runs before it, each at a coarser step than the next, and `pairs` of
+/// nearby shots at the step of the coarsest of the [`nearest`] runs give the errors.
+pub fn estimates(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
+    let near = &runs[nearest(runs.len())];
+    let last = runs[runs.len() - 1];
+    let of_peak = |of: fn(&Outcome) -> Peak| {
+        let Peak { value, at, index } = of(last);
+        let error = estimate(last.step, value, near.iter().map(|run| (run.step, of(run).value)));
+        let between = near.first().map_or(value, |coarsest| of(coarsest).value);
+        let pairs = pairs.iter().map(|pair| pair.map(|run| of(run).value));
+        Estimate { value, error: widened(error, between, pairs), at, index }
+    };
+    [
+        beside_rivals(near, last, of_peak(|run| run.height), |history| &history.height),
+        beside_rivals(near, last, of_peak(|run| run.force), |history| &history.force),
+        of_peak(|run| run.drift),
+    ]
+}
+
+/// Which of `count` runs give the errors of the last.
+pub fn nearest(count: usize) -> Range<usize> {
+    count.saturating_sub(1 + NEIGHBOURS)..count - 1
+}
+
+/// A greatest value whose error reaches up to its rivals: peaks at other times that are smaller in this run, and that may
+/// be greater within an error of their own.
+fn beside_rivals(
+    near: &[&Outcome],
+    last: &Outcome,
+    greatest: Estimate,
+    of: fn(&History) -> &Vec<f64>,
+) -> Estimate {
+    let slices = |run: &Outcome| run.history.slices::<SLICES>(of(&run.history), last.end.at);
+    let own = slices(last);
+    let near: Vec<_> = near.iter().map(|run| (run.step, slices(run))).collect();
+    let reach = |n: usize| own[n] + estimate(last.step, own[n], near.iter().map(|(step, v)| (*step, v[n])));
+    let top = slice_at::<SLICES>(greatest.at, last.end.at);
+    let highest = (0..SLICES).filter(|n| n.abs_diff(top) > 1).map(reach).fold(0.0, f64::max);
+    Estimate { error: greatest.error.max(highest - greatest.value), ..greatest }
+}
