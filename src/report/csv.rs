@@ -65,6 +65,7 @@ fn fields<'a>(table: &Table, row: &'a Row) -> Vec<Field<'a>> {
             | Cell::Rounded(number, _)
             | Cell::Value(number, _)
             | Cell::Time(number)
+            | Cell::Interval(number)
             | Cell::Factor(number)
             | Cell::Utilization(number)
             | Cell::RelativeError(number)

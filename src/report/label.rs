@@ -19,6 +19,7 @@ impl Cell {
             Cell::Value(value, unit) => units::computed(*value, *unit),
             Cell::Spread(values, unit) => values.map(|value| units::value(value, *unit)).join(" · "),
             Cell::Time(time) => units::milliseconds(*time),
+            Cell::Interval(time) => units::exact_milliseconds(*time),
             Cell::Factor(factor) => units::factor(*factor),
             Cell::Utilization(share) => units::percent(*share, 0),
             Cell::RelativeError(share) => units::percent(*share, 4),

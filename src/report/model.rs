@@ -220,6 +220,8 @@ pub enum Cell {
     Spread([f64; 3], Unit),
     /// A stretch of time [s].
     Time(f64),
+    /// A firing time or an interval between firings [s], with all its digits: somebody programs it.
+    Interval(f64),
     /// Breaking force over force; infinite where no cable pulls.
     Factor(f64),
     /// Greatest value over its limit.

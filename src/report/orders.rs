@@ -20,7 +20,7 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
     let row = |tried: &Tried| {
         vec![
             Cell::Text(row_names(case, &tried.order).join(" ")),
-            Cell::Time(tried.interval),
+            Cell::Interval(tried.interval),
             Cell::Verdict(tried.envelope.verdict),
             height(tried.envelope.height),
             force(tried.envelope.force),

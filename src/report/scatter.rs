@@ -77,7 +77,7 @@ pub fn swap_warning(case: &Case, swap: &Swap) -> String {
     format!(
         "option {}: {} between rows {first} and {second} is short for the scatter of the detonators; a hole of row {second} fires before one of row {first} with a probability of {}",
         case.plan.delays[swap.option].name,
-        units::milliseconds(swap.interval),
+        units::exact_milliseconds(swap.interval),
         units::percent(swap.probability, 2),
     )
 }

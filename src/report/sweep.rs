@@ -35,7 +35,7 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
     }
     let point = |&Point { interval, envelope }: &Point| {
         vec![
-            Cell::Time(interval),
+            Cell::Interval(interval),
             height(envelope.height),
             force(envelope.force),
             Cell::Verdict(envelope.verdict),
@@ -51,10 +51,13 @@ fn ends(case: &Case, sweep: &Sweep) -> Table {
         let Point { interval, envelope } = *point?;
         let name = Cell::Text(name.to_owned());
         let values = [height(envelope.height), force(envelope.force)];
-        Some([vec![name, Cell::Time(interval), Cell::Verdict(envelope.verdict)], values.into()].concat())
+        Some([vec![name, Cell::Interval(interval), Cell::Verdict(envelope.verdict)], values.into()].concat())
     };
     Table::new(&ENDS, ends.into_iter().filter_map(end))
 }
+
+/// What a window and a recommended interval do not know.
+const EXACTLY: &str = "for exactly the plan's numbers: shots whose firing times and launches scatter may fail; see scatter first";
 
 /// Windows narrower than this are counted, not listed [s].
 const NARROW: f64 = 1e-3;
@@ -92,6 +95,7 @@ fn windows(sweep: &Sweep, partial: bool) -> Vec<String> {
             units::percent((1e3 * utilization).ceil() * 1e-3, 1)
         ));
     }
+    lines.push(EXACTLY.to_owned());
     lines
 }
 

@@ -139,7 +139,7 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
         .blast_rows
         .iter()
         .zip(&times)
-        .map(|(row, &at)| format!("{}: {}", row.name, units::milliseconds(at)))
+        .map(|(row, &at)| format!("{}: {}", row.name, units::exact_milliseconds(at)))
         .collect();
     let title = Line::styled(format!(" {} · {} ", delay.name, fires.join(", ")), theme.title());
     let block = Block::new().borders(Borders::TOP).border_style(theme.quiet()).title(title);
