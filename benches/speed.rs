@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use shelter::choice::Method;
-use shelter::plan::{DelayScatter, Plan, ScatterSpec};
+use shelter::plan::{DelayScatter, Plan, Uncertainty};
 use shelter::simulation::{Model, Settings};
 use shelter::study::Progress;
 use shelter::study::batch::each;
@@ -86,10 +86,11 @@ fn by_method(bencher: Bencher, method: Method) {
 #[divan::bench(args = [(5, 10, 1000), (50, 50, 100)], max_time = 20)]
 fn scattered(bencher: Bencher, (rows, columns, samples): (usize, usize, usize)) {
     let case = case(rows, columns, 3);
-    let spec = ScatterSpec {
+    let spec = Uncertainty {
         delay: DelayScatter { sd_ms: 1.0, cv_percent: 0.0 },
         launch_cv_percent: 5.0,
-        friction: Some([0.4, 0.6]),
+        friction: [0.4, 0.6],
+        ..case.plan.uncertainty
     };
     let shots: Vec<_> = (0..samples).map(|number| drawn(&case.shots[0], &spec, 1, 0, number)).collect();
     let settings = Settings { method: Method::Verlet, step: 2e-3, duration: Some(1.5) };

@@ -257,7 +257,7 @@ impl Job {
                 Ok(StudyResult::Orders(Orders::new(case, tried, intervals.len())))
             }
             StudyKind::Scatter => {
-                let spec = case.plan.scatter.ok_or(NoResult::NoScatter)?;
+                let spec = case.plan.uncertainty;
                 let samples = scatter(case, &spec, &SAMPLING, Shard::WHOLE, compute, progress)?.value;
                 Ok(StudyResult::Scatter(SAMPLING, samples))
             }

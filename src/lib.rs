@@ -59,7 +59,7 @@
 //! # Rules
 //!
 //! - A [`Scene`](scene::Scene) is never changed once built; everything that moves lives in a stepper.
-//! - Plan units become SI where a plan becomes a [`Case`]: scene, shots and limits. Only `[scatter]` keeps the units of its keys
+//! - Plan units become SI where a plan becomes a [`Case`]: scene, shots and limits. Only `[uncertainty]` keeps the units of its keys
 //!   until samples are drawn. SI becomes words in `units`.
 //! - What goes wrong in a run is a value, never a panic and never a pass. Functions that take the index of an option panic where
 //!   there is no such option.

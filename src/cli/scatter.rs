@@ -13,11 +13,11 @@ use super::status::{Status, failed, wrong};
 use crate::report::notes;
 use crate::study::merge::{Findings, Question};
 use crate::study::scatter::scatter;
-use crate::study::{Found, NoResult, Shard};
+use crate::study::{Found, Shard};
 
 #[derive(Args)]
 pub struct Arguments {
-    /// Plan to study, with a section [scatter]; `-` reads standard input
+    /// Plan to study, whose [uncertainty] says what varies; `-` reads standard input
     plan: PathBuf,
     #[command(flatten)]
     sampling: SamplingArguments,
@@ -36,7 +36,7 @@ const MOST_SAMPLES: usize = 20_000_000;
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
-    let Some(spec) = case.plan.scatter else { return failed(&NoResult::NoScatter) };
+    let spec = case.plan.uncertainty;
     notes::scatter(&case).iter().for_each(|note| eprintln!("{note}"));
     let sampling = arguments.sampling.sampling();
     if sampling.samples.saturating_mul(case.shots.len()) > MOST_SAMPLES {

@@ -13,7 +13,6 @@ use super::status::{Status, failed, wrong};
 use crate::file;
 use crate::plan::{Layout, Plan, SizeSpec, edit};
 use crate::report::json::SizeDocument;
-use crate::report::no_result;
 use crate::report::size::report;
 use crate::ropes::catalogue;
 use crate::study::orders::{MOST_ROWS, tries_all};
@@ -103,7 +102,7 @@ fn choose_sizes(arguments: &Arguments, plan: &Plan) -> Result<SizeSpec, String> 
 /// What the shelter must hold.
 fn choose_demand(arguments: &Arguments, case: &Case) -> Result<Demand, String> {
     if arguments.scatter {
-        let spec = case.plan.scatter.ok_or_else(|| no_result::message(&NoResult::NoScatter))?;
+        let spec = case.plan.uncertainty;
         return Ok(Demand::Samples(spec, arguments.sampling.sampling()));
     }
     if arguments.sampling.is_given() {

@@ -35,7 +35,7 @@ const SECTIONS: [&Key; 9] = [
     &plan::GROUND,
     &plan::SHELTER,
     &plan::SIMULATION,
-    &plan::SCATTER,
+    &plan::UNCERTAINTY,
     &plan::BLAST_ROW,
     &plan::DELAY,
 ];

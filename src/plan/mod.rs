@@ -14,16 +14,17 @@ mod read;
 pub mod schema;
 mod source;
 pub mod starter;
+mod uncertainty;
 mod validate;
 
 use std::path::Path;
 
 pub use diagnostic::Diagnostics;
 pub use read::nearest;
-use serde::{Deserialize, Serialize};
 pub use source::PlanSource;
+pub use uncertainty::{DelayScatter, Uncertainty};
 
-use crate::choice::{Accuracy, Detonator, Link, Method, OnOverload};
+use crate::choice::{Accuracy, Link, Method, OnOverload};
 
 /// A blast row, the shelter over it, and the delay options to choose from.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,47 +47,10 @@ pub struct Plan {
     pub delays: Vec<DelayOption>,
     /// Settings of the simulation.
     pub simulation: SimulationSpec,
-    /// Scatter from shot to shot; `None` where the plan has no `[scatter]`.
-    pub scatter: Option<ScatterSpec>,
+    /// What is not known of the shot, and how far.
+    pub uncertainty: Uncertainty,
     /// Choices of `shelter size`.
     pub size: SizeSpec,
-}
-
-/// Scatter from shot to shot.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ScatterSpec {
-    /// Scatter of every detonator.
-    pub delay: DelayScatter,
-    /// Coefficient of variation of the launch velocity, lognormal [%].
-    pub launch_cv_percent: f64,
-    /// Smallest and largest coefficient of friction; `None`: the plan's own.
-    pub friction: Option<[f64; 2]>,
-}
-
-/// Scatter of a firing time: the greater of a fixed standard deviation and a share of the nominal delay.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct DelayScatter {
-    /// Fixed standard deviation [ms].
-    pub sd_ms: f64,
-    /// Standard deviation over nominal delay [%].
-    pub cv_percent: f64,
-}
-
-impl DelayScatter {
-    /// Scatter of a kind of detonator: the upper ends of published figures.
-    pub fn of(detonator: Detonator) -> Self {
-        let (sd_ms, cv_percent) = match detonator {
-            Detonator::Electronic => (0.1, 0.01),
-            Detonator::Pyrotechnic => (0.0, 2.0),
-            Detonator::PyrotechnicSurface => (0.0, 4.0),
-        };
-        Self { sd_ms, cv_percent }
-    }
-
-    /// Standard deviation [s] of a firing planned at `nominal` [s].
-    pub fn deviation(&self, nominal: f64) -> f64 {
-        (self.sd_ms * 1e-3).max(self.cv_percent * 1e-2 * nominal)
-    }
 }
 
 /// Choices of `shelter size`.
@@ -206,15 +170,15 @@ pub enum LaunchTargets {
     UnderRow {
         /// Number of the shelter row, from 1, in steps of one half.
         row: f64,
-        /// Launch velocity [m/s].
-        launch_m_s: f64,
+        /// Launch velocity.
+        launch: Launch,
     },
     /// Tires of a list layout.
     UnderTires {
         /// Tire indices, from 0.
         tires: Vec<usize>,
-        /// Launch velocity [m/s].
-        launch_m_s: f64,
+        /// Launch velocity.
+        launch: Launch,
     },
     /// Holes, each launching the nearest tire.
     Holes(Vec<Hole>),
@@ -227,8 +191,19 @@ pub struct Hole {
     pub x_m: f64,
     /// Across the rows [m].
     pub y_m: f64,
-    /// Launch velocity [m/s].
-    pub launch_m_s: f64,
+    /// Launch velocity.
+    pub launch: Launch,
+}
+
+/// A launch velocity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Launch {
+    /// Speed [m/s].
+    pub speed_m_s: f64,
+    /// Angle to the ground's normal [°].
+    pub tilt_deg: f64,
+    /// Direction of the tilt along the ground: azimuth from +x toward +y [°].
+    pub tilt_toward_deg: f64,
 }
 
 /// Limits of a passing option.
@@ -240,6 +215,8 @@ pub struct LimitsSpec {
     pub cable_safety_factor: f64,
     /// Greatest horizontal shift of any tire at the end [m].
     pub drift_m: Option<f64>,
+    /// Share of the shots that `[uncertainty]` describes that may go past a limit [%].
+    pub accepted_risk_percent: f64,
 }
 
 /// One delay option.

@@ -20,9 +20,6 @@ fn remedy(no_result: &NoResult) -> Option<&'static str> {
         NoResult::Failed(Failure::Step { .. } | Failure::Diverged { .. } | Failure::Unsettled { .. }) => {
             Some(FINER)
         }
-        NoResult::NoScatter => {
-            Some("add a section such as\n\n[scatter]\ndetonator = \"pyrotechnic\"\nlaunch_cv_percent = 10")
-        }
         _ => None,
     }
 }

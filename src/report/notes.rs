@@ -18,6 +18,6 @@ pub fn orders(case: &Case) -> Option<String> {
 
 /// Warnings of blast rows that may fire in the wrong order, when the detonators scatter as the plan says.
 pub fn scatter(case: &Case) -> Vec<String> {
-    let swaps = case.plan.scatter.map(|spec| swaps(case, &spec, SWAP)).unwrap_or_default();
+    let swaps = swaps(case, &case.plan.uncertainty, SWAP);
     swaps.iter().map(|swap| format!("warning: {}", swap_warning(case, swap))).collect()
 }

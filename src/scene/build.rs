@@ -160,17 +160,17 @@ impl Scene {
     /// Tires that a blast row launches, each with its launch velocity [m/s].
     pub fn targets(&self, targets: &LaunchTargets) -> Vec<(usize, f64)> {
         match targets {
-            LaunchTargets::UnderRow { row, launch_m_s } => {
+            LaunchTargets::UnderRow { row, launch } => {
                 let in_row = |&n: &usize| matches!(self.tire[n], TireId::Cell { row: r, .. } if r == *row);
                 let tires = (0..self.tire.len()).filter(in_row);
-                tires.map(|tire| (tire, *launch_m_s)).collect()
+                tires.map(|tire| (tire, launch.speed_m_s)).collect()
             }
-            LaunchTargets::UnderTires { tires, launch_m_s } => {
-                tires.iter().map(|&tire| (tire, *launch_m_s)).collect()
+            LaunchTargets::UnderTires { tires, launch } => {
+                tires.iter().map(|&tire| (tire, launch.speed_m_s)).collect()
             }
             LaunchTargets::Holes(holes) => holes
                 .iter()
-                .filter_map(|hole| Some((self.nearest(hole.x_m, hole.y_m)?, hole.launch_m_s)))
+                .filter_map(|hole| Some((self.nearest(hole.x_m, hole.y_m)?, hole.launch.speed_m_s)))
                 .collect(),
         }
     }

@@ -11,7 +11,7 @@ use sha2::{Digest, Sha256};
 use super::orders::Tried;
 use super::scatter::{Sample, Sampling};
 use super::{Case, ComputeSettings, Shard};
-use crate::plan::ScatterSpec;
+use crate::plan::Uncertainty;
 
 /// The question that a study answers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,7 +25,7 @@ pub enum Question {
     /// Samples of every option.
     Scatter {
         /// Scatter of detonators, launches and friction.
-        spec: ScatterSpec,
+        spec: Uncertainty,
         /// Number of samples and seed.
         sampling: Sampling,
     },

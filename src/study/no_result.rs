@@ -31,9 +31,6 @@ pub enum NoResult {
     /// A machine that sees only its share of the samples cannot tell when the verdict is certain.
     #[error("samples drawn until the verdict is certain cannot be shared")]
     SharedUntilCertain,
-    /// The plan does not say what scatters.
-    #[error("the plan does not say what scatters")]
-    NoScatter,
 }
 
 /// Does one piece of work; turns a panic into [`NoResult::Panicked`], so that other work goes on.

@@ -18,7 +18,7 @@ use super::check::check_shot;
 use super::reason::{Reason, find_reasons};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard};
 use crate::outcome::Peak;
-use crate::plan::ScatterSpec;
+use crate::plan::Uncertainty;
 use crate::scene::{Firing, Shot, fire_at_s};
 use crate::verdict::{Estimate, Verdict};
 
@@ -48,7 +48,7 @@ pub struct Sampling {
 /// Draws and judges the samples of every option; only the share `shard` of them.
 pub fn scatter(
     case: &Case,
-    spec: &ScatterSpec,
+    spec: &Uncertainty,
     sampling: &Sampling,
     shard: Shard,
     compute: &ComputeSettings,
@@ -154,12 +154,13 @@ fn judge_sample(
 }
 
 /// Draws sample `number` of a nominal shot.
-pub fn drawn(nominal: &Shot, spec: &ScatterSpec, seed: u64, option: usize, number: usize) -> Shot {
+pub fn drawn(nominal: &Shot, spec: &Uncertainty, seed: u64, option: usize, number: usize) -> Shot {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(((option as u64) << 40) | number as u64);
     let sigma = (1.0 + (spec.launch_cv_percent * 1e-2).powi(2)).ln().sqrt();
     let launch = LogNormal::new(-0.5 * sigma * sigma, sigma).ok();
-    let friction = spec.friction.map(|[low, high]| low + (high - low) * random.random::<f64>());
+    let [low, high] = spec.friction;
+    let friction = Some(low + (high - low) * random.random::<f64>());
     let mut firings: Vec<Firing> = nominal
         .firings
         .iter()
@@ -246,7 +247,7 @@ pub struct Swap {
 }
 
 /// Pairs of successive rows that fire in the reverse order with a probability of at least `least`.
-pub fn swaps(case: &Case, spec: &ScatterSpec, least: f64) -> Vec<Swap> {
+pub fn swaps(case: &Case, spec: &Uncertainty, least: f64) -> Vec<Swap> {
     let mut swaps = Vec::new();
     for (option, delay) in case.plan.delays.iter().enumerate() {
         let mut rows: Vec<(f64, usize)> =

@@ -15,7 +15,7 @@ use super::batch::judge_shots;
 use super::nearby::{Nearby, judge_nearby};
 use super::scatter::{self, Sample, Sampling, scatter};
 use super::{Bounded, Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard};
-use crate::plan::{Layout, Plan, ScatterSpec};
+use crate::plan::{Layout, Plan, Uncertainty};
 use crate::ropes::{Rope, catalogue};
 use crate::scene::Shot;
 use crate::verdict::Verdict;
@@ -28,7 +28,7 @@ pub enum Demand {
     /// Every order of the blast rows (at most [`MOST_ROWS`](super::orders::MOST_ROWS)) at each of these intervals [s].
     AnyOrder(Vec<f64>),
     /// 99 % of the samples of every option; where the sampling has a bound, surely fewer failures than the bound.
-    Samples(ScatterSpec, Sampling),
+    Samples(Uncertainty, Sampling),
 }
 
 /// Fraction of the samples that may fail where the sampling has no bound.

@@ -158,11 +158,7 @@ fn the_number_of_threads_changes_nothing() {
 }
 
 #[test]
-fn scatter_needs_to_know_what_scatters() {
-    let plan = shipped("paper-5-tire.toml");
-    let output = shelter(&["scatter", &plan]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("[scatter]"));
+fn scatter_counts_its_samples() {
     let whole = [
         "scatter",
         &shipped("amur-three-rows.toml"),
@@ -290,7 +286,7 @@ fn studies_that_do_not_fit_into_memory_are_refused_beforehand() {
         .collect();
     let text = text.replacen("[limits]", &format!("{more}[limits]"), 1);
     let (head, _) = text.split_once("[[delay]]").expect("an option");
-    let scatter = "[scatter]\ndetonator = \"electronic\"\n";
+    let scatter = "[uncertainty]\ndetonator = \"electronic\"\n";
     std::fs::write(&plan, format!("{head}[[delay]]\nname = \"a\"\ninterval_ms = 9\n{scatter}"))
         .expect("written");
     let plan = plan.to_str().expect("UTF-8");

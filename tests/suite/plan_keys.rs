@@ -34,7 +34,7 @@ cable_safety_factor = 2.0
 name = "a"
 at_ms = [0]
 [simulation]
-[scatter]
+[uncertainty]
 [size]
 "#;
 

@@ -87,10 +87,10 @@ interval_ms = 25
 fn a_list_layout_names_tires_by_number_and_holes_launch_the_nearest() {
     let plan = Plan::parse("list.toml", LIST).unwrap_or_else(|mistakes| panic!("{mistakes}"));
     assert!(matches!(&plan.layout, Layout::List { tires, .. } if tires.len() == 2));
-    let LaunchTargets::UnderTires { launch_m_s, .. } = plan.blast_rows[0].targets else {
+    let LaunchTargets::UnderTires { launch, .. } = plan.blast_rows[0].targets else {
         panic!("row a lists tires")
     };
-    assert!((launch_m_s - 6.0).abs() < 1e-12, "V0 = √(2 g h)");
+    assert!((launch.speed_m_s - 6.0).abs() < 1e-12, "V0 = √(2 g h)");
     assert_eq!(plan.cable.breaking_force_kn, 16.0, "clips hold 80 %");
     assert!(matches!(&plan.delays[0].timing, Timing::Interval { order, .. } if order == &[1, 0]));
     let case = Case::new(plan);

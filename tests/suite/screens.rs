@@ -175,7 +175,7 @@ fn notes_stand_beside_the_results() {
     let mut app = finished();
     let mut case = (*app.case).clone();
     case.plan.delays[1].timing = Timing::At(vec![0.0, 20.0, 40.0]);
-    case.plan.scatter.as_mut().expect("scatters").delay.sd_ms = 20.0;
+    case.plan.uncertainty.delay.sd_ms = 20.0;
     app.case = Arc::new(case);
     key(&mut app, KeyCode::Char('4'));
     for (kind, found) in spreads(&app) {

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 use std::ops::ControlFlow;
 
 use itertools::Itertools;
-use shelter::plan::{DelayScatter, LaunchTargets, Plan, ScatterSpec, Timing};
+use shelter::plan::{DelayScatter, LaunchTargets, Plan, Timing, Uncertainty};
 use shelter::ropes::catalogue;
 use shelter::scene::{Shot, nearby};
 use shelter::simulation::Model;
@@ -146,14 +146,14 @@ fn mirrored_case() -> Case {
     let mut plan = plan(4, "");
     let launch = plan.blast_rows[0].targets.clone();
     plan.blast_rows[3].targets = match (launch, &plan.blast_rows[3].targets) {
-        (LaunchTargets::UnderRow { launch_m_s, .. }, LaunchTargets::UnderRow { row, .. }) => {
-            LaunchTargets::UnderRow { row: *row, launch_m_s }
+        (LaunchTargets::UnderRow { launch, .. }, LaunchTargets::UnderRow { row, .. }) => {
+            LaunchTargets::UnderRow { row: *row, launch }
         }
         _ => panic!("rows"),
     };
     plan.blast_rows[2].targets = match &plan.blast_rows[1].targets {
-        LaunchTargets::UnderRow { row, launch_m_s } => {
-            LaunchTargets::UnderRow { row: row + 1.0, launch_m_s: *launch_m_s }
+        LaunchTargets::UnderRow { row, launch } => {
+            LaunchTargets::UnderRow { row: row + 1.0, launch: *launch }
         }
         _ => panic!("rows"),
     };
@@ -319,11 +319,11 @@ ground = { friction = 0.5 }
 blast_row = [{ name = "1", under_row = 1, launch_m_s = 6 }]
 limits = { flight_height_m = 2, cable_safety_factor = 1 }
 delay = [{ name = "1", interval_ms = 0 }]
-scatter = { launch_cv_percent = 10 }
+uncertainty = { launch_cv_percent = 10 }
 simulation = { accuracy = "draft" }
 "#;
     let case = Case::new(Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
-    let spec = case.plan.scatter.expect("what scatters");
+    let spec = case.plan.uncertainty;
     let sigma = (1.01_f64).ln().sqrt();
     let threshold = (2.0 * GRAVITY * 2.0).sqrt() / 6.0;
     let normal = (threshold.ln() + 0.5 * sigma * sigma) / sigma;
@@ -348,12 +348,13 @@ simulation = { accuracy = "draft" }
 /// their deviation; each within four standard errors of 20,000 draws.
 #[test]
 fn draws_have_the_moments_asked_for() {
-    let spec = ScatterSpec {
+    let case = case(2, "");
+    let spec = Uncertainty {
         delay: DelayScatter { sd_ms: 0.0, cv_percent: 2.0 },
         launch_cv_percent: 20.0,
-        friction: Some([0.3, 0.5]),
+        friction: [0.3, 0.5],
+        ..case.plan.uncertainty
     };
-    let case = case(2, "");
     let last = case.shots[1].firings.len() - 1;
     let (nominal, count) = (case.shots[1].firings[last], 20_000);
     let mut values = [Vec::new(), Vec::new(), Vec::new()];
@@ -380,7 +381,7 @@ fn draws_have_the_moments_asked_for() {
 fn rows_that_may_swap_are_named() {
     let case = case(2, "");
     let delay = DelayScatter { sd_ms: 10.0, cv_percent: 0.0 };
-    let spec = ScatterSpec { delay, ..ScatterSpec::default() };
+    let spec = Uncertainty { delay, ..case.plan.uncertainty };
     let swaps = swaps(&case, &spec, 1e-2);
     assert_eq!(swaps.len(), 1, "the option of 45 ms is safe: {swaps:?}");
     assert_eq!((swaps[0].option, swaps[0].rows), (0, [0, 1]));
@@ -390,10 +391,10 @@ fn rows_that_may_swap_are_named() {
 /// A study says itself whether its time was up before all shots were judged.
 #[test]
 fn a_study_without_time_is_partial() {
-    let case = case(2, "scatter = { launch_cv_percent = 10 }");
+    let case = case(2, "uncertainty = { launch_cv_percent = 10 }");
     let compute = ComputeSettings { step: Some(2e-3), ..ComputeSettings::of(&case.plan) };
     let intervals = Intervals { from: 0.0, to: 0.02, step: 0.01 };
-    let spec = case.plan.scatter.expect("what scatters");
+    let spec = case.plan.uncertainty;
     let partial = |progress: &Progress| {
         let sampling = |certain_at| Sampling { samples: 3, seed: 1, certain_at };
         let scattered = |certain_at| {
@@ -418,9 +419,9 @@ fn a_study_without_time_is_partial() {
 /// A share of the samples cannot tell when the verdict on all of them is certain.
 #[test]
 fn samples_until_certain_are_not_shared() {
-    let case = case(2, "scatter = { launch_cv_percent = 10 }");
+    let case = case(2, "uncertainty = { launch_cv_percent = 10 }");
     let sampling = Sampling { samples: 3, seed: 1, certain_at: Some(0.01) };
-    let spec = case.plan.scatter.expect("what scatters");
+    let spec = case.plan.uncertainty;
     let compute = ComputeSettings::of(&case.plan);
     let share = Shard { index: 1, of: 2 };
     let shared = scatter(&case, &spec, &sampling, share, &compute, &Progress::default());
@@ -431,9 +432,9 @@ fn samples_until_certain_are_not_shared() {
 #[test]
 fn a_shelter_sized_for_samples_must_hold_surely() {
     let more = "size = { ropes = \"GOST 2688-80\" }\ncable = { rope = \"GOST 2688-80 6.2\" }\n\
-                scatter = { launch_cv_percent = 1 }";
+                uncertainty = { launch_cv_percent = 1 }";
     let plan = plan(1, more);
-    let spec = plan.scatter.expect("what scatters");
+    let spec = plan.uncertainty;
     let compute = ComputeSettings { step: Some(2e-3), ..ComputeSettings::of(&plan) };
     let found = |certain_at, samples| {
         let demand = Demand::Samples(spec, Sampling { samples, seed: 1, certain_at });

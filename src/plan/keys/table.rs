@@ -19,6 +19,7 @@ const SPACING: RangeInclusive<f64> = 1e-4..=1e5;
 const MASS: Kind = number("kg", 1e-3..=1e7);
 const CABLE_FORCE: Kind = number("kN", 1e-6..=1e9);
 const FRICTION_RANGE: RangeInclusive<f64> = 0.0..=1e9;
+const SLACK: RangeInclusive<f64> = 0.0..=1e3;
 const LIMIT: Kind = number("m", 1e-6..=1e6);
 const TIME: Kind = number("ms", 0.0..=1e9);
 const PERCENT: Kind = number("%", 0.0..=100.0);
@@ -58,7 +59,7 @@ sections! {
         DELAY = key("delay", Kind::Sections(&delay::SECTION), "name and interval_ms", "options to compare")
             .required();
         SIMULATION = section("simulation", &simulation::SECTION, "accuracy = \"field\"");
-        SCATTER = section("scatter", &scatter::SECTION, "detonator = \"electronic\"");
+        UNCERTAINTY = section("uncertainty", &uncertainty::SECTION, "detonator = \"electronic\"");
         SIZE = section("size", &size::SECTION, "most_border_rows = 1");
     }
 
@@ -106,7 +107,7 @@ sections! {
             "the breaking force used is rope × termination").edit("termination").offered();
         TERMINATION_PERCENT = key("termination_percent", number("%", 1.0..=100.0), "80",
             "share of the breaking force that the termination holds").default(100.0);
-        SLACK_PERCENT = key("slack_percent", number("%", 0.0..=1e3), "2", "length over distance").default(0.0)
+        SLACK_PERCENT = key("slack_percent", number("%", SLACK), "2", "length over distance").default(0.0)
             .edit("slack, %").offered();
         AXIAL_STIFFNESS_KN = key("axial_stiffness_kn", CABLE_FORCE, "1519", "EA").edit("axial stiffness EA, kN");
         BREAKING_FORCE_KN = key("breaking_force_kn", CABLE_FORCE, "20.9", "").edit("breaking force, kN");
@@ -126,6 +127,11 @@ sections! {
             .edit("launch, m/s");
         FREE_FLIGHT_HEIGHT_M = key("free_flight_height_m", number("m", 0.0..=1e5), "1.83",
             "seen on a loose test tire, instead of launch_m_s").edit("free flight height, m");
+        TILT_DEG = key("tilt_deg", number("°", 0.0..=80.0), "10", "of the launch from the ground's normal")
+            .default(0.0).edit("tilt, °");
+        TILT_TOWARD_DEG = key("tilt_toward_deg", number("°", -360.0..=360.0), "90",
+            "direction of the tilt, from +x toward +y").default(0.0).edit("tilt toward, °")
+            .offered_beside(TILT_DEG.name);
         UNDER_ROW = key("under_row", Kind::ShelterRow(0.0..=1e7), "2", "launches every tire of this shelter row")
             .edit("under row");
         UNDER_TIRES = key("under_tires", Kind::List(&TIRE_NUMBER), "[3, 4]", "launches these tires of a list");
@@ -138,6 +144,8 @@ sections! {
         Y_M = key("y_m", POSITION, "4.5", "across the rows").required();
         LAUNCH_M_S = blast_row::LAUNCH_M_S;
         FREE_FLIGHT_HEIGHT_M = blast_row::FREE_FLIGHT_HEIGHT_M;
+        TILT_DEG = blast_row::TILT_DEG;
+        TILT_TOWARD_DEG = blast_row::TILT_TOWARD_DEG;
     }
 
     limits "[limits]" "what an option must keep to pass" {
@@ -147,6 +155,8 @@ sections! {
             "breaking force / greatest force").required().edit("cable safety factor");
         DRIFT_M = key("drift_m", LIMIT, "0.5", "greatest horizontal shift of any tire at the end")
             .edit("limit of drift, m").offered();
+        ACCEPTED_RISK_PERCENT = key("accepted_risk_percent", number("%", 1e-6..=50.0), "1",
+            "share of the shots that may go past a limit").default(1.0).edit("accepted risk, %").offered();
     }
 
     delay "[[delay]]" "one delay option" {
@@ -168,17 +178,36 @@ sections! {
         GRAVITY_M_S2 = key("gravity_m_s2", number("m/s²", 0.0..=1e3), "9.81", "gravity").default(9.81);
     }
 
-    scatter "[scatter]" "what scatters from shot to shot" {
+    uncertainty "[uncertainty]" "what is not known of the shot, and how far; 0 or [x, x] means exact" {
         DETONATOR = key("detonator", Kind::Choice(Detonator::NAMES), "\"electronic\"", "gives the scatter of firing times")
-            .edit("detonators");
+            .described("\"electronic\", unless delay_sd_ms or delay_cv_percent is given")
+            .edit("detonators").offered();
         DELAY_SD_MS = key("delay_sd_ms", number("ms", 0.0..=1e6), "0.5", "standard deviation of firing times")
-            .default(0.0).edit("scatter of times, ms");
-        DELAY_CV_PERCENT = key("delay_cv_percent", PERCENT, "2", "standard deviation over delay").default(0.0)
-            .edit("scatter of times, %");
-        LAUNCH_CV_PERCENT = key("launch_cv_percent", PERCENT, "10", "of launch velocities, lognormal").default(0.0)
-            .edit("scatter of launches, %");
-        FRICTION = key("friction", Kind::Range(&number("", FRICTION_RANGE)), "[0.3, 0.5]", "anything between")
-            .described("that of [ground]");
+            .described("that of the detonator").edit("scatter of times, ms");
+        DELAY_CV_PERCENT = key("delay_cv_percent", PERCENT, "2", "standard deviation over delay")
+            .described("that of the detonator").edit("scatter of times, %");
+        IN_HOLE_DELAY_MS = key("in_hole_delay_ms", TIME, "500", "of the detonator in every hole, which scatters too")
+            .default(0.0).edit("delay in the holes, ms").offered();
+        LAUNCH_CV_PERCENT = key("launch_cv_percent", PERCENT, "5", "of launch velocities, hole by hole, lognormal")
+            .default(1.0).edit("launches, hole by hole, %").offered();
+        LAUNCH_COMMON_PERCENT = key("launch_common_percent", PERCENT, "10",
+            "of all launch velocities at once, lognormal").default(1.0).edit("launches, all at once, %").offered();
+        LAUNCH_TILT_DEG = key("launch_tilt_deg", number("°", 0.0..=45.0), "3",
+            "of launch directions, hole by hole: standard deviation about each horizontal axis").default(0.0)
+            .edit("launch directions, °").offered();
+        FRICTION = key("friction", Kind::Range(&number("", FRICTION_RANGE)), "[0.4, 0.6]",
+            "anything between, the same under the whole shot").described("±1 % of that of [ground]")
+            .edit("friction between").offered();
+        SLACK_PERCENT = key("slack_percent", Kind::Range(&number("%", SLACK)), "[1, 4]",
+            "anything between, the same in all cables")
+            .described("±0.1 percentage points about that of [cable], not below 0")
+            .edit("slack between, %").offered();
+        AXIAL_STIFFNESS_PERCENT = key("axial_stiffness_percent", Kind::Range(&number("%", -90.0..=1e3)), "[-10, 20]",
+            "of the rope's own, the same in all cables").described("±1 %").edit("axial stiffness between, %").offered();
+        TIRE_MASS_CV_PERCENT = key("tire_mass_cv_percent", PERCENT, "10", "of masses, tire by tire").default(1.0)
+            .edit("tire masses, %").offered();
+        BREAKING_FORCE_CV_PERCENT = key("breaking_force_cv_percent", PERCENT, "3", "of breaking forces, cable by cable")
+            .default(0.0).edit("breaking forces, %").offered();
     }
 
     size "[size]" "what `shelter size` may choose from" {

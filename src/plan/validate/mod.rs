@@ -8,7 +8,7 @@ use toml::de::DeTable;
 
 use self::layout::{check_gaps, read_layout};
 use self::shot::{read_blast_rows, read_delays};
-use self::study::{read_scatter, read_size};
+use self::study::{read_size, read_uncertainty};
 use super::diagnostic::Diagnostics;
 use super::keys::{self, cable, ground, limits, simulation, tire};
 use super::read::{At, Mistakes, SectionReader};
@@ -43,7 +43,7 @@ pub fn parse(path: &str, text: &str) -> Result<Plan, Diagnostics> {
 }
 
 fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
-    use keys::plan::{CABLE, GROUND, LIMITS, SCATTER, SHELTER, SIMULATION, SIZE, TIRE, TITLE};
+    use keys::plan::{CABLE, GROUND, LIMITS, SHELTER, SIMULATION, SIZE, TIRE, TITLE, UNCERTAINTY};
     let title = root.text_if(&TITLE).map(|title| title.value.to_owned());
     let simulation = read_simulation(root.section_or_empty(&SIMULATION));
     let tire = root.section(&TIRE).map(read_tire);
@@ -56,7 +56,12 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
     let blast_rows = read_blast_rows(root, layout.as_ref(), simulation.gravity_m_s2, mistakes);
     let limits = root.section(&LIMITS).map(read_limits);
     let delays = read_delays(root, &blast_rows, mistakes);
-    let scatter = root.section_if(&SCATTER).map(read_scatter);
+    let uncertainty = read_uncertainty(
+        root.section_or_empty(&UNCERTAINTY),
+        !root.has(&UNCERTAINTY),
+        friction.unwrap_or(0.0),
+        cable.as_ref().map_or(0.0, |cable| cable.slack_percent),
+    );
     let size = read_size(root.section_or_empty(&SIZE));
     Some(Plan {
         title,
@@ -68,7 +73,7 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
         limits: limits?,
         delays,
         simulation,
-        scatter,
+        uncertainty,
         size,
     })
 }
@@ -104,6 +109,7 @@ fn read_limits(section: SectionReader<'_>) -> LimitsSpec {
         flight_height_m: section.number(&limits::FLIGHT_HEIGHT_M),
         cable_safety_factor: section.number(&limits::CABLE_SAFETY_FACTOR),
         drift_m: section.number_if(&limits::DRIFT_M),
+        accepted_risk_percent: section.number(&limits::ACCEPTED_RISK_PERCENT),
     };
     section.finish();
     spec

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::plan::keys::{blast_row, delay, hole, plan};
 use crate::plan::read::{Mistakes, SectionReader, nearest};
-use crate::plan::{BlastRow, DelayOption, Hole, LaunchTargets, Layout, Timing};
+use crate::plan::{BlastRow, DelayOption, Hole, Launch, LaunchTargets, Layout, Timing};
 
 pub fn read_blast_rows(
     root: &SectionReader<'_>,
@@ -46,7 +46,7 @@ fn read_targets(
     if section.has(&blast_row::HOLES) {
         return LaunchTargets::Holes(read_holes(section, gravity));
     }
-    let launch_m_s = read_launch(section, gravity);
+    let launch = read_launch(section, gravity);
     if let Some(tires) = section.wholes(&blast_row::UNDER_TIRES) {
         let count = match layout {
             Some(Layout::List { tires, .. }) => tires.len(),
@@ -76,11 +76,11 @@ fn read_targets(
             }
         }
         let tires = tires.value.into_iter().map(|tire| tire.value.saturating_sub(1)).collect();
-        return LaunchTargets::UnderTires { tires, launch_m_s };
+        return LaunchTargets::UnderTires { tires, launch };
     }
     let row = section.number_if(&blast_row::UNDER_ROW).unwrap_or(1.0);
     check_row(section, layout, row);
-    LaunchTargets::UnderRow { row, launch_m_s }
+    LaunchTargets::UnderRow { row, launch }
 }
 
 fn read_holes(section: &SectionReader<'_>, gravity: f64) -> Vec<Hole> {
@@ -94,9 +94,9 @@ fn read_holes(section: &SectionReader<'_>, gravity: f64) -> Vec<Hole> {
 fn read_hole(section: SectionReader<'_>, gravity: f64) -> Hole {
     let x_m = section.number(&hole::X_M);
     let y_m = section.number(&hole::Y_M);
-    let launch_m_s = read_launch(&section, gravity);
+    let launch = read_launch(&section, gravity);
     section.finish();
-    Hole { x_m, y_m, launch_m_s }
+    Hole { x_m, y_m, launch }
 }
 
 fn check_row(section: &SectionReader<'_>, layout: Option<&Layout>, row: f64) {
@@ -120,7 +120,16 @@ fn check_row(section: &SectionReader<'_>, layout: Option<&Layout>, row: f64) {
     }
 }
 
-fn read_launch(section: &SectionReader<'_>, gravity: f64) -> f64 {
+fn read_launch(section: &SectionReader<'_>, gravity: f64) -> Launch {
+    Launch {
+        speed_m_s: read_speed(section, gravity),
+        tilt_deg: section.number(&blast_row::TILT_DEG),
+        tilt_toward_deg: section.number(&blast_row::TILT_TOWARD_DEG),
+    }
+}
+
+/// Launch speed [m/s].
+fn read_speed(section: &SectionReader<'_>, gravity: f64) -> f64 {
     match (section.has(&blast_row::LAUNCH_M_S), section.has(&blast_row::FREE_FLIGHT_HEIGHT_M)) {
         (true, true) => {
             section.wrong(

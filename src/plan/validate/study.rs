@@ -1,26 +1,53 @@
-//! Reads the sections of studies: scatter from shot to shot, and the choices of `shelter size`.
+//! Reads what is not known of the shot, and the choices of `shelter size`.
 
-use crate::plan::keys::{Key, scatter, size};
+use crate::choice::Detonator;
+use crate::plan::keys::{Key, size, uncertainty};
 use crate::plan::read::SectionReader;
-use crate::plan::{DelayScatter, ScatterSpec, SizeSpec};
+use crate::plan::{DelayScatter, SizeSpec, Uncertainty};
 
-pub fn read_scatter(section: SectionReader<'_>) -> ScatterSpec {
-    let of_plan = DelayScatter {
-        sd_ms: section.number(&scatter::DELAY_SD_MS),
-        cv_percent: section.number(&scatter::DELAY_CV_PERCENT),
-    };
-    let detonator = section.choice_if(&scatter::DETONATOR).map(DelayScatter::of);
-    if section.has(&scatter::DETONATOR) {
-        refuse_beside_detonator(&section, &scatter::DELAY_SD_MS);
-        refuse_beside_detonator(&section, &scatter::DELAY_CV_PERCENT);
-    }
-    let spec = ScatterSpec {
-        delay: detonator.unwrap_or(of_plan),
-        launch_cv_percent: section.number(&scatter::LAUNCH_CV_PERCENT),
-        friction: section.range(&scatter::FRICTION),
+/// Reads `[uncertainty]` of a plan with this friction and slack [%]; `assumed`: the plan has no such section.
+pub fn read_uncertainty(
+    section: SectionReader<'_>,
+    assumed: bool,
+    friction: f64,
+    slack_percent: f64,
+) -> Uncertainty {
+    let uncertainty = Uncertainty {
+        assumed,
+        delay: read_delay_scatter(&section),
+        in_hole_delay_ms: section.number(&uncertainty::IN_HOLE_DELAY_MS),
+        launch_cv_percent: section.number(&uncertainty::LAUNCH_CV_PERCENT),
+        launch_common_percent: section.number(&uncertainty::LAUNCH_COMMON_PERCENT),
+        launch_tilt_deg: section.number(&uncertainty::LAUNCH_TILT_DEG),
+        friction: section
+            .range(&uncertainty::FRICTION)
+            .unwrap_or_else(|| Uncertainty::usual_friction(friction)),
+        slack_percent: section
+            .range(&uncertainty::SLACK_PERCENT)
+            .unwrap_or_else(|| Uncertainty::usual_slack(slack_percent)),
+        axial_stiffness_percent: section
+            .range(&uncertainty::AXIAL_STIFFNESS_PERCENT)
+            .unwrap_or(Uncertainty::USUAL_AXIAL_STIFFNESS),
+        tire_mass_cv_percent: section.number(&uncertainty::TIRE_MASS_CV_PERCENT),
+        breaking_force_cv_percent: section.number(&uncertainty::BREAKING_FORCE_CV_PERCENT),
     };
     section.finish();
-    spec
+    uncertainty
+}
+
+/// Scatter of firing times: of the detonator, or as the plan gives it.
+fn read_delay_scatter(section: &SectionReader<'_>) -> DelayScatter {
+    let sd_ms = section.number_if(&uncertainty::DELAY_SD_MS);
+    let cv_percent = section.number_if(&uncertainty::DELAY_CV_PERCENT);
+    let detonator = section.choice_if(&uncertainty::DETONATOR);
+    if section.has(&uncertainty::DETONATOR) {
+        refuse_beside_detonator(section, &uncertainty::DELAY_SD_MS);
+        refuse_beside_detonator(section, &uncertainty::DELAY_CV_PERCENT);
+    }
+    if sd_ms.is_none() && cv_percent.is_none() {
+        return DelayScatter::of(detonator.unwrap_or(Detonator::Electronic));
+    }
+    DelayScatter { sd_ms: sd_ms.unwrap_or(0.0), cv_percent: cv_percent.unwrap_or(0.0) }
 }
 
 fn refuse_beside_detonator(section: &SectionReader<'_>, key: &Key) {

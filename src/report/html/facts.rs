@@ -54,12 +54,12 @@ fn rims(diameter_m: f64) -> String {
 
 fn launched(targets: &LaunchTargets) -> String {
     match targets {
-        LaunchTargets::UnderRow { row, launch_m_s } => {
-            format!("under shelter row {row}, launch {launch_m_s} m/s")
+        LaunchTargets::UnderRow { row, launch } => {
+            format!("under shelter row {row}, launch {} m/s", launch.speed_m_s)
         }
-        LaunchTargets::UnderTires { tires, launch_m_s } => {
+        LaunchTargets::UnderTires { tires, launch } => {
             let numbers: Vec<String> = tires.iter().map(|tire| (tire + 1).to_string()).collect();
-            format!("under tires {}, launch {launch_m_s} m/s", numbers.join(", "))
+            format!("under tires {}, launch {} m/s", numbers.join(", "), launch.speed_m_s)
         }
         LaunchTargets::Holes(holes) => format!("{} holes", holes.len()),
     }

@@ -1,0 +1,75 @@
+//! What is not known of the shot that will be fired, and how far, in the units of the keys.
+
+use serde::{Deserialize, Serialize};
+
+use super::keys::cable;
+use crate::choice::Detonator;
+
+/// What is not known of the shot, and how far; 0 or `[x, x]` means known exactly.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Uncertainty {
+    /// Whether the plan has no `[uncertainty]`: every input is assumed known to 1 %.
+    pub assumed: bool,
+    /// Scatter of every detonator.
+    pub delay: DelayScatter,
+    /// Nominal delay of the detonator in every hole, which scatters too [ms]; 0: no such detonator.
+    pub in_hole_delay_ms: f64,
+    /// Coefficient of variation of launch velocities, hole by hole, lognormal [%].
+    pub launch_cv_percent: f64,
+    /// Coefficient of variation of a factor on all launch velocities at once, lognormal [%].
+    pub launch_common_percent: f64,
+    /// Standard deviation of the launch direction about each horizontal axis, hole by hole [°].
+    pub launch_tilt_deg: f64,
+    /// Smallest and largest coefficient of friction, the same under the whole shot.
+    pub friction: [f64; 2],
+    /// Smallest and largest slack, the same in all cables [%].
+    pub slack_percent: [f64; 2],
+    /// Smallest and largest deviation from the rope's own axial stiffness, the same in all cables [%].
+    pub axial_stiffness_percent: [f64; 2],
+    /// Coefficient of variation of the mass, tire by tire [%].
+    pub tire_mass_cv_percent: f64,
+    /// Coefficient of variation of the breaking force, cable by cable [%].
+    pub breaking_force_cv_percent: f64,
+}
+
+impl Uncertainty {
+    /// The friction assumed where the plan gives no range: ±1 % of the plan's own.
+    pub fn usual_friction(friction: f64) -> [f64; 2] {
+        [0.99 * friction, 1.01 * friction]
+    }
+
+    /// The slack [%] assumed where the plan gives no range: ±0.1 percentage points, not below 0.
+    pub fn usual_slack(slack_percent: f64) -> [f64; 2] {
+        let range = cable::SLACK_PERCENT.kind.range();
+        [slack_percent - 0.1, slack_percent + 0.1].map(|slack| slack.clamp(*range.start(), *range.end()))
+    }
+
+    /// The deviation of axial stiffness [%] assumed where the plan gives no range.
+    pub const USUAL_AXIAL_STIFFNESS: [f64; 2] = [-1.0, 1.0];
+}
+
+/// Scatter of a firing time: the greater of a fixed standard deviation and a share of the nominal delay.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct DelayScatter {
+    /// Fixed standard deviation [ms].
+    pub sd_ms: f64,
+    /// Standard deviation over nominal delay [%].
+    pub cv_percent: f64,
+}
+
+impl DelayScatter {
+    /// Scatter of a kind of detonator: the upper ends of published figures.
+    pub fn of(detonator: Detonator) -> Self {
+        let (sd_ms, cv_percent) = match detonator {
+            Detonator::Electronic => (0.1, 0.01),
+            Detonator::Pyrotechnic => (0.0, 2.0),
+            Detonator::PyrotechnicSurface => (0.0, 4.0),
+        };
+        Self { sd_ms, cv_percent }
+    }
+
+    /// Standard deviation [s] of a firing planned at `nominal` [s].
+    pub fn deviation(&self, nominal: f64) -> f64 {
+        (self.sd_ms * 1e-3).max(self.cv_percent * 1e-2 * nominal)
+    }
+}
