@@ -129,10 +129,10 @@ impl Regime {
             let launch = if fast { random.between(15.0, 30.0) } else { random.between(3.0, 8.0) };
             let first = random.whole(0, if by_rows { rows - 1 } else { tires - 1 });
             let fired = if by_rows { first * columns..(first + 1) * columns } else { first..first + 1 };
-            firings.extend(fired.clone().map(|tire| Firing { at, tire, launch }));
+            firings.extend(fired.clone().map(|tire| Firing::up(at, tire, launch)));
             if self == Self::FiredTwice {
                 let later = at + random.between(0.05, 1.0);
-                firings.extend(fired.map(|tire| Firing { at: later, tire, launch }));
+                firings.extend(fired.map(|tire| Firing::up(later, tire, launch)));
             }
         }
         Shot::from_firings(firings)

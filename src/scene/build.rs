@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::{Cable, Scene, Shot, TireId};
 use crate::choice::{Link, OnOverload};
-use crate::plan::{BlastRow, LaunchTargets, Layout, Mesh, Plan, Timing, fire_in_turn};
+use crate::plan::{BlastRow, Launch, LaunchTargets, Layout, Mesh, Plan, Timing, fire_in_turn};
 
 /// Firing time of each blast row [s] (`n_blast_rows`).
 pub fn fire_at_s(timing: &Timing) -> Vec<f64> {
@@ -32,6 +32,21 @@ impl Shot {
     fn of_rows(scene: &Scene, rows: &[BlastRow], at: &[f64]) -> Self {
         let targets: Vec<_> = rows.iter().map(|row| scene.targets(&row.targets)).collect();
         Self::from_targets(&targets, at)
+    }
+}
+
+/// Launch velocity as a vector [m/s].
+fn velocity(launch: &Launch) -> Vector3<f64> {
+    let Launch { speed_m_s, tilt_deg, tilt_toward_deg } = *launch;
+    let sideways = Vector3::new(cosine(tilt_toward_deg), cosine(tilt_toward_deg - 90.0), 0.0);
+    speed_m_s * (cosine(tilt_deg - 90.0) * sideways + cosine(tilt_deg) * Vector3::z())
+}
+
+/// Cosine of an angle in degrees, exact at multiples of 90: a launch along an axis is exactly its own mirror image.
+fn cosine(degrees: f64) -> f64 {
+    match degrees.rem_euclid(360.0) {
+        90.0 | 270.0 => 0.0,
+        angle => angle.to_radians().cos(),
     }
 }
 
@@ -158,19 +173,19 @@ impl Scene {
     }
 
     /// Tires that a blast row launches, each with its launch velocity [m/s].
-    pub fn targets(&self, targets: &LaunchTargets) -> Vec<(usize, f64)> {
+    pub fn targets(&self, targets: &LaunchTargets) -> Vec<(usize, Vector3<f64>)> {
         match targets {
             LaunchTargets::UnderRow { row, launch } => {
                 let in_row = |&n: &usize| matches!(self.tire[n], TireId::Cell { row: r, .. } if r == *row);
                 let tires = (0..self.tire.len()).filter(in_row);
-                tires.map(|tire| (tire, launch.speed_m_s)).collect()
+                tires.map(|tire| (tire, velocity(launch))).collect()
             }
             LaunchTargets::UnderTires { tires, launch } => {
-                tires.iter().map(|&tire| (tire, launch.speed_m_s)).collect()
+                tires.iter().map(|&tire| (tire, velocity(launch))).collect()
             }
             LaunchTargets::Holes(holes) => holes
                 .iter()
-                .filter_map(|hole| Some((self.nearest(hole.x_m, hole.y_m)?, hole.launch.speed_m_s)))
+                .filter_map(|hole| Some((self.nearest(hole.x_m, hole.y_m)?, velocity(&hole.launch))))
                 .collect(),
         }
     }

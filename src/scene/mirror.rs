@@ -1,5 +1,6 @@
 //! Mirror planes of a shelter: vertical planes through its middle, across x or y, in which every tire and cable has its image.
 
+use nalgebra::Vector3;
 use rustc_hash::FxHashMap as HashMap;
 
 use super::Scene;
@@ -11,6 +12,15 @@ pub struct Mirror {
     pub axis: usize,
     /// Image of each tire (`n_tires`).
     pub image: Vec<usize>,
+}
+
+impl Mirror {
+    /// Images of a tire and of its velocity [m/s].
+    pub fn reflect(&self, tire: usize, mut velocity: Vector3<f64>) -> (usize, Vector3<f64>) {
+        // A difference, because the negative of 0 is another number in binary.
+        velocity[self.axis] = 0.0 - velocity[self.axis];
+        (self.image[tire], velocity)
+    }
 }
 
 /// Greatest distance between two points that count as the same, relative to the width of the shelter.

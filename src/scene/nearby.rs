@@ -63,7 +63,7 @@ mod tests {
             mirrors: Vec::new(),
         };
         scene.find_mirrors();
-        let fire = |tire: usize| Firing { at: 0.02 * tire as f64, tire, launch: 6.0 };
+        let fire = |tire: usize| Firing::up(0.02 * tire as f64, tire, 6.0);
         (scene, Shot::from_firings((0..4).map(fire).collect()))
     }
 
@@ -77,7 +77,7 @@ mod tests {
             let cables = || near.cables.iter().zip(&scene.cables);
             let changes: [Vec<f64>; 5] = [
                 near.mass.iter().zip(&scene.mass).map(|(near, mass)| near / mass).collect(),
-                fired.firings.iter().zip(&shot.firings).map(|(near, f)| near.launch / f.launch).collect(),
+                fired.firings.iter().zip(&shot.firings).map(|(near, f)| near.launch.z / f.launch.z).collect(),
                 cables()
                     .map(|(near, c)| near.stiffness * near.rest_length / (c.stiffness * c.rest_length))
                     .collect(),

@@ -1,7 +1,10 @@
 //! Firings of one shot: which tire is launched when, and how fast.
 
+use nalgebra::Vector3;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+
+use super::Mirror;
 
 /// Impulse of one hole on one tire.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,8 +13,15 @@ pub struct Firing {
     pub at: f64,
     /// Index of the tire above the hole.
     pub tire: usize,
-    /// Launch velocity, added to the vertical velocity of the tire [m/s].
-    pub launch: f64,
+    /// Launch velocity, added to the velocity of the tire [m/s].
+    pub launch: Vector3<f64>,
+}
+
+impl Firing {
+    /// Firing at time `at` [s] that launches a tire straight up with `speed` [m/s].
+    pub fn up(at: f64, tire: usize, speed: f64) -> Self {
+        Self { at, tire, launch: Vector3::z() * speed }
+    }
 }
 
 /// All firings of one shot.
@@ -24,9 +34,9 @@ pub struct Shot {
 }
 
 impl Shot {
-    /// Shot of blast rows with known targets `(tire, launch [m/s])`, each row fired at its time `at` [s] (both `n_rows`).
-    pub fn from_targets(targets: &[Vec<(usize, f64)>], at: &[f64]) -> Self {
-        let fire = |(row, &at): (&Vec<(usize, f64)>, &f64)| -> Vec<Firing> {
+    /// Shot of blast rows with known targets `(tire, launch velocity [m/s])`, each row fired at its time `at` [s] (both `n_rows`).
+    pub fn from_targets(targets: &[Vec<(usize, Vector3<f64>)>], at: &[f64]) -> Self {
+        let fire = |(row, &at): (&Vec<(usize, Vector3<f64>)>, &f64)| -> Vec<Firing> {
             row.iter().map(|&(tire, launch)| Firing { at, tire, launch }).collect()
         };
         Self::from_firings(targets.iter().zip(at).flat_map(fire).collect())
@@ -63,10 +73,13 @@ impl Shot {
         })
     }
 
-    /// Whether the shot is its own image under a reflection; `image` is the image of each tire (`n_tires`).
-    pub fn is_mirrored(&self, image: &[usize]) -> bool {
-        let reflected = self.firings.iter().map(|f| Firing { tire: image[f.tire], ..*f }).collect();
-        Self::from_firings(reflected).firings == self.firings
+    /// Whether the shot is its own image in a mirror plane.
+    pub fn is_mirrored(&self, mirror: &Mirror) -> bool {
+        let image = |firing: &Firing| {
+            let (tire, launch) = mirror.reflect(firing.tire, firing.launch);
+            Firing { tire, launch, ..*firing }
+        };
+        Self::from_firings(self.firings.iter().map(image).collect()).firings == self.firings
     }
 }
 
@@ -77,7 +90,8 @@ mod tests {
     #[test]
     fn shots_to_both_sides_have_the_shot_in_their_middle() {
         let firings = [(0.0, 0, 6.0), (0.0, 1, 6.0), (0.02, 2, 5.0), (0.02, 3, 5.0)];
-        let shot = Shot::from_firings(firings.map(|(at, tire, launch)| Firing { at, tire, launch }).to_vec());
+        let shot =
+            Shot::from_firings(firings.map(|(at, tire, launch)| Firing::up(at, tire, launch)).to_vec());
         let mut sides = Vec::new();
         for number in 0..20 {
             let [more, less] = shot.both_sides(0.5, 1e-3, number);
@@ -86,11 +100,14 @@ mod tests {
             assert!((friction[0] - 0.5).abs() >= 0.5 * 0.5e-3);
             for ((more, less), firing) in more.firings.iter().zip(&less.firings).zip(&shot.firings) {
                 assert!((more.at + less.at - 2.0 * firing.at).abs() < 1e-15);
-                assert!((more.launch + less.launch - 2.0 * firing.launch).abs() < 1e-14);
-                assert!((more.launch / firing.launch - 1.0).abs() <= 1e-3);
+                assert!((more.launch + less.launch - 2.0 * firing.launch).norm() < 1e-14);
+                assert!((more.launch.z / firing.launch.z - 1.0).abs() <= 1e-3);
             }
-            assert!(more.is_mirrored(&[1, 0, 3, 2]), "a shelter and its image fire alike");
-            sides.push(more.firings[0].launch > 6.0);
+            assert!(
+                more.is_mirrored(&Mirror { axis: 0, image: vec![1, 0, 3, 2] }),
+                "a shelter and its image fire alike"
+            );
+            sides.push(more.firings[0].launch.z > 6.0);
         }
         assert!(sides.contains(&true) && sides.contains(&false));
     }

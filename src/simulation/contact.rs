@@ -67,13 +67,13 @@ impl TireStep {
     /// [s], velocity [m/s]).
     ///
     /// Returns the acceleration a of the last phase [m/s²]: v − a h/2 is the mid-step velocity of central differences.
-    pub fn integrate(&mut self, h: f64, launches: impl Iterator<Item = (f64, f64)>) -> Vector3<f64> {
+    pub fn integrate(&mut self, h: f64, launches: impl Iterator<Item = (f64, Vector3<f64>)>) -> Vector3<f64> {
         let mut now = 0.0;
         for (at, launch) in launches {
             self.integrate_unfired(at - now);
             now = at;
-            self.put_in += launch * (self.velocity.z + 0.5 * launch);
-            self.velocity.z += launch;
+            self.put_in += launch.dot(&(self.velocity + 0.5 * launch));
+            self.velocity += launch;
         }
         self.integrate_unfired(h - now)
     }
@@ -191,7 +191,7 @@ mod tests {
     fn one_step_holds_a_launch_a_landing_and_a_stop() {
         let (above, sideways) = (Vector3::z() * 1e-300, Vector3::x() * 3.0);
         let mut step = TireStep::new(above, sideways, -Vector3::z() * G, 0.5);
-        step.integrate(5.0, [(0.0, 2.0)].into_iter());
+        step.integrate(5.0, [(0.0, Vector3::z() * 2.0)].into_iter());
         let sideways = 3.0 - 0.5 * 2.0;
         let way = 3.0 * 2.0 * 2.0 / G + sideways * sideways / (2.0 * 0.5 * G);
         assert!((step.displacement.x - way).abs() < 1e-12);

@@ -204,9 +204,7 @@ pub mod tests {
         };
         let fired = |interval: f64, launch: f64| {
             let tires = [3, 38, 3, 90, 41].into_iter().enumerate();
-            Shot::from_firings(
-                tires.map(|(n, tire)| Firing { at: n as f64 * interval, tire, launch }).collect(),
-            )
+            Shot::from_firings(tires.map(|(n, tire)| Firing::up(n as f64 * interval, tire, launch)).collect())
         };
         (scene, vec![fired(0.017, 3.0), fired(0.11, 6.0), fired(0.6, 0.5), fired(2.0, 8.0)])
     }

@@ -11,6 +11,7 @@
 use std::collections::{HashMap, HashSet};
 
 use itertools::Itertools;
+use nalgebra::Vector3;
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
@@ -145,16 +146,17 @@ type Job = (usize, (Vec<usize>, f64));
 
 /// Blast row that is the mirror image of each blast row; `None` where the shelter has no mirror plane that moves rows.
 fn twin(case: &Case) -> Option<Vec<usize>> {
-    let holes = |image: &dyn Fn(usize) -> usize| -> Vec<Vec<(usize, u64)>> {
+    type Target = (usize, Vector3<f64>);
+    let holes = |image: &dyn Fn(Target) -> Target| -> Vec<Vec<(usize, [u64; 3])>> {
         let row = |row: &BlastRow| {
-            let targets = case.scene().targets(&row.targets).into_iter();
-            targets.map(|(tire, launch)| (image(tire), launch.to_bits())).sorted().collect()
+            let targets = case.scene().targets(&row.targets).into_iter().map(image);
+            targets.map(|(tire, launch)| (tire, launch.map(f64::to_bits).into())).sorted().collect()
         };
         case.plan.blast_rows.iter().map(row).collect()
     };
-    let rows = holes(&|tire| tire);
+    let rows = holes(&|target| target);
     case.scene().mirrors.iter().find_map(|mirror| {
-        let images = holes(&|tire| mirror.image[tire]);
+        let images = holes(&|(tire, launch)| mirror.reflect(tire, launch));
         let twin: Vec<usize> =
             images.iter().map(|image| rows.iter().position(|row| row == image)).collect::<Option<_>>()?;
         let returns = twin.iter().enumerate().all(|(row, &other)| twin[other] == row);

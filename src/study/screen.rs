@@ -1,8 +1,8 @@
 //! The verdict on a shot that is one of thousands: run at coarse steps first, and no finer than its verdict needs.
 //!
 //! A check begins at the step of the accuracy level and refines until the verdict is sure. A screen begins at 8 times the step
-//! of the field level, refines by [`error::RATIO`] until it has seen enough, and ends at the latest at the step at which a check
-//! begins. Where the step is fixed, or too few of the coarse runs succeed, the shot is checked instead.
+//! of the field level, refines by [`error::RATIO`] until it has seen enough, and ends at the step at which a check begins, or
+//! finer by [`FINER`] steps of the ladder where its verdict is still open. Where the step is fixed, or too few of the coarse runs succeed, the shot is checked instead.
 
 use super::batch::judge_shot;
 use super::ladder::estimates;
@@ -17,6 +17,8 @@ use crate::verdict::Verdict;
 /// Number of steps above the first step of `field`: the coarsest is 8 times that, with `verlet` at most 0.8 of the critical
 /// step.
 const COARSER: i32 = 6;
+/// Number of steps below the first step of a check.
+const FINER: i32 = 3;
 /// Factor on the error of a coarse run with which a pass must still stand.
 const SURE_PASS: f64 = 4.5;
 /// Least number of runs behind a pass: two may agree by luck.
@@ -38,11 +40,10 @@ pub fn screen(
     let last = compute.first_step(case);
     let field = ComputeSettings { accuracy: Accuracy::Field, step: None, ..*compute };
     let mut step = field.first_step(case) * error::RATIO.powi(COARSER);
+    let finest = last * error::RATIO.powi(-FINER);
     let mut runs: Vec<Outcome> = Vec::new();
     loop {
-        // The last step is exactly that of a check.
         let is_last = step < 1.01 * last;
-        step = if is_last { last } else { step };
         match case.model.run(shot, &case.settings(compute.method, step), &mut |_| progress.flow()) {
             Ok(outcome) => runs.push(outcome),
             Err(Failure::Step { .. } | Failure::Diverged { .. } | Failure::Unsettled { .. }) if !is_last => {}
@@ -53,7 +54,8 @@ pub fn screen(
         }
         if runs.len() > 1 {
             let envelope = judge(case, shot, &runs);
-            if is_last || enough(&envelope, runs.len()) {
+            let is_decided = is_last && envelope.verdict != Verdict::Undecided;
+            if is_decided || step < 1.01 * finest || enough(&envelope, runs.len()) {
                 return Ok(envelope);
             }
         }

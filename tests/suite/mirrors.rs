@@ -1,5 +1,6 @@
 //! Half and quarter shelters are the whole ones.
 
+use nalgebra::Vector3;
 use proptest::prelude::*;
 use shelter::choice::Method;
 use shelter::plan::Plan;
@@ -27,17 +28,21 @@ delay = [{{ name = "1", interval_ms = 0 }}]
 #[test]
 fn planes_are_found_and_shared_with_what_fires() {
     let scene = shelter("grid", 5, 8, 0.0);
-    let row =
-        |row: usize, at: f64| (0..8).map(move |column| Firing { at, tire: row * 8 + column, launch: 6.0 });
+    let row = |row: usize, at: f64| (0..8).map(move |column| Firing::up(at, row * 8 + column, 6.0));
     let shot = |firings: Vec<Firing>| Shot::from_firings(firings);
     assert_eq!(modelled_tires(&scene, &shot(row(2, 0.0).collect())), 12, "the middle row: a quarter");
     assert_eq!(modelled_tires(&scene, &shot(row(1, 0.0).collect())), 20, "another row: a half");
     let both = row(1, 0.0).chain(row(3, 0.02)).collect();
     assert_eq!(modelled_tires(&scene, &shot(both)), 20, "rows one after the other: a half");
-    let corner = Firing { at: 0.0, tire: 0, launch: 6.0 };
+    let tilted = |toward: Vector3<f64>| row(2, 0.0).map(move |f| Firing { launch: f.launch + toward, ..f });
+    assert_eq!(modelled_tires(&scene, &shot(tilted(Vector3::y()).collect())), 20, "tilted along y: a half");
+    assert_eq!(modelled_tires(&scene, &shot(tilted(Vector3::x()).collect())), 24, "tilted along x: a half");
+    let apart = row(2, 0.0).map(|f| Firing { launch: f.launch + Vector3::x() * (f.tire as f64 - 19.5), ..f });
+    assert_eq!(modelled_tires(&scene, &shot(apart.collect())), 12, "tilted away from the middle: a quarter");
+    let corner = Firing::up(0.0, 0, 6.0);
     assert_eq!(modelled_tires(&scene, &shot(vec![corner])), 40, "a corner: the whole");
     let quincunx = shelter("quincunx", 2, 2, 0.0);
-    let centre = Firing { at: 0.0, tire: 4, launch: 6.0 };
+    let centre = Firing::up(0.0, 4, 6.0);
     assert_eq!(
         modelled_tires(&quincunx, &shot(vec![centre])),
         2,
@@ -55,7 +60,7 @@ fn cables_break_in_the_images_as_well() {
     for layout in ["grid", "quincunx"] {
         let scene = Scene { breaking_force: Some(15e3), ..shelter(layout, 4, 5, 0.5) };
         let whole = Scene { mirrors: Vec::new(), ..scene.clone() };
-        let row = (5..10).map(|tire| Firing { at: 0.0, tire, launch: 7.0 });
+        let row = (5..10).map(|tire| Firing::up(0.0, tire, 7.0));
         let shot = Shot::from_firings(row.collect());
         let settings = settings(Method::Verlet, 5e-4, Some(0.4));
         let broken = |scene: &Scene| {
@@ -92,7 +97,7 @@ proptest! {
         let scene = shelter(if quincunx { "quincunx" } else { "grid" }, rows, columns, slack);
         let whole = Scene { mirrors: Vec::new(), ..scene.clone() };
         let row = |&(row, at, launch): &(usize, f64, f64)| {
-            (0..columns).map(move |column| Firing { at, tire: (row % rows) * columns + column, launch })
+            (0..columns).map(move |column| Firing::up(at, (row % rows) * columns + column, launch))
         };
         let shot = Shot::from_firings(fired.iter().flat_map(row).collect());
         prop_assert!(modelled_tires(&scene, &shot) < scene.mass.len());

@@ -49,7 +49,7 @@ fn simple(scene: &Scene, shot: &Shot, steps: usize) -> Envelope {
             }
         }
         while let Some(firing) = shot.firings.get(fired).filter(|firing| firing.at <= now) {
-            v[firing.tire].z += firing.launch;
+            v[firing.tire] += firing.launch;
             fired += 1;
         }
         for tire in 0..count {
@@ -97,10 +97,14 @@ fn shelter(rng: &mut ChaCha8Rng) -> (Scene, Shot) {
             }
         }
     }
-    let firing = |rng: &mut ChaCha8Rng| Firing {
-        at: rng.random_range(0.0..0.2),
-        tire: rng.random_range(0..count),
-        launch: rng.random_range(1.0..7.0),
+    let firing = |rng: &mut ChaCha8Rng| {
+        let (at, tire) = (rng.random_range(0.0..0.2), rng.random_range(0..count));
+        let mut firing = Firing::up(at, tire, rng.random_range(1.0..7.0));
+        if rng.random() {
+            firing.launch.x = rng.random_range(-2.0..2.0);
+            firing.launch.y = rng.random_range(-2.0..2.0);
+        }
+        firing
     };
     let firings = (0..rng.random_range(1..=3)).map(|_| firing(rng)).collect();
     (scene, Shot::from_firings(firings))

@@ -17,7 +17,7 @@ fn shelter() -> impl Strategy<Value = (Scene, Shot)> {
         |((rows, columns), spacing, ea, mu, slack)| {
             let tires = rows * columns;
             let firing =
-                (0..tires, 0.0..0.3, 0.5..8.0).prop_map(|(tire, at, launch)| Firing { at, tire, launch });
+                (0..tires, 0.0..0.3, 0.5..8.0).prop_map(|(tire, at, launch)| Firing::up(at, tire, launch));
             proptest::collection::vec(firing, 1..4).prop_map(move |firings| {
                 let mut scene = grid(rows, columns, spacing, 10_f64.powf(ea));
                 scene.friction = mu;

@@ -66,17 +66,13 @@ pub fn quincunx(diagonal: f64, axial_stiffness: f64) -> Scene {
 
 /// Tires fired at once with `launch` [m/s].
 pub fn fire(tires: &[usize], launch: f64) -> Shot {
-    Shot::from_firings(tires.iter().map(|&tire| Firing { at: 0.0, tire, launch }).collect())
+    Shot::from_firings(tires.iter().map(|&tire| Firing::up(0.0, tire, launch)).collect())
 }
 
 /// Rows (from 0) of a grid fired one after another, `interval` [s] apart, with 6 m/s.
 pub fn fire_rows(rows: &[usize], columns: usize, interval: f64) -> Shot {
     let row = |(turn, &row): (usize, &usize)| {
-        (row * columns..(row + 1) * columns).map(move |tire| Firing {
-            at: turn as f64 * interval,
-            tire,
-            launch: 6.0,
-        })
+        (row * columns..(row + 1) * columns).map(move |tire| Firing::up(turn as f64 * interval, tire, 6.0))
     };
     Shot::from_firings(rows.iter().enumerate().flat_map(row).collect())
 }

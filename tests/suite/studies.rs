@@ -361,7 +361,7 @@ fn draws_have_the_moments_asked_for() {
     for number in 0..count {
         let shot = drawn(&case.shots[1], &spec, 7, 1, number);
         let same = shot.firings.iter().find(|firing| firing.tire == nominal.tire).expect("the same hole");
-        values[0].push(same.launch / nominal.launch);
+        values[0].push(same.launch.z / nominal.launch.z);
         values[1].push((same.at - nominal.at) / nominal.at);
         values[2].push(shot.friction.expect("a friction"));
     }

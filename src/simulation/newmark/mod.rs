@@ -168,11 +168,11 @@ impl<'a> Stepper<'a> {
                 self.advance(after - done, 0)?;
                 done = after;
             }
-            let velocity = &mut self.v[firing.tire].z;
-            let energy = firing.launch * (*velocity + 0.5 * firing.launch);
+            let velocity = &mut self.v[firing.tire];
+            let energy = firing.launch.dot(&(*velocity + 0.5 * firing.launch));
             *velocity += firing.launch;
             self.record.ledger.put_in += self.scene.mass[firing.tire] * energy;
-            if firing.launch != 0.0 {
+            if firing.launch != Vector3::zeros() {
                 self.region.ground[firing.tire] = Ground::Free;
             }
             self.wake.set_moving(firing.tire, true);

@@ -86,7 +86,7 @@ impl VerletCache {
 
 /// Mirror planes of the scene in which the shot is its own image.
 fn shared_planes<'s>(scene: &'s Scene, shot: &Shot) -> Vec<&'s Mirror> {
-    scene.mirrors.iter().filter(|mirror| shot.is_mirrored(&mirror.image)).collect()
+    scene.mirrors.iter().filter(|mirror| shot.is_mirrored(mirror)).collect()
 }
 
 impl Part {

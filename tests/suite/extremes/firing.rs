@@ -19,7 +19,7 @@ fn ten_thousand_holes_are_stable() {
     let all: Vec<usize> = (0..10_000).collect();
     stable("at once", &scene, &fire(&all, LAUNCH), Method::Verlet, h, 400);
     // One by one in an order that jumps about: 7919 is prime to 10,000.
-    let firing = |n: usize| Firing { at: n as f64 * 1e-5, tire: n * 7919 % 10_000, launch: LAUNCH };
+    let firing = |n: usize| Firing::up(n as f64 * 1e-5, n * 7919 % 10_000, LAUNCH);
     let shot = Shot::from_firings((0..10_000).map(firing).collect());
     stable("one by one", &scene, &shot, Method::Verlet, h, 400);
 }
@@ -41,7 +41,7 @@ fn firing_one_tire_100_times_at_one_instant_is_one_launch_of_the_sum() {
 fn firing_one_tire_100_times_in_turn_is_stable() {
     let scene = cross();
     for interval in [1e-5, 1e-3, 0.01] {
-        let firing = |n: usize| Firing { at: n as f64 * interval, tire: 4, launch: 1.0 };
+        let firing = |n: usize| Firing::up(n as f64 * interval, 4, 1.0);
         let shot = Shot::from_firings((0..100).map(firing).collect());
         for method in METHODS {
             stable("100 in turn", &scene, &shot, method, 1e-4, steps(method));
@@ -54,7 +54,7 @@ fn firing_one_tire_100_times_in_turn_is_stable() {
 fn firing_after_1e5_s_is_firing_at_0() {
     let scene = cross();
     for method in METHODS {
-        let late = Shot::from_firings(vec![Firing { at: 1e5, tire: 4, launch: LAUNCH }]);
+        let late = Shot::from_firings(vec![Firing::up(1e5, 4, LAUNCH)]);
         let out = stable("late", &scene, &late, method, 1e-4, steps(method));
         let early = stable("early", &scene, &fire(&[4], LAUNCH), method, 1e-4, steps(method));
         assert_eq!(out.height.value, early.height.value);
@@ -83,10 +83,7 @@ fn ten_hours_between_two_firings_are_two_runs() {
         let settings = settings(method, 5e-4, None);
         let alone = run(&one, &fire(&[4], LAUNCH), settings);
         let weaker = run(&one, &fire(&[4], 5.0), settings);
-        let both = Shot::from_firings(vec![
-            Firing { at: 0.0, tire: 4, launch: 5.0 },
-            Firing { at: pause, tire: 9, launch: LAUNCH },
-        ]);
+        let both = Shot::from_firings(vec![Firing::up(0.0, 4, 5.0), Firing::up(pause, 9, LAUNCH)]);
         let out = run(&two, &both, settings);
         // The same but for the order in which energies and forces are summed.
         close(out.height.value, alone.height.value, 1e-9, "height");
@@ -98,10 +95,7 @@ fn ten_hours_between_two_firings_are_two_runs() {
         let energies = alone.ledger.dissipated + weaker.ledger.dissipated;
         close(out.ledger.dissipated, energies, 1e-9 * energies, "dissipated");
 
-        let twice = Shot::from_firings(vec![
-            Firing { at: 0.0, tire: 0, launch: LAUNCH },
-            Firing { at: pause, tire: 0, launch: LAUNCH },
-        ]);
+        let twice = Shot::from_firings(vec![Firing::up(0.0, 0, LAUNCH), Firing::up(pause, 0, LAUNCH)]);
         let out = run(&lone, &twice, settings);
         assert_eq!(out.steps, 2 * run(&lone, &fire(&[0], LAUNCH), settings).steps);
     }

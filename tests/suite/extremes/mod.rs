@@ -105,7 +105,7 @@ fn stable(case: &str, scene: &Scene, shot: &Shot, method: Method, h: f64, steps:
 fn ledger_bound(scene: &Scene, shot: &Shot, h: f64, steps: usize) -> f64 {
     let omega = scene.frequency_bound();
     // Lengths are differences of numbers of their own size: the force rounds by k ε L, and works over v h at every step.
-    let launch = shot.firings.iter().fold(0.0_f64, |most, firing| most.max(firing.launch.abs()));
+    let launch = shot.firings.iter().fold(0.0_f64, |most, firing| most.max(firing.launch.norm()));
     let longest = scene.cables.iter().fold(0.0_f64, |most, cable| most.max(cable.rest_length));
     let length = longest + launch * h * steps as f64;
     let noise = if launch > 0.0 { omega * omega * h * length / launch } else { 0.0 };
@@ -225,10 +225,7 @@ fn a_downward_launch_moves_nothing_and_is_dissipated() {
             close(out.ledger.dissipated, energy, 1e-9, "dissipated");
         }
         // In flight it only brings the tire down sooner; what it takes out of the rise counts as negative.
-        let shot = Shot::from_firings(vec![
-            Firing { at: 0.0, tire: 4, launch: LAUNCH },
-            Firing { at: 0.05, tire: 4, launch: -2.0 * LAUNCH },
-        ]);
+        let shot = Shot::from_firings(vec![Firing::up(0.0, 4, LAUNCH), Firing::up(0.05, 4, -2.0 * LAUNCH)]);
         let out = stable("up and down", &cross(), &shot, method, 1e-4, 20_000);
         assert_eq!(out.end.reason, EndReason::AtRest);
         assert!(out.height.value < 0.3, "{}", out.height.value);
@@ -344,10 +341,7 @@ fn a_flight_shorter_than_the_step_reaches_its_height() {
             assert_eq!(out.end.reason, EndReason::AtRest);
         }
         // Fired within the step, where an earlier tire is still in the air.
-        let shot = Shot::from_firings(vec![
-            Firing { at: 0.0, tire: 0, launch: 5.0 },
-            Firing { at: 0.25, tire: 1, launch: LAUNCH },
-        ]);
+        let shot = Shot::from_firings(vec![Firing::up(0.0, 0, 5.0), Firing::up(0.25, 1, LAUNCH)]);
         let two = tires(&[(0.0, 0.0), (5.0, 0.0)], 280.0);
         let out = stable("short flights", &two, &shot, method, 2.0, 100);
         close(out.height.value, top.0, 1e-9, "height");

@@ -28,7 +28,7 @@ struct DueFiring {
     /// Time since the start of the step [s].
     after: f64,
     /// Launch velocity [m/s].
-    launch: f64,
+    launch: Vector3<f64>,
 }
 
 /// Cable in which the greatest force was sampled.
