@@ -4,6 +4,7 @@ use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 
 use super::arguments::LookArguments;
+use crate::report::notes;
 use crate::study::Case;
 
 /// Opens plans. Prints every mistake of every plan; `None` where there is a mistake.
@@ -13,11 +14,12 @@ pub fn open_all<'a>(paths: impl IntoIterator<Item = &'a PathBuf>, look: &LookArg
     cases.into_iter().collect()
 }
 
-/// Opens a plan. Prints its mistakes; `None` where it has one.
+/// Opens a plan. Prints its mistakes and warnings; `None` where it has a mistake.
 pub fn open(path: &Path, look: &LookArguments) -> Option<Case> {
     let opened = Case::load(path);
-    if let Err(mistakes) = &opened {
-        eprint!("{}", mistakes.render(look.colored(io::stderr().is_terminal())));
+    match &opened {
+        Ok(case) => notes::ranges(case).iter().for_each(|warning| eprintln!("{warning}")),
+        Err(mistakes) => eprint!("{}", mistakes.render(look.colored(io::stderr().is_terminal()))),
     }
     opened.ok()
 }

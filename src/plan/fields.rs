@@ -1,9 +1,9 @@
 //! The values that the terminal's editor shows: listed from the text of a plan, and replaced one by one.
 
-use toml_edit::{DocumentMut, Item, TableLike, Value};
+use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
 
 use super::edit::with_line_ends_of;
-use super::keys::{Key, Kind, Offered, delay, plan};
+use super::keys::{DefaultValue, Key, Kind, Offered, delay, plan};
 
 /// One value of a plan's text.
 #[derive(Clone, Debug)]
@@ -14,6 +14,19 @@ pub struct Field {
     pub path: Path,
     /// The value as written; empty where the plan leaves the key out.
     pub value: String,
+}
+
+impl Field {
+    /// What holds where the plan leaves the key out.
+    pub fn unset(&self) -> String {
+        match self.path.key.default {
+            Some(DefaultValue::Number(default)) => format!("{default} (default)"),
+            Some(DefaultValue::Name(default) | DefaultValue::Described(default)) => {
+                format!("{default} (default)")
+            }
+            None => "not set".to_owned(),
+        }
+    }
 }
 
 /// Position of a value: a section, and a key in it.
@@ -118,10 +131,16 @@ fn value_text(item: &Item) -> String {
 
 /// The text of the plan with another value at `path`, or a message that says why `new` is no value.
 ///
-/// An empty `new` removes the key. A text may be typed without quotes, a list without brackets. Comments and formatting stay.
+/// An empty `new` removes the key. A section that the plan leaves out is added. A text may be typed without quotes, a list without brackets. Comments and formatting stay.
 pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
     let mut document: DocumentMut =
         text.parse().map_err(|error: toml_edit::TomlError| error.message().to_owned())?;
+    if path.index.is_none() && !document.contains_key(path.section) {
+        if new.trim().is_empty() {
+            return Ok(text.to_owned());
+        }
+        document.insert(path.section, Item::Table(Table::new()));
+    }
     let table =
         table_mut(&mut document, path).ok_or_else(|| format!("the plan has no [{}]", path.section))?;
     if new.trim().is_empty() {
@@ -158,9 +177,8 @@ fn table_mut<'d>(document: &'d mut DocumentMut, path: &Path) -> Option<&'d mut d
 pub fn copy_delay(text: &str, index: usize) -> Option<String> {
     let mut document: DocumentMut = text.parse().ok()?;
     let Item::ArrayOfTables(tables) = document.get_mut("delay")? else { return None };
-    let mut all: Vec<toml_edit::Table> = tables.iter().cloned().collect();
-    let name =
-        |table: &toml_edit::Table| table.get("name").and_then(Item::as_str).unwrap_or_default().to_owned();
+    let mut all: Vec<Table> = tables.iter().cloned().collect();
+    let name = |table: &Table| table.get("name").and_then(Item::as_str).unwrap_or_default().to_owned();
     let names: Vec<String> = all.iter().map(name).collect();
     let mut copy = all.get(index)?.clone();
     let new = (2..).map(|n| format!("{} ({n})", names[index])).find(|new| !names.contains(new))?;
@@ -180,8 +198,8 @@ pub fn remove_delay(text: &str, index: usize) -> Option<String> {
 }
 
 /// Replaces all tables; each follows the one before in the text.
-fn replace(tables: &mut toml_edit::ArrayOfTables, all: Vec<toml_edit::Table>) {
-    let first = tables.iter().filter_map(toml_edit::Table::position).min();
+fn replace(tables: &mut toml_edit::ArrayOfTables, all: Vec<Table>) {
+    let first = tables.iter().filter_map(Table::position).min();
     tables.clear();
     for mut table in all {
         table.set_position(first);
@@ -214,6 +232,18 @@ mod tests {
         let windows = PLAN.replace('\n', "\r\n");
         let new = set(&windows, &field.path, "12.5").expect("a value");
         assert_eq!(new, windows.replace("interval_ms = 9", "interval_ms = 12.5"));
+    }
+
+    #[test]
+    fn a_section_that_the_plan_leaves_out_is_added() {
+        let (without, _) = PLAN.split_once("[uncertainty]").expect("a section");
+        let field = find(without, "uncertainty", None, "friction");
+        assert_eq!(field.value, "");
+        let new = set(without, &field.path, "0.4, 0.6").expect("a value");
+        assert_eq!(new, format!("{without}\n[uncertainty]\nfriction = [0.4, 0.6]\n"));
+        let plan = crate::plan::Plan::parse("", &new).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        assert_eq!(plan.uncertainty.friction, [0.4, 0.6]);
+        assert_eq!(set(without, &field.path, "").as_deref(), Ok(without));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use super::keys::{Key, Section, blast_row, cable, delay, ground, limits, plan, shelter, tire};
+use super::keys::{Key, Section, blast_row, cable, delay, ground, limits, plan, shelter, tire, uncertainty};
 use crate::choice::LayoutKind;
 
 /// Questions for a new shelter, each with the answer offered.
@@ -98,6 +98,54 @@ pub(super) fn limits(height_m: f64) -> String {
     .concat()
 }
 
+/// What is not known of the shot: typical figures, each with its source.
+pub(super) fn uncertainty() -> String {
+    let typical = |key: &Key, value: &str, source: &str| {
+        format!("{:<36} # {source}\n", format!("{} = {value}", key.name))
+    };
+    [
+        format!(
+            "{} # what is not known, and how far; put in yours\n",
+            header(&uncertainty::SECTION).trim_end()
+        ),
+        typical(
+            &uncertainty::DETONATOR,
+            "\"electronic\"",
+            "0.1 ms or 0.01 %: specification sheets; or \"pyrotechnic\"",
+        ),
+        typical(
+            &uncertainty::IN_HOLE_DELAY_MS,
+            "0",
+            "of the detonator in every hole; 0: there is none, or it is electronic",
+        ),
+        typical(&uncertainty::LAUNCH_CV_PERCENT, "5", "hole by hole; assumed: put in yours"),
+        typical(
+            &uncertainty::LAUNCH_COMMON_PERCENT,
+            "10",
+            "of a velocity from a flight height known to 20 %: V0 = √(2 g h)",
+        ),
+        typical(&uncertainty::LAUNCH_TILT_DEG, "3", "assumed: put in yours"),
+        typical(&uncertainty::FRICTION, "[0.3, 0.5]", "rocky soil"),
+        typical(
+            &uncertainty::SLACK_PERCENT,
+            "[1, 4]",
+            "assumed: measure yours; new ropes stretch by 0.25 to 0.75 % for good (Certex)",
+        ),
+        typical(
+            &uncertainty::AXIAL_STIFFNESS_PERCENT,
+            "[-10, 10]",
+            "handbooks: modulus of fibre-core ropes 0.9 to 1.1e11 Pa",
+        ),
+        typical(
+            &uncertainty::TIRE_MASS_CV_PERCENT,
+            "10",
+            "assumed: new tires of one size differ by ±15 %, worn ones weigh 10 to 25 % less",
+        ),
+        typical(&uncertainty::BREAKING_FORCE_CV_PERCENT, "3", "assumed: put in yours"),
+    ]
+    .concat()
+}
+
 /// A delay option with its interval [ms].
 pub(super) fn delay(interval_ms: f64) -> String {
     let name = line(&delay::NAME, quoted(&format!("{interval_ms} ms")));
@@ -138,6 +186,7 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
     }
     text += &limits(height);
     intervals.into_iter().for_each(|interval| text += &delay(interval));
+    text += &uncertainty();
     Ok(text)
 }
 
@@ -151,6 +200,10 @@ mod tests {
         let text = plan(&QUESTIONS.map(|(_, answer)| answer)).expect("answers");
         let plan = Plan::parse("new", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"));
         assert_eq!((plan.blast_rows.len(), plan.delays.len()), (3, 7));
+        assert!(plan.ranges_beside_the_plan().is_empty());
+        for key in uncertainty::SECTION.keys.iter().filter(|key| !key.name.starts_with("delay_")) {
+            assert!(text.contains(&format!("\n{} = ", key.name)), "{}", key.name);
+        }
     }
 
     #[test]

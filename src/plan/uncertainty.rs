@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::keys::cable;
+use super::Plan;
+use super::keys::{Key, cable, uncertainty};
 use crate::choice::Detonator;
 
 /// What is not known of the shot, and how far; 0 or `[x, x]` means known exactly.
@@ -46,6 +47,20 @@ impl Uncertainty {
 
     /// The deviation of axial stiffness [%] assumed where the plan gives no range.
     pub const USUAL_AXIAL_STIFFNESS: [f64; 2] = [-1.0, 1.0];
+}
+
+impl Plan {
+    /// Ranges of `[uncertainty]` that leave out what the plan itself says: each with its key and the plan's own value, in the
+    /// unit of the key.
+    pub fn ranges_beside_the_plan(&self) -> Vec<(&'static Key, [f64; 2], f64)> {
+        let Uncertainty { friction, slack_percent, axial_stiffness_percent, .. } = self.uncertainty;
+        let ranges: [(&'static Key, _, _); 3] = [
+            (&uncertainty::FRICTION, friction, self.friction),
+            (&uncertainty::SLACK_PERCENT, slack_percent, self.cable.slack_percent),
+            (&uncertainty::AXIAL_STIFFNESS_PERCENT, axial_stiffness_percent, 0.0),
+        ];
+        ranges.into_iter().filter(|&(_, [low, high], own)| !(low..=high).contains(&own)).collect()
+    }
 }
 
 /// Scatter of a firing time: the greater of a fixed standard deviation and a share of the nominal delay.

@@ -2,6 +2,7 @@
 
 use super::scatter::swap_warning;
 use crate::plan::Timing;
+use crate::plan::keys::Key;
 use crate::study::Case;
 use crate::study::scatter::swaps;
 
@@ -14,6 +15,18 @@ pub fn orders(case: &Case) -> Option<String> {
     let names: Vec<&str> = own.map(|delay| delay.name.as_str()).collect();
     (!names.is_empty())
         .then(|| format!("note: without an interval of their own, and left out: {}", names.join("; ")))
+}
+
+/// Warnings of ranges of `[uncertainty]` that leave out what the plan itself says.
+pub fn ranges(case: &Case) -> Vec<String> {
+    let warning = |(key, [low, high], own): (&Key, [f64; 2], f64)| {
+        let (path, name) = (&case.source.path, key.name);
+        format!(
+            "warning: {path}: `{name} = [{low}, {high}]` of [uncertainty] leaves out {own}, the plan's own: no sample is like \
+             the nominal shot"
+        )
+    };
+    case.plan.ranges_beside_the_plan().into_iter().map(warning).collect()
 }
 
 /// Warnings of blast rows that may fire in the wrong order, when the detonators scatter as the plan says.

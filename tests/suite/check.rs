@@ -304,6 +304,24 @@ fn a_reader_that_goes_away_ends_trace_quietly() {
 }
 
 #[test]
+fn a_range_that_leaves_out_the_plans_own_value_is_warned_of() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plan.toml");
+    let ranges =
+        "[uncertainty]\nfriction = [0.55, 0.7]\nslack_percent = [0, 2]\naxial_stiffness_percent = [5, 20]\n";
+    std::fs::write(&path, format!("{}{ranges}", super::bad_plans::GOOD)).expect("written");
+    let output = shelter(&["check", path.to_str().expect("UTF-8"), "--accuracy", "draft"]);
+    let told = text(&output.stderr);
+    assert_eq!(told.lines().count(), 2, "{told}");
+    assert!(
+        told.contains("`friction = [0.55, 0.7]` of [uncertainty] leaves out 0.5, the plan's own"),
+        "{told}"
+    );
+    assert!(told.contains("`axial_stiffness_percent = [5, 20]` of [uncertainty] leaves out 0"), "{told}");
+    assert!(!text(&output.stdout).contains("leaves out"));
+}
+
+#[test]
 fn init_writes_a_plan_that_loads_and_overwrites_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("new.toml");

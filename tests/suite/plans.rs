@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use proptest::prelude::*;
-use shelter::plan::{LaunchTargets, Layout, Plan, Timing};
+use shelter::plan::{DelayScatter, LaunchTargets, Layout, Plan, Timing, Uncertainty};
 use shelter::scene::TireId;
 use shelter::study::Case;
 
@@ -125,4 +125,33 @@ proptest! {
             Err(mistakes) => prop_assert!(!mistakes.render(false).is_empty()),
         }
     }
+}
+
+/// A section left out and a key left out mean the same: known to 1 %, cables and directions as planned.
+#[test]
+fn what_a_plan_does_not_say_is_known_to_one_percent() {
+    let read = |more: &str| {
+        let text = format!("{}{more}", super::bad_plans::GOOD);
+        Plan::parse("plan.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")).uncertainty
+    };
+    let assumed = read("");
+    let expected = Uncertainty {
+        assumed: true,
+        delay: DelayScatter { sd_ms: 0.1, cv_percent: 0.01 },
+        in_hole_delay_ms: 0.0,
+        launch_cv_percent: 1.0,
+        launch_common_percent: 1.0,
+        launch_tilt_deg: 0.0,
+        friction: [0.495, 0.505],
+        slack_percent: [0.0, 0.1],
+        axial_stiffness_percent: [-1.0, 1.0],
+        tire_mass_cv_percent: 1.0,
+        breaking_force_cv_percent: 0.0,
+    };
+    assert_eq!(assumed, expected);
+    assert_eq!(read("[uncertainty]\n"), Uncertainty { assumed: false, ..expected });
+    let some = read("[uncertainty]\ndelay_cv_percent = 2\nfriction = [0.4, 0.4]\nin_hole_delay_ms = 500\n");
+    let delay = DelayScatter { sd_ms: 0.0, cv_percent: 2.0 };
+    let friction = [0.4, 0.4];
+    assert_eq!(some, Uncertainty { assumed: false, delay, friction, in_hole_delay_ms: 500.0, ..expected });
 }

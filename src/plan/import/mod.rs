@@ -106,7 +106,9 @@ fn plan(name: &str, source: &str, list: Holes) -> Result<Imported, Diagnostics> 
     let mut notes = vec![summary(&list, &timed)];
     let launch =
         if list.holes.iter().all(|hole| hole.launch_m_s.is_none()) { "launch velocities, " } else { "" };
-    notes.push(format!("assumed, put in yours: {launch}tires, rope, slack, friction and limits"));
+    notes.push(format!(
+        "assumed, put in yours: {launch}tires, rope, slack, friction, limits and [uncertainty]"
+    ));
     notes.extend(list.notes);
     Ok(Imported { text, notes })
 }
@@ -243,5 +245,5 @@ fn write(name: &str, cover: &Cover, holes: &[ListedHole], groups: &[Group]) -> S
         None if groups.len() == 1 => text += &starter::delay(0.0),
         None => INTERVALS_MS.into_iter().for_each(|interval| text += &starter::delay(interval)),
     }
-    text
+    text + &starter::uncertainty()
 }

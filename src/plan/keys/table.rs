@@ -11,6 +11,9 @@ use super::{Key, Kind, Section, key, number, section};
 use crate::choice::{Accuracy, Detonator, LayoutKind, Link, Method, OnOverload};
 use crate::ropes::catalogue;
 
+/// Sections of a plan with a name of old, each with the section that took its place.
+pub const RENAMED: [(&str, &Key); 1] = [("scatter", &plan::UNCERTAINTY)];
+
 /// Most tires in a shelter.
 pub const MOST_TIRES: usize = 4_000_000;
 
@@ -128,9 +131,9 @@ sections! {
         FREE_FLIGHT_HEIGHT_M = key("free_flight_height_m", number("m", 0.0..=1e5), "1.83",
             "seen on a loose test tire, instead of launch_m_s").edit("free flight height, m");
         TILT_DEG = key("tilt_deg", number("°", 0.0..=80.0), "10", "of the launch from the ground's normal")
-            .default(0.0).edit("tilt, °");
+            .default(0.0).edit("tilt, deg");
         TILT_TOWARD_DEG = key("tilt_toward_deg", number("°", -360.0..=360.0), "90",
-            "direction of the tilt, from +x toward +y").default(0.0).edit("tilt toward, °")
+            "direction of the tilt, from +x toward +y").default(0.0).edit("tilt toward, deg")
             .offered_beside(TILT_DEG.name);
         UNDER_ROW = key("under_row", Kind::ShelterRow(0.0..=1e7), "2", "launches every tire of this shelter row")
             .edit("under row");
@@ -180,30 +183,30 @@ sections! {
 
     uncertainty "[uncertainty]" "what is not known of the shot, and how far; 0 or [x, x] means exact" {
         DETONATOR = key("detonator", Kind::Choice(Detonator::NAMES), "\"electronic\"", "gives the scatter of firing times")
-            .described("\"electronic\", unless delay_sd_ms or delay_cv_percent is given")
+            .described("electronic, without delay_sd_ms and delay_cv_percent")
             .edit("detonators").offered();
         DELAY_SD_MS = key("delay_sd_ms", number("ms", 0.0..=1e6), "0.5", "standard deviation of firing times")
             .described("that of the detonator").edit("scatter of times, ms");
         DELAY_CV_PERCENT = key("delay_cv_percent", PERCENT, "2", "standard deviation over delay")
             .described("that of the detonator").edit("scatter of times, %");
         IN_HOLE_DELAY_MS = key("in_hole_delay_ms", TIME, "500", "of the detonator in every hole, which scatters too")
-            .default(0.0).edit("delay in the holes, ms").offered();
+            .default(0.0).edit("in-hole delay, ms").offered();
         LAUNCH_CV_PERCENT = key("launch_cv_percent", PERCENT, "5", "of launch velocities, hole by hole, lognormal")
-            .default(1.0).edit("launches, hole by hole, %").offered();
+            .default(1.0).edit("launch by hole, %").offered();
         LAUNCH_COMMON_PERCENT = key("launch_common_percent", PERCENT, "10",
-            "of all launch velocities at once, lognormal").default(1.0).edit("launches, all at once, %").offered();
+            "of all launch velocities at once, lognormal").default(1.0).edit("launch in common, %").offered();
         LAUNCH_TILT_DEG = key("launch_tilt_deg", number("°", 0.0..=45.0), "3",
             "of launch directions, hole by hole: standard deviation about each horizontal axis").default(0.0)
-            .edit("launch directions, °").offered();
+            .edit("launch direction, deg").offered();
         FRICTION = key("friction", Kind::Range(&number("", FRICTION_RANGE)), "[0.4, 0.6]",
-            "anything between, the same under the whole shot").described("±1 % of that of [ground]")
+            "anything between, the same under the whole shot").described("1 % either side of that of [ground]")
             .edit("friction between").offered();
         SLACK_PERCENT = key("slack_percent", Kind::Range(&number("%", SLACK)), "[1, 4]",
             "anything between, the same in all cables")
-            .described("±0.1 percentage points about that of [cable], not below 0")
+            .described("0.1 either side of that of [cable], not below 0")
             .edit("slack between, %").offered();
         AXIAL_STIFFNESS_PERCENT = key("axial_stiffness_percent", Kind::Range(&number("%", -90.0..=1e3)), "[-10, 20]",
-            "of the rope's own, the same in all cables").described("±1 %").edit("axial stiffness between, %").offered();
+            "of the rope's own, the same in all cables").described("-1 to 1").edit("stiffness between, %").offered();
         TIRE_MASS_CV_PERCENT = key("tire_mass_cv_percent", PERCENT, "10", "of masses, tire by tire").default(1.0)
             .edit("tire masses, %").offered();
         BREAKING_FORCE_CV_PERCENT = key("breaking_force_cv_percent", PERCENT, "3", "of breaking forces, cable by cable")

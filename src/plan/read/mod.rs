@@ -16,7 +16,7 @@ use toml::de::{DeTable, DeValue};
 pub use self::value::nearest;
 use self::value::{article, as_number, as_whole, out_of};
 use super::diagnostic::Mistake;
-use super::keys::{DefaultValue, Key, Section};
+use super::keys::{DefaultValue, Key, RENAMED, Section};
 
 /// Mistakes found so far.
 #[derive(Debug, Default)]
@@ -238,14 +238,16 @@ impl<'s> SectionReader<'s> {
             if known.contains(&name) {
                 continue;
             }
-            let remedy = nearest(name, known.iter().copied()).map_or_else(
-                || {
+            let renamed = RENAMED.iter().find(|(old, new)| *old == name && known.contains(&new.name));
+            let remedy = match (renamed, nearest(name, known.iter().copied())) {
+                (Some((_, new)), _) => format!("the section is now `[{}]`", new.name),
+                (None, Some(near)) => format!("did you mean `{near}`?"),
+                (None, None) => {
                     let mut known: Vec<_> = known.iter().map(|key| format!("`{key}`")).collect();
                     known.sort_unstable();
                     format!("{} knows {}", self.section.title, known.join(", "))
-                },
-                |near| format!("did you mean `{near}`?"),
-            );
+                }
+            };
             let message = format!("{} has no key `{name}`", self.section.title);
             self.mistakes.add(key.span(), message, remedy);
         }

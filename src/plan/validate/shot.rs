@@ -121,6 +121,10 @@ fn check_row(section: &SectionReader<'_>, layout: Option<&Layout>, row: f64) {
 }
 
 fn read_launch(section: &SectionReader<'_>, gravity: f64) -> Launch {
+    if section.has(&blast_row::TILT_TOWARD_DEG) && !section.has(&blast_row::TILT_DEG) {
+        let message = "`tilt_toward_deg` stands without `tilt_deg`";
+        section.wrong(&blast_row::TILT_TOWARD_DEG, message, "add tilt_deg, or remove it");
+    }
     Launch {
         speed_m_s: read_speed(section, gravity),
         tilt_deg: section.number(&blast_row::TILT_DEG),

@@ -45,7 +45,7 @@ fn draw_fields(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         let label = shortened(&field.label, width);
         let value = match &editor.input {
             Some(input) if selected => input.value().to_owned(),
-            _ if field.value.is_empty() => "not set".to_owned(),
+            _ if field.value.is_empty() => field.unset(),
             _ => field.value.clone(),
         };
         let style = if selected { app.theme.selected() } else { app.theme.base() };
