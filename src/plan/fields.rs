@@ -236,7 +236,7 @@ mod tests {
 
     #[test]
     fn a_section_that_the_plan_leaves_out_is_added() {
-        let (without, _) = PLAN.split_once("[uncertainty]").expect("a section");
+        let (without, _) = PLAN.split_once("\n[uncertainty]").expect("a section");
         let field = find(without, "uncertainty", None, "friction");
         assert_eq!(field.value, "");
         let new = set(without, &field.path, "0.4, 0.6").expect("a value");

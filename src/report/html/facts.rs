@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::choice::OnOverload;
-use crate::plan::{LaunchTargets, Layout, Plan};
+use crate::plan::{Launch, LaunchTargets, Layout, Plan};
 use crate::report::limits::limits;
 use crate::study::check_all::Results;
 use crate::study::{Case, ComputeSettings};
@@ -55,13 +55,22 @@ fn rims(diameter_m: f64) -> String {
 fn launched(targets: &LaunchTargets) -> String {
     match targets {
         LaunchTargets::UnderRow { row, launch } => {
-            format!("under shelter row {row}, launch {} m/s", launch.speed_m_s)
+            format!("under shelter row {row}, launch {}", speed(launch))
         }
         LaunchTargets::UnderTires { tires, launch } => {
             let numbers: Vec<String> = tires.iter().map(|tire| (tire + 1).to_string()).collect();
-            format!("under tires {}, launch {} m/s", numbers.join(", "), launch.speed_m_s)
+            format!("under tires {}, launch {}", numbers.join(", "), speed(launch))
         }
         LaunchTargets::Holes(holes) => format!("{} holes", holes.len()),
+    }
+}
+
+fn speed(launch: &Launch) -> String {
+    let Launch { speed_m_s, tilt_deg, tilt_toward_deg } = *launch;
+    if tilt_deg == 0.0 {
+        format!("{speed_m_s} m/s")
+    } else {
+        format!("{speed_m_s} m/s, tilted by {tilt_deg}° toward {tilt_toward_deg}° from +x")
     }
 }
 
