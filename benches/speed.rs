@@ -6,10 +6,10 @@ use divan::Bencher;
 use divan::counter::ItemsCount;
 use shelter::choice::Method;
 use shelter::plan::{DelayScatter, Plan, Uncertainty};
-use shelter::simulation::{Model, Settings};
+use shelter::simulation::{Model, Motion, Settings};
 use shelter::study::Progress;
 use shelter::study::batch::each;
-use shelter::study::scatter::drawn;
+use shelter::study::draw::{Drawn, draw};
 use shelter::study::{Case, NoResult, check};
 
 fn main() {
@@ -82,21 +82,22 @@ fn by_method(bencher: Bencher, method: Method) {
     time(bencher, &whole(&case), &case, method, 2e-3, Some(0.5));
 }
 
-/// A batch of scattered samples of 1.5 s on all cores; cable-steps of the whole 1.5 s count, at rest or not.
+/// A batch of samples of 1.5 s on all cores; cable-steps of the whole 1.5 s count, at rest or not.
 #[divan::bench(args = [(5, 10, 1000), (50, 50, 100)], max_time = 20)]
 fn scattered(bencher: Bencher, (rows, columns, samples): (usize, usize, usize)) {
-    let case = case(rows, columns, 3);
-    let spec = Uncertainty {
+    let mut case = case(rows, columns, 3);
+    case.plan.uncertainty = Uncertainty {
         delay: DelayScatter { sd_ms: 1.0, cv_percent: 0.0 },
         launch_cv_percent: 5.0,
         friction: [0.4, 0.6],
         ..case.plan.uncertainty
     };
-    let shots: Vec<_> = (0..samples).map(|number| drawn(&case.shots[0], &spec, 1, 0, number)).collect();
+    let drawn: Vec<_> = (0..samples).map(|number| draw(&case, &case.shots[0], 1, number)).collect();
     let settings = Settings { method: Method::Verlet, step: 2e-3, duration: Some(1.5) };
     let run = || {
-        each(&shots, &Progress::default(), |shot| {
-            case.model.run(shot, &settings, &mut |_| ControlFlow::Continue(())).map_err(NoResult::Failed)
+        each(&drawn, &Progress::default(), |Drawn { scene, shot, .. }| {
+            let watch = &mut |_: &dyn Motion| ControlFlow::Continue(());
+            case.model.run_variant(scene, shot, &settings, watch).map_err(NoResult::Failed)
         })
     };
     bencher.counter(ItemsCount::new(samples * case.scene().cables.len() * 750)).bench_local(run);

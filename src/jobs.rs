@@ -12,9 +12,10 @@ use std::time::{Duration, Instant};
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
 use crate::study::check::{Checked, check};
+use crate::study::check_all::{Results, check_all};
 use crate::study::flight::{Flight, record};
 use crate::study::orders::{Orders, orders};
-use crate::study::scatter::{Sample, Sampling, scatter};
+use crate::study::risk::Sampling;
 use crate::study::size::{Demand, Sizing, size};
 use crate::study::sweep::{GAP, Sweep, sweep};
 use crate::study::{
@@ -43,7 +44,7 @@ study_kinds! {
     /// All orders at the intervals of the delay options.
     Orders,
     /// A thousand samples of every option.
-    Scatter,
+    Risk,
     /// The lightest shelter under which every option passes.
     Size,
     /// The motion of one option.
@@ -55,7 +56,7 @@ study_kinds! {
 impl StudyKind {
     /// The kinds that answer a question about the whole plan, in the order of their tabs.
     pub const OF_PLAN: [StudyKind; 4] =
-        [StudyKind::Sweep, StudyKind::Orders, StudyKind::Scatter, StudyKind::Size];
+        [StudyKind::Sweep, StudyKind::Orders, StudyKind::Risk, StudyKind::Size];
 }
 
 /// Result of a study.
@@ -65,8 +66,8 @@ pub enum StudyResult {
     Sweep(Sweep),
     /// Result of [`StudyKind::Orders`].
     Orders(Orders),
-    /// Result of [`StudyKind::Scatter`].
-    Scatter(Sampling, Vec<Sample>),
+    /// Result of [`StudyKind::Risk`].
+    Risk(Sampling, Results),
     /// Result of [`StudyKind::Size`].
     Size(Sizing),
     /// Result of [`StudyKind::Flight`].
@@ -115,7 +116,7 @@ pub enum News {
 }
 
 /// Samples of every option.
-const SAMPLING: Sampling = Sampling { samples: 1000, seed: 1, certain_at: None };
+const SAMPLING: Sampling = Sampling { least: 1000, most: 1000, seed: 1 };
 /// Intervals swept [s].
 const INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: GAP };
 /// Longest run that [`StudyKind::Accuracy`] makes.
@@ -256,13 +257,15 @@ impl Job {
                 let tried = orders(case, &intervals, Shard::WHOLE, compute, progress)?.value;
                 Ok(StudyResult::Orders(Orders::new(case, tried, intervals.len())))
             }
-            StudyKind::Scatter => {
-                let spec = case.plan.uncertainty;
-                let samples = scatter(case, &spec, &SAMPLING, Shard::WHOLE, compute, progress)?.value;
-                Ok(StudyResult::Scatter(SAMPLING, samples))
+            StudyKind::Risk => {
+                let mut results = check_all(&[(case, *compute)], Some(&SAMPLING), progress)?.value;
+                Ok(StudyResult::Risk(SAMPLING, results.remove(0)))
             }
             StudyKind::Size => {
-                Ok(StudyResult::Size(size(&case.plan, &Demand::Options, compute, progress)?.value))
+                let demand = Demand::Options((0..case.shots.len()).collect());
+                Ok(StudyResult::Size(
+                    size(&case.plan, &demand, Some(&Sampling::OF_VERDICT), compute, progress)?.value,
+                ))
             }
             StudyKind::Flight => record(case, option, compute, progress).map(StudyResult::Flight),
             StudyKind::Accuracy => {

@@ -63,7 +63,8 @@ pub struct Broken {
 pub struct Outcome {
     /// Greatest flight height of any tire [m].
     pub height: Peak,
-    /// Greatest cable force [N].
+    /// Greatest cable force [N]. A cable with a strength of its own counts as a cable of the plan's breaking force that is
+    /// loaded as much: with its force over its strength.
     pub force: Peak,
     /// Greatest horizontal shift of any tire at the end of the run [m].
     pub drift: Peak,

@@ -9,7 +9,7 @@ use crate::choice::{Accuracy, Method, UnknownName};
 use crate::plan::Plan;
 use crate::report::text::Style;
 use crate::scene::seconds;
-use crate::study::scatter::Sampling;
+use crate::study::risk::Sampling;
 use crate::study::{ComputeSettings, Intervals, Shard};
 
 /// How to compute.
@@ -99,30 +99,43 @@ pub enum FormatArg {
 /// How many samples, from which seed.
 #[derive(Args, Clone, Copy)]
 pub struct SamplingArguments {
-    /// Samples of every option; default: 1000
+    /// Most samples of every option
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     samples: Option<u32>,
     /// Seed of the random numbers; default: 1
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seed: Option<u64>,
-    /// Stop an option once its failures are surely rarer, or surely more frequent, than this [%; default 1]
-    #[arg(long, value_name = "PERCENT", num_args = 0..=1, default_missing_value = "1", value_parser = percent)]
-    until_certain: Option<f64>,
 }
 
 impl SamplingArguments {
-    /// The samples asked for.
-    pub fn sampling(self) -> Sampling {
-        Sampling {
-            samples: self.samples.unwrap_or(1000) as usize,
-            seed: self.seed.unwrap_or(1),
-            certain_at: self.until_certain.map(|percent| percent * 1e-2),
-        }
+    /// The samples that a verdict needs, within the bounds asked for.
+    pub fn of_verdict(self) -> Sampling {
+        let usual = Sampling::OF_VERDICT;
+        let most = self.samples.map_or(usual.most, |samples| samples as usize);
+        Sampling { least: usual.least.min(most), most, seed: self.seed.unwrap_or(usual.seed) }
     }
 
-    /// Whether the command line says anything about samples.
-    pub fn is_given(self) -> bool {
-        self.samples.is_some() || self.seed.is_some() || self.until_certain.is_some()
+    /// Exactly as many samples of every option as asked for; `usual` where the command line does not say.
+    pub fn exactly(self, usual: usize) -> Sampling {
+        let samples = self.samples.map_or(usual, |samples| samples as usize);
+        Sampling { least: samples, most: samples, seed: self.seed.unwrap_or(Sampling::OF_VERDICT.seed) }
+    }
+}
+
+/// Whether what is not known counts, and how it is sampled.
+#[derive(Args, Clone, Copy)]
+pub struct VerdictArguments {
+    /// Judge the plan's own numbers only, nothing varied
+    #[arg(long, conflicts_with_all = ["samples", "seed"])]
+    nominal: bool,
+    #[command(flatten)]
+    sampling: SamplingArguments,
+}
+
+impl VerdictArguments {
+    /// The samples behind a verdict; `None` where only the shot as planned counts.
+    pub fn sampling(self) -> Option<Sampling> {
+        (!self.nominal).then(|| self.sampling.of_verdict())
     }
 }
 
@@ -138,12 +151,6 @@ where
 pub fn positive(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
     if value > 0.0 && value.is_finite() { Ok(value) } else { Err("must be a positive number".to_owned()) }
-}
-
-/// A number above 0 and below 100.
-fn percent(text: &str) -> Result<f64, String> {
-    positive(text)
-        .and_then(|value| if value < 100.0 { Ok(value) } else { Err("must be less than 100".to_owned()) })
 }
 
 /// `FROM..TO:STEP` in milliseconds.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, LookArguments};
+use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments};
 use super::check_plans::{check_plans, print_checks};
 use super::load_plans::open_all;
 use super::status::{Status, failed};
@@ -15,6 +15,8 @@ pub struct Arguments {
     /// Plans to check; `-` reads standard input
     #[arg(value_name = "PLAN", required = true)]
     plans: Vec<PathBuf>,
+    #[command(flatten)]
+    verdict: VerdictArguments,
     #[command(flatten)]
     compute: Compute,
     /// Output format
@@ -27,7 +29,7 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(cases) = open_all(&arguments.plans, look) else { return Ok(Status::Wrong) };
-    match check_plans(&cases, &arguments.compute) {
+    match check_plans(&cases, arguments.verdict.sampling(), &arguments.compute) {
         Ok(checked) => print_checks(&cases, &checked, arguments.any, arguments.format, look),
         Err(reason) => failed(&reason),
     }

@@ -11,13 +11,25 @@ use super::status::{FINER, Status};
 use crate::report::check::report;
 use crate::report::json::CheckDocument;
 use crate::report::model::Report;
-use crate::study::check_all::{Results, check_all};
+use crate::study::check_all::{Results, check_all, find_launch_margins};
+use crate::study::risk::Sampling;
 use crate::study::{Case, NoResult};
 
 /// Checks all options of all cases in parallel. Returns results in the order of plans and options.
-pub fn check_plans(cases: &[Case], compute: &Compute) -> Result<Vec<Results>, NoResult> {
+pub fn check_plans(
+    cases: &[Case],
+    sampling: Option<Sampling>,
+    compute: &Compute,
+) -> Result<Vec<Results>, NoResult> {
     let cases: Vec<_> = cases.iter().map(|case| (case, compute.settings(&case.plan))).collect();
-    Ok(run_study(compute, |progress| check_all(&cases, progress))?.value)
+    let found = run_study(compute, |progress| {
+        let mut found = check_all(&cases, sampling.as_ref(), progress)?;
+        if sampling.is_some() {
+            found.partial |= !find_launch_margins(&cases, &mut found.value, progress)?;
+        }
+        Ok(found)
+    })?;
+    Ok(found.value)
 }
 
 /// One document for one plan, a list of documents for several.

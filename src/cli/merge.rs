@@ -6,16 +6,17 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{FormatArg, LookArguments};
-use super::print_findings::{Answer, print_findings};
+use super::print_findings::{print_orders, print_risks};
 use super::status::{Status, failed, wrong};
 use crate::plan::PlanSource;
-use crate::study::merge::{Findings, Head, merge};
-use crate::study::orders::refine;
+use crate::study::check_all::judge_drawn;
+use crate::study::merge::{Findings, Question, merge};
+use crate::study::orders::{Orders, refine};
 use crate::study::{Case, Found, Progress};
 
 #[derive(Args)]
 pub struct Arguments {
-    /// Files that `orders` or `scatter` wrote with --shard, all of them
+    /// Files that `orders` or `risk` wrote with --shard, all of them
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
     /// Output format
@@ -42,15 +43,23 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if !findings.fit(&case) {
         return wrong("the shares hold results that do not belong to their plan: one share is damaged");
     }
-    let Head { question, compute, .. } = head;
-    // Only all shares together tell which orders may be the worst.
-    let findings = match findings {
-        Findings::Orders(tried) => match refine(&case, tried, &compute, &Progress::default()) {
-            Ok(Found { value: tried, .. }) => Findings::Orders(tried),
-            Err(reason) => return failed(&reason),
-        },
-        samples => samples,
-    };
-    let answer = Answer { case: &case, question, settings: compute, findings, partial: false };
-    print_findings(answer, None, arguments.format, look)
+    match (head.question, findings) {
+        // Only all shares together tell which orders may be the worst.
+        (Question::Orders { intervals_s }, Findings::Orders(tried)) => {
+            match refine(&case, tried, &head.compute, &Progress::default()) {
+                Ok(Found { value: tried, .. }) => {
+                    let orders = Orders::new(&case, tried, intervals_s.len());
+                    print_orders(&case, &orders, false, arguments.format, look)
+                }
+                Err(reason) => failed(&reason),
+            }
+        }
+        (Question::Risk { sampling }, Findings::Risk(samples)) => {
+            match judge_drawn(&case, &head.compute, &samples, &Progress::default()) {
+                Ok(results) => print_risks(&case, &results, &sampling, false, arguments.format, look),
+                Err(reason) => failed(&reason),
+            }
+        }
+        _ => wrong("the shares do not fit together"),
+    }
 }

@@ -19,9 +19,9 @@ mod orders;
 mod print;
 mod print_findings;
 mod report;
+mod risk;
 mod ropes;
 mod run_study;
-mod scatter;
 mod schema;
 mod size;
 mod status;
@@ -66,11 +66,11 @@ enum Command {
     Sweep(sweep::Arguments),
     /// Every firing order: the worst, the best
     Orders(orders::Arguments),
-    /// Detonator and launch scatter: how often each option fails
-    Scatter(scatter::Arguments),
+    /// How likely each option fails when what is not known varies, and what decides it
+    Risk(risk::Arguments),
     /// The lightest rope, tires and border with which every option passes
     Size(size::Arguments),
-    /// Joins the shares of `orders` or `scatter` that several machines computed
+    /// Joins the shares of `orders` or `risk` that several machines computed
     Merge(merge::Arguments),
     /// One self-contained page for the blast file
     Report(report::Arguments),
@@ -119,7 +119,7 @@ pub fn run() -> ExitCode {
         (Some(Command::Accuracy(arguments)), _) => accuracy::run(&arguments, &cli.look),
         (Some(Command::Sweep(arguments)), _) => sweep::run(&arguments, &cli.look),
         (Some(Command::Orders(arguments)), _) => orders::run(&arguments, &cli.look),
-        (Some(Command::Scatter(arguments)), _) => scatter::run(&arguments, &cli.look),
+        (Some(Command::Risk(arguments)), _) => risk::run(&arguments, &cli.look),
         (Some(Command::Size(arguments)), _) => size::run(&arguments, &cli.look),
         (Some(Command::Merge(arguments)), _) => merge::run(&arguments, &cli.look),
         (Some(Command::Report(arguments)), _) => report::run(&arguments, &cli.look),

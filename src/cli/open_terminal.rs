@@ -11,6 +11,7 @@ use super::{load_plans, print_help};
 use crate::jobs::Jobs;
 use crate::plan::PlanSource;
 use crate::study::Case;
+use crate::study::risk::Sampling;
 use crate::tui::config::{self, Config};
 use crate::tui::start::{Opened, Start};
 use crate::tui::{self, app::App};
@@ -20,7 +21,7 @@ pub fn plan(plan: &Path, compute: &Compute, look: &LookArguments) -> io::Result<
     let Some(case) = load_plans::open(plan, look) else { return Ok(Status::Wrong) };
     if !io::stdout().is_terminal() {
         let cases = [case];
-        return match check_plans(&cases, compute) {
+        return match check_plans(&cases, Some(Sampling::OF_VERDICT), compute) {
             Ok(checked) => print_checks(&cases, &checked, false, FormatArg::Text, look),
             Err(reason) => failed(&reason),
         };

@@ -7,12 +7,13 @@ use clap::Args;
 
 use super::arguments::{Compute, FormatArg, LookArguments, intervals, shard};
 use super::load_plans::open;
-use super::print_findings::{Answer, print_findings};
+use super::print::print_text;
+use super::print_findings::print_orders;
 use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::report::notes;
-use crate::study::merge::{Findings, Question};
-use crate::study::orders::{MOST_ROWS, count, orders, tries_all};
+use crate::study::merge::{Findings, Question, write_share};
+use crate::study::orders::{MOST_ROWS, Orders, count, orders, tries_all};
 use crate::study::{Found, Intervals, Shard};
 
 #[derive(Args)]
@@ -58,10 +59,13 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     match tried {
         Err(reason) => failed(&reason),
         Ok(Found { value: tried, partial }) => {
-            let question = Question::Orders { intervals_s };
-            let answer =
-                Answer { case: &case, question, settings, findings: Findings::Orders(tried), partial };
-            print_findings(answer, arguments.shard, arguments.format, look)
+            if let Some(shard) = arguments.shard {
+                let question = Question::Orders { intervals_s };
+                print_text(&write_share(&case, question, settings, shard, &Findings::Orders(tried))?)?;
+                return Ok(Status::Pass);
+            }
+            let orders = Orders::new(&case, tried, intervals_s.len());
+            print_orders(&case, &orders, partial, arguments.format, look)
         }
     }
 }

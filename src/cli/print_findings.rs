@@ -1,56 +1,40 @@
-//! Printing what a study found that several machines can share: all of it, or the share of this machine.
+//! Printing what studies found that several machines can share.
 
 use std::io;
 
 use super::arguments::{FormatArg, LookArguments};
-use super::print::{print, print_text};
-use super::status::{Status, wrong};
-use crate::report::json::{OrdersDocument, ScatterDocument};
+use super::print::print;
+use super::status::Status;
+use crate::report::json::{OrdersDocument, RiskDocument};
 use crate::report::notes::SWAP;
-use crate::report::{orders, scatter};
-use crate::study::merge::{Findings, Question, write_share};
+use crate::report::{orders, risk};
+use crate::study::Case;
+use crate::study::check_all::Results;
 use crate::study::orders::Orders;
-use crate::study::scatter::swaps;
-use crate::study::{Case, ComputeSettings, Shard};
+use crate::study::risk::Sampling;
+use crate::study::swaps::swaps;
 
-/// What a study of many shots found.
-pub struct Answer<'a> {
-    pub case: &'a Case,
-    pub question: Question,
-    pub settings: ComputeSettings,
-    pub findings: Findings,
-    /// Whether the time was up before all shots were judged.
-    pub partial: bool,
-}
-
-/// Prints all that was found, or this machine's share of it.
-pub fn print_findings(
-    answer: Answer<'_>,
-    shard: Option<Shard>,
+/// Prints the orders tried; `partial` where the time was up before all were.
+pub fn print_orders(
+    case: &Case,
+    orders: &Orders,
+    partial: bool,
     format: FormatArg,
     look: &LookArguments,
 ) -> io::Result<Status> {
-    if let Some(shard) = shard {
-        let Answer { case, question, settings, findings, .. } = answer;
-        print_text(&write_share(case, question, settings, shard, &findings)?)?;
-        return Ok(Status::Pass);
-    }
-    let Answer { case, question, findings, partial, .. } = answer;
-    match (findings, question) {
-        (Findings::Scatter(samples), Question::Scatter { spec, sampling }) => {
-            let document = || {
-                let swaps = swaps(case, &spec, SWAP);
-                ScatterDocument::new(case, &sampling, &samples, &swaps, partial)
-            };
-            print(&[scatter::report(case, &sampling, &samples, partial)], document, format, look)
-        }
-        (Findings::Orders(tried), Question::Orders { intervals_s }) => {
-            let orders = Orders::new(case, tried, intervals_s.len());
-            let document = || OrdersDocument::new(case, &orders, partial);
-            print(&[orders::report(case, &orders, partial)], document, format, look)
-        }
-        (Findings::Scatter(_), Question::Orders { .. }) | (Findings::Orders(_), Question::Scatter { .. }) => {
-            wrong("the shares do not fit together")
-        }
-    }
+    let document = || OrdersDocument::new(case, orders, partial);
+    print(&[orders::report(case, orders, partial)], document, format, look)
+}
+
+/// Prints the risks of all options; `partial` where the time was up before all samples were drawn.
+pub fn print_risks(
+    case: &Case,
+    results: &Results,
+    sampling: &Sampling,
+    partial: bool,
+    format: FormatArg,
+    look: &LookArguments,
+) -> io::Result<Status> {
+    let document = || RiskDocument::new(case, results, sampling, &swaps(case, SWAP), partial);
+    print(&[risk::report(case, results, sampling, partial)], document, format, look)
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, LookArguments};
+use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments};
 use super::check_plans::{check_plans, print_checks};
 use super::load_plans::open;
 use super::print::print_text;
@@ -24,6 +24,8 @@ pub struct Arguments {
     #[arg(long, value_enum)]
     format: Option<FormatArg>,
     #[command(flatten)]
+    verdict: VerdictArguments,
+    #[command(flatten)]
     compute: Compute,
 }
 
@@ -38,7 +40,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         return wrong("page and results cannot both go to standard output: write the page to a file");
     }
     let cases = [case];
-    let checked = match check_plans(&cases, &arguments.compute) {
+    let checked = match check_plans(&cases, arguments.verdict.sampling(), &arguments.compute) {
         Ok(checked) => checked,
         Err(reason) => return failed(&reason),
     };

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, LookArguments, SamplingArguments, intervals};
+use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments, intervals};
 use super::load_plans::open;
 use super::print::print;
 use super::run_study::run_study;
@@ -29,12 +29,12 @@ pub struct Arguments {
     /// With --any-order: intervals in ms; default: those of the delay options
     #[arg(long, value_name = "FROM..TO:STEP", value_parser = intervals, requires = "any_order", allow_hyphen_values = true)]
     interval: Option<Intervals>,
-    /// 99 % of the samples of every option must pass; with --until-certain, surely all but that share
-    #[arg(long, conflicts_with = "any_order")]
-    scatter: bool,
+    /// Delay option that must pass, as often as wanted; default: all
+    #[arg(long, value_name = "NAME", conflicts_with = "any_order")]
+    option: Vec<String>,
     #[command(flatten)]
-    sampling: SamplingArguments,
-    /// Family of ropes; default: that of [size], else the whole catalogue
+    verdict: VerdictArguments,
+    /// Family of ropes; default: that of [size], else that of the plan's rope, else the whole catalogue
     #[arg(long, value_name = "FAMILY")]
     ropes: Option<String>,
     /// Most rows of ballast on each side; default: that of [size], else none
@@ -64,7 +64,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(message) => return wrong(&message),
     };
     let settings = arguments.compute.settings(&case.plan);
-    let sized = run_study(&arguments.compute, |progress| size(&plan, &demand, &settings, progress));
+    let sampling = arguments.verdict.sampling();
+    let sized = run_study(&arguments.compute, |progress| {
+        size(&plan, &demand, sampling.as_ref(), &settings, progress)
+    });
     let sizing = match sized {
         Ok(finished) => finished.value,
         Err(reason) => return failed(&reason),
@@ -101,15 +104,9 @@ fn choose_sizes(arguments: &Arguments, plan: &Plan) -> Result<SizeSpec, String> 
 
 /// What the shelter must hold.
 fn choose_demand(arguments: &Arguments, case: &Case) -> Result<Demand, String> {
-    if arguments.scatter {
-        let spec = case.plan.uncertainty;
-        return Ok(Demand::Samples(spec, arguments.sampling.sampling()));
-    }
-    if arguments.sampling.is_given() {
-        return Err("--samples, --seed and --until-certain are of --scatter: add it".to_owned());
-    }
     if !arguments.any_order {
-        return Ok(Demand::Options);
+        let options = choose_options(&arguments.option, &case.plan)?;
+        return Ok(Demand::Options(options));
     }
     if !tries_all(case) {
         return Err(format!("--any-order tries all orders of at most {MOST_ROWS} blast rows"));
@@ -119,6 +116,21 @@ fn choose_demand(arguments: &Arguments, case: &Case) -> Result<Demand, String> {
         return Err(format!("{}: give --interval FROM..TO:STEP", NoResult::NoInterval));
     }
     Ok(Demand::AnyOrder(intervals))
+}
+
+/// Indices of the delay options of these names; all options for no name.
+fn choose_options(names: &[String], plan: &Plan) -> Result<Vec<usize>, String> {
+    if names.is_empty() {
+        return Ok((0..plan.delays.len()).collect());
+    }
+    let index = |name: &String| {
+        let found = plan.delays.iter().position(|delay| delay.name == *name);
+        found.ok_or_else(|| {
+            let all: Vec<&str> = plan.delays.iter().map(|delay| delay.name.as_str()).collect();
+            format!("no delay option is named '{name}'; the options are {}", all.join(", "))
+        })
+    };
+    names.iter().map(index).collect()
 }
 
 fn write(arguments: &Arguments, case: &Case, found: &Combination) -> io::Result<()> {

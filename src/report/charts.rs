@@ -5,7 +5,7 @@ use crate::choice::Method;
 use crate::outcome::History;
 use crate::study::accuracy::{AccuracyTable, Measured};
 use crate::study::orders::Orders;
-use crate::study::scatter::Sample;
+use crate::study::risk::{Risk, Sample};
 use crate::study::size::{Combination, Sizing};
 use crate::study::sweep::{Point, Sweep};
 use crate::study::{Case, Envelope};
@@ -110,19 +110,19 @@ pub fn orders(case: &Case, orders: &Orders) -> Chart {
     utilization("from the worst order to the best", ("order", Unit::One), curve, Vec::new())
 }
 
-/// Utilization of the samples of each option, from the gentlest to the hardest.
-pub fn scatter<'c>(case: &'c Case, samples: &'c [Sample]) -> impl Iterator<Item = Chart> + 'c {
-    case.plan.delays.iter().enumerate().map(|(option, delay)| {
-        let mine = samples.iter().filter(|sample| sample.option == option);
-        let mut shares: Vec<f64> = mine.map(|sample| sample.envelope.utilization(&case.limits)).collect();
-        shares.sort_by(f64::total_cmp);
-        let count = shares.len() as f64;
-        let curve =
-            shares.into_iter().enumerate().map(|(n, share)| ((n + 1) as f64 / count, share)).collect();
-        let chart =
-            utilization("against the share of samples", ("samples", Unit::Percent), curve, Vec::new());
-        Chart { title: format!("{}: {}", delay.name, chart.title), ..chart }
-    })
+/// Utilization of the samples of the option `name`, from the gentlest to the hardest.
+pub fn risk(case: &Case, name: &str, risk: &Risk) -> Chart {
+    let limits = &case.limits;
+    let share = |sample: &Sample| {
+        let drift = limits.drift.map_or(0.0, |limit| sample.drift / limit);
+        (sample.height / limits.height).max(sample.force / limits.force).max(drift)
+    };
+    let mut shares: Vec<f64> = risk.samples.iter().map(share).filter(|share| share.is_finite()).collect();
+    shares.sort_by(f64::total_cmp);
+    let count = shares.len() as f64;
+    let curve = shares.into_iter().enumerate().map(|(n, share)| ((n + 1) as f64 / count, share)).collect();
+    let chart = utilization("against the share of samples", ("samples", Unit::Percent), curve, Vec::new());
+    Chart { title: format!("{name}: {}", chart.title), ..chart }
 }
 
 /// Utilization of every combination against its mass, and of the lightest that hold.

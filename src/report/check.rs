@@ -1,13 +1,15 @@
 //! `check` as a report: one row a delay option.
 
-use super::explain::{broken, compute_label, reason};
+use super::explain::{broken, compute_label, launch_margin, reason, risk_detail};
 use super::model::{Block, Cell, Column, Conclusion, Detail, Field, Report, Shown, Table};
-use super::shared_columns::{FORCE, HEIGHT, VERDICT, force, height};
+use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
 use super::{limit_facts, no_result};
 use crate::plan::DelayOption;
 use crate::study::check::Checked;
 use crate::study::check_all::{Results, verdict};
+use crate::study::judgement::Judgement;
 use crate::study::reason::Reason;
+use crate::study::risk::{Risk, Sample};
 use crate::study::{Case, NoResult};
 use crate::units::Unit;
 use crate::verdict::Verdict;
@@ -16,23 +18,35 @@ use crate::verdict::Verdict;
 struct OptionRow<'a> {
     case: &'a Case,
     delay: &'a DelayOption,
-    result: &'a Result<Checked, NoResult>,
+    result: &'a Result<Judgement, NoResult>,
 }
 
 impl OptionRow<'_> {
     /// A cell of the result; nothing where there is none.
     fn of(&self, cell: impl FnOnce(&Checked) -> Cell) -> Cell {
-        self.result.as_ref().map_or(Cell::Nothing, cell)
+        self.result.as_ref().map_or(Cell::Nothing, |judged| cell(&judged.nominal))
+    }
+
+    /// A cell of the samples; nothing where there are none.
+    fn sampled(&self, cell: impl FnOnce(&Risk) -> Cell) -> Cell {
+        let risk = self.result.as_ref().ok().and_then(|judged| judged.risk.as_ref());
+        risk.map_or(Cell::Nothing, cell)
+    }
+
+    fn band(&self, of: fn(&Sample) -> f64, unit: Unit) -> Cell {
+        self.sampled(|risk| {
+            risk.band(of).map_or(Cell::Nothing, |[p05, _, p95, _]| Cell::Band([p05, p95], unit))
+        })
     }
 
     fn verdict(&self) -> Verdict {
-        self.result.as_ref().map_or(Verdict::Undecided, |checked| checked.verdict)
+        self.result.as_ref().map_or(Verdict::Undecided, Judgement::verdict)
     }
 
     /// Why the option does not pass, or has no result.
     fn reasons(&self) -> String {
         match self.result {
-            Ok(checked) => checked.reasons.iter().map(reason).collect::<Vec<_>>().join("; "),
+            Ok(judged) => texts(self.case, judged).join("; "),
             Err(reason) => no_result::message(reason),
         }
     }
@@ -44,7 +58,7 @@ impl OptionRow<'_> {
     }
 }
 
-fn fields<'a>() -> [Field<OptionRow<'a>>; 18] {
+fn fields<'a>() -> [Field<OptionRow<'a>>; 25] {
     let words = |heading| Column::words(&[], heading).shown(Shown::Text);
     [
         Field::new(Column::scripts(&["plan"]), |row| Cell::Text(row.case.source.path.clone())),
@@ -53,7 +67,13 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 18] {
             Cell::Text(row.firing())
         }),
         Field::new(VERDICT, |row| Cell::Verdict(row.verdict())),
+        Field::new(Column::scripts(&["nominal_verdict"]), |row| {
+            row.of(|checked| Cell::Verdict(checked.verdict))
+        }),
+        Field::new(FAILURES, |row| row.sampled(|risk| Cell::Probability(risk.confidence.interval))),
         Field::new(HEIGHT, |row| row.of(|checked| height(checked.height.into()))),
+        Field::new(NOMINAL_HEIGHT, |row| row.of(|checked| Cell::Value(checked.height.value, Unit::Metre))),
+        Field::new(HEIGHT_BAND, |row| row.band(|sample| sample.height, Unit::Metre)),
         Field::new(Column::scripts(&["flight_height_at_s"]), |row| {
             row.of(|checked| Cell::Number(checked.height.at))
         }),
@@ -61,6 +81,8 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 18] {
             row.of(|checked| Cell::Text(row.case.scene().tire[checked.height.index].to_string()))
         }),
         Field::new(FORCE, |row| row.of(|checked| force(checked.force.into()))),
+        Field::new(NOMINAL_FORCE, |row| row.of(|checked| Cell::Value(checked.force.value, Unit::Kilonewton))),
+        Field::new(FORCE_BAND, |row| row.band(|sample| sample.force, Unit::Kilonewton)),
         Field::new(Column::scripts(&["cable_force_at_s"]), |row| {
             row.of(|checked| Cell::Number(checked.force.at))
         }),
@@ -69,6 +91,11 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 18] {
         }),
         Field::new(Column::numbers(&["cable_safety_factor"], "factor", Unit::One), |row| {
             row.of(|checked| Cell::Factor(checked.safety_factor))
+        }),
+        Field::new(LAUNCH_MARGIN, |row| {
+            let judged = row.result.as_ref().ok();
+            let margin = judged.and_then(|judged| judged.launch_margin);
+            margin.map_or(Cell::Nothing, |margin| Cell::Text(launch_margin(margin)))
         }),
         Field::new(DRIFT, |row| {
             row.of(|Checked { drift, .. }| Cell::Estimate {
@@ -94,13 +121,30 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 18] {
     ]
 }
 
+/// Greatest height of the shot as planned.
+const NOMINAL_HEIGHT: Column = Column::numbers(&[], "height", Unit::Metre).under("as planned");
+/// Band of the greatest height of the possible shots.
+const HEIGHT_BAND: Column =
+    Column::numbers(&["flight_height_p05_m", "flight_height_p95_m"], "height", Unit::Metre)
+        .under("5 to 95 %");
+/// Greatest force of the shot as planned.
+const NOMINAL_FORCE: Column = Column::numbers(&[], "force", Unit::Kilonewton).under("as planned");
+/// Band of the greatest force of the possible shots.
+const FORCE_BAND: Column =
+    Column::numbers(&["cable_force_p05_n", "cable_force_p95_n"], "force", Unit::Kilonewton)
+        .under("5 to 95 %");
+/// How much faster the tires may leave.
+const LAUNCH_MARGIN: Column = Column::words(&["launch_margin"], "launch");
 /// Greatest drift and its error.
 const DRIFT: Column = Column::numbers(&["drift_m", "drift_error_m"], "drift", Unit::Metre);
 
 /// The report of one plan; with `any` one passing option is enough.
 pub fn report(case: &Case, results: &Results, any: bool) -> Report {
     // Without a limit on drift only the page has room for drift.
+    let sampled = results.iter().flatten().any(|judged| judged.risk.is_some());
     let shown = |column: &Column| match column {
+        column if [HEIGHT, FORCE].contains(column) && sampled => column.shown(Shown::Scripts),
+        column if OF_SAMPLES.contains(column) && !sampled => column.shown(Shown::Scripts),
         column if *column == DRIFT && case.limits.drift.is_none() => column.shown(Shown::Page),
         column => *column,
     };
@@ -109,14 +153,14 @@ pub fn report(case: &Case, results: &Results, any: bool) -> Report {
     table.columns = table.columns.iter().map(shown).collect();
     for (row, result) in table.rows.iter_mut().zip(results) {
         match result {
-            Ok(checked) => row.details = details(case, checked),
+            Ok(judged) => row.details = details(case, judged),
             Err(reason) => row.missing = Some(no_result::message(reason)),
         }
     }
-    let passed = results.iter().flatten().filter(|checked| checked.verdict == Verdict::Pass).count();
-    let mut text = format!("{passed} of {} options pass", results.len());
-    if let Some(checked) = results.iter().flatten().next() {
-        text += &format!(" · {}", compute_label(&checked.compute));
+    let passed = results.iter().flatten().filter(|judged| judged.verdict() == Verdict::Pass).count();
+    let mut text = format!("{passed} of {} options pass{}", results.len(), meaning(case, sampled));
+    if let Some(judged) = results.iter().flatten().next() {
+        text += &format!(" · {}", compute_label(&judged.nominal.compute));
     }
     Report {
         blocks: vec![Block::Table(table)],
@@ -125,13 +169,36 @@ pub fn report(case: &Case, results: &Results, any: bool) -> Report {
     }
 }
 
+/// What a pass is about, in brackets.
+fn meaning(case: &Case, sampled: bool) -> &'static str {
+    match (sampled, case.plan.uncertainty.assumed) {
+        (false, _) => " (the plan's own numbers only)",
+        (true, true) => " (inputs assumed known to 1 %)",
+        (true, false) => "",
+    }
+}
+
+/// Columns that only a judgement by samples has.
+const OF_SAMPLES: [Column; 6] =
+    [FAILURES, NOMINAL_HEIGHT, HEIGHT_BAND, NOMINAL_FORCE, FORCE_BAND, LAUNCH_MARGIN];
+
 fn bars(series: &[f64], top: f64) -> Cell {
     Cell::Sparkline { series: series.to_vec(), top }
 }
 
-fn details(case: &Case, checked: &Checked) -> Vec<Detail> {
+/// Why an option does not pass, one sentence a reason.
+pub fn texts(case: &Case, judged: &Judgement) -> Vec<String> {
+    reasons(case, judged).map(|detail| detail.text).collect()
+}
+
+fn reasons<'a>(case: &'a Case, judged: &'a Judgement) -> impl Iterator<Item = Detail> + 'a {
     let detail = |of: &Reason| Detail { verdict: of.verdict(), text: reason(of) };
-    let mut details: Vec<Detail> = checked.reasons.iter().map(detail).collect();
+    judged.nominal.reasons.iter().map(detail).chain(risk_detail(case, judged))
+}
+
+fn details(case: &Case, judged: &Judgement) -> Vec<Detail> {
+    let checked = &judged.nominal;
+    let mut details: Vec<Detail> = reasons(case, judged).collect();
     if !checked.broken.is_empty() {
         details.push(Detail { verdict: Verdict::Fail, text: broken(case.scene(), checked) });
     }

@@ -60,6 +60,7 @@ fn fields<'a>(table: &Table, row: &'a Row) -> Vec<Field<'a>> {
             Cell::Factor(factor) if factor.is_infinite() => Vec::new(),
             Cell::Estimate { value, error, .. } => vec![Field::Number(*value), Field::Number(*error)],
             Cell::Spread(values, _) => values.map(Field::Number).to_vec(),
+            Cell::Band(ends, _) => ends.map(Field::Number).to_vec(),
             Cell::Probability(interval) => interval.map(Field::Number).to_vec(),
             Cell::Number(number)
             | Cell::Rounded(number, _)

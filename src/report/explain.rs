@@ -1,12 +1,18 @@
 //! Sentences about one checked option, the same in every face.
 
+use super::model::Detail;
 use crate::outcome::Broken;
 use crate::scene::Scene;
+use crate::study::Case;
 use crate::study::ComputeSettings;
 use crate::study::check::Checked;
+use crate::study::draw::Input;
+use crate::study::judgement::Judgement;
+use crate::study::margin::LaunchMargin;
 use crate::study::reason::{EarlyEnd, Quantity, Reason};
+use crate::study::risk::{Risk, shares};
 use crate::units::{self, Unit, value_and_error};
-use crate::verdict::{Estimate, Verdict};
+use crate::verdict::{Estimate, Limits, Verdict};
 
 /// Why an option did not pass, in words.
 pub fn reason(reason: &Reason) -> String {
@@ -30,6 +36,59 @@ pub fn reason(reason: &Reason) -> String {
     match verdict {
         Verdict::Fail => format!("{name} {value} {symbol} is over the limit of {limit} {symbol}"),
         _ => format!("{name} {value} {symbol} is too near the limit of {limit} {symbol} to tell"),
+    }
+}
+
+/// Why the shots that `[uncertainty]` describes do not pass, if they do not.
+pub fn risk_detail(case: &Case, judged: &Judgement) -> Option<Detail> {
+    let risk = judged.risk.as_ref()?;
+    let accepted = format!("{} %", units::short(case.plan.limits.accepted_risk_percent));
+    let (failures, samples) = (risk.confidence.failures, risk.confidence.samples);
+    let shots = format!("{failures} of {samples} possible shots fail");
+    let verdict = risk.verdict();
+    let text = match verdict {
+        Verdict::Pass => return None,
+        Verdict::Fail => format!("{shots}, surely more than the {accepted} accepted"),
+        Verdict::Undecided if risk.audit_differs() => {
+            format!("{shots}, but not as many at a finer step: choose accuracy \"reference\"")
+        }
+        Verdict::Undecided if risk.confidence.undecided > 0 => {
+            let undecided = risk.confidence.undecided;
+            format!("{shots} and {undecided} stay undecided: not surely fewer than the {accepted} accepted")
+        }
+        Verdict::Undecided => format!("{shots}, not surely fewer than the {accepted} accepted"),
+    };
+    Some(Detail { verdict, text })
+}
+
+/// What decides how a shot turns out: `slack 61 %, launch 24 %, the rest hole by hole and by interplay`.
+pub fn inputs(risk: &Risk, limits: &Limits) -> Option<String> {
+    let shares = shares(risk, limits)?;
+    let rest = 1.0 - shares.iter().map(|(_, share)| share).sum::<f64>();
+    let worth = shares.iter().filter(|(_, share)| *share >= LEAST_SHARE);
+    let mut words: Vec<String> =
+        worth.map(|(input, share)| format!("{} {}", input_name(*input), units::percent(*share, 0))).collect();
+    words.push(format!("hole by hole {}", units::percent(rest.max(0.0), 0)));
+    Some(words.join(", "))
+}
+
+/// Least share of the variance worth naming.
+const LEAST_SHARE: f64 = 0.05;
+
+fn input_name(input: Input) -> &'static str {
+    match input {
+        Input::LaunchCommon => "launch",
+        Input::Friction => "friction",
+        Input::Slack => "slack",
+        Input::AxialStiffness => "stiffness",
+    }
+}
+
+/// How much faster the tires may leave, in words: `fails from +5 %`.
+pub fn launch_margin(margin: LaunchMargin) -> String {
+    match margin {
+        LaunchMargin::UpTo(share) => format!("to +{}", units::percent(share, 0)),
+        LaunchMargin::Wide => "over +100 %".to_owned(),
     }
 }
 

@@ -18,6 +18,7 @@ impl Cell {
             Cell::Estimate { value, error, unit } => units::value_and_error(*value, *error, *unit),
             Cell::Value(value, unit) => units::computed(*value, *unit),
             Cell::Spread(values, unit) => values.map(|value| units::value(value, *unit)).join(" · "),
+            Cell::Band(ends, unit) => ends.map(|value| units::value(value, *unit)).join(" to "),
             Cell::Time(time) => units::milliseconds(*time),
             Cell::Interval(time) => units::exact_milliseconds(*time),
             Cell::Factor(factor) => units::factor(*factor),

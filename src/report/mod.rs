@@ -3,7 +3,7 @@
 //! | what | where |
 //! |---|---|
 //! | what a report is | [`model`] |
-//! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`scatter`], [`size`], [`accuracy`], [`ropes`], [`trace`] |
+//! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`accuracy`], [`ropes`], [`trace`] |
 //! | words, charts and columns that reports share | [`explain`], [`limits`], [`no_result`], [`notes`], [`charts`], [`shared_columns`] |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |
 //! | what faces share | [`palette`], [`ascii`], [`spark`], labels of cells |
@@ -26,8 +26,8 @@ pub mod no_result;
 pub mod notes;
 pub mod orders;
 pub mod palette;
+pub mod risk;
 pub mod ropes;
-pub mod scatter;
 pub mod shared_columns;
 pub mod size;
 pub mod spark;

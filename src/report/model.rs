@@ -216,8 +216,10 @@ pub enum Cell {
     },
     /// A value whose error stands elsewhere, at the finest digits worth reading.
     Value(f64, Unit),
-    /// Median, 95th percentile and greatest value.
-    Spread([f64; 3], Unit),
+    /// 5th, 50th and 95th percentile, and greatest value.
+    Spread([f64; 4], Unit),
+    /// 5th and 95th percentile.
+    Band([f64; 2], Unit),
     /// A stretch of time [s].
     Time(f64),
     /// A firing time or an interval between firings [s], with all its digits: somebody programs it.

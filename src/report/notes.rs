@@ -1,10 +1,10 @@
 //! Notes about a plan that readers of a study need beside its report.
 
-use super::scatter::swap_warning;
+use super::risk::swap_warning;
 use crate::plan::Timing;
 use crate::plan::keys::Key;
 use crate::study::Case;
-use crate::study::scatter::swaps;
+use crate::study::swaps::swaps as find_swaps;
 
 /// Least probability of a swap of blast rows that deserves a warning.
 pub const SWAP: f64 = 1e-4;
@@ -30,7 +30,6 @@ pub fn ranges(case: &Case) -> Vec<String> {
 }
 
 /// Warnings of blast rows that may fire in the wrong order, when the detonators scatter as the plan says.
-pub fn scatter(case: &Case) -> Vec<String> {
-    let swaps = swaps(case, &case.plan.uncertainty, SWAP);
-    swaps.iter().map(|swap| format!("warning: {}", swap_warning(case, swap))).collect()
+pub fn swaps(case: &Case) -> Vec<String> {
+    find_swaps(case, SWAP).iter().map(|swap| format!("warning: {}", swap_warning(case, swap))).collect()
 }

@@ -12,6 +12,8 @@ pub const HEIGHT: Column =
 /// Greatest cable force and its error.
 pub const FORCE: Column =
     Column::numbers(&["cable_force_n", "cable_force_error_n"], "force", Unit::Kilonewton);
+/// Bounds of the share of shots that fail.
+pub const FAILURES: Column = Column::numbers(&["low_95", "high_95"], "fails", Unit::Percent);
 /// Time between successive blast rows.
 pub const INTERVAL: Column = Column::numbers(&["interval_s"], "interval", Unit::One);
 

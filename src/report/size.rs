@@ -6,7 +6,6 @@ use super::model::{Block, Cell, Column, Conclusion, Report, Table};
 use super::no_result::FINER;
 use super::shared_columns::{FORCE, HEIGHT, force, height};
 use crate::study::Case;
-use crate::study::nearby::CHANGE;
 use crate::study::size::{Combination, Sizing, Trial, Untried};
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
@@ -33,7 +32,7 @@ const COMBINATIONS: [Column; 9] = [
     Column::scripts(&["holds"]),
     Column::scripts(&["tried"]),
     Column::scripts(&["use_of_limits"]),
-    Column::scripts(&["nearby_failures"]),
+    Column::scripts(&["failures"]),
 ];
 
 /// The report of all combinations.
@@ -54,12 +53,12 @@ pub fn report(case: &Case, sizing: &Sizing) -> Report {
     let all = sizing.combinations.iter().map(|combination| {
         let trial = combination.trial.ok();
         let used = trial.map_or(Cell::Nothing, |trial| Cell::Utilization(trial.utilization));
-        let nearby = trial.and_then(|trial| trial.nearby);
+        let risk = trial.and_then(|trial| trial.risk);
         let told = [
             Cell::Flag(trial.is_some_and(|trial| trial.holds)),
             Cell::Flag(trial.is_some()),
             used,
-            nearby.map_or(Cell::Nothing, |nearby| Cell::Count(nearby.failures)),
+            risk.map_or(Cell::Nothing, |risk| Cell::Count(risk.failures)),
         ];
         parts(combination).into_iter().chain(told).collect()
     });
@@ -101,17 +100,11 @@ fn tried(sizing: &Sizing) -> Vec<String> {
     }
     if sizing.fragile() > 0 {
         lines.push(format!(
-            "{} not chosen: the plan's own shots pass, but shots with inputs changed by up to {} do not all pass",
-            sizing.fragile(),
-            change()
+            "{} not chosen: the shots as planned pass, but not surely few enough of the possible shots fail",
+            sizing.fragile()
         ));
     }
     lines
-}
-
-/// Change of the inputs of nearby shots.
-fn change() -> String {
-    units::percent(CHANGE, 0)
 }
 
 fn conclusion(sizing: &Sizing) -> Conclusion {
@@ -125,7 +118,7 @@ fn conclusion(sizing: &Sizing) -> Conclusion {
         Some((found, trial)) => (Verdict::Pass, format!("lightest {}", sentence(found, &trial))),
         None if open => (Verdict::Undecided, "no combination tried so far holds".to_owned()),
         None if sizing.fragile() > 0 => {
-            (Verdict::Fail, format!("no combination holds with inputs changed by up to {}", change()))
+            (Verdict::Fail, "no combination holds but for the shots as planned".to_owned())
         }
         None => (Verdict::Fail, "no combination holds".to_owned()),
     };
@@ -139,15 +132,12 @@ pub(super) fn nearest(sizing: &Sizing) -> Option<(&Combination, Trial)> {
 }
 
 fn sentence(combination: &Combination, trial: &Trial) -> String {
-    let nearby = match trial.nearby.map(|nearby| (nearby.failures, nearby.judged)) {
-        None | Some((_, 0)) => String::new(),
-        Some((0, judged)) => format!(", and {judged} with inputs changed by up to {}", change()),
-        Some((failures, judged)) => {
-            format!(", but {failures} of {judged} fail with inputs changed by up to {}", change())
-        }
+    let risk = match trial.risk {
+        None => String::new(),
+        Some(risk) => format!(", {} of {} possible shots fail", risk.failures, risk.samples),
     };
     format!(
-        "{}, tires of {} kg, {}: {} t in all, {} of the limits used, {} judged{nearby}",
+        "{}, tires of {} kg, {}: {} t in all, {} of the limits used, {} judged{risk}",
         combination.rope.name,
         combination.tire_mass,
         counted(combination.border_rows, "border row"),

@@ -68,6 +68,7 @@ impl Scene {
             gravity: plan.simulation.gravity_m_s2,
             breaking_force: (plan.cable.on_overload == OnOverload::Break)
                 .then_some(plan.cable.breaking_force_kn * 1e3),
+            strength: Vec::new(),
             mirrors: Vec::new(),
         };
         let ties = match &plan.layout {

@@ -5,14 +5,12 @@
 
 mod build;
 mod mirror;
-mod nearby;
 mod shot;
 
 use nalgebra::Vector3;
 
 pub use build::{fire_at_s, seconds};
 pub use mirror::Mirror;
-pub use nearby::nearby;
 pub use shot::{Firing, Shot};
 
 /// The shelter at rest, before any hole fires.
@@ -32,6 +30,8 @@ pub struct Scene {
     pub gravity: f64,
     /// Force above which a cable breaks [N]; `None`: cables never break.
     pub breaking_force: Option<f64>,
+    /// Breaking force of each cable over that of the plan (`n_cables`); empty where all are equal.
+    pub strength: Vec<f64>,
     /// Mirror planes of the shelter: at most one across x and one across y.
     pub mirrors: Vec<Mirror>,
 }
@@ -125,6 +125,11 @@ impl Scene {
             let [a, b] = cable.ends.map(|end| self.tire[end]);
             format!("{a}-{b}")
         })
+    }
+
+    /// Breaking force of a cable over that of the plan.
+    pub fn strength(&self, cable: usize) -> f64 {
+        self.strength.get(cable).copied().unwrap_or(1.0)
     }
 
     /// Upper bound of the natural frequencies ω of the shelter [rad/s]: ω² ≤ (2/m) Σ k over the cables of a tire, the greatest

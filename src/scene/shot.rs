@@ -48,6 +48,12 @@ impl Shot {
         Self { firings, friction: None }
     }
 
+    /// The same shot with all launch velocities times `factor`.
+    pub fn with_launches(&self, factor: f64) -> Self {
+        let faster = |firing: &Firing| Firing { launch: firing.launch * factor, ..*firing };
+        Self { firings: self.firings.iter().map(faster).collect(), ..*self }
+    }
+
     /// Two shots near this one, to both sides of it: what is greater in one is smaller in the other.
     ///
     /// Friction, and for each firing time the time itself and all launch velocities, change by factors of their own, drawn

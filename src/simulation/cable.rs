@@ -5,6 +5,8 @@
 //! cables. Where a cable is missing (at the end of a mesh row) its slot stays empty, so that a run continues from row to row.
 //! Long runs are cut into blocks. A block is the unit that sleeps and wakes.
 
+use std::sync::Arc;
+
 use super::compressed_rows::CompressedRows;
 use super::pack::LANES;
 use crate::scene::{Cable, Scene};
@@ -34,11 +36,11 @@ pub struct Blocks {
     /// Blocks, in the order in which they are evaluated.
     pub blocks: Vec<Block>,
     /// Number of cables of the whole scene that each element stands for; 0 for an empty slot (`n_elements`).
-    pub weight: Vec<f64>,
+    pub weight: Arc<[f64]>,
     /// Elements that act on each pack of tires.
-    pub ends: Ends,
+    pub ends: Arc<Ends>,
     /// Scene's cable of each element; [`NONE`] for an empty slot (`n_elements`).
-    cable: Vec<u32>,
+    cable: Arc<[u32]>,
 }
 
 impl Blocks {
@@ -70,7 +72,21 @@ impl Blocks {
         cable.resize(cable.len().next_multiple_of(LANES) + LANES, NONE);
         let weight = cable.iter().map(|&c| if c == NONE { 0.0 } else { weight[c as usize] }).collect();
         let packs = scene.mass.len().div_ceil(LANES);
-        Self { blocks, weight, ends: Ends(CompressedRows::new(2 * packs, &acting)), cable }
+        let ends = Ends(CompressedRows::new(2 * packs, &acting));
+        Self { blocks, weight, ends: ends.into(), cable: cable.into() }
+    }
+
+    /// The same layout with other lengths and stiffnesses; `numbers` gives the cable of an index in the scene.
+    pub fn with_numbers<'c>(&self, numbers: impl Fn(usize) -> &'c Cable) -> Self {
+        let mut layout = self.clone();
+        for (n, block) in layout.blocks.iter_mut().enumerate() {
+            let slots = &self.cable[block.memory..block.memory + block.len];
+            if let Some(slot) = slots.iter().position(|&cable| cable != NONE) {
+                let &Cable { rest_length, stiffness, .. } = numbers(self.cable(n, slot));
+                block.first = Cable { rest_length, stiffness, ..block.first };
+            }
+        }
+        layout
     }
 
     /// Index in the scene of the cable in a slot of a block.

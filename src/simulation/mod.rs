@@ -86,6 +86,21 @@ impl Model {
         }
     }
 
+    /// Runs one shot under a `variant` of the scene: a scene with the same tires and ties, but other masses, cable lengths,
+    /// stiffnesses, strengths or friction. Only the numbers are taken from it; nothing is laid out anew.
+    pub fn run_variant(
+        &self,
+        variant: &Scene,
+        shot: &Shot,
+        settings: &Settings,
+        watch: &mut Watcher<'_>,
+    ) -> Result<Outcome, Failure> {
+        match settings.method {
+            Method::Verlet => self.verlet.run_variant(&self.scene, variant, shot, settings, watch),
+            Method::Newmark => self.newmark.run(variant, shot, settings, watch),
+        }
+    }
+
     /// Number of tires that `method` integrates for a shot: with `verlet`, a half or a quarter of the scene's where scene and
     /// shot are their own mirror image.
     pub fn modelled_tires(&self, method: Method, shot: &Shot) -> usize {

@@ -199,6 +199,7 @@ pub mod tests {
             friction: 0.5,
             gravity: 9.81,
             breaking_force: None,
+            strength: Vec::new(),
             mirrors: Vec::new(),
             position,
         };

@@ -17,7 +17,7 @@ pub struct Bounded {
 }
 
 /// Reads null as infinity: JSON has no infinity and writes null instead.
-fn or_infinite<'d, D: Deserializer<'d>>(from: D) -> Result<f64, D::Error> {
+pub(super) fn or_infinite<'d, D: Deserializer<'d>>(from: D) -> Result<f64, D::Error> {
     Option::<f64>::deserialize(from).map(|value| value.unwrap_or(f64::INFINITY))
 }
 

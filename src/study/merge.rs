@@ -9,9 +9,8 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use super::orders::Tried;
-use super::scatter::{Sample, Sampling};
+use super::risk::{Sample, Sampling};
 use super::{Case, ComputeSettings, Shard};
-use crate::plan::Uncertainty;
 
 /// The question that a study answers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -23,12 +22,20 @@ pub enum Question {
         intervals_s: Vec<f64>,
     },
     /// Samples of every option.
-    Scatter {
-        /// Scatter of detonators, launches and friction.
-        spec: Uncertainty,
+    Risk {
         /// Number of samples and seed.
         sampling: Sampling,
     },
+}
+
+/// A sample of a delay option.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OptionSample {
+    /// Index of the delay option.
+    pub option: usize,
+    /// The sample.
+    #[serde(flatten)]
+    pub sample: Sample,
 }
 
 /// The first line of a share.
@@ -62,12 +69,12 @@ struct Foot {
 pub enum Findings {
     /// Of `orders`.
     Orders(Vec<Tried>),
-    /// Of `scatter`.
-    Scatter(Vec<Sample>),
+    /// Of `risk`.
+    Risk(Vec<OptionSample>),
 }
 
 /// Name of this format of shares.
-const SCHEMA: &str = "shelter.shard/3";
+const SCHEMA: &str = "shelter.shard/4";
 /// Version of this program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -80,9 +87,9 @@ impl Findings {
                 let complete = |tried: &Tried| tried.order.iter().copied().sorted().eq(rows.iter().copied());
                 tried.iter().all(complete) && tried.iter().map(|tried| tried.number).all_unique()
             }
-            Findings::Scatter(samples) => {
+            Findings::Risk(samples) => {
                 samples.iter().all(|sample| sample.option < case.shots.len())
-                    && samples.iter().map(|sample| (sample.option, sample.number)).all_unique()
+                    && samples.iter().map(|sample| (sample.option, sample.sample.number)).all_unique()
             }
         }
     }
@@ -94,7 +101,7 @@ impl Findings {
         }
         match self {
             Findings::Orders(tried) => lines(tried),
-            Findings::Scatter(samples) => lines(samples),
+            Findings::Risk(samples) => lines(samples),
         }
     }
 }
@@ -129,7 +136,7 @@ fn checksum(text: &str) -> String {
 /// Reads a share; says what is wrong with it. `name` stands for the file in messages.
 fn read_share(name: &str, text: &str) -> Result<(Head, Findings), String> {
     let wrong = |line: usize, error: &dyn std::fmt::Display| {
-        format!("{name}:{line}: {error}; a share is what `shelter orders` or `scatter` wrote with --shard")
+        format!("{name}:{line}: {error}; a share is what `shelter orders` or `risk` wrote with --shard")
     };
     let (first, rest) = text.split_once('\n').ok_or_else(|| wrong(1, &"the file has no second line"))?;
     let Origin { schema, version } = serde_json::from_str(first).map_err(|error| wrong(1, &error))?;
@@ -163,7 +170,7 @@ fn read_share(name: &str, text: &str) -> Result<(Head, Findings), String> {
     lines.pop();
     let findings = match head.question {
         Question::Orders { .. } => Findings::Orders(results(&lines, wrong)?),
-        Question::Scatter { .. } => Findings::Scatter(results(&lines, wrong)?),
+        Question::Risk { .. } => Findings::Risk(results(&lines, wrong)?),
     };
     Ok((head, findings))
 }
@@ -183,7 +190,7 @@ pub fn merge(shares: &[(String, String)]) -> Result<(Head, Findings), String> {
         let (head, findings) = read_share(name, text)?;
         match findings {
             Findings::Orders(tried) => orders.extend(tried),
-            Findings::Scatter(drawn) => samples.extend(drawn),
+            Findings::Risk(drawn) => samples.extend(drawn),
         }
         heads.push((name, head));
     }
@@ -206,10 +213,10 @@ pub fn merge(shares: &[(String, String)]) -> Result<(Head, Findings), String> {
         }
     }
     orders.sort_by_key(|tried: &Tried| tried.number);
-    samples.sort_by_key(|sample: &Sample| (sample.option, sample.number));
+    samples.sort_by_key(|of: &OptionSample| (of.option, of.sample.number));
     let findings = match first.question {
         Question::Orders { .. } => Findings::Orders(orders),
-        Question::Scatter { .. } => Findings::Scatter(samples),
+        Question::Risk { .. } => Findings::Risk(samples),
     };
     Ok((first, findings))
 }

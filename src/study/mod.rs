@@ -6,24 +6,27 @@
 
 pub mod accuracy;
 pub mod batch;
-mod certainty;
 pub mod check;
 pub mod check_all;
 mod compute;
+pub mod confidence;
+pub mod draw;
 mod envelope;
 pub mod error;
 pub mod flight;
 mod found;
+pub mod judgement;
 mod ladder;
+pub mod margin;
 pub mod merge;
-pub mod nearby;
 mod no_result;
 pub mod orders;
 mod progress;
 pub mod reason;
-pub mod scatter;
+pub mod risk;
 mod screen;
 pub mod size;
+pub mod swaps;
 pub mod sweep;
 pub mod trace;
 

@@ -5,17 +5,15 @@
 //! stiffness move the shelter alike, and the stronger rope holds wherever the weaker one holds. The strongest rope of each
 //! stiffness is tried first. Where it fails, the other ropes of that stiffness are not tried.
 //!
-//! A combination that holds is a choice only if it also holds with inputs a little different from the plan: [`judge_nearby`]
-//! judges shots near those that it must hold. From the lightest on, every combination with more margin than the choices
-//! before is tried so. Samples ([`Demand::Samples`]) are such shots already.
+//! A combination that holds as planned is a choice only if surely fewer shots than accepted fail of those that `[uncertainty]`
+//! describes. From the lightest on, every combination with more margin than the choices before is sampled so.
 
 use itertools::Itertools;
 
 use super::batch::judge_shots;
-use super::nearby::{Nearby, judge_nearby};
-use super::scatter::{self, Sample, Sampling, scatter};
-use super::{Bounded, Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard};
-use crate::plan::{Layout, Plan, Uncertainty};
+use super::risk::{Sampling, Target, sample};
+use super::{Bounded, Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress};
+use crate::plan::{Layout, Plan};
 use crate::ropes::{Rope, catalogue};
 use crate::scene::Shot;
 use crate::verdict::Verdict;
@@ -23,17 +21,13 @@ use crate::verdict::Verdict;
 /// The shots that a shelter must hold.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Demand {
-    /// Every delay option of the plan.
-    Options,
+    /// Delay options of the plan, by their indices.
+    Options(Vec<usize>),
     /// Every order of the blast rows (at most [`MOST_ROWS`](super::orders::MOST_ROWS)) at each of these intervals [s].
     AnyOrder(Vec<f64>),
-    /// 99 % of the samples of every option; where the sampling has a bound, surely fewer failures than the bound.
-    Samples(Uncertainty, Sampling),
 }
 
-/// Fraction of the samples that may fail where the sampling has no bound.
-const MAY_FAIL: f64 = 0.01;
-/// Number of orders, the hardest ones, that are judged with nearby inputs.
+/// Number of orders, the hardest ones, that are sampled.
 const HARDEST: usize = 8;
 /// Number of shots judged together before a failure ends the trial. A fixed number: the shots judged do not depend on the
 /// number of threads.
@@ -78,15 +72,26 @@ pub struct Trial {
     pub utilization: f64,
     /// Number of shots judged.
     pub shots: usize,
-    /// Shots with nearby inputs; `None` where none were judged.
-    pub nearby: Option<Nearby>,
+    /// What the samples tell; `None` where none were drawn.
+    pub risk: Option<SampledRisk>,
 }
 
 impl Trial {
-    /// Whether the combination is a choice: it holds, and no nearby shot fails.
+    /// Whether the combination is a choice: it holds, and its risk passes.
     pub fn is_choice(&self) -> bool {
-        self.holds && self.nearby.is_none_or(|nearby| nearby.failures == 0)
+        self.holds && self.risk.is_none_or(|risk| risk.verdict == Verdict::Pass)
     }
+}
+
+/// Samples of the shots of a combination, up to the first shot whose risk does not pass.
+#[derive(Clone, Copy, Debug)]
+pub struct SampledRisk {
+    /// The verdict of the samples.
+    pub verdict: Verdict,
+    /// Number of samples.
+    pub samples: usize,
+    /// Number of those that failed.
+    pub failures: usize,
 }
 
 /// Result of sizing.
@@ -119,7 +124,7 @@ impl Sizing {
         self.combinations.iter().filter(|c| c.trial.is_ok()).count()
     }
 
-    /// Number of combinations that hold as planned but not with nearby inputs.
+    /// Number of combinations that hold as planned, but whose risk does not pass.
     pub fn fragile(&self) -> usize {
         self.combinations
             .iter()
@@ -133,9 +138,17 @@ impl Sizing {
     }
 }
 
-/// Tries the combinations that the plan allows, until the time is up.
-pub fn size(plan: &Plan, demand: &Demand, compute: &ComputeSettings, progress: &Progress) -> Finding<Sizing> {
-    let family = |rope: &&Rope| plan.size.family.as_ref().is_none_or(|family| *family == rope.family);
+/// Tries the combinations that the plan allows, until the time is up. Without a `sampling` only the shots as planned count.
+pub fn size(
+    plan: &Plan,
+    demand: &Demand,
+    sampling: Option<&Sampling>,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Finding<Sizing> {
+    let own = catalogue().ropes.iter().find(|rope| plan.cable.rope.as_ref() == Some(&rope.name));
+    let wanted = plan.size.family.as_ref().or(own.map(|rope| &rope.family));
+    let family = |rope: &&Rope| wanted.is_none_or(|family| *family == rope.family);
     let by_stiffness = catalogue()
         .ropes
         .iter()
@@ -193,12 +206,15 @@ pub fn size(plan: &Plan, demand: &Demand, compute: &ComputeSettings, progress: &
             && trial.utilization < least
         {
             let case = Case::new(plan.with(combination.rope, combination.tire_mass, combination.border_rows));
-            let shots = shots(&case, demand);
-            let hardest: Vec<Shot> = hardest.iter().map(|&n| shots[n].clone()).collect();
-            let nearby = judge_nearby(&case, &hardest, compute, progress)?;
-            let judged = Trial { nearby, ..trial };
-            combination.trial = if nearby.is_some() { Ok(judged) } else { Err(Untried::OutOfTime) };
-            least = if judged.is_choice() { trial.utilization } else { least };
+            let mut trial = trial;
+            if let Some(sampling) = sampling {
+                let shots = shots(&case, demand);
+                trial.risk =
+                    sample_hardest(&case, hardest.iter().map(|&n| &shots[n]), sampling, compute, progress)?;
+                let complete = trial.risk.is_some();
+                combination.trial = if complete { Ok(trial) } else { Err(Untried::OutOfTime) };
+            }
+            least = if combination.trial.is_ok() && trial.is_choice() { trial.utilization } else { least };
         }
     }
     let sizing = Sizing { combinations: tried.into_iter().map(|(combination, _)| combination).collect() };
@@ -212,16 +228,41 @@ fn total_mass(case: &Case, rope: &Rope) -> f64 {
     scene.mass.iter().sum::<f64>() + length * rope.mass_kg_per_m
 }
 
-/// The shots that the shelter of `case` must hold; none for samples, which are drawn.
+/// Samples the shots of a case one after the other, until the risk of one does not pass; `None` where the time was up.
+fn sample_hardest<'s>(
+    case: &Case,
+    shots: impl Iterator<Item = &'s Shot>,
+    sampling: &Sampling,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<Option<SampledRisk>, NoResult> {
+    let sampling = Sampling { least: 0, ..*sampling };
+    let mut all = SampledRisk { verdict: Verdict::Pass, samples: 0, failures: 0 };
+    for shot in shots {
+        let target = [Target { case, shot, compute: *compute }];
+        let (risks, partial) = sample(&target, &sampling, progress, |_| false, &mut |_, _| {})?;
+        if partial {
+            return Ok(None);
+        }
+        all.samples += risks[0].confidence.samples;
+        all.failures += risks[0].confidence.failures;
+        all.verdict = risks[0].verdict();
+        if all.verdict != Verdict::Pass {
+            break;
+        }
+    }
+    Ok(Some(all))
+}
+
+/// The shots that the shelter of `case` must hold.
 fn shots(case: &Case, demand: &Demand) -> Vec<Shot> {
     match demand {
-        Demand::Options => case.shots.clone(),
+        Demand::Options(options) => options.iter().map(|&option| case.shots[option].clone()).collect(),
         Demand::AnyOrder(intervals) => all_orders(case, intervals),
-        Demand::Samples(..) => Vec::new(),
     }
 }
 
-/// Tries one combination; the second part of the result is the shots to be judged with nearby inputs, hardest first.
+/// Tries one combination; the second part of the result is the shots to be sampled, hardest first.
 fn try_out(
     case: &Case,
     demand: &Demand,
@@ -229,11 +270,6 @@ fn try_out(
     likeliest: &mut usize,
     progress: &Progress,
 ) -> Result<Option<(Trial, Vec<usize>)>, NoResult> {
-    if let Demand::Samples(spec, sampling) = demand {
-        let Found { value: samples, partial } =
-            scatter(case, spec, sampling, Shard::WHOLE, compute, progress)?;
-        return Ok((!partial).then(|| (most_hold(case, sampling, &samples), Vec::new())));
-    }
     let shots = shots(case, demand);
     let mut order: Vec<usize> = (0..shots.len()).collect();
     if *likeliest < shots.len() {
@@ -254,7 +290,7 @@ fn try_out(
     let trial = trial(case, &judged, judged.iter().all(|envelope| envelope.verdict == Verdict::Pass));
     let utilization = |n: usize| judged[n].utilization(&case.limits);
     let hardest = (0..judged.len()).sorted_by(|&a, &b| utilization(b).total_cmp(&utilization(a)));
-    let most = if *demand == Demand::Options { shots.len() } else { HARDEST };
+    let most = if matches!(demand, Demand::Options(_)) { shots.len() } else { HARDEST };
     Ok(Some((trial, hardest.map(|n| order[n]).take(most).collect())))
 }
 
@@ -264,29 +300,10 @@ fn all_orders(case: &Case, intervals: &[f64]) -> Vec<Shot> {
     itertools::iproduct!(intervals, &orders).map(|(&interval, order)| case.shot(order, interval)).collect()
 }
 
-/// Trial by samples: the combination holds where few enough samples of every option fail.
-fn most_hold(case: &Case, sampling: &Sampling, samples: &[Sample]) -> Trial {
-    let few_fail = (0..case.shots.len()).all(|option| {
-        let mine = || samples.iter().filter(|sample| sample.option == option);
-        let failures = mine().filter(|sample| sample.envelope.verdict != Verdict::Pass).count();
-        failures as f64 <= MAY_FAIL * mine().count() as f64
-    });
-    let (may_fail, holds) = match sampling.certain_at {
-        Some(bound) => (bound, scatter::verdict(case, sampling, samples) == Verdict::Pass),
-        None => (MAY_FAIL, few_fail),
-    };
-    let mut envelopes: Vec<Envelope> = samples.iter().map(|sample| sample.envelope).collect();
-    let share = |envelope: &Envelope| envelope.utilization(&case.limits);
-    envelopes.sort_by(|a, b| share(a).total_cmp(&share(b)));
-    // The samples that may fail do not count for the worst shot.
-    let counting = ((1.0 - may_fail) * envelopes.len() as f64).ceil() as usize;
-    Trial { shots: samples.len(), ..trial(case, &envelopes[..counting], holds) }
-}
-
 fn trial(case: &Case, judged: &[Envelope], holds: bool) -> Trial {
     let zero = Bounded::default();
     let none = Envelope { verdict: Verdict::Pass, height: zero, force: zero, drift: zero };
     let share = |envelope: &Envelope| envelope.utilization(&case.limits);
     let worst = judged.iter().copied().max_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or(none);
-    Trial { holds, worst, utilization: share(&worst), shots: judged.len(), nearby: None }
+    Trial { holds, worst, utilization: share(&worst), shots: judged.len(), risk: None }
 }

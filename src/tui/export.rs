@@ -11,6 +11,7 @@ use crate::jobs::{StudyKind, StudyResult};
 use crate::report::{self, charts, html};
 use crate::scene::fire_at_s;
 use crate::study::check_all::Results;
+use crate::study::judgement::Judgement;
 
 /// Writes the contents of the screen to a new file, in the format of the file's ending; or says why not.
 pub fn write(app: &App, path: &Path) -> Result<(), String> {
@@ -71,7 +72,7 @@ fn finished(app: &App) -> Result<&ShownStudy, String> {
 /// Results of all options, once every option has one.
 fn results(app: &App) -> Result<Results, String> {
     let result = |state: &OptionState| match state {
-        OptionState::Done(checked) => Ok(Ok((**checked).clone())),
+        OptionState::Done(checked) => Ok(Ok(Judgement::nominal((**checked).clone()))),
         OptionState::Failed(no_result) => Ok(Err(no_result.clone())),
         OptionState::Waiting | OptionState::Running { .. } => {
             Err("not all options are computed yet".to_owned())

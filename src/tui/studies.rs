@@ -50,8 +50,8 @@ impl ShownStudy {
             StudyResult::Orders(orders) => {
                 (report::orders::report(case, orders, false), notes::orders(case).into_iter().collect())
             }
-            StudyResult::Scatter(sampling, samples) => {
-                (report::scatter::report(case, sampling, samples, false), notes::scatter(case))
+            StudyResult::Risk(sampling, results) => {
+                (report::risk::report(case, results, sampling, false), notes::swaps(case))
             }
             StudyResult::Size(sizing) => (report::size::report(case, sizing), Vec::new()),
             StudyResult::Accuracy(study) => (report::accuracy::report(case, study, &[]), Vec::new()),

@@ -286,7 +286,7 @@ proptest::proptest! {
         study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
         let flight = recorded(&app, 0);
         study_ends(&mut app, StudyKind::Flight, Ok(flight));
-        study_ends(&mut app, StudyKind::Scatter, Err(NoResult::NoInterval));
+        study_ends(&mut app, StudyKind::Risk, Err(NoResult::NoInterval));
         for (n, letter) in keys {
             let codes = [
                 KeyCode::Up, KeyCode::Down, KeyCode::Left, KeyCode::Right, KeyCode::Enter, KeyCode::Esc,

@@ -21,6 +21,7 @@ pub fn tires(places: &[(f64, f64)], mass: f64) -> Scene {
         friction: 0.5,
         gravity: GRAVITY,
         breaking_force: None,
+        strength: Vec::new(),
         mirrors: Vec::new(),
     }
 }

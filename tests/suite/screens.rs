@@ -185,9 +185,9 @@ fn notes_stand_beside_the_results() {
     let orders = text(&draw(&app, 120, 36));
     let left_out = &app.case.plan.delays[1].name;
     assert!(orders.contains(&format!("and left out: {left_out}")), "{orders}");
-    app.studies.show(StudyKind::Scatter);
-    let scatter = text(&draw(&app, 120, 36));
-    assert!(scatter.contains("is short for the scatter of the detonators"), "{scatter}");
+    app.studies.show(StudyKind::Risk);
+    let risk = text(&draw(&app, 120, 36));
+    assert!(risk.contains("is short for the scatter of the detonators"), "{risk}");
 }
 
 /// Every screen in plain characters, and where each theme shows which style.

@@ -13,11 +13,11 @@ use shelter::outcome::{EndReason, History, RunEnd};
 use shelter::ropes::catalogue;
 use shelter::study::accuracy::{AccuracyTable, Measured, StepRow};
 use shelter::study::check::Checked;
-use shelter::study::nearby::Nearby;
+use shelter::study::judgement::Judgement;
 use shelter::study::orders::{Orders, Tried};
 use shelter::study::reason::{Quantity, Reason};
-use shelter::study::scatter::{Sample, Sampling};
-use shelter::study::size::{Combination, Sizing, Trial};
+use shelter::study::risk::{Risk, Sample, Sampling};
+use shelter::study::size::{Combination, SampledRisk, Sizing, Trial};
 use shelter::study::sweep::{Point, Recommended, Sweep};
 use shelter::study::{Bounded, Envelope};
 use shelter::study::{Case, ComputeSettings, NoResult, flight};
@@ -66,6 +66,27 @@ pub fn checked(verdict: Verdict) -> Checked {
         runs: 4,
         total_steps: 5000,
     }
+}
+
+/// A judgement with 200 round samples, of which one in ten fails in every second option.
+pub fn judgement(case: &Case, option: usize) -> Judgement {
+    let mut risk = Risk::new(case);
+    for number in 0..200 {
+        let part = number as f64 / 200.0;
+        let fails = option % 2 == 0 && number % 10 == 3;
+        risk.push(Sample {
+            number,
+            verdict: if fails { Verdict::Fail } else { Verdict::Pass },
+            finer: None,
+            breaks: false,
+            height: 1.1 + 0.2 * part,
+            force: 50e3 + 10e3 * part * part,
+            drift: 0.3,
+            inputs: [part, 0.5, 2.0, 1.0],
+        });
+    }
+    let verdict = if option % 3 == 0 { Verdict::Fail } else { Verdict::Pass };
+    Judgement { risk: Some(risk), ..Judgement::nominal(checked(verdict)) }
 }
 
 pub fn finished() -> App {
@@ -185,21 +206,18 @@ pub fn spreads(app: &App) -> [(StudyKind, StudyResult); 3] {
         interval: 0.02,
         envelope: envelope(1.5 - 0.2 * number as f64),
     });
-    let samples = (0..app.options.len()).flat_map(|option| {
-        (0..100).map(move |number| Sample { option, number, envelope: envelope(0.5 + 0.01 * number as f64) })
-    });
+    let judged = app.options.iter().enumerate().map(|(n, _)| Ok(judgement(&app.case, n)));
     let combinations = catalogue().ropes.iter().take(8).enumerate().map(|(n, rope)| {
         let share = 1.5 - 0.1 * n as f64;
-        let nearby = Some(Nearby { judged: 168, failures: 0 });
-        let trial =
-            Trial { holds: share < 1.0, worst: envelope(share), utilization: share, shots: 7, nearby };
+        let risk = Some(SampledRisk { verdict: Verdict::Pass, samples: 3045, failures: 2 });
+        let trial = Trial { holds: share < 1.0, worst: envelope(share), utilization: share, shots: 7, risk };
         let (total_mass, trial) = (14_000.0 + 100.0 * n as f64, Ok(trial));
         Combination { rope, tire_mass: 280.0, border_rows: 0, tires: 50, total_mass, trial }
     });
-    let sampling = Sampling { samples: 100, seed: 1, certain_at: None };
+    let sampling = Sampling { least: 200, most: 200, seed: 1 };
     [
         (StudyKind::Orders, StudyResult::Orders(Orders::new(&app.case, tried.collect(), 1))),
-        (StudyKind::Scatter, StudyResult::Scatter(sampling, samples.collect())),
+        (StudyKind::Risk, StudyResult::Risk(sampling, judged.collect())),
         (StudyKind::Size, StudyResult::Size(Sizing { combinations: combinations.collect() })),
     ]
 }

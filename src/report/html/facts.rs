@@ -88,8 +88,10 @@ fn quoted(path: &str) -> String {
 /// The command that gives these results.
 pub fn command(case: &Case, results: &Results) -> String {
     let mut command = format!("shelter check {}", quoted(&case.source.path));
-    let (asked, of_plan) =
-        (results.iter().flatten().next().map(|c| c.compute), ComputeSettings::of(&case.plan));
+    let (asked, of_plan) = (
+        results.iter().flatten().next().map(|judged| judged.nominal.compute),
+        ComputeSettings::of(&case.plan),
+    );
     if let Some(ComputeSettings { method, accuracy, step }) = asked.filter(|asked| *asked != of_plan) {
         command += &format!(" --method {} --accuracy {}", method.name(), accuracy.name());
         if let Some(step) = step {

@@ -75,12 +75,12 @@ pub fn page(case: &Case, results: &Results, date: &str) -> String {
                     }
                 }
                 @for (delay, result) in plan.delays.iter().zip(results) {
-                    @if let Ok(checked) = result {
+                    @if let Ok(judged) = result {
                         section {
-                            h2 { (delay.name) " " (word(checked.verdict)) }
-                            p.quiet { (explain::computation(case.scene(), checked)) }
+                            h2 { (delay.name) " " (word(judged.verdict())) }
+                            p.quiet { (explain::computation(case.scene(), &judged.nominal)) }
                             div.charts {
-                                @for chart in charts::history(case, &checked.history, &fire_at_s(&delay.timing)) {
+                                @for chart in charts::history(case, &judged.nominal.history, &fire_at_s(&delay.timing)) {
                                     div { (PreEscaped(svg(&chart).unwrap_or_default())) }
                                 }
                             }

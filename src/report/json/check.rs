@@ -1,15 +1,19 @@
-//! Schema `shelter.check/1`.
+//! Schema `shelter.check/2`.
 
 use serde::Serialize;
 use serde_json::Number;
 
 use super::Limits;
+use super::risk::{Share, input_shares};
 use crate::outcome::Broken;
-use crate::report::{explain, no_result};
+use crate::report::check::texts;
+use crate::report::no_result;
 use crate::scene::{Scene, TireId, fire_at_s};
 use crate::study::Case;
-use crate::study::check::Checked;
 use crate::study::check_all::{Results, verdict};
+use crate::study::judgement::Judgement;
+use crate::study::margin::LaunchMargin;
+use crate::study::risk::{Risk, Sample};
 use crate::verdict::{Estimate, Verdict};
 
 /// The document of one plan.
@@ -18,6 +22,7 @@ pub struct CheckDocument {
     schema: &'static str,
     plan: String,
     title: String,
+    judged: &'static str,
     verdict: &'static str,
     scene: SceneSize,
     limits: Limits,
@@ -43,6 +48,11 @@ struct OptionResult {
 
 #[derive(Serialize)]
 struct OptionValues {
+    nominal_verdict: &'static str,
+    failure_probability: Option<Failures>,
+    any_cable_breaks: Option<Bounds>,
+    launch_margin: Option<f64>,
+    inputs: Option<Vec<Share>>,
     flight_height_m: AtTire,
     cable_force_n: AtCable,
     cable_safety_factor: Option<f64>,
@@ -58,10 +68,49 @@ struct OptionValues {
     runs: usize,
 }
 
+/// Bounds of the failure probability, and the samples behind them.
+#[derive(Serialize)]
+struct Failures {
+    #[serde(flatten)]
+    bounds: Bounds,
+    samples: usize,
+    undecided: usize,
+}
+
+#[derive(Serialize)]
+struct Bounds {
+    low: f64,
+    high: f64,
+}
+
+impl From<[f64; 2]> for Bounds {
+    fn from([low, high]: [f64; 2]) -> Self {
+        Self { low, high }
+    }
+}
+
+/// Percentiles of the samples; null for too few samples.
+#[derive(Serialize)]
+struct Band {
+    p05: Option<f64>,
+    p50: Option<f64>,
+    p95: Option<f64>,
+}
+
+impl Band {
+    fn of(risk: Option<&Risk>, of: fn(&Sample) -> f64) -> Self {
+        let band = risk.and_then(|risk| risk.band(of)).map(|band| band.map(Some));
+        let [p05, p50, p95, _] = band.unwrap_or_default();
+        Self { p05, p50, p95 }
+    }
+}
+
 #[derive(Serialize)]
 struct AtTire {
     value: f64,
     error: f64,
+    #[serde(flatten)]
+    band: Band,
     at_s: f64,
     tire: Vec<Number>,
 }
@@ -70,6 +119,8 @@ struct AtTire {
 struct AtCable {
     value: f64,
     error: f64,
+    #[serde(flatten)]
+    band: Band,
     at_s: f64,
     cable: Option<[Vec<Number>; 2]>,
 }
@@ -89,27 +140,42 @@ impl BrokenCable {
 }
 
 impl AtTire {
-    fn new(scene: &Scene, estimate: &Estimate) -> Self {
+    fn new(scene: &Scene, estimate: &Estimate, band: Band) -> Self {
         let Estimate { value, error, at, index } = *estimate;
-        Self { value, error, at_s: at, tire: scene.tire.get(index).map(address).unwrap_or_default() }
+        Self { value, error, band, at_s: at, tire: scene.tire.get(index).map(address).unwrap_or_default() }
     }
 }
 
 impl AtCable {
-    fn new(scene: &Scene, estimate: &Estimate) -> Self {
+    fn new(scene: &Scene, estimate: &Estimate, band: Band) -> Self {
         let Estimate { value, error, at, index } = *estimate;
         let ends = |cable: &crate::scene::Cable| cable.ends.map(|end| address(&scene.tire[end]));
-        Self { value, error, at_s: at, cable: scene.cables.get(index).map(ends) }
+        Self { value, error, band, at_s: at, cable: scene.cables.get(index).map(ends) }
     }
 }
 
 impl OptionValues {
-    fn new(scene: &Scene, checked: &Checked) -> Self {
+    fn new(case: &Case, judged: &Judgement) -> Self {
+        let (scene, checked, risk) = (case.scene(), &judged.nominal, judged.risk.as_ref());
+        let failures = |risk: &Risk| Failures {
+            bounds: risk.confidence.interval.into(),
+            samples: risk.confidence.samples,
+            undecided: risk.confidence.undecided,
+        };
+        let drift_is_judged = risk.filter(|_| case.limits.drift.is_some());
         Self {
-            flight_height_m: AtTire::new(scene, &checked.height),
-            cable_force_n: AtCable::new(scene, &checked.force),
+            nominal_verdict: checked.verdict.name(),
+            failure_probability: risk.map(failures),
+            any_cable_breaks: risk.map(|risk| risk.breaks.interval.into()),
+            launch_margin: judged.launch_margin.and_then(|margin| match margin {
+                LaunchMargin::UpTo(share) => Some(share),
+                LaunchMargin::Wide => None,
+            }),
+            inputs: risk.and_then(|risk| input_shares(risk, &case.limits)),
+            flight_height_m: AtTire::new(scene, &checked.height, Band::of(risk, |sample| sample.height)),
+            cable_force_n: AtCable::new(scene, &checked.force, Band::of(risk, |sample| sample.force)),
             cable_safety_factor: Some(checked.safety_factor).filter(|factor| factor.is_finite()),
-            drift_m: AtTire::new(scene, &checked.drift),
+            drift_m: AtTire::new(scene, &checked.drift, Band::of(drift_is_judged, |sample| sample.drift)),
             broken: checked.broken.iter().map(|broken| BrokenCable::new(scene, broken)).collect(),
             method: checked.compute.method.name(),
             dt_s: checked.step,
@@ -126,22 +192,30 @@ impl CheckDocument {
     /// The document of the results of one plan; with `any` one passing option is enough.
     pub fn new(case: &Case, results: &Results, any: bool) -> Self {
         let (plan, scene) = (&case.plan, case.scene());
-        let method =
-            results.iter().flatten().next().map_or(plan.simulation.method, |checked| checked.compute.method);
+        let method = results
+            .iter()
+            .flatten()
+            .next()
+            .map_or(plan.simulation.method, |judged| judged.nominal.compute.method);
         let options = plan.delays.iter().zip(results).map(|(delay, result)| OptionResult {
             name: delay.name.clone(),
             fire_at_s: fire_at_s(&delay.timing),
-            verdict: result.as_ref().map_or(Verdict::Undecided, |c| c.verdict).name(),
+            verdict: result.as_ref().map_or(Verdict::Undecided, Judgement::verdict).name(),
             reasons: match result {
-                Ok(checked) => checked.reasons.iter().map(explain::reason).collect(),
+                Ok(judged) => texts(case, judged),
                 Err(reason) => vec![no_result::message(reason)],
             },
-            values: result.as_ref().ok().map(|checked| OptionValues::new(scene, checked)),
+            values: result.as_ref().ok().map(|judged| OptionValues::new(case, judged)),
         });
         Self {
-            schema: "shelter.check/1",
+            schema: "shelter.check/2",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
+            judged: match results.iter().flatten().any(|judged| judged.risk.is_some()) {
+                false => "nominal",
+                true if plan.uncertainty.assumed => "default",
+                true => "plan",
+            },
             verdict: verdict(results, any).name(),
             scene: SceneSize {
                 tires: scene.mass.len(),

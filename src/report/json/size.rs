@@ -5,8 +5,8 @@ use serde::Serialize;
 use super::Values;
 use crate::report::size::nearest;
 use crate::study::Case;
-use crate::study::nearby::Nearby;
-use crate::study::size::{Combination, Sizing, Untried};
+use crate::study::size::{Combination, SampledRisk, Sizing, Untried};
+use crate::verdict::Verdict;
 
 /// The document of all combinations.
 #[derive(Serialize)]
@@ -19,7 +19,7 @@ pub struct SizeDocument {
     lightest: Option<CombinationResult>,
     tried: usize,
     not_tried: usize,
-    /// Combinations that hold as planned but not with nearby inputs.
+    /// Combinations that hold as planned, but whose risk does not pass.
     fragile: usize,
     partial: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -37,13 +37,14 @@ struct CombinationResult {
     /// Utilization; scripts know the key by this name.
     use_of_limits: Option<f64>,
     worst: Option<Values>,
-    nearby: Option<NearbyResult>,
+    risk: Option<RiskResult>,
 }
 
-/// Shots with inputs changed by up to 1 %.
+/// Samples of the hardest shots.
 #[derive(Serialize)]
-struct NearbyResult {
-    judged: usize,
+struct RiskResult {
+    verdict: Verdict,
+    samples: usize,
     failures: usize,
 }
 
@@ -58,10 +59,10 @@ impl CombinationResult {
             total_mass_kg: *total_mass,
             use_of_limits: trial.ok().map(|trial| trial.utilization),
             worst: trial.ok().map(|trial| Values::of(&trial.worst)),
-            nearby: trial
+            risk: trial
                 .ok()
-                .and_then(|trial| trial.nearby)
-                .map(|Nearby { judged, failures }| NearbyResult { judged, failures }),
+                .and_then(|trial| trial.risk)
+                .map(|SampledRisk { verdict, samples, failures }| RiskResult { verdict, samples, failures }),
         }
     }
 }

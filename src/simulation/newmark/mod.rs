@@ -73,7 +73,8 @@ struct Stepper<'a> {
     /// Whether any tire moved in the last step.
     moving: bool,
     record: Record,
-    /// Cable of the greatest force, if that force was sampled one step ago, and its k (L − L0) one step earlier [N].
+    /// Cable of the greatest force, if that force was sampled one step ago, and its k (L − L0) over
+    /// strength one step earlier [N].
     sampled: Option<(usize, f64)>,
     /// Tires and cables that need work, in packs of one tire and blocks of one cable.
     wake: Wake<'a>,

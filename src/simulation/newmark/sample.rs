@@ -10,7 +10,7 @@ impl Stepper<'_> {
     pub(super) fn sample(&mut self) {
         let now = self.clock.now();
         if let Some((cable, before)) = self.sampled.take() {
-            let after = self.stretch_force(cable, &self.u);
+            let after = self.stretch_over_strength(cable, &self.u);
             self.record.interpolate_force(before, after);
         }
         let breaking_force = self.scene.breaking_force.unwrap_or(f64::INFINITY);
@@ -18,12 +18,12 @@ impl Stepper<'_> {
         for &index in &self.wake.blocks {
             let cable = &self.scene.cables[index];
             let length = cable.displaced(&self.u).norm();
-            let value = cable.force(length);
+            let value = cable.force(length) / self.scene.strength(index);
             energy += cable.energy(length);
             force = force.max(value);
             if value > self.record.force.value {
                 self.record.force = Peak { value, at: now, index };
-                self.sampled = Some((index, self.stretch_force(index, &self.earlier)));
+                self.sampled = Some((index, self.stretch_over_strength(index, &self.earlier)));
             }
         }
         for &tire in &self.wake.awake {
@@ -50,9 +50,10 @@ impl Stepper<'_> {
         self.sampled = None;
         for n in 0..self.wake.blocks.len() {
             let index = self.wake.blocks[n];
+            let strength = self.scene.strength(index);
             let cable = &mut self.scene.to_mut().cables[index];
             let length = cable.displaced(&self.u).norm();
-            if cable.force(length) > breaking_force {
+            if cable.force(length) > strength * breaking_force {
                 self.record.ledger.dissipated += cable.energy(length);
                 self.record.broken.push(Broken { at, cable: index });
                 cable.rest_length = f64::INFINITY;
@@ -64,10 +65,11 @@ impl Stepper<'_> {
         }
     }
 
-    /// k (L − L0) of a cable at displacements `u` [m] [N].
-    fn stretch_force(&self, cable: usize, u: &[Vector3<f64>]) -> f64 {
+    /// k (L − L0) over strength of a cable at displacements `u` [m] [N].
+    fn stretch_over_strength(&self, cable: usize, u: &[Vector3<f64>]) -> f64 {
+        let strength = self.scene.strength(cable);
         let cable = &self.scene.cables[cable];
-        cable.stretch_force(cable.displaced(u).norm())
+        cable.stretch_force(cable.displaced(u).norm()) / strength
     }
 
     /// Outcome at the end of the run, which the last step may reach past.

@@ -112,6 +112,7 @@ impl Quotient {
             friction: scene.friction,
             gravity: scene.gravity,
             breaking_force: scene.breaking_force,
+            strength: Vec::new(),
             mirrors: Vec::new(),
         };
         for cable in &mut part.cables {

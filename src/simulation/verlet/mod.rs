@@ -19,7 +19,7 @@ mod mirror;
 mod stepper;
 mod tension;
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use self::mirror::Quotient;
 use self::stepper::Stepper;
@@ -42,9 +42,9 @@ pub struct VerletCache {
 /// Tires and cables that are integrated, laid out for the stepping loop; the same for every run.
 #[derive(Debug)]
 pub struct Part {
-    quotient: Quotient,
+    quotient: Arc<Quotient>,
     blocks: Blocks,
-    ties: Ties,
+    ties: Arc<Ties>,
     /// Mass of each tire × number of tires of the whole scene that the tire stands for [kg] (`n_tires` + [`LANES`]).
     mass: Vec<f64>,
     /// One over the mass of each tire; 0 for an image [1/kg] (`n_tires` + [`LANES`]).
@@ -56,9 +56,13 @@ pub struct Part {
 impl VerletCache {
     /// Part of the scene that stands for the whole scene in `shot`.
     fn part(&self, scene: &Scene, shot: &Shot) -> &Part {
-        let planes = shared_planes(scene, shot);
+        self.part_of(scene, &shared_planes(scene, shot))
+    }
+
+    /// Part of the scene that stands for the whole scene where shot and scene share `planes`.
+    fn part_of(&self, scene: &Scene, planes: &[&Mirror]) -> &Part {
         let number = planes.iter().map(|plane| 1 << plane.axis).sum::<usize>();
-        self.parts[number].get_or_init(|| Part::new(scene, &planes))
+        self.parts[number].get_or_init(|| Part::new(scene, planes))
     }
 
     /// Runs one shot of the scene of this cache; see [`super::Model::run`].
@@ -69,12 +73,20 @@ impl VerletCache {
         settings: &Settings,
         watch: &mut Watcher<'_>,
     ) -> Result<Outcome, Failure> {
-        let part = self.part(scene, shot);
-        let (step, limit) = (settings.step, part.critical_step);
-        if !(step > 0.0 && step < limit) {
-            return Err(Failure::Step { step, limit, method: Method::Verlet });
-        }
-        Stepper::new(part, scene, shot, settings).run(watch)
+        run(self.part(scene, shot), scene, shot, settings, watch)
+    }
+
+    /// Runs one shot under a `variant` of the scene of this cache; see [`super::Model::run_variant`].
+    pub fn run_variant(
+        &self,
+        scene: &Scene,
+        variant: &Scene,
+        shot: &Shot,
+        settings: &Settings,
+        watch: &mut Watcher<'_>,
+    ) -> Result<Outcome, Failure> {
+        let planes = shared_planes(variant, shot);
+        run(&self.part_of(scene, &planes).variant(variant), variant, shot, settings, watch)
     }
 
     /// Number of tires that are integrated for a shot: a half or a quarter of the scene's where scene and shot are their own
@@ -82,6 +94,21 @@ impl VerletCache {
     pub fn modelled_tires(&self, scene: &Scene, shot: &Shot) -> usize {
         self.part(scene, shot).quotient.modelled()
     }
+}
+
+/// Runs one shot of `scene`, of which `part` is integrated.
+fn run(
+    part: &Part,
+    scene: &Scene,
+    shot: &Shot,
+    settings: &Settings,
+    watch: &mut Watcher<'_>,
+) -> Result<Outcome, Failure> {
+    let (step, limit) = (settings.step, part.critical_step);
+    if !(step > 0.0 && step < limit) {
+        return Err(Failure::Step { step, limit, method: Method::Verlet });
+    }
+    Stepper::new(part, scene, shot, settings).run(watch)
 }
 
 /// Mirror planes of the scene in which the shot is its own image.
@@ -92,17 +119,28 @@ fn shared_planes<'s>(scene: &'s Scene, shot: &Shot) -> Vec<&'s Mirror> {
 impl Part {
     fn new(scene: &Scene, planes: &[&Mirror]) -> Self {
         let (quotient, part) = Quotient::new(scene, planes);
-        let weighted = || part.mass.iter().zip(&quotient.weight);
+        let blocks = Blocks::new(&part, &quotient.cable_weight);
+        let ties = Ties::of_blocks(&blocks, part.mass.len());
+        Self::with_masses(scene, quotient.into(), blocks, ties.into())
+    }
+
+    /// The same layout with the numbers of `variant`.
+    fn variant(&self, variant: &Scene) -> Self {
+        let blocks = self.blocks.with_numbers(|cable| &variant.cables[self.quotient.cable(cable)]);
+        Self::with_masses(variant, Arc::clone(&self.quotient), blocks, Arc::clone(&self.ties))
+    }
+
+    fn with_masses(scene: &Scene, quotient: Arc<Quotient>, blocks: Blocks, ties: Arc<Ties>) -> Self {
+        let weighted = || quotient.weight.iter().enumerate().map(|(n, &w)| (scene.mass[quotient.tire(n)], w));
         let spare = || std::iter::repeat_n(1.0, LANES);
         // Images are not kicked, because only some of their cables are modelled.
-        let inverse = |(mass, &weight): (&f64, &f64)| if weight > 0.0 { 1.0 / mass } else { 0.0 };
-        let blocks = Blocks::new(&part, &quotient.cable_weight);
+        let inverse = |(mass, weight)| if weight > 0.0 { 1.0 / mass } else { 0.0 };
         Self {
-            ties: Ties::of_blocks(&blocks, part.mass.len()),
-            blocks,
             mass: weighted().map(|(mass, weight)| mass * weight).chain(spare()).collect(),
             inverse: weighted().map(inverse).chain(spare()).collect(),
             critical_step: scene.critical_step(),
+            blocks,
+            ties,
             quotient,
         }
     }
@@ -119,7 +157,7 @@ mod tests {
     fn tires_asleep_would_not_have_moved() {
         let (scene, shots) = scenes();
         let mut part = Part::new(&scene, &[]);
-        part.ties = part.ties.with_everything();
+        part.ties = Arc::new(Ties::of_blocks(&part.blocks, scene.mass.len()).with_everything());
         let (some, mut all) = (VerletCache::default(), VerletCache::default());
         all.parts[0] = part.into();
         for shot in shots {

@@ -1,7 +1,7 @@
-//! The studies of the whole plan: sweep, orders, scatter and size, one shown at a time.
+//! The studies of the whole plan: sweep, orders, risk and size, one shown at a time.
 //!
 //! ```text
-//!  Sweep   Orders   Scatter   Size
+//!  Sweep   Orders   Risk   Size
 //! ─ settings ────────────────────────
 //! conclusion, notes, tables
 //! charts
@@ -35,10 +35,9 @@ fn about(kind: StudyKind) -> (&'static str, &'static str) {
             "Orders",
             "Which order of the rows is worst, which best? All orders at the intervals of the plan.",
         ),
-        StudyKind::Scatter => (
-            "Scatter",
-            "How often does each option fail when detonators and launches scatter? 1000 samples each.",
-        ),
+        StudyKind::Risk => {
+            ("Risk", "How likely does each option fail when what is not known varies? 1000 samples each.")
+        }
         StudyKind::Size => {
             ("Size", "What is the lightest rope, tire and border with which every option passes?")
         }
@@ -97,7 +96,7 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
     let charts = finished.report.charts();
     let charts: Vec<_> = match app.studies.shown {
         // One chart per option: the chart of the selected option.
-        StudyKind::Scatter => charts.skip(app.selected).take(1).collect(),
+        StudyKind::Risk => charts.skip(app.selected).take(1).collect(),
         _ => charts.collect(),
     };
     let most = if charts.is_empty() || area.height < ROOM_FOR_CHARTS {

@@ -24,11 +24,12 @@ impl Stepper<'_> {
     #[inline(always)]
     fn evaluate_cables<S: Simd>(&mut self, simd: S) -> StepTotals {
         self.interpolate_peak();
-        let Self { part, wake, tension, u, stored, .. } = self;
+        let Self { part, wake, tension, u, stored, candidates, weakest, .. } = self;
+        let weakest = *weakest;
         let (blocks, stored) = (&part.blocks.blocks[..], &mut stored[..part.blocks.blocks.len()]);
         let (u, mut tension) = (u.slices(), tension.slices());
         let (mut energy, mut force) = (self.asleep, [0.0; LANES]);
-        let (mut greatest, mut peak_block) = (Wide::splat(simd, self.record.force.value), None);
+        let mut greatest = Wide::splat(simd, weakest * self.record.force.value);
         for &n in &wake.blocks {
             let stress = tension.evaluate(simd, &blocks[n], u);
             stored[n] = stress.energy;
@@ -40,30 +41,32 @@ impl Stepper<'_> {
                 is_greater |= greatest.less(here).any();
             }
             if is_greater {
-                greatest = Wide::splat(simd, stress.force.into_iter().fold(0.0, f64::max));
-                peak_block = Some(n);
+                greatest = Wide::splat(simd, weakest * stress.force.into_iter().fold(0.0, f64::max));
+                candidates.push(n);
             }
         }
         let mut totals = StepTotals { energy, force, ..StepTotals::default() };
-        if let Some(block) = peak_block {
-            self.note_force(block);
+        if !self.candidates.is_empty() {
+            self.copy_velocities();
+            while let Some(block) = self.candidates.pop() {
+                self.note_force(block);
+            }
         }
-        if totals.force.iter().any(|&force| force > self.breaking_force) {
+        if totals.force.iter().any(|&force| force > weakest * self.breaking_force) {
             self.break_cables(&mut totals);
         }
         totals
     }
 
-    /// Notes the greatest force of block `n`, which is the greatest force so far.
+    /// Notes the greatest force of block `n`, if it is the greatest force so far.
     fn note_force(&mut self, n: usize) {
-        self.copy_velocities();
         let block = &self.part.blocks.blocks[n];
         for slot in 0..block.len {
-            let force = self.tension.slot_force(block, slot);
+            let force = self.force_over_strength(n, slot);
             if force > self.record.force.value {
                 let index = self.part.quotient.cable(self.part.blocks.cable(n, slot));
                 self.record.force = Peak { value: force, at: self.clock.now(), index };
-                let before = self.stretch_force(n, slot, -self.step);
+                let before = self.stretch_over_strength(n, slot, -self.step);
                 self.sampled = Some(Sample { block: n, slot, before });
             }
         }
@@ -79,7 +82,7 @@ impl Stepper<'_> {
         for &n in &self.wake.blocks {
             let block = &self.part.blocks.blocks[n];
             for slot in 0..block.len {
-                if self.tension.slot_force(block, slot) > self.breaking_force {
+                if self.force_over_strength(n, slot) > self.breaking_force {
                     let lost = self.tension.remove(block, slot);
                     self.record.ledger.dissipated += lost;
                     totals.energy[slot % LANES] -= lost;
@@ -98,16 +101,28 @@ impl Stepper<'_> {
     /// Moves the greatest force to the top of the parabola through the samples around it, one step after it was sampled.
     fn interpolate_peak(&mut self) {
         if let Some(Sample { block, slot, before }) = self.sampled.take() {
-            let after = self.stretch_force(block, slot, 0.0);
+            let after = self.stretch_over_strength(block, slot, 0.0);
             self.record.interpolate_force(before, after);
         }
     }
 
-    /// k (L − L0) of the cable in a slot of a block, its tires moved on over the time `ahead` [s] at their present velocity
-    /// [N].
-    fn stretch_force(&self, block: usize, slot: usize, ahead: f64) -> f64 {
+    /// Force of the cable in a slot of a block over its strength [N]; 0 for an empty slot.
+    fn force_over_strength(&self, block: usize, slot: usize) -> f64 {
+        let force = self.tension.slot_force(&self.part.blocks.blocks[block], slot);
+        if force > 0.0 { force / self.strength(block, slot) } else { 0.0 }
+    }
+
+    /// Strength of the cable in a slot of a block.
+    fn strength(&self, block: usize, slot: usize) -> f64 {
+        self.scene.strength(self.part.quotient.cable(self.part.blocks.cable(block, slot)))
+    }
+
+    /// k (L − L0) over strength of the cable in a slot of a block, its tires moved on over the time `ahead` [s] at their
+    /// present velocity [N].
+    fn stretch_over_strength(&self, block: usize, slot: usize, ahead: f64) -> f64 {
         let cable = &self.part.blocks.blocks[block].first;
         let moved = |tire: usize| self.u.vector(tire) + ahead * self.v.vector(tire);
-        cable.stretch_force(cable.between(cable.ends.map(|end| moved(end + slot))).norm())
+        let force = cable.stretch_force(cable.between(cable.ends.map(|end| moved(end + slot))).norm());
+        force / self.strength(block, slot)
     }
 }

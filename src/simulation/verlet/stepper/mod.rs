@@ -36,7 +36,7 @@ struct DueFiring {
 struct Sample {
     block: usize,
     slot: usize,
-    /// k (L − L0) of the cable one step earlier [N].
+    /// k (L − L0) over strength of the cable one step earlier [N].
     before: f64,
 }
 
@@ -69,8 +69,12 @@ pub(super) struct Stepper<'a> {
     friction: f64,
     /// Gravity [m/s²].
     gravity: f64,
-    /// Force above which a cable breaks [N]; infinite where cables never break.
+    /// Force above which a cable of strength 1 breaks [N]; infinite where cables never break.
     breaking_force: f64,
+    /// Least strength of a cable.
+    weakest: f64,
+    /// Blocks that may hold the greatest force so far.
+    candidates: Vec<usize>,
     clock: Clock,
     /// Whether any tire moved in the last step.
     moving: bool,
@@ -105,6 +109,8 @@ impl<'a> Stepper<'a> {
             friction: shot.friction.unwrap_or(scene.friction),
             gravity: scene.gravity,
             breaking_force: scene.breaking_force.unwrap_or(f64::INFINITY),
+            weakest: scene.strength.iter().copied().reduce(f64::min).unwrap_or(1.0),
+            candidates: Vec::with_capacity(part.blocks.blocks.len()),
             clock: Clock::new(shot, settings),
             moving: false,
             record: Record::new(settings.step),

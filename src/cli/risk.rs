@@ -1,0 +1,81 @@
+//! `shelter risk`: how likely each option fails, and what decides it.
+
+use std::io;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::arguments::{Compute, FormatArg, LookArguments, SamplingArguments, shard};
+use super::load_plans::open;
+use super::print::print_text;
+use super::print_findings::print_risks;
+use super::run_study::run_study;
+use super::status::{Status, failed, wrong};
+use crate::report::notes;
+use crate::study::check_all::check_all;
+use crate::study::merge::{Findings, OptionSample, Question, write_share};
+use crate::study::risk::{Sampling, Target, sample_share};
+use crate::study::{Case, Found, Shard};
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Plan to study, whose [uncertainty] says what is not known; `-` reads standard input
+    plan: PathBuf,
+    #[command(flatten)]
+    sampling: SamplingArguments,
+    /// This machine's share; `shelter merge` joins the shares
+    #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with_all = ["timeout", "format"])]
+    shard: Option<Shard>,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    format: FormatArg,
+    #[command(flatten)]
+    compute: Compute,
+}
+
+/// Samples of each option where the command line does not say.
+const SAMPLES: usize = 1000;
+/// Samples of all options together, some 150 bytes each.
+const MOST_SAMPLES: usize = 20_000_000;
+
+pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
+    let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
+    notes::swaps(&case).iter().for_each(|note| eprintln!("{note}"));
+    let sampling = arguments.sampling.exactly(SAMPLES);
+    if sampling.most.saturating_mul(case.shots.len()) > MOST_SAMPLES {
+        let message =
+            format!("more than {MOST_SAMPLES} samples of all options do not fit into memory: take fewer");
+        return wrong(&message);
+    }
+    if let Some(shard) = arguments.shard {
+        return share(arguments, &case, &sampling, shard);
+    }
+    let cases = [(&case, arguments.compute.settings(&case.plan))];
+    match run_study(&arguments.compute, |progress| check_all(&cases, Some(&sampling), progress)) {
+        Err(reason) => failed(&reason),
+        Ok(Found { value, partial }) => {
+            print_risks(&case, &value[0], &sampling, partial, arguments.format, look)
+        }
+    }
+}
+
+/// Prints this machine's share of the samples.
+fn share(arguments: &Arguments, case: &Case, sampling: &Sampling, shard: Shard) -> io::Result<Status> {
+    let settings = arguments.compute.settings(&case.plan);
+    let target = |shot| Target { case, shot, compute: settings };
+    let targets: Vec<_> = case.shots.iter().map(target).collect();
+    let drawn = run_study(&arguments.compute, |progress| {
+        let drawn = sample_share(&targets, sampling, shard, progress)?;
+        let samples =
+            drawn.into_iter().filter_map(|(option, sample)| Some(OptionSample { option, sample: sample? }));
+        Ok(Found { value: samples.collect(), partial: false })
+    });
+    match drawn {
+        Err(reason) => failed(&reason),
+        Ok(Found { value: samples, .. }) => {
+            let question = Question::Risk { sampling: *sampling };
+            print_text(&write_share(case, question, settings, shard, &Findings::Risk(samples))?)?;
+            Ok(Status::Pass)
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! Schema `shelter.risk/1`.
+
+use serde::Serialize;
+
+use super::Limits;
+use crate::report::risk::swap_warning;
+use crate::study::check_all::{Results, verdict};
+use crate::study::judgement::Judgement;
+use crate::study::risk::{Risk, Sample, Sampling, shares};
+use crate::study::swaps::Swap;
+use crate::study::{Case, NoResult};
+use crate::verdict::{Limits as Judged, Verdict};
+
+/// The document of the samples of all options.
+#[derive(Serialize)]
+pub struct RiskDocument {
+    schema: &'static str,
+    plan: String,
+    title: String,
+    verdict: &'static str,
+    partial: bool,
+    limits: Limits,
+    samples: usize,
+    seed: u64,
+    options: Vec<OptionResult>,
+    warnings: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct OptionResult {
+    name: String,
+    verdict: &'static str,
+    samples: usize,
+    failures: usize,
+    undecided: usize,
+    probability: Option<f64>,
+    interval_95: [f64; 2],
+    flight_height_m: Option<Band>,
+    cable_force_n: Option<Band>,
+    inputs: Option<Vec<Share>>,
+}
+
+/// Percentiles of the samples, and their greatest value.
+#[derive(Serialize)]
+pub struct Band {
+    p05: f64,
+    p50: f64,
+    p95: f64,
+    max: f64,
+}
+
+impl Band {
+    /// The band of a value of the samples; `None` for too few samples.
+    pub fn of(risk: &Risk, of: fn(&Sample) -> f64) -> Option<Self> {
+        risk.band(of).map(|[p05, p50, p95, max]| Self { p05, p50, p95, max })
+    }
+}
+
+/// The share of an input in the variance.
+#[derive(Serialize)]
+pub struct Share {
+    name: &'static str,
+    share: f64,
+}
+
+/// The shares of the inputs, largest first; `None` for too few samples.
+pub fn input_shares(risk: &Risk, limits: &Judged) -> Option<Vec<Share>> {
+    let all = shares(risk, limits)?.into_iter();
+    Some(all.map(|(input, share)| Share { name: input.name(), share }).collect())
+}
+
+impl OptionResult {
+    fn new(case: &Case, name: &str, result: &Result<Judgement, NoResult>) -> Self {
+        let risk = result.as_ref().ok().and_then(|judged| judged.risk.as_ref());
+        let confidence = risk.map(|risk| risk.confidence);
+        Self {
+            name: name.to_owned(),
+            verdict: result.as_ref().map_or(Verdict::Undecided, Judgement::verdict).name(),
+            samples: confidence.map_or(0, |c| c.samples),
+            failures: confidence.map_or(0, |c| c.failures),
+            undecided: confidence.map_or(0, |c| c.undecided),
+            probability: confidence.and_then(|c| c.probability()),
+            interval_95: confidence.map_or([0.0, 1.0], |c| c.interval),
+            flight_height_m: risk.and_then(|risk| Band::of(risk, |sample| sample.height)),
+            cable_force_n: risk.and_then(|risk| Band::of(risk, |sample| sample.force)),
+            inputs: risk.and_then(|risk| input_shares(risk, &case.limits)),
+        }
+    }
+}
+
+impl RiskDocument {
+    /// The document of the samples of all options, which is partial where the time was up.
+    pub fn new(case: &Case, results: &Results, sampling: &Sampling, swaps: &[Swap], partial: bool) -> Self {
+        let options = case.plan.delays.iter().zip(results);
+        Self {
+            schema: "shelter.risk/1",
+            plan: case.source.path.clone(),
+            title: case.title().to_owned(),
+            verdict: verdict(results, false).name(),
+            partial,
+            limits: Limits::of(case),
+            samples: sampling.most,
+            seed: sampling.seed,
+            options: options.map(|(delay, result)| OptionResult::new(case, &delay.name, result)).collect(),
+            warnings: swaps.iter().map(|swap| swap_warning(case, swap)).collect(),
+        }
+    }
+}

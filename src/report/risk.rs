@@ -1,0 +1,119 @@
+//! `risk` as a report: how likely each option fails, within which bands it stays, and what decides it.
+
+use super::charts;
+use super::explain::{compute_label, inputs, risk_detail};
+use super::limit_facts;
+use super::model::{Block, Cell, Column, Conclusion, Field, Report, Row, Table};
+use super::no_result;
+use super::shared_columns::{FAILURES, VERDICT};
+use crate::study::check_all::{Results, verdict};
+use crate::study::judgement::Judgement;
+use crate::study::risk::{Risk, Sample, Sampling};
+use crate::study::swaps::Swap;
+use crate::study::{Case, NoResult};
+use crate::units::{self, Unit};
+use crate::verdict::Verdict;
+
+const SPREAD: &str = "5 · 50 · 95 % · max";
+
+/// A delay option and its result.
+struct OptionRow<'a> {
+    case: &'a Case,
+    name: &'a str,
+    result: &'a Result<Judgement, NoResult>,
+}
+
+impl OptionRow<'_> {
+    /// A cell of the samples; nothing where there are none.
+    fn of(&self, cell: impl FnOnce(&Risk) -> Cell) -> Cell {
+        let risk = self.result.as_ref().ok().and_then(|judged| judged.risk.as_ref());
+        risk.map_or(Cell::Nothing, cell)
+    }
+
+    fn spread(&self, of: fn(&Sample) -> f64, unit: Unit) -> Cell {
+        self.of(|risk| risk.band(of).map_or(Cell::Nothing, |band| Cell::Spread(band, unit)))
+    }
+}
+
+fn fields<'a>() -> [Field<OptionRow<'a>>; 10] {
+    let spread = |keys, heading, unit| Column::numbers(keys, heading, unit).under(SPREAD);
+    let height_keys =
+        &["flight_height_p05_m", "flight_height_p50_m", "flight_height_p95_m", "flight_height_max_m"];
+    let force_keys = &["cable_force_p05_n", "cable_force_p50_n", "cable_force_p95_n", "cable_force_max_n"];
+    [
+        Field::new(Column::words(&["name"], "option"), |row| Cell::Text(row.name.to_owned())),
+        Field::new(VERDICT, |row| {
+            Cell::Verdict(row.result.as_ref().map_or(Verdict::Undecided, Judgement::verdict))
+        }),
+        Field::new(Column::numbers(&["samples"], "samples", Unit::One), |row| {
+            row.of(|risk| Cell::Count(risk.samples.len()))
+        }),
+        Field::new(Column::numbers(&["failures"], "failures", Unit::One), |row| {
+            row.of(|risk| Cell::Count(risk.confidence.failures))
+        }),
+        Field::new(Column::scripts(&["undecided"]), |row| {
+            row.of(|risk| Cell::Count(risk.confidence.undecided))
+        }),
+        Field::new(Column::scripts(&["probability"]), |row| {
+            row.of(|risk| risk.confidence.probability().map_or(Cell::Nothing, Cell::Number))
+        }),
+        Field::new(FAILURES, |row| row.of(|risk| Cell::Probability(risk.confidence.interval))),
+        Field::new(spread(height_keys, "height", Unit::Metre), |row| {
+            row.spread(|sample| sample.height, Unit::Metre)
+        }),
+        Field::new(spread(force_keys, "force", Unit::Kilonewton), |row| {
+            row.spread(|sample| sample.force, Unit::Kilonewton)
+        }),
+        Field::new(Column::words(&["inputs"], "what decides it"), |row| {
+            row.of(|risk| Cell::Text(inputs(risk, &row.case.limits).unwrap_or_default()))
+        }),
+    ]
+}
+
+/// The report of the samples of all options, which is partial where the time was up.
+pub fn report(case: &Case, results: &Results, sampling: &Sampling, partial: bool) -> Report {
+    let options = case.plan.delays.iter().zip(results);
+    let rows = options.map(|(delay, result)| OptionRow { case, name: &delay.name, result });
+    let mut table = Table::of(&fields(), rows);
+    for (row, result) in table.rows.iter_mut().zip(results) {
+        complete_row(row, case, result);
+    }
+    let head = format!("up to {} samples of each option, seed {}", sampling.most, sampling.seed);
+    let mut blocks = vec![Block::Text(vec![head]), Block::Table(table)];
+    let risks = case
+        .plan
+        .delays
+        .iter()
+        .zip(results)
+        .filter_map(|(delay, result)| Some((delay.name.as_str(), result.as_ref().ok()?.risk.as_ref()?)));
+    blocks.extend(risks.map(|(name, risk)| Block::Picture(charts::risk(case, name, risk))));
+    let passed = results.iter().flatten().filter(|judged| judged.verdict() == Verdict::Pass).count();
+    let mut text =
+        format!("{passed} of {} options pass{}", results.len(), if partial { " so far" } else { "" });
+    if let Some(judged) = results.iter().flatten().next() {
+        text += &format!(" · {}", compute_label(&judged.nominal.compute));
+    }
+    let verdict = match verdict(results, false) {
+        Verdict::Pass if partial => Verdict::Undecided,
+        verdict => verdict,
+    };
+    Report { blocks, conclusion: Some(Conclusion { verdict, text }), ..limit_facts(case) }
+}
+
+fn complete_row(row: &mut Row, case: &Case, result: &Result<Judgement, NoResult>) {
+    match result {
+        Ok(judged) => row.details = risk_detail(case, judged).into_iter().collect(),
+        Err(reason) => row.missing = Some(no_result::message(reason)),
+    }
+}
+
+/// The warning that two blast rows may fire in the wrong order.
+pub fn swap_warning(case: &Case, swap: &Swap) -> String {
+    let [first, second] = swap.rows.map(|row| &case.plan.blast_rows[row].name);
+    format!(
+        "option {}: {} between rows {first} and {second} is short for the scatter of the detonators; a hole of row {second} fires before one of row {first} with a probability of {}",
+        case.plan.delays[swap.option].name,
+        units::exact_milliseconds(swap.interval),
+        units::percent(swap.probability, 2),
+    )
+}

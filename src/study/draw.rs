@@ -1,0 +1,175 @@
+//! Draws the shots that `[uncertainty]` describes.
+//!
+//! A sample is a variant of the scene and a shot. Every draw follows from the seed, the number of the sample, and its place:
+//! an input of the whole shot, a gap between blast rows, a tire, or a cable. So a sample does not depend on threads, shares,
+//! accuracy or the order of options, and the options of a plan are compared on the same draws.
+//!
+//! Factors on launch velocities, masses and breaking forces are lognormal with mean 1. A hole's launch velocity belongs to a
+//! tire of the plan's mass: a tire of another mass leaves with the same momentum. Each gap between blast rows scatters by itself
+//! and shifts all later rows.
+
+use nalgebra::{Rotation3, Vector3};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use super::Case;
+use crate::plan::Uncertainty;
+use crate::scene::{Cable, Firing, Scene, Shot, seconds};
+
+/// An input that is the same in the whole shot, and not known exactly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Input {
+    /// Factor on all launch velocities.
+    LaunchCommon,
+    /// Coefficient of friction.
+    Friction,
+    /// Slack of all cables [%].
+    Slack,
+    /// Factor on the axial stiffness of all cables.
+    AxialStiffness,
+}
+
+impl Input {
+    /// Every input, in the order of the values of [`Drawn::inputs`].
+    pub const ALL: [Input; 4] = [Input::LaunchCommon, Input::Friction, Input::Slack, Input::AxialStiffness];
+
+    /// Key of the input in `[uncertainty]`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Input::LaunchCommon => "launch_common_percent",
+            Input::Friction => "friction",
+            Input::Slack => "slack_percent",
+            Input::AxialStiffness => "axial_stiffness_percent",
+        }
+    }
+}
+
+/// One sample.
+#[derive(Clone, Debug)]
+pub struct Drawn {
+    /// The shelter with the numbers of the sample.
+    pub scene: Scene,
+    /// The shot with the numbers of the sample.
+    pub shot: Shot,
+    /// Values of the inputs in [`Input::ALL`].
+    pub inputs: [f64; Input::ALL.len()],
+}
+
+/// The random numbers of one sample, kept apart by place.
+struct Random(ChaCha8Rng);
+
+/// A place of draws within a sample.
+#[derive(Clone, Copy)]
+enum Place {
+    WholeShot,
+    Gaps,
+    Tire(usize),
+    Cable(usize),
+}
+
+impl Random {
+    fn new(seed: u64, number: usize) -> Self {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        random.set_stream(number as u64);
+        Self(random)
+    }
+
+    /// Moves to the draws of a place. No place needs as many words as lie before the next.
+    fn at(&mut self, place: Place) -> &mut ChaCha8Rng {
+        let word = match place {
+            Place::WholeShot => 0,
+            Place::Gaps => 1 << 32,
+            Place::Tire(tire) => (1 << 40) + 128 * tire as u128,
+            Place::Cable(cable) => (1 << 50) + 16 * cable as u128,
+        };
+        self.0.set_word_pos(word);
+        &mut self.0
+    }
+}
+
+/// Factor with mean 1 and a coefficient of variation [%], lognormal.
+fn factor(random: &mut ChaCha8Rng, cv_percent: f64) -> f64 {
+    let variance = (cv_percent * 1e-2).powi(2).ln_1p();
+    (variance.sqrt() * normal(random) - 0.5 * variance).exp()
+}
+
+fn normal(random: &mut ChaCha8Rng) -> f64 {
+    StandardNormal.sample(random)
+}
+
+/// Draws sample `number` of the shots that the plan describes beside `nominal`.
+pub fn draw(case: &Case, nominal: &Shot, seed: u64, number: usize) -> Drawn {
+    let unknown = &case.plan.uncertainty;
+    let mut random = Random::new(seed, number);
+    let whole = random.at(Place::WholeShot);
+    let launch_common = factor(whole, unknown.launch_common_percent);
+    let mut between = |[low, high]: [f64; 2]| low + (high - low) * whole.random::<f64>();
+    let friction = between(unknown.friction);
+    let slack_percent = between(unknown.slack_percent);
+    let stiffness = 1.0 + 1e-2 * between(unknown.axial_stiffness_percent);
+
+    let mut firings = nominal.firings.clone();
+    scatter_gaps(&mut firings, unknown, random.at(Place::Gaps));
+    let mut scene = case.scene().clone();
+    scatter_tires(&mut scene, &mut firings, unknown, launch_common, &mut random);
+    let length = (1.0 + 1e-2 * slack_percent) / (1.0 + 1e-2 * case.plan.cable.slack_percent);
+    for cable in &mut scene.cables {
+        let rest_length = cable.rest_length * length;
+        *cable = Cable { rest_length, stiffness: cable.stiffness * stiffness / length, ..*cable };
+    }
+    if unknown.breaking_force_cv_percent > 0.0 {
+        let strength = |cable| factor(random.at(Place::Cable(cable)), unknown.breaking_force_cv_percent);
+        scene.strength = (0..scene.cables.len()).map(strength).collect();
+    }
+    if unknown.tire_mass_cv_percent > 0.0 || unknown.breaking_force_cv_percent > 0.0 {
+        scene.mirrors.clear();
+    }
+    // No firing may be before the start; only differences of firing times matter.
+    let first = firings.iter().map(|firing| firing.at).fold(0.0, f64::min);
+    firings.iter_mut().for_each(|firing| firing.at -= first);
+    let shot = Shot { friction: Some(friction), ..Shot::from_firings(firings) };
+    Drawn { scene, shot, inputs: [launch_common, friction, slack_percent, stiffness] }
+}
+
+/// Shifts the firings [s], which are in order of time, by the scatter of the gaps before them. A gap stays a delay: it is
+/// never negative.
+fn scatter_gaps(firings: &mut [Firing], unknown: &Uncertainty, random: &mut ChaCha8Rng) {
+    let mut last: Option<[f64; 2]> = None;
+    for together in firings.chunk_by_mut(|a, b| a.at == b.at) {
+        let planned = together[0].at;
+        let at = last.map_or(planned, |[last_planned, last_at]| {
+            let gap = planned - last_planned;
+            last_at + (gap + unknown.delay.deviation(gap) * normal(random)).max(0.0)
+        });
+        together.iter_mut().for_each(|firing| firing.at = at);
+        last = Some([planned, at]);
+    }
+}
+
+/// Scatters masses tire by tire, and launches and in-hole delays hole by hole.
+fn scatter_tires(
+    scene: &mut Scene,
+    firings: &mut [Firing],
+    unknown: &Uncertainty,
+    launch_common: f64,
+    random: &mut Random,
+) {
+    let mut above: Vec<Vec<usize>> = vec![Vec::new(); scene.mass.len()];
+    firings.iter().enumerate().for_each(|(n, firing)| above[firing.tire].push(n));
+    let in_hole = seconds(unknown.in_hole_delay_ms);
+    let in_hole = if in_hole > 0.0 { unknown.delay.deviation(in_hole) } else { 0.0 };
+    let tilt = unknown.launch_tilt_deg.to_radians();
+    for (tire, mass) in scene.mass.iter_mut().enumerate() {
+        let random = random.at(Place::Tire(tire));
+        let heavier = factor(random, unknown.tire_mass_cv_percent);
+        *mass *= heavier;
+        for &hole in &above[tire] {
+            let firing = &mut firings[hole];
+            let faster = launch_common * factor(random, unknown.launch_cv_percent) / heavier;
+            let axis = Vector3::new(normal(random), normal(random), 0.0) * tilt;
+            firing.launch = Rotation3::from_scaled_axis(axis) * firing.launch * faster;
+            firing.at += in_hole * normal(random);
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! The verdict on a delay option: on the shot as planned, and on the shots that `[uncertainty]` describes.
+
+use super::check::Checked;
+use super::margin::LaunchMargin;
+use super::risk::Risk;
+use crate::verdict::Verdict;
+
+/// A judged delay option.
+#[derive(Clone, Debug)]
+pub struct Judgement {
+    /// The shot as planned.
+    pub nominal: Checked,
+    /// The shots that `[uncertainty]` describes; `None` where only the shot as planned was asked for.
+    pub risk: Option<Risk>,
+    /// How much faster than planned the tires may leave; `None` where it was not asked for, or the time was up.
+    pub launch_margin: Option<LaunchMargin>,
+}
+
+impl Judgement {
+    /// The judgement of the shot as planned alone.
+    pub fn nominal(nominal: Checked) -> Self {
+        Self { nominal, risk: None, launch_margin: None }
+    }
+
+    /// Pass where the shot as planned passes and surely fewer shots than accepted fail; fail where the shot as planned
+    /// fails, or surely more shots than accepted.
+    pub fn verdict(&self) -> Verdict {
+        let risk = self.risk.as_ref().map_or(Verdict::Pass, Risk::verdict);
+        self.nominal.verdict.max(risk)
+    }
+}

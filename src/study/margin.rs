@@ -1,0 +1,44 @@
+//! How much faster than planned the tires may leave before the shot as planned no longer passes.
+
+use super::screen::{is_sure, screen};
+use super::{Case, ComputeSettings, NoResult, Progress};
+use crate::scene::Shot;
+use crate::verdict::Verdict;
+
+/// How much faster all launches may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LaunchMargin {
+    /// The shot passes up to this share above the planned launch velocities, and no longer at 1 % more.
+    UpTo(f64),
+    /// The shot passes up to [`MOST_PERCENT`] more.
+    Wide,
+}
+
+/// Greatest rise of launches tried [%].
+const MOST_PERCENT: usize = 100;
+
+/// Raises the launches of a shot by 1 % at a time until it does not pass; `nominal` is its verdict as planned.
+pub fn launch_margin(
+    case: &Case,
+    shot: &Shot,
+    nominal: Verdict,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<LaunchMargin, NoResult> {
+    if nominal != Verdict::Pass {
+        return Ok(LaunchMargin::UpTo(0.0));
+    }
+    for percent in 1..=MOST_PERCENT {
+        let faster = shot.with_launches(1.0 + 1e-2 * percent as f64);
+        let enough = |envelope: &_, runs| is_sure(case, envelope, runs);
+        let passes = match screen(case, &faster, compute, progress, enough) {
+            Ok(screened) => screened.verdict == Verdict::Pass,
+            Err(NoResult::Failed(_)) => false,
+            Err(ended) => return Err(ended),
+        };
+        if !passes {
+            return Ok(LaunchMargin::UpTo(1e-2 * (percent - 1) as f64));
+        }
+    }
+    Ok(LaunchMargin::Wide)
+}
