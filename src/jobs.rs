@@ -4,18 +4,19 @@
 //! The work is the same functions that the commands call; the results do not depend on the number of threads. A panic is
 //! the result [`NoResult::Panicked`] of the option or study that panicked.
 
+mod check;
+
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use rayon::iter::{ParallelBridge, ParallelIterator};
-
-use crate::study::check::{Checked, check};
+use crate::study::check::Checked;
 use crate::study::check_all::{Results, check_all};
 use crate::study::flight::{Flight, record};
+use crate::study::margin::LaunchMargin;
 use crate::study::orders::{Orders, orders};
-use crate::study::risk::Sampling;
+use crate::study::risk::{Risk, Sampling};
 use crate::study::size::{Demand, Sizing, size};
 use crate::study::sweep::{GAP, Sweep, sweep};
 use crate::study::{
@@ -88,12 +89,28 @@ pub enum News {
         /// Time that the present run has reached [s].
         time: f64,
     },
-    /// An option is judged, or has no result.
+    /// An option is judged as planned, or has no result.
     Checked {
         /// Index of the option.
         option: usize,
         /// Its result.
         result: Result<Box<Checked>, NoResult>,
+    },
+    /// Samples of an option that is judged as planned.
+    Sampled {
+        /// Index of the option.
+        option: usize,
+        /// All its samples so far.
+        result: Result<Box<Risk>, NoResult>,
+        /// Whether more samples come.
+        more: bool,
+    },
+    /// How much faster than planned the tires may leave.
+    Margin {
+        /// Index of the option.
+        option: usize,
+        /// The margin.
+        margin: LaunchMargin,
     },
     /// A study computes.
     Studying {
@@ -121,10 +138,6 @@ const SAMPLING: Sampling = Sampling { least: 1000, most: 1000, seed: 1 };
 const INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: GAP };
 /// Longest run that [`StudyKind::Accuracy`] makes.
 const LONGEST_RUN: Duration = Duration::from_secs(1);
-/// Least time between two pieces of news about an option that computes.
-const CHECKING_EVERY: Duration = Duration::from_millis(50);
-/// Steps between two looks at the clock.
-const STEPS_PER_LOOK: usize = 64;
 
 /// The jobs under way.
 pub struct Jobs {
@@ -155,13 +168,14 @@ impl Jobs {
         Self { threads, check: None, studies, told, sender, receiver }
     }
 
-    /// Checks every option of `case`. Each result is news by itself.
+    /// Checks every option of `case`: first as planned, then by samples, then for its launch margin. Each result is news by
+    /// itself.
     pub fn check(&mut self, case: &Arc<Case>, compute: ComputeSettings) {
         let job = self.job(case, compute);
         end(self.check.replace(Arc::clone(&job.progress)));
         let options = 0..case.shots.len();
-        match thread_pool(self.threads.min(options.len())) {
-            Ok(pool) => pool.spawn(move || options.par_bridge().for_each(|option| job.check(option))),
+        match thread_pool(self.threads) {
+            Ok(pool) => pool.spawn(move || job.check_all(options)),
             Err(none) => options.for_each(|option| {
                 job.tell(News::Checked { option, result: Err(none.clone()) });
             }),
@@ -224,25 +238,6 @@ impl Job {
     fn tell(&self, news: News) {
         // No receiver: the program quits, and nobody waits for the news.
         let _ = self.sender.send((Arc::clone(&self.progress), news));
-    }
-
-    fn check(&self, option: usize) {
-        if self.progress.stopped() {
-            return;
-        }
-        let (mut steps, mut told) = (0_usize, Instant::now());
-        let result = guarded(|| {
-            let checked = check(&self.case, option, &self.compute, &mut |run| {
-                steps += 1;
-                if steps.is_multiple_of(STEPS_PER_LOOK) && told.elapsed() > CHECKING_EVERY {
-                    told = Instant::now();
-                    self.tell(News::Checking { option, runs: run.runs, time: run.time });
-                }
-                self.progress.flow()
-            });
-            checked.map(Box::new).map_err(|failure| self.progress.no_result(failure))
-        });
-        self.tell(News::Checked { option, result });
     }
 
     fn study(&self, kind: StudyKind, option: usize) -> Result<StudyResult, NoResult> {
@@ -324,16 +319,52 @@ mod tests {
         results.into_iter().map(|(_, result)| result).collect()
     }
 
+    /// Samples and launch margins of every option, by option.
+    fn sampled(jobs: &mut Jobs, options: usize) -> Vec<(Result<Box<Risk>, NoResult>, LaunchMargin)> {
+        let (mut risks, mut margins) = (vec![None; options], vec![None; options]);
+        wait(|| {
+            for news in jobs.news() {
+                match news {
+                    News::Sampled { option, result, more: false } => risks[option] = Some(result),
+                    News::Margin { option, margin } => margins[option] = Some(margin),
+                    _ => {}
+                }
+            }
+            margins.iter().all(Option::is_some).then_some(())
+        });
+        risks.into_iter().zip(margins).filter_map(|(risk, margin)| Some((risk?, margin?))).collect()
+    }
+
     #[test]
     fn results_do_not_depend_on_the_number_of_threads() {
         let case = case();
+        let options = case.shots.len();
         let values = |threads| {
             let mut jobs = Jobs::new(threads);
             jobs.check(&case, coarse(&case));
-            let results = checked(&mut jobs, case.shots.len());
-            results.into_iter().map(|result| result.map(|c| (c.height, c.force))).collect::<Vec<_>>()
+            let results = checked(&mut jobs, options);
+            let values = results.into_iter().map(|result| result.map(|c| (c.height, c.force)));
+            (values.collect::<Vec<_>>(), sampled(&mut jobs, options))
         };
-        assert_eq!(values(1), values(3));
+        let (few, many) = (values(1), values(3));
+        assert_eq!(few, many);
+        assert!(few.1.iter().all(|(risk, _)| risk.as_ref().is_ok_and(|risk| risk.samples.len() >= 200)));
+    }
+
+    #[test]
+    fn a_new_request_ends_sampling() {
+        let (case, mut jobs) = (case(), Jobs::new(2));
+        // Hundreds of samples of each option at this step would take minutes.
+        jobs.check(&case, ComputeSettings { step: Some(1e-5), ..coarse(&case) });
+        checked(&mut jobs, case.shots.len());
+        let progress = jobs.check.clone().expect("under way");
+        jobs.check(&case, coarse(&case));
+        let begun = Instant::now();
+        wait(|| {
+            jobs.news();
+            (Arc::strong_count(&progress) == 1).then_some(())
+        });
+        assert!(begun.elapsed() < Duration::from_secs(5), "{:?}", begun.elapsed());
     }
 
     #[test]
@@ -351,7 +382,10 @@ mod tests {
                         options.push((option, result.expect("a result").compute))
                     }
                     News::Studied { compute, result, .. } => studies.push((compute, result.is_ok())),
-                    News::Checking { .. } | News::Studying { .. } => {}
+                    News::Checking { .. }
+                    | News::Sampled { .. }
+                    | News::Margin { .. }
+                    | News::Studying { .. } => {}
                 }
             }
             (options.len() == case.shots.len() && !studies.is_empty()).then_some(())

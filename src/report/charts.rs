@@ -13,6 +13,8 @@ use crate::units::Unit;
 
 /// Room above the greatest value.
 const HEADROOM: f64 = 1.08;
+/// Room above and below samples and their limit, as a share of the stretch that they take.
+const ROOM: f64 = 0.1;
 
 /// Greatest flight height and cable force over time, with the firing times [s].
 pub fn history(case: &Case, history: &History, firings: &[f64]) -> [Chart; 2] {
@@ -108,6 +110,29 @@ pub fn orders(case: &Case, orders: &Orders) -> Chart {
     let share = orders.ranked.iter().map(|tried| tried.envelope.utilization(&case.limits));
     let curve = share.enumerate().map(|(n, share)| ((n + 1) as f64, share)).collect();
     utilization("from the worst order to the best", ("order", Unit::One), curve, Vec::new())
+}
+
+/// Greatest height and force of the samples, from the gentlest to the hardest.
+pub fn samples(case: &Case, risk: &Risk) -> [Chart; 2] {
+    let chart = |name, unit, of: fn(&Sample) -> f64, limit| {
+        let mut values: Vec<f64> = risk.samples.iter().map(of).collect();
+        values.sort_by(f64::total_cmp);
+        let count = values.len() as f64;
+        let points = values.into_iter().enumerate().map(|(n, value)| ((n as f64 + 0.5) / count, value));
+        // A sample whose run failed has no value.
+        let points = points.filter(|(_, value)| value.is_finite()).collect();
+        let share = axis("share of samples", Unit::Percent, [0.0, 1.0]);
+        let chart = limited(share, (name, unit), points, limit);
+        // The samples lie close together, far from 0: the axis shows only where they and the limit are.
+        let values = chart.series.iter().flat_map(|series| &series.points).map(|(_, value)| *value);
+        let [low, high] = values.fold([limit; 2], |[low, high], value| [low.min(value), high.max(value)]);
+        let room = ROOM * (high - low);
+        Chart { y: axis(name, unit, [(low - room).max(0.0), high + room]), ..chart }
+    };
+    [
+        chart(HEIGHT, Unit::Metre, |sample| sample.height, case.limits.height),
+        chart(FORCE, Unit::Kilonewton, |sample| sample.force, case.limits.force),
+    ]
 }
 
 /// Utilization of the samples of the option `name`, from the gentlest to the hardest.

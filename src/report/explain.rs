@@ -2,7 +2,7 @@
 
 use super::model::Detail;
 use crate::outcome::Broken;
-use crate::scene::Scene;
+use crate::scene::{Scene, Shot};
 use crate::study::Case;
 use crate::study::ComputeSettings;
 use crate::study::check::Checked;
@@ -10,7 +10,7 @@ use crate::study::draw::Input;
 use crate::study::judgement::Judgement;
 use crate::study::margin::LaunchMargin;
 use crate::study::reason::{EarlyEnd, Quantity, Reason};
-use crate::study::risk::{Risk, shares};
+use crate::study::risk::{Risk, Sample, shares};
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::{Estimate, Limits, Verdict};
 
@@ -90,6 +90,42 @@ pub fn launch_margin(margin: LaunchMargin) -> String {
         LaunchMargin::UpTo(share) => format!("to +{}", units::percent(share, 0)),
         LaunchMargin::Wide => "over +100 %".to_owned(),
     }
+}
+
+/// How much faster the tires may leave, as a sentence: `fails from +5 % launch, 6.3 m/s`; `None` where the option fails as
+/// planned, or nothing is known. `shot` is the shot as planned.
+pub fn launch_limit(shot: &Shot, judged: &Judgement) -> Option<String> {
+    let at = |factor: f64| {
+        let speeds = shot.firings.iter().map(|firing| factor * firing.launch.norm());
+        let [least, most] = speeds.fold([f64::INFINITY, 0.0], |[a, b]: [f64; 2], v| [a.min(v), b.max(v)]);
+        // Rows of different speeds have no speed in common.
+        let same = most - least <= 1e-9 * most;
+        if same { format!(", {} m/s", units::short(most)) } else { String::new() }
+    };
+    match judged.launch_margin? {
+        _ if judged.nominal.verdict != Verdict::Pass => None,
+        LaunchMargin::UpTo(share) => {
+            let share = share + 0.01;
+            Some(format!("fails from +{} launch{}", units::percent(share, 0), at(1.0 + share)))
+        }
+        LaunchMargin::Wide => Some(format!("passes up to +100 % launch{}", at(2.0))),
+    }
+}
+
+/// Greatest height and force of the samples: 5th and 95th percentile; and how likely a cable breaks. `None` for too few
+/// samples.
+pub fn bands(risk: &Risk) -> Option<String> {
+    let band = |of: fn(&Sample) -> f64, unit: Unit| {
+        let [low, _, high, _] = risk.band(of)?;
+        Some(format!("{} to {} {}", units::value(low, unit), units::value(high, unit), unit.symbol()))
+    };
+    Some(format!(
+        "5 to 95 % of {} samples: height {} · force {} · a cable breaks in {} %",
+        risk.samples.len(),
+        band(|sample| sample.height, Unit::Metre)?,
+        band(|sample| sample.force, Unit::Kilonewton)?,
+        units::probabilities(risk.breaks.interval),
+    ))
 }
 
 /// That a run ends too early, in words.

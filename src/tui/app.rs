@@ -19,8 +19,9 @@ use super::studies::{ShownStudy, Studies, StudyState};
 use super::theme::Theme;
 use crate::jobs::{News, StudyKind};
 use crate::plan::{Plan, PlanSource};
-use crate::study::check::Checked;
-use crate::study::{Case, ComputeSettings, error};
+use crate::study::judgement::Judgement;
+use crate::study::risk::Risk;
+use crate::study::{Case, ComputeSettings, NoResult, error};
 
 /// What the event loop must do after an update.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -153,14 +154,14 @@ impl App {
     }
 
     /// The result of an option, once there is one.
-    pub fn checked(&self, option: usize) -> Option<&Checked> {
-        self.options.get(option)?.checked()
+    pub fn judgement(&self, option: usize) -> Option<&Judgement> {
+        self.options.get(option)?.judgement()
     }
 
     /// The result that the others are compared with, and its option.
-    pub fn baseline(&self) -> Option<(usize, &Checked)> {
+    pub fn baseline(&self) -> Option<(usize, &Judgement)> {
         let option = self.listing.baseline?;
-        Some((option, self.checked(option)?))
+        Some((option, self.judgement(option)?))
     }
 
     /// Selects the option `lines` further down the list; negative: further up.
@@ -302,7 +303,19 @@ impl App {
                 self.set_option(option, OptionState::Running { runs, done });
             }
             News::Checked { option, result } => {
-                self.set_option(option, result.map_or_else(OptionState::Failed, OptionState::Done));
+                let state = result.map_or_else(OptionState::Failed, |checked| {
+                    // An option without samples is undecided: nobody takes its verdict as planned for the verdict.
+                    let risk = Some(Risk::new(&self.case));
+                    let judgement = Box::new(Judgement { risk, ..Judgement::nominal(*checked) });
+                    OptionState::Done { judgement, sampling: true }
+                });
+                self.set_option(option, state);
+            }
+            News::Sampled { option, result, more } => self.take_samples(option, result, more),
+            News::Margin { option, margin } => {
+                if let Some(OptionState::Done { judgement, .. }) = self.options.get_mut(option) {
+                    judgement.launch_margin = Some(margin);
+                }
             }
             News::Studying { kind, done, total } => {
                 self.studies.set(kind, StudyState::Running { done, total });
@@ -312,6 +325,17 @@ impl App {
                 let state = result.map_or_else(StudyState::Failed, finish);
                 self.studies.set(kind, state);
             }
+        }
+    }
+
+    fn take_samples(&mut self, option: usize, result: Result<Box<Risk>, NoResult>, more: bool) {
+        match (self.options.get_mut(option), result) {
+            (Some(OptionState::Done { judgement, sampling }), Ok(risk)) => {
+                judgement.risk = Some(*risk);
+                *sampling = more;
+            }
+            (_, Err(none)) => self.set_option(option, OptionState::Failed(none)),
+            (_, Ok(_)) => {}
         }
     }
 
@@ -334,11 +358,16 @@ impl App {
 
     /// Whether anything computes.
     pub fn busy(&self) -> bool {
-        self.checking() || self.studies.busy()
+        self.checking() || self.sampling() || self.studies.busy()
     }
 
-    /// Whether an option computes.
+    /// Whether an option is not yet judged as planned.
     pub fn checking(&self) -> bool {
         self.options.iter().any(OptionState::is_computing)
+    }
+
+    /// Whether more samples of an option come.
+    pub fn sampling(&self) -> bool {
+        self.options.iter().any(OptionState::is_sampling)
     }
 }

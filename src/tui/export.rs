@@ -11,7 +11,6 @@ use crate::jobs::{StudyKind, StudyResult};
 use crate::report::{self, charts, html};
 use crate::scene::fire_at_s;
 use crate::study::check_all::Results;
-use crate::study::judgement::Judgement;
 
 /// Writes the contents of the screen to a new file, in the format of the file's ending; or says why not.
 pub fn write(app: &App, path: &Path) -> Result<(), String> {
@@ -41,9 +40,15 @@ fn svg(app: &App) -> Result<String, String> {
     let pictures = match app.screen {
         Screen::Plan => vec![html::top_view(&app.case, Some(app.selected))],
         Screen::Compare => {
-            let checked = app.checked(app.selected).ok_or("the selected option has no result yet")?;
+            let judged = app.judgement(app.selected).ok_or("the selected option has no result yet")?;
             let firings = fire_at_s(&app.case.plan.delays[app.selected].timing);
-            charts::history(&app.case, &checked.history, &firings).iter().filter_map(html::svg).collect()
+            let history = charts::history(&app.case, &judged.nominal.history, &firings);
+            let samples = judged.risk.iter().flat_map(|risk| charts::samples(&app.case, risk));
+            history
+                .iter()
+                .filter_map(html::svg)
+                .chain(samples.filter_map(|chart| html::svg(&chart)))
+                .collect()
         }
         _ => finished(app)?.report.charts().filter_map(html::svg).collect(),
     };
@@ -69,10 +74,13 @@ fn finished(app: &App) -> Result<&ShownStudy, String> {
     }
 }
 
-/// Results of all options, once every option has one.
+/// Results of all options, once every option has one, with all its samples.
 fn results(app: &App) -> Result<Results, String> {
     let result = |state: &OptionState| match state {
-        OptionState::Done(checked) => Ok(Ok(Judgement::nominal((**checked).clone()))),
+        OptionState::Done { sampling: true, .. } => {
+            Err("not all options have all their samples yet".to_owned())
+        }
+        OptionState::Done { judgement, .. } => Ok(Ok((**judgement).clone())),
         OptionState::Failed(no_result) => Ok(Err(no_result.clone())),
         OptionState::Waiting | OptionState::Running { .. } => {
             Err("not all options are computed yet".to_owned())

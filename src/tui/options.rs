@@ -2,7 +2,7 @@
 
 use crate::plan::Plan;
 use crate::study::NoResult;
-use crate::study::check::Checked;
+use crate::study::judgement::Judgement;
 use crate::verdict::Verdict;
 
 /// State of one delay option.
@@ -17,24 +17,39 @@ pub enum OptionState {
         /// Share of the least number of runs that is done, 0 to 1.
         done: f64,
     },
-    /// Judged.
-    Done(Box<Checked>),
+    /// Judged as planned, and by the samples so far.
+    Done {
+        /// The judgement; without samples as long as none has come.
+        judgement: Box<Judgement>,
+        /// Whether more samples come.
+        sampling: bool,
+    },
     /// Without a result.
     Failed(NoResult),
 }
 
 impl OptionState {
     /// The result, once there is one.
-    pub fn checked(&self) -> Option<&Checked> {
+    pub fn judgement(&self) -> Option<&Judgement> {
         match self {
-            OptionState::Done(checked) => Some(checked),
+            OptionState::Done { judgement, .. } => Some(judgement),
             OptionState::Waiting | OptionState::Running { .. } | OptionState::Failed(_) => None,
         }
     }
 
-    /// Whether the option still computes.
+    /// The verdict; undecided for an option without a result.
+    pub fn verdict(&self) -> Verdict {
+        self.judgement().map_or(Verdict::Undecided, Judgement::verdict)
+    }
+
+    /// Whether the option is not yet judged as planned.
     pub fn is_computing(&self) -> bool {
         matches!(self, OptionState::Waiting | OptionState::Running { .. })
+    }
+
+    /// Whether more samples come.
+    pub fn is_sampling(&self) -> bool {
+        matches!(self, OptionState::Done { sampling: true, .. })
     }
 }
 
@@ -48,6 +63,8 @@ pub enum SortBy {
     Name,
     /// Pass, open, fail.
     Verdict,
+    /// Upper bound of the share of shots that fail.
+    Risk,
     /// Flight height.
     Height,
     /// Cable force.
@@ -62,7 +79,8 @@ impl SortBy {
         match self {
             SortBy::Plan => SortBy::Name,
             SortBy::Name => SortBy::Verdict,
-            SortBy::Verdict => SortBy::Height,
+            SortBy::Verdict => SortBy::Risk,
+            SortBy::Risk => SortBy::Height,
             SortBy::Height => SortBy::Force,
             SortBy::Force => SortBy::Drift,
             SortBy::Drift => SortBy::Plan,
@@ -70,17 +88,19 @@ impl SortBy {
     }
 
     /// The number that orders results by this key; `Plan` and `Name` need none.
-    fn value(self, checked: &Checked) -> f64 {
+    fn value(self, judgement: &Judgement) -> f64 {
+        let Judgement { nominal, risk, .. } = judgement;
         match self {
             SortBy::Plan | SortBy::Name => 0.0,
-            SortBy::Verdict => match checked.verdict {
+            SortBy::Verdict => match judgement.verdict() {
                 Verdict::Pass => 0.0,
                 Verdict::Undecided => 1.0,
                 Verdict::Fail => 2.0,
             },
-            SortBy::Height => checked.height.value,
-            SortBy::Force => checked.force.value,
-            SortBy::Drift => checked.drift.value,
+            SortBy::Risk => risk.as_ref().map_or(1.0, |risk| risk.confidence.interval[1]),
+            SortBy::Height => nominal.height.value,
+            SortBy::Force => nominal.force.value,
+            SortBy::Drift => nominal.drift.value,
         }
     }
 }
@@ -109,18 +129,18 @@ impl Listing {
     /// stand last, whatever the direction.
     pub fn listed(&self, plan: &Plan, states: &[OptionState]) -> Vec<usize> {
         let name = |option: usize| plan.delays[option].name.to_lowercase();
-        let checked = |option: usize| states[option].checked();
+        let judged = |option: usize| states[option].judgement();
         let wanted = self.filter.to_lowercase();
         let mut options: Vec<usize> = (0..states.len())
             .filter(|&option| {
-                let verdict = checked(option).map_or("", |checked| checked.verdict.name());
+                let verdict = judged(option).map_or("", |judged| judged.verdict().name());
                 name(option).contains(&wanted) || verdict.contains(&wanted)
             })
             .collect();
         if self.sort == SortBy::Name {
             options.sort_by_key(|&option| name(option));
         } else if self.sort != SortBy::Plan {
-            let key = |option: usize| checked(option).map(|checked| self.sort.value(checked));
+            let key = |option: usize| judged(option).map(|judged| self.sort.value(judged));
             options.sort_by(|&a, &b| match (key(a), key(b)) {
                 (Some(a), Some(b)) if self.reversed => b.total_cmp(&a),
                 (Some(a), Some(b)) => a.total_cmp(&b),

@@ -10,7 +10,7 @@ pub enum Screen {
     Compare,
     /// The selected option in motion.
     Flight,
-    /// Sweep, orders, scatter, size.
+    /// Sweep, orders, risk, size.
     Studies,
     /// The cost of accuracy.
     Accuracy,

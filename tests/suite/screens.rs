@@ -6,18 +6,22 @@ use std::sync::Arc;
 use crossterm::event::KeyCode;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Style};
-use shelter::jobs::StudyKind;
+use shelter::jobs::{News, StudyKind};
 use shelter::plan::Timing;
 use shelter::simulation::Failure;
 use shelter::study::NoResult;
-use shelter::tui::app::Request;
+use shelter::study::margin::LaunchMargin;
+use shelter::tui::app::{App, Request};
 use shelter::tui::options::OptionState;
 use shelter::tui::screen::Screen;
 use shelter::tui::studies::StudyState;
 use shelter::tui::theme::{self, Theme};
 use shelter::verdict::Verdict;
 
-use super::stage::{app, checked, draw, finished, key, measured, recorded, spreads, study_ends, swept, text};
+use super::stage::{
+    app, checked, done, draw, finished, judgement, key, measured, recorded, samples, spreads, study_ends,
+    swept, text,
+};
 
 #[test]
 fn compare_at_three_sizes() {
@@ -29,7 +33,7 @@ fn compare_at_three_sizes() {
 #[test]
 fn computing_failed_and_enlarged() {
     let mut app = app();
-    app.options[0] = OptionState::Done(Box::new(checked(Verdict::Pass)));
+    app.options[0] = done(judgement(&app.case, 1), false);
     app.options[1] = OptionState::Running { runs: 2, done: 0.45 };
     app.options[2] = OptionState::Failed(NoResult::Failed(Failure::Diverged { at: 0.3 }));
     app.selected = 1;
@@ -39,6 +43,47 @@ fn computing_failed_and_enlarged() {
     app.selected = 0;
     key(&mut app, KeyCode::Enter);
     insta::assert_snapshot!("enlarged", text(&draw(&app, 100, 30)));
+}
+
+/// Nobody takes a verdict as planned for the verdict, and a fail is told at once.
+#[test]
+fn samples_stream_in_and_decide() {
+    let mut app = app();
+    for (option, verdict) in [(0, Verdict::Fail), (1, Verdict::Pass)] {
+        app.take_news(News::Checked { option, result: Ok(Box::new(checked(verdict))) });
+    }
+    let line = |app: &App, name: &str| {
+        let screen = text(&draw(app, 120, 36));
+        screen.lines().find(|line| line.starts_with(name)).expect(name).to_owned()
+    };
+    assert!(line(&app, "all at once").contains("FAIL"));
+    assert!(line(&app, "9 ms").contains("? OPEN") && line(&app, "9 ms").contains(" 0…"));
+    assert!(app.busy());
+    let news = |app: &App, count, more| {
+        let result = Ok(Box::new(samples(&app.case, count, false)));
+        News::Sampled { option: 1, result, more }
+    };
+    app.take_news(news(&app, 200, true));
+    let sampling = line(&app, "9 ms");
+    assert!(sampling.contains("? OPEN") && sampling.contains("200…"), "{sampling}");
+    app.take_news(news(&app, 500, false));
+    app.take_news(News::Margin { option: 1, margin: LaunchMargin::UpTo(0.04) });
+    assert!(line(&app, "9 ms").contains("✓ PASS") && !line(&app, "9 ms").contains('…'));
+    app.selected = 1;
+    let screen = text(&draw(&app, 120, 36));
+    assert!(screen.contains("as planned it fails from +5 % launch, 6.3 m/s"), "{screen}");
+    app.take_news(News::Sampled { option: 0, result: Err(NoResult::OutOfTime), more: false });
+    assert!(matches!(app.options[0], OptionState::Failed(NoResult::OutOfTime)));
+}
+
+#[test]
+fn the_header_says_what_a_pass_is_about() {
+    let mut app = finished();
+    let assumed = "inputs assumed known to 1 %";
+    assert!(!text(&draw(&app, 120, 36)).contains(assumed));
+    Arc::make_mut(&mut app.case).plan.uncertainty.assumed = true;
+    assert!(text(&draw(&app, 120, 36)).contains(assumed));
+    assert!(text(&draw(&app, 80, 24)).contains(assumed));
 }
 
 #[test]

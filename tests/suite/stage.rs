@@ -68,12 +68,12 @@ pub fn checked(verdict: Verdict) -> Checked {
     }
 }
 
-/// A judgement with 200 round samples, of which one in ten fails in every second option.
-pub fn judgement(case: &Case, option: usize) -> Judgement {
+/// Round samples, of which none fails or one in ten.
+pub fn samples(case: &Case, count: usize, some_fail: bool) -> Risk {
     let mut risk = Risk::new(case);
-    for number in 0..200 {
-        let part = number as f64 / 200.0;
-        let fails = option % 2 == 0 && number % 10 == 3;
+    for number in 0..count {
+        let part = number as f64 / count as f64;
+        let fails = some_fail && number % 10 == 3;
         risk.push(Sample {
             number,
             verdict: if fails { Verdict::Fail } else { Verdict::Pass },
@@ -85,15 +85,29 @@ pub fn judgement(case: &Case, option: usize) -> Judgement {
             inputs: [part, 0.5, 2.0, 1.0],
         });
     }
+    risk
+}
+
+/// A judgement with 200 samples, of which one in ten fails in every second option.
+pub fn judgement(case: &Case, option: usize) -> Judgement {
     let verdict = if option % 3 == 0 { Verdict::Fail } else { Verdict::Pass };
+    let risk = samples(case, 200, option.is_multiple_of(2));
     Judgement { risk: Some(risk), ..Judgement::nominal(checked(verdict)) }
 }
 
+/// A judged option.
+pub fn done(judgement: Judgement, sampling: bool) -> OptionState {
+    OptionState::Done { judgement: Box::new(judgement), sampling }
+}
+
+/// Every option with its samples: one passes, one needs more samples, five fail or are undecided as planned.
 pub fn finished() -> App {
     let mut app = app();
     let verdicts = [Verdict::Fail, Verdict::Pass, Verdict::Undecided];
     for (n, row) in app.options.iter_mut().enumerate() {
-        *row = OptionState::Done(Box::new(checked(verdicts[n % 3])));
+        let risk = if n == 4 { samples(&app.case, 500, false) } else { samples(&app.case, 200, n % 2 == 0) };
+        let nominal = Judgement::nominal(checked(verdicts[n % 3]));
+        *row = done(Judgement { risk: Some(risk), ..nominal }, false);
     }
     app
 }

@@ -21,7 +21,7 @@ struct Watched {
 }
 
 /// Generous: machines under load are slow, and nothing here measures speed.
-const PATIENCE: Duration = Duration::from_secs(30);
+const PATIENCE: Duration = Duration::from_secs(120);
 
 impl Watched {
     fn open(plan: &str, arguments: &[&str], columns: u16, rows: u16) -> Self {
@@ -110,7 +110,7 @@ impl Watched {
 #[test]
 fn the_table_appears_keys_and_resizing_work_and_q_restores() {
     let mut watched = Watched::open("amur-three-rows.toml", &[], 120, 36);
-    watched.until("1 of 7 pass");
+    watched.until(" of 7 pass");
     watched.press("jjjj");
     watched.until("42 ms ─");
     watched.press("?");
@@ -121,7 +121,7 @@ fn the_table_appears_keys_and_resizing_work_and_q_restores() {
     watched.resize(40, 10);
     watched.until("shelter needs 60x18, has 40x10");
     watched.resize(120, 36);
-    watched.until("left kN");
+    watched.until("5 to 95 %");
     watched.press("-");
     watched.until("draft");
     watched.press("q");
@@ -153,7 +153,7 @@ fn signals_and_control_c_restore_the_terminal() {
         assert_eq!(watched.ends(), 130, "{signal}");
     }
     let mut watched = Watched::open("paper-5-tire.toml", &[], 100, 30);
-    watched.until("1 of 1 pass");
+    watched.until(" of 1 pass");
     watched.press("\x03");
     assert_eq!(watched.ends(), 0);
 }
@@ -161,7 +161,7 @@ fn signals_and_control_c_restore_the_terminal() {
 #[test]
 fn studies_run_are_cancelled_and_keep_their_result() {
     let mut watched = Watched::open("amur-three-rows.toml", &["--accuracy", "draft"], 120, 36);
-    watched.until("1 of 7 pass");
+    watched.until(" of 7 pass");
     watched.press("4");
     watched.until("Enter starts it");
     watched.press("\r");
@@ -175,7 +175,7 @@ fn studies_run_are_cancelled_and_keep_their_result() {
     watched.press("l\r");
     watched.until("combinations tried");
     watched.press("2");
-    watched.until("left kN");
+    watched.until("samples  height, m");
     watched.press("4");
     watched.until("combinations tried");
     watched.press("q");
@@ -193,13 +193,13 @@ fn without_a_plan_there_is_a_choice() {
     assert!(!watched.contents().contains("Cargo.toml"));
     watched.until("amur-three-rows   example");
     watched.press("\r");
-    watched.until("1 of 1 pass");
+    watched.until(" of 1 pass");
     watched.press("q");
     assert_eq!(watched.ends(), 0);
     let mut watched = Watched::start(&[], folder.path(), 100, 30);
     watched.until("mine.toml");
     watched.press("j\r");
-    watched.until("1 of 7 pass");
+    watched.until(" of 7 pass");
     watched.press("q");
     assert_eq!(watched.ends(), 0);
     let piped = std::process::Command::new(PROGRAM).output().expect("it runs");
@@ -216,7 +216,7 @@ fn a_plan_is_edited_saved_and_reloaded() {
     std::fs::write(&file, text).expect("written");
     let read = || std::fs::read_to_string(&file).expect("the plan");
     let mut watched = Watched::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 120, 36);
-    watched.until("1 of 7 pass");
+    watched.until(" of 7 pass");
     watched.press("1");
     watched.until("limit of flight height");
     watched.press("\r\x152x");
@@ -268,7 +268,7 @@ fn a_plan_is_edited_saved_and_reloaded() {
 #[test]
 fn ascii_screens_are_ascii() {
     let mut watched = Watched::open("paper-5-tire.toml", &["--ascii"], 100, 30);
-    watched.until("+ PASS");
+    watched.until(" of 1 pass");
     assert!(watched.contents().is_ascii(), "{}", watched.contents());
     watched.press("q");
     watched.ends();
@@ -282,8 +282,8 @@ fn a_walk_through_everything() {
     let text = include_str!("../../plans/amur-three-rows.toml");
     std::fs::write(&file, text).expect("written");
     let mut watched = Watched::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 200, 60);
-    watched.until("1 of 7 pass");
-    watched.press("ooo");
+    watched.until(" of 7 pass");
+    watched.press("oooo");
     watched.until("height, m▲");
     watched.press("/42\r");
     watched.until("42 ms ─");
@@ -318,7 +318,7 @@ fn a_walk_through_everything() {
     std::fs::write(&file, text.replace("title = \"Three", "title = \"Seven")).expect("written");
     watched.until("Seven rows");
     // Rows that are computed move in a list that is sorted.
-    watched.until("1 of 7 pass");
+    watched.until(" of 7 pass");
     watched.press("ttt");
     // The third tab; the fourth option of the table.
     watched.press("\x1b[<0;18;1M\x1b[<0;18;1m");
@@ -346,7 +346,7 @@ fn a_walk_through_everything() {
 #[test]
 fn suspending_gives_the_terminal_back_and_continuing_takes_it_again() {
     let mut watched = Watched::open("paper-5-tire.toml", &[], 100, 30);
-    watched.until("1 of 1 pass");
+    watched.until(" of 1 pass");
     watched.press("\x1a");
     let start = Instant::now();
     while watched.screen.lock().expect("the parser lives").screen().alternate_screen() {
@@ -354,7 +354,7 @@ fn suspending_gives_the_terminal_back_and_continuing_takes_it_again() {
         thread::sleep(Duration::from_millis(10));
     }
     watched.signal("CONT");
-    watched.until("1 of 1 pass");
+    watched.until(" of 1 pass");
     assert!(watched.screen.lock().expect("the parser lives").screen().alternate_screen());
     watched.press("q");
     assert_eq!(watched.ends(), 0);

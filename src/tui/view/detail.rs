@@ -1,10 +1,13 @@
-//! The selected option: its peaks with place and time, why it does not pass, height and force over time.
+//! The selected option: why it does not pass, its peaks as planned, its samples, what decides it, and charts of both.
 //!
 //! ```text
 //! ── 20 ms ───────────────────────────────────────
-//! height 1.741 ± 0.001 m at tire 3:1, 0.602 s …
 //! ✗ cable force … is over the limit of …
-//!  flight height, m        │ cable force, kN
+//! as planned it fails from +5 % launch · decided by launch 60 %, …
+//! as planned: height 1.741 ± 0.001 m, tire 3:1, 0.602 s …
+//! 5 to 95 % of 200 samples: height …
+//!  height over time        │ force over time
+//!  height of the samples   │ force of the samples
 //! ```
 
 use ratatui::Frame;
@@ -14,14 +17,24 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::chart;
 use crate::outcome::EndReason;
-use crate::report::charts;
-use crate::report::explain::{broken, peaks, reason};
-use crate::report::no_result;
+use crate::report::explain::{bands, broken, inputs, launch_limit, peaks, reason, risk_detail};
+use crate::report::model::{Chart, Detail};
+use crate::report::{charts, no_result};
 use crate::scene::fire_at_s;
-use crate::study::check::Checked;
+use crate::study::judgement::Judgement;
+use crate::study::risk::Risk;
 use crate::tui::app::App;
 use crate::tui::options::OptionState;
+use crate::tui::theme;
 use crate::units;
+use crate::verdict::Verdict;
+
+/// Height that the text leaves to charts.
+const LEAST_CHART: u16 = 6;
+/// Least height of two rows of charts.
+const TWO_ROWS: u16 = 2 * LEAST_CHART;
+/// Least width of four charts side by side.
+const FOUR_CHARTS: u16 = 160;
 
 /// Draws the detail of the selected option.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
@@ -32,8 +45,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         .title(Line::styled(format!(" {} ", delay.name), app.theme.title()));
     let inside = rule.inner(area);
     frame.render_widget(rule, area);
-    let checked = match &app.options[app.selected] {
-        OptionState::Done(checked) => checked,
+    let judged = match &app.options[app.selected] {
+        OptionState::Done { judgement, .. } => judgement,
         OptionState::Failed(failed) => {
             let text = format!("No result: {}", no_result::message(failed));
             return frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inside);
@@ -44,20 +57,66 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
             return frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inside);
         }
     };
-    let facts = fact_lines(app, checked);
+    let facts = fact_lines(app, judged);
     let lines: u16 =
         facts.iter().map(|line| (line.width() as u16).div_ceil(inside.width.max(1)).max(1)).sum();
+    let most = inside.height.saturating_sub(LEAST_CHART);
     let [text, rest] =
-        Layout::vertical([Constraint::Length(lines.min(inside.height / 2)), Constraint::Min(0)])
-            .areas(inside);
+        Layout::vertical([Constraint::Length(lines.min(most)), Constraint::Min(0)]).areas(inside);
     frame.render_widget(Paragraph::new(facts).wrap(Wrap { trim: true }), text);
-    let [left, right] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(rest);
-    let [height, force] = charts::history(&app.case, &checked.history, &fire_at_s(&delay.timing));
-    chart::draw(app, &height, None, frame, left);
-    chart::draw(app, &force, None, frame, right);
+    let history = charts::history(&app.case, &judged.nominal.history, &fire_at_s(&delay.timing));
+    let risk = judged.risk.as_ref().filter(|risk| !risk.samples.is_empty());
+    draw_charts(app, history, risk, frame, rest);
 }
 
-fn fact_lines<'a>(app: &App, checked: &Checked) -> Vec<Line<'a>> {
+/// Draws height and force over time, and those of the samples. Where only one of both has room, the samples stand.
+fn draw_charts(app: &App, history: [Chart; 2], risk: Option<&Risk>, frame: &mut Frame, area: Rect) {
+    let rows = match risk.map(|risk| charts::samples(&app.case, risk)) {
+        None => vec![history.to_vec()],
+        Some(samples) if area.height >= TWO_ROWS => vec![history.to_vec(), samples.to_vec()],
+        Some(samples) if area.width >= FOUR_CHARTS => vec![[history, samples].concat()],
+        Some(samples) => vec![samples.to_vec()],
+    };
+    let areas = Layout::vertical(vec![Constraint::Fill(1); rows.len()]).split(area);
+    for (row, area) in rows.iter().zip(areas.iter()) {
+        let areas = Layout::horizontal(vec![Constraint::Fill(1); row.len()]).spacing(1).split(*area);
+        for (chart, area) in row.iter().zip(areas.iter()) {
+            chart::draw(app, chart, None, frame, *area);
+        }
+    }
+}
+
+fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
+    let (case, theme, checked) = (&app.case, app.theme, &judged.nominal);
+    let of = checked.reasons.iter().map(|of| Detail { verdict: of.verdict(), text: reason(of) });
+    // As long as samples come, how many there are says more than that they do not suffice.
+    let open = app.options[app.selected].is_sampling()
+        && judged.risk.as_ref().is_some_and(|risk| risk.verdict() == Verdict::Undecided);
+    let mut lines: Vec<Line> = of
+        .chain(risk_detail(case, judged).filter(|_| !open))
+        .map(|Detail { verdict, text }| {
+            let sign = theme::label(verdict).chars().next().unwrap_or(' ');
+            Line::styled(format!("{sign} {text}"), theme.verdict(verdict))
+        })
+        .collect();
+    if !checked.broken.is_empty() {
+        lines.push(Line::styled(broken(case.scene(), checked), theme.limit()));
+    }
+    let risk = judged.risk.as_ref().filter(|risk| !risk.samples.is_empty());
+    if open {
+        let samples = risk.map_or(0, |risk| risk.samples.len());
+        lines.push(Line::styled(format!("? {samples} samples so far, more come"), theme.firing()));
+    }
+    let decided = risk.and_then(|risk| inputs(risk, &case.limits));
+    let decided = decided.map(|inputs| format!("decided by {inputs}"));
+    let launch = launch_limit(&case.shots[app.selected], judged);
+    let launch = launch.map(|launch| format!("as planned it {launch}"));
+    let decided: Vec<String> = launch.into_iter().chain(decided).collect();
+    if !decided.is_empty() {
+        lines.push(Line::from(decided.join(" · ")));
+    }
+    lines.push(Line::from(format!("as planned: {}", peaks(case.scene(), checked))));
+    lines.extend(risk.and_then(bands).map(Line::from));
     let how = format!(
         "step {} · {} runs in {} · energy residual {:.0e} · {} {}",
         units::milliseconds(checked.step),
@@ -70,13 +129,6 @@ fn fact_lines<'a>(app: &App, checked: &Checked) -> Vec<Line<'a>> {
         },
         units::seconds(checked.end.at),
     );
-    let mut lines = vec![Line::from(peaks(app.case.scene(), checked)), Line::styled(how, app.theme.quiet())];
-    for why in &checked.reasons {
-        let sign = crate::tui::theme::label(why.verdict()).chars().next().unwrap_or(' ');
-        lines.push(Line::styled(format!("{sign} {}", reason(why)), app.theme.verdict(why.verdict())));
-    }
-    if !checked.broken.is_empty() {
-        lines.push(Line::styled(broken(app.case.scene(), checked), app.theme.limit()));
-    }
+    lines.push(Line::styled(how, theme.quiet()));
     lines
 }

@@ -9,9 +9,13 @@ use crate::tui::app::{App, Areas, Target};
 use crate::tui::keymap::{Action, BINDINGS, Binding};
 
 const WORDS: &[(&str, &str)] = &[
-    ("✓ PASS", "height and force, with their errors, are within the limits"),
-    ("✗ FAIL", "one of them is surely past its limit"),
-    ("? OPEN", "too near a limit to tell at the finest step"),
+    ("✓ PASS", "passes as planned, and surely fewer possible shots fail than accepted"),
+    ("✗ FAIL", "fails as planned, or surely more possible shots fail than accepted"),
+    ("? OPEN", "neither: more samples come, or a reason stands below"),
+    ("fails, %", "share of possible shots that fail: between these bounds, at 95 %"),
+    ("samples", "possible shots drawn; … as long as more come"),
+    ("5 to 95 %", "between these ends lie 90 % of the samples"),
+    ("as planned", "the shot with exactly the numbers of the plan; height and force, too"),
     ("±", "estimated error of the computation, not of the plan"),
 ];
 

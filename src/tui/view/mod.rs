@@ -34,6 +34,7 @@ use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use crate::report::explain::compute_label;
 use crate::report::limits::limits_in_short;
+use crate::units;
 use crate::verdict::Verdict;
 
 /// Least width and height of a screen that holds everything.
@@ -103,8 +104,16 @@ fn draw_tabs(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
 
 fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
     let (case, theme) = (&app.case, app.theme);
-    let mut about = format!("limits: {} · {}", limits_in_short(case), compute_label(&app.compute));
-    about += &format!(" · {} tires, {} cables", case.scene().mass.len(), case.scene().cables.len());
+    let mut about = format!("limits: {}", limits_in_short(case));
+    about += &format!(", risk {} %", units::short(case.plan.limits.accepted_risk_percent));
+    if case.plan.uncertainty.assumed {
+        about += " · inputs assumed known to 1 %";
+    }
+    about += &format!(" · {}", compute_label(&app.compute));
+    let size = format!(" · {} tires, {} cables", case.scene().mass.len(), case.scene().cables.len());
+    if Span::raw(&about).width() + Span::raw(&size).width() <= usize::from(area.width) {
+        about += &size;
+    }
     let unsaved = if app.editor.unsaved() { " *not saved*" } else { "" };
     let title = Line::from(vec![
         Span::styled(case.title(), theme.title()),
@@ -129,15 +138,16 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
     frame.render_widget(line, second);
 }
 
-/// State of the whole plan: options computed, or options that pass.
+/// State of the whole plan: options judged as planned, options that need more samples, or options that pass.
 fn summary(app: &App) -> String {
-    let done = app.options.iter().filter(|state| !state.is_computing()).count();
-    let passed = |state: &&OptionState| matches!(state, OptionState::Done(checked) if checked.verdict == Verdict::Pass);
-    let passed = app.options.iter().filter(passed).count();
+    let count = |of: fn(&OptionState) -> bool| app.options.iter().filter(|state| of(state)).count();
+    let all = app.options.len();
     if app.checking() {
-        format!("computing {done}/{}", app.options.len())
+        format!("computing {}/{all}", count(|state| !state.is_computing()))
+    } else if app.sampling() {
+        format!("sampling: {} of {all} open", count(|state| state.verdict() == Verdict::Undecided))
     } else {
-        format!("{passed} of {} pass", app.options.len())
+        format!("{} of {all} pass", count(|state| state.verdict() == Verdict::Pass))
     }
 }
 

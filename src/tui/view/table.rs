@@ -8,12 +8,14 @@ use ratatui::widgets::{Row as Cells, Table, TableState};
 use crate::report::no_result;
 use crate::report::spark::sparkline;
 use crate::study::check::Checked;
+use crate::study::judgement::Judgement;
+use crate::study::risk::{Risk, Sample};
 use crate::tui::app::{App, Areas, Target};
 use crate::tui::options::OptionState;
 use crate::tui::options::SortBy;
 use crate::tui::theme;
-use crate::units::{self, Unit, margin_percent, value_and_error};
-use crate::verdict::{Estimate, Verdict};
+use crate::units::{self, Unit, margin_percent};
+use crate::verdict::Verdict;
 
 /// A column: head, width, and the least width of a screen that shows the column.
 struct Column {
@@ -21,69 +23,110 @@ struct Column {
     sort: SortBy,
     width: u16,
     from: u16,
-    cell: fn(&App, &Checked) -> String,
+    cell: fn(&App, usize, &Judgement) -> String,
 }
 
 const VERDICT: u16 = 6;
 /// Least number of characters of an option's name.
 const LEAST_NAME: u16 = 8;
+/// Least width of a screen whose table may have sparklines: below, bands and names are more useful.
+const SPARKS: u16 = 150;
 
 const COLUMNS: &[Column] = &[
+    Column { head: "fails, %", sort: SortBy::Risk, width: 15, from: 0, cell: |_, _, judged| fails(judged) },
+    Column { head: "samples", sort: SortBy::Risk, width: 7, from: 0, cell: samples },
     Column {
         head: "height, m",
         sort: SortBy::Height,
-        width: 16,
+        width: 10,
         from: 0,
-        cell: |app, checked| against(app, checked, |checked| checked.height, Unit::Metre),
+        cell: |app, option, _| against(app, option, |checked| checked.height.value, Unit::Metre),
+    },
+    Column {
+        head: "5 to 95 %",
+        sort: SortBy::Height,
+        width: 14,
+        from: 110,
+        cell: |_, _, judged| band(judged, |sample| sample.height, Unit::Metre),
     },
     Column {
         head: "force, kN",
         sort: SortBy::Force,
-        width: 16,
+        width: 10,
         from: 0,
-        cell: |app, checked| against(app, checked, |checked| checked.force, Unit::Kilonewton),
+        cell: |app, option, _| against(app, option, |checked| checked.force.value, Unit::Kilonewton),
+    },
+    Column {
+        head: "5 to 95 %",
+        sort: SortBy::Force,
+        width: 18,
+        from: 110,
+        cell: |_, _, judged| band(judged, |sample| sample.force, Unit::Kilonewton),
     },
     Column {
         head: "factor",
         sort: SortBy::Force,
         width: 6,
         from: 70,
-        cell: |_, checked| units::factor(checked.safety_factor),
+        cell: |_, _, judged| units::factor(judged.nominal.safety_factor),
     },
     Column {
         head: "left m",
         sort: SortBy::Height,
         width: 7,
-        from: 110,
-        cell: |app, checked| percent(margin_percent(checked.height.value, app.case.limits.height)),
+        from: SPARKS,
+        cell: |app, _, judged| percent(margin_percent(judged.nominal.height.value, app.case.limits.height)),
     },
     Column {
         head: "left kN",
         sort: SortBy::Force,
         width: 7,
-        from: 110,
-        cell: |app, checked| percent(margin_percent(checked.force.value, app.case.limits.force)),
+        from: SPARKS,
+        cell: |app, _, judged| percent(margin_percent(judged.nominal.force.value, app.case.limits.force)),
     },
     Column {
         head: "drift, m",
         sort: SortBy::Drift,
-        width: 16,
-        from: 130,
-        cell: |app, checked| against(app, checked, |checked| checked.drift, Unit::Metre),
+        width: 9,
+        from: SPARKS,
+        cell: |app, option, _| against(app, option, |checked| checked.drift.value, Unit::Metre),
     },
 ];
 
-/// A quantity with its error, or its difference from the baseline with the sum of both errors.
-fn against(app: &App, checked: &Checked, of: fn(&Checked) -> Estimate, unit: Unit) -> String {
-    let mine = of(checked);
+/// The samples, once there are some.
+fn sampled(judged: &Judgement) -> Option<&Risk> {
+    judged.risk.as_ref().filter(|risk| !risk.samples.is_empty())
+}
+
+/// Bounds of the share of shots that fail.
+fn fails(judged: &Judgement) -> String {
+    sampled(judged).map_or_else(String::new, |risk| units::probabilities(risk.confidence.interval))
+}
+
+/// Number of samples; dots as long as more come.
+fn samples(app: &App, option: usize, judged: &Judgement) -> String {
+    let more = if app.options[option].is_sampling() { "…" } else { "" };
+    judged.risk.as_ref().map_or_else(String::new, |risk| format!("{}{more}", risk.samples.len()))
+}
+
+/// 5th and 95th percentile of a quantity.
+fn band(judged: &Judgement, of: fn(&Sample) -> f64, unit: Unit) -> String {
+    let band = sampled(judged).and_then(|risk| risk.band(of));
+    band.map_or_else(String::new, |[low, _, high, _]| {
+        format!("{} to {}", units::value(low, unit), units::value(high, unit))
+    })
+}
+
+/// A quantity of the shot as planned, or its difference from the baseline.
+fn against(app: &App, option: usize, of: fn(&Checked) -> f64, unit: Unit) -> String {
+    let Some(mine) = app.judgement(option).map(|judged| of(&judged.nominal)) else { return String::new() };
     match app.baseline() {
-        Some((_, base)) if !std::ptr::eq(base, checked) => {
-            let base = of(base);
-            let difference = mine.value - base.value;
-            let text = value_and_error(difference, mine.error + base.error, unit);
-            if difference >= 0.0 { format!("+{text}") } else { text }
+        Some((other, base)) if other != option => {
+            let difference = mine - of(&base.nominal);
+            let sign = if difference >= 0.0 { "+" } else { "" };
+            format!("{sign}{}", units::value(difference, unit))
         }
-        _ => value_and_error(mine.value, mine.error, unit),
+        _ => units::value(mine, unit),
     }
 }
 
@@ -103,8 +146,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let columns: Vec<&Column> = COLUMNS.iter().filter(fits).collect();
     let longest = app.case.plan.delays.iter().map(|delay| delay.name.chars().count()).max().unwrap_or(0);
     let fixed: u16 = columns.iter().map(|column| column.width + 1).sum::<u16>() + VERDICT + 2;
-    // Below 80 characters names are more useful than short sparklines.
-    let sparks = if area.width >= 80 { 16 } else { 0 };
+    let sparks = if area.width >= SPARKS { 34 } else { 0 };
     let name = (longest.max(6) as u16 + 1).min(area.width.saturating_sub(fixed + sparks).max(LEAST_NAME));
     let spark = (area.width.saturating_sub(fixed + name + 2) / 2).min(40);
     let mut heads = vec![("option", SortBy::Name, name), ("", SortBy::Verdict, VERDICT)];
@@ -148,12 +190,12 @@ fn row<'r>(app: &'r App, option: usize, columns: &[&Column], (name, spark): (u16
     let label = format!("{mark}{}", app.case.plan.delays[option].name);
     let mut cells = vec![Line::styled(format!("{label:0$.0$}", usize::from(name)), style)];
     match &app.options[option] {
-        OptionState::Done(checked) => {
-            cells.push(verdict(app, checked.verdict));
-            cells
-                .extend(columns.iter().map(|column| Line::from((column.cell)(app, checked)).right_aligned()));
+        OptionState::Done { judgement, .. } => {
+            cells.push(verdict(app, judgement.verdict()));
+            let cell = |column: &&Column| Line::from((column.cell)(app, option, judgement)).right_aligned();
+            cells.extend(columns.iter().map(cell));
             let width = usize::from(spark);
-            let (history, limits) = (&checked.history, &app.case.limits);
+            let (history, limits) = (&judgement.nominal.history, &app.case.limits);
             let spark = |series, limit| Line::styled(sparkline(series, width, limit), app.theme.curve());
             cells.push(spark(&history.height, limits.height));
             cells.push(spark(&history.force, limits.force));

@@ -1,0 +1,96 @@
+//! Verdicts in the background: every option as planned, then samples of every option, then launch margins.
+
+use std::ops::Range;
+use std::time::{Duration, Instant};
+
+use rayon::iter::{ParallelBridge, ParallelIterator};
+
+use super::{Job, News};
+use crate::study::batch::each;
+use crate::study::check::check;
+use crate::study::margin::launch_margin;
+use crate::study::risk::{Risk, Sampling, Target, sample};
+use crate::study::{NoResult, guarded};
+use crate::verdict::Verdict;
+
+/// Least time between two pieces of news about an option that computes.
+const CHECKING_EVERY: Duration = Duration::from_millis(50);
+/// Least time between two pieces of news about the samples of an option.
+const SAMPLED_EVERY: Duration = Duration::from_millis(100);
+/// Steps between two looks at the clock.
+const STEPS_PER_LOOK: usize = 64;
+
+impl Job {
+    /// Judges options: all as planned, then all by samples, then their launch margins.
+    pub(super) fn check_all(&self, options: Range<usize>) {
+        let checked = options.par_bridge().filter_map(|option| Some((option, self.check(option)?)));
+        let mut checked: Vec<(usize, Verdict)> = checked.collect();
+        checked.sort_by_key(|(option, _)| *option);
+        // A job that was stopped has no result, and its news has no reader.
+        if self.sample(&checked).is_ok() {
+            let _ = self.find_margins(&checked);
+        }
+    }
+
+    /// Checks an option as planned; returns its verdict.
+    fn check(&self, option: usize) -> Option<Verdict> {
+        if self.progress.stopped() {
+            return None;
+        }
+        let (mut steps, mut told) = (0_usize, Instant::now());
+        let result = guarded(|| {
+            let checked = check(&self.case, option, &self.compute, &mut |run| {
+                steps += 1;
+                if steps.is_multiple_of(STEPS_PER_LOOK) && told.elapsed() > CHECKING_EVERY {
+                    told = Instant::now();
+                    self.tell(News::Checking { option, runs: run.runs, time: run.time });
+                }
+                self.progress.flow()
+            });
+            checked.map(Box::new).map_err(|failure| self.progress.no_result(failure))
+        });
+        let verdict = result.as_ref().ok().map(|checked| checked.verdict);
+        self.tell(News::Checked { option, result });
+        verdict
+    }
+
+    fn target(&self, option: usize) -> Target<'_> {
+        Target { case: &self.case, shot: &self.case.shots[option], compute: self.compute }
+    }
+
+    /// Samples options with their verdicts as planned.
+    fn sample(&self, options: &[(usize, Verdict)]) -> Result<(), NoResult> {
+        let targets: Vec<Target<'_>> = options.iter().map(|&(option, _)| self.target(option)).collect();
+        let enough = |n: usize| options[n].1 == Verdict::Fail;
+        let mut told: Vec<Option<Instant>> = vec![None; options.len()];
+        let mut watch = |n: usize, risk: &Risk| {
+            if told[n].is_none_or(|told| told.elapsed() >= SAMPLED_EVERY) {
+                told[n] = Some(Instant::now());
+                let result = Ok(Box::new(risk.clone()));
+                self.tell(News::Sampled { option: options[n].0, result, more: true });
+            }
+        };
+        let sampled = sample(&targets, &Sampling::OF_VERDICT, &self.progress, enough, &mut watch);
+        let risks = sampled.map(|(risks, _)| risks).inspect_err(|none| {
+            for &(option, _) in options {
+                self.tell(News::Sampled { option, result: Err(none.clone()), more: false });
+            }
+        })?;
+        for (&(option, _), risk) in options.iter().zip(risks) {
+            self.tell(News::Sampled { option, result: Ok(Box::new(risk)), more: false });
+        }
+        Ok(())
+    }
+
+    /// Finds the launch margins of options with their verdicts as planned.
+    fn find_margins(&self, options: &[(usize, Verdict)]) -> Result<(), NoResult> {
+        let Self { case, compute, progress, .. } = self;
+        let find = |&(option, verdict): &(usize, Verdict)| {
+            let shot = &case.shots[option];
+            let margin = guarded(|| launch_margin(case, shot, verdict, compute, progress))?;
+            self.tell(News::Margin { option, margin });
+            Ok(())
+        };
+        each(options, progress, find).map(drop)
+    }
+}
