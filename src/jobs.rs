@@ -9,7 +9,7 @@ mod check;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::study::check::Checked;
 use crate::study::check_all::{Results, check_all};
@@ -272,6 +272,8 @@ impl Job {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Instant;
+
     use super::*;
     use crate::plan::PlanSource;
 
@@ -355,7 +357,7 @@ mod tests {
     fn a_new_request_ends_sampling() {
         let (case, mut jobs) = (case(), Jobs::new(2));
         // Hundreds of samples of each option at this step would take minutes.
-        jobs.check(&case, ComputeSettings { step: Some(1e-5), ..coarse(&case) });
+        jobs.check(&case, ComputeSettings { step: Some(5e-5), ..coarse(&case) });
         checked(&mut jobs, case.shots.len());
         let progress = jobs.check.clone().expect("under way");
         jobs.check(&case, coarse(&case));
