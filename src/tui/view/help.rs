@@ -9,16 +9,19 @@ use crate::tui::app::{App, Areas, Target};
 use crate::tui::keymap::{Action, BINDINGS, Binding};
 
 const WORDS: &[(&str, &str)] = &[
-    ("✓ PASS", "passes as planned, and surely fewer possible shots fail than accepted"),
-    ("✗ FAIL", "fails as planned, or surely more possible shots fail than accepted"),
+    ("✓ PASS", "passes as planned; surely fewer shots fail than accepted"),
+    ("✗ FAIL", "fails as planned, or surely more shots fail than accepted"),
     ("? OPEN", "neither: more samples come, or a reason stands below"),
-    ("fails, %", "share of possible shots that fail: between these bounds, at 95 %"),
+    ("fails, %", "share of possible shots that fail: its bounds, 95 % sure"),
     ("samples", "possible shots drawn; … as long as more come"),
+    ("height, force", "greatest of the shot as planned"),
     ("5 to 95 %", "between these ends lie 90 % of the samples"),
-    ("as planned", "the shot with exactly the numbers of the plan; height and force, too"),
+    ("as planned", "the shot with exactly the numbers of the plan"),
     ("±", "estimated error of the computation, not of the plan"),
 ];
 
+/// Characters of a column with padding; the key or word takes 15 of them.
+const COLUMN: u16 = 76;
 /// Least width of a screen whose help may have two columns.
 const TWO_COLUMNS: u16 = 132;
 
@@ -42,7 +45,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     lines.extend(WORDS.iter().map(|(word, meaning)| row((*word).to_owned(), meaning)));
     let columns = if area.width >= TWO_COLUMNS && lines.len() as u16 + 2 > area.height { 2 } else { 1 };
     let rows = lines.len().div_ceil(columns);
-    let width = 76 * columns as u16 + 2;
+    let width = COLUMN * columns as u16 + 2;
     let [column] = Layout::horizontal([Constraint::Max(width)]).flex(Flex::Center).areas(area);
     let [help] = Layout::vertical([Constraint::Max(rows as u16 + 2)]).flex(Flex::Center).areas(column);
     let more = rows as u16 + 2 > area.height;
@@ -58,5 +61,18 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         let over = (lines.len() as u16).saturating_sub(part.height);
         areas.push((Rect::ZERO, Target::Lines(over)));
         frame.render_widget(Paragraph::new(lines.to_vec()).scroll((app.help_scroll.min(over), 0)), *part);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_text_fits_its_line() {
+        let texts = BINDINGS.iter().map(|binding| binding.text).chain(WORDS.iter().map(|(_, text)| *text));
+        for text in texts {
+            assert!(text.chars().count() <= usize::from(COLUMN) - 2 - 15, "{text}");
+        }
     }
 }
