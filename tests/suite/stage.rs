@@ -90,7 +90,7 @@ pub fn samples(case: &Case, count: usize, some_fail: bool) -> Risk {
 
 /// A judgement with 200 samples, of which one in ten fails in every second option.
 pub fn judgement(case: &Case, option: usize) -> Judgement {
-    let verdict = if option % 3 == 0 { Verdict::Fail } else { Verdict::Pass };
+    let verdict = if option.is_multiple_of(3) { Verdict::Fail } else { Verdict::Pass };
     let risk = samples(case, 200, option.is_multiple_of(2));
     Judgement { risk: Some(risk), ..Judgement::nominal(checked(verdict)) }
 }
