@@ -1,4 +1,4 @@
-//! Height, force and drift of a shot with their errors, from runs at a ladder of steps. A check and a screen judge by these.
+//! Height, force and drift of a shot with their errors, from runs at a ladder of steps. A check judges by [`estimates`], a screen by [`peaks`].
 
 use std::ops::Range;
 
@@ -9,9 +9,21 @@ use crate::verdict::Estimate;
 /// Number of equal parts of a run in which rivals of its greatest value are looked for.
 const SLICES: usize = 32;
 
+/// Like [`peaks`]; errors of height and force reach up to rivals of the greatest value.
+pub fn estimates(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
+    let near = &runs[nearest(runs.len())];
+    let last = runs[runs.len() - 1];
+    let [height, force, drift] = peaks(runs, pairs);
+    [
+        beside_rivals(near, last, height, |history| &history.height),
+        beside_rivals(near, last, force, |history| &history.force),
+        drift,
+    ]
+}
+
 /// Height, force and drift of the last of `runs`. The runs before it, each at a coarser step than the next, and `pairs` of
 /// nearby shots at the step of the coarsest of the [`nearest`] runs give the errors.
-pub fn estimates(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
+pub fn peaks(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
     let near = &runs[nearest(runs.len())];
     let last = runs[runs.len() - 1];
     let of_peak = |of: fn(&Outcome) -> Peak| {
@@ -21,11 +33,7 @@ pub fn estimates(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
         let pairs = pairs.iter().map(|pair| pair.map(|run| of(run).value));
         Estimate { value, error: widened(error, between, pairs), at, index }
     };
-    [
-        beside_rivals(near, last, of_peak(|run| run.height), |history| &history.height),
-        beside_rivals(near, last, of_peak(|run| run.force), |history| &history.force),
-        of_peak(|run| run.drift),
-    ]
+    [of_peak(|run| run.height), of_peak(|run| run.force), of_peak(|run| run.drift)]
 }
 
 /// Which of `count` runs give the errors of the last.

@@ -1,11 +1,11 @@
 //! The verdict on a shot that is one of thousands: run at coarse steps first, and no finer than its verdict needs.
 //!
 //! A check begins at the step of the accuracy level and refines until the verdict is sure. A screen begins at 8 times the step
-//! of the field level, refines by [`error::RATIO`] until it has seen enough, and ends at the step at which a check begins, or
-//! finer by [`FINER`] steps of the ladder where its verdict is still open. Where the step is fixed, or too few of the coarse runs succeed, the shot is checked instead.
+//! of the field level, refines by [`error::RATIO`] until it has seen enough, and ends at the latest at the step at which a
+//! check begins. It does not look for rival peaks: the risk of what it passes is sampled. Where the step is fixed, or too few of the coarse runs succeed, the shot is checked instead.
 
 use super::batch::judge_shot;
-use super::ladder::estimates;
+use super::ladder::peaks;
 use super::reason::{Reason, find_reasons};
 use super::{Case, ComputeSettings, Envelope, NoResult, Progress, error};
 use crate::choice::Accuracy;
@@ -17,8 +17,6 @@ use crate::verdict::Verdict;
 /// Number of steps above the first step of `field`: the coarsest is 8 times that, with `verlet` at most 0.8 of the critical
 /// step.
 const COARSER: i32 = 6;
-/// Number of steps below the first step of a check.
-const FINER: i32 = 3;
 /// Factor on the error of a coarse run with which a pass must still stand.
 const SURE_PASS: f64 = 4.5;
 /// Least number of runs behind a pass: two may agree by luck.
@@ -40,7 +38,6 @@ pub fn screen(
     let last = compute.first_step(case);
     let field = ComputeSettings { accuracy: Accuracy::Field, step: None, ..*compute };
     let mut step = field.first_step(case) * error::RATIO.powi(COARSER);
-    let finest = last * error::RATIO.powi(-FINER);
     let mut runs: Vec<Outcome> = Vec::new();
     loop {
         let is_last = step < 1.01 * last;
@@ -54,8 +51,7 @@ pub fn screen(
         }
         if runs.len() > 1 {
             let envelope = judge(case, shot, &runs);
-            let is_decided = is_last && envelope.verdict != Verdict::Undecided;
-            if is_decided || step < 1.01 * finest || enough(&envelope, runs.len()) {
+            if is_last || enough(&envelope, runs.len()) {
                 return Ok(envelope);
             }
         }
@@ -66,7 +62,7 @@ pub fn screen(
 /// The last run judged, with the runs before as its neighbours.
 fn judge(case: &Case, shot: &Shot, runs: &[Outcome]) -> Envelope {
     let all: Vec<&Outcome> = runs.iter().collect();
-    let estimates = estimates(&all, &[]);
+    let estimates = peaks(&all, &[]);
     let reasons = find_reasons(case, shot, all[all.len() - 1], estimates);
     Envelope::new(Verdict::worst(reasons.iter().map(Reason::verdict)), estimates)
 }

@@ -31,7 +31,7 @@ fn a_run_that_ends_early_is_no_pass() {
     let check = |delay: &str, duration: &str| {
         let text = format!("{head}\n{delay}\n[simulation]\nduration_s = {duration}\n");
         std::fs::write(&path, text).expect("written");
-        let output = shelter(&["check", path.to_str().expect("UTF-8"), "--format", "json"]);
+        let output = shelter(&["check", "--nominal", path.to_str().expect("UTF-8"), "--format", "json"]);
         let document = json(&output);
         let last = document["options"].as_array().expect("options").last().expect("one").clone();
         (last["verdict"].clone(), last["reasons"].to_string())
@@ -59,7 +59,7 @@ fn tires_that_still_move_are_no_pass() {
         let text = text.replace("friction = 0.5", &format!("friction = {friction}"));
         let text = text.replace("breaking_force_kn = 20.4", "breaking_force_kn = 1e6");
         std::fs::write(&path, text.replace("duration_s = 1.0", duration)).expect("written");
-        let output = shelter(&["check", path.to_str().expect("UTF-8"), "--format", "json"]);
+        let output = shelter(&["check", "--nominal", path.to_str().expect("UTF-8"), "--format", "json"]);
         for option in json(&output)["options"].as_array().expect("options") {
             let reasons = option["reasons"].to_string();
             assert_eq!(option["verdict"], if open { "undecided" } else { "pass" }, "{reasons}");
@@ -80,7 +80,8 @@ fn a_run_that_loses_energy_is_no_pass() {
         .expect("written");
     let mut gated = 0;
     for step in ["1e-4", "5e-5", "2e-5", "1e-5", "5e-6", "2e-6"] {
-        let output = shelter(&["check", path.to_str().expect("UTF-8"), "--dt", step, "--format", "json"]);
+        let output =
+            shelter(&["check", "--nominal", path.to_str().expect("UTF-8"), "--dt", step, "--format", "json"]);
         for option in json(&output)["options"].as_array().into_iter().flatten() {
             let residual = option["energy_residual"].as_f64().unwrap_or(0.0);
             if residual > 0.01 {
@@ -120,8 +121,15 @@ delay = [{{ name = \"a\", at_ms = [0, 124.08630344008347, 248.17260688016694, 37
     let path = folder.path().join("plan.toml");
     std::fs::write(&path, text).expect("written");
     for level in ["draft", "field", "reference"] {
-        let output =
-            shelter(&["check", path.to_str().expect("UTF-8"), "--accuracy", level, "--format", "json"]);
+        let output = shelter(&[
+            "check",
+            "--nominal",
+            path.to_str().expect("UTF-8"),
+            "--accuracy",
+            level,
+            "--format",
+            "json",
+        ]);
         assert_eq!(json(&output)["verdict"], "fail", "{level}");
     }
 }
@@ -143,8 +151,15 @@ fn what_is_still_to_come_is_not_passed() {
     let verdict = |late_ms: f64, duration: &str, method: &str| {
         let delay = format!("delay = [{{ name = \"a\", at_ms = [0, {late_ms}] }}]\n");
         std::fs::write(&path, format!("{TWO_TIRES}{delay}{duration}")).expect("written");
-        let output =
-            shelter(&["check", path.to_str().expect("UTF-8"), "--method", method, "--format", "json"]);
+        let output = shelter(&[
+            "check",
+            "--nominal",
+            path.to_str().expect("UTF-8"),
+            "--method",
+            method,
+            "--format",
+            "json",
+        ]);
         json(&output)["verdict"].as_str().expect("a verdict").to_owned()
     };
     for method in ["verlet", "newmark"] {
@@ -168,8 +183,15 @@ fn broken_cables_fail_at_their_breaking_force() {
             .replace("cable_safety_factor = 1.1", &format!("cable_safety_factor = {factor}"));
         std::fs::write(&path, &text).expect("written");
         for method in ["verlet", "newmark"] {
-            let output =
-                shelter(&["check", path.to_str().expect("UTF-8"), "--method", method, "--format", "json"]);
+            let output = shelter(&[
+                "check",
+                "--nominal",
+                path.to_str().expect("UTF-8"),
+                "--method",
+                method,
+                "--format",
+                "json",
+            ]);
             let option = json(&output)["options"][0].clone();
             assert_eq!(option["verdict"], "fail", "{factor} {method}: {text}");
             assert_eq!(option["cable_force_n"]["value"], 15e3, "{factor} {method}");
@@ -187,7 +209,7 @@ fn an_error_leaves_standard_output_empty() {
 
 #[test]
 fn json_has_the_fields_scripts_read() {
-    let output = on("paper-5-tire.toml", &["check", "--format", "json", "--dt", "2e-4"]);
+    let output = on("paper-5-tire.toml", &["check", "--nominal", "--format", "json", "--dt", "2e-4"]);
     let document = json(&output);
     assert!(output.stderr.is_empty());
     assert_eq!(document["schema"], "shelter.check/1");
@@ -252,7 +274,7 @@ fn csv_has_a_row_per_option() {
 
 #[test]
 fn a_step_past_the_stability_limit_is_refused_by_name() {
-    let output = on("paper-5-tire.toml", &["check", "--dt", "0.1"]);
+    let output = on("paper-5-tire.toml", &["check", "--nominal", "--dt", "0.1"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(text(&output.stdout).contains("a finer accuracy or a smaller step"));
     assert!(text(&output.stderr).contains("--dt"));
@@ -310,7 +332,7 @@ fn a_range_that_leaves_out_the_plans_own_value_is_warned_of() {
     let ranges =
         "[uncertainty]\nfriction = [0.55, 0.7]\nslack_percent = [0, 2]\naxial_stiffness_percent = [5, 20]\n";
     std::fs::write(&path, format!("{}{ranges}", super::bad_plans::GOOD)).expect("written");
-    let output = shelter(&["check", path.to_str().expect("UTF-8"), "--accuracy", "draft"]);
+    let output = shelter(&["check", "--nominal", path.to_str().expect("UTF-8"), "--accuracy", "draft"]);
     let told = text(&output.stderr);
     assert_eq!(told.lines().count(), 2, "{told}");
     assert!(

@@ -22,6 +22,7 @@ mod plan_keys;
 mod plans;
 mod properties;
 mod reference;
+mod risk;
 mod scenes;
 mod schema;
 mod screens;

@@ -1,0 +1,360 @@
+//! Verdicts on the shots that `[uncertainty]` describes: draws, variants, and probabilities known in closed form.
+
+use std::ops::ControlFlow;
+
+use shelter::choice::{Accuracy, Method};
+use shelter::outcome::Outcome;
+use shelter::plan::{DelayScatter, Plan, Uncertainty};
+use shelter::scene::{Scene, Shot};
+use shelter::simulation::{Model, Settings};
+use shelter::study::check_all::{check_all, find_launch_margins, judge_drawn};
+use shelter::study::draw::{Drawn, draw};
+use shelter::study::judgement::Judgement;
+use shelter::study::margin::LaunchMargin;
+use shelter::study::merge::OptionSample;
+use shelter::study::risk::{Risk, Sampling, Target, sample};
+use shelter::study::{Case, ComputeSettings, Progress, thread_pool};
+use shelter::verdict::Verdict;
+
+use crate::scenes::{GRAVITY, METHODS, fire, tie, tires};
+
+/// A lone tire launched with 6 m/s, whose limit of height is `height` [m]; nothing but its launch velocity is unknown.
+fn lone(height: f64, launch_cv_percent: f64) -> Case {
+    let text = format!(
+        r#"
+shelter = {{ layout = "grid", rows = 1, columns = 1, spacing_m = 1.5 }}
+tire = {{ mass_kg = 280 }}
+cable = {{ axial_stiffness_kn = 1400, breaking_force_kn = 60 }}
+ground = {{ friction = 0.5 }}
+blast_row = [{{ name = "1", under_row = 1, launch_m_s = 6 }}]
+limits = {{ flight_height_m = {height}, cable_safety_factor = 1 }}
+delay = [{{ name = "1", interval_ms = 0 }}]
+simulation = {{ accuracy = "draft" }}
+[uncertainty]
+launch_cv_percent = {launch_cv_percent}
+launch_common_percent = 0
+tire_mass_cv_percent = 0
+"#
+    );
+    Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
+}
+
+/// Three rows under 5 × 6 tires with some slack, from rim to rim.
+fn rows(more: &str) -> Case {
+    let text = format!(
+        r#"
+shelter = {{ layout = "grid", rows = 5, columns = 6, spacing_m = 2.6 }}
+tire = {{ mass_kg = 280, outer_diameter_m = 1.6 }}
+ground = {{ friction = 0.5 }}
+limits = {{ flight_height_m = 1.8, cable_safety_factor = 1.5 }}
+blast_row = [{{ name = "1", under_row = 2, launch_m_s = 5 }}, {{ name = "2", under_row = 4, launch_m_s = 6 }}]
+delay = [{{ name = "20", interval_ms = 20 }}, {{ name = "60", interval_ms = 60 }}]
+{more}
+"#
+    );
+    let cable = "cable = { axial_stiffness_kn = 3000, breaking_force_kn = 90, slack_percent = 2 }\n";
+    let text = if more.contains("cable = ") { text } else { cable.to_owned() + &text };
+    Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
+}
+
+fn risk_of(case: &Case, sampling: &Sampling) -> Risk {
+    let target = Target { case, shot: &case.shots[0], compute: ComputeSettings::of(&case.plan) };
+    let sampled = sample(&[target], sampling, &Progress::default(), |_| false, &mut |_, _| {});
+    sampled.expect("a result").0.remove(0)
+}
+
+/// Launch velocity at which a lone tire just reaches `height` [m].
+fn speed_to_reach(height: f64) -> f64 {
+    (2.0 * GRAVITY * height).sqrt()
+}
+
+/// Probability that a lognormal factor with mean 1 and this coefficient of variation is greater than `factor`.
+fn exceeds(factor: f64, cv: f64) -> f64 {
+    let sigma = cv.powi(2).ln_1p().sqrt();
+    0.5 * libm::erfc((factor.ln() + 0.5 * sigma * sigma) / (sigma * std::f64::consts::SQRT_2))
+}
+
+/// A lone tire rises v²/2g, so it passes its limit with a probability known in closed form. Of 100 seeds, the interval of 300
+/// samples looked at as they come leaves the probability out in at most 5 %, but for four standard errors (9 %).
+#[test]
+fn the_interval_covers_a_known_probability() {
+    for height in [2.0, 2.45] {
+        let case = lone(height, 10.0);
+        let exact = exceeds(speed_to_reach(height) / 6.0, 0.1);
+        let missed = (0..100).filter(|&seed| {
+            let risk = risk_of(&case, &Sampling { least: 300, most: 300, seed });
+            let [low, high] = risk.confidence.interval;
+            !(low..=high).contains(&exact)
+        });
+        let missed = missed.count();
+        assert!(missed <= 14, "{missed} of 100 at {exact}");
+    }
+}
+
+/// Far from the accepted risk the verdict is the right one, after few samples where many fail; beside it the verdict stays
+/// open. The accepted risk is 1 %.
+#[test]
+fn verdicts_follow_the_accepted_risk() {
+    let cv = 0.05;
+    for (factor, verdict, most) in
+        [(1.2, Verdict::Pass, 500), (1.02, Verdict::Fail, 50), (1.125, Verdict::Undecided, 2000)]
+    {
+        let case = lone((6.0 * factor as f64).powi(2) / (2.0 * GRAVITY), 100.0 * cv);
+        let exact = exceeds(factor, cv);
+        let expected = match verdict {
+            Verdict::Pass => exact < 1e-3,
+            Verdict::Fail => exact > 0.2,
+            Verdict::Undecided => (0.008..0.012).contains(&exact),
+        };
+        assert!(expected, "{factor}: {exact}");
+        let risk = risk_of(&case, &Sampling { least: 0, ..Sampling::OF_VERDICT });
+        assert_eq!(risk.verdict(), verdict, "{exact}: {:?}", risk.confidence);
+        assert!(risk.samples.len() <= most, "{} samples at {exact}", risk.samples.len());
+    }
+}
+
+/// The shot as planned passes; the shots that are possible do not: that is the whole point.
+#[test]
+fn a_shot_that_passes_as_planned_fails_by_its_risk() {
+    let case = lone(6.1_f64.powi(2) / (2.0 * GRAVITY), 5.0);
+    let judged = |sampling: Option<&Sampling>| -> Judgement {
+        let cases = [(&case, ComputeSettings::of(&case.plan))];
+        let mut found = check_all(&cases, sampling, &Progress::default()).expect("a result").value;
+        found.remove(0).remove(0).expect("a result")
+    };
+    assert_eq!(judged(None).verdict(), Verdict::Pass);
+    let both = judged(Some(&Sampling::OF_VERDICT));
+    assert_eq!((both.nominal.verdict, both.verdict()), (Verdict::Pass, Verdict::Fail));
+}
+
+/// A lone tire launched with 6 m/s under a limit that 6.27 m/s reach: it passes up to +4 %. One that fails as planned has no
+/// margin; one under a limit out of reach has a wide one.
+#[test]
+fn the_launch_margin_is_the_room_below_the_limit() {
+    let margin = |height: f64| {
+        let case = lone(height, 1.0);
+        let cases = [(&case, ComputeSettings::of(&case.plan))];
+        let mut results = check_all(&cases, None, &Progress::default()).expect("a result").value;
+        assert!(find_launch_margins(&cases, &mut results, &Progress::default()).expect("a result"));
+        results[0].remove(0).expect("a result").launch_margin.expect("a margin")
+    };
+    assert_eq!(margin(6.27_f64.powi(2) / (2.0 * GRAVITY)), LaunchMargin::UpTo(0.04));
+    assert_eq!(margin(5.9_f64.powi(2) / (2.0 * GRAVITY)), LaunchMargin::UpTo(0.0));
+    assert_eq!(margin(12.1_f64.powi(2) / (2.0 * GRAVITY)), LaunchMargin::Wide);
+}
+
+/// Mean and standard deviation.
+fn moments(values: &[f64]) -> [f64; 2] {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    [mean, (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / n).sqrt()]
+}
+
+/// Everything that is drawn has the mean and the deviation asked for, within four standard errors of 20,000 draws (of the
+/// deviation: 4 %).
+#[test]
+fn draws_have_the_moments_asked_for() {
+    let mut case = rows("");
+    case.plan.uncertainty = Uncertainty {
+        delay: DelayScatter { sd_ms: 0.0, cv_percent: 2.0 },
+        in_hole_delay_ms: 500.0,
+        launch_cv_percent: 20.0,
+        launch_common_percent: 10.0,
+        launch_tilt_deg: 3.0,
+        friction: [0.3, 0.5],
+        slack_percent: [1.0, 4.0],
+        axial_stiffness_percent: [-10.0, 20.0],
+        tire_mass_cv_percent: 8.0,
+        breaking_force_cv_percent: 3.0,
+        assumed: false,
+    };
+    let nominal = &case.shots[1];
+    let (hole, scene) = (nominal.firings[11], case.scene());
+    let names = [
+        "momentum",
+        "common",
+        "tilt x",
+        "tilt y",
+        "time",
+        "friction",
+        "slack",
+        "stiffness",
+        "mass",
+        "strength",
+    ];
+    let mut values = names.map(|_| Vec::new());
+    for number in 0..20_000 {
+        let Drawn { scene: drawn, shot, inputs } = draw(&case, nominal, 7, number);
+        let first = shot.firings.iter().find(|f| f.tire == nominal.firings[0].tire).expect("the first hole");
+        let same = shot.firings.iter().find(|firing| firing.tire == hole.tire).expect("the same hole");
+        let heavier = drawn.mass[hole.tire] / scene.mass[hole.tire];
+        let cable = (&drawn.cables[5], &scene.cables[5]);
+        let rest = cable.0.rest_length / cable.1.rest_length * 1.02;
+        for (values, value) in values.iter_mut().zip([
+            // A tire of another mass leaves with the same momentum.
+            same.launch.norm() * heavier / hole.launch.norm() / inputs[0],
+            inputs[0],
+            (same.launch.x / same.launch.norm()).asin(),
+            (same.launch.y / same.launch.norm()).asin(),
+            same.at - first.at,
+            shot.friction.expect("a friction"),
+            rest - 1.0,
+            cable.0.stiffness * cable.0.rest_length / (cable.1.stiffness * cable.1.rest_length),
+            heavier,
+            drawn.strength(5),
+        ]) {
+            values.push(value);
+        }
+        assert_eq!((&drawn.position, drawn.cables[5].span), (&scene.position, scene.cables[5].span));
+    }
+    let uniform = |low: f64, high: f64| [0.5 * (low + high), (high - low) / 12_f64.sqrt()];
+    let tilt = 3_f64.to_radians();
+    // The gap of 60 ms scatters by 1.2 ms, and two holes by 10 ms each.
+    let times = [0.06, 0.0012_f64.hypot(0.01 * 2_f64.sqrt())];
+    let expected = [
+        [1.0, 0.2],
+        [1.0, 0.1],
+        [0.0, tilt],
+        [0.0, tilt],
+        times,
+        uniform(0.3, 0.5),
+        uniform(0.01, 0.04),
+        uniform(0.9, 1.2),
+        [1.0, 0.08],
+        [1.0, 0.03],
+    ];
+    for ((name, values), [mean, deviation]) in names.iter().zip(&values).zip(expected) {
+        let [average, spread] = moments(values);
+        assert!((average - mean).abs() < 4.0 * deviation / 20_000_f64.sqrt(), "{name}: {average} {mean}");
+        assert!((spread / deviation - 1.0).abs() < 0.04, "{name}: {spread} {deviation}");
+    }
+}
+
+/// A draw belongs to seed, number, hole or tire: another option, another order of the options, another accuracy have the
+/// same draws; another seed or number has not.
+#[test]
+fn draws_are_the_same_for_every_option_and_accuracy() {
+    let case = rows("[uncertainty]\nlaunch_cv_percent = 5\nlaunch_tilt_deg = 2\nin_hole_delay_ms = 500\n");
+    let drawn = |option: usize, seed: u64, number: usize| {
+        let Drawn { scene, shot, inputs } = draw(&case, &case.shots[option], seed, number);
+        let mut launches: Vec<_> =
+            shot.firings.iter().map(|f| (f.tire, f.launch.map(f64::to_bits))).collect();
+        launches.sort_by_key(|(tire, _)| *tire);
+        (scene.mass, launches, inputs)
+    };
+    assert_eq!(drawn(0, 1, 5), drawn(1, 1, 5));
+    assert_ne!(drawn(0, 1, 5), drawn(0, 1, 6));
+    assert_ne!(drawn(0, 1, 5), drawn(0, 2, 5));
+}
+
+fn run_variant(model: &Model, scene: &Scene, shot: &Shot, method: Method) -> Outcome {
+    let settings = Settings { method, step: 1e-3, duration: None };
+    model.run_variant(scene, shot, &settings, &mut |_| ControlFlow::Continue(())).expect("a run")
+}
+
+/// A run under a variant of a model equals the run of a model that was laid out with the variant's numbers, to the last bit;
+/// with mirror planes and without.
+#[test]
+fn a_variant_runs_like_a_scene_laid_out_with_its_numbers() {
+    let base = rows("");
+    for more in ["", "[uncertainty]\nlaunch_cv_percent = 0\ntire_mass_cv_percent = 0\n"] {
+        let case = rows(more);
+        for number in 0..3 {
+            let Drawn { scene, shot, .. } = draw(&case, &case.shots[0], 1, number);
+            for method in METHODS {
+                let laid_out = run_variant(&Model::new(scene.clone()), &scene, &shot, method);
+                let variant = run_variant(&base.model, &scene, &shot, method);
+                assert_eq!(variant, laid_out, "{method:?} {number}");
+                // The variant differs from the plan.
+                assert_ne!(variant.force, run_variant(&base.model, base.scene(), &shot, method).force);
+            }
+            let planes = base.model.modelled_tires(Method::Verlet, &shot);
+            assert_eq!(planes < 30, !more.is_empty(), "both ways are tried");
+        }
+    }
+}
+
+/// Without a range and without scatter every sample is the shot as planned, to the last bit.
+#[test]
+fn what_is_known_exactly_is_not_changed() {
+    let case = rows(
+        "[uncertainty]\ndelay_sd_ms = 0\nlaunch_cv_percent = 0\nlaunch_common_percent = 0\nfriction = [0.5, 0.5]\n\
+         slack_percent = [2, 2]\naxial_stiffness_percent = [0, 0]\ntire_mass_cv_percent = 0\n",
+    );
+    let Drawn { scene, shot, .. } = draw(&case, &case.shots[1], 1, 3);
+    for method in METHODS {
+        let exact = run_variant(&case.model, case.scene(), &case.shots[1], method);
+        assert_eq!(run_variant(&case.model, &scene, &shot, method), exact);
+    }
+}
+
+/// Two pairs of tires, each tied by one cable, and each cable pulled by a launch of its own: the greatest force over
+/// strength is that of the cable whose force over strength is greatest, though the other pulls harder.
+#[test]
+fn a_weak_cable_counts_by_its_strength() {
+    let mut scene = tires(&[(0.0, 0.0), (1.0, 0.0), (0.0, 9.0), (1.0, 9.0)], 280.0);
+    tie(&mut scene, 0, 1, 1e6, 1.0);
+    tie(&mut scene, 2, 3, 1e6, 1.0);
+    let mut shot = fire(&[0, 2], 4.0);
+    shot.firings[1].launch *= 0.9;
+    for method in METHODS {
+        let run = |strength: Vec<f64>, breaking_force: Option<f64>| {
+            let scene = Scene { strength, breaking_force, ..scene.clone() };
+            run_variant(&Model::new(scene.clone()), &scene, &shot, method)
+        };
+        let strong = run(Vec::new(), None);
+        let gentle = run(vec![1e9, 1.0], None);
+        assert_eq!((strong.force.index, gentle.force.index), (0, 1));
+        let weak = run(vec![1.0, 0.7], None);
+        assert!(weak.force.index == 1 && (weak.force.at - gentle.force.at).abs() < 1e-12);
+        let ratio = weak.force.value / (gentle.force.value / 0.7);
+        assert!((ratio - 1.0).abs() < 1e-12 && weak.force.value > strong.force.value, "{method:?} {ratio}");
+        // The weak cable breaks at a force that it would hold at the plan's strength.
+        let breaking = 1.1 * strong.force.value;
+        let broken = |strength: Vec<f64>| run(strength, Some(breaking)).broken;
+        assert!(broken(Vec::new()).is_empty());
+        let cables: Vec<usize> = broken(vec![1.0, 0.5]).iter().map(|broken| broken.cable).collect();
+        assert_eq!(cables, [1], "{method:?}");
+    }
+}
+
+/// Slack alone decides how hard two tires pull at their cable; then its share is nearly all of the variance.
+#[test]
+fn the_input_that_decides_has_the_greatest_share() {
+    let case = rows(
+        "[uncertainty]\nlaunch_cv_percent = 0\nlaunch_common_percent = 0.5\nslack_percent = [0.5, 1.2]\n\
+         tire_mass_cv_percent = 0\n",
+    );
+    let risk = risk_of(&case, &Sampling { least: 400, most: 400, seed: 3 });
+    let shares = shelter::study::risk::shares(&risk, &case.limits).expect("enough samples");
+    assert_eq!(shares[0].0.name(), "slack_percent", "{shares:?}");
+    assert!(shares[0].1 > 0.5 && shares.iter().map(|(_, share)| share).sum::<f64>() < 1.1, "{shares:?}");
+    let few = risk_of(&case, &Sampling { least: 150, most: 150, seed: 3 });
+    assert!(shelter::study::risk::shares(&few, &case.limits).is_none());
+    assert!(few.band(|sample| sample.force).is_some());
+}
+
+/// Samples do not depend on the number of threads, and a reader who gets them one by one comes to the same interval.
+#[test]
+fn samples_are_the_same_on_any_number_of_threads() {
+    let case = rows("[uncertainty]\nlaunch_cv_percent = 5\n");
+    let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
+    let sampling = Sampling { least: 120, most: 120, seed: 1 };
+    let on = |threads| {
+        let work = || check_all(&[(&case, compute)], Some(&sampling), &Progress::default());
+        let mut found = thread_pool(threads).expect("threads").install(work).expect("a result").value;
+        let risk = |judged: Judgement| judged.risk.expect("samples");
+        found.remove(0).into_iter().map(|result| risk(result.expect("a result"))).collect::<Vec<Risk>>()
+    };
+    let one = on(1);
+    assert_eq!(one, on(3));
+    let drawn: Vec<OptionSample> = one
+        .iter()
+        .enumerate()
+        .flat_map(|(option, risk)| risk.samples.iter().map(move |&sample| OptionSample { option, sample }))
+        .collect();
+    let joined = judge_drawn(&case, &compute, &drawn, &Progress::default()).expect("a result");
+    for (joined, one) in joined.into_iter().zip(one) {
+        assert_eq!(joined.expect("a result").risk, Some(one));
+    }
+}
