@@ -18,7 +18,7 @@ fn main() {
     let number =
         |n: usize, usual: usize| arguments.get(n).map_or(usual, |text| text.parse().expect("a number"));
     match arguments.first().map(String::as_str) {
-        Some("coverage") => coverage(number(1, 40), number(2, 25)),
+        Some("coverage") => coverage(number(1, 40), number(2, 25) as u64),
         Some("shipped") => shipped(number(1, 10_000)),
         _ => coverage(4, 5),
     }

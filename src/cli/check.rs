@@ -9,8 +9,10 @@ use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments};
 use super::check_plans::{check_plans, print_checks};
 use super::load_plans::open_all;
 use super::status::{Status, failed};
+use crate::report::explain::VERDICTS;
 
 #[derive(Args)]
+#[command(after_help = VERDICTS.join("\n"))]
 pub struct Arguments {
     /// Plans to check; `-` reads standard input
     #[arg(value_name = "PLAN", required = true)]

@@ -14,6 +14,13 @@ use crate::study::risk::{Risk, Sample, shares};
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::{Estimate, Limits, Verdict};
 
+/// What the three verdicts mean.
+pub const VERDICTS: [&str; 3] = [
+    "PASS: of the shots that [uncertainty] describes, surely fewer than the accepted risk go past a limit, and the shot as planned does not either.",
+    "FAIL: the shot as planned goes past a limit, or surely more of the possible shots do than the accepted risk.",
+    "OPEN: neither, with the finest step and the most samples allowed; surely means 95 %, however often the samples are looked at.",
+];
+
 /// Why an option did not pass, in words.
 pub fn reason(reason: &Reason) -> String {
     let (quantity, verdict, estimate, limit) = match reason {

@@ -98,5 +98,8 @@ pub fn command(case: &Case, results: &Results) -> String {
             command += &format!(" --dt {step}");
         }
     }
+    if !results.iter().flatten().any(|judged| judged.risk.is_some()) {
+        command += " --nominal";
+    }
     command
 }

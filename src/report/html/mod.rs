@@ -39,7 +39,7 @@ const ASSUMPTIONS: &[&str] = &[
     "Cables are elastic, without mass and damping; they only pull, and their fastenings hold.",
     "Each hole gives its tire the launch velocity written in the plan; the program knows nothing of charges, stemming or gas.",
     "Friction on the ground is Coulomb's, with one coefficient.",
-    "The error stated with each value is that of the computation; it says nothing of the plan's own numbers.",
+    "The error stated with a value of the shot as planned is that of the computation; what the plan's own numbers leave open is in the bands and the risk.",
     "The limits are the plan's; no limit is safe by default. A competent person decides.",
 ];
 
@@ -70,6 +70,9 @@ pub fn page(case: &Case, results: &Results, date: &str) -> String {
                 }
                 section {
                     h2 { "Delay options" }
+                    @if results.iter().flatten().any(|judged| judged.risk.is_some()) {
+                        ul { @for meaning in explain::VERDICTS { li { (meaning) } } }
+                    }
                     @for block in &report.blocks {
                         @if let Block::Table(options) = block { (table::table(options)) }
                     }
