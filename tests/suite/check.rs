@@ -212,8 +212,8 @@ fn json_has_the_fields_scripts_read() {
     let output = on("paper-5-tire.toml", &["check", "--nominal", "--format", "json", "--dt", "2e-4"]);
     let document = json(&output);
     assert!(output.stderr.is_empty());
-    assert_eq!(document["schema"], "shelter.check/1");
-    assert_eq!(document["verdict"], "pass");
+    assert_eq!(document["schema"], "shelter.check/2");
+    assert_eq!((&document["verdict"], &document["judged"]), (&"pass".into(), &"nominal".into()));
     assert_eq!(document["scene"]["tires"], 5);
     assert_eq!(document["scene"]["cables"], 8);
     let option = &document["options"][0];
@@ -231,6 +231,50 @@ fn json_has_the_fields_scripts_read() {
         assert!(option[field].is_f64(), "{field}");
     }
     assert!(option["steps"].is_u64() && option["runs"].is_u64());
+    assert_eq!(option["nominal_verdict"], "pass");
+    for field in ["failure_probability", "any_cable_breaks", "launch_margin", "inputs"] {
+        assert!(option[field].is_null(), "{field}");
+    }
+}
+
+/// Beside the shot as planned: the probability of failure, bands, margin and shares. The paper's plan does not say what is
+/// not known, the one of three rows does.
+#[test]
+fn json_tells_the_risk() {
+    for (plan, judged) in [("paper-5-tire.toml", "default"), ("amur-three-rows.toml", "plan")] {
+        let document = json(&on(plan, &["check", "--format", "json", "--samples", "250", "--seed", "2"]));
+        assert_eq!(document["judged"], judged);
+        for option in document["options"].as_array().expect("options") {
+            let failures = &option["failure_probability"];
+            let number = |of: &serde_json::Value| of.as_f64().expect("a number");
+            assert!(number(&failures["low"]) < number(&failures["high"]), "{failures}");
+            assert!((200..=250).contains(&failures["samples"].as_u64().expect("a count")));
+            assert_eq!(failures["undecided"], 0);
+            for quantity in ["flight_height_m", "cable_force_n"] {
+                let [low, middle, high] = ["p05", "p50", "p95"].map(|key| number(&option[quantity][key]));
+                assert!(low < middle && middle < high, "{quantity}");
+            }
+            assert!(option["drift_m"]["p50"].is_null(), "a drift without a limit has no band");
+            assert!(number(&option["any_cable_breaks"]["high"]) <= 1.0);
+            assert!(option["launch_margin"].is_number());
+            let shares = option["inputs"].as_array().expect("shares");
+            let shares: Vec<f64> = shares.iter().map(|input| number(&input["share"])).collect();
+            assert_eq!(shares.len(), 4);
+            assert!(shares.windows(2).all(|pair| pair[0] >= pair[1]), "largest first");
+        }
+    }
+}
+
+/// What the text says a verdict is about.
+#[test]
+fn the_text_says_what_was_judged() {
+    let said = |plan: &str, arguments: &[&str]| text(&on(plan, arguments).stdout).to_owned();
+    let nominal = said("amur-three-rows.toml", &["check", "--nominal"]);
+    assert!(nominal.contains("options pass (the plan's own numbers only)"), "{nominal}");
+    let usual = said("paper-5-tire.toml", &["check"]);
+    assert!(usual.contains("PASS: 1 of 1 options pass (inputs assumed known to 1 %)"), "{usual}");
+    let own = said("amur-three-rows.toml", &["check"]);
+    assert!(own.contains("options pass · verlet"), "{own}");
 }
 
 #[test]
@@ -256,7 +300,7 @@ fn threads_change_nothing_but_the_time() {
 fn text_is_plain_without_a_terminal_and_ascii_on_request() {
     let output = on("amur-three-rows.toml", &["check"]);
     assert!(!text(&output.stdout).contains('\x1b'));
-    assert!(text(&output.stdout).contains("1 of 7 options pass"));
+    assert!(text(&output.stdout).contains("2 of 7 options pass"));
     let output = on("amur-three-rows.toml", &["check", "--ascii"]);
     assert!(text(&output.stdout).is_ascii());
     let output = on("paper-5-tire.toml", &["check", "--color", "always"]);
@@ -268,7 +312,7 @@ fn csv_has_a_row_per_option() {
     let output = on("amur-three-rows.toml", &["check", "--format", "csv"]);
     let lines: Vec<&str> = text(&output.stdout).lines().collect();
     assert_eq!(lines.len(), 8);
-    assert!(lines[0].starts_with("plan,option,verdict,flight_height_m,"));
+    assert!(lines[0].starts_with("plan,option,verdict,nominal_verdict,low_95,high_95,flight_height_m,"));
     assert!(lines[4].contains("\"25 ms, middle first\""));
 }
 

@@ -40,7 +40,7 @@ fn known(row: &Row, seen: &[usize]) -> usize {
 }
 
 fn heading(column: &Column) -> Markup {
-    html! { (column.label()) @if !column.subheading.is_empty() { br; (column.subheading) } }
+    html! { (column.label()) @if !column.subheading.is_empty() { div { (column.subheading) } } }
 }
 
 fn cell(cell: &Cell) -> Markup {
