@@ -284,14 +284,17 @@ pub fn shares(risk: &Risk, limits: &Limits) -> Option<Vec<(Input, f64)>> {
     Some(shares)
 }
 
+/// A quantity of a sample.
+type Quantity = fn(&Sample) -> f64;
+
 /// The quantity whose 95th percentile is the greatest share of its limit.
-fn nearest_its_limit(risk: &Risk, limits: &Limits) -> Option<fn(&Sample) -> f64> {
-    let quantities: [(fn(&Sample) -> f64, f64); 3] = [
+fn nearest_its_limit(risk: &Risk, limits: &Limits) -> Option<Quantity> {
+    let quantities: [(Quantity, f64); 3] = [
         (|sample| sample.height, limits.height),
         (|sample| sample.force, limits.force),
         (|sample| sample.drift, limits.drift.unwrap_or(f64::INFINITY)),
     ];
-    let mut nearest: Option<(f64, fn(&Sample) -> f64)> = None;
+    let mut nearest: Option<(f64, Quantity)> = None;
     for (of, limit) in quantities {
         let [_, _, high, _] = risk.band(of)?;
         if nearest.is_none_or(|(most, _)| high / limit > most) {

@@ -99,7 +99,7 @@ fn verdicts_follow_the_accepted_risk() {
     for (factor, verdict, most) in
         [(1.2, Verdict::Pass, 500), (1.02, Verdict::Fail, 50), (1.125, Verdict::Undecided, 2000)]
     {
-        let case = lone((6.0 * factor as f64).powi(2) / (2.0 * GRAVITY), 100.0 * cv);
+        let case = lone((6.0_f64 * factor).powi(2) / (2.0 * GRAVITY), 100.0 * cv);
         let exact = exceeds(factor, cv);
         let expected = match verdict {
             Verdict::Pass => exact < 1e-3,

@@ -226,23 +226,24 @@ fn a_plan_is_edited_saved_and_reloaded() {
     watched.until("height 2.500 m");
     assert_eq!(read(), text, "nothing is written before it is saved");
     watched.press("u");
-    watched.until("height 1.800 m");
+    watched.until("height 2.350 m");
     watched.press("U");
     watched.until("height 2.500 m");
     watched.press("q");
     watched.until("not saved: s saves");
     watched.press("s");
     watched.until("saved /");
-    assert_eq!(read(), text.replace("flight_height_m = 1.8", "flight_height_m = 2.5"));
-    std::fs::write(&file, text.replace("flight_height_m = 1.8", "flight_height_m = -3")).expect("written");
+    assert_eq!(read(), text.replace("flight_height_m = 2.35", "flight_height_m = 2.5"));
+    std::fs::write(&file, text.replace("flight_height_m = 2.35", "flight_height_m = -3")).expect("written");
     watched.until("the last good plan is shown");
-    std::fs::write(&file, text.replace("flight_height_m = 1.8", "flight_height_m = 2.125")).expect("written");
+    std::fs::write(&file, text.replace("flight_height_m = 2.35", "flight_height_m = 2.125"))
+        .expect("written");
     watched.until("was read again");
     watched.until("2.125");
     // A change here that is taken back stands in the way no more.
     watched.press("\r\x157\r");
     watched.until("height 7.000 m");
-    std::fs::write(&file, text.replace("flight_height_m = 1.8", "flight_height_m = 2.25")).expect("written");
+    std::fs::write(&file, text.replace("flight_height_m = 2.35", "flight_height_m = 2.25")).expect("written");
     watched.until("your changes here are not saved");
     watched.press("u");
     watched.until("was read again");
@@ -259,7 +260,7 @@ fn a_plan_is_edited_saved_and_reloaded() {
     watched.until("saved /");
     assert_eq!(read(), text);
     let other = std::fs::read_to_string(folder.path().join("plan-2.toml")).expect("the other plan");
-    assert_eq!(other, text.replace("flight_height_m = 1.8", "flight_height_m = 3"));
+    assert_eq!(other, text.replace("flight_height_m = 2.35", "flight_height_m = 3"));
     watched.press("q");
     assert_eq!(watched.ends(), 0);
     assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 2);
@@ -307,14 +308,14 @@ fn a_walk_through_everything() {
     watched.until("limit of flight height");
     watched.press("/rope\r");
     watched.press("\x1b[C");
-    watched.until("GOST 2688-80 14 1670");
+    watched.until("GOST 2688-80 15");
     watched.until("*not saved*");
     watched.press("u");
-    watched.until("force 61.019 kN");
+    watched.until("force 83.962 kN");
     watched.press("Us");
     watched.until("saved /");
     let saved = std::fs::read_to_string(&file).expect("the plan");
-    assert_eq!(saved, text.replace("GOST 2688-80 14", "GOST 2688-80 14 1670"));
+    assert_eq!(saved, text.replace("GOST 2688-80 14 1960", "GOST 2688-80 15"));
     std::fs::write(&file, text.replace("title = \"Three", "title = \"Seven")).expect("written");
     watched.until("Seven rows");
     // Rows that are computed move in a list that is sorted.
