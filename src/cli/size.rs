@@ -91,6 +91,12 @@ fn choose_sizes(arguments: &Arguments, plan: &Plan) -> Result<SizeSpec, String> 
                 families.join(", ")
             ));
         }
+        let termination = plan.cable.termination.as_deref();
+        if let Some(termination) = termination.filter(|termination| !catalogue().fits(termination, family)) {
+            return Err(format!(
+                "{termination}, the termination of [cable], fits no rope of {family}: name another family, or give termination_percent in [cable]"
+            ));
+        }
         choices.family = Some(family.clone());
     }
     if let Some(border) = arguments.border {

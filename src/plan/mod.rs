@@ -148,6 +148,8 @@ pub struct CableSpec {
     pub breaking_force_kn: f64,
     /// Slack [%]: unstretched length over distance at rest, less one.
     pub slack_percent: f64,
+    /// Name of the termination in the rope catalogue; `None` where the plan gives its efficiency, or has none.
+    pub termination: Option<String>,
     /// Efficiency of the termination [%]; 100 where the plan has none.
     pub termination_percent: f64,
     /// Effect of a force past the breaking force.

@@ -4,11 +4,12 @@ use super::model::{Block, Cell, Column, Report, Table};
 use crate::ropes::{Catalogue, Rope, Termination};
 use crate::units::Unit;
 
-const ROPES: [Column; 12] = [
+const ROPES: [Column; 13] = [
     Column::words(&["name"], "name in plans"),
     Column::scripts(&["family"]),
     Column::scripts(&["standard"]),
     Column::scripts(&["construction"]),
+    Column::scripts(&["kind"]),
     Column::numbers(&["grade"], "grade, N/mm²", Unit::One),
     Column::numbers(&["diameter_mm"], "diameter, mm", Unit::One),
     Column::numbers(&["metallic_area_mm2"], "area, mm²", Unit::One),
@@ -19,9 +20,10 @@ const ROPES: [Column; 12] = [
     Column::scripts(&["typical"]),
 ];
 
-const TERMINATIONS: [Column; 3] = [
+const TERMINATIONS: [Column; 4] = [
     Column::words(&["name"], "termination"),
     Column::numbers(&["efficiency_percent"], "of the rope", Unit::Percent),
+    Column::words(&["fits"], "fits"),
     Column::words(&["source"], "source"),
 ];
 
@@ -48,6 +50,7 @@ fn cells(rope: &Rope) -> Vec<Cell> {
         text(&rope.family),
         text(&rope.standard),
         text(&rope.construction),
+        text(rope.kind.label()),
         Cell::Count(rope.grade as usize),
         Cell::Number(rope.diameter_mm),
         rope.metallic_area_mm2.map_or(Cell::Nothing, Cell::Number),
@@ -65,6 +68,7 @@ pub fn terminations(catalogue: &Catalogue) -> Report {
         vec![
             Cell::Text(termination.name.clone()),
             Cell::Number(termination.efficiency_percent),
+            Cell::Text(termination.fits.iter().map(|kind| kind.label()).collect::<Vec<_>>().join(", ")),
             Cell::Text(termination.source.clone()),
         ]
     };

@@ -27,6 +27,8 @@ pub struct Rope {
     pub standard: String,
     /// Construction.
     pub construction: String,
+    /// What a termination of the rope must be for.
+    pub kind: Kind,
     /// Grade of wire [N/mm²]; 0 where the rope has no grade.
     pub grade: u32,
     /// Diameter [mm].
@@ -45,6 +47,35 @@ pub struct Rope {
     pub typical: bool,
 }
 
+/// What decides which terminations hold a rope.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// Wire rope with a fibre core, which gives way in a swaged socket.
+    #[serde(rename = "fibre core")]
+    FibreCore,
+    /// Wire rope with a core of steel.
+    #[serde(rename = "steel core")]
+    SteelCore,
+    /// Chain.
+    Chain,
+    /// Rope of fibres, without wires.
+    #[serde(rename = "fibre rope")]
+    FibreRope,
+}
+
+impl Kind {
+    /// Words for a message: `wire rope with a fibre core`.
+    pub fn label(self) -> &'static str {
+        match self {
+            Kind::FibreCore => "wire rope with a fibre core",
+            Kind::SteelCore => "wire rope with a steel core",
+            Kind::Chain => "chain",
+            Kind::FibreRope => "fibre rope",
+        }
+    }
+}
+
 /// A way to fasten the end of a rope.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Termination {
@@ -52,6 +83,8 @@ pub struct Termination {
     pub name: String,
     /// Share of the rope's breaking force that the termination holds [%].
     pub efficiency_percent: f64,
+    /// Kinds of rope that it holds at this efficiency; it fits no other.
+    pub fits: Vec<Kind>,
     /// Source of the figure.
     pub source: String,
 }
@@ -69,6 +102,7 @@ struct Family {
     name: String,
     standard: String,
     construction: String,
+    kind: Kind,
     stiffness_per_d2: f64,
     source: String,
     typical: bool,
@@ -117,6 +151,7 @@ impl Family {
                 family: self.name.clone(),
                 standard: self.standard.clone(),
                 construction: self.construction.clone(),
+                kind: self.kind,
                 grade,
                 diameter_mm: entry.diameter_mm,
                 metallic_area_mm2: entry.metallic_area_mm2,
@@ -139,6 +174,18 @@ impl Catalogue {
     pub fn find(&self, name: &str) -> Option<&Rope> {
         let named = |rope: &&Rope| rope.name == name || format!("{} {}", rope.name, rope.grade) == name;
         self.ropes.iter().find(named)
+    }
+
+    /// The termination with this name.
+    pub fn termination(&self, name: &str) -> Option<&Termination> {
+        self.terminations.iter().find(|known| known.name == name)
+    }
+
+    /// Whether the termination of this name fits a rope of this family.
+    pub fn fits(&self, termination: &str, family: &str) -> bool {
+        let mut ropes = self.ropes.iter().filter(|rope| rope.family == family);
+        let termination = self.termination(termination);
+        ropes.any(|rope| termination.is_none_or(|termination| termination.fits.contains(&rope.kind)))
     }
 
     /// The name in the catalogue that is most like `name`, if one is alike.
@@ -182,6 +229,25 @@ mod tests {
             let density = rope.mass_kg_per_m * 1e3 / area;
             assert!((9.75..9.85).contains(&density), "{}: {density}", rope.name);
         }
+    }
+
+    /// Columns of TM 5-3810-305-10 table 4: a swaged socket has no figure for fibre core; no figure there is for chain or fibre.
+    #[test]
+    fn terminations_fit_the_ropes_of_their_source() {
+        let fits = |name: &str| catalogue().termination(name).expect("in the catalogue").fits.clone();
+        let wire = [Kind::FibreCore, Kind::SteelCore];
+        for name in ["clips", "wedge socket", "hand splice", "mechanical sleeve", "spelter socket"] {
+            assert_eq!(fits(name), wire, "{name}");
+        }
+        assert_eq!(fits("swaged socket"), [Kind::SteelCore]);
+        assert_eq!(fits("knot"), [Kind::FibreRope]);
+        let core = |rope: &Rope| match rope.construction.as_str() {
+            text if text.contains("fibre core") => Kind::FibreCore,
+            text if text.contains("steel core") => Kind::SteelCore,
+            text if text.contains("chain") => Kind::Chain,
+            _ => Kind::FibreRope,
+        };
+        assert!(catalogue().ropes.iter().all(|rope| rope.kind == core(rope)));
     }
 
     #[test]

@@ -138,7 +138,7 @@ impl Sizing {
     }
 }
 
-/// Tries the combinations that the plan allows, until the time is up. Without a `sampling` only the shots as planned count.
+/// Tries the combinations that the plan allows, of ropes that its termination fits, until the time is up. Without a `sampling` only the shots as planned count.
 pub fn size(
     plan: &Plan,
     demand: &Demand,
@@ -149,10 +149,13 @@ pub fn size(
     let own = catalogue().ropes.iter().find(|rope| plan.cable.rope.as_ref() == Some(&rope.name));
     let wanted = plan.size.family.as_ref().or(own.map(|rope| &rope.family));
     let family = |rope: &&Rope| wanted.is_none_or(|family| *family == rope.family);
+    let termination = plan.cable.termination.as_ref().and_then(|name| catalogue().termination(name));
+    let fits = |rope: &&Rope| termination.is_none_or(|termination| termination.fits.contains(&rope.kind));
     let by_stiffness = catalogue()
         .ropes
         .iter()
         .filter(family)
+        .filter(fits)
         .into_group_map_by(|rope| (rope.axial_stiffness_kn.to_bits(), rope.mass_kg_per_m.to_bits()));
     let own = [plan.tire.mass_kg];
     let masses = if plan.size.tire_mass_kg.is_empty() { &own[..] } else { &plan.size.tire_mass_kg };

@@ -14,7 +14,7 @@ use super::keys::{self, cable, ground, limits, simulation, tire};
 use super::read::{At, Mistakes, SectionReader};
 use super::{CableSpec, LimitsSpec, Plan, SimulationSpec, TireSpec};
 use crate::choice::{Accuracy, Method, OnOverload};
-use crate::ropes::catalogue;
+use crate::ropes::{Rope, Termination, catalogue};
 
 /// The plan of a text, or all mistakes; messages name the file `path`.
 pub fn parse(path: &str, text: &str) -> Result<Plan, Diagnostics> {
@@ -62,7 +62,8 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
         friction.unwrap_or(0.0),
         cable.as_ref().map_or(0.0, |cable| cable.slack_percent),
     );
-    let size = read_size(root.section_or_empty(&SIZE));
+    let termination = cable.as_ref().and_then(|cable| cable.termination.as_deref());
+    let size = read_size(root.section_or_empty(&SIZE), termination);
     Some(Plan {
         title,
         layout: layout?,
@@ -118,12 +119,15 @@ fn read_limits(section: SectionReader<'_>) -> LimitsSpec {
 fn read_cable(section: SectionReader<'_>, mistakes: &Mistakes) -> CableSpec {
     let rope = section.text_if(&cable::ROPE);
     let (axial_stiffness_kn, breaking_force_kn) = read_rope(&section, rope.as_ref(), mistakes);
-    let termination_percent = read_termination(&section);
+    let termination = read_termination(&section, rope.as_ref(), mistakes);
+    let percent = section.number(&cable::TERMINATION_PERCENT);
+    let termination_percent = termination.map_or(percent, |known| known.efficiency_percent);
     let spec = CableSpec {
         rope: rope.map(|rope| rope.value.to_owned()),
         axial_stiffness_kn,
         breaking_force_kn: breaking_force_kn * termination_percent * 1e-2,
         slack_percent: section.number(&cable::SLACK_PERCENT),
+        termination: termination.map(|known| known.name.clone()),
         termination_percent,
         on_overload: section.choice(&cable::ON_OVERLOAD, OnOverload::DEFAULT),
     };
@@ -168,17 +172,35 @@ fn read_rope(section: &SectionReader<'_>, rope: Option<&At<&str>>, mistakes: &Mi
     (1.0, 1.0)
 }
 
-/// Share of the rope's breaking force that the termination holds [%].
-fn read_termination(section: &SectionReader<'_>) -> f64 {
-    let name = section.name_if(&cable::TERMINATION);
-    if name.is_some() && section.has(&cable::TERMINATION_PERCENT) {
+/// The termination that the plan names; it must fit the rope.
+fn read_termination(
+    section: &SectionReader<'_>,
+    rope: Option<&At<&str>>,
+    mistakes: &Mistakes,
+) -> Option<&'static Termination> {
+    let name = section.name_if(&cable::TERMINATION)?;
+    if section.has(&cable::TERMINATION_PERCENT) {
         let message = "`termination_percent` stands beside `termination`";
         section.wrong(&cable::TERMINATION_PERCENT, message, "keep one of them");
     }
-    let percent = section.number(&cable::TERMINATION_PERCENT);
-    let known = catalogue()
-        .terminations
-        .iter()
-        .find(|known| name.as_ref().is_some_and(|name| known.name == name.value));
-    known.map_or(percent, |known| known.efficiency_percent)
+    let termination = catalogue().termination(name.value)?;
+    if let Some(rope) = rope.and_then(|rope| catalogue().find(rope.value))
+        && !termination.fits.contains(&rope.kind)
+    {
+        let message = format!("{} does not fit {}, a {}", name.value, rope.name, rope.kind.label());
+        mistakes.add(name.span, message, other_termination(rope));
+    }
+    Some(termination)
+}
+
+/// What to write instead of a termination that does not fit `rope`.
+fn other_termination(rope: &Rope) -> String {
+    let own = "`termination_percent` with the figure of the maker";
+    let fitting = catalogue().terminations.iter().filter(|known| known.fits.contains(&rope.kind));
+    let names: Vec<String> = fitting.map(|known| format!("\"{}\"", known.name)).collect();
+    if names.is_empty() {
+        format!("give {own}")
+    } else {
+        format!("choose {}; or give {own}", names.join(", "))
+    }
 }

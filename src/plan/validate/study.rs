@@ -4,6 +4,7 @@ use crate::choice::Detonator;
 use crate::plan::keys::{Key, size, uncertainty};
 use crate::plan::read::SectionReader;
 use crate::plan::{DelayScatter, SizeSpec, Uncertainty};
+use crate::ropes::catalogue;
 
 /// Reads `[uncertainty]` of a plan with this friction and slack [%]; `assumed`: the plan has no such section.
 pub fn read_uncertainty(
@@ -57,13 +58,20 @@ fn refuse_beside_detonator(section: &SectionReader<'_>, key: &Key) {
     }
 }
 
-pub fn read_size(section: SectionReader<'_>) -> SizeSpec {
+/// Reads `[size]` of a plan with this termination.
+pub fn read_size(section: SectionReader<'_>, termination: Option<&str>) -> SizeSpec {
     let masses = section.numbers(&size::TIRE_MASS_KG).map_or_else(Vec::new, |list| list.value);
     let spec = SizeSpec {
         tire_mass_kg: masses.into_iter().map(|mass| mass.value).collect(),
         family: section.name_if(&size::ROPES).map(|family| family.value.to_owned()),
         most_border_rows: section.whole(&size::MOST_BORDER_ROWS),
     };
+    if let (Some(family), Some(termination)) = (&spec.family, termination)
+        && !catalogue().fits(termination, family)
+    {
+        let message = format!("{termination}, the termination of [cable], fits no rope of {family}");
+        section.wrong(&size::ROPES, message, "name another family, or give `termination_percent` in [cable]");
+    }
     section.finish();
     spec
 }
