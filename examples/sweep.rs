@@ -1,4 +1,4 @@
-//! Sweeps the interval between the rows of a plan and prints the intervals that pass:
+//! Sweeps the interval between the rows of a plan and prints the intervals that pass as planned:
 //! `cargo run --release --no-default-features --example sweep -- PLAN`.
 
 use std::error::Error;
@@ -16,9 +16,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
     let intervals = Intervals { from: 0.0, to: 0.1, step: 0.01 };
     // Another thread may read the progress, or end the study.
-    let swept = sweep(&case, &order, &intervals, &compute, &Progress::default())?.value;
+    let swept = sweep(&case, &order, &intervals, None, &compute, &Progress::default())?.value;
     for [from, to] in swept.windows {
-        println!("{} to {} pass", exact_milliseconds(from), exact_milliseconds(to));
+        println!("{} to {} pass as planned", exact_milliseconds(from), exact_milliseconds(to));
     }
     Ok(())
 }

@@ -15,7 +15,7 @@ use crate::study::check::Checked;
 use crate::study::check_all::{Results, check_all};
 use crate::study::flight::{Flight, record};
 use crate::study::margin::LaunchMargin;
-use crate::study::orders::{Orders, orders};
+use crate::study::orders::{Orders, orders, rank};
 use crate::study::risk::{Risk, Sampling};
 use crate::study::size::{Demand, Sizing, size};
 use crate::study::sweep::{GAP, Sweep, sweep};
@@ -245,12 +245,16 @@ impl Job {
         match kind {
             StudyKind::Sweep => {
                 let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
-                Ok(StudyResult::Sweep(sweep(case, &order, &INTERVALS, compute, progress)?.value))
+                Ok(StudyResult::Sweep(
+                    sweep(case, &order, &INTERVALS, Some(&Sampling::OF_VERDICT), compute, progress)?.value,
+                ))
             }
             StudyKind::Orders => {
                 let intervals = case.intervals();
-                let tried = orders(case, &intervals, Shard::WHOLE, compute, progress)?.value;
-                Ok(StudyResult::Orders(Orders::new(case, tried, intervals.len())))
+                let tried = orders(case, &intervals, Shard::WHOLE, compute, progress)?;
+                let sampling = Some(&Sampling::OF_VERDICT);
+                let ranked = rank(case, tried, intervals.len(), sampling, compute, progress)?;
+                Ok(StudyResult::Orders(ranked.value))
             }
             StudyKind::Risk => {
                 let mut results = check_all(&[(case, *compute)], Some(&SAMPLING), progress)?.value;

@@ -56,7 +56,7 @@ fn compare_windows(random: u64) {
         let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
         let intervals = Intervals { from: 0.0, to: 0.5, step: 0.25e-3 };
         let (begun, compute) = (Instant::now(), ComputeSettings::of(&case.plan));
-        let swept = sweep(&case, &order, &intervals, &compute, &Progress::default());
+        let swept = sweep(&case, &order, &intervals, None, &compute, &Progress::default());
         let (swept, wall) = (swept.expect("a result").value, begun.elapsed().as_secs_f64());
         let close = (0..=10_000).map(|n| n as f64 * CLOSE);
         let close: Vec<f64> =

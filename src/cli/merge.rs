@@ -11,7 +11,7 @@ use super::status::{Status, failed, wrong};
 use crate::plan::PlanSource;
 use crate::study::check_all::judge_drawn;
 use crate::study::merge::{Findings, Question, merge};
-use crate::study::orders::{Orders, refine};
+use crate::study::orders::{rank, refine};
 use crate::study::{Case, Found, Progress};
 
 #[derive(Args)]
@@ -45,10 +45,13 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     }
     match (head.question, findings) {
         // Only all shares together tell which orders may be the worst.
-        (Question::Orders { intervals_s }, Findings::Orders(tried)) => {
-            match refine(&case, tried, &head.compute, &Progress::default()) {
-                Ok(Found { value: tried, .. }) => {
-                    let orders = Orders::new(&case, tried, intervals_s.len());
+        (Question::Orders { intervals_s, sampling }, Findings::Orders(tried)) => {
+            let (compute, progress) = (&head.compute, Progress::default());
+            let ranked = refine(&case, tried, compute, &progress).and_then(|tried| {
+                rank(&case, tried, intervals_s.len(), sampling.as_ref(), compute, &progress)
+            });
+            match ranked {
+                Ok(Found { value: orders, .. }) => {
                     print_orders(&case, &orders, false, arguments.format, look)
                 }
                 Err(reason) => failed(&reason),

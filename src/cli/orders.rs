@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, LookArguments, intervals, shard};
+use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments, intervals, shard};
 use super::load_plans::open;
 use super::print::print_text;
 use super::print_findings::print_orders;
@@ -13,7 +13,7 @@ use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::report::notes;
 use crate::study::merge::{Findings, Question, write_share};
-use crate::study::orders::{MOST_ROWS, Orders, count, orders, tries_all};
+use crate::study::orders::{MOST_ROWS, count, orders, rank, tries_all};
 use crate::study::{Found, Intervals, Shard};
 
 #[derive(Args)]
@@ -26,6 +26,8 @@ pub struct Arguments {
     /// This machine's share; `shelter merge` joins the shares
     #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with_all = ["timeout", "format"])]
     shard: Option<Shard>,
+    #[command(flatten)]
+    verdict: VerdictArguments,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: FormatArg,
@@ -53,19 +55,26 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         );
         return wrong(&message);
     }
-    let (settings, shard) = (arguments.compute.settings(&case.plan), arguments.shard.unwrap_or(Shard::WHOLE));
-    let tried =
-        run_study(&arguments.compute, |progress| orders(&case, &intervals_s, shard, &settings, progress));
-    match tried {
-        Err(reason) => failed(&reason),
-        Ok(Found { value: tried, partial }) => {
-            if let Some(shard) = arguments.shard {
-                let question = Question::Orders { intervals_s };
+    let settings = arguments.compute.settings(&case.plan);
+    let sampling = arguments.verdict.sampling();
+    if let Some(shard) = arguments.shard {
+        let tried =
+            run_study(&arguments.compute, |progress| orders(&case, &intervals_s, shard, &settings, progress));
+        return match tried {
+            Err(reason) => failed(&reason),
+            Ok(Found { value: tried, .. }) => {
+                let question = Question::Orders { intervals_s, sampling };
                 print_text(&write_share(&case, question, settings, shard, &Findings::Orders(tried))?)?;
-                return Ok(Status::Pass);
+                Ok(Status::Pass)
             }
-            let orders = Orders::new(&case, tried, intervals_s.len());
-            print_orders(&case, &orders, partial, arguments.format, look)
-        }
+        };
+    }
+    let ranked = run_study(&arguments.compute, |progress| {
+        let tried = orders(&case, &intervals_s, Shard::WHOLE, &settings, progress)?;
+        rank(&case, tried, intervals_s.len(), sampling.as_ref(), &settings, progress)
+    });
+    match ranked {
+        Err(reason) => failed(&reason),
+        Ok(Found { value: orders, partial }) => print_orders(&case, &orders, partial, arguments.format, look),
     }
 }

@@ -1,11 +1,11 @@
-//! `shelter sweep`: height and force against the interval between rows.
+//! `shelter sweep`: height, force and risk against the interval between rows.
 
 use std::io;
 use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, LookArguments, intervals};
+use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments, intervals};
 use super::load_plans::open_option;
 use super::print::print;
 use super::run_study::run_study;
@@ -26,6 +26,8 @@ pub struct Arguments {
     /// Delay option whose order of rows is swept; default: rows in the order listed
     #[arg(long, value_name = "NAME")]
     option: Option<String>,
+    #[command(flatten)]
+    verdict: VerdictArguments,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: FormatArg,
@@ -45,8 +47,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         }
     };
     let settings = arguments.compute.settings(&case.plan);
+    let sampling = arguments.verdict.sampling();
     let swept = run_study(&arguments.compute, |progress| {
-        sweep(&case, &order, &arguments.interval, &settings, progress)
+        sweep(&case, &order, &arguments.interval, sampling.as_ref(), &settings, progress)
     });
     match swept {
         Err(reason) => failed(&reason),

@@ -10,6 +10,7 @@ use crate::study::size::{Combination, Sizing};
 use crate::study::sweep::{Point, Sweep};
 use crate::study::{Case, Envelope};
 use crate::units::Unit;
+use crate::verdict::Verdict;
 
 /// Room above the greatest value.
 const HEADROOM: f64 = 1.08;
@@ -33,8 +34,9 @@ pub fn history(case: &Case, history: &History, firings: &[f64]) -> [Chart; 2] {
 const HEIGHT: &str = "flight height";
 const FORCE: &str = "cable force";
 
-/// Greatest flight height and cable force against the interval between rows, with the intervals that pass.
-pub fn sweep(case: &Case, sweep: &Sweep) -> [Chart; 2] {
+/// Greatest flight height and cable force against the interval between rows, with the windows; where there are samples, the
+/// share that fails, too.
+pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
     let interval = axis("interval", Unit::Millisecond, sweep.range());
     let chart = |name, unit, of: fn(&Envelope) -> f64, limit| {
         let point = |point: &Point| (point.interval, of(&point.envelope));
@@ -42,10 +44,23 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> [Chart; 2] {
         let points = sweep.points.iter().map(point).filter(|(_, value)| value.is_finite()).collect();
         Chart { windows: sweep.windows.clone(), ..limited(interval, (name, unit), points, limit) }
     };
-    [
+    let mut charts = vec![
         chart(HEIGHT, Unit::Metre, |envelope| envelope.height.value, case.limits.height),
         chart(FORCE, Unit::Kilonewton, |envelope| envelope.force.value, case.limits.force),
-    ]
+    ];
+    let failing = |point: &Point| match point.envelope.verdict {
+        Verdict::Fail => Some((point.interval, 1.0)),
+        _ => Some((point.interval, point.risk?.confidence.probability()?)),
+    };
+    if sweep.points.iter().any(|point| point.risk.is_some()) {
+        let points = sweep.points.iter().filter_map(failing).collect();
+        let accepted = 1e-2 * case.plan.limits.accepted_risk_percent;
+        let chart = limited(interval, ("failing share", Unit::Percent), points, accepted);
+        let title = format!("{} (100 % where the shot as planned fails)", chart.title);
+        let y = axis("failing share", Unit::Percent, [0.0, 1.0]);
+        charts.push(Chart { title, y, windows: sweep.windows.clone(), ..chart });
+    }
+    charts
 }
 
 /// A quantity with its limit.

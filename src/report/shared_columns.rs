@@ -2,6 +2,7 @@
 
 use super::model::{Cell, Column};
 use crate::study::Bounded;
+use crate::study::sampled::Sampled;
 use crate::units::Unit;
 
 /// Pass, open or fail.
@@ -14,6 +15,10 @@ pub const FORCE: Column =
     Column::numbers(&["cable_force_n", "cable_force_error_n"], "force", Unit::Kilonewton);
 /// Bounds of the share of shots that fail.
 pub const FAILURES: Column = Column::numbers(&["low_95", "high_95"], "fails", Unit::Percent);
+/// Failures over decided samples.
+pub const PROBABILITY: Column = Column::scripts(&["probability"]);
+/// Verdict on the shot as planned.
+pub const NOMINAL_VERDICT: Column = Column::scripts(&["nominal_verdict"]);
 /// Time between successive blast rows.
 pub const INTERVAL: Column = Column::numbers(&["interval_s"], "interval", Unit::One);
 
@@ -25,4 +30,23 @@ pub fn height(height: Bounded) -> Cell {
 /// Cell of [`FORCE`].
 pub fn force(force: Bounded) -> Cell {
     Cell::Estimate { value: force.value, error: force.error, unit: Unit::Kilonewton }
+}
+
+/// Cell of [`FAILURES`]; nothing where no sample was drawn.
+pub fn failures(risk: Option<&Sampled>) -> Cell {
+    drawn(risk).map_or(Cell::Nothing, |risk| Cell::Probability(risk.confidence.interval))
+}
+
+/// Cell of [`PROBABILITY`]; nothing where no sample was drawn.
+pub fn probability(risk: Option<&Sampled>) -> Cell {
+    drawn(risk).and_then(|risk| risk.confidence.probability()).map_or(Cell::Nothing, Cell::Number)
+}
+
+fn drawn(risk: Option<&Sampled>) -> Option<&Sampled> {
+    risk.filter(|risk| risk.is_drawn())
+}
+
+/// `2 of 430 possible shots fail`.
+pub fn sampled(risk: &Sampled) -> String {
+    format!("{} of {} possible shots fail", risk.confidence.failures, risk.confidence.samples)
 }

@@ -1,8 +1,11 @@
-//! `sweep` as a report: charts against the interval, the windows that pass, the worst and the recommended interval.
+//! `sweep` as a report: charts against the interval, the windows, the worst and the recommended interval.
 
 use super::charts;
 use super::model::{Block, Cell, Column, Conclusion, Report, Shown, Table};
-use super::shared_columns::{FORCE, HEIGHT, INTERVAL, VERDICT, force, height};
+use super::shared_columns::{
+    FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
+    probability, sampled,
+};
 use super::{limit_facts, row_names};
 use crate::study::Case;
 use crate::study::sweep::{Point, Recommended, Sweep};
@@ -10,16 +13,25 @@ use crate::units;
 use crate::verdict::Verdict;
 
 /// Every interval tried, for scripts.
-const POINTS: [Column; 4] = [
+const POINTS: [Column; 7] = [
     INTERVAL.shown(Shown::Scripts),
     HEIGHT.shown(Shown::Scripts),
     FORCE.shown(Shown::Scripts),
     VERDICT.shown(Shown::Scripts),
+    NOMINAL_VERDICT,
+    PROBABILITY,
+    FAILURES.shown(Shown::Scripts),
 ];
 
 /// The worst and the recommended interval, for people.
-const ENDS: [Column; 5] =
-    [Column::words(&[], ""), INTERVAL.unread(), VERDICT.unread(), HEIGHT.unread(), FORCE.unread()];
+const ENDS: [Column; 6] = [
+    Column::words(&[], ""),
+    INTERVAL.unread(),
+    VERDICT.unread(),
+    HEIGHT.unread(),
+    FORCE.unread(),
+    FAILURES.unread(),
+];
 
 /// The report of a sweep, which is partial where the time was up.
 pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
@@ -29,16 +41,20 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
     let mut blocks = Vec::new();
     if !sweep.points.is_empty() {
         blocks.push(Block::Text(vec![head]));
-        blocks.extend(charts::sweep(case, sweep).map(Block::Chart));
+        blocks.extend(charts::sweep(case, sweep).into_iter().map(Block::Chart));
         blocks.push(Block::Table(ends(case, sweep)));
-        blocks.push(Block::Text(windows(sweep, partial)));
+        blocks.push(Block::Text(windows(case, sweep, partial)));
     }
-    let point = |&Point { interval, envelope }: &Point| {
+    let point = |point: &Point| {
+        let Point { interval, envelope, risk } = point;
         vec![
-            Cell::Interval(interval),
+            Cell::Interval(*interval),
             height(envelope.height),
             force(envelope.force),
+            Cell::Verdict(point.verdict()),
             Cell::Verdict(envelope.verdict),
+            probability(risk.as_ref()),
+            failures(risk.as_ref()),
         ]
     };
     blocks.push(Block::Table(Table::new(&POINTS, sweep.points.iter().map(point))));
@@ -48,61 +64,130 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
 fn ends(case: &Case, sweep: &Sweep) -> Table {
     let ends = [("worst", sweep.worst(case)), ("recommended", sweep.best())];
     let end = |(name, point): (&str, Option<&Point>)| {
-        let Point { interval, envelope } = *point?;
-        let name = Cell::Text(name.to_owned());
-        let values = [height(envelope.height), force(envelope.force)];
-        Some([vec![name, Cell::Interval(interval), Cell::Verdict(envelope.verdict)], values.into()].concat())
+        let point = point?;
+        let Point { interval, envelope, risk } = point;
+        let name = [Cell::Text(name.to_owned()), Cell::Interval(*interval), Cell::Verdict(point.verdict())];
+        let values = [height(envelope.height), force(envelope.force), failures(risk.as_ref())];
+        Some([name, values].concat())
     };
-    Table::new(&ENDS, ends.into_iter().filter_map(end))
+    let has_risk = sweep.points.iter().any(Point::is_sampled);
+    let columns = if has_risk { &ENDS[..] } else { &ENDS[..5] };
+    let cut = |mut cells: Vec<Cell>| {
+        cells.truncate(columns.len());
+        cells
+    };
+    Table::new(columns, ends.into_iter().filter_map(end).map(cut))
 }
-
-/// What a window and a recommended interval do not know.
-const EXACTLY: &str = "for exactly the plan's numbers: shots whose firing times and launches scatter may fail; see scatter first";
 
 /// Windows narrower than this are counted, not listed [s].
 const NARROW: f64 = 1e-3;
 
 /// The windows, how closely they were tried, and how the recommended interval was chosen.
-fn windows(sweep: &Sweep, partial: bool) -> Vec<String> {
-    if sweep.windows.is_empty() {
+fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
+    if sweep.nominal_windows.is_empty() {
         return vec!["no interval tried passes".to_owned()];
     }
     let so_far = if partial { " so far" } else { "" };
-    let (wide, narrow): (Vec<_>, Vec<_>) = sweep.windows.iter().partition(|[from, to]| to - from >= NARROW);
-    let window = |[from, to]: &[f64; 2]| {
-        format!("{} to {}", units::exact_milliseconds(*from), units::exact_milliseconds(*to))
-    };
+    let sampled: Vec<&Point> = sweep.points.iter().filter(|point| point.is_sampled()).collect();
+    let has_risk = sweep.points.iter().any(|point| point.risk.is_some());
     let mut lines = Vec::new();
-    if !wide.is_empty() {
-        let list: Vec<_> = wide.iter().copied().map(window).collect();
-        lines.push(format!("windows that pass{so_far}: {}", list.join(" · ")));
-        let inside = |point: &&Point| wide.iter().any(|[from, to]| (*from..=*to).contains(&point.interval));
+    if has_risk {
+        let risk = format!("{} %", case.plan.limits.accepted_risk_percent);
+        let accepted: Vec<&&Point> = sampled.iter().filter(|point| point.is_accepted()).collect();
+        let samples = |point: &&&Point| Some(point.risk?.confidence.samples);
+        lines.extend(listed(&format!("windows of accepted risk{so_far}"), &sweep.windows));
         lines.push(format!(
-            "all {} points tried in them pass, at most {} apart",
-            sweep.points.iter().filter(inside).count(),
-            units::exact_milliseconds(sweep.largest_gap())
+            "at {} of {} intervals sampled no more than {risk} of the samples fail",
+            accepted.len(),
+            sampled.len()
         ));
+        if let Some(least) = accepted.iter().filter_map(samples).min() {
+            lines.push(format!(
+                "inside a window they are at most {} apart; {least} samples cannot prove {risk}: `check` an interval before you choose it",
+                units::exact_milliseconds(sweep.largest_gap())
+            ));
+        }
+        lines.extend(listed(&format!("windows as planned, nothing varied{so_far}"), &sweep.nominal_windows));
+    } else {
+        lines.extend(listed(&format!("windows that pass{so_far}"), &sweep.windows));
+        let inside =
+            |point: &&Point| wide(&sweep.windows).iter().any(|[a, b]| (*a..=*b).contains(&point.interval));
+        match sweep.points.iter().filter(inside).count() {
+            0 => {}
+            count => lines.push(format!(
+                "all {count} points tried in them pass, at most {} apart",
+                units::exact_milliseconds(sweep.largest_gap())
+            )),
+        }
     }
-    if !narrow.is_empty() {
-        let narrowest = units::exact_milliseconds(NARROW);
-        lines.push(format!("not listed: {} windows and points narrower than {narrowest}", narrow.len()));
+    lines.extend(recommended(sweep, has_risk));
+    if !has_risk {
+        lines.push("judged: the shots as planned only, nothing varied".to_owned());
     }
+    lines
+}
+
+/// The recommended interval, and why it is; or why none is.
+fn recommended(sweep: &Sweep, has_risk: bool) -> Vec<String> {
+    let mut lines = Vec::new();
     if let Some(Recommended { interval, room, utilization }) = sweep.recommended {
+        let of = if has_risk {
+            "95 % of the possible shots use at most"
+        } else {
+            "the shot as planned uses at most"
+        };
         lines.push(format!(
-            "recommended {}: within {} of it at most {} of the limits are used, the most room x margin",
+            "recommended {}: within {} of it {of} {} of the limits, the most room x margin",
             units::exact_milliseconds(interval),
             units::exact_milliseconds(room),
             units::percent((1e3 * utilization).ceil() * 1e-3, 1)
         ));
+        if let Some(risk) = sweep.best().and_then(|point| point.risk) {
+            lines.push(format!(
+                "its full verdict is PASS: {}, at each look surely fewer than accepted",
+                sampled(&risk)
+            ));
+        }
+    } else if has_risk && sweep.refuted == 0 {
+        lines.push("no interval is recommended: no window of accepted risk is wider than a point".to_owned());
     }
-    lines.push(EXACTLY.to_owned());
+    if sweep.refuted > 0 {
+        let none = if sweep.recommended.is_some() {
+            "deeper intervals that do not"
+        } else {
+            "no interval is recommended: the deepest intervals do not"
+        };
+        lines.push(format!("{none} pass their full verdict: {}", sweep.refuted));
+    }
+    lines
+}
+
+fn wide(windows: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    windows.iter().copied().filter(|[from, to]| to - from >= NARROW).collect()
+}
+
+/// The wide windows, and how many others there are.
+fn listed(what: &str, windows: &[[f64; 2]]) -> Vec<String> {
+    let window = |[from, to]: [f64; 2]| {
+        format!("{} to {}", units::exact_milliseconds(from), units::exact_milliseconds(to))
+    };
+    let list: Vec<String> = wide(windows).into_iter().map(window).collect();
+    let mut lines = vec![match list.len() {
+        0 => format!("{what}: none"),
+        _ => format!("{what}: {}", list.join(" · ")),
+    }];
+    let narrow = windows.len() - list.len();
+    if narrow > 0 {
+        let narrowest = units::exact_milliseconds(NARROW);
+        lines.push(format!("not listed: {narrow} windows and points narrower than {narrowest}"));
+    }
     lines
 }
 
 /// Passes only where every interval of the range was tried and passes.
 fn conclusion(sweep: &Sweep, partial: bool) -> Conclusion {
     let (tried, count) = (sweep.points.len(), |verdict: Verdict| {
-        sweep.points.iter().filter(|point| point.envelope.verdict == verdict).count()
+        sweep.points.iter().filter(|point| point.verdict() == verdict).count()
     });
     let (failing, not_passing) = (count(Verdict::Fail), tried - count(Verdict::Pass));
     let so_far = if partial { " so far" } else { "" };
@@ -111,7 +196,16 @@ fn conclusion(sweep: &Sweep, partial: bool) -> Conclusion {
         _ if failing > 0 => Verdict::Fail,
         _ => Verdict::Undecided,
     };
+    let has_risk = sweep.points.iter().any(|point| point.risk.is_some());
     let text = match not_passing {
+        _ if has_risk => {
+            let planned = |point: &&Point| point.envelope.verdict == Verdict::Pass;
+            let planned = sweep.points.iter().filter(planned).count();
+            let best = sweep.best().map_or("none is recommended".to_owned(), |best| {
+                format!("recommended {}: PASS", units::exact_milliseconds(best.interval))
+            });
+            format!("{planned} of {tried} intervals tried{so_far} pass as planned; {best}")
+        }
         _ if tried == 0 => "no interval was tried".to_owned(),
         0 => format!("all {tried} intervals tried{so_far} pass"),
         _ => format!("{not_passing} of {tried} intervals tried{so_far} do not pass"),
@@ -128,11 +222,21 @@ mod tests {
     fn a_sweep_passes_only_where_every_interval_passes() {
         let said = |verdicts: &[Verdict], partial: bool| {
             let envelope = |verdict| Envelope { verdict, ..Envelope::UNKNOWN };
-            let point =
-                |(n, &verdict): (usize, &Verdict)| Point { interval: n as f64, envelope: envelope(verdict) };
+            let point = |(n, &verdict): (usize, &Verdict)| Point {
+                interval: n as f64,
+                envelope: envelope(verdict),
+                risk: None,
+            };
             let points = verdicts.iter().enumerate().map(point).collect();
             let Conclusion { verdict, text } = conclusion(
-                &Sweep { order: vec![0, 1], points, windows: Vec::new(), recommended: None },
+                &Sweep {
+                    order: vec![0, 1],
+                    points,
+                    nominal_windows: Vec::new(),
+                    windows: Vec::new(),
+                    recommended: None,
+                    refuted: 0,
+                },
                 partial,
             );
             format!("{}: {text}", verdict.label())

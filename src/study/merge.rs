@@ -20,6 +20,8 @@ pub enum Question {
     Orders {
         /// Between successive rows [s].
         intervals_s: Vec<f64>,
+        /// Samples of the worst and the best; `None` where only the shots as planned were asked for.
+        sampling: Option<Sampling>,
     },
     /// Samples of every option.
     Risk {
@@ -74,7 +76,7 @@ pub enum Findings {
 }
 
 /// Name of this format of shares.
-const SCHEMA: &str = "shelter.shard/4";
+const SCHEMA: &str = "shelter.shard/5";
 /// Version of this program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 

@@ -24,6 +24,7 @@ pub mod orders;
 mod progress;
 pub mod reason;
 pub mod risk;
+pub mod sampled;
 mod screen;
 pub mod size;
 pub mod swaps;

@@ -5,10 +5,13 @@
 //! 2. The hardest orders are judged as `check` does, then every order whose screened utilization plus [`REACH`] times its
 //!    error is above the worst utilization found so far, until none is left; in the same way for the best.
 //!
+//! The orders are ranked by the shots as planned. The [`ENDS`] worst and the [`ENDS`] best of them are sampled; the best gets a
+//! full verdict.
+//!
 //! With more rows the orders are searched: random orders first; then exchanges of two rows in the worst [`CLIMBERS`] of
 //! them and in the best, until no exchange leads further. A search may miss the worst order; its result says so.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use itertools::Itertools;
 use nalgebra::Vector3;
@@ -18,6 +21,8 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
 use super::batch::{judge_shot, part_of_envelopes};
+use super::risk::Sampling;
+use super::sampled::{Sampled, sample_shots};
 use super::screen::{is_sure, screen};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard};
 use crate::plan::BlastRow;
@@ -39,6 +44,9 @@ const CLIMBERS: usize = 24;
 /// Number of random orders of a search, per interval.
 const RANDOM: usize = 1000;
 
+/// Number of orders sampled at each end of the ranking.
+const ENDS: usize = 20;
+
 /// One order at one interval.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tried {
@@ -59,6 +67,8 @@ pub struct Orders {
     pub ranked: Vec<Tried>,
     /// Whether all possible orders were tried.
     pub complete: bool,
+    /// Samples of ranked orders, by their indices; `None` where only the shots as planned were asked for.
+    risks: Option<BTreeMap<usize, Sampled>>,
 }
 
 impl Orders {
@@ -68,19 +78,74 @@ impl Orders {
         tried.sort_by(|a, b| {
             utilization(case, b).total_cmp(&utilization(case, a)).then(a.number.cmp(&b.number))
         });
-        Self { ranked: tried, complete }
+        Self { ranked: tried, complete, risks: None }
+    }
+
+    /// Samples the worst and the best orders, and the best until its verdict is sure. Returns whether the time was up.
+    pub fn add_risk(
+        &mut self,
+        case: &Case,
+        sampling: &Sampling,
+        compute: &ComputeSettings,
+        progress: &Progress,
+    ) -> Result<bool, NoResult> {
+        let count = self.ranked.len();
+        let ends: Vec<usize> = (0..count).filter(|&n| n < ENDS || n + ENDS >= count).collect();
+        let shot = |&n: &usize| case.shot(&self.ranked[n].order, self.ranked[n].interval);
+        let shots: Vec<Shot> = ends.iter().map(shot).collect();
+        let mut sampled = sample_shots(case, &shots, &sampling.first_look(), compute, progress)?;
+        if let (Some(best), Some(last)) = (shots.last(), sampled.last_mut()) {
+            *last = sample_shots(case, std::slice::from_ref(best), sampling, compute, progress)?.remove(0);
+        }
+        let partial = sampled.contains(&None);
+        let known = ends.into_iter().zip(sampled).filter_map(|(n, sampled)| Some((n, sampled?)));
+        self.risks = Some(known.collect());
+        Ok(partial)
+    }
+
+    /// Whether samples were asked for.
+    pub fn has_risk(&self) -> bool {
+        self.risks.is_some()
+    }
+
+    /// What the samples of the order ranked `n` tell; `None` where none were drawn.
+    pub fn risk(&self, n: usize) -> Option<&Sampled> {
+        self.risks.as_ref()?.get(&n)
+    }
+
+    /// The verdict on the order ranked `n`: as planned, and of its samples where samples were asked for.
+    pub fn verdict_on(&self, n: usize) -> Verdict {
+        let sampled = self.risk(n).map_or(Verdict::Undecided, |risk| risk.verdict);
+        self.ranked[n].envelope.verdict.max(if self.has_risk() { sampled } else { Verdict::Pass })
     }
 
     /// The verdict on all orders; undecided where none was tried.
     pub fn verdict(&self) -> Verdict {
-        let worst = Verdict::worst(self.ranked.iter().map(|tried| tried.envelope.verdict));
+        let worst = Verdict::worst((0..self.ranked.len()).map(|n| self.verdict_on(n)));
         if self.ranked.is_empty() { Verdict::Undecided } else { worst }
     }
 
-    /// Number of orders that pass.
-    pub fn passing(&self) -> usize {
+    /// Number of orders that pass as planned.
+    pub fn passing_as_planned(&self) -> usize {
         self.ranked.iter().filter(|tried| tried.envelope.verdict == Verdict::Pass).count()
     }
+}
+
+/// Ranks the orders tried at `intervals` intervals; with a `sampling` it adds the risk of both ends.
+pub fn rank(
+    case: &Case,
+    tried: Found<Vec<Tried>>,
+    intervals: usize,
+    sampling: Option<&Sampling>,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Finding<Orders> {
+    let Found { value: tried, mut partial } = tried;
+    let mut orders = Orders::new(case, tried, intervals);
+    if let Some(sampling) = sampling {
+        partial |= orders.add_risk(case, sampling, compute, progress)?;
+    }
+    Ok(Found { value: orders, partial })
 }
 
 /// Number of possible orders, times the number of intervals.
@@ -130,7 +195,7 @@ pub fn orders(
     for one in found.value {
         let order = mirrored(&one.order, &twin);
         if order != one.order {
-            let number = one.number - one.number % per_interval + rank(&order);
+            let number = one.number - one.number % per_interval + number(&order);
             tried.push(Tried { number, order, ..one });
         }
         tried.push(one);
@@ -169,7 +234,7 @@ fn mirrored(order: &[usize], twin: &Option<Vec<usize>>) -> Vec<usize> {
 }
 
 /// Number of a permutation in lexicographic order.
-fn rank(order: &[usize]) -> usize {
+fn number(order: &[usize]) -> usize {
     let smaller = |n: usize| order[n + 1..].iter().filter(|&&later| later < order[n]).count();
     (0..order.len()).fold(0, |rank, n| rank * (order.len() - n) + smaller(n))
 }
@@ -332,7 +397,7 @@ mod tests {
     #[test]
     fn permutations_are_numbered_as_they_are_listed() {
         for (number, order) in (0..5).permutations(5).enumerate() {
-            assert_eq!(rank(&order), number);
+            assert_eq!(super::number(&order), number);
         }
     }
 }

@@ -15,7 +15,7 @@ fn json(arguments: &[&str]) -> Value {
 #[test]
 fn sweep_has_the_fields_scripts_read() {
     let plan = shipped("amur-three-rows.toml");
-    let arguments = ["sweep", &plan, "--interval", "0..60:10", "--accuracy", "draft"];
+    let arguments = ["sweep", &plan, "--nominal", "--interval", "0..60:10", "--accuracy", "draft"];
     let document = json(&[&arguments[..], &["--format", "json"]].concat());
     let points = document["points"].as_array().expect("points");
     assert!(points.len() >= 7);
@@ -68,7 +68,7 @@ fn a_share_that_is_not_as_it_was_written_is_refused() {
         // Values altered within their types: a fail that became a pass.
         (first.replace("\"fail\"", "\"pass\""), "its checksum differs"),
         (first.replacen("\"value\":1", "\"value\":2", 1), "its checksum differs"),
-        (signed_again(&first.replace("shelter.shard/3", "shelter.shard/1")), "with one version"),
+        (signed_again(&first.replace("shelter.shard/5", "shelter.shard/1")), "with one version"),
         (signed_again(&first.replacen("\"version\":\"", "\"version\":\"9", 1)), "with one version"),
         (signed_again(&first.replacen("\"seed\":1", "\"seed\":2", 1)), "another study"),
         (signed_again(&first.replacen("\"option\":0", "\"option\":99", 1)), "damaged"),
@@ -87,7 +87,7 @@ fn a_share_that_is_not_as_it_was_written_is_refused() {
 fn text_and_exit_status_of_a_sweep_agree() {
     let plan = shipped("amur-three-rows.toml");
     for (range, status, verdict) in [("0..120:20", 1, "FAIL: "), ("55..60:5", 0, "PASS: ")] {
-        let output = shelter(&["sweep", &plan, "--interval", range, "--accuracy", "draft"]);
+        let output = shelter(&["sweep", &plan, "--nominal", "--interval", range, "--accuracy", "draft"]);
         let text = String::from_utf8_lossy(&output.stdout);
         assert_eq!(output.status.code(), Some(status), "{text}");
         assert!(text.lines().last().is_some_and(|line| line.starts_with(verdict)), "{text}");
@@ -111,9 +111,10 @@ fn the_estimated_duration_is_for_terminals() {
 fn shares_merge_into_the_whole_byte_for_byte() {
     let plan = shipped("amur-three-rows.toml");
     let folder = tempfile::tempdir().expect("a folder");
-    let orders: &[&str] = &["orders", &plan, "--accuracy", "draft"];
+    let orders: &[&str] = &["orders", &plan, "--accuracy", "draft", "--nominal"];
+    let sampled: &[&str] = &["orders", &plan, "--accuracy", "draft", "--samples", "150", "--seed", "3"];
     let risk: &[&str] = &["risk", &plan, "--accuracy", "draft", "--samples", "103", "--seed", "4"];
-    for command in [orders, risk] {
+    for command in [orders, sampled, risk] {
         for format in ["json", "csv", "text"] {
             let whole = shelter(&[command, &["--format", format, "--threads", "1"]].concat());
             for of in 1..4 {
@@ -148,7 +149,7 @@ fn the_number_of_threads_changes_nothing() {
         &["risk", &plan, "--accuracy", "draft", "--samples", "240"][..],
         &["orders", &plan, "--accuracy", "draft"],
         &["size", &plan, "--accuracy", "draft"],
-        &["sweep", &plan, "--accuracy", "draft", "--interval", "0..100:20"],
+        &["sweep", &plan, "--accuracy", "draft", "--interval", "50..70:10"],
     ] {
         let [one, two] =
             ["1", "2"].map(|n| shelter(&[command, &["--threads", n, "--format", "json"]].concat()));
@@ -222,6 +223,8 @@ fn mistaken_ranges_and_shares_are_explained() {
         (&["check", &plan, "--nominal", "--samples", "9"], "cannot be used with"),
         (&["size", &plan, "--option", "none"], "the options are all at once"),
         (&["size", &plan, "--ropes", "string"], "GOST 2688-80"),
+        (&["size", &plan, "--ropes", "EN 818-2"], "fits no rope of EN 818-2"),
+        (&["sweep", &plan, "--nominal", "--seed", "9"], "cannot be used with"),
         (&["sweep", &plan, "--option", "long period"], "firing times of its own"),
         (&["merge", &plan], "--shard"),
     ] {

@@ -155,6 +155,7 @@ pub fn swept() -> StudyResult {
         Point {
             interval: n as f64 * 0.01,
             envelope: Envelope { verdict, height, force, drift: Bounded::default() },
+            risk: None,
         }
     };
     let windows = vec![[0.0, 0.03], [0.08, 0.13], [0.18, 0.24], [0.29, 0.34], [0.39, 0.44], [0.5, 0.5]];
@@ -162,8 +163,10 @@ pub fn swept() -> StudyResult {
     StudyResult::Sweep(Sweep {
         order: vec![0, 1, 2],
         points: (0..51).map(point).collect(),
+        nominal_windows: windows.clone(),
         windows,
         recommended,
+        refuted: 0,
     })
 }
 

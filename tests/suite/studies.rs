@@ -6,11 +6,11 @@ use std::ops::ControlFlow;
 use itertools::Itertools;
 use shelter::choice::Accuracy;
 use shelter::plan::{DelayScatter, LaunchTargets, Plan, Timing};
-use shelter::ropes::catalogue;
+use shelter::ropes::{Kind, catalogue};
 use shelter::study::check::{check, check_shot};
 use shelter::study::check_all::check_all;
-use shelter::study::orders::{Orders, Tried, orders, refine};
-use shelter::study::risk::Sampling;
+use shelter::study::orders::{Orders, Tried, orders, rank, refine};
+use shelter::study::risk::{Sampling, Target, sample};
 use shelter::study::size::{Demand, size};
 use shelter::study::swaps::swaps;
 use shelter::study::sweep::{GAP, Point, sweep};
@@ -56,7 +56,8 @@ fn judged(case: &Case, order: &[usize], interval: f64) -> Envelope {
 fn a_sweep_is_the_check_of_every_interval() {
     let case = case(3, "");
     let intervals = Intervals { from: 0.0, to: 0.06, step: 0.007 };
-    let swept = sweep(&case, &[0, 1, 2], &intervals, &ComputeSettings::of(&case.plan), &Progress::default());
+    let swept =
+        sweep(&case, &[0, 1, 2], &intervals, None, &ComputeSettings::of(&case.plan), &Progress::default());
     let swept = swept.expect("a result").value;
     let verdict = |point: &Point| point.envelope.verdict;
     let (mut own, mut decided) = (0, 0);
@@ -100,6 +101,110 @@ fn a_sweep_is_the_check_of_every_interval() {
     }
 }
 
+/// Windows of accepted risk, against the samples of each point drawn alone; the recommended interval has a full verdict.
+#[test]
+fn windows_of_accepted_risk_are_those_of_the_samples() {
+    let mut case = case(2, "uncertainty = { launch_common_percent = 4, friction = [0.45, 0.55] }");
+    case.plan.limits.accepted_risk_percent = 5.0;
+    let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
+    let intervals = Intervals { from: 0.0, to: 0.08, step: 0.01 };
+    let sampling = Sampling { most: 600, ..Sampling::OF_VERDICT };
+    let progress = Progress::default();
+    let swept =
+        sweep(&case, &[0, 1], &intervals, Some(&sampling), &compute, &progress).expect("a result").value;
+    let nominal = sweep(&case, &[0, 1], &intervals, None, &compute, &progress).expect("a result").value;
+    assert_eq!(swept.nominal_windows, nominal.windows);
+    let few = sampling.first_look();
+    let inside = |windows: &[[f64; 2]], at: f64| windows.iter().any(|[from, to]| (*from..=*to).contains(&at));
+    let (mut accepted, mut refused) = (0, 0);
+    for point in swept.points.iter().filter(|point| point.is_sampled()) {
+        assert!(inside(&swept.nominal_windows, point.interval));
+        let shot = case.shot(&[0, 1], point.interval);
+        let target = [Target { case: &case, shot: &shot, compute }];
+        let (risks, _) = sample(&target, &few, &progress, |_| false, &mut |_, _| {}).expect("samples");
+        let failures = risks[0].confidence.failures;
+        let sampled = point.risk.expect("sampled").confidence;
+        if sampled.samples <= 100 {
+            assert_eq!(sampled, risks[0].confidence, "the same draws at every point");
+            assert_eq!(inside(&swept.windows, point.interval), failures <= 5, "{}", point.interval);
+            (accepted, refused) =
+                (accepted + usize::from(failures <= 5), refused + usize::from(failures > 5));
+        }
+    }
+    assert!(accepted > 5 && refused > 0, "a test that can fail: {accepted} {refused}");
+    for pair in swept.points.iter().filter(|point| point.is_sampled()).collect::<Vec<_>>().windows(2) {
+        let [a, b] = [pair[0].interval, pair[1].interval];
+        let joined = swept.windows.iter().any(|[from, to]| *from <= a && b <= *to);
+        assert!(!joined || b - a <= 1.01e-3, "{a} {b}");
+    }
+    let best = swept.best().expect("a window");
+    assert_eq!((best.verdict(), best.envelope), (Verdict::Pass, judged_at(&case, &compute, best.interval)));
+    let target = [Target { case: &case, shot: &case.shot(&[0, 1], best.interval), compute }];
+    let (risks, _) = sample(&target, &sampling, &progress, |_| false, &mut |_, _| {}).expect("samples");
+    assert_eq!(risks[0].verdict(), Verdict::Pass, "the full verdict");
+    assert_eq!(best.risk.expect("sampled").confidence, risks[0].confidence);
+}
+
+fn judged_at(case: &Case, compute: &ComputeSettings, interval: f64) -> Envelope {
+    let shot = case.shot(&[0, 1], interval);
+    Envelope::of(&check_shot(case, &shot, compute, &mut |_| ControlFlow::Continue(())).expect("a result"))
+}
+
+/// A hundred samples of an interval may keep the accepted risk by luck; what its full verdict does not pass is not recommended.
+#[test]
+fn an_interval_whose_full_verdict_does_not_pass_is_not_recommended() {
+    let case = case(2, "uncertainty = { launch_common_percent = 4, friction = [0.45, 0.55] }");
+    let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
+    let intervals = Intervals { from: 0.0, to: 0.08, step: 0.01 };
+    // Too few samples for any verdict on 1 %.
+    let sampling = Sampling { least: 100, most: 120, seed: 1 };
+    let swept = sweep(&case, &[0, 1], &intervals, Some(&sampling), &compute, &Progress::default());
+    let swept = swept.expect("a result").value;
+    assert!(!swept.windows.is_empty() && swept.refuted > 0, "a test that can fail");
+    assert_eq!(swept.recommended, None);
+}
+
+/// The worst and the best orders have the samples of `risk`; the best has those of a verdict.
+#[test]
+fn the_ends_of_the_ranking_are_sampled() {
+    let case = case(4, "uncertainty = { launch_cv_percent = 5 }");
+    let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
+    let (progress, intervals) = (Progress::default(), [0.02, 0.045, 0.2]);
+    let sampling = Sampling { most: 500, ..Sampling::OF_VERDICT };
+    let tried = || orders(&case, &intervals, Shard::WHOLE, &compute, &progress).expect("a result");
+    let nominal = rank(&case, tried(), 3, None, &compute, &progress).expect("a result").value;
+    let ranked = rank(&case, tried(), 3, Some(&sampling), &compute, &progress).expect("a result").value;
+    assert_eq!((&ranked.ranked, ranked.ranked.len()), (&nominal.ranked, 72));
+    for (n, tried) in ranked.ranked.iter().enumerate() {
+        assert_eq!(nominal.verdict_on(n), tried.envelope.verdict);
+        let Some(risk) = ranked.risk(n) else {
+            assert!((20..52).contains(&n));
+            assert!(ranked.verdict_on(n) != Verdict::Pass, "not sampled, so not sure");
+            continue;
+        };
+        let sampling = if n == 71 { sampling } else { sampling.first_look() };
+        let target = [Target { case: &case, shot: &case.shot(&tried.order, tried.interval), compute }];
+        let (risks, _) = sample(&target, &sampling, &progress, |_| false, &mut |_, _| {}).expect("samples");
+        assert_eq!(risk.confidence, risks[0].confidence);
+        assert_eq!(ranked.verdict_on(n), tried.envelope.verdict.max(risks[0].verdict()));
+    }
+}
+
+/// With a swaged socket, which is for wire rope with a core of steel, no other rope is tried.
+#[test]
+fn size_offers_only_ropes_that_the_termination_fits() {
+    let cable =
+        "cable = { axial_stiffness_kn = 1400, breaking_force_kn = 60, termination = \"swaged socket\" }";
+    let case = case(2, cable);
+    let (demand, compute) = (Demand::Options(vec![0]), ComputeSettings::of(&case.plan));
+    let compute = ComputeSettings { step: Some(2e-3), ..compute };
+    let sizing = size(&case.plan, &demand, None, &compute, &Progress::default()).expect("a result").value;
+    let offered = || sizing.combinations.iter().map(|combination| combination.rope);
+    assert!(offered().all(|rope| rope.kind == Kind::SteelCore));
+    let steel = catalogue().ropes.iter().filter(|rope| rope.kind == Kind::SteelCore).count();
+    assert_eq!(offered().count(), steel);
+}
+
 /// An option with firing times of its own is a point, too, where its rows fire at one interval.
 #[test]
 fn every_option_at_one_interval_is_a_point() {
@@ -108,7 +213,8 @@ fn every_option_at_one_interval_is_a_point() {
     let case = Case::new(plan);
     let compute = ComputeSettings::of(&case.plan);
     let intervals = Intervals { from: 0.03, to: 0.035, step: 0.005 };
-    let swept = sweep(&case, &[0, 1, 2], &intervals, &compute, &Progress::default()).expect("a result").value;
+    let swept =
+        sweep(&case, &[0, 1, 2], &intervals, None, &compute, &Progress::default()).expect("a result").value;
     let point = swept.points.iter().find(|point| point.interval == 0.031_062_7);
     let checked = check(&case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a result");
     assert_eq!(point.expect("the option is tried").envelope, Envelope::of(&checked));
@@ -185,7 +291,7 @@ fn a_fixed_step_is_the_step_of_every_shot() {
         assert_eq!(tried.envelope, fixed(&tried.order, tried.interval));
     }
     let intervals = Intervals { from: 0.03, to: 0.031, step: 0.001 };
-    let swept = sweep(&case, &[0, 1, 2], &intervals, &compute, &progress).expect("a result").value;
+    let swept = sweep(&case, &[0, 1, 2], &intervals, None, &compute, &progress).expect("a result").value;
     for point in swept.points {
         assert_eq!(point.envelope, fixed(&[0, 1, 2], point.interval));
     }
@@ -324,7 +430,7 @@ fn a_study_without_time_is_partial() {
     let (three, demand) = (Sampling { least: 3, most: 3, seed: 1 }, Demand::Options(vec![0, 1]));
     let partial = |progress: &Progress| {
         [
-            sweep(&case, &[0, 1], &intervals, &compute, progress).map(|found| found.partial),
+            sweep(&case, &[0, 1], &intervals, None, &compute, progress).map(|found| found.partial),
             orders(&case, &[0.02], Shard::WHOLE, &compute, progress).map(|found| found.partial),
             size(&case.plan, &demand, Some(&three), &compute, progress).map(|found| found.partial),
             check_all(&[(&case, compute)], None, progress).map(|found| found.partial),

@@ -21,6 +21,7 @@ pub use self::ropes::RopesDocument;
 pub use self::size::SizeDocument;
 pub use self::sweep::SweepDocument;
 pub use self::trace::TraceDocument;
+use crate::study::sampled::Sampled;
 use crate::study::{Case, Envelope};
 use crate::verdict::Verdict;
 
@@ -68,6 +69,27 @@ impl Values {
             cable_force_n: envelope.force.value,
             cable_force_error_n: envelope.force.error,
             verdict: envelope.verdict,
+        }
+    }
+}
+
+/// Failure probability of a shot of a study; null where no sample was drawn.
+#[derive(Serialize)]
+struct SampledValues {
+    nominal_verdict: Verdict,
+    samples: usize,
+    probability: Option<f64>,
+    interval_95: Option<[f64; 2]>,
+}
+
+impl SampledValues {
+    fn of(nominal_verdict: Verdict, risk: Option<&Sampled>) -> Self {
+        let drawn = risk.filter(|risk| risk.is_drawn()).map(|risk| risk.confidence);
+        Self {
+            nominal_verdict,
+            samples: drawn.map_or(0, |drawn| drawn.samples),
+            probability: drawn.and_then(|drawn| drawn.probability()),
+            interval_95: drawn.map(|drawn| drawn.interval),
         }
     }
 }

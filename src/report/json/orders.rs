@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use super::{Limits, Values};
+use super::{Limits, SampledValues, Values};
 use crate::report::row_names;
-use crate::study::Case;
-use crate::study::orders::{Orders, Tried};
+use crate::study::orders::Orders;
+use crate::study::{Case, Envelope};
 
 /// The document of all orders tried.
 #[derive(Serialize)]
@@ -17,7 +17,8 @@ pub struct OrdersDocument {
     limits: Limits,
     count: usize,
     complete: bool,
-    passing: usize,
+    /// Number of orders that pass as planned.
+    nominal_passing: usize,
     worst: Option<OrderResult>,
     best: Option<OrderResult>,
     ranked: Vec<OrderResult>,
@@ -29,28 +30,36 @@ struct OrderResult {
     interval_s: f64,
     #[serde(flatten)]
     values: Values,
+    #[serde(flatten)]
+    sampled: SampledValues,
 }
 
 impl OrdersDocument {
     /// The document of all orders tried, which is partial where the time was up.
     pub fn new(case: &Case, orders: &Orders, partial: bool) -> Self {
-        let result = |tried: &Tried| OrderResult {
-            order: row_names(case, &tried.order),
-            interval_s: tried.interval,
-            values: Values::of(&tried.envelope),
+        let result = |n: usize| {
+            let tried = &orders.ranked[n];
+            let judged = Envelope { verdict: orders.verdict_on(n), ..tried.envelope };
+            OrderResult {
+                order: row_names(case, &tried.order),
+                interval_s: tried.interval,
+                values: Values::of(&judged),
+                sampled: SampledValues::of(tried.envelope.verdict, orders.risk(n)),
+            }
         };
+        let count = orders.ranked.len();
         Self {
             schema: "shelter.orders/1",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
             partial,
             limits: Limits::of(case),
-            count: orders.ranked.len(),
+            count,
             complete: orders.complete,
-            passing: orders.passing(),
-            worst: orders.ranked.first().map(result),
-            best: orders.ranked.last().map(result),
-            ranked: orders.ranked.iter().map(result).collect(),
+            nominal_passing: orders.passing_as_planned(),
+            worst: (count > 0).then(|| result(0)),
+            best: count.checked_sub(1).map(result),
+            ranked: (0..count).map(result).collect(),
         }
     }
 }

@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 
-use super::{Limits, Values};
+use super::{Limits, SampledValues, Values};
 use crate::report::row_names;
 use crate::study::Case;
+use crate::study::Envelope;
 use crate::study::sweep::{Point, Sweep};
 
 /// The document of one sweep.
@@ -17,6 +18,7 @@ pub struct SweepDocument {
     order: Vec<String>,
     limits: Limits,
     points: Vec<IntervalResult>,
+    nominal_windows_s: Vec<[f64; 2]>,
     windows_s: Vec<[f64; 2]>,
     largest_gap_s: f64,
     recommended_s: Option<f64>,
@@ -29,11 +31,15 @@ struct IntervalResult {
     interval_s: f64,
     #[serde(flatten)]
     values: Values,
+    #[serde(flatten)]
+    sampled: SampledValues,
 }
 
 impl IntervalResult {
     fn of(point: &Point) -> Self {
-        Self { interval_s: point.interval, values: Values::of(&point.envelope) }
+        let judged = Envelope { verdict: point.verdict(), ..point.envelope };
+        let sampled = SampledValues::of(point.envelope.verdict, point.risk.as_ref());
+        Self { interval_s: point.interval, values: Values::of(&judged), sampled }
     }
 }
 
@@ -48,6 +54,7 @@ impl SweepDocument {
             order: row_names(case, &sweep.order),
             limits: Limits::of(case),
             points: sweep.points.iter().map(IntervalResult::of).collect(),
+            nominal_windows_s: sweep.nominal_windows.clone(),
             windows_s: sweep.windows.clone(),
             largest_gap_s: sweep.largest_gap(),
             recommended_s: sweep.recommended.map(|recommended| recommended.interval),

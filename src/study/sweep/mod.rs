@@ -1,4 +1,5 @@
-//! Height and force against the interval between rows, and the windows of intervals that pass.
+//! Height and force against the interval between rows, the windows of intervals that pass as planned, and those of accepted
+//! risk ([`accepted`]).
 //!
 //! 1. The intervals asked for are tried, and those of the plan's own options.
 //! 2. The interval in the middle of a *gap* between two neighbours is tried, too, where the gap is wider than [`GAP`] and a
@@ -12,9 +13,13 @@
 //! screen: at steps as coarse as their distance from the limits allows. Where utilization jumps, the interval of the jump
 //! depends on the step a little; so a window is narrowed until both ends pass.
 
+mod accepted;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::batch::{envelopes, judge_shot};
+use super::risk::Sampling;
+use super::sampled::Sampled;
 use super::screen::{is_sure, screen};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, Intervals, NoResult, Progress};
 use crate::plan::Timing;
@@ -26,8 +31,27 @@ use crate::verdict::Verdict;
 pub struct Point {
     /// Interval between successive rows [s].
     pub interval: f64,
-    /// Verdict, height, force and drift at this interval.
+    /// Verdict, height, force and drift of the shot as planned.
     pub envelope: Envelope,
+    /// What the samples tell; `None` where only the shots as planned were asked for.
+    pub risk: Option<Sampled>,
+}
+
+impl Point {
+    /// The verdict: of the shot as planned, and of its samples where they were asked for.
+    pub fn verdict(&self) -> Verdict {
+        self.envelope.verdict.max(self.risk.map_or(Verdict::Pass, |risk| risk.verdict))
+    }
+
+    /// Whether samples were drawn.
+    pub fn is_sampled(&self) -> bool {
+        self.risk.is_some_and(|risk| risk.is_drawn())
+    }
+
+    /// Whether the shot as planned passes, and the failing share of its samples does not exceed the accepted risk.
+    pub fn is_accepted(&self) -> bool {
+        passes(self) && self.risk.is_some_and(|risk| risk.is_accepted())
+    }
 }
 
 /// Result of a sweep.
@@ -37,10 +61,15 @@ pub struct Sweep {
     pub order: Vec<usize>,
     /// Points in ascending order of the interval.
     pub points: Vec<Point>,
-    /// Windows: ranges of intervals [s] in which every interval tried passes; the ends were tried.
+    /// Ranges of intervals [s] in which every interval tried passes as planned; the ends were tried.
+    pub nominal_windows: Vec<[f64; 2]>,
+    /// Windows of accepted risk: ranges of intervals [s] in which every interval sampled is accepted; the ends were sampled.
+    /// Where only the shots as planned were asked for, the nominal windows.
     pub windows: Vec<[f64; 2]>,
-    /// The recommended interval; `None` where no window is wider than a point.
+    /// The recommended interval; `None` where no window is wider than a point, or no full verdict passes.
     pub recommended: Option<Recommended>,
+    /// Number of intervals whose full verdict does not pass.
+    pub refuted: usize,
 }
 
 /// An interval deep inside a safe window.
@@ -48,14 +77,17 @@ pub struct Sweep {
 pub struct Recommended {
     /// Interval between successive rows [s].
     pub interval: f64,
-    /// Room on either side [s]: every interval tried within this distance passes.
+    /// Room on either side [s]: within this distance every interval tried is inside the window.
     pub room: f64,
-    /// Greatest utilization of all intervals tried within the room, errors included.
+    /// Greatest utilization of all intervals within the room: with samples, of 95 % of the samples of each; without, of the
+    /// shot as planned, errors included.
     pub utilization: f64,
 }
 
 /// Greatest distance between neighbouring points inside a window [s].
 pub const GAP: f64 = 0.25e-3;
+/// Greatest distance between neighbouring sampled points inside a window [s].
+const APART: f64 = 1e-3;
 /// Gaps as narrow as this are not halved [s].
 const NARROWEST: f64 = GAP / 8.0;
 /// Factor on the errors of two points, with which the limits must be out of reach between them.
@@ -63,17 +95,32 @@ const CALM: f64 = 1.5;
 /// Room that counts for a recommended interval [s]: more than detonators scatter.
 const ENOUGH_ROOM: f64 = 10e-3;
 
-/// Sweeps the interval between the rows of `order`.
+/// Sweeps the interval between the rows of `order`. Without a `sampling` only the shots as planned count.
 pub fn sweep(
     case: &Case,
     order: &[usize],
     intervals: &Intervals,
+    sampling: Option<&Sampling>,
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Finding<Sweep> {
     if case.plan.blast_rows.len() < 2 {
         return Err(NoResult::SingleRow);
     }
+    let nominal = sweep_nominal(case, order, intervals, compute, progress)?;
+    let Some(sampling) = sampling else { return Ok(nominal) };
+    let own = own_intervals(case, order).into_iter().map(nanoseconds).collect();
+    accepted::add_risk(case, nominal, &own, sampling, compute, progress)
+}
+
+/// Sweeps the shots as planned.
+fn sweep_nominal(
+    case: &Case,
+    order: &[usize],
+    intervals: &Intervals,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Finding<Sweep> {
     let mut exact: BTreeSet<i64> = own_intervals(case, order).into_iter().map(nanoseconds).collect();
     let [from, to] = [intervals.from, intervals.to].map(nanoseconds);
     let mut next: BTreeSet<i64> = intervals.values().into_iter().map(nanoseconds).collect();
@@ -97,8 +144,10 @@ pub fn sweep(
         // Out of time: gaps keep the width they have, and windows end there.
         let partial = judged.contains(&None);
         tried.extend(jobs.into_iter().zip(judged).filter_map(|(at, envelope)| Some((at, envelope?))));
-        let points: Vec<Point> =
-            tried.iter().map(|(&at, &envelope)| Point { interval: in_seconds(at), envelope }).collect();
+        let points: Vec<Point> = tried
+            .iter()
+            .map(|(&at, &envelope)| Point { interval: in_seconds(at), envelope, risk: None })
+            .collect();
         next = if partial { BTreeSet::new() } else { middles(case, &points).into_iter().collect() };
         if !next.is_empty() {
             continue;
@@ -109,10 +158,10 @@ pub fn sweep(
         let told = wide.copied().chain(recommended.map(|recommended| recommended.interval)).map(nanoseconds);
         next = told.filter(|at| !exact.contains(at)).collect();
         if partial || next.is_empty() {
-            return Ok(Found {
-                value: Sweep { order: order.to_vec(), points, windows, recommended },
-                partial,
-            });
+            let nominal_windows = windows.clone();
+            let order = order.to_vec();
+            let value = Sweep { order, points, nominal_windows, windows, recommended, refuted: 0 };
+            return Ok(Found { value, partial });
         }
         exact.extend(&next);
     }
@@ -199,15 +248,26 @@ fn windows(case: &Case, points: &[Point]) -> Vec<[f64; 2]> {
     windows
 }
 
-/// The interval and the room r around it for which r × (1 − greatest utilization within r) is greatest.
+/// The interval deepest inside a window of the shots as planned, by their utilization with errors.
 fn recommend(case: &Case, points: &[Point], windows: &[[f64; 2]]) -> Option<Recommended> {
+    deepest(points, windows, |point| upper(case, point), |_| true)
+}
+
+/// The interval and the room r around it for which r × (1 − greatest utilization within r) is greatest; `used` tells the
+/// utilization of a point, and `may` which points may be recommended.
+fn deepest(
+    points: &[Point],
+    windows: &[[f64; 2]],
+    used: impl Fn(&Point) -> f64,
+    may: impl Fn(&Point) -> bool,
+) -> Option<Recommended> {
     let mut best: Option<(f64, Recommended)> = None;
     for &[from, to] in windows {
         let first = points.partition_point(|point| point.interval < from);
         let inside = &points[first..points.partition_point(|point| point.interval <= to)];
-        for (n, &Point { interval, .. }) in inside.iter().enumerate() {
+        for (n, &Point { interval, .. }) in inside.iter().enumerate().filter(|(_, point)| may(point)) {
             let most = ENOUGH_ROOM.min(interval - from).min(to - interval);
-            let (mut low, mut high, mut greatest) = (n, n, upper(case, &inside[n]));
+            let (mut low, mut high, mut greatest) = (n, n, used(&inside[n]));
             // The room grows point by point, to the nearer one first.
             loop {
                 let left = low.checked_sub(1).map_or(f64::INFINITY, |n| interval - inside[n].interval);
@@ -216,11 +276,11 @@ fn recommend(case: &Case, points: &[Point], windows: &[[f64; 2]]) -> Option<Reco
                 // The points at the end of the room count.
                 if left <= room {
                     low -= 1;
-                    greatest = greatest.max(upper(case, &inside[low]));
+                    greatest = greatest.max(used(&inside[low]));
                 }
                 if right <= room {
                     high += 1;
-                    greatest = greatest.max(upper(case, &inside[high]));
+                    greatest = greatest.max(used(&inside[high]));
                 }
                 let score = room * (1.0 - greatest);
                 if best.is_none_or(|(least, _)| score > least) && score > 0.0 {
@@ -242,13 +302,15 @@ impl Sweep {
         [at(self.points.first()), at(self.points.last())]
     }
 
-    /// Greatest distance between neighbouring points inside any window [s].
+    /// Greatest distance between neighbouring points inside any window [s]; of the sampled points where there are samples.
     pub fn largest_gap(&self) -> f64 {
+        let counts = |point: &&Point| point.risk.is_none_or(|risk| risk.is_drawn());
+        let points: Vec<Point> = self.points.iter().filter(counts).copied().collect();
         let gap = |pair: &[Point]| {
             let inside = |[from, to]: &[f64; 2]| *from <= pair[0].interval && pair[1].interval <= *to;
             self.windows.iter().any(inside).then(|| pair[1].interval - pair[0].interval)
         };
-        self.points.windows(2).filter_map(gap).fold(0.0, f64::max)
+        points.windows(2).filter_map(gap).fold(0.0, f64::max)
     }
 
     /// The point of the greatest utilization.
@@ -271,7 +333,7 @@ mod tests {
 
     /// Tries a shelter whose height is `height` [m] at an interval [ms], limit 1 m, at first every `step` [ms] up to 20 ms.
     fn tried(step: f64, height: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
-        let text = include_str!("../../plans/amur-three-rows.toml")
+        let text = include_str!("../../../plans/amur-three-rows.toml")
             .replace("flight_height_m = 1.8", "flight_height_m = 1");
         let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
         let point = |at: i64| {
@@ -279,7 +341,7 @@ mod tests {
             let verdict = if value > 1.0 { Verdict::Fail } else { Verdict::Pass };
             let height = Bounded { value, error: 0.0 };
             let envelope = Envelope { verdict, height, force: Bounded::default(), drift: Bounded::default() };
-            Point { interval: in_seconds(at), envelope }
+            Point { interval: in_seconds(at), envelope, risk: None }
         };
         let count = (20.0 / step) as i64;
         let mut points: Vec<Point> = (0..=count).map(|n| point((n as f64 * step * 1e6) as i64)).collect();
@@ -323,7 +385,7 @@ mod tests {
             5.0..=12.0 => 0.6,
             _ => 1.5,
         };
-        let text = include_str!("../../plans/amur-three-rows.toml")
+        let text = include_str!("../../../plans/amur-three-rows.toml")
             .replace("flight_height_m = 1.8", "flight_height_m = 1");
         let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
         let points: Vec<Point> = (0..=150)
@@ -333,7 +395,7 @@ mod tests {
                 let height = Bounded { value, error: 0.0 };
                 let envelope =
                     Envelope { verdict, height, force: Bounded::default(), drift: Bounded::default() };
-                Point { interval: in_seconds(i64::from(n) * 100_000), envelope }
+                Point { interval: in_seconds(i64::from(n) * 100_000), envelope, risk: None }
             })
             .collect();
         let windows = windows(&case, &points);

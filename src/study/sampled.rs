@@ -1,0 +1,83 @@
+//! Shots of a study sampled: few samples of many shots, or as many as a verdict needs.
+
+use super::confidence::Confidence;
+use super::risk::{FOR_BANDS, Risk, Sample, Sampling, Target, sample};
+use super::{Case, ComputeSettings, NoResult, Progress};
+use crate::scene::Shot;
+use crate::verdict::{Limits, Verdict};
+
+/// Number of shots sampled together; their samples are not kept.
+const AT_ONCE: usize = 64;
+
+/// What the samples of one shot tell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampled {
+    /// Bounds of the failure probability.
+    pub confidence: Confidence,
+    /// Verdict of the samples.
+    pub verdict: Verdict,
+    /// 95th percentile of the samples' utilization: the greatest value over its limit.
+    pub utilization: f64,
+}
+
+impl Sampled {
+    /// What no sample tells.
+    pub fn nothing(case: &Case) -> Self {
+        let confidence = Risk::new(case).confidence;
+        Self { confidence, verdict: Verdict::Undecided, utilization: f64::INFINITY }
+    }
+
+    fn of(risk: &Risk, limits: &Limits) -> Self {
+        let mut shares: Vec<f64> = risk.samples.iter().map(|sample| utilization(sample, limits)).collect();
+        shares.sort_by(f64::total_cmp);
+        let rank = (0.95 * shares.len() as f64).ceil() as usize;
+        let utilization = shares.get(rank.saturating_sub(1)).copied().unwrap_or(f64::INFINITY);
+        Self { confidence: risk.confidence, verdict: risk.verdict(), utilization }
+    }
+
+    /// Whether any sample was drawn.
+    pub fn is_drawn(&self) -> bool {
+        self.confidence.samples > 0
+    }
+
+    /// Whether the failing share does not exceed the accepted risk; undecided samples count as failing.
+    pub fn is_accepted(&self) -> bool {
+        let Confidence { accepted, samples, failures, undecided, .. } = self.confidence;
+        let failing = (failures + undecided) as f64;
+        samples > 0 && self.verdict != Verdict::Fail && failing <= accepted * samples as f64 + 1e-9
+    }
+}
+
+/// Greatest value of a sample over its limit.
+fn utilization(sample: &Sample, limits: &Limits) -> f64 {
+    let drift = limits.drift.map_or(0.0, |limit| sample.drift / limit);
+    (sample.height / limits.height).max(sample.force / limits.force).max(drift)
+}
+
+impl Sampling {
+    /// Samples of a first look at many shots: 100 of each, fewer of those that surely fail too often.
+    pub fn first_look(&self) -> Self {
+        Self { least: 0, most: FOR_BANDS.min(self.most), ..*self }
+    }
+}
+
+/// Samples shots of one case, all with the same draws; `None` for the shots that the time did not suffice for.
+pub fn sample_shots(
+    case: &Case,
+    shots: &[Shot],
+    sampling: &Sampling,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<Vec<Option<Sampled>>, NoResult> {
+    let mut all = Vec::with_capacity(shots.len());
+    for shots in shots.chunks(AT_ONCE) {
+        let targets: Vec<_> = shots.iter().map(|shot| Target { case, shot, compute: *compute }).collect();
+        let (risks, _) = sample(&targets, sampling, progress, |_| false, &mut |_, _| {})?;
+        let is_complete = |risk: &Risk| {
+            let (drawn, verdict) = (risk.samples.len(), risk.confidence.verdict());
+            drawn >= sampling.most || drawn >= sampling.least && verdict != Verdict::Undecided
+        };
+        all.extend(risks.iter().map(|risk| is_complete(risk).then(|| Sampled::of(risk, &case.limits))));
+    }
+    Ok(all)
+}

@@ -1,0 +1,142 @@
+//! The risk of a sweep: windows of accepted risk, and an interval whose verdict is a full one.
+//!
+//! 1. Of the intervals that pass as planned, some about [`APART`] apart are sampled, with the same draws at each.
+//! 2. A window of accepted risk is a row of sampled intervals, neighbours within one window of the shot as planned, whose
+//!    failing share does not exceed the accepted risk. Its few samples at each interval prove no small risk.
+//! 3. The interval deepest inside a window (largest product of room and unused utilization, of 95 % of the samples) gets a
+//!    full verdict. Where that does not pass, the next deepest is tried, at most [`TRIES`] in all. Where it fails, the
+//!    windows end there.
+
+use std::collections::BTreeSet;
+
+use super::{APART, Point, Sweep, deepest, nanoseconds, windows};
+use crate::scene::Shot;
+use crate::study::batch::judge_shot;
+use crate::study::risk::Sampling;
+use crate::study::sampled::{Sampled, sample_shots};
+use crate::study::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress};
+use crate::verdict::Verdict;
+
+/// Most intervals that get a full verdict.
+const TRIES: usize = 6;
+
+/// Adds risk to a sweep of the shots as planned; the intervals `own` [ns] of the plan's options are among those sampled.
+pub fn add_risk(
+    case: &Case,
+    nominal: Found<Sweep>,
+    own: &BTreeSet<i64>,
+    sampling: &Sampling,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Finding<Sweep> {
+    let Found { value: mut swept, mut partial } = nominal;
+    let shot = |point: &Point| case.shot(&swept.order, point.interval);
+    let chosen = choose(&swept.points, &swept.nominal_windows, own);
+    let shots: Vec<Shot> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
+    let sampled = sample_shots(case, &shots, &sampling.first_look(), compute, progress)?;
+    partial |= sampled.contains(&None);
+    swept.points.iter_mut().for_each(|point| point.risk = Some(Sampled::nothing(case)));
+    for (&n, sampled) in chosen.iter().zip(sampled) {
+        swept.points[n].risk = sampled.or(swept.points[n].risk);
+    }
+    swept.recommended = None;
+    let mut tried = BTreeSet::new();
+    loop {
+        swept.nominal_windows = windows(case, &swept.points);
+        swept.windows = accepted_windows(&swept.points, &swept.nominal_windows);
+        if tried.len() == TRIES || partial {
+            break;
+        }
+        let drawn: Vec<Point> = swept.points.iter().filter(|point| point.is_sampled()).copied().collect();
+        let used = |point: &Point| point.risk.map_or(f64::INFINITY, |risk| risk.utilization);
+        let open = |point: &Point| !tried.contains(&nanoseconds(point.interval));
+        let Some(candidate) = deepest(&drawn, &swept.windows, used, open) else { break };
+        let Some(n) = swept.points.iter().position(|point| point.interval == candidate.interval) else {
+            break;
+        };
+        tried.insert(nanoseconds(candidate.interval));
+        match judge(case, &case.shot(&swept.order, candidate.interval), sampling, compute, progress)? {
+            None => partial = true,
+            Some((envelope, risk)) => {
+                let point = &mut swept.points[n];
+                (point.envelope, point.risk) = (envelope, risk.or(point.risk));
+                if point.verdict() == Verdict::Pass {
+                    swept.recommended = Some(candidate);
+                    break;
+                }
+                swept.refuted += 1;
+            }
+        }
+    }
+    Ok(Found { value: swept, partial })
+}
+
+/// The full verdict on a shot: as planned, and where that passes, its samples; `None` where the time was up.
+fn judge(
+    case: &Case,
+    shot: &Shot,
+    sampling: &Sampling,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<Option<(Envelope, Option<Sampled>)>, NoResult> {
+    let envelope = match judge_shot(case, shot, compute, progress) {
+        Err(NoResult::OutOfTime) => return Ok(None),
+        Err(NoResult::Failed(_)) => Envelope::UNKNOWN,
+        judged => judged?,
+    };
+    if envelope.verdict != Verdict::Pass {
+        return Ok(Some((envelope, None)));
+    }
+    let sampled = sample_shots(case, std::slice::from_ref(shot), sampling, compute, progress)?.remove(0);
+    Ok(sampled.map(|sampled| (envelope, Some(sampled))))
+}
+
+/// Indices of the points to sample: the plan's own intervals, both ends of each window, and points between them at most
+/// [`APART`] apart. Of a window narrower than that its first point, where that is as far from the last one chosen.
+fn choose(points: &[Point], windows: &[[f64; 2]], own: &BTreeSet<i64>) -> Vec<usize> {
+    let mut chosen: Vec<usize> = Vec::new();
+    for &[from, to] in windows {
+        let first = points.partition_point(|point| point.interval < from);
+        let last = points.partition_point(|point| point.interval <= to) - 1;
+        let is_wide = to - from >= APART;
+        let is_own = |n: usize| own.contains(&nanoseconds(points[n].interval));
+        let beyond = |before: Option<&usize>, at: f64| {
+            before.is_none_or(|&before| at - points[before].interval > 1.001 * APART)
+        };
+        for n in first..=last {
+            let next = points.get(n + 1).map_or(f64::INFINITY, |point| point.interval);
+            let due = match is_wide {
+                true => n == first || n == last || beyond(chosen.last(), next),
+                false => n == first && beyond(chosen.last(), from),
+            };
+            if due || is_own(n) {
+                chosen.push(n);
+            }
+        }
+    }
+    chosen
+}
+
+/// Windows of accepted risk [s], each inside one of `nominal`; the ends were sampled.
+fn accepted_windows(points: &[Point], nominal: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut windows: Vec<[f64; 2]> = Vec::new();
+    for &[from, to] in nominal {
+        let inside = |point: &&Point| point.is_sampled() && (from..=to).contains(&point.interval);
+        let mut before: Option<f64> = None;
+        for point in points.iter().filter(inside) {
+            let at = point.interval;
+            before = match (before, windows.last_mut()) {
+                _ if !point.is_accepted() => None,
+                (Some(before), Some(window)) if at - before <= 1.01 * APART => {
+                    window[1] = at;
+                    Some(at)
+                }
+                _ => {
+                    windows.push([at; 2]);
+                    Some(at)
+                }
+            };
+        }
+    }
+    windows
+}
