@@ -100,7 +100,7 @@ fn tried(sizing: &Sizing) -> Vec<String> {
     }
     if sizing.fragile() > 0 {
         lines.push(format!(
-            "{} not chosen: the shots as planned pass, but not surely few enough of the possible shots fail",
+            "{} not chosen: the shots as planned pass, but more of the possible shots may fail than accepted",
             sizing.fragile()
         ));
     }
@@ -118,7 +118,7 @@ fn conclusion(sizing: &Sizing) -> Conclusion {
         Some((found, trial)) => (Verdict::Pass, format!("lightest {}", sentence(found, &trial))),
         None if open => (Verdict::Undecided, "no combination tried so far holds".to_owned()),
         None if sizing.fragile() > 0 => {
-            (Verdict::Fail, "no combination holds but for the shots as planned".to_owned())
+            (Verdict::Fail, "no combination holds for more than the shots as planned".to_owned())
         }
         None => (Verdict::Fail, "no combination holds".to_owned()),
     };

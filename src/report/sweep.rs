@@ -94,18 +94,21 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
     if has_risk {
         let risk = format!("{} %", case.plan.limits.accepted_risk_percent);
         let accepted: Vec<&&Point> = sampled.iter().filter(|point| point.is_accepted()).collect();
-        let samples = |point: &&&Point| Some(point.risk?.confidence.samples);
         lines.extend(listed(&format!("windows of accepted risk{so_far}"), &sweep.windows));
         lines.push(format!(
             "at {} of {} intervals sampled no more than {risk} of the samples fail",
             accepted.len(),
             sampled.len()
         ));
-        if let Some(least) = accepted.iter().filter_map(samples).min() {
-            lines.push(format!(
-                "inside a window they are at most {} apart; {least} samples cannot prove {risk}: `check` an interval before you choose it",
-                units::exact_milliseconds(sweep.largest_gap())
-            ));
+        if !accepted.is_empty() {
+            let apart = units::exact_milliseconds(sweep.largest_gap());
+            lines.push(format!("inside a window the intervals sampled are at most {apart} apart"));
+        }
+        let open = accepted.iter().filter(|point| point.verdict() == Verdict::Undecided);
+        let samples = open.filter_map(|point| Some(point.risk?.confidence.samples));
+        if let Some(few) = samples.min() {
+            lines
+                .push(format!("{few} samples cannot prove {risk}: `check` an interval before you choose it"));
         }
         lines.extend(listed(&format!("windows as planned, nothing varied{so_far}"), &sweep.nominal_windows));
     } else {

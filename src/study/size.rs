@@ -138,7 +138,8 @@ impl Sizing {
     }
 }
 
-/// Tries the combinations that the plan allows, of ropes that its termination fits, until the time is up. Without a `sampling` only the shots as planned count.
+/// Tries the combinations that the plan allows, of ropes that its termination fits, until the time is up. Without a `sampling`
+/// only the shots as planned count.
 pub fn size(
     plan: &Plan,
     demand: &Demand,
@@ -146,7 +147,7 @@ pub fn size(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Finding<Sizing> {
-    let own = catalogue().ropes.iter().find(|rope| plan.cable.rope.as_ref() == Some(&rope.name));
+    let own = plan.cable.rope.as_ref().and_then(|name| catalogue().find(name));
     let wanted = plan.size.family.as_ref().or(own.map(|rope| &rope.family));
     let family = |rope: &&Rope| wanted.is_none_or(|family| *family == rope.family);
     let termination = plan.cable.termination.as_ref().and_then(|name| catalogue().termination(name));
