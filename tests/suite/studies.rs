@@ -126,10 +126,10 @@ fn risk_at(case: &Case, interval: f64, sampling: &Sampling, compute: ComputeSett
     drawn.expect("samples").0.remove(0)
 }
 
-/// Windows of accepted risk, against the samples of each interval drawn alone; the recommended interval has a full verdict.
+/// Windows of accepted risk, against the samples of each interval drawn alone.
 #[test]
 fn windows_of_accepted_risk_are_those_of_the_samples() {
-    let case = risky_case(1.08);
+    let case = risky_case(1.06);
     let (swept, sampling, compute) = risky_sweep(&case);
     let inside = |windows: &[[f64; 2]], at: f64| windows.iter().any(|[from, to]| (*from..=*to).contains(&at));
     let sampled: Vec<&Point> = swept.points.iter().filter(|point| point.is_sampled()).collect();
@@ -137,6 +137,7 @@ fn windows_of_accepted_risk_are_those_of_the_samples() {
     for point in &sampled {
         assert!(inside(&swept.nominal_windows, point.interval));
         let confidence = point.risk.expect("sampled").confidence;
+        // More samples have the few intervals that got a full verdict.
         if confidence.samples <= 100 {
             let alone = risk_at(&case, point.interval, &sampling.first_look(), compute).confidence;
             assert_eq!(confidence, alone, "the same draws at every interval");
@@ -145,12 +146,19 @@ fn windows_of_accepted_risk_are_those_of_the_samples() {
             (accepted, refused) = (accepted + usize::from(keeps), refused + usize::from(!keeps));
         }
     }
-    assert!(accepted > 5 && refused > 0, "a test that can fail: {accepted} {refused}");
+    assert!(accepted > 5 && refused > 5, "a test that can fail: {accepted} {refused}");
     for pair in sampled.windows(2) {
         let [a, b] = [pair[0].interval, pair[1].interval];
         let joined = swept.windows.iter().any(|[from, to]| *from <= a && b <= *to);
         assert!(!joined || b - a <= 1.01e-3, "{a} {b}");
     }
+}
+
+/// The recommended interval passes as `check` judges it: as planned, and by as many samples as its verdict needs.
+#[test]
+fn the_recommended_interval_has_a_full_verdict() {
+    let case = risky_case(1.08);
+    let (swept, sampling, compute) = risky_sweep(&case);
     let best = swept.best().expect("a window");
     let shot = case.shot(&[0, 1, 2], best.interval);
     let checked = check_shot(&case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
