@@ -71,6 +71,12 @@ pub fn value_and_error(value: f64, error: f64, unit: Unit) -> String {
     format!("{value:.decimals$} ± {shown:.decimals$}")
 }
 
+/// A value with the digits that its error leaves, without the error: `132`.
+pub fn known(value: f64, error: f64, unit: Unit) -> String {
+    let both = value_and_error(value, error, unit);
+    both.split(' ').next().unwrap_or_default().to_owned()
+}
+
 /// A value without an error: `1.500`.
 pub fn value(value: f64, unit: Unit) -> String {
     format!("{:.3}", value / unit.size())

@@ -227,7 +227,7 @@ mod tests {
         assert_eq!(new, PLAN.replace("interval_ms = 9", "interval_ms = 12.5"));
         let rope = find(PLAN, "cable", None, "rope");
         let new = set(PLAN, &rope.path, "GOST 2688-80 15").expect("a value");
-        assert_eq!(new, PLAN.replace("\"GOST 2688-80 14\"  ", "\"GOST 2688-80 15\"  "));
+        assert_eq!(new, PLAN.replace("\"GOST 2688-80 14 1960\"", "\"GOST 2688-80 15\""));
         assert!(set(PLAN, &field.path, "nine").is_err());
         let windows = PLAN.replace('\n', "\r\n");
         let new = set(&windows, &field.path, "12.5").expect("a value");

@@ -11,6 +11,8 @@ use crate::choice::Detonator;
 pub struct Uncertainty {
     /// Whether the plan has no `[uncertainty]`: every input is assumed known to 1 %.
     pub assumed: bool,
+    /// Whether `[uncertainty]` leaves out an input, which is then assumed known to 1 %.
+    pub incomplete: bool,
     /// Scatter of every detonator.
     pub delay: DelayScatter,
     /// Nominal delay of the detonator in every hole, which scatters too [ms]; 0: no such detonator.

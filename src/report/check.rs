@@ -8,11 +8,12 @@ use crate::plan::DelayOption;
 use crate::study::check::Checked;
 use crate::study::check_all::{Results, verdict};
 use crate::study::judgement::Judgement;
+use crate::study::margin::LaunchMargin;
 use crate::study::reason::Reason;
 use crate::study::risk::{Risk, Sample};
 use crate::study::{Case, NoResult};
-use crate::units::Unit;
-use crate::verdict::Verdict;
+use crate::units::{self, Unit};
+use crate::verdict::{Estimate, Verdict};
 
 /// A delay option and its result.
 struct OptionRow<'a> {
@@ -58,7 +59,7 @@ impl OptionRow<'_> {
     }
 }
 
-fn fields<'a>() -> [Field<OptionRow<'a>>; 25] {
+fn fields<'a>() -> [Field<OptionRow<'a>>; 28] {
     let words = |heading| Column::words(&[], heading).shown(Shown::Text);
     [
         Field::new(Column::scripts(&["plan"]), |row| Cell::Text(row.case.source.path.clone())),
@@ -67,12 +68,17 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 25] {
             Cell::Text(row.firing())
         }),
         Field::new(VERDICT, |row| Cell::Verdict(row.verdict())),
+        Field::new(Column::scripts(&["judged"]), |row| {
+            row.result
+                .as_ref()
+                .map_or(Cell::Nothing, |judged| Cell::Text(judged_by(row.case, judged).to_owned()))
+        }),
         Field::new(Column::scripts(&["nominal_verdict"]), |row| {
             row.of(|checked| Cell::Verdict(checked.verdict))
         }),
         Field::new(FAILURES, |row| row.sampled(|risk| Cell::Probability(risk.confidence.interval))),
         Field::new(HEIGHT, |row| row.of(|checked| height(checked.height.into()))),
-        Field::new(NOMINAL_HEIGHT, |row| row.of(|checked| Cell::Value(checked.height.value, Unit::Metre))),
+        Field::new(NOMINAL_HEIGHT, |row| row.of(|checked| planned(checked.height, Unit::Metre))),
         Field::new(HEIGHT_BAND, |row| row.band(|sample| sample.height, Unit::Metre)),
         Field::new(Column::scripts(&["flight_height_at_s"]), |row| {
             row.of(|checked| Cell::Number(checked.height.at))
@@ -81,7 +87,7 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 25] {
             row.of(|checked| Cell::Text(row.case.scene().tire[checked.height.index].to_string()))
         }),
         Field::new(FORCE, |row| row.of(|checked| force(checked.force.into()))),
-        Field::new(NOMINAL_FORCE, |row| row.of(|checked| Cell::Value(checked.force.value, Unit::Kilonewton))),
+        Field::new(NOMINAL_FORCE, |row| row.of(|checked| planned(checked.force, Unit::Kilonewton))),
         Field::new(FORCE_BAND, |row| row.band(|sample| sample.force, Unit::Kilonewton)),
         Field::new(Column::scripts(&["cable_force_at_s"]), |row| {
             row.of(|checked| Cell::Number(checked.force.at))
@@ -92,9 +98,20 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 25] {
         Field::new(Column::numbers(&["cable_safety_factor"], "factor", Unit::One), |row| {
             row.of(|checked| Cell::Factor(checked.safety_factor))
         }),
+        Field::new(Column::scripts(&["low_95_any_cable_breaks", "high_95_any_cable_breaks"]), |row| {
+            row.sampled(|risk| Cell::Probability(risk.breaks.interval))
+        }),
+        Field::new(Column::scripts(&["launch_margin"]), |row| {
+            let judged = row.result.as_ref().ok();
+            match judged.and_then(|judged| judged.launch_margin) {
+                Some(LaunchMargin::UpTo(share)) => Cell::Number(share),
+                Some(LaunchMargin::Wide) | None => Cell::Nothing,
+            }
+        }),
         Field::new(LAUNCH_MARGIN, |row| {
             let judged = row.result.as_ref().ok();
-            let margin = judged.and_then(|judged| judged.launch_margin);
+            let passes = judged.filter(|judged| judged.nominal.verdict == Verdict::Pass);
+            let margin = passes.and_then(|judged| judged.launch_margin);
             margin.map_or(Cell::Nothing, |margin| Cell::Text(launch_margin(margin)))
         }),
         Field::new(DRIFT, |row| {
@@ -134,7 +151,7 @@ const FORCE_BAND: Column =
     Column::numbers(&["cable_force_p05_n", "cable_force_p95_n"], "force", Unit::Kilonewton)
         .under("5 to 95 %");
 /// How much faster the tires may leave.
-const LAUNCH_MARGIN: Column = Column::words(&["launch_margin"], "launch");
+const LAUNCH_MARGIN: Column = Column::words(&[], "launches").under("pass up to");
 /// Greatest drift and its error.
 const DRIFT: Column = Column::numbers(&["drift_m", "drift_error_m"], "drift", Unit::Metre);
 
@@ -166,6 +183,20 @@ pub fn report(case: &Case, results: &Results, any: bool) -> Report {
         blocks: vec![Block::Table(table)],
         conclusion: Some(Conclusion { verdict: verdict(results, any), text }),
         ..limit_facts(case)
+    }
+}
+
+/// A value of the shot as planned, with no more digits than its error leaves.
+fn planned(of: Estimate, unit: Unit) -> Cell {
+    Cell::Text(units::known(of.value, of.error, unit))
+}
+
+/// What was judged, as scripts read it.
+pub fn judged_by(case: &Case, judged: &Judgement) -> &'static str {
+    match (&judged.risk, case.plan.uncertainty.assumed) {
+        (None, _) => "nominal",
+        (Some(_), true) => "default",
+        (Some(_), false) => "plan",
     }
 }
 

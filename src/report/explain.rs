@@ -51,9 +51,17 @@ pub fn risk_detail(case: &Case, judged: &Judgement) -> Option<Detail> {
     let risk = judged.risk.as_ref()?;
     let accepted = format!("{} %", units::short(case.plan.limits.accepted_risk_percent));
     let (failures, samples) = (risk.confidence.failures, risk.confidence.samples);
-    let shots = format!("{failures} of {samples} possible shots fail");
+    if samples == 0 {
+        let text = "no sample of the possible shots was drawn: the time was up".to_owned();
+        return Some(Detail { verdict: Verdict::Undecided, text });
+    }
+    let shots = format!("{failures} of {samples} possible shots fail{}", limits_passed(case, risk));
     let verdict = risk.verdict();
     let text = match verdict {
+        Verdict::Pass if judged.samples_fall_short() => {
+            let text = "the shot as planned lies above all samples: the step of samples is too long for this motion; choose accuracy \"reference\"";
+            return Some(Detail { verdict: Verdict::Undecided, text: text.to_owned() });
+        }
         Verdict::Pass => return None,
         Verdict::Fail => format!("{shots}, surely more than the {accepted} accepted"),
         Verdict::Undecided if risk.audit_differs() => {
@@ -68,14 +76,27 @@ pub fn risk_detail(case: &Case, judged: &Judgement) -> Option<Detail> {
     Some(Detail { verdict, text })
 }
 
-/// What decides how a shot turns out: `slack 61 %, launch 24 %, the rest hole by hole and by interplay`.
+/// How many samples go past each limit: ` (cable force 12, flight height 3)`.
+fn limits_passed(case: &Case, risk: &Risk) -> String {
+    let past = |of: fn(&Sample) -> f64, limit: f64| risk.samples.iter().filter(|s| of(s) > limit).count();
+    let counts = [
+        ("flight height", past(|sample| sample.height, case.limits.height)),
+        ("cable force", past(|sample| sample.force, case.limits.force)),
+        ("drift", case.limits.drift.map_or(0, |limit| past(|sample| sample.drift, limit))),
+    ];
+    let words: Vec<String> =
+        counts.iter().filter(|(_, n)| *n > 0).map(|(name, n)| format!("{name} {n}")).collect();
+    if words.is_empty() { String::new() } else { format!(" ({})", words.join(", ")) }
+}
+
+/// What decides how a shot turns out: `slack 61 %, launch 24 %, hole by hole and interplay 13 %`.
 pub fn inputs(risk: &Risk, limits: &Limits) -> Option<String> {
     let shares = shares(risk, limits)?;
     let rest = 1.0 - shares.iter().map(|(_, share)| share).sum::<f64>();
     let worth = shares.iter().filter(|(_, share)| *share >= LEAST_SHARE);
     let mut words: Vec<String> =
         worth.map(|(input, share)| format!("{} {}", input_name(*input), units::percent(*share, 0))).collect();
-    words.push(format!("hole by hole {}", units::percent(rest.max(0.0), 0)));
+    words.push(format!("hole by hole and interplay {}", units::percent(rest.max(0.0), 0)));
     Some(words.join(", "))
 }
 
@@ -91,7 +112,7 @@ fn input_name(input: Input) -> &'static str {
     }
 }
 
-/// How much faster the tires may leave, in words: `fails from +5 %`.
+/// How much faster the tires may leave, in words: `to +4 %`.
 pub fn launch_margin(margin: LaunchMargin) -> String {
     match margin {
         LaunchMargin::UpTo(share) => format!("to +{}", units::percent(share, 0)),

@@ -55,9 +55,15 @@ fn limit_facts(case: &Case) -> Report {
     if let Some(duration) = plan.simulation.duration_s {
         facts += &format!(" · followed for {duration} s at most");
     }
+    facts += &format!(" · accepted risk {} %", plan.limits.accepted_risk_percent);
+    facts += match (plan.uncertainty.assumed, plan.uncertainty.incomplete) {
+        (true, _) => " · inputs assumed known to 1 %",
+        (_, true) => " · inputs that [uncertainty] leaves out assumed known to 1 %",
+        _ => "",
+    };
     Report {
         title: format!("{} · {}", case.title(), case.source.path),
-        facts: vec![facts],
+        facts: std::iter::once(facts).chain(notes::ranges(case)).collect(),
         ..Report::default()
     }
 }

@@ -93,11 +93,8 @@ pub fn report(case: &Case, results: &Results, sampling: &Sampling, partial: bool
     if let Some(judged) = results.iter().flatten().next() {
         text += &format!(" · {}", compute_label(&judged.nominal.compute));
     }
-    let verdict = match verdict(results, false) {
-        Verdict::Pass if partial => Verdict::Undecided,
-        verdict => verdict,
-    };
-    Report { blocks, conclusion: Some(Conclusion { verdict, text }), ..limit_facts(case) }
+    let conclusion = Some(Conclusion { verdict: verdict(results, false), text });
+    Report { blocks, conclusion, ..limit_facts(case) }
 }
 
 fn complete_row(row: &mut Row, case: &Case, result: &Result<Judgement, NoResult>) {

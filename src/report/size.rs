@@ -133,7 +133,7 @@ pub(super) fn nearest(sizing: &Sizing) -> Option<(&Combination, Trial)> {
 
 fn sentence(combination: &Combination, trial: &Trial) -> String {
     let risk = match trial.risk {
-        None => String::new(),
+        None => " (the plan's own numbers only)".to_owned(),
         Some(risk) => format!(", {} of {} possible shots fail", risk.failures, risk.samples),
     };
     format!(

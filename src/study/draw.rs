@@ -75,13 +75,13 @@ impl Random {
         Self(random)
     }
 
-    /// Moves to the draws of a place. No place needs as many words as lie before the next.
+    /// Moves to the draws of a place. A tire has room for a hundred thousand holes.
     fn at(&mut self, place: Place) -> &mut ChaCha8Rng {
         let word = match place {
             Place::WholeShot => 0,
             Place::Gaps => 1 << 32,
-            Place::Tire(tire) => (1 << 40) + 128 * tire as u128,
-            Place::Cable(cable) => (1 << 50) + 16 * cable as u128,
+            Place::Tire(tire) => (1 << 44) + ((tire as u128) << 20),
+            Place::Cable(cable) => (1 << 60) + ((cable as u128) << 6),
         };
         self.0.set_word_pos(word);
         &mut self.0

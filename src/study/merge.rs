@@ -76,7 +76,7 @@ pub enum Findings {
 }
 
 /// Name of this format of shares.
-const SCHEMA: &str = "shelter.shard/5";
+const SCHEMA: &str = "shelter.shard/6";
 /// Version of this program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 

@@ -41,10 +41,10 @@ pub struct Sample {
     pub number: usize,
     /// Whether it keeps every limit; undecided where the run ends too early, fails, or loses energy.
     pub verdict: Verdict,
-    /// The verdict at a finer step, for a sample of the audit.
-    pub finer: Option<Verdict>,
-    /// Whether a cable breaks.
-    pub breaks: bool,
+    /// The same sample at a finer step, for a sample of the audit.
+    pub finer: Option<Finer>,
+    /// Fail where a cable breaks; undecided where the sample is, and none broke.
+    pub breaks: Verdict,
     /// Greatest flight height [m].
     #[serde(deserialize_with = "or_infinite")]
     pub height: f64,
@@ -58,10 +58,28 @@ pub struct Sample {
     pub inputs: [f64; Input::ALL.len()],
 }
 
+/// A sample at the finer step of the audit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Finer {
+    /// Whether it keeps every limit.
+    pub verdict: Verdict,
+    /// Greatest flight height [m].
+    #[serde(deserialize_with = "or_infinite")]
+    pub height: f64,
+    /// Greatest cable force [N].
+    #[serde(deserialize_with = "or_infinite")]
+    pub force: f64,
+    /// Greatest drift at the end [m].
+    #[serde(deserialize_with = "or_infinite")]
+    pub drift: f64,
+}
+
 /// One sample in so many is audited: 5 %.
 const AUDIT_EVERY: usize = 20;
 /// Step of a sample over the step of its audit.
 const AUDIT_FINER: f64 = 4.0;
+/// Factor on a difference to one side, because the audit has an error of its own.
+const MOVED: f64 = 2.0;
 /// Probability below which a difference between samples and audit is more than chance.
 const CHANCE: f64 = 0.01;
 /// Most times that a shot is sampled anew at half the step.
@@ -93,6 +111,7 @@ pub struct Risk {
     pub breaks: Confidence,
     /// Times that the step was halved because an audit differed.
     pub halvings: u32,
+    limits: Limits,
 }
 
 impl Risk {
@@ -100,13 +119,13 @@ impl Risk {
     pub fn new(case: &Case) -> Self {
         let accepted = case.plan.limits.accepted_risk_percent * 1e-2;
         let confidence = Confidence::new(accepted);
-        Self { samples: Vec::new(), confidence, breaks: confidence, halvings: 0 }
+        Self { samples: Vec::new(), confidence, breaks: confidence, halvings: 0, limits: case.limits }
     }
 
-    /// Takes the next sample.
+    /// Takes the next sample; one of the audit counts as it is at the finer step.
     pub fn push(&mut self, sample: Sample) {
-        self.confidence.push(sample.verdict);
-        self.breaks.push(if sample.breaks { Verdict::Fail } else { Verdict::Pass });
+        self.confidence.push(sample.finer.map_or(sample.verdict, |finer| finer.verdict));
+        self.breaks.push(sample.breaks);
         self.samples.push(sample);
     }
 
@@ -115,21 +134,79 @@ impl Risk {
         if self.audit_differs() { Verdict::Undecided } else { self.confidence.verdict() }
     }
 
-    /// Whether the samples of the audit fail more often or less often at the finer step, beyond chance: a sign test on those
-    /// that change (McNemar 1947).
+    /// Whether the audit contradicts the samples beyond chance.
+    ///
+    /// 1. Samples that do not pass at one step only do so at the finer step more often, or less often: a sign test on those that
+    ///    change (McNemar 1947).
+    /// 2. Values at the finer step lie to one side, by a sign test, and so far that the samples, moved by [`MOVED`] times the
+    ///    mean difference, lie on the other side of the accepted risk. Where little is unknown, all samples have the same error
+    ///    of the step, and none of them may change its verdict.
     pub fn audit_differs(&self) -> bool {
         let count = |more: bool| {
-            let audited = self.samples.iter().filter_map(|sample| Some((sample.verdict, sample.finer?)));
+            let audited = self.audited().map(|(sample, finer)| (sample.verdict, finer.verdict));
             let changed =
-                audited.filter(|(coarse, fine)| (*coarse == Verdict::Fail) != (*fine == Verdict::Fail));
-            changed.filter(|(_, fine)| (*fine == Verdict::Fail) == more).count()
+                audited.filter(|(coarse, fine)| (*coarse == Verdict::Pass) != (*fine == Verdict::Pass));
+            changed.filter(|(_, fine)| (*fine != Verdict::Pass) == more).count()
         };
-        differs(count(true), count(false))
+        differs(count(true), count(false)) || self.is_biased()
     }
 
-    /// The 5th, 50th and 95th percentile and the greatest of a value over the samples; `None` for fewer than [`FOR_BANDS`].
+    /// Whether the samples would go past a limit if the greatest of each quantity lay above the value `refined` (height [m],
+    /// force [N], drift [m]) by as much as it lies below.
+    pub fn would_fail_above(&self, refined: [f64; 3]) -> bool {
+        let quantities: [(Quantity, f64); 3] = [
+            (|sample| sample.height, self.limits.height),
+            (|sample| sample.force, self.limits.force),
+            (|sample| sample.drift, self.limits.drift.unwrap_or(f64::INFINITY)),
+        ];
+        quantities.iter().zip(refined).any(|(&(of, limit), refined)| {
+            let greatest = self.samples.iter().map(of).fold(0.0, f64::max);
+            !self.samples.is_empty() && refined > greatest && 2.0 * refined - greatest > limit
+        })
+    }
+
+    fn decided(&self) -> impl Iterator<Item = &Sample> {
+        self.samples.iter().filter(|sample| sample.verdict != Verdict::Undecided)
+    }
+
+    fn audited(&self) -> impl Iterator<Item = (&Sample, &Finer)> {
+        self.samples.iter().filter_map(|sample| Some((sample, sample.finer.as_ref()?)))
+    }
+
+    fn is_biased(&self) -> bool {
+        let moved = [
+            self.moved_by(|sample| sample.height, |finer| finer.height),
+            self.moved_by(|sample| sample.force, |finer| finer.force),
+            self.moved_by(|sample| sample.drift, |finer| finer.drift),
+        ];
+        let fails = |sample: &&Sample| {
+            let drift = self.limits.drift.is_some_and(|limit| sample.drift * moved[2] > limit);
+            sample.height * moved[0] > self.limits.height
+                || sample.force * moved[1] > self.limits.force
+                || drift
+        };
+        let share = self.samples.iter().filter(fails).count() as f64 / self.samples.len().max(1) as f64;
+        match self.confidence.verdict() {
+            Verdict::Pass => share > self.confidence.accepted,
+            Verdict::Fail => moved != [1.0; 3] && share < self.confidence.accepted,
+            Verdict::Undecided => false,
+        }
+    }
+
+    /// Factor by which a quantity is to be moved: 1, unless the finer values lie to one side beyond chance.
+    fn moved_by(&self, coarse: Quantity, fine: fn(&Finer) -> f64) -> f64 {
+        let pairs = self.audited().map(|(sample, finer)| fine(finer) / coarse(sample) - 1.0);
+        let changes: Vec<f64> = pairs.filter(|change| change.is_finite()).collect();
+        let count =
+            |more: bool| changes.iter().filter(|&&change| change != 0.0 && (change > 0.0) == more).count();
+        let is_one_sided = differs(count(true), count(false));
+        if is_one_sided { 1.0 + MOVED * changes.iter().sum::<f64>() / changes.len() as f64 } else { 1.0 }
+    }
+
+    /// The 5th, 50th and 95th percentile and the greatest of a value over the decided samples; `None` for fewer than
+    /// [`FOR_BANDS`].
     pub fn band(&self, of: impl Fn(&Sample) -> f64) -> Option<[f64; 4]> {
-        let mut values: Vec<f64> = self.samples.iter().map(of).collect();
+        let mut values: Vec<f64> = self.decided().map(of).collect();
         values.sort_by(f64::total_cmp);
         let at = |share: f64| values[((share * values.len() as f64).ceil() as usize).max(1) - 1];
         (values.len() >= FOR_BANDS).then(|| [0.05, 0.5, 0.95, 1.0].map(at))
@@ -247,11 +324,16 @@ fn run_sample(
                 let leaks = reasons.iter().any(|reason| matches!(reason, Reason::EnergyResidual(_)));
                 // A run without energy balance shows nothing.
                 let verdict = if leaks { Verdict::Undecided } else { verdict };
-                let breaks = !outcome.broken.is_empty() || outcome.force.value > case.limits.breaking_force;
+                let broke = !outcome.broken.is_empty() || outcome.force.value > case.limits.breaking_force;
+                let breaks = match verdict {
+                    Verdict::Undecided => Verdict::Undecided,
+                    _ if broke => Verdict::Fail,
+                    _ => Verdict::Pass,
+                };
                 Ok((verdict, leaks, breaks, values.map(|peak| peak.value)))
             }
             Err(failure) => match progress.no_result(failure) {
-                NoResult::Failed(_) => Ok((Verdict::Undecided, true, false, [f64::INFINITY; 3])),
+                NoResult::Failed(_) => Ok((Verdict::Undecided, true, Verdict::Undecided, [f64::INFINITY; 3])),
                 ended => Err(ended),
             },
         }
@@ -263,7 +345,13 @@ fn run_sample(
     }
     let (verdict, _, breaks, [height, force, drift]) = result;
     let audited = number % AUDIT_EVERY == AUDIT_EVERY / 2 && !fixed;
-    let finer = if audited { Some(judged(step / AUDIT_FINER)?.0) } else { None };
+    let finer = |(verdict, _, _, [height, force, drift]): (Verdict, bool, Verdict, [f64; 3])| Finer {
+        verdict,
+        height,
+        force,
+        drift,
+    };
+    let finer = if audited { Some(finer(judged(step / AUDIT_FINER)?)) } else { None };
     Ok(Sample { number, verdict, finer, breaks, height, force, drift, inputs })
 }
 
@@ -271,12 +359,12 @@ fn run_sample(
 /// [`FOR_SHARES`] samples. What is missing to 1 comes from hole by hole and from the interplay of inputs.
 pub fn shares(risk: &Risk, limits: &Limits) -> Option<Vec<(Input, f64)>> {
     let nearest = nearest_its_limit(risk, limits)?;
-    let values: Vec<f64> = risk.samples.iter().map(nearest).collect();
+    let values: Vec<f64> = risk.decided().map(nearest).collect();
     if values.len() < FOR_SHARES || values.iter().any(|value| !value.is_finite()) {
         return None;
     }
     let share = |(n, input): (usize, Input)| {
-        let of: Vec<f64> = risk.samples.iter().map(|sample| sample.inputs[n]).collect();
+        let of: Vec<f64> = risk.decided().map(|sample| sample.inputs[n]).collect();
         (input, share_of_variance(&of, &values))
     };
     let mut shares: Vec<_> = Input::ALL.into_iter().enumerate().map(share).collect();

@@ -1,4 +1,4 @@
-//! Blast rows that may fire in the reverse order, because their detonators scatter.
+//! Blast rows that may fire in the reverse order, because the detonators in their holes scatter.
 
 use super::Case;
 use crate::scene::{fire_at_s, seconds};
@@ -31,7 +31,8 @@ pub fn swaps(case: &Case, least: f64) -> Vec<Swap> {
             let [(early, first), (late, second)] = [pair[0], pair[1]];
             let interval = late - early;
             let deviation = unknown.delay.deviation(interval).hypot(in_hole.hypot(in_hole));
-            if interval > 0.0 && deviation > 0.0 {
+            // The gap between rows is never negative: without detonators in the holes rows keep their order.
+            if interval > 0.0 && in_hole > 0.0 {
                 let probability = 0.5 * libm::erfc(interval / (deviation * std::f64::consts::SQRT_2));
                 if probability >= least {
                     swaps.push(Swap { option, rows: [first, second], interval, probability });

@@ -358,7 +358,7 @@ mod tests {
         assert_eq!(plan.limits.flight_height_m, 2.5);
         assert!(editor.unsaved());
         let Edit::Changed(plan) = editor.undo() else { panic!("nothing to undo") };
-        assert_eq!(plan.limits.flight_height_m, 1.8);
+        assert_eq!(plan.limits.flight_height_m, 2.35);
         assert!(!editor.unsaved());
         assert!(matches!(editor.redo(), Edit::Changed(_)));
         assert!(matches!(editor.redo(), Edit::None));

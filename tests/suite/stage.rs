@@ -78,7 +78,7 @@ pub fn samples(case: &Case, count: usize, some_fail: bool) -> Risk {
             number,
             verdict: if fails { Verdict::Fail } else { Verdict::Pass },
             finer: None,
-            breaks: false,
+            breaks: Verdict::Pass,
             height: 1.1 + 0.2 * part,
             force: 50e3 + 10e3 * part * part,
             drift: 0.3,

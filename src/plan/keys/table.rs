@@ -154,7 +154,7 @@ sections! {
     limits "[limits]" "what an option must keep to pass" {
         FLIGHT_HEIGHT_M = key("flight_height_m", LIMIT, "1.5", "greatest flight height of any tire").required()
             .edit("limit of flight height, m");
-        CABLE_SAFETY_FACTOR = key("cable_safety_factor", number("", 1e-3..=1e6), "2.0",
+        CABLE_SAFETY_FACTOR = key("cable_safety_factor", number("", 1.0..=1e6), "2.0",
             "breaking force / greatest force").required().edit("cable safety factor");
         DRIFT_M = key("drift_m", LIMIT, "0.5", "greatest horizontal shift of any tire at the end")
             .edit("limit of drift, m").offered();

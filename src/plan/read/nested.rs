@@ -45,8 +45,16 @@ impl<'s> SectionReader<'s> {
         })
     }
 
-    /// Two numbers, the smaller first, if the plan has the key.
-    pub fn range(&self, key: &Key) -> Option<[f64; 2]> {
+    /// Two numbers, the smaller first, if the plan has the key; `exact` twice where the plan says 0.
+    pub fn range(&self, key: &Key, exact: f64) -> Option<[f64; 2]> {
+        let zero = |value: &Spanned<DeValue<'_>>| {
+            let number = value.get_ref();
+            let digits = number.as_integer().map(|n| n.as_str()).or(number.as_float().map(|n| n.as_str()));
+            digits.is_some_and(|digits| digits.parse::<f64>() == Ok(0.0))
+        };
+        if self.get(key).is_some_and(zero) {
+            return Some([exact; 2]);
+        }
         let list = self.numbers(key)?;
         match list.value.as_slice() {
             [low, high] if low.value <= high.value => Some([low.value, high.value]),

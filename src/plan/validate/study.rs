@@ -15,19 +15,20 @@ pub fn read_uncertainty(
 ) -> Uncertainty {
     let uncertainty = Uncertainty {
         assumed,
+        incomplete: !assumed && OF_INPUTS.iter().any(|key| !section.has(key)),
         delay: read_delay_scatter(&section),
         in_hole_delay_ms: section.number(&uncertainty::IN_HOLE_DELAY_MS),
         launch_cv_percent: section.number(&uncertainty::LAUNCH_CV_PERCENT),
         launch_common_percent: section.number(&uncertainty::LAUNCH_COMMON_PERCENT),
         launch_tilt_deg: section.number(&uncertainty::LAUNCH_TILT_DEG),
         friction: section
-            .range(&uncertainty::FRICTION)
+            .range(&uncertainty::FRICTION, friction)
             .unwrap_or_else(|| Uncertainty::usual_friction(friction)),
         slack_percent: section
-            .range(&uncertainty::SLACK_PERCENT)
+            .range(&uncertainty::SLACK_PERCENT, slack_percent)
             .unwrap_or_else(|| Uncertainty::usual_slack(slack_percent)),
         axial_stiffness_percent: section
-            .range(&uncertainty::AXIAL_STIFFNESS_PERCENT)
+            .range(&uncertainty::AXIAL_STIFFNESS_PERCENT, 0.0)
             .unwrap_or(Uncertainty::USUAL_AXIAL_STIFFNESS),
         tire_mass_cv_percent: section.number(&uncertainty::TIRE_MASS_CV_PERCENT),
         breaking_force_cv_percent: section.number(&uncertainty::BREAKING_FORCE_CV_PERCENT),
@@ -35,6 +36,16 @@ pub fn read_uncertainty(
     section.finish();
     uncertainty
 }
+
+/// Keys whose default is an input known to 1 %.
+const OF_INPUTS: [&Key; 6] = [
+    &uncertainty::LAUNCH_CV_PERCENT,
+    &uncertainty::LAUNCH_COMMON_PERCENT,
+    &uncertainty::FRICTION,
+    &uncertainty::SLACK_PERCENT,
+    &uncertainty::AXIAL_STIFFNESS_PERCENT,
+    &uncertainty::TIRE_MASS_CV_PERCENT,
+];
 
 /// Scatter of firing times: of the detonator, or as the plan gives it.
 fn read_delay_scatter(section: &SectionReader<'_>) -> DelayScatter {

@@ -6,7 +6,7 @@ use serde_json::Number;
 use super::Limits;
 use super::risk::{Share, input_shares};
 use crate::outcome::Broken;
-use crate::report::check::texts;
+use crate::report::check::{judged_by, texts};
 use crate::report::no_result;
 use crate::scene::{Scene, TireId, fire_at_s};
 use crate::study::Case;
@@ -23,6 +23,7 @@ pub struct CheckDocument {
     plan: String,
     title: String,
     judged: &'static str,
+    accepted_risk_percent: f64,
     verdict: &'static str,
     scene: SceneSize,
     limits: Limits,
@@ -167,10 +168,11 @@ impl OptionValues {
             nominal_verdict: checked.verdict.name(),
             failure_probability: risk.map(failures),
             any_cable_breaks: risk.map(|risk| risk.breaks.interval.into()),
-            launch_margin: judged.launch_margin.and_then(|margin| match margin {
-                LaunchMargin::UpTo(share) => Some(share),
-                LaunchMargin::Wide => None,
-            }),
+            launch_margin: match judged.launch_margin {
+                Some(LaunchMargin::UpTo(share)) => Some(share),
+                None if risk.is_some() && checked.verdict != Verdict::Pass => Some(0.0),
+                Some(LaunchMargin::Wide) | None => None,
+            },
             inputs: risk.and_then(|risk| input_shares(risk, &case.limits)),
             flight_height_m: AtTire::new(scene, &checked.height, Band::of(risk, |sample| sample.height)),
             cable_force_n: AtCable::new(scene, &checked.force, Band::of(risk, |sample| sample.force)),
@@ -211,11 +213,8 @@ impl CheckDocument {
             schema: "shelter.check/2",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
-            judged: match results.iter().flatten().any(|judged| judged.risk.is_some()) {
-                false => "nominal",
-                true if plan.uncertainty.assumed => "default",
-                true => "plan",
-            },
+            judged: results.iter().flatten().next().map_or("nominal", |judged| judged_by(case, judged)),
+            accepted_risk_percent: plan.limits.accepted_risk_percent,
             verdict: verdict(results, any).name(),
             scene: SceneSize {
                 tires: scene.mass.len(),

@@ -87,7 +87,9 @@ fn judge(
     if envelope.verdict != Verdict::Pass {
         return Ok(Some((envelope, None)));
     }
-    let sampled = sample_shots(case, std::slice::from_ref(shot), sampling, compute, progress)?.remove(0);
+    // The first look chose this shot for its draws: the verdict has draws of its own.
+    let own = Sampling { seed: !sampling.seed, ..*sampling };
+    let sampled = sample_shots(case, std::slice::from_ref(shot), &own, compute, progress)?.remove(0);
     Ok(sampled.map(|sampled| (envelope, Some(sampled))))
 }
 

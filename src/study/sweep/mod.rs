@@ -17,7 +17,7 @@ mod accepted;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::batch::{envelopes, judge_shot};
+use super::batch::{envelopes, judge_shot, part_of_envelopes};
 use super::risk::Sampling;
 use super::sampled::Sampled;
 use super::screen::{is_sure, screen};
@@ -128,7 +128,7 @@ fn sweep_nominal(
     let mut tried: BTreeMap<i64, Envelope> = BTreeMap::new();
     loop {
         let jobs: Vec<i64> = next.iter().copied().collect();
-        let judged = match envelopes(&jobs, progress, |&at| {
+        let work = |&at: &i64| {
             let shot = case.shot(order, in_seconds(at));
             match exact.contains(&at) {
                 true => judge_shot(case, &shot, compute, progress),
@@ -136,10 +136,11 @@ fn sweep_nominal(
                     screen(case, &shot, compute, progress, |envelope, runs| is_sure(case, envelope, runs))
                 }
             }
-        }) {
-            // Where every run between points fails, the points stand.
-            Err(NoResult::Failed(_)) if !tried.is_empty() => vec![Some(Envelope::UNKNOWN); jobs.len()],
-            judged => judged?,
+        };
+        // Of the points between points that are known, all may fail.
+        let judged = match tried.is_empty() {
+            true => envelopes(&jobs, progress, work)?,
+            false => part_of_envelopes(&jobs, progress, work)?,
         };
         // Out of time: gaps keep the width they have, and windows end there.
         let partial = judged.contains(&None);
@@ -334,7 +335,7 @@ mod tests {
     /// Tries a shelter whose height is `height` [m] at an interval [ms], limit 1 m, at first every `step` [ms] up to 20 ms.
     fn tried(step: f64, height: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
         let text = include_str!("../../../plans/amur-three-rows.toml")
-            .replace("flight_height_m = 1.8", "flight_height_m = 1");
+            .replace("flight_height_m = 2.35", "flight_height_m = 1");
         let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
         let point = |at: i64| {
             let value = height(at as f64 * 1e-6);
@@ -386,7 +387,7 @@ mod tests {
             _ => 1.5,
         };
         let text = include_str!("../../../plans/amur-three-rows.toml")
-            .replace("flight_height_m = 1.8", "flight_height_m = 1");
+            .replace("flight_height_m = 2.35", "flight_height_m = 1");
         let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
         let points: Vec<Point> = (0..=150)
             .map(|n| {
