@@ -281,7 +281,7 @@ mod tests {
     use super::*;
     use crate::plan::PlanSource;
 
-    const STUDY: StudyKind = StudyKind::Sweep;
+    const STUDY: StudyKind = StudyKind::Orders;
 
     fn case() -> Arc<Case> {
         let text = include_str!("../plans/amur-three-rows.toml").to_owned();

@@ -53,7 +53,7 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
         verdict => verdict,
     };
     let so_far = if partial { " so far" } else { "" };
-    let planned = if orders.has_risk() { " as planned" } else { "" };
+    let planned = if orders.has_risk() { " as planned" } else { " (the plan's own numbers only)" };
     let mut text = format!("{} of {all} orders pass{planned}{so_far}", orders.passing_as_planned());
     if let Some((n, risk)) = all.checked_sub(1).and_then(|n| Some((n, orders.risk(n)?))) {
         text += &format!("; the best: {}, {}", orders.verdict_on(n).label(), sampled(risk));

@@ -210,8 +210,10 @@ fn conclusion(sweep: &Sweep, partial: bool) -> Conclusion {
             format!("{planned} of {tried} intervals tried{so_far} pass as planned; {best}")
         }
         _ if tried == 0 => "no interval was tried".to_owned(),
-        0 => format!("all {tried} intervals tried{so_far} pass"),
-        _ => format!("{not_passing} of {tried} intervals tried{so_far} do not pass"),
+        0 => format!("all {tried} intervals tried{so_far} pass (the plan's own numbers only)"),
+        _ => format!(
+            "{not_passing} of {tried} intervals tried{so_far} do not pass (the plan's own numbers only)"
+        ),
     };
     Conclusion { verdict, text }
 }
@@ -245,10 +247,22 @@ mod tests {
             format!("{}: {text}", verdict.label())
         };
         use Verdict::{Fail, Pass, Undecided};
-        assert_eq!(said(&[Pass, Pass], false), "PASS: all 2 intervals tried pass");
-        assert_eq!(said(&[Pass, Pass], true), "OPEN: all 2 intervals tried so far pass");
-        assert_eq!(said(&[Pass, Fail, Undecided], false), "FAIL: 2 of 3 intervals tried do not pass");
-        assert_eq!(said(&[Pass, Undecided], false), "OPEN: 1 of 2 intervals tried do not pass");
+        assert_eq!(
+            said(&[Pass, Pass], false),
+            "PASS: all 2 intervals tried pass (the plan's own numbers only)"
+        );
+        assert_eq!(
+            said(&[Pass, Pass], true),
+            "OPEN: all 2 intervals tried so far pass (the plan's own numbers only)"
+        );
+        assert_eq!(
+            said(&[Pass, Fail, Undecided], false),
+            "FAIL: 2 of 3 intervals tried do not pass (the plan's own numbers only)"
+        );
+        assert_eq!(
+            said(&[Pass, Undecided], false),
+            "OPEN: 1 of 2 intervals tried do not pass (the plan's own numbers only)"
+        );
         assert_eq!(said(&[], true), "OPEN: no interval was tried");
     }
 }
