@@ -11,7 +11,7 @@ use crate::choice::Detonator;
 pub struct Uncertainty {
     /// Whether the plan has no `[uncertainty]`: every input is assumed known to 1 %.
     pub assumed: bool,
-    /// Whether `[uncertainty]` leaves out an input, which is then assumed known to 1 %.
+    /// Whether an input is assumed known to 1 %, because the plan does not name it.
     pub incomplete: bool,
     /// Scatter of every detonator.
     pub delay: DelayScatter,

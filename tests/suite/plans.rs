@@ -136,7 +136,7 @@ fn what_a_plan_does_not_say_is_known_to_one_percent() {
     };
     let assumed = read("");
     let expected = Uncertainty {
-        incomplete: false,
+        incomplete: true,
         assumed: true,
         delay: DelayScatter { sd_ms: 0.1, cv_percent: 0.01 },
         in_hole_delay_ms: 0.0,

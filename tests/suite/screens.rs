@@ -221,6 +221,7 @@ fn notes_stand_beside_the_results() {
     let mut case = (*app.case).clone();
     case.plan.delays[1].timing = Timing::At(vec![0.0, 20.0, 40.0]);
     case.plan.uncertainty.delay.sd_ms = 20.0;
+    case.plan.uncertainty.in_hole_delay_ms = 500.0;
     app.case = Arc::new(case);
     key(&mut app, KeyCode::Char('4'));
     for (kind, found) in spreads(&app) {

@@ -15,7 +15,7 @@ pub fn read_uncertainty(
 ) -> Uncertainty {
     let uncertainty = Uncertainty {
         assumed,
-        incomplete: !assumed && OF_INPUTS.iter().any(|key| !section.has(key)),
+        incomplete: OF_INPUTS.iter().any(|key| !section.has(key)),
         delay: read_delay_scatter(&section),
         in_hole_delay_ms: section.number(&uncertainty::IN_HOLE_DELAY_MS),
         launch_cv_percent: section.number(&uncertainty::LAUNCH_CV_PERCENT),
