@@ -113,7 +113,7 @@ fn shares_merge_into_the_whole_byte_for_byte() {
     let folder = tempfile::tempdir().expect("a folder");
     let orders: &[&str] = &["orders", &plan, "--accuracy", "draft", "--nominal"];
     let sampled: &[&str] = &["orders", &plan, "--accuracy", "draft", "--samples", "150", "--seed", "3"];
-    let risk: &[&str] = &["risk", &plan, "--accuracy", "draft", "--samples", "103", "--seed", "4"];
+    let risk: &[&str] = &["risk", &plan, "--accuracy", "draft", "--samples", "31", "--seed", "4"];
     for command in [orders, sampled, risk] {
         for format in ["json", "csv", "text"] {
             let whole = shelter(&[command, &["--format", format, "--threads", "1"]].concat());
@@ -146,9 +146,9 @@ fn shares_merge_into_the_whole_byte_for_byte() {
 fn the_number_of_threads_changes_nothing() {
     let plan = shipped("amur-three-rows.toml");
     for command in [
-        &["risk", &plan, "--accuracy", "draft", "--samples", "240"][..],
+        &["risk", &plan, "--accuracy", "draft", "--samples", "60"][..],
         &["orders", &plan, "--accuracy", "draft"],
-        &["size", &plan, "--accuracy", "draft"],
+        &["size", &plan, "--accuracy", "draft", "--option", "42 ms"],
         &["sweep", &plan, "--accuracy", "draft", "--interval", "50..70:10"],
     ] {
         let [one, two] =
