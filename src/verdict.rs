@@ -85,6 +85,14 @@ pub struct Limits {
     pub breaking_force: f64,
 }
 
+impl Limits {
+    /// Utilization: the greatest of height [m], force [N] and drift [m] over its limit; above 1 a shot fails.
+    pub fn utilization(&self, height: f64, force: f64, drift: f64) -> f64 {
+        let drift = self.drift.map_or(0.0, |limit| drift / limit);
+        (height / self.height).max(force / self.force).max(drift)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

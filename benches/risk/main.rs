@@ -32,7 +32,7 @@ const SEED: u64 = 1 << 40;
 /// Many samples, at the step of samples of `accuracy`; that of reference is fine.
 fn brute_force(case: &Case, option: usize, samples: usize, accuracy: Accuracy) -> Vec<Sample> {
     let compute = ComputeSettings { accuracy, ..ComputeSettings::of(&case.plan) };
-    let target = Target { case, shot: &case.shots[option], compute };
+    let target = Target { case, shot: &case.shots[option], planned: None, compute };
     let sampling = Sampling { least: samples, most: samples, seed: SEED };
     let drawn = sample_share(&[target], &sampling, Shard::WHOLE, &Progress::default()).expect("samples");
     drawn.into_iter().filter_map(|(_, sample)| sample).collect()
@@ -127,7 +127,7 @@ fn coverage(plans: usize, seeds: u64) {
         for (case, truth) in &drawn {
             let compute = ComputeSettings { accuracy, ..ComputeSettings::of(&case.plan) };
             for seed in 1..=seeds {
-                let target = Target { case, shot: &case.shots[0], compute };
+                let target = Target { case, shot: &case.shots[0], planned: None, compute };
                 let sampling = Sampling { seed, ..Sampling::OF_VERDICT };
                 let found = sample(&[target], &sampling, &Progress::default(), |_| false, &mut |_, _| {});
                 let risk = found.expect("samples").0.remove(0);

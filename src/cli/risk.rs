@@ -62,7 +62,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
 /// Prints this machine's share of the samples.
 fn share(arguments: &Arguments, case: &Case, sampling: &Sampling, shard: Shard) -> io::Result<Status> {
     let settings = arguments.compute.settings(&case.plan);
-    let target = |shot| Target { case, shot, compute: settings };
+    let target = |shot| Target { case, shot, planned: None, compute: settings };
     let targets: Vec<_> = case.shots.iter().map(target).collect();
     let drawn = run_study(&arguments.compute, |progress| {
         let drawn = sample_share(&targets, sampling, shard, progress)?;

@@ -10,7 +10,7 @@ use crate::study::batch::each;
 use crate::study::check::check;
 use crate::study::margin::launch_margin;
 use crate::study::risk::{Risk, Sampling, Target, sample};
-use crate::study::{NoResult, guarded};
+use crate::study::{Envelope, NoResult, guarded};
 use crate::verdict::Verdict;
 
 /// Least time between two pieces of news about an option that computes.
@@ -24,7 +24,7 @@ impl Job {
     /// Judges options: all as planned, then all by samples, then their launch margins.
     pub(super) fn check_all(&self, options: Range<usize>) {
         let checked = options.par_bridge().filter_map(|option| Some((option, self.check(option)?)));
-        let mut checked: Vec<(usize, Verdict)> = checked.collect();
+        let mut checked: Vec<(usize, Envelope)> = checked.collect();
         checked.sort_by_key(|(option, _)| *option);
         // A job that was stopped has no result, and its news has no reader.
         if self.sample(&checked).is_ok() {
@@ -32,8 +32,8 @@ impl Job {
         }
     }
 
-    /// Checks an option as planned; returns its verdict.
-    fn check(&self, option: usize) -> Option<Verdict> {
+    /// Checks an option as planned; returns what was judged.
+    fn check(&self, option: usize) -> Option<Envelope> {
         if self.progress.stopped() {
             return None;
         }
@@ -49,19 +49,20 @@ impl Job {
             });
             checked.map(Box::new).map_err(|failure| self.progress.no_result(failure))
         });
-        let verdict = result.as_ref().ok().map(|checked| checked.verdict);
+        let judged = result.as_ref().ok().map(|checked| Envelope::of(checked));
         self.tell(News::Checked { option, result });
-        verdict
+        judged
     }
 
-    fn target(&self, option: usize) -> Target<'_> {
-        Target { case: &self.case, shot: &self.case.shots[option], compute: self.compute }
+    fn target(&self, &(option, planned): &(usize, Envelope)) -> Target<'_> {
+        let case = &*self.case;
+        Target { case, shot: &case.shots[option], planned: Some(planned), compute: self.compute }
     }
 
-    /// Samples options with their verdicts as planned.
-    fn sample(&self, options: &[(usize, Verdict)]) -> Result<(), NoResult> {
-        let targets: Vec<Target<'_>> = options.iter().map(|&(option, _)| self.target(option)).collect();
-        let enough = |n: usize| options[n].1 == Verdict::Fail;
+    /// Samples options, each with what it is as planned.
+    fn sample(&self, options: &[(usize, Envelope)]) -> Result<(), NoResult> {
+        let targets: Vec<Target<'_>> = options.iter().map(|option| self.target(option)).collect();
+        let enough = |n: usize| options[n].1.verdict == Verdict::Fail;
         let mut told: Vec<Option<Instant>> = vec![None; options.len()];
         let mut watch = |n: usize, risk: &Risk| {
             if told[n].is_none_or(|told| told.elapsed() >= SAMPLED_EVERY) {
@@ -82,12 +83,12 @@ impl Job {
         Ok(())
     }
 
-    /// Finds the launch margins of options with their verdicts as planned.
-    fn find_margins(&self, options: &[(usize, Verdict)]) -> Result<(), NoResult> {
+    /// Finds the launch margins of options, each with what it is as planned.
+    fn find_margins(&self, options: &[(usize, Envelope)]) -> Result<(), NoResult> {
         let Self { case, compute, progress, .. } = self;
-        let find = |&(option, verdict): &(usize, Verdict)| {
+        let find = |&(option, planned): &(usize, Envelope)| {
             let shot = &case.shots[option];
-            let margin = guarded(|| launch_margin(case, shot, verdict, compute, progress))?;
+            let margin = guarded(|| launch_margin(case, shot, planned.verdict, compute, progress))?;
             self.tell(News::Margin { option, margin });
             Ok(())
         };

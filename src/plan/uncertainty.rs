@@ -36,6 +36,12 @@ pub struct Uncertainty {
 }
 
 impl Uncertainty {
+    /// Standard deviation [s] of the firing time of a hole about that of its row, by the detonator in it.
+    pub fn in_hole_deviation(&self) -> f64 {
+        let delay = self.in_hole_delay_ms * 1e-3;
+        if delay > 0.0 { self.delay.deviation(delay) } else { 0.0 }
+    }
+
     /// The friction assumed where the plan gives no range: ±1 % of the plan's own.
     pub fn usual_friction(friction: f64) -> [f64; 2] {
         [0.99 * friction, 1.01 * friction]

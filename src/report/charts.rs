@@ -152,12 +152,8 @@ pub fn samples(case: &Case, risk: &Risk) -> [Chart; 2] {
 
 /// Utilization of the samples of the option `name`, from the gentlest to the hardest.
 pub fn risk(case: &Case, name: &str, risk: &Risk) -> Chart {
-    let limits = &case.limits;
-    let share = |sample: &Sample| {
-        let drift = limits.drift.map_or(0.0, |limit| sample.drift / limit);
-        (sample.height / limits.height).max(sample.force / limits.force).max(drift)
-    };
-    let mut shares: Vec<f64> = risk.samples.iter().map(share).filter(|share| share.is_finite()).collect();
+    let shares = risk.samples.iter().map(|sample| sample.utilization(&case.limits));
+    let mut shares: Vec<f64> = shares.filter(|share| share.is_finite()).collect();
     shares.sort_by(f64::total_cmp);
     let count = shares.len() as f64;
     let curve = shares.into_iter().enumerate().map(|(n, share)| ((n + 1) as f64 / count, share)).collect();

@@ -95,9 +95,10 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 28] {
         Field::new(Column::scripts(&["cable_force_cable"]), |row| {
             row.of(|checked| Cell::Text(row.case.scene().cable_name(checked.force.index)))
         }),
-        Field::new(Column::numbers(&["cable_safety_factor"], "factor", Unit::One), |row| {
-            row.of(|checked| Cell::Factor(checked.safety_factor))
-        }),
+        Field::new(
+            Column::numbers(&["cable_safety_factor"], "factor", Unit::One).under("as planned"),
+            |row| row.of(|checked| Cell::Factor(checked.safety_factor)),
+        ),
         Field::new(Column::scripts(&["low_95_any_cable_breaks", "high_95_any_cable_breaks"]), |row| {
             row.sampled(|risk| Cell::Probability(risk.breaks.interval))
         }),
@@ -151,7 +152,7 @@ const FORCE_BAND: Column =
     Column::numbers(&["cable_force_p05_n", "cable_force_p95_n"], "force", Unit::Kilonewton)
         .under("5 to 95 %");
 /// How much faster the tires may leave.
-const LAUNCH_MARGIN: Column = Column::words(&[], "launches").under("pass up to");
+const LAUNCH_MARGIN: Column = Column::words(&[], "launches").under("as planned");
 /// Greatest drift and its error.
 const DRIFT: Column = Column::numbers(&["drift_m", "drift_error_m"], "drift", Unit::Metre);
 

@@ -58,14 +58,14 @@ pub fn risk_detail(case: &Case, judged: &Judgement) -> Option<Detail> {
     let shots = format!("{failures} of {samples} possible shots fail{}", limits_passed(case, risk));
     let verdict = risk.verdict();
     let text = match verdict {
-        Verdict::Pass if judged.samples_fall_short() => {
-            let text = "the shot as planned lies above all samples: the step of samples is too long for this motion; choose accuracy \"reference\"";
-            return Some(Detail { verdict: Verdict::Undecided, text: text.to_owned() });
-        }
         Verdict::Pass => return None,
+        Verdict::Undecided if risk.falls_short() => {
+            let text = "the shot as planned lies above all samples: the step of samples is too long for this motion; choose accuracy \"reference\"";
+            text.to_owned()
+        }
         Verdict::Fail => format!("{shots}, surely more than the {accepted} accepted"),
-        Verdict::Undecided if risk.audit_differs() => {
-            format!("{shots}, but not as many at a finer step: choose accuracy \"reference\"")
+        Verdict::Undecided if risk.is_contradicted() => {
+            format!("{shots}, but finer runs contradict them: choose accuracy \"reference\"")
         }
         Verdict::Undecided if risk.confidence.undecided > 0 => {
             let undecided = risk.confidence.undecided;

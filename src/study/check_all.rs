@@ -6,7 +6,7 @@ use super::judgement::Judgement;
 use super::margin::launch_margin;
 use super::merge::OptionSample;
 use super::risk::{Risk, Sampling, Target, sample};
-use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, guarded};
+use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, guarded};
 use crate::verdict::Verdict;
 
 /// Results of the options of one plan, in their order (`n_options`).
@@ -45,7 +45,11 @@ pub fn check_all(
         let nominal: Vec<Verdict> = judged.iter().map(|judged| judged.nominal.verdict).collect();
         // A shot that fails as planned is sampled only to show by how much.
         let enough = |n: usize| nominal[n] == Verdict::Fail;
-        let (risks, out_of_time) = sample(&targets(cases, &at), sampling, progress, enough, &mut |_, _| {})?;
+        let planned = judged.iter().map(|judged| Envelope::of(&judged.nominal));
+        let targets = targets(cases, &at).into_iter().zip(planned);
+        let targets: Vec<_> =
+            targets.map(|(target, planned)| Target { planned: Some(planned), ..target }).collect();
+        let (risks, out_of_time) = sample(&targets, sampling, progress, enough, &mut |_, _| {})?;
         partial |= out_of_time;
         judged.iter_mut().zip(risks).for_each(|(judged, risk)| judged.risk = Some(risk));
     }
@@ -60,7 +64,7 @@ pub fn check_all(
 fn targets<'c>(cases: &[(&'c Case, ComputeSettings)], at: &[(usize, usize)]) -> Vec<Target<'c>> {
     let target = |&(n, option): &(usize, usize)| {
         let (case, compute) = cases[n];
-        Target { case, shot: &case.shots[option], compute }
+        Target { case, shot: &case.shots[option], planned: None, compute }
     };
     at.iter().map(target).collect()
 }
@@ -83,7 +87,7 @@ pub fn find_launch_margins(
     let nominal: Vec<Verdict> = known.iter().map(|(_, judged)| judged.nominal.verdict).collect();
     let jobs: Vec<_> = targets(cases, &at).into_iter().zip(nominal).collect();
     let margins = each(&jobs, progress, |(target, nominal)| {
-        let Target { case, shot, compute } = target;
+        let Target { case, shot, compute, .. } = target;
         guarded(|| launch_margin(case, shot, *nominal, compute, progress))
     })?;
     let complete = !margins.contains(&None);
@@ -102,9 +106,9 @@ pub fn judge_drawn(
 ) -> Result<Results, NoResult> {
     let mut results = check_all(&[(case, *compute)], None, progress)?.value.remove(0);
     for (option, result) in results.iter_mut().enumerate() {
-        let mut risk = Risk::new(case);
-        samples.iter().filter(|of| of.option == option).for_each(|of| risk.push(of.sample));
         if let Ok(judged) = result {
+            let mut risk = Risk::new(case, Some(Envelope::of(&judged.nominal)));
+            samples.iter().filter(|of| of.option == option).for_each(|of| risk.push(of.sample));
             judged.risk = Some(risk);
         }
     }

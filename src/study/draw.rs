@@ -15,7 +15,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use super::Case;
 use crate::plan::Uncertainty;
-use crate::scene::{Cable, Firing, Scene, Shot, seconds};
+use crate::scene::{Cable, Firing, Scene, Shot};
 
 /// An input that is the same in the whole shot, and not known exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -157,8 +157,7 @@ fn scatter_tires(
 ) {
     let mut above: Vec<Vec<usize>> = vec![Vec::new(); scene.mass.len()];
     firings.iter().enumerate().for_each(|(n, firing)| above[firing.tire].push(n));
-    let in_hole = seconds(unknown.in_hole_delay_ms);
-    let in_hole = if in_hole > 0.0 { unknown.delay.deviation(in_hole) } else { 0.0 };
+    let in_hole = unknown.in_hole_deviation();
     let tilt = unknown.launch_tilt_deg.to_radians();
     for (tire, mass) in scene.mass.iter_mut().enumerate() {
         let random = random.at(Place::Tire(tire));

@@ -73,8 +73,7 @@ impl Envelope {
 
     /// Utilization: the greatest value over its limit; above 1 the shot fails.
     pub fn utilization(&self, limits: &Limits) -> f64 {
-        let drift = limits.drift.map_or(0.0, |limit| self.drift.value / limit);
-        (self.height.value / limits.height).max(self.force.value / limits.force).max(drift)
+        limits.utilization(self.height.value, self.force.value, self.drift.value)
     }
 }
 

@@ -26,15 +26,6 @@ impl Judgement {
     /// fails, or surely more shots than accepted.
     pub fn verdict(&self) -> Verdict {
         let risk = self.risk.as_ref().map_or(Verdict::Pass, Risk::verdict);
-        let open = if self.samples_fall_short() { Verdict::Undecided } else { Verdict::Pass };
-        Verdict::worst([self.nominal.verdict, risk, open])
-    }
-
-    /// Whether the shot as planned, which is refined, lies so far above every sample that samples moved up by twice as much
-    /// go past a limit: then the error of their step is greater than what is not known.
-    pub fn samples_fall_short(&self) -> bool {
-        let Some(risk) = &self.risk else { return false };
-        let Checked { height, force, drift, .. } = &self.nominal;
-        risk.would_fail_above([height.value, force.value, drift.value])
+        self.nominal.verdict.max(risk)
     }
 }

@@ -91,8 +91,11 @@ impl Orders {
     ) -> Result<bool, NoResult> {
         let count = self.ranked.len();
         let ends: Vec<usize> = (0..count).filter(|&n| n < ENDS || n + ENDS >= count).collect();
-        let shot = |&n: &usize| case.shot(&self.ranked[n].order, self.ranked[n].interval);
-        let shots: Vec<Shot> = ends.iter().map(shot).collect();
+        let shot = |&n: &usize| {
+            let Tried { order, interval, envelope, .. } = &self.ranked[n];
+            (case.shot(order, *interval), *envelope)
+        };
+        let shots: Vec<_> = ends.iter().map(shot).collect();
         let mut sampled = sample_shots(case, &shots, &sampling.first_look(), compute, progress)?;
         if let (Some(best), Some(last)) = (shots.last(), sampled.last_mut()) {
             *last = sample_shots(case, std::slice::from_ref(best), sampling, compute, progress)?.remove(0);

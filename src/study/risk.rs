@@ -1,8 +1,8 @@
 //! How likely a shot fails when what is not known varies as `[uncertainty]` says.
 //!
 //! A sample is run once, at a coarse step: its error falls to both sides of a limit, and the failure probability is far more
-//! exact than any one sample. An audit runs one sample in [`AUDIT_EVERY`] again at a finer step; where the failing shares
-//! differ beyond chance, the shot is sampled anew at half the step. Samples are drawn in rounds over all shots, until the
+//! exact than any one sample. An audit runs one sample in [`AUDIT_EVERY`] again at a finer step; where that, or the shot as
+//! planned, contradicts the samples, the shot is sampled anew at half the step. Samples are drawn in rounds over all shots, until the
 //! bounds of the failure probability ([`Confidence`]) tell on which side of the accepted risk each shot lies.
 
 use serde::{Deserialize, Serialize};
@@ -12,7 +12,7 @@ use super::confidence::Confidence;
 use super::draw::{Drawn, Input, draw};
 use super::envelope::or_infinite;
 use super::reason::{Reason, find_reasons};
-use super::{Case, ComputeSettings, NoResult, Progress, Shard, guarded};
+use super::{Case, ComputeSettings, Envelope, NoResult, Progress, Shard, guarded};
 use crate::choice::{Accuracy, Method};
 use crate::outcome::Peak;
 use crate::scene::{Scene, Shot};
@@ -74,6 +74,13 @@ pub struct Finer {
     pub drift: f64,
 }
 
+impl Sample {
+    /// Utilization of the sample.
+    pub fn utilization(&self, limits: &Limits) -> f64 {
+        limits.utilization(self.height, self.force, self.drift)
+    }
+}
+
 /// One sample in so many is audited: 5 %.
 const AUDIT_EVERY: usize = 20;
 /// Step of a sample over the step of its audit.
@@ -96,6 +103,8 @@ pub struct Target<'c> {
     pub case: &'c Case,
     /// The shot as planned.
     pub shot: &'c Shot,
+    /// The shot as planned, judged by finer runs; `None` where it is not known.
+    pub planned: Option<Envelope>,
     /// Method and accuracy.
     pub compute: ComputeSettings,
 }
@@ -109,17 +118,25 @@ pub struct Risk {
     pub confidence: Confidence,
     /// Bounds of the probability that a cable breaks.
     pub breaks: Confidence,
-    /// Times that the step was halved because an audit differed.
+    /// Times that the step was halved because finer runs contradicted the samples.
     pub halvings: u32,
+    planned: Option<Envelope>,
     limits: Limits,
 }
 
 impl Risk {
-    /// No sample yet; the plan of `case` names the accepted risk.
-    pub fn new(case: &Case) -> Self {
+    /// No sample yet of a shot that was judged as `planned`; the plan of `case` names the accepted risk.
+    pub fn new(case: &Case, planned: Option<Envelope>) -> Self {
         let accepted = case.plan.limits.accepted_risk_percent * 1e-2;
         let confidence = Confidence::new(accepted);
-        Self { samples: Vec::new(), confidence, breaks: confidence, halvings: 0, limits: case.limits }
+        Self {
+            samples: Vec::new(),
+            confidence,
+            breaks: confidence,
+            halvings: 0,
+            planned,
+            limits: case.limits,
+        }
     }
 
     /// Takes the next sample; one of the audit counts as it is at the finer step.
@@ -129,40 +146,39 @@ impl Risk {
         self.samples.push(sample);
     }
 
-    /// The verdict of the samples; undecided where their audit differs beyond chance.
+    /// The verdict of the samples; undecided where finer runs contradict them.
     pub fn verdict(&self) -> Verdict {
-        if self.audit_differs() { Verdict::Undecided } else { self.confidence.verdict() }
+        if self.is_contradicted() { Verdict::Undecided } else { self.confidence.verdict() }
     }
 
-    /// Whether the audit contradicts the samples beyond chance.
-    ///
-    /// 1. Samples that do not pass at one step only do so at the finer step more often, or less often: a sign test on those that
-    ///    change (McNemar 1947).
-    /// 2. Values at the finer step lie to one side, by a sign test, and so far that the samples, moved by [`MOVED`] times the
-    ///    mean difference, lie on the other side of the accepted risk. Where little is unknown, all samples have the same error
-    ///    of the step, and none of them may change its verdict.
-    pub fn audit_differs(&self) -> bool {
+    /// Whether finer runs contradict the samples: those of the audit beyond chance, or the shot as planned.
+    pub fn is_contradicted(&self) -> bool {
+        self.audit_differs() || self.is_biased() || self.falls_short()
+    }
+
+    /// Whether the shot as planned, which is refined, lies so far above every sample that samples moved up by twice as much
+    /// would go past a limit, though they pass: the error of their step is then greater than what is not known.
+    pub fn falls_short(&self) -> bool {
+        let Some(planned) = self.planned else { return false };
+        let refined = [planned.height, planned.force, planned.drift].map(|of| of.value);
+        let would_fail = |((of, limit), refined): ((Quantity, f64), f64)| {
+            let greatest = self.decided().map(of).fold(0.0, f64::max);
+            refined > greatest && 2.0 * refined - greatest > limit
+        };
+        let passes = self.confidence.verdict() == Verdict::Pass;
+        passes && quantities(&self.limits).into_iter().zip(refined).any(would_fail)
+    }
+
+    /// Whether the samples of the audit fail more often or less often at the finer step, beyond chance: a sign test on those
+    /// that change (McNemar 1947).
+    fn audit_differs(&self) -> bool {
         let count = |more: bool| {
             let audited = self.audited().map(|(sample, finer)| (sample.verdict, finer.verdict));
             let changed =
                 audited.filter(|(coarse, fine)| (*coarse == Verdict::Pass) != (*fine == Verdict::Pass));
             changed.filter(|(_, fine)| (*fine != Verdict::Pass) == more).count()
         };
-        differs(count(true), count(false)) || self.is_biased()
-    }
-
-    /// Whether the samples would go past a limit if the greatest of each quantity lay above the value `refined` (height [m],
-    /// force [N], drift [m]) by as much as it lies below.
-    pub fn would_fail_above(&self, refined: [f64; 3]) -> bool {
-        let quantities: [(Quantity, f64); 3] = [
-            (|sample| sample.height, self.limits.height),
-            (|sample| sample.force, self.limits.force),
-            (|sample| sample.drift, self.limits.drift.unwrap_or(f64::INFINITY)),
-        ];
-        quantities.iter().zip(refined).any(|(&(of, limit), refined)| {
-            let greatest = self.samples.iter().map(of).fold(0.0, f64::max);
-            !self.samples.is_empty() && refined > greatest && 2.0 * refined - greatest > limit
-        })
+        differs(count(true), count(false))
     }
 
     fn decided(&self) -> impl Iterator<Item = &Sample> {
@@ -173,6 +189,9 @@ impl Risk {
         self.samples.iter().filter_map(|sample| Some((sample, sample.finer.as_ref()?)))
     }
 
+    /// Whether values at the finer step lie to one side, by a sign test, and so far that the samples, moved by [`MOVED`] times
+    /// the mean difference, lie on the other side of the accepted risk. Where little is unknown, all samples have the same error
+    /// of the step, and none of them may change its verdict.
     fn is_biased(&self) -> bool {
         let moved = [
             self.moved_by(|sample| sample.height, |finer| finer.height),
@@ -206,11 +225,20 @@ impl Risk {
     /// The 5th, 50th and 95th percentile and the greatest of a value over the decided samples; `None` for fewer than
     /// [`FOR_BANDS`].
     pub fn band(&self, of: impl Fn(&Sample) -> f64) -> Option<[f64; 4]> {
-        let mut values: Vec<f64> = self.decided().map(of).collect();
-        values.sort_by(f64::total_cmp);
-        let at = |share: f64| values[((share * values.len() as f64).ceil() as usize).max(1) - 1];
-        (values.len() >= FOR_BANDS).then(|| [0.05, 0.5, 0.95, 1.0].map(at))
+        let enough = self.decided().count() >= FOR_BANDS;
+        enough.then(|| percentiles(self.decided().map(of), [0.05, 0.5, 0.95, 1.0]))?
     }
+}
+
+/// Values below which these shares of `values` lie; `None` without a value.
+pub(super) fn percentiles<const N: usize>(
+    values: impl Iterator<Item = f64>,
+    shares: [f64; N],
+) -> Option<[f64; N]> {
+    let mut sorted: Vec<f64> = values.collect();
+    sorted.sort_by(f64::total_cmp);
+    let at = |share: f64| sorted[((share * sorted.len() as f64).ceil() as usize).max(1) - 1];
+    (!sorted.is_empty()).then(|| shares.map(at))
 }
 
 /// Whether of samples that change, `more` to one side and `fewer` to the other, one side has more than by chance.
@@ -236,7 +264,7 @@ pub fn sample(
     enough: impl Fn(usize) -> bool,
     watch: &mut dyn FnMut(usize, &Risk),
 ) -> Result<(Vec<Risk>, bool), NoResult> {
-    let mut risks: Vec<Risk> = targets.iter().map(|target| Risk::new(target.case)).collect();
+    let mut risks: Vec<Risk> = targets.iter().map(|target| Risk::new(target.case, target.planned)).collect();
     loop {
         let wanted = |n: usize, risk: &Risk| {
             let count = risk.samples.len();
@@ -268,8 +296,9 @@ pub fn sample(
         }
         for n in jobs.iter().map(|&(n, ..)| n).collect::<std::collections::BTreeSet<_>>() {
             let risk = &mut risks[n];
-            if risk.audit_differs() && risk.halvings < MOST_HALVINGS && targets[n].compute.step.is_none() {
-                *risk = Risk { halvings: risk.halvings + 1, ..Risk::new(targets[n].case) };
+            let Target { case, planned, compute, .. } = targets[n];
+            if risk.is_contradicted() && risk.halvings < MOST_HALVINGS && compute.step.is_none() {
+                *risk = Risk { halvings: risk.halvings + 1, ..Risk::new(case, planned) };
             }
             watch(n, risk);
         }
@@ -310,7 +339,7 @@ fn run_sample(
     finer: f64,
     progress: &Progress,
 ) -> Result<Sample, NoResult> {
-    let Target { case, shot, compute } = *target;
+    let Target { case, shot, compute, .. } = *target;
     let Drawn { scene, shot, inputs } = draw(case, shot, seed, number);
     let step = step(&compute, &scene) / finer;
     let judged = |step: f64| {
@@ -375,15 +404,19 @@ pub fn shares(risk: &Risk, limits: &Limits) -> Option<Vec<(Input, f64)>> {
 /// A quantity of a sample.
 type Quantity = fn(&Sample) -> f64;
 
-/// The quantity whose 95th percentile is the greatest share of its limit.
-fn nearest_its_limit(risk: &Risk, limits: &Limits) -> Option<Quantity> {
-    let quantities: [(Quantity, f64); 3] = [
+/// Height, force and drift, each with its limit.
+fn quantities(limits: &Limits) -> [(Quantity, f64); 3] {
+    [
         (|sample| sample.height, limits.height),
         (|sample| sample.force, limits.force),
         (|sample| sample.drift, limits.drift.unwrap_or(f64::INFINITY)),
-    ];
+    ]
+}
+
+/// The quantity whose 95th percentile is the greatest share of its limit.
+fn nearest_its_limit(risk: &Risk, limits: &Limits) -> Option<Quantity> {
     let mut nearest: Option<(f64, Quantity)> = None;
-    for (of, limit) in quantities {
+    for (of, limit) in quantities(limits) {
         let [_, _, high, _] = risk.band(of)?;
         if nearest.is_none_or(|(most, _)| high / limit > most) {
             nearest = Some((high / limit, of));

@@ -1,8 +1,8 @@
 //! Shots of a study sampled: few samples of many shots, or as many as a verdict needs.
 
 use super::confidence::Confidence;
-use super::risk::{FOR_BANDS, Risk, Sample, Sampling, Target, sample};
-use super::{Case, ComputeSettings, NoResult, Progress};
+use super::risk::{FOR_BANDS, Risk, Sampling, Target, percentiles, sample};
+use super::{Case, ComputeSettings, Envelope, NoResult, Progress};
 use crate::scene::Shot;
 use crate::verdict::{Limits, Verdict};
 
@@ -23,15 +23,13 @@ pub struct Sampled {
 impl Sampled {
     /// What no sample tells.
     pub fn nothing(case: &Case) -> Self {
-        let confidence = Risk::new(case).confidence;
+        let confidence = Risk::new(case, None).confidence;
         Self { confidence, verdict: Verdict::Undecided, utilization: f64::INFINITY }
     }
 
     fn of(risk: &Risk, limits: &Limits) -> Self {
-        let mut shares: Vec<f64> = risk.samples.iter().map(|sample| utilization(sample, limits)).collect();
-        shares.sort_by(f64::total_cmp);
-        let rank = (0.95 * shares.len() as f64).ceil() as usize;
-        let utilization = shares.get(rank.saturating_sub(1)).copied().unwrap_or(f64::INFINITY);
+        let shares = risk.samples.iter().map(|sample| sample.utilization(limits));
+        let utilization = percentiles(shares, [0.95]).map_or(f64::INFINITY, |[p95]| p95);
         Self { confidence: risk.confidence, verdict: risk.verdict(), utilization }
     }
 
@@ -48,12 +46,6 @@ impl Sampled {
     }
 }
 
-/// Greatest value of a sample over its limit.
-fn utilization(sample: &Sample, limits: &Limits) -> f64 {
-    let drift = limits.drift.map_or(0.0, |limit| sample.drift / limit);
-    (sample.height / limits.height).max(sample.force / limits.force).max(drift)
-}
-
 impl Sampling {
     /// Samples of a first look at many shots: 100 of each, fewer of those that surely fail too often.
     pub fn first_look(&self) -> Self {
@@ -61,17 +53,23 @@ impl Sampling {
     }
 }
 
-/// Samples shots of one case, all with the same draws; `None` for the shots that the time did not suffice for.
-pub fn sample_shots(
-    case: &Case,
-    shots: &[Shot],
+/// Samples shots of one case, each judged as planned, all with the same draws; `None` for the shots that the time did not suffice for.
+pub fn sample_shots<'c>(
+    case: &'c Case,
+    shots: &'c [(Shot, Envelope)],
     sampling: &Sampling,
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Vec<Option<Sampled>>, NoResult> {
     let mut all = Vec::with_capacity(shots.len());
     for shots in shots.chunks(AT_ONCE) {
-        let targets: Vec<_> = shots.iter().map(|shot| Target { case, shot, compute: *compute }).collect();
+        let target = |(shot, planned): &'c (Shot, Envelope)| Target {
+            case,
+            shot,
+            planned: Some(*planned),
+            compute: *compute,
+        };
+        let targets: Vec<_> = shots.iter().map(target).collect();
         let (risks, _) = sample(&targets, sampling, progress, |_| false, &mut |_, _| {})?;
         let is_complete = |risk: &Risk| {
             let (drawn, verdict) = (risk.samples.len(), risk.confidence.verdict());

@@ -138,6 +138,9 @@ impl Sizing {
     }
 }
 
+/// The shots that a combination is sampled with, hardest first: the index of each and what it is as planned.
+type Hardest = Vec<(usize, Envelope)>;
+
 /// Tries the combinations that the plan allows, of ropes that its termination fits, until the time is up. Without a `sampling`
 /// only the shots as planned count.
 pub fn size(
@@ -161,7 +164,7 @@ pub fn size(
     let own = [plan.tire.mass_kg];
     let masses = if plan.size.tire_mass_kg.is_empty() { &own[..] } else { &plan.size.tire_mass_kg };
     let most_border = if matches!(plan.layout, Layout::List { .. }) { 0 } else { plan.size.most_border_rows };
-    let mut tried: Vec<(Combination, Vec<usize>)> = Vec::new();
+    let mut tried: Vec<(Combination, Hardest)> = Vec::new();
     // Index of the shot at which the last combination failed: the next combination likely fails at it, too.
     let mut likeliest = 0;
     // The bit patterns of positive numbers sort like the numbers.
@@ -213,8 +216,13 @@ pub fn size(
             let mut trial = trial;
             if let Some(sampling) = sampling {
                 let shots = shots(&case, demand);
-                trial.risk =
-                    sample_hardest(&case, hardest.iter().map(|&n| &shots[n]), sampling, compute, progress)?;
+                trial.risk = sample_hardest(
+                    &case,
+                    hardest.iter().map(|&(n, planned)| (&shots[n], planned)),
+                    sampling,
+                    compute,
+                    progress,
+                )?;
                 let complete = trial.risk.is_some();
                 combination.trial = if complete { Ok(trial) } else { Err(Untried::OutOfTime) };
             }
@@ -232,18 +240,19 @@ fn total_mass(case: &Case, rope: &Rope) -> f64 {
     scene.mass.iter().sum::<f64>() + length * rope.mass_kg_per_m
 }
 
-/// Samples the shots of a case one after the other, until the risk of one does not pass; `None` where the time was up.
+/// Samples the shots of a case, each with what it is as planned, one after the other, until the risk of one does not pass;
+/// `None` where the time was up.
 fn sample_hardest<'s>(
     case: &Case,
-    shots: impl Iterator<Item = &'s Shot>,
+    shots: impl Iterator<Item = (&'s Shot, Envelope)>,
     sampling: &Sampling,
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Option<SampledRisk>, NoResult> {
     let sampling = Sampling { least: 0, ..*sampling };
     let mut all = SampledRisk { verdict: Verdict::Pass, samples: 0, failures: 0 };
-    for shot in shots {
-        let target = [Target { case, shot, compute: *compute }];
+    for (shot, planned) in shots {
+        let target = [Target { case, shot, planned: Some(planned), compute: *compute }];
         let (risks, partial) = sample(&target, &sampling, progress, |_| false, &mut |_, _| {})?;
         if partial {
             return Ok(None);
@@ -266,14 +275,14 @@ fn shots(case: &Case, demand: &Demand) -> Vec<Shot> {
     }
 }
 
-/// Tries one combination; the second part of the result is the shots to be sampled, hardest first.
+/// Tries one combination.
 fn try_out(
     case: &Case,
     demand: &Demand,
     compute: &ComputeSettings,
     likeliest: &mut usize,
     progress: &Progress,
-) -> Result<Option<(Trial, Vec<usize>)>, NoResult> {
+) -> Result<Option<(Trial, Hardest)>, NoResult> {
     let shots = shots(case, demand);
     let mut order: Vec<usize> = (0..shots.len()).collect();
     if *likeliest < shots.len() {
@@ -295,7 +304,7 @@ fn try_out(
     let utilization = |n: usize| judged[n].utilization(&case.limits);
     let hardest = (0..judged.len()).sorted_by(|&a, &b| utilization(b).total_cmp(&utilization(a)));
     let most = if matches!(demand, Demand::Options(_)) { shots.len() } else { HARDEST };
-    Ok(Some((trial, hardest.map(|n| order[n]).take(most).collect())))
+    Ok(Some((trial, hardest.map(|n| (order[n], judged[n])).take(most).collect())))
 }
 
 fn all_orders(case: &Case, intervals: &[f64]) -> Vec<Shot> {

@@ -1,7 +1,7 @@
 //! Blast rows that may fire in the reverse order, because the detonators in their holes scatter.
 
 use super::Case;
-use crate::scene::{fire_at_s, seconds};
+use crate::scene::fire_at_s;
 
 /// Two successive blast rows that may fire in the reverse order.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,8 +20,7 @@ pub struct Swap {
 /// `least`.
 pub fn swaps(case: &Case, least: f64) -> Vec<Swap> {
     let unknown = &case.plan.uncertainty;
-    let in_hole = seconds(unknown.in_hole_delay_ms);
-    let in_hole = if in_hole > 0.0 { unknown.delay.deviation(in_hole) } else { 0.0 };
+    let in_hole = unknown.in_hole_deviation();
     let mut swaps = Vec::new();
     for (option, delay) in case.plan.delays.iter().enumerate() {
         let mut rows: Vec<(f64, usize)> =

@@ -13,7 +13,8 @@ use shelter::study::judgement::Judgement;
 use shelter::study::margin::LaunchMargin;
 use shelter::study::merge::OptionSample;
 use shelter::study::risk::{Risk, Sampling, Target, sample};
-use shelter::study::{Case, ComputeSettings, Progress, thread_pool};
+use shelter::study::sampled::sample_shots;
+use shelter::study::{Case, ComputeSettings, Envelope, Progress, thread_pool};
 use shelter::verdict::Verdict;
 
 use crate::scenes::{GRAVITY, METHODS, fire, tie, tires};
@@ -58,7 +59,8 @@ delay = [{{ name = "20", interval_ms = 20 }}, {{ name = "60", interval_ms = 60 }
 }
 
 fn risk_of(case: &Case, sampling: &Sampling) -> Risk {
-    let target = Target { case, shot: &case.shots[0], compute: ComputeSettings::of(&case.plan) };
+    let target =
+        Target { case, shot: &case.shots[0], planned: None, compute: ComputeSettings::of(&case.plan) };
     let sampled = sample(&[target], sampling, &Progress::default(), |_| false, &mut |_, _| {});
     sampled.expect("a result").0.remove(0)
 }
@@ -161,6 +163,11 @@ fn samples_whose_step_is_too_long_pass_nothing() {
     assert_eq!((judged.nominal.verdict, risk.confidence.verdict()), (Verdict::Pass, Verdict::Pass));
     assert_eq!(judged.verdict(), Verdict::Undecided, "{:?}", risk.samples[0]);
     assert!(risk.halvings > 0, "the audit saw it, too");
+    // Sweeps and orders sample shots this way.
+    let shots = [(case.shots[0].clone(), Envelope::of(&judged.nominal))];
+    let sampled = sample_shots(&case, &shots, &Sampling::OF_VERDICT, &cases[0].1, &Progress::default());
+    let sampled = sampled.expect("a result").remove(0).expect("samples");
+    assert_eq!((sampled.confidence.verdict(), sampled.verdict), (Verdict::Pass, Verdict::Undecided));
 }
 
 /// A plan in which little is unknown, so that all samples have the same error of the step: their force is 3 % too small, and

@@ -70,7 +70,7 @@ pub fn checked(verdict: Verdict) -> Checked {
 
 /// Round samples, of which none fails or one in ten.
 pub fn samples(case: &Case, count: usize, some_fail: bool) -> Risk {
-    let mut risk = Risk::new(case);
+    let mut risk = Risk::new(case, None);
     for number in 0..count {
         let part = number as f64 / count as f64;
         let fails = some_fail && number % 10 == 3;

@@ -121,7 +121,7 @@ fn risky_sweep(case: &Case) -> (Sweep, Sampling, ComputeSettings) {
 /// The samples of one interval, drawn alone.
 fn risk_at(case: &Case, interval: f64, sampling: &Sampling, compute: ComputeSettings) -> Risk {
     let shot = case.shot(&[0, 1, 2], interval);
-    let target = [Target { case, shot: &shot, compute }];
+    let target = [Target { case, shot: &shot, planned: None, compute }];
     let drawn = sample(&target, sampling, &Progress::default(), |_| false, &mut |_, _| {});
     drawn.expect("samples").0.remove(0)
 }
@@ -196,7 +196,8 @@ fn the_ends_of_the_ranking_are_sampled() {
             continue;
         };
         let sampling = if n == 71 { sampling } else { sampling.first_look() };
-        let target = [Target { case: &case, shot: &case.shot(&tried.order, tried.interval), compute }];
+        let target =
+            [Target { case: &case, shot: &case.shot(&tried.order, tried.interval), planned: None, compute }];
         let (risks, _) = sample(&target, &sampling, &progress, |_| false, &mut |_, _| {}).expect("samples");
         assert_eq!(risk.confidence, risks[0].confidence);
         assert_eq!(ranked.verdict_on(n), tried.envelope.verdict.max(risks[0].verdict()));

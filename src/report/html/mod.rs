@@ -37,7 +37,7 @@ th::first-letter { text-transform: uppercase } .pass, .fail, .undecided { font-w
 const ASSUMPTIONS: &[&str] = &[
     "Tires are point masses that do not turn; the ground is flat and hard, and a landing does not bounce.",
     "Cables are elastic, without mass and damping; they only pull, and their fastenings hold.",
-    "Each hole gives its tire the launch velocity written in the plan; the program knows nothing of charges, stemming or gas.",
+    "Each hole gives its tire the launch velocity written in the plan, varied in the possible shots as [uncertainty] says; the program knows nothing of charges, stemming or gas.",
     "Friction on the ground is Coulomb's, with one coefficient.",
     "The error stated with a value of the shot as planned is that of the computation; what the plan's own numbers leave open is in the bands and the risk.",
     "The limits are the plan's; no limit is safe by default. A competent person decides.",
@@ -70,8 +70,11 @@ pub fn page(case: &Case, results: &Results, date: &str) -> String {
                 }
                 section {
                     h2 { "Delay options" }
+                    @for fact in &report.facts { p.quiet { (fact) } }
                     @if results.iter().flatten().any(|judged| judged.risk.is_some()) {
                         ul { @for meaning in explain::VERDICTS { li { (meaning) } } }
+                    } @else {
+                        p { "The plan's own numbers only, nothing varied: other shots that may come of this plan can fail." }
                     }
                     @for block in &report.blocks {
                         @if let Block::Table(options) = block { (table::table(options)) }

@@ -170,7 +170,8 @@ impl OptionValues {
             any_cable_breaks: risk.map(|risk| risk.breaks.interval.into()),
             launch_margin: match judged.launch_margin {
                 Some(LaunchMargin::UpTo(share)) => Some(share),
-                None if risk.is_some() && checked.verdict != Verdict::Pass => Some(0.0),
+                // Null would say that nothing fails: a margin that is not known is none.
+                None if risk.is_some() => Some(0.0),
                 Some(LaunchMargin::Wide) | None => None,
             },
             inputs: risk.and_then(|risk| input_shares(risk, &case.limits)),

@@ -30,9 +30,9 @@ pub fn add_risk(
     progress: &Progress,
 ) -> Finding<Sweep> {
     let Found { value: mut swept, mut partial } = nominal;
-    let shot = |point: &Point| case.shot(&swept.order, point.interval);
+    let shot = |point: &Point| (case.shot(&swept.order, point.interval), point.envelope);
     let chosen = choose(&swept.points, &swept.nominal_windows, own);
-    let shots: Vec<Shot> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
+    let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
     let sampled = sample_shots(case, &shots, &sampling.first_look(), compute, progress)?;
     partial |= sampled.contains(&None);
     swept.points.iter_mut().for_each(|point| point.risk = Some(Sampled::nothing(case)));
@@ -55,7 +55,7 @@ pub fn add_risk(
             break;
         };
         tried.insert(nanoseconds(candidate.interval));
-        match judge(case, &case.shot(&swept.order, candidate.interval), sampling, compute, progress)? {
+        match judge(case, case.shot(&swept.order, candidate.interval), sampling, compute, progress)? {
             None => partial = true,
             Some((envelope, risk)) => {
                 let point = &mut swept.points[n];
@@ -74,12 +74,12 @@ pub fn add_risk(
 /// The full verdict on a shot: as planned, and where that passes, its samples; `None` where the time was up.
 fn judge(
     case: &Case,
-    shot: &Shot,
+    shot: Shot,
     sampling: &Sampling,
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Option<(Envelope, Option<Sampled>)>, NoResult> {
-    let envelope = match judge_shot(case, shot, compute, progress) {
+    let envelope = match judge_shot(case, &shot, compute, progress) {
         Err(NoResult::OutOfTime) => return Ok(None),
         Err(NoResult::Failed(_)) => Envelope::UNKNOWN,
         judged => judged?,
@@ -89,7 +89,7 @@ fn judge(
     }
     // The first look chose this shot for its draws: the verdict has draws of its own.
     let own = Sampling { seed: !sampling.seed, ..*sampling };
-    let sampled = sample_shots(case, std::slice::from_ref(shot), &own, compute, progress)?.remove(0);
+    let sampled = sample_shots(case, &[(shot, envelope)], &own, compute, progress)?.remove(0);
     Ok(sampled.map(|sampled| (envelope, Some(sampled))))
 }
 
