@@ -16,7 +16,8 @@ use crate::study::check_all::{Results, check_all};
 use crate::study::flight::{Flight, record};
 use crate::study::margin::LaunchMargin;
 use crate::study::orders::{Orders, orders, rank};
-use crate::study::risk::{Risk, Sampling};
+use crate::study::risk::Risk;
+use crate::study::sampling::Sampling;
 use crate::study::size::{Demand, Sizing, size};
 use crate::study::sweep::{GAP, Sweep, sweep};
 use crate::study::{
@@ -133,7 +134,7 @@ pub enum News {
 }
 
 /// Samples of every option.
-const SAMPLING: Sampling = Sampling { least: 1000, most: 1000, seed: 1 };
+const SAMPLING: Sampling = Sampling::exactly(1000, 1);
 /// Intervals swept [s].
 const INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: GAP };
 /// Longest run that [`StudyKind::Accuracy`] makes.

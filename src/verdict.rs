@@ -72,6 +72,22 @@ impl Estimate {
     }
 }
 
+/// A quantity that has a limit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Flight height [m].
+    Height,
+    /// Cable force [N].
+    Force,
+    /// Drift at the end [m].
+    Drift,
+}
+
+impl Quantity {
+    /// All quantities.
+    pub const ALL: [Self; 3] = [Self::Height, Self::Force, Self::Drift];
+}
+
 /// The limits that an option must keep to pass, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
@@ -86,10 +102,19 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// Utilization: the greatest of height [m], force [N] and drift [m] over its limit; above 1 a shot fails.
-    pub fn utilization(&self, height: f64, force: f64, drift: f64) -> f64 {
-        let drift = self.drift.map_or(0.0, |limit| drift / limit);
-        (height / self.height).max(force / self.force).max(drift)
+    /// The limit of a quantity [its SI unit]; `None` where it has none.
+    pub fn get(&self, quantity: Quantity) -> Option<f64> {
+        match quantity {
+            Quantity::Height => Some(self.height),
+            Quantity::Force => Some(self.force),
+            Quantity::Drift => self.drift,
+        }
+    }
+
+    /// Utilization: the greatest value over its limit; above 1 a shot fails.
+    pub fn utilization(&self, value: impl Fn(Quantity) -> f64) -> f64 {
+        let shares = Quantity::ALL.into_iter().filter_map(|of| Some(value(of) / self.get(of)?));
+        shares.fold(0.0, f64::max)
     }
 }
 

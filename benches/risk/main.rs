@@ -9,7 +9,8 @@ use rand_chacha::ChaCha8Rng;
 use shelter::choice::Accuracy;
 use shelter::plan::Plan;
 use shelter::study::check_all::check_all;
-use shelter::study::risk::{Sample, Sampling, Target, sample, sample_share};
+use shelter::study::sample::Sample;
+use shelter::study::sampling::{Sampling, Target, draw_share, find_risks};
 use shelter::study::{Case, ComputeSettings, Progress, Shard};
 use shelter::verdict::Verdict;
 
@@ -32,9 +33,9 @@ const SEED: u64 = 1 << 40;
 /// Many samples, at the step of samples of `accuracy`; that of reference is fine.
 fn brute_force(case: &Case, option: usize, samples: usize, accuracy: Accuracy) -> Vec<Sample> {
     let compute = ComputeSettings { accuracy, ..ComputeSettings::of(&case.plan) };
-    let target = Target { case, shot: &case.shots[option], planned: None, compute };
-    let sampling = Sampling { least: samples, most: samples, seed: SEED };
-    let drawn = sample_share(&[target], &sampling, Shard::WHOLE, &Progress::default()).expect("samples");
+    let sampling = Sampling::exactly(samples, SEED);
+    let target = Target { case, shot: &case.shots[option], planned: None, compute, sampling, drawn: &[] };
+    let drawn = draw_share(&[target], Shard::WHOLE, &Progress::default()).expect("samples");
     drawn.into_iter().filter_map(|(_, sample)| sample).collect()
 }
 
@@ -92,7 +93,7 @@ tire_mass_cv_percent = {wide}
         Case::new(Plan::parse("random", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
     };
     let samples = brute_force(&plan(1e3, 1e9), 0, TRUTH, Accuracy::Reference);
-    let value = |sample: &Sample| if by_height { sample.height } else { sample.force };
+    let value = |sample: &Sample| if by_height { sample.run.height } else { sample.run.force };
     let mut values: Vec<f64> = samples.iter().map(value).collect();
     values.sort_by(f64::total_cmp);
     let limit = values[((1.0 - risk) * values.len() as f64) as usize];
@@ -112,7 +113,7 @@ fn coverage(plans: usize, seeds: u64) {
     // The same draws at the coarse step: the difference is the bias of coarse samples.
     let bias = |(case, truth): &(Case, f64)| {
         let coarse = brute_force(case, 0, TRUTH, Accuracy::Field);
-        let coarse = share(coarse.iter().map(|sample| sample.verdict == Verdict::Fail));
+        let coarse = share(coarse.iter().map(|sample| sample.run.verdict == Verdict::Fail));
         println!("  truth {truth:.4}, the same draws at the coarse step {coarse:.4}");
         (coarse - truth).abs()
     };
@@ -127,9 +128,9 @@ fn coverage(plans: usize, seeds: u64) {
         for (case, truth) in &drawn {
             let compute = ComputeSettings { accuracy, ..ComputeSettings::of(&case.plan) };
             for seed in 1..=seeds {
-                let target = Target { case, shot: &case.shots[0], planned: None, compute };
-                let sampling = Sampling { seed, ..Sampling::OF_VERDICT };
-                let found = sample(&[target], &sampling, &Progress::default(), |_| false, &mut |_, _| {});
+                let (shot, sampling) = (&case.shots[0], Sampling { seed, ..Sampling::OF_VERDICT });
+                let target = Target { case, shot, planned: None, compute, sampling, drawn: &[] };
+                let found = find_risks(&[target], &Progress::default(), &mut |_, _| {});
                 let risk = found.expect("samples").0.remove(0);
                 let [low, high] = risk.confidence.interval;
                 covered.push((low..=high).contains(truth));
@@ -167,7 +168,7 @@ fn shipped(samples: usize) {
             let verdict = judged.verdict();
             let failing = (verdict == Verdict::Pass).then(|| {
                 let drawn = brute_force(&case, option, samples, Accuracy::Reference);
-                share(drawn.iter().map(|sample| sample.verdict != Verdict::Pass))
+                share(drawn.iter().map(|sample| sample.run.verdict != Verdict::Pass))
             });
             let failing = failing.map_or_else(String::new, |share| format!("{:.2} %", 1e2 * share));
             let file = file.file_name();

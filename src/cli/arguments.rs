@@ -9,7 +9,7 @@ use crate::choice::{Accuracy, Method, UnknownName};
 use crate::plan::Plan;
 use crate::report::text::Style;
 use crate::scene::seconds;
-use crate::study::risk::Sampling;
+use crate::study::sampling::Sampling;
 use crate::study::{ComputeSettings, Intervals, Shard};
 
 /// How to compute.
@@ -112,13 +112,13 @@ impl SamplingArguments {
     pub fn of_verdict(self) -> Sampling {
         let usual = Sampling::OF_VERDICT;
         let most = self.samples.map_or(usual.most, |samples| samples as usize);
-        Sampling { least: usual.least.min(most), most, seed: self.seed.unwrap_or(usual.seed) }
+        Sampling { least: usual.least.min(most), most, seed: self.seed.unwrap_or(usual.seed), ..usual }
     }
 
     /// Exactly as many samples of every option as asked for; `usual` where the command line does not say.
     pub fn exactly(self, usual: usize) -> Sampling {
         let samples = self.samples.map_or(usual, |samples| samples as usize);
-        Sampling { least: samples, most: samples, seed: self.seed.unwrap_or(Sampling::OF_VERDICT.seed) }
+        Sampling::exactly(samples, self.seed.unwrap_or(Sampling::OF_VERDICT.seed))
     }
 }
 

@@ -12,24 +12,19 @@ use crate::report::check::report;
 use crate::report::json::CheckDocument;
 use crate::report::model::Report;
 use crate::study::check_all::{Results, check_all, find_launch_margins};
-use crate::study::risk::Sampling;
-use crate::study::{Case, NoResult};
+use crate::study::sampling::Sampling;
+use crate::study::{Case, Finding, Found, NoResult};
 
-/// Checks all options of all cases in parallel. Returns results in the order of plans and options.
-pub fn check_plans(
-    cases: &[Case],
-    sampling: Option<Sampling>,
-    compute: &Compute,
-) -> Result<Vec<Results>, NoResult> {
+/// Checks all options of all cases in parallel; the results stand in the order of plans and options.
+pub fn check_plans(cases: &[Case], sampling: Option<Sampling>, compute: &Compute) -> Finding<Vec<Results>> {
     let cases: Vec<_> = cases.iter().map(|case| (case, compute.settings(&case.plan))).collect();
-    let found = run_study(compute, |progress| {
+    run_study(compute, |progress| {
         let mut found = check_all(&cases, sampling.as_ref(), progress)?;
         if sampling.is_some() {
             found.partial |= !find_launch_margins(&cases, &mut found.value, progress)?;
         }
         Ok(found)
-    })?;
-    Ok(found.value)
+    })
 }
 
 /// One document for one plan, a list of documents for several.
@@ -43,15 +38,17 @@ enum Documents {
 /// Prints the results of all cases; with `any` one passing option is enough.
 pub fn print_checks(
     cases: &[Case],
-    checked: &[Results],
+    checked: &Found<Vec<Results>>,
     any: bool,
     format: FormatArg,
     look: &LookArguments,
 ) -> io::Result<Status> {
+    let Found { value: checked, partial } = checked;
     let pairs = || cases.iter().zip(checked);
     let reports: Vec<Report> = pairs().map(|(case, results)| report(case, results, any)).collect();
     let documents = || {
-        let mut all: Vec<_> = pairs().map(|(case, results)| CheckDocument::new(case, results, any)).collect();
+        let document = |(case, results): (&Case, &Results)| CheckDocument::new(case, results, any, *partial);
+        let mut all: Vec<_> = pairs().map(document).collect();
         match all.len() {
             1 => Documents::One(Box::new(all.remove(0))),
             _ => Documents::Several(all),

@@ -58,7 +58,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             }
         }
         (Question::Risk { sampling }, Findings::Risk(samples)) => {
-            match judge_drawn(&case, &head.compute, &samples, &Progress::default()) {
+            match judge_drawn(&case, &head.compute, &sampling, &samples, &Progress::default()) {
                 Ok(results) => print_risks(&case, &results, &sampling, false, arguments.format, look),
                 Err(reason) => failed(&reason),
             }

@@ -11,7 +11,7 @@ use crate::report::{orders, risk};
 use crate::study::Case;
 use crate::study::check_all::Results;
 use crate::study::orders::Orders;
-use crate::study::risk::Sampling;
+use crate::study::sampling::Sampling;
 use crate::study::swaps::swaps;
 
 /// Prints the orders tried; `partial` where the time was up before all were.

@@ -40,11 +40,12 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         return wrong("page and results cannot both go to standard output: write the page to a file");
     }
     let cases = [case];
-    let checked = match check_plans(&cases, arguments.verdict.sampling(), &arguments.compute) {
+    let sampling = arguments.verdict.sampling();
+    let checked = match check_plans(&cases, sampling, &arguments.compute) {
         Ok(checked) => checked,
         Err(reason) => return failed(&reason),
     };
-    let page = html::page(&cases[0], &checked[0], &html::today());
+    let page = html::page(&cases[0], &checked.value[0], sampling.as_ref(), &html::today());
     if output.as_os_str() == "-" {
         print_text(&page)?;
     } else {
@@ -53,6 +54,6 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     }
     match arguments.format {
         Some(format) => print_checks(&cases, &checked, false, format, look),
-        None => Ok(Status::of(&[check::report(&cases[0], &checked[0], false)])),
+        None => Ok(Status::of(&[check::report(&cases[0], &checked.value[0], false)])),
     }
 }

@@ -14,7 +14,7 @@ use super::status::{Status, failed, wrong};
 use crate::report::notes;
 use crate::study::check_all::check_all;
 use crate::study::merge::{Findings, OptionSample, Question, write_share};
-use crate::study::risk::{Sampling, Target, sample_share};
+use crate::study::sampling::{Sampling, Target, draw_share};
 use crate::study::{Case, Found, Shard};
 
 #[derive(Args)]
@@ -62,10 +62,11 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
 /// Prints this machine's share of the samples.
 fn share(arguments: &Arguments, case: &Case, sampling: &Sampling, shard: Shard) -> io::Result<Status> {
     let settings = arguments.compute.settings(&case.plan);
-    let target = |shot| Target { case, shot, planned: None, compute: settings };
+    let target =
+        |shot| Target { case, shot, planned: None, compute: settings, sampling: *sampling, drawn: &[] };
     let targets: Vec<_> = case.shots.iter().map(target).collect();
     let drawn = run_study(&arguments.compute, |progress| {
-        let drawn = sample_share(&targets, sampling, shard, progress)?;
+        let drawn = draw_share(&targets, shard, progress)?;
         let samples =
             drawn.into_iter().filter_map(|(option, sample)| Some(OptionSample { option, sample: sample? }));
         Ok(Found { value: samples.collect(), partial: false })

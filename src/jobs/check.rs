@@ -8,10 +8,11 @@ use rayon::iter::{ParallelBridge, ParallelIterator};
 use super::{Job, News};
 use crate::study::batch::each;
 use crate::study::check::check;
+use crate::study::check_all::target;
 use crate::study::margin::launch_margin;
-use crate::study::risk::{Risk, Sampling, Target, sample};
+use crate::study::risk::Risk;
+use crate::study::sampling::{Sampling, Target, find_risks};
 use crate::study::{Envelope, NoResult, guarded};
-use crate::verdict::Verdict;
 
 /// Least time between two pieces of news about an option that computes.
 const CHECKING_EVERY: Duration = Duration::from_millis(50);
@@ -54,15 +55,12 @@ impl Job {
         judged
     }
 
-    fn target(&self, &(option, planned): &(usize, Envelope)) -> Target<'_> {
-        let case = &*self.case;
-        Target { case, shot: &case.shots[option], planned: Some(planned), compute: self.compute }
-    }
-
     /// Samples options, each with what it is as planned.
     fn sample(&self, options: &[(usize, Envelope)]) -> Result<(), NoResult> {
-        let targets: Vec<Target<'_>> = options.iter().map(|option| self.target(option)).collect();
-        let enough = |n: usize| options[n].1.verdict == Verdict::Fail;
+        let target = |(option, planned): &(usize, Envelope)| {
+            target(&self.case, *option, planned, &Sampling::OF_VERDICT, self.compute)
+        };
+        let targets: Vec<Target<'_>> = options.iter().map(target).collect();
         let mut told: Vec<Option<Instant>> = vec![None; options.len()];
         let mut watch = |n: usize, risk: &Risk| {
             if told[n].is_none_or(|told| told.elapsed() >= SAMPLED_EVERY) {
@@ -71,7 +69,7 @@ impl Job {
                 self.tell(News::Sampled { option: options[n].0, result, more: true });
             }
         };
-        let sampled = sample(&targets, &Sampling::OF_VERDICT, &self.progress, enough, &mut watch);
+        let sampled = find_risks(&targets, &self.progress, &mut watch);
         let risks = sampled.map(|(risks, _)| risks).inspect_err(|none| {
             for &(option, _) in options {
                 self.tell(News::Sampled { option, result: Err(none.clone()), more: false });

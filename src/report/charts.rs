@@ -5,12 +5,12 @@ use crate::choice::Method;
 use crate::outcome::History;
 use crate::study::accuracy::{AccuracyTable, Measured};
 use crate::study::orders::Orders;
-use crate::study::risk::{Risk, Sample};
+use crate::study::risk::Risk;
 use crate::study::size::{Combination, Sizing};
 use crate::study::sweep::{Point, Sweep};
 use crate::study::{Case, Envelope};
 use crate::units::Unit;
-use crate::verdict::Verdict;
+use crate::verdict::{Quantity, Verdict};
 
 /// Room above the greatest value.
 const HEADROOM: f64 = 1.08;
@@ -129,8 +129,8 @@ pub fn orders(case: &Case, orders: &Orders) -> Chart {
 
 /// Greatest height and force of the samples, from the gentlest to the hardest.
 pub fn samples(case: &Case, risk: &Risk) -> [Chart; 2] {
-    let chart = |name, unit, of: fn(&Sample) -> f64, limit| {
-        let mut values: Vec<f64> = risk.samples.iter().map(of).collect();
+    let chart = |name, unit, quantity, limit| {
+        let mut values: Vec<f64> = risk.samples.iter().map(|sample| sample.run.get(quantity)).collect();
         values.sort_by(f64::total_cmp);
         let count = values.len() as f64;
         let points = values.into_iter().enumerate().map(|(n, value)| ((n as f64 + 0.5) / count, value));
@@ -145,14 +145,14 @@ pub fn samples(case: &Case, risk: &Risk) -> [Chart; 2] {
         Chart { y: axis(name, unit, [(low - room).max(0.0), high + room]), ..chart }
     };
     [
-        chart(HEIGHT, Unit::Metre, |sample| sample.height, case.limits.height),
-        chart(FORCE, Unit::Kilonewton, |sample| sample.force, case.limits.force),
+        chart(HEIGHT, Unit::Metre, Quantity::Height, case.limits.height),
+        chart(FORCE, Unit::Kilonewton, Quantity::Force, case.limits.force),
     ]
 }
 
 /// Utilization of the samples of the option `name`, from the gentlest to the hardest.
 pub fn risk(case: &Case, name: &str, risk: &Risk) -> Chart {
-    let shares = risk.samples.iter().map(|sample| sample.utilization(&case.limits));
+    let shares = risk.samples.iter().map(|sample| sample.run.utilization(&case.limits));
     let mut shares: Vec<f64> = shares.filter(|share| share.is_finite()).collect();
     shares.sort_by(f64::total_cmp);
     let count = shares.len() as f64;

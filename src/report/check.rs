@@ -10,10 +10,10 @@ use crate::study::check_all::{Results, verdict};
 use crate::study::judgement::Judgement;
 use crate::study::margin::LaunchMargin;
 use crate::study::reason::Reason;
-use crate::study::risk::{Risk, Sample};
+use crate::study::risk::Risk;
 use crate::study::{Case, NoResult};
 use crate::units::{self, Unit};
-use crate::verdict::{Estimate, Verdict};
+use crate::verdict::{Estimate, Quantity, Verdict};
 
 /// A delay option and its result.
 struct OptionRow<'a> {
@@ -34,9 +34,9 @@ impl OptionRow<'_> {
         risk.map_or(Cell::Nothing, cell)
     }
 
-    fn band(&self, of: fn(&Sample) -> f64, unit: Unit) -> Cell {
+    fn band(&self, quantity: Quantity, unit: Unit) -> Cell {
         self.sampled(|risk| {
-            risk.band(of).map_or(Cell::Nothing, |[p05, _, p95, _]| Cell::Band([p05, p95], unit))
+            risk.band(quantity).map_or(Cell::Nothing, |[p05, _, p95, _]| Cell::Band([p05, p95], unit))
         })
     }
 
@@ -79,7 +79,7 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 28] {
         Field::new(FAILURES, |row| row.sampled(|risk| Cell::Probability(risk.confidence.interval))),
         Field::new(HEIGHT, |row| row.of(|checked| height(checked.height.into()))),
         Field::new(NOMINAL_HEIGHT, |row| row.of(|checked| planned(checked.height, Unit::Metre))),
-        Field::new(HEIGHT_BAND, |row| row.band(|sample| sample.height, Unit::Metre)),
+        Field::new(HEIGHT_BAND, |row| row.band(Quantity::Height, Unit::Metre)),
         Field::new(Column::scripts(&["flight_height_at_s"]), |row| {
             row.of(|checked| Cell::Number(checked.height.at))
         }),
@@ -88,7 +88,7 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 28] {
         }),
         Field::new(FORCE, |row| row.of(|checked| force(checked.force.into()))),
         Field::new(NOMINAL_FORCE, |row| row.of(|checked| planned(checked.force, Unit::Kilonewton))),
-        Field::new(FORCE_BAND, |row| row.band(|sample| sample.force, Unit::Kilonewton)),
+        Field::new(FORCE_BAND, |row| row.band(Quantity::Force, Unit::Kilonewton)),
         Field::new(Column::scripts(&["cable_force_at_s"]), |row| {
             row.of(|checked| Cell::Number(checked.force.at))
         }),
@@ -105,7 +105,7 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 28] {
         Field::new(Column::scripts(&["launch_margin"]), |row| {
             let judged = row.result.as_ref().ok();
             match judged.and_then(|judged| judged.launch_margin) {
-                Some(LaunchMargin::UpTo(share)) => Cell::Number(share),
+                Some(LaunchMargin::UpTo { share, .. }) => Cell::Number(share),
                 Some(LaunchMargin::Wide) | None => Cell::Nothing,
             }
         }),

@@ -9,10 +9,11 @@ use crate::study::check::Checked;
 use crate::study::draw::Input;
 use crate::study::judgement::Judgement;
 use crate::study::margin::LaunchMargin;
-use crate::study::reason::{EarlyEnd, Quantity, Reason};
-use crate::study::risk::{Risk, Sample, shares};
+use crate::study::reason::{EarlyEnd, Reason};
+use crate::study::risk::Risk;
+use crate::study::shares;
 use crate::units::{self, Unit, value_and_error};
-use crate::verdict::{Estimate, Limits, Verdict};
+use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
 /// What the three verdicts mean.
 pub const VERDICTS: [&str; 3] = [
@@ -33,16 +34,20 @@ pub fn reason(reason: &Reason) -> String {
         }
         Reason::EndsEarly { end, open } => return ends_early(*end, *open),
     };
-    let (name, unit) = match quantity {
-        Quantity::Height => ("flight height", Unit::Metre),
-        Quantity::Force => ("cable force", Unit::Kilonewton),
-        Quantity::Drift => ("drift", Unit::Metre),
-    };
+    let (name, unit) = quantity_name(*quantity);
     let value = value_and_error(estimate.value, estimate.error, unit);
     let (limit, symbol) = (units::exact(*limit, unit), unit.symbol());
     match verdict {
         Verdict::Fail => format!("{name} {value} {symbol} is over the limit of {limit} {symbol}"),
         _ => format!("{name} {value} {symbol} is too near the limit of {limit} {symbol} to tell"),
+    }
+}
+
+fn quantity_name(quantity: Quantity) -> (&'static str, Unit) {
+    match quantity {
+        Quantity::Height => ("flight height", Unit::Metre),
+        Quantity::Force => ("cable force", Unit::Kilonewton),
+        Quantity::Drift => ("drift", Unit::Metre),
     }
 }
 
@@ -78,20 +83,18 @@ pub fn risk_detail(case: &Case, judged: &Judgement) -> Option<Detail> {
 
 /// How many samples go past each limit: ` (cable force 12, flight height 3)`.
 fn limits_passed(case: &Case, risk: &Risk) -> String {
-    let past = |of: fn(&Sample) -> f64, limit: f64| risk.samples.iter().filter(|s| of(s) > limit).count();
-    let counts = [
-        ("flight height", past(|sample| sample.height, case.limits.height)),
-        ("cable force", past(|sample| sample.force, case.limits.force)),
-        ("drift", case.limits.drift.map_or(0, |limit| past(|sample| sample.drift, limit))),
-    ];
-    let words: Vec<String> =
-        counts.iter().filter(|(_, n)| *n > 0).map(|(name, n)| format!("{name} {n}")).collect();
+    let count = |quantity: Quantity| {
+        let limit = case.limits.get(quantity)?;
+        let past = risk.samples.iter().filter(|sample| sample.run.get(quantity) > limit).count();
+        (past > 0).then(|| format!("{} {past}", quantity_name(quantity).0))
+    };
+    let words: Vec<String> = Quantity::ALL.into_iter().filter_map(count).collect();
     if words.is_empty() { String::new() } else { format!(" ({})", words.join(", ")) }
 }
 
 /// What decides how a shot turns out: `slack 61 %, launch 24 %, hole by hole and interplay 13 %`.
 pub fn inputs(risk: &Risk, limits: &Limits) -> Option<String> {
-    let shares = shares(risk, limits)?;
+    let shares = shares::input_shares(risk, limits)?;
     let rest = 1.0 - shares.iter().map(|(_, share)| share).sum::<f64>();
     let worth = shares.iter().filter(|(_, share)| *share >= LEAST_SHARE);
     let mut words: Vec<String> =
@@ -115,7 +118,7 @@ fn input_name(input: Input) -> &'static str {
 /// How much faster the tires may leave, in words: `to +4 %`.
 pub fn launch_margin(margin: LaunchMargin) -> String {
     match margin {
-        LaunchMargin::UpTo(share) => format!("to +{}", units::percent(share, 0)),
+        LaunchMargin::UpTo { share, .. } => format!("to +{}", units::percent(share, 0)),
         LaunchMargin::Wide => "over +100 %".to_owned(),
     }
 }
@@ -132,9 +135,9 @@ pub fn launch_limit(shot: &Shot, judged: &Judgement) -> Option<String> {
     };
     match judged.launch_margin? {
         _ if judged.nominal.verdict != Verdict::Pass => None,
-        LaunchMargin::UpTo(share) => {
-            let share = share + 0.01;
-            Some(format!("fails from +{} launch{}", units::percent(share, 0), at(1.0 + share)))
+        LaunchMargin::UpTo { share, then } => {
+            let (share, becomes) = (share + 0.01, if then == Verdict::Fail { "fails" } else { "open" });
+            Some(format!("{becomes} from +{} launch{}", units::percent(share, 0), at(1.0 + share)))
         }
         LaunchMargin::Wide => Some(format!("passes up to +100 % launch{}", at(2.0))),
     }
@@ -143,15 +146,15 @@ pub fn launch_limit(shot: &Shot, judged: &Judgement) -> Option<String> {
 /// Greatest height and force of the samples: 5th and 95th percentile; and how likely a cable breaks. `None` for too few
 /// samples.
 pub fn bands(risk: &Risk) -> Option<String> {
-    let band = |of: fn(&Sample) -> f64, unit: Unit| {
-        let [low, _, high, _] = risk.band(of)?;
+    let band = |quantity: Quantity, unit: Unit| {
+        let [low, _, high, _] = risk.band(quantity)?;
         Some(format!("{} to {} {}", units::value(low, unit), units::value(high, unit), unit.symbol()))
     };
     Some(format!(
         "5 to 95 % of {} samples: height {} · force {} · a cable breaks in {} %",
         risk.samples.len(),
-        band(|sample| sample.height, Unit::Metre)?,
-        band(|sample| sample.force, Unit::Kilonewton)?,
+        band(Quantity::Height, Unit::Metre)?,
+        band(Quantity::Force, Unit::Kilonewton)?,
         units::probabilities(risk.breaks.interval),
     ))
 }

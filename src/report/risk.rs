@@ -8,11 +8,12 @@ use super::no_result;
 use super::shared_columns::{FAILURES, VERDICT};
 use crate::study::check_all::{Results, verdict};
 use crate::study::judgement::Judgement;
-use crate::study::risk::{Risk, Sample, Sampling};
+use crate::study::risk::Risk;
+use crate::study::sampling::Sampling;
 use crate::study::swaps::Swap;
 use crate::study::{Case, NoResult};
 use crate::units::{self, Unit};
-use crate::verdict::Verdict;
+use crate::verdict::{Quantity, Verdict};
 
 const SPREAD: &str = "5 · 50 · 95 % · max";
 
@@ -30,8 +31,8 @@ impl OptionRow<'_> {
         risk.map_or(Cell::Nothing, cell)
     }
 
-    fn spread(&self, of: fn(&Sample) -> f64, unit: Unit) -> Cell {
-        self.of(|risk| risk.band(of).map_or(Cell::Nothing, |band| Cell::Spread(band, unit)))
+    fn spread(&self, quantity: Quantity, unit: Unit) -> Cell {
+        self.of(|risk| risk.band(quantity).map_or(Cell::Nothing, |band| Cell::Spread(band, unit)))
     }
 }
 
@@ -59,10 +60,10 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 10] {
         }),
         Field::new(FAILURES, |row| row.of(|risk| Cell::Probability(risk.confidence.interval))),
         Field::new(spread(height_keys, "height", Unit::Metre), |row| {
-            row.spread(|sample| sample.height, Unit::Metre)
+            row.spread(Quantity::Height, Unit::Metre)
         }),
         Field::new(spread(force_keys, "force", Unit::Kilonewton), |row| {
-            row.spread(|sample| sample.force, Unit::Kilonewton)
+            row.spread(Quantity::Force, Unit::Kilonewton)
         }),
         Field::new(Column::words(&["inputs"], "what decides it"), |row| {
             row.of(|risk| Cell::Text(inputs(risk, &row.case.limits).unwrap_or_default()))

@@ -2,7 +2,7 @@
 
 use super::model::{Cell, Column};
 use crate::study::Bounded;
-use crate::study::sampled::Sampled;
+use crate::study::risk_summary::RiskSummary;
 use crate::units::Unit;
 
 /// Pass, open or fail.
@@ -33,20 +33,20 @@ pub fn force(force: Bounded) -> Cell {
 }
 
 /// Cell of [`FAILURES`]; nothing where no sample was drawn.
-pub fn failures(risk: Option<&Sampled>) -> Cell {
+pub fn failures(risk: Option<&RiskSummary>) -> Cell {
     drawn(risk).map_or(Cell::Nothing, |risk| Cell::Probability(risk.confidence.interval))
 }
 
 /// Cell of [`PROBABILITY`]; nothing where no sample was drawn.
-pub fn probability(risk: Option<&Sampled>) -> Cell {
+pub fn probability(risk: Option<&RiskSummary>) -> Cell {
     drawn(risk).and_then(|risk| risk.confidence.probability()).map_or(Cell::Nothing, Cell::Number)
 }
 
-fn drawn(risk: Option<&Sampled>) -> Option<&Sampled> {
+fn drawn(risk: Option<&RiskSummary>) -> Option<&RiskSummary> {
     risk.filter(|risk| risk.is_drawn())
 }
 
 /// `2 of 430 possible shots fail`.
-pub fn sampled(risk: &Sampled) -> String {
+pub fn sampled(risk: &RiskSummary) -> String {
     format!("{} of {} possible shots fail", risk.confidence.failures, risk.confidence.samples)
 }

@@ -76,7 +76,7 @@ impl Checked {
     fn is_sure(&self, limits: &Limits) -> bool {
         let verdict = |times: f64| {
             let larger = |estimate: Estimate| Estimate { error: times * estimate.error, ..estimate };
-            let each = limited(self.height, self.force, self.drift, limits)
+            let each = limited([self.height, self.force, self.drift], limits)
                 .map(|(_, estimate, limit)| larger(estimate).against(limit));
             Verdict::worst(each)
         };

@@ -5,7 +5,8 @@ use super::check::check;
 use super::judgement::Judgement;
 use super::margin::launch_margin;
 use super::merge::OptionSample;
-use super::risk::{Risk, Sampling, Target, sample};
+use super::sample::Sample;
+use super::sampling::{Sampling, Target, find_risks};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, guarded};
 use crate::verdict::Verdict;
 
@@ -41,17 +42,7 @@ pub fn check_all(
     let mut judged: Vec<_> = checked.map(|checked| checked.map(Judgement::nominal)).collect();
     if let Some(sampling) = sampling {
         let known = jobs.iter().zip(&mut judged).filter_map(|(&at, of)| Some((at, of.as_mut().ok()?)));
-        let (at, mut judged): (Vec<_>, Vec<&mut Judgement>) = known.unzip();
-        let nominal: Vec<Verdict> = judged.iter().map(|judged| judged.nominal.verdict).collect();
-        // A shot that fails as planned is sampled only to show by how much.
-        let enough = |n: usize| nominal[n] == Verdict::Fail;
-        let planned = judged.iter().map(|judged| Envelope::of(&judged.nominal));
-        let targets = targets(cases, &at).into_iter().zip(planned);
-        let targets: Vec<_> =
-            targets.map(|(target, planned)| Target { planned: Some(planned), ..target }).collect();
-        let (risks, out_of_time) = sample(&targets, sampling, progress, enough, &mut |_, _| {})?;
-        partial |= out_of_time;
-        judged.iter_mut().zip(risks).for_each(|(judged, risk)| judged.risk = Some(risk));
+        partial |= add_risks(cases, known.collect(), sampling, progress)?;
     }
     let mut results: Vec<Results> = cases.iter().map(|_| Vec::new()).collect();
     for ((n, _), judged) in jobs.into_iter().zip(judged) {
@@ -60,13 +51,34 @@ pub fn check_all(
     Ok(Found { value: results, partial })
 }
 
-/// Options with a result, as `(case, option)`, and how to compute each.
-fn targets<'c>(cases: &[(&'c Case, ComputeSettings)], at: &[(usize, usize)]) -> Vec<Target<'c>> {
-    let target = |&(n, option): &(usize, usize)| {
-        let (case, compute) = cases[n];
-        Target { case, shot: &case.shots[option], planned: None, compute }
+/// Samples options that are judged as planned, each given as `(case, option)`; returns whether the time was up.
+fn add_risks(
+    cases: &[(&Case, ComputeSettings)],
+    mut judged: Vec<((usize, usize), &mut Judgement)>,
+    sampling: &Sampling,
+    progress: &Progress,
+) -> Result<bool, NoResult> {
+    let target = |((n, option), judged): &((usize, usize), &mut Judgement)| {
+        let (case, compute) = cases[*n];
+        target(case, *option, &Envelope::of(&judged.nominal), sampling, compute)
     };
-    at.iter().map(target).collect()
+    let targets: Vec<Target<'_>> = judged.iter().map(target).collect();
+    let (risks, out_of_time) = find_risks(&targets, progress, &mut |_, _| {})?;
+    judged.iter_mut().zip(risks).for_each(|((_, judged), risk)| judged.risk = Some(risk));
+    Ok(out_of_time)
+}
+
+/// An option to be sampled, judged as `planned`; one that fails is sampled only to show by how much.
+pub fn target<'c>(
+    case: &'c Case,
+    option: usize,
+    planned: &Envelope,
+    sampling: &Sampling,
+    compute: ComputeSettings,
+) -> Target<'c> {
+    let fails = planned.verdict == Verdict::Fail;
+    let sampling = if fails { sampling.least_only() } else { *sampling };
+    Target { case, shot: &case.shots[option], planned: Some(*planned), compute, sampling, drawn: &[] }
 }
 
 /// Finds the launch margin of every option of every case that has a result; returns whether the time sufficed.
@@ -83,12 +95,10 @@ pub fn find_launch_margins(
             .filter_map(|(option, result)| Some((option, result.as_mut().ok()?)));
         known.extend(judged.map(|(option, judged)| ((n, option), judged)));
     }
-    let at: Vec<_> = known.iter().map(|(at, _)| *at).collect();
-    let nominal: Vec<Verdict> = known.iter().map(|(_, judged)| judged.nominal.verdict).collect();
-    let jobs: Vec<_> = targets(cases, &at).into_iter().zip(nominal).collect();
-    let margins = each(&jobs, progress, |(target, nominal)| {
-        let Target { case, shot, compute, .. } = target;
-        guarded(|| launch_margin(case, shot, *nominal, compute, progress))
+    let jobs: Vec<_> = known.iter().map(|(at, judged)| (*at, judged.nominal.verdict)).collect();
+    let margins = each(&jobs, progress, |&((n, option), nominal)| {
+        let (case, compute) = &cases[n];
+        guarded(|| launch_margin(case, &case.shots[option], nominal, compute, progress))
     })?;
     let complete = !margins.contains(&None);
     for ((_, judged), margin) in known.into_iter().zip(margins) {
@@ -97,19 +107,23 @@ pub fn find_launch_margins(
     Ok(complete)
 }
 
-/// Judges every option of a case as planned, and by samples that were drawn before, in order of their numbers.
+/// Judges every option of a case as planned, and by samples that other machines drew, in order of their numbers.
 pub fn judge_drawn(
     case: &Case,
     compute: &ComputeSettings,
+    sampling: &Sampling,
     samples: &[OptionSample],
     progress: &Progress,
 ) -> Result<Results, NoResult> {
     let mut results = check_all(&[(case, *compute)], None, progress)?.value.remove(0);
     for (option, result) in results.iter_mut().enumerate() {
         if let Ok(judged) = result {
-            let mut risk = Risk::new(case, Some(Envelope::of(&judged.nominal)));
-            samples.iter().filter(|of| of.option == option).for_each(|of| risk.push(of.sample));
-            judged.risk = Some(risk);
+            let of_option = samples.iter().filter(|of| of.option == option);
+            let drawn: Vec<Sample> = of_option.map(|of| of.sample).collect();
+            let planned = Envelope::of(&judged.nominal);
+            let target = Target { drawn: &drawn, ..target(case, option, &planned, sampling, *compute) };
+            let (mut risks, _) = find_risks(&[target], progress, &mut |_, _| {})?;
+            judged.risk = risks.pop();
         }
     }
     Ok(results)

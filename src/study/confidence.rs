@@ -4,14 +4,14 @@
 //! 2. M(p) = ∫ qᵏ (1 − q)ⁿ⁻ᵏ dπ(q) / (pᵏ (1 − p)ⁿ⁻ᵏ) is a martingale with mean 1 as samples come, where they fail with
 //!    probability p. It ever exceeds 1/α with a probability of at most α (Ville 1939).
 //! 3. So the p with M(p) < 1/α hold the true p at all looks together with a probability of at least 1 − α.
-//! 4. The upper bound takes one π, the lower bound another, each with α = [`ERROR`]. Both π are mixtures of Beta distributions
+//! 4. The upper bound takes one π, the lower bound another, each with α = `error`. Both π are mixtures of Beta distributions
 //!    ([`Beta`]): for them the integral of line 2 is a quotient of Beta functions. Any π gives bounds that hold; these give
 //!    close bounds on both sides of the accepted risk.
 //! 5. A bound found once holds on: later looks only narrow the interval.
 
 use crate::verdict::Verdict;
 
-/// Probability of a wrong bound on one side, over all looks together.
+/// Probability of a wrong bound on one side of a verdict that was asked for.
 const ERROR: f64 = 0.025;
 
 /// Number of samples between two looks.
@@ -38,16 +38,19 @@ pub struct Confidence {
     pub undecided: usize,
     /// Lower and upper bound of the failure probability.
     pub interval: [f64; 2],
+    /// Probability of a wrong bound on one side, over all looks together.
+    error: f64,
     above: [Beta; 2],
     below: [Beta; 2],
 }
 
 impl Confidence {
-    /// No sample yet.
-    pub fn new(accepted: f64) -> Self {
+    /// No sample yet of the shot of this `attempt`: see [`Sampling`](super::sampling::Sampling).
+    pub fn new(accepted: f64, attempt: usize) -> Self {
         let beta = |weight, a, b| Beta { weight, a, b };
         Self {
             accepted,
+            error: if attempt == 0 { ERROR } else { ERROR / (attempt * (attempt + 1)) as f64 },
             samples: 0,
             failures: 0,
             undecided: 0,
@@ -69,10 +72,12 @@ impl Confidence {
 
     /// Narrows the interval by the samples so far.
     fn look(&mut self) {
-        let Self { samples, failures, undecided, interval: [low, high], above, below, .. } = *self;
+        let Self { samples, failures, undecided, interval: [low, high], error, above, below, .. } = *self;
         let most = failures + undecided;
-        self.interval =
-            [low.max(bound(&below, failures, samples, 0.0)), high.min(bound(&above, most, samples, 1.0))];
+        self.interval = [
+            low.max(bound(&below, failures, samples, error, 0.0)),
+            high.min(bound(&above, most, samples, error, 1.0)),
+        ];
     }
 
     /// The verdict of the bounds: whether surely less than the accepted share of the shots fails, or surely more.
@@ -92,16 +97,16 @@ impl Confidence {
     }
 }
 
-/// The probability between the share of failures and `end`, 0 or 1, at which the martingale reaches its bound; `end` where
+/// The probability between the share of failures and `end`, 0 or 1, at which the martingale reaches 1 / `error`; `end` where
 /// it does not.
-fn bound(mixture: &[Beta], failures: usize, samples: usize, end: f64) -> f64 {
+fn bound(mixture: &[Beta], failures: usize, samples: usize, error: f64, end: f64) -> f64 {
     let (k, n) = (failures as f64, samples as f64);
     let terms =
         mixture.iter().map(|&Beta { weight, a, b }| weight.ln() + ln_beta(a + k, b + n - k) - ln_beta(a, b));
     let mean = terms.clone().fold(f64::NEG_INFINITY, f64::max);
     let mean = mean + terms.map(|term| (term - mean).exp()).sum::<f64>().ln();
     let power = |count: f64, ln: f64| if count == 0.0 { 0.0 } else { count * ln };
-    let is_refuted = |p: f64| mean - power(k, p.ln()) - power(n - k, (-p).ln_1p()) >= -ERROR.ln();
+    let is_refuted = |p: f64| mean - power(k, p.ln()) - power(n - k, (-p).ln_1p()) >= -error.ln();
     let (mut inside, mut outside) = (k / n, end);
     if !is_refuted(end) {
         return end;
@@ -138,7 +143,7 @@ mod tests {
         let middles = (0..1_000_000).map(|n| (f64::from(n) + 0.5) * 1e-6);
         let mean: f64 = middles.map(|q| likelihood(q) * density(q)).sum::<f64>() * 1e-6;
         for end in [0.0, 1.0] {
-            let bound = bound(&mixture, 3, 50, end);
+            let bound = bound(&mixture, 3, 50, 0.025, end);
             assert!((mean / likelihood(bound) / 40.0 - 1.0).abs() < 1e-3, "{bound}");
         }
     }
@@ -151,7 +156,7 @@ mod tests {
         for (p, accepted) in [(0.01, 0.01), (0.3, 0.01), (0.1, 0.1)] {
             let mut wrong = [0; 2];
             for _ in 0..2000 {
-                let mut confidence = Confidence::new(accepted);
+                let mut confidence = Confidence::new(accepted, 0);
                 (0..2000).for_each(|_| confidence.push(drawn(&mut random, p)));
                 // The interval only narrows, so its last bounds are wrong if any were.
                 let [low, high] = confidence.interval;
@@ -162,6 +167,22 @@ mod tests {
             assert!(share.iter().all(|&share| share < ERROR + 0.014), "{p}: {share:?}");
             assert!(share.iter().any(|&share| share > 0.0), "a test that can fail: {p}");
         }
+    }
+
+    /// Where six shots are sampled one after the other, all bounds together are wrong as rarely as one verdict that was asked
+    /// for: here of shots that fail just as often as accepted. Without the shares of the attempts a tenth would be wrong.
+    #[test]
+    fn attempts_share_the_probability_of_an_error() {
+        let mut random = ChaCha8Rng::seed_from_u64(7);
+        let mut any_passes = || {
+            (1..=6).any(|attempt| {
+                let mut confidence = Confidence::new(0.1, attempt);
+                (0..1000).for_each(|_| confidence.push(drawn(&mut random, 0.1)));
+                confidence.interval[1] < 0.1
+            })
+        };
+        let wrong = (0..1000).filter(|_| any_passes()).count();
+        assert!((wrong as f64) < 1000.0 * (ERROR + 0.02), "{wrong}");
     }
 
     /// Samples until the bounds tell, in the mean of 100 streams: as few as the interface promises.
@@ -176,7 +197,7 @@ mod tests {
         ] {
             let mut samples = 0;
             for _ in 0..100 {
-                let mut confidence = Confidence::new(0.01);
+                let mut confidence = Confidence::new(0.01, 0);
                 while confidence.verdict() == Verdict::Undecided {
                     confidence.push(drawn(&mut random, p));
                 }
@@ -190,7 +211,7 @@ mod tests {
     #[test]
     fn undecided_samples_widen_the_interval_to_both_sides() {
         let after = |of: Verdict| {
-            let mut confidence = Confidence::new(0.01);
+            let mut confidence = Confidence::new(0.01, 0);
             (0..100).for_each(|n| confidence.push(if n % 10 == 0 { of } else { Verdict::Pass }));
             confidence
         };

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::check::Checked;
-use crate::verdict::{Estimate, Limits, Verdict};
+use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
 /// A computed value and its estimated error, one-sided, both in the same SI unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -73,7 +73,16 @@ impl Envelope {
 
     /// Utilization: the greatest value over its limit; above 1 the shot fails.
     pub fn utilization(&self, limits: &Limits) -> f64 {
-        limits.utilization(self.height.value, self.force.value, self.drift.value)
+        limits.utilization(|quantity| self.get(quantity).value)
+    }
+
+    /// The value of a quantity and its error.
+    pub fn get(&self, quantity: Quantity) -> Bounded {
+        match quantity {
+            Quantity::Height => self.height,
+            Quantity::Force => self.force,
+            Quantity::Drift => self.drift,
+        }
     }
 }
 

@@ -8,8 +8,13 @@ use crate::verdict::Verdict;
 /// How much faster all launches may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LaunchMargin {
-    /// The shot passes up to this share above the planned launch velocities, and no longer at 1 % more.
-    UpTo(f64),
+    /// The shot passes up to `share` above the planned launch velocities; at 1 % more the verdict is `then`.
+    UpTo {
+        /// Rise of the launches over the plan's.
+        share: f64,
+        /// Fail or undecided.
+        then: Verdict,
+    },
     /// The shot passes up to [`MOST_PERCENT`] more.
     Wide,
 }
@@ -26,18 +31,18 @@ pub fn launch_margin(
     progress: &Progress,
 ) -> Result<LaunchMargin, NoResult> {
     if nominal != Verdict::Pass {
-        return Ok(LaunchMargin::UpTo(0.0));
+        return Ok(LaunchMargin::UpTo { share: 0.0, then: nominal });
     }
     for percent in 1..=MOST_PERCENT {
         let faster = shot.with_launches(1.0 + 1e-2 * percent as f64);
         let enough = |envelope: &_, runs| is_sure(case, envelope, runs);
-        let passes = match screen(case, &faster, compute, progress, enough) {
-            Ok(screened) => screened.verdict == Verdict::Pass,
-            Err(NoResult::Failed(_)) => false,
+        let then = match screen(case, &faster, compute, progress, enough) {
+            Ok(screened) => screened.verdict,
+            Err(NoResult::Failed(_)) => Verdict::Undecided,
             Err(ended) => return Err(ended),
         };
-        if !passes {
-            return Ok(LaunchMargin::UpTo(1e-2 * (percent - 1) as f64));
+        if then != Verdict::Pass {
+            return Ok(LaunchMargin::UpTo { share: 1e-2 * (percent - 1) as f64, then });
         }
     }
     Ok(LaunchMargin::Wide)

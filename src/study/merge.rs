@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use super::orders::Tried;
-use super::risk::{Sample, Sampling};
+use super::sample::Sample;
+use super::sampling::Sampling;
 use super::{Case, ComputeSettings, Shard};
 
 /// The question that a study answers.
@@ -76,7 +77,7 @@ pub enum Findings {
 }
 
 /// Name of this format of shares.
-const SCHEMA: &str = "shelter.shard/6";
+const SCHEMA: &str = "shelter.shard/7";
 /// Version of this program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 

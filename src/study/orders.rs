@@ -21,8 +21,8 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
 use super::batch::{judge_shot, part_of_envelopes};
-use super::risk::Sampling;
-use super::sampled::{Sampled, sample_shots};
+use super::risk_summary::{RiskSummary, sample_shots};
+use super::sampling::Sampling;
 use super::screen::{is_sure, screen};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard};
 use crate::plan::BlastRow;
@@ -68,7 +68,7 @@ pub struct Orders {
     /// Whether all possible orders were tried.
     pub complete: bool,
     /// Samples of ranked orders, by their indices; `None` where only the shots as planned were asked for.
-    risks: Option<BTreeMap<usize, Sampled>>,
+    risks: Option<BTreeMap<usize, RiskSummary>>,
 }
 
 impl Orders {
@@ -112,7 +112,7 @@ impl Orders {
     }
 
     /// What the samples of the order ranked `n` tell; `None` where none were drawn.
-    pub fn risk(&self, n: usize) -> Option<&Sampled> {
+    pub fn risk(&self, n: usize) -> Option<&RiskSummary> {
         self.risks.as_ref()?.get(&n)
     }
 

@@ -3,7 +3,7 @@
 use super::Case;
 use crate::outcome::{EndReason, Outcome};
 use crate::scene::Shot;
-use crate::verdict::{Estimate, Limits, Verdict};
+use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
 /// Greatest energy residual of a run that may pass, over the energy put in. A greater one says that the step is too long for
 /// the motion, whatever neighbouring steps say.
@@ -79,26 +79,13 @@ fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<EarlyEnd> {
     Some(EarlyEnd::TiresMoving)
 }
 
-/// A quantity that has a limit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// Flight height [m].
-    Height,
-    /// Cable force [N].
-    Force,
-    /// Drift at the end [m].
-    Drift,
-}
-
 /// Why a run of a shot does not pass, given its height, force and drift with their errors; empty for a pass.
-pub fn find_reasons(
-    case: &Case,
-    shot: &Shot,
-    outcome: &Outcome,
-    [height, force, drift]: [Estimate; 3],
-) -> Vec<Reason> {
-    let limits = limited(height, force, drift, &case.limits).map(|(quantity, estimate, limit)| {
-        Reason::Limit { quantity, verdict: estimate.against(limit), estimate, limit }
+pub fn find_reasons(case: &Case, shot: &Shot, outcome: &Outcome, estimates: [Estimate; 3]) -> Vec<Reason> {
+    let limits = limited(estimates, &case.limits).map(|(quantity, estimate, limit)| Reason::Limit {
+        quantity,
+        verdict: estimate.against(limit),
+        estimate,
+        limit,
     });
     let broken = Some(outcome.broken.len()).filter(|&count| count > 0).map(Reason::Broken);
     let residual = Some(outcome.ledger.residual()).filter(|&residual| !closes(residual));
@@ -114,13 +101,11 @@ pub(super) fn closes(residual: f64) -> bool {
     residual <= MOST_RESIDUAL
 }
 
-/// The quantities that have a limit, each with its estimate and its limit.
+/// The quantities that have a limit, each with its estimate and its limit; `estimates` are height, force and drift.
 pub(super) fn limited(
-    height: Estimate,
-    force: Estimate,
-    drift: Estimate,
+    estimates: [Estimate; 3],
     limits: &Limits,
 ) -> impl Iterator<Item = (Quantity, Estimate, f64)> {
-    let always = [(Quantity::Height, height, limits.height), (Quantity::Force, force, limits.force)];
-    always.into_iter().chain(limits.drift.map(|limit| (Quantity::Drift, drift, limit)))
+    let all = Quantity::ALL.into_iter().zip(estimates);
+    all.filter_map(|(quantity, estimate)| Some((quantity, estimate, limits.get(quantity)?)))
 }

@@ -11,7 +11,7 @@
 use itertools::Itertools;
 
 use super::batch::judge_shots;
-use super::risk::{Sampling, Target, sample};
+use super::sampling::{Sampling, Target, find_risks};
 use super::{Bounded, Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress};
 use crate::plan::{Layout, Plan};
 use crate::ropes::{Rope, catalogue};
@@ -206,7 +206,7 @@ pub fn size(
         let strength = |c: &Combination| c.rope.breaking_force_kn;
         a.total_mass.total_cmp(&b.total_mass).then(strength(a).total_cmp(&strength(b)))
     });
-    let mut least = f64::INFINITY;
+    let (mut least, mut attempt) = (f64::INFINITY, 0);
     for (combination, hardest) in &mut tried {
         if let Ok(trial) = combination.trial
             && trial.holds
@@ -215,11 +215,12 @@ pub fn size(
             let case = Case::new(plan.with(combination.rope, combination.tire_mass, combination.border_rows));
             let mut trial = trial;
             if let Some(sampling) = sampling {
+                attempt += 1;
                 let shots = shots(&case, demand);
                 trial.risk = sample_hardest(
                     &case,
                     hardest.iter().map(|&(n, planned)| (&shots[n], planned)),
-                    sampling,
+                    &Sampling { least: 0, attempt, ..*sampling },
                     compute,
                     progress,
                 )?;
@@ -249,11 +250,11 @@ fn sample_hardest<'s>(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Option<SampledRisk>, NoResult> {
-    let sampling = Sampling { least: 0, ..*sampling };
     let mut all = SampledRisk { verdict: Verdict::Pass, samples: 0, failures: 0 };
     for (shot, planned) in shots {
-        let target = [Target { case, shot, planned: Some(planned), compute: *compute }];
-        let (risks, partial) = sample(&target, &sampling, progress, |_| false, &mut |_, _| {})?;
+        let planned = Some(planned);
+        let target = Target { case, shot, planned, compute: *compute, sampling: *sampling, drawn: &[] };
+        let (risks, partial) = find_risks(&[target], progress, &mut |_, _| {})?;
         if partial {
             return Ok(None);
         }

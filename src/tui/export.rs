@@ -11,6 +11,7 @@ use crate::jobs::{StudyKind, StudyResult};
 use crate::report::{self, charts, html};
 use crate::scene::fire_at_s;
 use crate::study::check_all::Results;
+use crate::study::sampling::Sampling;
 
 /// Writes the contents of the screen to a new file, in the format of the file's ending; or says why not.
 pub fn write(app: &App, path: &Path) -> Result<(), String> {
@@ -18,7 +19,7 @@ pub fn write(app: &App, path: &Path) -> Result<(), String> {
     let text = match ending {
         "csv" => csv(app)?,
         "svg" => svg(app)?,
-        "html" => html::page(&app.case, &results(app)?, &html::today()),
+        "html" => html::page(&app.case, &results(app)?, Some(&Sampling::OF_VERDICT), &html::today()),
         _ => return Err("the name must end in .csv, .svg or .html".to_owned()),
     };
     file::create(path, &text).map_err(|error| error.to_string())

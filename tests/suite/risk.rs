@@ -12,10 +12,12 @@ use shelter::study::draw::{Drawn, draw};
 use shelter::study::judgement::Judgement;
 use shelter::study::margin::LaunchMargin;
 use shelter::study::merge::OptionSample;
-use shelter::study::risk::{Risk, Sampling, Target, sample};
-use shelter::study::sampled::sample_shots;
-use shelter::study::{Case, ComputeSettings, Envelope, Progress, thread_pool};
-use shelter::verdict::Verdict;
+use shelter::study::risk::Risk;
+use shelter::study::risk_summary::sample_shots;
+use shelter::study::sampling::{Sampling, Target, draw_share, find_risks};
+use shelter::study::shares::input_shares;
+use shelter::study::{Case, ComputeSettings, Envelope, Progress, Shard, thread_pool};
+use shelter::verdict::{Quantity, Verdict};
 
 use crate::scenes::{GRAVITY, METHODS, fire, tie, tires};
 
@@ -59,10 +61,10 @@ delay = [{{ name = "20", interval_ms = 20 }}, {{ name = "60", interval_ms = 60 }
 }
 
 fn risk_of(case: &Case, sampling: &Sampling) -> Risk {
-    let target =
-        Target { case, shot: &case.shots[0], planned: None, compute: ComputeSettings::of(&case.plan) };
-    let sampled = sample(&[target], sampling, &Progress::default(), |_| false, &mut |_, _| {});
-    sampled.expect("a result").0.remove(0)
+    let (shot, compute) = (&case.shots[0], ComputeSettings::of(&case.plan));
+    let target = Target { case, shot, planned: None, compute, sampling: *sampling, drawn: &[] };
+    let found = find_risks(&[target], &Progress::default(), &mut |_, _| {});
+    found.expect("a result").0.remove(0)
 }
 
 /// Launch velocity at which a lone tire just reaches `height` [m].
@@ -84,7 +86,7 @@ fn the_interval_covers_a_known_probability() {
         let case = lone(height, 10.0);
         let exact = exceeds(speed_to_reach(height) / 6.0, 0.1);
         let missed = (0..100).filter(|&seed| {
-            let risk = risk_of(&case, &Sampling { least: 300, most: 300, seed });
+            let risk = risk_of(&case, &Sampling::exactly(300, seed));
             let [low, high] = risk.confidence.interval;
             !(low..=high).contains(&exact)
         });
@@ -140,8 +142,14 @@ fn the_launch_margin_is_the_room_below_the_limit() {
         assert!(find_launch_margins(&cases, &mut results, &Progress::default()).expect("a result"));
         results[0].remove(0).expect("a result").launch_margin.expect("a margin")
     };
-    assert_eq!(margin(6.27_f64.powi(2) / (2.0 * GRAVITY)), LaunchMargin::UpTo(0.04));
-    assert_eq!(margin(5.9_f64.powi(2) / (2.0 * GRAVITY)), LaunchMargin::UpTo(0.0));
+    assert_eq!(
+        margin(6.27_f64.powi(2) / (2.0 * GRAVITY)),
+        LaunchMargin::UpTo { share: 0.04, then: Verdict::Fail }
+    );
+    assert_eq!(
+        margin(5.9_f64.powi(2) / (2.0 * GRAVITY)),
+        LaunchMargin::UpTo { share: 0.0, then: Verdict::Fail }
+    );
     assert_eq!(margin(12.1_f64.powi(2) / (2.0 * GRAVITY)), LaunchMargin::Wide);
 }
 
@@ -224,6 +232,28 @@ fn samples_that_share_one_error_pass_nothing() {
         let risk = risk_of(&case, &Sampling { seed, ..Sampling::OF_VERDICT });
         assert_ne!(risk.verdict(), Verdict::Pass, "{seed}: {:?}", risk.confidence);
     }
+}
+
+/// Shares are drawn at the usual step; where the audit contradicts them, all of them together are sampled anew, as on one
+/// machine.
+#[test]
+fn shares_that_the_audit_contradicts_are_sampled_anew() {
+    let case = Case::new(Plan::parse("", BIASED).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+    let compute = ComputeSettings::of(&case.plan);
+    let (sampling, progress) = (Sampling::exactly(400, 1), Progress::default());
+    let target = Target { case: &case, shot: &case.shots[0], planned: None, compute, sampling, drawn: &[] };
+    let share = |index| draw_share(&[target], Shard { index, of: 2 }, &progress).expect("samples");
+    let mut drawn: Vec<OptionSample> = [share(0), share(1)]
+        .into_iter()
+        .flatten()
+        .map(|(option, sample)| OptionSample { option, sample: sample.expect("time for all") })
+        .collect();
+    drawn.sort_by_key(|of| of.sample.number);
+    let joined = judge_drawn(&case, &compute, &sampling, &drawn, &progress).expect("a result").remove(0);
+    let whole = check_all(&[(&case, compute)], Some(&sampling), &progress).expect("a result").value;
+    let whole = whole[0][0].as_ref().expect("a result").risk.as_ref().expect("samples");
+    assert!(whole.halvings > 0, "a test that can fail");
+    assert_eq!(joined.expect("a result").risk.as_ref(), Some(whole));
 }
 
 /// Mean and standard deviation.
@@ -409,13 +439,13 @@ fn the_input_that_decides_has_the_greatest_share() {
         "[uncertainty]\nlaunch_cv_percent = 0\nlaunch_common_percent = 0.5\nslack_percent = [0.5, 1.2]\n\
          tire_mass_cv_percent = 0\n",
     );
-    let risk = risk_of(&case, &Sampling { least: 400, most: 400, seed: 3 });
-    let shares = shelter::study::risk::shares(&risk, &case.limits).expect("enough samples");
+    let risk = risk_of(&case, &Sampling::exactly(400, 3));
+    let shares = input_shares(&risk, &case.limits).expect("enough samples");
     assert_eq!(shares[0].0.name(), "slack_percent", "{shares:?}");
     assert!(shares[0].1 > 0.5 && shares.iter().map(|(_, share)| share).sum::<f64>() < 1.1, "{shares:?}");
-    let few = risk_of(&case, &Sampling { least: 150, most: 150, seed: 3 });
-    assert!(shelter::study::risk::shares(&few, &case.limits).is_none());
-    assert!(few.band(|sample| sample.force).is_some());
+    let few = risk_of(&case, &Sampling::exactly(150, 3));
+    assert!(input_shares(&few, &case.limits).is_none());
+    assert!(few.band(Quantity::Force).is_some());
 }
 
 /// Samples do not depend on the number of threads, and a reader who gets them one by one comes to the same interval.
@@ -423,7 +453,7 @@ fn the_input_that_decides_has_the_greatest_share() {
 fn samples_are_the_same_on_any_number_of_threads() {
     let case = rows("[uncertainty]\nlaunch_cv_percent = 5\n");
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
-    let sampling = Sampling { least: 120, most: 120, seed: 1 };
+    let sampling = Sampling::exactly(120, 1);
     let on = |threads| {
         let work = || check_all(&[(&case, compute)], Some(&sampling), &Progress::default());
         let mut found = thread_pool(threads).expect("threads").install(work).expect("a result").value;
@@ -437,7 +467,7 @@ fn samples_are_the_same_on_any_number_of_threads() {
         .enumerate()
         .flat_map(|(option, risk)| risk.samples.iter().map(move |&sample| OptionSample { option, sample }))
         .collect();
-    let joined = judge_drawn(&case, &compute, &drawn, &Progress::default()).expect("a result");
+    let joined = judge_drawn(&case, &compute, &sampling, &drawn, &Progress::default()).expect("a result");
     for (joined, one) in joined.into_iter().zip(one) {
         assert_eq!(joined.expect("a result").risk, Some(one));
     }

@@ -15,8 +15,10 @@ use shelter::study::accuracy::{AccuracyTable, Measured, StepRow};
 use shelter::study::check::Checked;
 use shelter::study::judgement::Judgement;
 use shelter::study::orders::{Orders, Tried};
-use shelter::study::reason::{Quantity, Reason};
-use shelter::study::risk::{Risk, Sample, Sampling};
+use shelter::study::reason::Reason;
+use shelter::study::risk::Risk;
+use shelter::study::sample::{Sample, SampleRun};
+use shelter::study::sampling::Sampling;
 use shelter::study::size::{Combination, SampledRisk, Sizing, Trial};
 use shelter::study::sweep::{Point, Recommended, Sweep};
 use shelter::study::{Bounded, Envelope};
@@ -25,7 +27,7 @@ use shelter::tui::app::{App, Areas, Request};
 use shelter::tui::config::Config;
 use shelter::tui::options::OptionState;
 use shelter::tui::{update, view};
-use shelter::verdict::{Estimate, Verdict};
+use shelter::verdict::{Estimate, Quantity, Verdict};
 
 use super::support::shipped;
 
@@ -70,18 +72,20 @@ pub fn checked(verdict: Verdict) -> Checked {
 
 /// Round samples, of which none fails or one in ten.
 pub fn samples(case: &Case, count: usize, some_fail: bool) -> Risk {
-    let mut risk = Risk::new(case, None);
+    let mut risk = Risk::new(case, None, 0);
     for number in 0..count {
         let part = number as f64 / count as f64;
         let fails = some_fail && number % 10 == 3;
         risk.push(Sample {
             number,
-            verdict: if fails { Verdict::Fail } else { Verdict::Pass },
+            run: SampleRun {
+                verdict: if fails { Verdict::Fail } else { Verdict::Pass },
+                breaks: Verdict::Pass,
+                height: 1.1 + 0.2 * part,
+                force: 50e3 + 10e3 * part * part,
+                drift: 0.3,
+            },
             finer: None,
-            breaks: Verdict::Pass,
-            height: 1.1 + 0.2 * part,
-            force: 50e3 + 10e3 * part * part,
-            drift: 0.3,
             inputs: [part, 0.5, 2.0, 1.0],
         });
     }
@@ -231,7 +235,7 @@ pub fn spreads(app: &App) -> [(StudyKind, StudyResult); 3] {
         let (total_mass, trial) = (14_000.0 + 100.0 * n as f64, Ok(trial));
         Combination { rope, tire_mass: 280.0, border_rows: 0, tires: 50, total_mass, trial }
     });
-    let sampling = Sampling { least: 200, most: 200, seed: 1 };
+    let sampling = Sampling::exactly(200, 1);
     [
         (StudyKind::Orders, StudyResult::Orders(Orders::new(&app.case, tried.collect(), 1))),
         (StudyKind::Risk, StudyResult::Risk(sampling, judged.collect())),

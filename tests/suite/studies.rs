@@ -10,7 +10,8 @@ use shelter::ropes::{Kind, catalogue};
 use shelter::study::check::{check, check_shot};
 use shelter::study::check_all::check_all;
 use shelter::study::orders::{Orders, Tried, orders, rank, refine};
-use shelter::study::risk::{Risk, Sampling, Target, sample};
+use shelter::study::risk::Risk;
+use shelter::study::sampling::{Sampling, Target, find_risks};
 use shelter::study::size::{Demand, size};
 use shelter::study::swaps::swaps;
 use shelter::study::sweep::{GAP, Point, Sweep, sweep};
@@ -121,9 +122,9 @@ fn risky_sweep(case: &Case) -> (Sweep, Sampling, ComputeSettings) {
 /// The samples of one interval, drawn alone.
 fn risk_at(case: &Case, interval: f64, sampling: &Sampling, compute: ComputeSettings) -> Risk {
     let shot = case.shot(&[0, 1, 2], interval);
-    let target = [Target { case, shot: &shot, planned: None, compute }];
-    let drawn = sample(&target, sampling, &Progress::default(), |_| false, &mut |_, _| {});
-    drawn.expect("samples").0.remove(0)
+    let target = Target { case, shot: &shot, planned: None, compute, sampling: *sampling, drawn: &[] };
+    let found = find_risks(&[target], &Progress::default(), &mut |_, _| {});
+    found.expect("samples").0.remove(0)
 }
 
 /// Windows of accepted risk, against the samples of each interval drawn alone.
@@ -164,7 +165,12 @@ fn the_recommended_interval_has_a_full_verdict() {
     let checked = check_shot(&case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
     assert_eq!((best.verdict(), best.envelope), (Verdict::Pass, Envelope::of(&checked.expect("a result"))));
     // The first look chose the interval for its draws; the verdict has others.
-    let full = risk_at(&case, best.interval, &Sampling { seed: !sampling.seed, ..sampling }, compute);
+    let full = risk_at(
+        &case,
+        best.interval,
+        &Sampling { seed: !sampling.seed, attempt: 1 + swept.refuted, ..sampling },
+        compute,
+    );
     assert_eq!((full.verdict(), best.risk.expect("sampled").confidence), (Verdict::Pass, full.confidence));
 }
 
@@ -196,9 +202,9 @@ fn the_ends_of_the_ranking_are_sampled() {
             continue;
         };
         let sampling = if n == 71 { sampling } else { sampling.first_look() };
-        let target =
-            [Target { case: &case, shot: &case.shot(&tried.order, tried.interval), planned: None, compute }];
-        let (risks, _) = sample(&target, &sampling, &progress, |_| false, &mut |_, _| {}).expect("samples");
+        let shot = case.shot(&tried.order, tried.interval);
+        let target = Target { case: &case, shot: &shot, planned: None, compute, sampling, drawn: &[] };
+        let (risks, _) = find_risks(&[target], &progress, &mut |_, _| {}).expect("samples");
         assert_eq!(risk.confidence, risks[0].confidence);
         assert_eq!(ranked.verdict_on(n), tried.envelope.verdict.max(risks[0].verdict()));
     }
@@ -393,7 +399,7 @@ fn the_lightest_shelter_is_that_of_brute_force() {
     // So that the thinnest rope holds as planned, and not in enough of its samples.
     plan.limits.cable_safety_factor = 2.6;
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&plan) };
-    let (demand, sampling) = (Demand::Options(vec![0, 1]), Sampling { most: 500, ..Sampling::OF_VERDICT });
+    let (demand, sampling) = (Demand::Options(vec![0, 1]), Sampling { most: 1000, ..Sampling::OF_VERDICT });
     let sizing = size(&plan, &demand, Some(&sampling), &compute, &Progress::default());
     let sizing = sizing.expect("a result").value;
     let (mut lightest, mut fragile) = (f64::INFINITY, 0);
@@ -441,7 +447,7 @@ fn a_study_without_time_is_partial() {
     let case = case(2, "uncertainty = { launch_cv_percent = 10 }");
     let compute = ComputeSettings { step: Some(2e-3), ..ComputeSettings::of(&case.plan) };
     let intervals = Intervals { from: 0.0, to: 0.02, step: 0.01 };
-    let (three, demand) = (Sampling { least: 3, most: 3, seed: 1 }, Demand::Options(vec![0, 1]));
+    let (three, demand) = (Sampling::exactly(3, 1), Demand::Options(vec![0, 1]));
     let partial = |progress: &Progress| {
         [
             sweep(&case, &[0, 1], &intervals, None, &compute, progress).map(|found| found.partial),

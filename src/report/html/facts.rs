@@ -6,6 +6,7 @@ use crate::choice::OnOverload;
 use crate::plan::{Launch, LaunchTargets, Layout, Plan};
 use crate::report::limits::limits;
 use crate::study::check_all::Results;
+use crate::study::sampling::Sampling;
 use crate::study::{Case, ComputeSettings};
 
 /// The plan as a table.
@@ -86,7 +87,7 @@ fn quoted(path: &str) -> String {
 }
 
 /// The command that gives these results.
-pub fn command(case: &Case, results: &Results) -> String {
+pub fn command(case: &Case, results: &Results, sampling: Option<&Sampling>) -> String {
     let mut command = format!("shelter check {}", quoted(&case.source.path));
     let (asked, of_plan) = (
         results.iter().flatten().next().map(|judged| judged.nominal.compute),
@@ -98,8 +99,9 @@ pub fn command(case: &Case, results: &Results) -> String {
             command += &format!(" --dt {step}");
         }
     }
-    if !results.iter().flatten().any(|judged| judged.risk.is_some()) {
-        command += " --nominal";
+    match sampling {
+        None => command += " --nominal",
+        Some(Sampling { most, seed, .. }) => command += &format!(" --samples {most} --seed {seed}"),
     }
     command
 }

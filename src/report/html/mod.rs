@@ -20,6 +20,7 @@ use super::{charts, check, explain};
 use crate::scene::fire_at_s;
 use crate::study::Case;
 use crate::study::check_all::Results;
+use crate::study::sampling::Sampling;
 use crate::verdict::Verdict;
 
 const STYLE: &str = "
@@ -44,7 +45,7 @@ const ASSUMPTIONS: &[&str] = &[
 ];
 
 /// The page of one plan; `date` is printed as given.
-pub fn page(case: &Case, results: &Results, date: &str) -> String {
+pub fn page(case: &Case, results: &Results, sampling: Option<&Sampling>, date: &str) -> String {
     let plan = &case.plan;
     let hash = Sha256::digest(case.source.text.as_bytes());
     let hash: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
@@ -71,7 +72,8 @@ pub fn page(case: &Case, results: &Results, date: &str) -> String {
                 section {
                     h2 { "Delay options" }
                     @for fact in &report.facts { p.quiet { (fact) } }
-                    @if results.iter().flatten().any(|judged| judged.risk.is_some()) {
+                    @if let Some(Sampling { most, seed, .. }) = sampling {
+                        p.quiet { "At most " (most) " possible shots of each option, drawn from seed " (seed) }
                         ul { @for meaning in explain::VERDICTS { li { (meaning) } } }
                     } @else {
                         p { "The plan's own numbers only, nothing varied: other shots that may come of this plan can fail." }
@@ -99,7 +101,7 @@ pub fn page(case: &Case, results: &Results, date: &str) -> String {
                 }
                 section {
                     h2 { "Reproduce" }
-                    p { (facts::command(case, results)) }
+                    p { (facts::command(case, results, sampling)) }
                     p.quiet { "SHA-256 of the plan: " code { (hash) } }
                 }
             }

@@ -13,8 +13,8 @@ use crate::study::Case;
 use crate::study::check_all::{Results, verdict};
 use crate::study::judgement::Judgement;
 use crate::study::margin::LaunchMargin;
-use crate::study::risk::{Risk, Sample};
-use crate::verdict::{Estimate, Verdict};
+use crate::study::risk::Risk;
+use crate::verdict::{Estimate, Quantity, Verdict};
 
 /// The document of one plan.
 #[derive(Serialize)]
@@ -25,6 +25,7 @@ pub struct CheckDocument {
     judged: &'static str,
     accepted_risk_percent: f64,
     verdict: &'static str,
+    partial: bool,
     scene: SceneSize,
     limits: Limits,
     options: Vec<OptionResult>,
@@ -99,8 +100,8 @@ struct Band {
 }
 
 impl Band {
-    fn of(risk: Option<&Risk>, of: fn(&Sample) -> f64) -> Self {
-        let band = risk.and_then(|risk| risk.band(of)).map(|band| band.map(Some));
+    fn of(risk: Option<&Risk>, quantity: Quantity) -> Self {
+        let band = risk.and_then(|risk| risk.band(quantity)).map(|band| band.map(Some));
         let [p05, p50, p95, _] = band.unwrap_or_default();
         Self { p05, p50, p95 }
     }
@@ -169,16 +170,16 @@ impl OptionValues {
             failure_probability: risk.map(failures),
             any_cable_breaks: risk.map(|risk| risk.breaks.interval.into()),
             launch_margin: match judged.launch_margin {
-                Some(LaunchMargin::UpTo(share)) => Some(share),
+                Some(LaunchMargin::UpTo { share, .. }) => Some(share),
                 // Null would say that nothing fails: a margin that is not known is none.
                 None if risk.is_some() => Some(0.0),
                 Some(LaunchMargin::Wide) | None => None,
             },
             inputs: risk.and_then(|risk| input_shares(risk, &case.limits)),
-            flight_height_m: AtTire::new(scene, &checked.height, Band::of(risk, |sample| sample.height)),
-            cable_force_n: AtCable::new(scene, &checked.force, Band::of(risk, |sample| sample.force)),
+            flight_height_m: AtTire::new(scene, &checked.height, Band::of(risk, Quantity::Height)),
+            cable_force_n: AtCable::new(scene, &checked.force, Band::of(risk, Quantity::Force)),
             cable_safety_factor: Some(checked.safety_factor).filter(|factor| factor.is_finite()),
-            drift_m: AtTire::new(scene, &checked.drift, Band::of(drift_is_judged, |sample| sample.drift)),
+            drift_m: AtTire::new(scene, &checked.drift, Band::of(drift_is_judged, Quantity::Drift)),
             broken: checked.broken.iter().map(|broken| BrokenCable::new(scene, broken)).collect(),
             method: checked.compute.method.name(),
             dt_s: checked.step,
@@ -192,8 +193,9 @@ impl OptionValues {
 }
 
 impl CheckDocument {
-    /// The document of the results of one plan; with `any` one passing option is enough.
-    pub fn new(case: &Case, results: &Results, any: bool) -> Self {
+    /// The document of the results of one plan, which are partial where the time was up; with `any` one passing option is
+    /// enough.
+    pub fn new(case: &Case, results: &Results, any: bool, partial: bool) -> Self {
         let (plan, scene) = (&case.plan, case.scene());
         let method = results
             .iter()
@@ -217,6 +219,7 @@ impl CheckDocument {
             judged: results.iter().flatten().next().map_or("nominal", |judged| judged_by(case, judged)),
             accepted_risk_percent: plan.limits.accepted_risk_percent,
             verdict: verdict(results, any).name(),
+            partial,
             scene: SceneSize {
                 tires: scene.mass.len(),
                 cables: scene.cables.len(),

@@ -21,7 +21,7 @@ pub use self::ropes::RopesDocument;
 pub use self::size::SizeDocument;
 pub use self::sweep::SweepDocument;
 pub use self::trace::TraceDocument;
-use crate::study::sampled::Sampled;
+use crate::study::risk_summary::RiskSummary;
 use crate::study::{Case, Envelope};
 use crate::verdict::Verdict;
 
@@ -83,7 +83,7 @@ struct SampledValues {
 }
 
 impl SampledValues {
-    fn of(nominal_verdict: Verdict, risk: Option<&Sampled>) -> Self {
+    fn of(nominal_verdict: Verdict, risk: Option<&RiskSummary>) -> Self {
         let drawn = risk.filter(|risk| risk.is_drawn()).map(|risk| risk.confidence);
         Self {
             nominal_verdict,

@@ -6,10 +6,12 @@ use super::Limits;
 use crate::report::risk::swap_warning;
 use crate::study::check_all::{Results, verdict};
 use crate::study::judgement::Judgement;
-use crate::study::risk::{Risk, Sample, Sampling, shares};
+use crate::study::risk::Risk;
+use crate::study::sampling::Sampling;
+use crate::study::shares;
 use crate::study::swaps::Swap;
 use crate::study::{Case, NoResult};
-use crate::verdict::{Limits as Judged, Verdict};
+use crate::verdict::{Limits as Judged, Quantity, Verdict};
 
 /// The document of the samples of all options.
 #[derive(Serialize)]
@@ -50,9 +52,9 @@ pub struct Band {
 }
 
 impl Band {
-    /// The band of a value of the samples; `None` for too few samples.
-    pub fn of(risk: &Risk, of: fn(&Sample) -> f64) -> Option<Self> {
-        risk.band(of).map(|[p05, p50, p95, max]| Self { p05, p50, p95, max })
+    /// The band of a quantity of the samples; `None` for too few samples.
+    pub fn of(risk: &Risk, quantity: Quantity) -> Option<Self> {
+        risk.band(quantity).map(|[p05, p50, p95, max]| Self { p05, p50, p95, max })
     }
 }
 
@@ -65,7 +67,7 @@ pub struct Share {
 
 /// The shares of the inputs, largest first; `None` for too few samples.
 pub fn input_shares(risk: &Risk, limits: &Judged) -> Option<Vec<Share>> {
-    let all = shares(risk, limits)?.into_iter();
+    let all = shares::input_shares(risk, limits)?.into_iter();
     Some(all.map(|(input, share)| Share { name: input.name(), share }).collect())
 }
 
@@ -81,8 +83,8 @@ impl OptionResult {
             undecided: confidence.map_or(0, |c| c.undecided),
             probability: confidence.and_then(|c| c.probability()),
             interval_95: confidence.map_or([0.0, 1.0], |c| c.interval),
-            flight_height_m: risk.and_then(|risk| Band::of(risk, |sample| sample.height)),
-            cable_force_n: risk.and_then(|risk| Band::of(risk, |sample| sample.force)),
+            flight_height_m: risk.and_then(|risk| Band::of(risk, Quantity::Height)),
+            cable_force_n: risk.and_then(|risk| Band::of(risk, Quantity::Force)),
             inputs: risk.and_then(|risk| input_shares(risk, &case.limits)),
         }
     }

@@ -12,8 +12,8 @@ use std::collections::BTreeSet;
 use super::{APART, Point, Sweep, deepest, nanoseconds, windows};
 use crate::scene::Shot;
 use crate::study::batch::judge_shot;
-use crate::study::risk::Sampling;
-use crate::study::sampled::{Sampled, sample_shots};
+use crate::study::risk_summary::{RiskSummary, sample_shots};
+use crate::study::sampling::Sampling;
 use crate::study::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress};
 use crate::verdict::Verdict;
 
@@ -35,7 +35,7 @@ pub fn add_risk(
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
     let sampled = sample_shots(case, &shots, &sampling.first_look(), compute, progress)?;
     partial |= sampled.contains(&None);
-    swept.points.iter_mut().for_each(|point| point.risk = Some(Sampled::nothing(case)));
+    swept.points.iter_mut().for_each(|point| point.risk = Some(RiskSummary::nothing(case)));
     for (&n, sampled) in chosen.iter().zip(sampled) {
         swept.points[n].risk = sampled.or(swept.points[n].risk);
     }
@@ -55,7 +55,9 @@ pub fn add_risk(
             break;
         };
         tried.insert(nanoseconds(candidate.interval));
-        match judge(case, case.shot(&swept.order, candidate.interval), sampling, compute, progress)? {
+        // The first look chose this shot for its draws: the verdict has draws of its own.
+        let own = Sampling { seed: !sampling.seed, attempt: tried.len(), ..*sampling };
+        match judge(case, case.shot(&swept.order, candidate.interval), &own, compute, progress)? {
             None => partial = true,
             Some((envelope, risk)) => {
                 let point = &mut swept.points[n];
@@ -78,7 +80,7 @@ fn judge(
     sampling: &Sampling,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Option<(Envelope, Option<Sampled>)>, NoResult> {
+) -> Result<Option<(Envelope, Option<RiskSummary>)>, NoResult> {
     let envelope = match judge_shot(case, &shot, compute, progress) {
         Err(NoResult::OutOfTime) => return Ok(None),
         Err(NoResult::Failed(_)) => Envelope::UNKNOWN,
@@ -87,9 +89,7 @@ fn judge(
     if envelope.verdict != Verdict::Pass {
         return Ok(Some((envelope, None)));
     }
-    // The first look chose this shot for its draws: the verdict has draws of its own.
-    let own = Sampling { seed: !sampling.seed, ..*sampling };
-    let sampled = sample_shots(case, &[(shot, envelope)], &own, compute, progress)?.remove(0);
+    let sampled = sample_shots(case, &[(shot, envelope)], sampling, compute, progress)?.remove(0);
     Ok(sampled.map(|sampled| (envelope, Some(sampled))))
 }
 

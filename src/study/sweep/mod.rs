@@ -18,8 +18,8 @@ mod accepted;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::batch::{envelopes, judge_shot, part_of_envelopes};
-use super::risk::Sampling;
-use super::sampled::Sampled;
+use super::risk_summary::RiskSummary;
+use super::sampling::Sampling;
 use super::screen::{is_sure, screen};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, Intervals, NoResult, Progress};
 use crate::plan::Timing;
@@ -34,7 +34,7 @@ pub struct Point {
     /// Verdict, height, force and drift of the shot as planned.
     pub envelope: Envelope,
     /// What the samples tell; `None` where only the shots as planned were asked for.
-    pub risk: Option<Sampled>,
+    pub risk: Option<RiskSummary>,
 }
 
 impl Point {

@@ -9,13 +9,13 @@ use crate::report::no_result;
 use crate::report::spark::sparkline;
 use crate::study::check::Checked;
 use crate::study::judgement::Judgement;
-use crate::study::risk::{Risk, Sample};
+use crate::study::risk::Risk;
 use crate::tui::app::{App, Areas, Target};
 use crate::tui::options::OptionState;
 use crate::tui::options::SortBy;
 use crate::tui::theme;
 use crate::units::{self, Unit, margin_percent};
-use crate::verdict::Verdict;
+use crate::verdict::{Quantity, Verdict};
 
 /// A column: head, width, and the least width of a screen that shows the column.
 struct Column {
@@ -47,7 +47,7 @@ const COLUMNS: &[Column] = &[
         sort: SortBy::Height,
         width: 14,
         from: 110,
-        cell: |_, _, judged| band(judged, |sample| sample.height, Unit::Metre),
+        cell: |_, _, judged| band(judged, Quantity::Height, Unit::Metre),
     },
     Column {
         head: "force, kN",
@@ -61,7 +61,7 @@ const COLUMNS: &[Column] = &[
         sort: SortBy::Force,
         width: 18,
         from: 110,
-        cell: |_, _, judged| band(judged, |sample| sample.force, Unit::Kilonewton),
+        cell: |_, _, judged| band(judged, Quantity::Force, Unit::Kilonewton),
     },
     Column {
         head: "factor",
@@ -110,8 +110,8 @@ fn samples(app: &App, option: usize, judged: &Judgement) -> String {
 }
 
 /// 5th and 95th percentile of a quantity.
-fn band(judged: &Judgement, of: fn(&Sample) -> f64, unit: Unit) -> String {
-    let band = sampled(judged).and_then(|risk| risk.band(of));
+fn band(judged: &Judgement, quantity: Quantity, unit: Unit) -> String {
+    let band = sampled(judged).and_then(|risk| risk.band(quantity));
     band.map_or_else(String::new, |[low, _, high, _]| {
         format!("{} to {}", units::value(low, unit), units::value(high, unit))
     })

@@ -1,7 +1,8 @@
-//! Shots of a study sampled: few samples of many shots, or as many as a verdict needs.
+//! The risk of many shots of a study, of which only a summary is kept: few samples of each, or as many as a verdict needs.
 
 use super::confidence::Confidence;
-use super::risk::{FOR_BANDS, Risk, Sampling, Target, percentiles, sample};
+use super::risk::{Risk, percentiles};
+use super::sampling::{Sampling, Target, find_risks};
 use super::{Case, ComputeSettings, Envelope, NoResult, Progress};
 use crate::scene::Shot;
 use crate::verdict::{Limits, Verdict};
@@ -11,7 +12,7 @@ const AT_ONCE: usize = 64;
 
 /// What the samples of one shot tell.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sampled {
+pub struct RiskSummary {
     /// Bounds of the failure probability.
     pub confidence: Confidence,
     /// Verdict of the samples.
@@ -20,15 +21,15 @@ pub struct Sampled {
     pub utilization: f64,
 }
 
-impl Sampled {
+impl RiskSummary {
     /// What no sample tells.
     pub fn nothing(case: &Case) -> Self {
-        let confidence = Risk::new(case, None).confidence;
+        let confidence = Risk::new(case, None, 0).confidence;
         Self { confidence, verdict: Verdict::Undecided, utilization: f64::INFINITY }
     }
 
     fn of(risk: &Risk, limits: &Limits) -> Self {
-        let shares = risk.samples.iter().map(|sample| sample.utilization(limits));
+        let shares = risk.samples.iter().map(|sample| sample.run.utilization(limits));
         let utilization = percentiles(shares, [0.95]).map_or(f64::INFINITY, |[p95]| p95);
         Self { confidence: risk.confidence, verdict: risk.verdict(), utilization }
     }
@@ -46,21 +47,15 @@ impl Sampled {
     }
 }
 
-impl Sampling {
-    /// Samples of a first look at many shots: 100 of each, fewer of those that surely fail too often.
-    pub fn first_look(&self) -> Self {
-        Self { least: 0, most: FOR_BANDS.min(self.most), ..*self }
-    }
-}
-
-/// Samples shots of one case, each judged as planned, all with the same draws; `None` for the shots that the time did not suffice for.
+/// Samples shots of one case, each judged as planned, all with the same draws; `None` for the shots that the time did not
+/// suffice for.
 pub fn sample_shots<'c>(
     case: &'c Case,
     shots: &'c [(Shot, Envelope)],
     sampling: &Sampling,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Vec<Option<Sampled>>, NoResult> {
+) -> Result<Vec<Option<RiskSummary>>, NoResult> {
     let mut all = Vec::with_capacity(shots.len());
     for shots in shots.chunks(AT_ONCE) {
         let target = |(shot, planned): &'c (Shot, Envelope)| Target {
@@ -68,14 +63,16 @@ pub fn sample_shots<'c>(
             shot,
             planned: Some(*planned),
             compute: *compute,
+            sampling: *sampling,
+            drawn: &[],
         };
         let targets: Vec<_> = shots.iter().map(target).collect();
-        let (risks, _) = sample(&targets, sampling, progress, |_| false, &mut |_, _| {})?;
+        let (risks, _) = find_risks(&targets, progress, &mut |_, _| {})?;
         let is_complete = |risk: &Risk| {
             let (drawn, verdict) = (risk.samples.len(), risk.confidence.verdict());
             drawn >= sampling.most || drawn >= sampling.least && verdict != Verdict::Undecided
         };
-        all.extend(risks.iter().map(|risk| is_complete(risk).then(|| Sampled::of(risk, &case.limits))));
+        all.extend(risks.iter().map(|risk| is_complete(risk).then(|| RiskSummary::of(risk, &case.limits))));
     }
     Ok(all)
 }

@@ -1,0 +1,184 @@
+//! How many samples of which shots are drawn: in rounds over all shots, until each risk is sure.
+
+use std::collections::BTreeSet;
+
+use serde::{Deserialize, Serialize};
+
+use super::batch::each;
+use super::draw::{Drawn, draw};
+use super::reason::closes;
+use super::risk::{FOR_BANDS, Risk};
+use super::sample::{Sample, SampleRun};
+use super::shares::FOR_SHARES;
+use super::{Case, ComputeSettings, Envelope, NoResult, Progress, Shard, guarded};
+use crate::choice::{Accuracy, Method};
+use crate::scene::{Scene, Shot};
+use crate::verdict::Verdict;
+
+/// Number of samples of each shot, and their seed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sampling {
+    /// Least number of samples of each shot.
+    pub least: usize,
+    /// Greatest number of samples of each shot.
+    pub most: usize,
+    /// Seed of the random numbers.
+    pub seed: u64,
+    /// 0 for a verdict that was asked for. Where shots are sampled one after the other until one passes, the number of the
+    /// shot, from 1: the n-th may be wrong with 1/(n (n + 1)) of the usual probability, so that all together keep to it.
+    pub attempt: usize,
+}
+
+impl Sampling {
+    /// The sampling of a verdict: enough for the shares of the inputs, and more until the verdict is sure.
+    pub const OF_VERDICT: Self = Self { least: FOR_SHARES, most: 2000, seed: 1, attempt: 0 };
+
+    /// Exactly `count` samples of each shot.
+    pub const fn exactly(count: usize, seed: u64) -> Self {
+        Self { least: count, most: count, seed, attempt: 0 }
+    }
+
+    /// Samples of a first look at many shots: 100 of each, fewer of those that surely fail too often.
+    pub fn first_look(&self) -> Self {
+        Self { least: 0, most: FOR_BANDS.min(self.most), ..*self }
+    }
+
+    /// The sampling of a shot that fails as planned: only to show by how much.
+    pub fn least_only(&self) -> Self {
+        Self { most: self.least, ..*self }
+    }
+}
+
+/// A shot whose risk is asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Target<'c> {
+    /// The plan.
+    pub case: &'c Case,
+    /// The shot as planned.
+    pub shot: &'c Shot,
+    /// The shot as planned, judged by finer runs; `None` where it is not known.
+    pub planned: Option<Envelope>,
+    /// Method and accuracy.
+    pub compute: ComputeSettings,
+    /// Number of samples and seed.
+    pub sampling: Sampling,
+    /// The first samples at the usual step, where other machines drew them.
+    pub drawn: &'c [Sample],
+}
+
+impl Target<'_> {
+    fn no_samples(&self) -> Risk {
+        Risk::new(self.case, self.planned, self.sampling.attempt)
+    }
+}
+
+/// One sample in so many is audited: 5 %.
+const AUDIT_EVERY: usize = 20;
+/// Step of a sample over the step of its audit.
+const AUDIT_FINER: f64 = 4.0;
+
+/// Most times that a shot is sampled anew at half the step.
+const MOST_HALVINGS: u32 = 3;
+
+/// Draws and judges samples of every shot, until its risk is sure. `watch` sees every shot after each of its rounds.
+///
+/// A shot has no more samples than the time sufficed for. Returns whether that was so.
+pub fn find_risks(
+    targets: &[Target<'_>],
+    progress: &Progress,
+    watch: &mut dyn FnMut(usize, &Risk),
+) -> Result<(Vec<Risk>, bool), NoResult> {
+    let mut risks: Vec<Risk> = targets.iter().map(Target::no_samples).collect();
+    loop {
+        let round = |(n, risk): (usize, &Risk)| {
+            let (sampling, halvings) = (targets[n].sampling, risk.halvings);
+            let from = risk.samples.len();
+            let is_open = from < sampling.most && risk.confidence.verdict() == Verdict::Undecided;
+            let size = if from < FOR_SHARES { 50 } else { 100 };
+            let to = if from < sampling.least || is_open { (from + size).min(sampling.most) } else { from };
+            (from..to).map(move |number| (n, number, halvings))
+        };
+        let jobs: Vec<(usize, usize, u32)> = risks.iter().enumerate().flat_map(round).collect();
+        if jobs.is_empty() {
+            return Ok((risks, false));
+        }
+        let drawn = each(&jobs, progress, |&(n, number, halvings)| match targets[n].drawn.get(number) {
+            Some(sample) if halvings == 0 => Ok(*sample),
+            _ => guarded(|| run_sample(&targets[n], number, 2.0_f64.powi(halvings as i32), progress)),
+        })?;
+        let out_of_time = drawn.contains(&None);
+        let mut complete = vec![true; targets.len()];
+        for (&(n, ..), sample) in jobs.iter().zip(drawn) {
+            // Samples are counted in order, so that a result is that of so many samples.
+            complete[n] &= sample.is_some();
+            if let Some(sample) = sample.filter(|_| complete[n]) {
+                risks[n].push(sample);
+            }
+        }
+        for n in jobs.iter().map(|&(n, ..)| n).collect::<BTreeSet<_>>() {
+            let (target, risk) = (&targets[n], &mut risks[n]);
+            if risk.is_contradicted() && risk.halvings < MOST_HALVINGS && target.compute.step.is_none() {
+                let halvings = risk.halvings + 1;
+                *risk = target.no_samples();
+                risk.halvings = halvings;
+            }
+            watch(n, risk);
+        }
+        if out_of_time {
+            return Ok((risks, true));
+        }
+    }
+}
+
+/// Draws and judges the samples of every shot that belong to `shard`; `None` for those that the time did not suffice for.
+pub fn draw_share(
+    targets: &[Target<'_>],
+    shard: Shard,
+    progress: &Progress,
+) -> Result<Vec<(usize, Option<Sample>)>, NoResult> {
+    let of = |n: usize| (0..targets[n].sampling.most).map(move |number| (n, number));
+    let jobs: Vec<(usize, usize)> =
+        (0..targets.len()).flat_map(of).filter(|&(_, number)| shard.has(number)).collect();
+    let drawn =
+        each(&jobs, progress, |&(n, number)| guarded(|| run_sample(&targets[n], number, 1.0, progress)))?;
+    Ok(jobs.into_iter().map(|(n, _)| n).zip(drawn).collect())
+}
+
+/// Step of a sample [s]: the fixed step, or a fraction of the critical step of its own scene, and at most the step that
+/// resolves a landing.
+fn step(compute: &ComputeSettings, scene: &Scene) -> f64 {
+    let level = if compute.accuracy == Accuracy::Reference { 0.25 } else { 1.0 };
+    let implicit = if compute.method == Method::Newmark { 0.25 } else { 1.0 };
+    compute.step.unwrap_or(implicit * level * 2e-3_f64.min(0.55 * scene.critical_step()))
+}
+
+/// Draws one sample and runs it, at a step shorter by the factor `finer`.
+fn run_sample(
+    target: &Target<'_>,
+    number: usize,
+    finer: f64,
+    progress: &Progress,
+) -> Result<Sample, NoResult> {
+    let Target { case, shot, compute, sampling, .. } = *target;
+    let Drawn { scene, shot, inputs } = draw(case, shot, sampling.seed, number);
+    // The run, and whether it failed or has no energy balance.
+    let run = |step: f64| {
+        let settings = case.settings(compute.method, step);
+        match case.model.run_variant(&scene, &shot, &settings, &mut |_| progress.flow()) {
+            Ok(outcome) => Ok((SampleRun::new(case, &shot, &outcome), !closes(outcome.ledger.residual()))),
+            Err(failure) => match progress.no_result(failure) {
+                NoResult::Failed(_) => Ok((SampleRun::FAILED, true)),
+                ended => Err(ended),
+            },
+        }
+    };
+    let step = step(&compute, &scene) / finer;
+    let (coarse, shows_nothing) = run(step)?;
+    if compute.step.is_some() {
+        return Ok(Sample { number, run: coarse, finer: None, inputs });
+    }
+    let is_audited = number % AUDIT_EVERY == AUDIT_EVERY / 2;
+    let fine = if shows_nothing || is_audited { Some(run(step / AUDIT_FINER)?.0) } else { None };
+    let best = fine.filter(|_| shows_nothing).unwrap_or(coarse);
+    Ok(Sample { number, run: best, finer: fine.filter(|_| is_audited), inputs })
+}
