@@ -154,15 +154,20 @@ fn the_launch_margin_is_the_room_below_the_limit() {
 }
 
 /// Rows 109 ms apart, in the plan of three rows with nothing unknown: the step of samples is far too long for this motion
-/// (force 51 to 81 kN at steps down to a quarter of a millisecond, 83.4 kN refined). A limit between them is not passed.
-#[test]
-fn samples_whose_step_is_too_long_pass_nothing() {
+/// (force 51 to 81 kN at steps down to a quarter of a millisecond, 83.4 kN refined).
+fn too_hard_for_samples() -> Case {
     let text = std::fs::read_to_string(crate::support::shipped("amur-three-rows.toml")).expect("the plan");
     let (head, _) = text.split_once("[[delay]]").expect("an option");
     let exact = "delay_sd_ms = 0\nlaunch_cv_percent = 0\nlaunch_common_percent = 0\nfriction = 0\nslack_percent = 0\n\
                  axial_stiffness_percent = 0\ntire_mass_cv_percent = 0\n";
     let text = format!("{head}[[delay]]\nname = \"109 ms\"\ninterval_ms = 109\n[uncertainty]\n{exact}");
-    let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+    Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
+}
+
+/// A limit between the force of the samples and the refined one is not passed.
+#[test]
+fn samples_whose_step_is_too_long_pass_nothing() {
+    let case = too_hard_for_samples();
     let cases = [(&case, ComputeSettings::of(&case.plan))];
     let mut found =
         check_all(&cases, Some(&Sampling::OF_VERDICT), &Progress::default()).expect("a result").value;
@@ -238,9 +243,9 @@ fn samples_that_share_one_error_pass_nothing() {
 /// machine.
 #[test]
 fn shares_that_the_audit_contradicts_are_sampled_anew() {
-    let case = Case::new(Plan::parse("", BIASED).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+    let case = too_hard_for_samples();
     let compute = ComputeSettings::of(&case.plan);
-    let (sampling, progress) = (Sampling::exactly(400, 1), Progress::default());
+    let (sampling, progress) = (Sampling::exactly(600, 1), Progress::default());
     let target = Target { case: &case, shot: &case.shots[0], planned: None, compute, sampling, drawn: &[] };
     let share = |index| draw_share(&[target], Shard { index, of: 2 }, &progress).expect("samples");
     let mut drawn: Vec<OptionSample> = [share(0), share(1)]
