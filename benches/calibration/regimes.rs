@@ -88,6 +88,8 @@ impl Regime {
             tire: (1..=layout.places.len()).map(TireId::Listed).collect(),
             cables: Vec::new(),
             friction: if self == Self::Friction { random.scale(0.05, 2.0) } else { random.between(0.2, 0.7) },
+            downhill: nalgebra::Vector2::zeros(),
+            restitution: 0.0,
             gravity: 9.81,
             breaking_force: None,
             strength: Vec::new(),

@@ -45,7 +45,7 @@ pub fn print_checks(
 ) -> io::Result<Status> {
     let Found { value: checked, partial } = checked;
     let pairs = || cases.iter().zip(checked);
-    let reports: Vec<Report> = pairs().map(|(case, results)| report(case, results, any)).collect();
+    let reports: Vec<Report> = pairs().map(|(case, results)| report(case, results, any, *partial)).collect();
     let documents = || {
         let document = |(case, results): (&Case, &Results)| CheckDocument::new(case, results, any, *partial);
         let mut all: Vec<_> = pairs().map(document).collect();

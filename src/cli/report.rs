@@ -45,7 +45,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Ok(checked) => checked,
         Err(reason) => return failed(&reason),
     };
-    let page = html::page(&cases[0], &checked.value[0], sampling.as_ref(), &html::today());
+    let page = html::page(&cases[0], &checked.value[0], checked.partial, sampling.as_ref(), &html::today());
     if output.as_os_str() == "-" {
         print_text(&page)?;
     } else {
@@ -54,6 +54,6 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     }
     match arguments.format {
         Some(format) => print_checks(&cases, &checked, false, format, look),
-        None => Ok(Status::of(&[check::report(&cases[0], &checked.value[0], false)])),
+        None => Ok(Status::of(&[check::report(&cases[0], &checked.value[0], false, checked.partial)])),
     }
 }

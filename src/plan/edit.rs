@@ -1,30 +1,46 @@
 //! Changes to the text of a plan. Everything else in the text stays, comments and formatting too.
 
-use toml_edit::{DocumentMut, Item, Table, value};
+use toml_edit::{DocumentMut, Item, Table, TableLike, Value, value};
 
-use super::Plan;
+use super::keys::blast_row::{FREE_FLIGHT_HEIGHT_M, HOLES, LAUNCH_M_S};
 use super::keys::cable::{AXIAL_STIFFNESS_KN, BREAKING_FORCE_KN, ROPE};
 use super::keys::shelter::BORDER_ROWS;
 use super::keys::tire::MASS_KG;
 use super::keys::{Key, plan};
+use super::{Launch, LaunchTargets, Plan};
 use crate::ropes::Rope;
 
 impl Plan {
-    /// The plan with another rope, tire mass and border; all other values stay.
+    /// The plan with another rope, tire mass and border. The holes give the same momentum: a tire of another mass leaves at
+    /// another speed. All other values stay.
     pub fn with(&self, rope: &Rope, tire_mass_kg: f64, border_rows: usize) -> Plan {
         let mut plan = self.clone();
         plan.cable.rope = Some(rope.name.clone());
         plan.cable.axial_stiffness_kn = rope.axial_stiffness_kn;
         plan.cable.breaking_force_kn = rope.breaking_force_kn * plan.cable.termination_percent * 1e-2;
         plan.tire.mass_kg = tire_mass_kg;
+        for launch in plan.launches_mut() {
+            launch.speed_m_s = launch.speed_m_s * self.tire.mass_kg / tire_mass_kg;
+        }
         if let super::Layout::Grid(mesh) | super::Layout::Quincunx(mesh) = &mut plan.layout {
             mesh.border_rows = border_rows;
         }
         plan
     }
+
+    fn launches_mut(&mut self) -> impl Iterator<Item = &mut Launch> {
+        self.blast_rows.iter_mut().flat_map(|row| -> Vec<&mut Launch> {
+            match &mut row.targets {
+                LaunchTargets::UnderRow { launch, .. } | LaunchTargets::UnderTires { launch, .. } => {
+                    vec![launch]
+                }
+                LaunchTargets::Holes(holes) => holes.iter_mut().map(|hole| &mut hole.launch).collect(),
+            }
+        })
+    }
 }
 
-/// The text of a plan with another rope, tire mass and border.
+/// The text of a plan with another rope, tire mass and border, and the launch velocities of tires of that mass.
 pub fn write_sizes(
     text: &str,
     rope: &str,
@@ -32,7 +48,7 @@ pub fn write_sizes(
     border_rows: usize,
 ) -> Result<String, toml_edit::TomlError> {
     let mut document: DocumentMut = text.parse()?;
-    let section = |document: &mut DocumentMut, key: &Key, change: &dyn Fn(&mut dyn toml_edit::TableLike)| {
+    let section = |document: &mut DocumentMut, key: &Key, change: &dyn Fn(&mut dyn TableLike)| {
         let item = document.entry(key.name).or_insert(Item::Table(Table::new()));
         if let Some(table) = item.as_table_like_mut() {
             change(table);
@@ -48,19 +64,51 @@ pub fn write_sizes(
             key.leaf_decor_mut().set_prefix(comment);
         }
     });
-    section(&mut document, &plan::TIRE, &|tire| {
-        let now =
-            tire.get(MASS_KG.name).and_then(|mass| mass.as_float().or(mass.as_integer().map(|kg| kg as f64)));
-        if now != Some(tire_mass_kg) {
-            set(tire, MASS_KG.name, tire_mass_kg.into());
-        }
-    });
+    let old = document
+        .get(plan::TIRE.name)
+        .and_then(Item::as_table_like)
+        .and_then(|tire| number(tire, MASS_KG.name));
+    if let Some(old) = old.filter(|&old| old != tire_mass_kg) {
+        section(&mut document, &plan::TIRE, &|tire| set(tire, MASS_KG.name, tire_mass_kg.into()));
+        scale_launches(&mut document, [old, tire_mass_kg]);
+    }
     section(&mut document, &plan::SHELTER, &|shelter| {
         if border_rows > 0 || shelter.contains_key(BORDER_ROWS.name) {
             set(shelter, BORDER_ROWS.name, (border_rows as i64).into());
         }
     });
     Ok(with_line_ends_of(text, &document))
+}
+
+/// The number of a key, whole or not.
+fn number(table: &dyn TableLike, key: &str) -> Option<f64> {
+    let value = table.get(key)?;
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
+}
+
+/// Changes the launches of all blast rows from tires of one mass [kg] to tires of another, by the same momentum.
+fn scale_launches(document: &mut DocumentMut, [from, to]: [f64; 2]) {
+    fn each(item: Option<&mut Item>, change: &dyn Fn(&mut dyn TableLike)) {
+        match item {
+            Some(Item::ArrayOfTables(tables)) => tables.iter_mut().for_each(|table| change(table)),
+            Some(Item::Value(Value::Array(list))) => {
+                list.iter_mut().filter_map(Value::as_inline_table_mut).for_each(|table| change(table));
+            }
+            _ => {}
+        }
+    }
+    let change = |table: &mut dyn TableLike| {
+        if let Some(speed) = number(table, LAUNCH_M_S.name) {
+            set(table, LAUNCH_M_S.name, (speed * from / to).into());
+        }
+        if let Some(height) = number(table, FREE_FLIGHT_HEIGHT_M.name) {
+            set(table, FREE_FLIGHT_HEIGHT_M.name, (height * (from / to).powi(2)).into());
+        }
+    };
+    each(document.get_mut(plan::BLAST_ROW.name), &|row| {
+        change(row);
+        each(row.get_mut(HOLES.name), &change);
+    });
 }
 
 /// The text of a changed document, with the line ends of the text before the change.
@@ -70,7 +118,7 @@ pub(super) fn with_line_ends_of(text: &str, document: &DocumentMut) -> String {
 }
 
 /// Sets the value of a key; the comment beside an old value stays.
-pub(super) fn set(table: &mut dyn toml_edit::TableLike, key: &str, mut new: toml_edit::Value) {
+pub(super) fn set(table: &mut dyn TableLike, key: &str, mut new: Value) {
     match table.get_mut(key).and_then(Item::as_value_mut) {
         Some(old) => {
             *new.decor_mut() = old.decor().clone();
@@ -96,5 +144,15 @@ mod tests {
         assert_eq!(same, written);
         let expected = "# top\n[shelter] # here\nrows = 5\nborder_rows = 1\n\n[tire]\nmass_kg = 350.0 # worn\n\n[cable]\nslack_percent = 2\n# ours\nrope = \"GOST 2688-80 8.3\"\n";
         assert_eq!(written, expected);
+    }
+
+    /// A tire of half the mass leaves twice as fast, and rises four times as high.
+    #[test]
+    fn launches_keep_their_momentum() {
+        let text = "tire = { mass_kg = 280 }\n[[blast_row]]\nlaunch_m_s = 6 # filmed\n[[blast_row]]\n\
+                    holes = [{ x_m = 0, free_flight_height_m = 1.5 }]\n";
+        let written = write_sizes(text, "GOST 2688-80 8.3", 140.0, 0).expect("TOML");
+        assert!(written.contains("launch_m_s = 12.0 # filmed"), "{written}");
+        assert!(written.contains("free_flight_height_m = 6.0 }"), "{written}");
     }
 }

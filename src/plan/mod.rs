@@ -37,8 +37,8 @@ pub struct Plan {
     pub tire: TireSpec,
     /// The rope of every tie.
     pub cable: CableSpec,
-    /// Coefficient of friction between tire and ground.
-    pub friction: f64,
+    /// The ground under the tires.
+    pub ground: GroundSpec,
     /// Blast rows in the order listed.
     pub blast_rows: Vec<BlastRow>,
     /// Limits that an option must keep to pass.
@@ -92,6 +92,31 @@ pub enum Layout {
     },
 }
 
+impl Layout {
+    /// How far a point lies beside the tires [m], and how far from one another tied tires lie [m].
+    pub fn beside(&self, x: f64, y: f64) -> [f64; 2] {
+        match self {
+            Layout::Grid(mesh) | Layout::Quincunx(mesh) => {
+                let border = mesh.border_rows as f64;
+                let beyond = |at: f64, count: usize, spacing: f64| {
+                    (-border * spacing - at).max(at - (count as f64 - 1.0 + border) * spacing).max(0.0)
+                };
+                let (across, along) = (mesh.column_spacing_m, mesh.row_spacing_m);
+                [beyond(x, mesh.columns, across).hypot(beyond(y, mesh.rows, along)), across.max(along)]
+            }
+            Layout::List { tires, cables } => {
+                let nearest = tires.iter().map(|tire| (tire.x_m - x).hypot(tire.y_m - y));
+                let length = |&(a, b): &(usize, usize)| {
+                    Some((tires.get(a)?, tires.get(b)?)).map(|(a, b)| (a.x_m - b.x_m).hypot(a.y_m - b.y_m))
+                };
+                // Tires without ties say nothing about a distance; no tire is wider.
+                let apart = cables.iter().filter_map(length).reduce(f64::max).unwrap_or(5.0);
+                [nearest.fold(f64::INFINITY, f64::min), apart]
+            }
+        }
+    }
+}
+
 /// A regular layout.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
@@ -135,6 +160,19 @@ pub struct TireSpec {
     pub mass_kg: f64,
     /// Outer diameter [m]: cables run from rim to rim. 0: cables run from centre to centre.
     pub outer_diameter_m: f64,
+    /// Normal speed after a landing over normal speed before it.
+    pub restitution: f64,
+}
+
+/// The ground under the tires; x and y of a plan lie in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GroundSpec {
+    /// Coefficient of friction between tire and ground.
+    pub friction: f64,
+    /// Slope [%]: the tangent of its angle to the level.
+    pub slope_percent: f64,
+    /// Direction downhill: azimuth from +x toward +y [°].
+    pub slope_toward_deg: f64,
 }
 
 /// The cable between two tires, with the figures of the catalogue.
@@ -152,8 +190,17 @@ pub struct CableSpec {
     pub termination: Option<String>,
     /// Efficiency of the termination [%]; 100 where the plan has none.
     pub termination_percent: f64,
+    /// Stiffness of tie and tire at each end of a cable [kN/m]; `None`: stiff ends.
+    pub end_stiffness_kn_m: Option<f64>,
     /// Effect of a force past the breaking force.
     pub on_overload: OnOverload,
+}
+
+impl CableSpec {
+    /// Stiffness of tie and tire at each end of a cable [N/m]; `None`: stiff ends.
+    pub fn end_stiffness(&self) -> Option<f64> {
+        self.end_stiffness_kn_m.map(|stiffness| stiffness * 1e3)
+    }
 }
 
 /// Holes that fire together.

@@ -63,7 +63,7 @@ impl Plan {
     pub fn ranges_beside_the_plan(&self) -> Vec<(&'static Key, [f64; 2], f64)> {
         let Uncertainty { friction, slack_percent, axial_stiffness_percent, .. } = self.uncertainty;
         let ranges: [(&'static Key, _, _); 3] = [
-            (&uncertainty::FRICTION, friction, self.friction),
+            (&uncertainty::FRICTION, friction, self.ground.friction),
             (&uncertainty::SLACK_PERCENT, slack_percent, self.cable.slack_percent),
             (&uncertainty::AXIAL_STIFFNESS_PERCENT, axial_stiffness_percent, 0.0),
         ];

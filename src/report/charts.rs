@@ -52,7 +52,7 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
         Verdict::Fail => Some((point.interval, 1.0)),
         _ => Some((point.interval, point.risk?.confidence.probability()?)),
     };
-    if sweep.points.iter().any(|point| point.risk.is_some()) {
+    if sweep.points.iter().any(Point::is_sampled) {
         let points = sweep.points.iter().filter_map(failing).collect();
         let accepted = 1e-2 * case.plan.limits.accepted_risk_percent;
         let chart = limited(interval, ("failing share", Unit::Percent), points, accepted);

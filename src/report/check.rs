@@ -3,7 +3,7 @@
 use super::explain::{broken, compute_label, launch_margin, reason, risk_detail};
 use super::model::{Block, Cell, Column, Conclusion, Detail, Field, Report, Shown, Table};
 use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
-use super::{limit_facts, no_result};
+use super::{no_result, report_head};
 use crate::plan::DelayOption;
 use crate::study::check::Checked;
 use crate::study::check_all::{Results, verdict};
@@ -156,8 +156,8 @@ const LAUNCH_MARGIN: Column = Column::words(&[], "launches").under("as planned")
 /// Greatest drift and its error.
 const DRIFT: Column = Column::numbers(&["drift_m", "drift_error_m"], "drift", Unit::Metre);
 
-/// The report of one plan; with `any` one passing option is enough.
-pub fn report(case: &Case, results: &Results, any: bool) -> Report {
+/// The report of one plan, which is partial where the time was up; with `any` one passing option is enough.
+pub fn report(case: &Case, results: &Results, any: bool, partial: bool) -> Report {
     // Without a limit on drift only the page has room for drift.
     let sampled = results.iter().flatten().any(|judged| judged.risk.is_some());
     let shown = |column: &Column| match column {
@@ -176,14 +176,15 @@ pub fn report(case: &Case, results: &Results, any: bool) -> Report {
         }
     }
     let passed = results.iter().flatten().filter(|judged| judged.verdict() == Verdict::Pass).count();
-    let mut text = format!("{passed} of {} options pass{}", results.len(), meaning(case, sampled));
+    let so_far = if partial { " so far, the time was up" } else { "" };
+    let mut text = format!("{passed} of {} options pass{so_far}{}", results.len(), meaning(case, sampled));
     if let Some(judged) = results.iter().flatten().next() {
         text += &format!(" · {}", compute_label(&judged.nominal.compute));
     }
     Report {
         blocks: vec![Block::Table(table)],
         conclusion: Some(Conclusion { verdict: verdict(results, any), text }),
-        ..limit_facts(case)
+        ..report_head(case, sampled)
     }
 }
 

@@ -11,6 +11,7 @@ use crate::study::judgement::Judgement;
 use crate::study::margin::LaunchMargin;
 use crate::study::reason::{EarlyEnd, Reason};
 use crate::study::risk::Risk;
+use crate::study::sample::SampleRun;
 use crate::study::shares;
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
@@ -60,7 +61,7 @@ pub fn risk_detail(case: &Case, judged: &Judgement) -> Option<Detail> {
         let text = "no sample of the possible shots was drawn: the time was up".to_owned();
         return Some(Detail { verdict: Verdict::Undecided, text });
     }
-    let shots = format!("{failures} of {samples} possible shots fail{}", limits_passed(case, risk));
+    let shots = format!("{failures} of {samples} possible shots fail{}", limits_exceeded(case, risk));
     let verdict = risk.verdict();
     let text = match verdict {
         Verdict::Pass => return None,
@@ -82,10 +83,12 @@ pub fn risk_detail(case: &Case, judged: &Judgement) -> Option<Detail> {
 }
 
 /// How many samples go past each limit: ` (cable force 12, flight height 3)`.
-fn limits_passed(case: &Case, risk: &Risk) -> String {
+fn limits_exceeded(case: &Case, risk: &Risk) -> String {
     let count = |quantity: Quantity| {
         let limit = case.limits.get(quantity)?;
-        let past = risk.samples.iter().filter(|sample| sample.run.get(quantity) > limit).count();
+        let is_past =
+            |run: &SampleRun, quantity, limit| run.verdict != Verdict::Undecided && run.get(quantity) > limit;
+        let past = risk.samples.iter().filter(|sample| is_past(sample.finest(), quantity, limit)).count();
         (past > 0).then(|| format!("{} {past}", quantity_name(quantity).0))
     };
     let words: Vec<String> = Quantity::ALL.into_iter().filter_map(count).collect();

@@ -43,8 +43,21 @@ fn row_names(case: &Case, rows: &[usize]) -> Vec<String> {
     rows.iter().map(|&row| case.plan.blast_rows[row].name.clone()).collect()
 }
 
-/// A report with title, size and limits of a plan, and nothing else yet.
-fn limit_facts(case: &Case) -> Report {
+/// The accepted risk, and what was assumed of inputs; nothing where only the shots as planned were judged.
+fn accepted_risk(case: &Case, sampled: bool) -> String {
+    let unknown = &case.plan.uncertainty;
+    let assumed = match (unknown.assumed, unknown.incomplete) {
+        (true, _) => " · inputs assumed known to 1 %",
+        (_, true) => " · inputs that [uncertainty] leaves out assumed known to 1 %",
+        _ => "",
+    };
+    let text = format!(" · accepted risk {} %{assumed}", case.plan.limits.accepted_risk_percent);
+    if sampled { text } else { String::new() }
+}
+
+/// A report with title, size, limits and what is special of a plan, and nothing else yet; `sampled`: it speaks of the shots that
+/// `[uncertainty]` describes.
+fn report_head(case: &Case, sampled: bool) -> Report {
     let (plan, scene) = (&case.plan, case.scene());
     let mut facts = format!(
         "{} tires, {} cables · limits: {}",
@@ -55,15 +68,10 @@ fn limit_facts(case: &Case) -> Report {
     if let Some(duration) = plan.simulation.duration_s {
         facts += &format!(" · followed for {duration} s at most");
     }
-    facts += &format!(" · accepted risk {} %", plan.limits.accepted_risk_percent);
-    facts += match (plan.uncertainty.assumed, plan.uncertainty.incomplete) {
-        (true, _) => " · inputs assumed known to 1 %",
-        (_, true) => " · inputs that [uncertainty] leaves out assumed known to 1 %",
-        _ => "",
-    };
+    facts += &accepted_risk(case, sampled);
     Report {
         title: format!("{} · {}", case.title(), case.source.path),
-        facts: std::iter::once(facts).chain(notes::ranges(case)).collect(),
+        facts: [facts].into_iter().chain(notes::effects(plan)).chain(notes::ranges(case)).collect(),
         ..Report::default()
     }
 }

@@ -20,6 +20,7 @@ fn remedy(no_result: &NoResult) -> Option<&'static str> {
         NoResult::Failed(Failure::Step { .. } | Failure::Diverged { .. } | Failure::Unsettled { .. }) => {
             Some(FINER)
         }
+        NoResult::Failed(Failure::Effect { .. }) => Some("choose method \"verlet\", or leave it out"),
         _ => None,
     }
 }

@@ -1,8 +1,8 @@
 //! Notes about a plan that readers of a study need beside its report.
 
 use super::risk::swap_warning;
-use crate::plan::Timing;
 use crate::plan::keys::Key;
+use crate::plan::{Plan, Timing};
 use crate::study::Case;
 use crate::study::swaps::swaps as find_swaps;
 
@@ -15,6 +15,26 @@ pub fn orders(case: &Case) -> Option<String> {
     let names: Vec<&str> = own.map(|delay| delay.name.as_str()).collect();
     (!names.is_empty())
         .then(|| format!("note: without an interval of their own, and left out: {}", names.join("; ")))
+}
+
+/// What the plan adds to the source paper's model, in one line; `None` where it adds nothing.
+pub fn effects(plan: &Plan) -> Option<String> {
+    let (ground, tire, cable) = (&plan.ground, &plan.tire, &plan.cable);
+    let told = |holds: bool, text: String| holds.then_some(text);
+    let parts = [
+        told(plan.simulation.gravity_m_s2 != 9.81, format!("gravity {} m/s²", plan.simulation.gravity_m_s2)),
+        told(
+            ground.slope_percent > 0.0,
+            format!(
+                "the ground falls {} % toward {}° from +x, heights are normal to it",
+                ground.slope_percent, ground.slope_toward_deg
+            ),
+        ),
+        told(tire.restitution > 0.0, format!("landings rebound with {} of their speed", tire.restitution)),
+        cable.end_stiffness_kn_m.map(|end| format!("ends of cables yield, {end} kN/m each")),
+    ];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    (!parts.is_empty()).then(|| parts.join(" · "))
 }
 
 /// Warnings of ranges of `[uncertainty]` that leave out what the plan itself says.

@@ -6,7 +6,7 @@ use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
     probability, sampled,
 };
-use super::{limit_facts, row_names};
+use super::{report_head, row_names};
 use crate::study::Case;
 use crate::study::orders::Orders;
 use crate::verdict::Verdict;
@@ -62,6 +62,6 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
     Report {
         blocks: vec![Block::Text(heads), Block::Table(table), Block::Picture(picture)],
         conclusion: Some(Conclusion { verdict, text }),
-        ..limit_facts(case)
+        ..report_head(case, orders.has_risk())
     }
 }

@@ -2,9 +2,9 @@
 
 use super::charts;
 use super::explain::{compute_label, inputs, risk_detail};
-use super::limit_facts;
 use super::model::{Block, Cell, Column, Conclusion, Field, Report, Row, Table};
 use super::no_result;
+use super::report_head;
 use super::shared_columns::{FAILURES, VERDICT};
 use crate::study::check_all::{Results, verdict};
 use crate::study::judgement::Judgement;
@@ -95,7 +95,7 @@ pub fn report(case: &Case, results: &Results, sampling: &Sampling, partial: bool
         text += &format!(" · {}", compute_label(&judged.nominal.compute));
     }
     let conclusion = Some(Conclusion { verdict: verdict(results, false), text });
-    Report { blocks, conclusion, ..limit_facts(case) }
+    Report { blocks, conclusion, ..report_head(case, true) }
 }
 
 fn complete_row(row: &mut Row, case: &Case, result: &Result<Judgement, NoResult>) {

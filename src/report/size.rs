@@ -1,5 +1,6 @@
 //! `size` as a report: the lightest combinations that hold.
 
+use super::accepted_risk;
 use super::charts;
 use super::limits::limits_of_any_rope;
 use super::model::{Block, Cell, Column, Conclusion, Report, Table};
@@ -37,6 +38,12 @@ const COMBINATIONS: [Column; 9] = [
 
 /// The report of all combinations.
 pub fn report(case: &Case, sizing: &Sizing) -> Report {
+    let mut facts = vec![format!("limits: {}", limits_of_any_rope(case))];
+    let sampled = sizing.combinations.iter().any(|of| of.trial.is_ok_and(|trial| trial.risk.is_some()));
+    facts[0] += &accepted_risk(case, sampled);
+    facts.push(
+        "a lighter tire leaves faster, a heavier one slower: the holes give the same momentum".to_owned(),
+    );
     let frontier = sizing.frontier();
     let rows = frontier.iter().filter_map(|combination| {
         let trial = combination.trial.ok()?;
@@ -66,7 +73,7 @@ pub fn report(case: &Case, sizing: &Sizing) -> Report {
     blocks.push(Block::Picture(charts::size(sizing)));
     Report {
         title: format!("{} · {}", case.title(), case.source.path),
-        facts: vec![format!("limits: {}", limits_of_any_rope(case))],
+        facts,
         blocks,
         conclusion: Some(conclusion(sizing)),
     }
@@ -98,11 +105,15 @@ fn tried(sizing: &Sizing) -> Vec<String> {
             count => lines.push(format!("{count} not tried: {reason}")),
         }
     }
-    if sizing.fragile() > 0 {
-        lines.push(format!(
-            "{} not chosen: the shots as planned pass, but more of the possible shots may fail than accepted",
-            sizing.fragile()
-        ));
+    let reasons = [
+        (Verdict::Fail, "more of the possible shots surely fail than accepted"),
+        (Verdict::Undecided, "too few samples to tell whether more of the possible shots fail than accepted"),
+    ];
+    for (verdict, reason) in reasons {
+        match sizing.with_risk(verdict) {
+            0 => {}
+            count => lines.push(format!("{count} not chosen: the shots as planned pass, but {reason}")),
+        }
     }
     lines
 }
@@ -117,7 +128,10 @@ fn conclusion(sizing: &Sizing) -> Conclusion {
         }
         Some((found, trial)) => (Verdict::Pass, format!("lightest {}", sentence(found, &trial))),
         None if open => (Verdict::Undecided, "no combination tried so far holds".to_owned()),
-        None if sizing.fragile() > 0 => {
+        None if sizing.with_risk(Verdict::Undecided) > 0 => {
+            (Verdict::Undecided, "no combination surely holds: give more samples".to_owned())
+        }
+        None if sizing.with_risk(Verdict::Fail) > 0 => {
             (Verdict::Fail, "no combination holds for more than the shots as planned".to_owned())
         }
         None => (Verdict::Fail, "no combination holds".to_owned()),
@@ -134,7 +148,7 @@ pub(super) fn nearest(sizing: &Sizing) -> Option<(&Combination, Trial)> {
 fn sentence(combination: &Combination, trial: &Trial) -> String {
     let risk = match trial.risk {
         None => " (the plan's own numbers only)".to_owned(),
-        Some(risk) => format!(", {} of {} possible shots fail", risk.failures, risk.samples),
+        Some(risk) => format!(", {} of {} possible shots fail at most", risk.failures, risk.samples),
     };
     format!(
         "{}, tires of {} kg, {}: {} t in all, {} of the limits used, {} judged{risk}",

@@ -6,7 +6,7 @@ use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
     probability, sampled,
 };
-use super::{limit_facts, row_names};
+use super::{report_head, row_names};
 use crate::study::Case;
 use crate::study::sweep::{Point, Recommended, Sweep};
 use crate::units;
@@ -58,7 +58,11 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
         ]
     };
     blocks.push(Block::Table(Table::new(&POINTS, sweep.points.iter().map(point))));
-    Report { blocks, conclusion: Some(conclusion(sweep, partial)), ..limit_facts(case) }
+    Report {
+        blocks,
+        conclusion: Some(conclusion(sweep, partial)),
+        ..report_head(case, sweep.points.iter().any(|point| point.risk.is_some()))
+    }
 }
 
 fn ends(case: &Case, sweep: &Sweep) -> Table {

@@ -1,8 +1,8 @@
 //! From a plan to a scene and its shots: the one file of `scene` that knows plans, where plan units become SI.
 
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
-use super::{Cable, Scene, Shot, TireId};
+use super::{Cable, Scene, Shot, TireId, with_ends};
 use crate::choice::{Link, OnOverload};
 use crate::plan::{BlastRow, Launch, LaunchTargets, Layout, Mesh, Plan, Timing, fire_in_turn};
 
@@ -38,8 +38,13 @@ impl Shot {
 /// Launch velocity as a vector [m/s].
 fn velocity(launch: &Launch) -> Vector3<f64> {
     let Launch { speed_m_s, tilt_deg, tilt_toward_deg } = *launch;
-    let sideways = Vector3::new(cosine(tilt_toward_deg), cosine(tilt_toward_deg - 90.0), 0.0);
+    let sideways = azimuth(tilt_toward_deg).push(0.0);
     speed_m_s * (cosine(tilt_deg - 90.0) * sideways + cosine(tilt_deg) * Vector3::z())
+}
+
+/// Direction along the ground at an azimuth [°] from +x toward +y.
+fn azimuth(degrees: f64) -> Vector2<f64> {
+    Vector2::new(cosine(degrees), cosine(degrees - 90.0))
 }
 
 /// Cosine of an angle in degrees, exact at multiples of 90: a launch along an axis is exactly its own mirror image.
@@ -59,13 +64,18 @@ struct Tie {
 impl Scene {
     /// Scene of a valid plan.
     pub fn build(plan: &Plan) -> Self {
+        // Tangent of the slope's angle, and its cosine.
+        let fall = plan.ground.slope_percent * 1e-2;
+        let level = 1.0 / (1.0 + fall * fall).sqrt();
         let mut scene = Scene {
             position: Vec::new(),
             mass: Vec::new(),
             tire: Vec::new(),
             cables: Vec::new(),
-            friction: plan.friction,
-            gravity: plan.simulation.gravity_m_s2,
+            friction: plan.ground.friction,
+            gravity: plan.simulation.gravity_m_s2 * level,
+            downhill: plan.simulation.gravity_m_s2 * fall * level * azimuth(plan.ground.slope_toward_deg),
+            restitution: plan.tire.restitution,
             breaking_force: (plan.cable.on_overload == OnOverload::Break)
                 .then_some(plan.cable.breaking_force_kn * 1e3),
             strength: Vec::new(),
@@ -95,7 +105,8 @@ impl Scene {
             .map(|Tie { ends, between }| {
                 let span = between - between.normalize() * plan.tire.outer_diameter_m;
                 let rest_length = slack * span.norm();
-                Cable { ends, rest_length, stiffness: axial_stiffness / rest_length, span }
+                let stiffness = with_ends(axial_stiffness / rest_length, plan.cable.end_stiffness());
+                Cable { ends, rest_length, stiffness, span }
             })
             .collect();
         // The stepping loop takes equal cables whose tires follow one another.

@@ -7,7 +7,7 @@ mod build;
 mod mirror;
 mod shot;
 
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 pub use build::{fire_at_s, seconds};
 pub use mirror::Mirror;
@@ -26,8 +26,12 @@ pub struct Scene {
     pub cables: Vec<Cable>,
     /// Coefficient of friction.
     pub friction: f64,
-    /// Gravity [m/s²].
+    /// Gravity into the ground [m/s²].
     pub gravity: f64,
+    /// Gravity along the ground, toward the foot of its slope [m/s²]; 0 on level ground.
+    pub downhill: Vector2<f64>,
+    /// Normal speed of a tire after its landing over normal speed before.
+    pub restitution: f64,
     /// Force above which a cable breaks [N]; `None`: cables never break.
     pub breaking_force: Option<f64>,
     /// Breaking force of each cable over that of the plan (`n_cables`); empty where all are equal.
@@ -83,7 +87,7 @@ pub struct Cable {
     pub ends: [usize; 2],
     /// Unstretched length L0 [m].
     pub rest_length: f64,
-    /// k = EA / L0 [N/m].
+    /// k [N/m]: EA / L0, in line with what yields at its two ends.
     pub stiffness: f64,
     /// Vector from the first to the second fastening at rest [m]: between the centres of the tires, or between their rims.
     /// Tires do not turn, so displacements add to this vector.
@@ -118,7 +122,22 @@ impl Cable {
     }
 }
 
+/// Stiffness k [N/m] of a rope with an end at each side, one after the other: 1/k = 1/`rope` + 2/`end`; `None`: stiff ends.
+pub fn with_ends(rope: f64, end: Option<f64>) -> f64 {
+    end.map_or(rope, |end| rope * end / (end + 2.0 * rope))
+}
+
 impl Scene {
+    /// Gravity as a vector [m/s²]; the third axis is the ground's normal.
+    pub fn gravity(&self) -> Vector3<f64> {
+        self.downhill.push(-self.gravity)
+    }
+
+    /// Whether tires at rest slide down the slope, where friction is `friction`.
+    pub fn slides(&self, friction: f64) -> bool {
+        self.downhill.norm() > friction * self.gravity
+    }
+
     /// Address of a cable: its two tires; empty for a scene without cables.
     pub fn cable_name(&self, cable: usize) -> String {
         self.cables.get(cable).map_or_else(String::new, |cable| {

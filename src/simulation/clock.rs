@@ -27,12 +27,12 @@ pub struct Clock {
 }
 
 impl Clock {
-    /// Clock at the first firing of `shot`; before that time the shelter is at rest.
-    pub fn new(shot: &Shot, settings: &Settings) -> Self {
+    /// Clock at the first firing of `shot`, before which the shelter is at rest; at 0 where the shelter `slides`.
+    pub fn new(shot: &Shot, settings: &Settings, slides: bool) -> Self {
         let [first, last] =
             [shot.firings.first(), shot.firings.last()].map(|firing| firing.map_or(0.0, |firing| firing.at));
         let limit = settings.duration.unwrap_or(last + SETTLING_LIMIT);
-        Self { base: first, n: 0, steps: 0, fired: 0, step: settings.step, limit }
+        Self { base: if slides { 0.0 } else { first }, n: 0, steps: 0, fired: 0, step: settings.step, limit }
     }
 
     /// Time since `base` [s].

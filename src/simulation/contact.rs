@@ -6,7 +6,7 @@
 //! tire, without iteration and without penalty stiffness.
 //!
 //! [`TireStep::integrate`] moves one tire through a step in which the tire lands or is fired at. Forces are constant over the
-//! step, so every phase (flight, slide, stick) is a parabola, and every event has its own time.
+//! step, so every phase (flight, slide under friction of one direction, stick) is a parabola, and every event has its own time.
 
 use nalgebra::{Vector2, Vector3};
 
@@ -36,6 +36,8 @@ pub struct TireStep {
     free: Vector3<f64>,
     /// Coefficient of friction μ.
     friction: f64,
+    /// Normal speed after a landing over normal speed before.
+    restitution: f64,
     /// Energy per mass lost in landings and friction so far [J/kg].
     pub lost: f64,
     /// Energy per mass put in by holes so far [J/kg].
@@ -53,14 +55,17 @@ pub fn top(velocity: f64, acceleration: f64, time: f64) -> Option<(f64, f64)> {
 }
 
 impl TireStep {
-    /// Tire at the start of a step: displacement [m], velocity [m/s], acceleration without the ground [m/s²], and μ.
+    /// Tire at the start of a step: displacement [m], velocity [m/s], acceleration without the ground [m/s²], μ, and
+    /// restitution.
     pub fn new(
         displacement: Vector3<f64>,
         velocity: Vector3<f64>,
         free: Vector3<f64>,
         friction: f64,
+        restitution: f64,
     ) -> Self {
-        Self { displacement, velocity, free, friction, lost: 0.0, put_in: 0.0, elapsed: 0.0, top: (0.0, 0.0) }
+        let (lost, put_in, elapsed, top) = (0.0, 0.0, 0.0, (0.0, 0.0));
+        Self { displacement, velocity, free, friction, restitution, lost, put_in, elapsed, top }
     }
 
     /// Integrates the motion over a step of length `h` [s], with landings and `launches` (time since the start of the step
@@ -70,21 +75,22 @@ impl TireStep {
     pub fn integrate(&mut self, h: f64, launches: impl Iterator<Item = (f64, Vector3<f64>)>) -> Vector3<f64> {
         let mut now = 0.0;
         for (at, launch) in launches {
-            self.integrate_unfired(at - now);
+            self.integrate_unfired(at - now, h);
             now = at;
             self.put_in += launch.dot(&(self.velocity + 0.5 * launch));
             self.velocity += launch;
         }
-        self.integrate_unfired(h - now)
+        self.integrate_unfired(h - now, h)
     }
 
     fn on_ground(&self) -> bool {
         self.displacement.z <= 0.0 && self.velocity.z <= 0.0
     }
 
-    /// Integrates over `left` [s] without a launch; returns the acceleration of the last phase [m/s²].
-    fn integrate_unfired(&mut self, mut left: f64) -> Vector3<f64> {
-        if !(self.on_ground() && self.free.z <= 0.0) {
+    /// Integrates over `left` [s] of a step of length `h` [s] without a launch; returns the acceleration of the last phase
+    /// [m/s²].
+    fn integrate_unfired(&mut self, mut left: f64, h: f64) -> Vector3<f64> {
+        while !(self.on_ground() && self.free.z <= 0.0) {
             match self.landing().filter(|&landing| landing <= left) {
                 None => {
                     self.fly(left);
@@ -92,7 +98,7 @@ impl TireStep {
                 }
                 Some(landing) => {
                     self.fly(landing);
-                    self.land();
+                    self.land(self.rebound(h));
                     left -= landing;
                 }
             }
@@ -128,46 +134,90 @@ impl TireStep {
         self.velocity += self.free * time;
     }
 
-    fn land(&mut self) {
+    /// Normal speed after the landing of a tire that is falling [m/s]: 0 where all bounces still to come, a geometric series,
+    /// would last less than a step of length `h` [s].
+    fn rebound(&self, h: f64) -> f64 {
+        let speed = -self.restitution * self.velocity.z;
+        let bounces = 2.0 * speed / (-self.free.z * (1.0 - self.restitution));
+        if self.free.z < 0.0 && bounces < h { 0.0 } else { speed }
+    }
+
+    /// Lands, and leaves the ground at the normal speed `rebound` [m/s]. Friction acts with the whole normal impulse.
+    fn land(&mut self, rebound: f64) {
         let before = self.velocity;
         self.displacement.z = 0.0;
-        let (after, _) = support(before, self.friction);
+        let (mut after, _) = support(before - Vector3::z() * rebound, self.friction);
+        after.z += rebound;
         self.velocity = after;
         self.lost += 0.5 * (before.norm_squared() - after.norm_squared());
     }
 
-    /// Integrates over `time` [s] on the ground: the tire slides until friction stops it, then sticks if the cable force is
-    /// within the cone of friction. Returns the acceleration of the last phase [m/s²].
+    /// Integrates over `time` [s] on the ground; returns the acceleration of the last phase [m/s²].
     fn slide(&mut self, time: f64) -> Vector3<f64> {
-        self.elapsed += time;
         if self.velocity.z < 0.0 {
             // A launch downwards is a landing without a fall.
-            self.land();
+            self.land(0.0);
         }
         self.displacement.z = 0.0;
         self.velocity.z = 0.0;
+        let (mut left, mut acceleration) = (time, Vector2::zeros());
+        for _ in 0..MOST_TURNS {
+            let Some(phase) = self.slide_straight(left) else { return Vector3::zeros() };
+            acceleration = phase.acceleration;
+            left -= phase.time;
+            if left <= 0.0 {
+                break;
+            }
+        }
+        self.elapsed += left.max(0.0);
+        acceleration.push(0.0)
+    }
+
+    /// Slides while friction keeps its direction, against the velocity at the start: for `time` [s] at most, or until the tire
+    /// no longer moves against friction. `None` for a tire that sticks: at rest, within the cone of friction.
+    fn slide_straight(&mut self, time: f64) -> Option<Slide> {
         let limit = -self.friction * self.free.z;
-        let driving = self.free.xy();
-        let speed = self.velocity.xy().norm();
+        let (driving, velocity) = (self.free.xy(), self.velocity.xy());
+        let speed = velocity.norm();
         let direction = if speed > 0.0 {
-            self.velocity.xy() / speed
+            velocity / speed
         } else if driving.norm() > limit {
             driving.normalize()
         } else {
-            return Vector3::zeros();
+            self.elapsed += time;
+            return None;
         };
         let acceleration = driving - direction * limit;
         let braking = -acceleration.dot(&direction);
-        let stops = braking * time >= speed && driving.norm() <= limit;
+        let stops = speed > 0.0 && braking * time >= speed;
         let moving = if stops { speed / braking } else { time };
-        let way = self.velocity.xy() * moving + acceleration * (0.5 * moving * moving);
-        let velocity = if stops { Vector2::zeros() } else { self.velocity.xy() + acceleration * moving };
-        self.lost += limit * way.norm();
+        let way = velocity * moving + acceleration * (0.5 * moving * moving);
+        let mut after = velocity + acceleration * moving;
+        if stops {
+            after -= direction * after.dot(&direction);
+            // What rounding leaves is no motion.
+            if after.norm() <= 1e-12 * speed {
+                after = Vector2::zeros();
+            }
+        }
+        self.elapsed += moving;
+        self.lost += limit * way.dot(&direction);
         self.displacement += way.push(0.0);
-        self.velocity = velocity.push(0.0);
-        if stops { Vector3::zeros() } else { acceleration.push(0.0) }
+        self.velocity = after.push(0.0);
+        Some(Slide { time: moving, acceleration })
     }
 }
+
+/// A slide under friction of one direction.
+struct Slide {
+    /// Its time [s].
+    time: f64,
+    /// Its acceleration [m/s²].
+    acceleration: Vector2<f64>,
+}
+
+/// Most times that friction changes its direction within a step.
+const MOST_TURNS: usize = 4;
 
 #[cfg(test)]
 mod tests {
@@ -190,7 +240,7 @@ mod tests {
     #[test]
     fn one_step_holds_a_launch_a_landing_and_a_stop() {
         let (above, sideways) = (Vector3::z() * 1e-300, Vector3::x() * 3.0);
-        let mut step = TireStep::new(above, sideways, -Vector3::z() * G, 0.5);
+        let mut step = TireStep::new(above, sideways, -Vector3::z() * G, 0.5, 0.0);
         step.integrate(5.0, [(0.0, Vector3::z() * 2.0)].into_iter());
         let sideways = 3.0 - 0.5 * 2.0;
         let way = 3.0 * 2.0 * 2.0 / G + sideways * sideways / (2.0 * 0.5 * G);
@@ -200,10 +250,37 @@ mod tests {
         assert!((step.lost - 0.5 * 9.0 - step.put_in).abs() < 1e-12);
     }
 
+    /// A force stronger than friction brakes a slide with a + μ g, turns the tire round, and speeds it up with a − μ g.
+    #[test]
+    fn a_slide_that_turns_round_within_a_step_is_two_parabolas() {
+        let (pull, limit) = (8.0, 0.5 * G);
+        let force = Vector3::new(-pull, 0.0, -G);
+        let mut step = TireStep::new(Vector3::zeros(), Vector3::x() * 2.0, force, 0.5, 0.0);
+        let last = step.integrate(1.0, std::iter::empty());
+        let turn = 2.0 / (pull + limit);
+        let (there, back) = (0.5 * 2.0 * turn, 0.5 * (pull - limit) * (1.0 - turn) * (1.0 - turn));
+        assert!((step.displacement.x - (there - back)).abs() < 1e-14);
+        assert!((step.velocity.x + (pull - limit) * (1.0 - turn)).abs() < 1e-14);
+        assert!((step.lost - limit * (there + back)).abs() < 1e-14 && last.x == limit - pull);
+    }
+
+    /// Across the first direction, too: the energy that friction takes is what the motion lacks.
+    #[test]
+    fn a_slide_round_a_corner_keeps_the_balance_of_energy() {
+        for pull in [0.3 * G, 1.5 * G] {
+            let force = Vector3::new(0.0, pull, -G);
+            let mut step = TireStep::new(Vector3::zeros(), Vector3::x() * 1.5, force, 0.5, 0.0);
+            step.integrate(0.6, std::iter::empty());
+            let work = pull * step.displacement.y;
+            let energy = 0.5 * (1.5 * 1.5 - step.velocity.norm_squared());
+            assert!((work + energy - step.lost).abs() < 1e-12, "{pull}: {} {}", work + energy, step.lost);
+        }
+    }
+
     #[test]
     fn a_force_inside_the_cone_moves_nothing() {
         let force = Vector3::new(0.49 * G, 0.0, -G);
-        let mut step = TireStep::new(Vector3::zeros(), Vector3::zeros(), force, 0.5);
+        let mut step = TireStep::new(Vector3::zeros(), Vector3::zeros(), force, 0.5, 0.0);
         step.integrate(1.0, std::iter::empty());
         assert_eq!(step.displacement, Vector3::zeros());
     }

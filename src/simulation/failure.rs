@@ -15,6 +15,14 @@ pub enum Failure {
         /// Method asked for.
         method: Method,
     },
+    /// The method lacks an effect that the scene has.
+    #[error("{method} has no {effect}")]
+    Effect {
+        /// Name of the effect.
+        effect: &'static str,
+        /// Method asked for.
+        method: Method,
+    },
     /// The state is no longer finite.
     #[error("the motion is no longer finite at {at} s")]
     Diverged {

@@ -114,6 +114,11 @@ impl<'a> Wake<'a> {
         }
     }
 
+    /// Sets all packs moving, from the next refresh on.
+    pub fn set_all_moving(&mut self) {
+        (0..self.near.len()).for_each(|pack| self.set_moving(pack, true));
+    }
+
     /// Whether a pack was awake at the last refresh.
     #[inline(always)]
     pub fn is_awake(&self, pack: usize) -> bool {
@@ -162,7 +167,7 @@ impl<'a> Wake<'a> {
 #[cfg(test)]
 pub mod tests {
     use itertools::Itertools;
-    use nalgebra::Vector3;
+    use nalgebra::{Vector2, Vector3};
 
     use super::*;
     use crate::outcome::Outcome;
@@ -198,6 +203,8 @@ pub mod tests {
             cables,
             friction: 0.5,
             gravity: 9.81,
+            downhill: Vector2::zeros(),
+            restitution: 0.0,
             breaking_force: None,
             strength: Vec::new(),
             mirrors: Vec::new(),

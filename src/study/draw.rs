@@ -15,7 +15,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use super::Case;
 use crate::plan::Uncertainty;
-use crate::scene::{Cable, Firing, Scene, Shot};
+use crate::scene::{Cable, Firing, Scene, Shot, with_ends};
 
 /// An input that is the same in the whole shot, and not known exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,9 +114,11 @@ pub fn draw(case: &Case, nominal: &Shot, seed: u64, number: usize) -> Drawn {
     let mut scene = case.scene().clone();
     scatter_tires(&mut scene, &mut firings, unknown, launch_common, &mut random);
     let length = (1.0 + 1e-2 * slack_percent) / (1.0 + 1e-2 * case.plan.cable.slack_percent);
+    let rope = &case.plan.cable;
     for cable in &mut scene.cables {
-        let rest_length = cable.rest_length * length;
-        *cable = Cable { rest_length, stiffness: cable.stiffness * stiffness / length, ..*cable };
+        let own = rope.axial_stiffness_kn * 1e3 / cable.rest_length;
+        let stiffness = with_ends(own * stiffness / length, rope.end_stiffness());
+        *cable = Cable { rest_length: cable.rest_length * length, stiffness, ..*cable };
     }
     if unknown.breaking_force_cv_percent > 0.0 {
         let strength = |cable| factor(random.at(Place::Cable(cable)), unknown.breaking_force_cv_percent);

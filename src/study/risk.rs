@@ -50,7 +50,7 @@ impl Risk {
 
     /// Takes the next sample; one of the audit counts as it is at the finer step.
     pub fn push(&mut self, sample: Sample) {
-        let SampleRun { verdict, breaks, .. } = sample.finer.unwrap_or(sample.run);
+        let SampleRun { verdict, breaks, .. } = *sample.finest();
         self.confidence.push(verdict);
         self.breaks.push(breaks);
         self.samples.push(sample);

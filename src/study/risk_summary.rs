@@ -17,6 +17,8 @@ pub struct RiskSummary {
     pub confidence: Confidence,
     /// Verdict of the samples.
     pub verdict: Verdict,
+    /// Whether finer runs contradict the samples.
+    pub is_contradicted: bool,
     /// 95th percentile of the samples' utilization: the greatest value over its limit.
     pub utilization: f64,
 }
@@ -25,13 +27,15 @@ impl RiskSummary {
     /// What no sample tells.
     pub fn nothing(case: &Case) -> Self {
         let confidence = Risk::new(case, None, 0).confidence;
-        Self { confidence, verdict: Verdict::Undecided, utilization: f64::INFINITY }
+        let (verdict, utilization) = (Verdict::Undecided, f64::INFINITY);
+        Self { confidence, verdict, is_contradicted: false, utilization }
     }
 
     fn of(risk: &Risk, limits: &Limits) -> Self {
         let shares = risk.samples.iter().map(|sample| sample.run.utilization(limits));
         let utilization = percentiles(shares, [0.95]).map_or(f64::INFINITY, |[p95]| p95);
-        Self { confidence: risk.confidence, verdict: risk.verdict(), utilization }
+        let (verdict, is_contradicted) = (risk.verdict(), risk.is_contradicted());
+        Self { confidence: risk.confidence, verdict, is_contradicted, utilization }
     }
 
     /// Whether any sample was drawn.
@@ -39,11 +43,13 @@ impl RiskSummary {
         self.confidence.samples > 0
     }
 
-    /// Whether the failing share does not exceed the accepted risk; undecided samples count as failing.
+    /// Whether the failing share so far does not exceed the accepted risk, and nothing speaks against the samples; not yet a
+    /// verdict. Undecided samples count as failing.
     pub fn is_accepted(&self) -> bool {
         let Confidence { accepted, samples, failures, undecided, .. } = self.confidence;
         let failing = (failures + undecided) as f64;
-        samples > 0 && self.verdict != Verdict::Fail && failing <= accepted * samples as f64 + 1e-9
+        let is_open = !self.is_contradicted && self.verdict != Verdict::Fail;
+        samples > 0 && is_open && failing <= accepted * samples as f64 + 1e-9
     }
 }
 

@@ -23,6 +23,13 @@ pub struct Sample {
     pub inputs: [f64; Input::ALL.len()],
 }
 
+impl Sample {
+    /// Its run at the finest step.
+    pub fn finest(&self) -> &SampleRun {
+        self.finer.as_ref().unwrap_or(&self.run)
+    }
+}
+
 /// A sample at one step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SampleRun {

@@ -117,7 +117,8 @@ pub fn find_risks(
         }
         for n in jobs.iter().map(|&(n, ..)| n).collect::<BTreeSet<_>>() {
             let (target, risk) = (&targets[n], &mut risks[n]);
-            if risk.is_contradicted() && risk.halvings < MOST_HALVINGS && target.compute.step.is_none() {
+            let may_halve = !out_of_time && risk.halvings < MOST_HALVINGS && target.compute.step.is_none();
+            if may_halve && risk.is_contradicted() {
                 let halvings = risk.halvings + 1;
                 *risk = target.no_samples();
                 risk.halvings = halvings;

@@ -11,6 +11,7 @@
 use itertools::Itertools;
 
 use super::batch::judge_shots;
+use super::confidence::Confidence;
 use super::sampling::{Sampling, Target, find_risks};
 use super::{Bounded, Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress};
 use crate::plan::{Layout, Plan};
@@ -83,7 +84,8 @@ impl Trial {
     }
 }
 
-/// Samples of the shots of a combination, up to the first shot whose risk does not pass.
+/// Samples of the shots of a combination, up to the first shot whose risk does not pass: those of the shot of which the greatest
+/// share fails.
 #[derive(Clone, Copy, Debug)]
 pub struct SampledRisk {
     /// The verdict of the samples.
@@ -124,12 +126,12 @@ impl Sizing {
         self.combinations.iter().filter(|c| c.trial.is_ok()).count()
     }
 
-    /// Number of combinations that hold as planned, but whose risk does not pass.
-    pub fn fragile(&self) -> usize {
-        self.combinations
-            .iter()
-            .filter(|c| c.trial.is_ok_and(|trial| trial.holds && !trial.is_choice()))
-            .count()
+    /// Number of combinations that hold as planned, and whose risk has this verdict.
+    pub fn with_risk(&self, verdict: Verdict) -> usize {
+        let has = |c: &&Combination| {
+            c.trial.is_ok_and(|trial| trial.risk.is_some_and(|risk| risk.verdict == verdict))
+        };
+        self.combinations.iter().filter(has).count()
     }
 
     /// Number of combinations that were not tried for reason `why`.
@@ -250,7 +252,7 @@ fn sample_hardest<'s>(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Option<SampledRisk>, NoResult> {
-    let mut all = SampledRisk { verdict: Verdict::Pass, samples: 0, failures: 0 };
+    let mut worst = SampledRisk { verdict: Verdict::Pass, samples: 0, failures: 0 };
     for (shot, planned) in shots {
         let planned = Some(planned);
         let target = Target { case, shot, planned, compute: *compute, sampling: *sampling, drawn: &[] };
@@ -258,14 +260,17 @@ fn sample_hardest<'s>(
         if partial {
             return Ok(None);
         }
-        all.samples += risks[0].confidence.samples;
-        all.failures += risks[0].confidence.failures;
-        all.verdict = risks[0].verdict();
-        if all.verdict != Verdict::Pass {
-            break;
+        let Confidence { samples, failures, .. } = risks[0].confidence;
+        let share = |of: &SampledRisk| of.failures as f64 / of.samples.max(1) as f64;
+        let here = SampledRisk { verdict: risks[0].verdict(), samples, failures };
+        if here.verdict != Verdict::Pass {
+            return Ok(Some(here));
+        }
+        if worst.samples == 0 || share(&here) > share(&worst) {
+            worst = here;
         }
     }
-    Ok(Some(all))
+    Ok(Some(worst))
 }
 
 /// The shots that the shelter of `case` must hold.

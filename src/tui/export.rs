@@ -19,7 +19,7 @@ pub fn write(app: &App, path: &Path) -> Result<(), String> {
     let text = match ending {
         "csv" => csv(app)?,
         "svg" => svg(app)?,
-        "html" => html::page(&app.case, &results(app)?, Some(&Sampling::OF_VERDICT), &html::today()),
+        "html" => html::page(&app.case, &results(app)?, false, Some(&Sampling::OF_VERDICT), &html::today()),
         _ => return Err("the name must end in .csv, .svg or .html".to_owned()),
     };
     file::create(path, &text).map_err(|error| error.to_string())
@@ -29,7 +29,7 @@ pub fn write(app: &App, path: &Path) -> Result<(), String> {
 pub fn csv(app: &App) -> Result<String, String> {
     let text = match app.screen {
         Screen::Plan | Screen::Compare => {
-            report::csv::csv(&[report::check::report(&app.case, &results(app)?, false)])
+            report::csv::csv(&[report::check::report(&app.case, &results(app)?, false, false)])
         }
         _ => report::csv::csv(std::slice::from_ref(&finished(app)?.report)),
     };

@@ -7,6 +7,7 @@ mod calibration;
 mod check;
 mod closed_forms;
 mod documents;
+mod effects;
 mod extremes;
 mod faults;
 mod flight;

@@ -428,6 +428,10 @@ fn a_weak_cable_counts_by_its_strength() {
         assert!(weak.force.index == 1 && (weak.force.at - gentle.force.at).abs() < 1e-12);
         let ratio = weak.force.value / (gentle.force.value / 0.7);
         assert!((ratio - 1.0).abs() < 1e-12 && weak.force.value > strong.force.value, "{method:?} {ratio}");
+        // A strong cable holds a force at which one of the plan's strength would break.
+        let held = run(vec![2.0, 1.0], Some(0.95 * strong.force.value));
+        assert!(held.broken.is_empty() && 2.0 * held.force.value > strong.force.value, "{method:?}");
+        assert_eq!(held.force, gentle.force, "{method:?}");
         // The weak cable breaks at a force that it would hold at the plan's strength.
         let breaking = 1.1 * strong.force.value;
         let broken = |strength: Vec<f64>| run(strength, Some(breaking)).broken;

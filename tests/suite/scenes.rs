@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 use shelter::choice::Method;
 use shelter::outcome::Outcome;
 use shelter::scene::{Cable, Firing, Scene, Shot, TireId};
@@ -20,6 +20,8 @@ pub fn tires(places: &[(f64, f64)], mass: f64) -> Scene {
         cables: Vec::new(),
         friction: 0.5,
         gravity: GRAVITY,
+        downhill: Vector2::zeros(),
+        restitution: 0.0,
         breaking_force: None,
         strength: Vec::new(),
         mirrors: Vec::new(),

@@ -101,6 +101,8 @@ sections! {
         MASS_KG = key("mass_kg", MASS, "280", "").required().edit("tire mass, kg");
         OUTER_DIAMETER_M = key("outer_diameter_m", number("m", 0.0..=1e3), "1.6",
             "cables run from rim to rim; 0: from centre to centre").default(0.0).edit("outer diameter, m").offered();
+        RESTITUTION = key("restitution", number("", 0.0..=0.9), "0.3", "speed after a landing over speed before")
+            .default(0.0).edit("restitution").offered();
     }
 
     cable "[cable]" "the rope of every tie: from the catalogue, or stiffness and breaking force" {
@@ -114,6 +116,9 @@ sections! {
             .edit("slack, %").offered();
         AXIAL_STIFFNESS_KN = key("axial_stiffness_kn", CABLE_FORCE, "1519", "EA").edit("axial stiffness EA, kN");
         BREAKING_FORCE_KN = key("breaking_force_kn", CABLE_FORCE, "20.9", "").edit("breaking force, kN");
+        END_STIFFNESS_KN_M = key("end_stiffness_kn_m", number("kN/m", 1e-3..=1e12), "2000",
+            "of tie and tire at each end, in line with the rope").described("stiff ends").edit("stiffness of ends, kN/m")
+            .offered();
         ON_OVERLOAD = key("on_overload", Kind::Choice(OnOverload::NAMES), "\"report\"",
             "whether a cable past its breaking force is reported and pulls on, or is gone")
             .named(OnOverload::DEFAULT.name());
@@ -122,13 +127,18 @@ sections! {
     ground "[ground]" "the ground under the tires" {
         FRICTION = key("friction", number("", FRICTION_RANGE), "0.5", "of a tire on the ground; rocky soil 0.3 to 0.5")
             .required().edit("friction");
+        SLOPE_PERCENT = key("slope_percent", number("%", 0.0..=200.0), "10", "fall of the ground over its level length")
+            .default(0.0).edit("slope, %").offered();
+        SLOPE_TOWARD_DEG = key("slope_toward_deg", number("°", -360.0..=360.0), "270",
+            "direction downhill, from +x toward +y").default(0.0).edit("slope toward, deg")
+            .offered_beside(SLOPE_PERCENT.name);
     }
 
     blast_row "[[blast_row]]" "holes that fire together" {
         NAME = key("name", Kind::Text, "\"1\"", "delay options address the row by it").required();
-        LAUNCH_M_S = key("launch_m_s", number("m/s", 0.0..=1e4), "6.0", "launch velocity of the tires")
+        LAUNCH_M_S = key("launch_m_s", number("m/s", 1e-3..=1e4), "6.0", "launch velocity of the tires")
             .edit("launch, m/s");
-        FREE_FLIGHT_HEIGHT_M = key("free_flight_height_m", number("m", 0.0..=1e5), "1.83",
+        FREE_FLIGHT_HEIGHT_M = key("free_flight_height_m", number("m", 1e-6..=1e5), "1.83",
             "seen on a loose test tire, instead of launch_m_s").edit("free flight height, m");
         TILT_DEG = key("tilt_deg", number("°", 0.0..=80.0), "10", "of the launch from the ground's normal")
             .default(0.0).edit("tilt, deg");

@@ -12,7 +12,7 @@ use self::study::{read_size, read_uncertainty};
 use super::diagnostic::Diagnostics;
 use super::keys::{self, cable, ground, limits, simulation, tire};
 use super::read::{At, Mistakes, SectionReader};
-use super::{CableSpec, LimitsSpec, Plan, SimulationSpec, TireSpec};
+use super::{CableSpec, GroundSpec, Layout, LimitsSpec, Plan, SimulationSpec, TireSpec};
 use crate::choice::{Accuracy, Method, OnOverload};
 use crate::ropes::{Rope, Termination, catalogue};
 
@@ -46,10 +46,10 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
     use keys::plan::{CABLE, GROUND, LIMITS, SHELTER, SIMULATION, SIZE, TIRE, TITLE, UNCERTAINTY};
     let title = root.text_if(&TITLE).map(|title| title.value.to_owned());
     let simulation = read_simulation(root.section_or_empty(&SIMULATION));
-    let tire = root.section(&TIRE).map(read_tire);
+    let tire = root.section(&TIRE).map(|section| read_tire(section, simulation.method));
     let layout = root.section(&SHELTER).and_then(|section| read_layout(section, mistakes));
     let cable = root.section(&CABLE).map(|section| read_cable(section, mistakes));
-    let friction = root.section(&GROUND).map(read_friction);
+    let ground = root.section(&GROUND).map(|section| read_ground(section, &simulation));
     if let (Some(layout), Some(tire)) = (&layout, &tire) {
         check_gaps(layout, tire, root, mistakes);
     }
@@ -59,17 +59,18 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
     let uncertainty = read_uncertainty(
         root.section_or_empty(&UNCERTAINTY),
         !root.has(&UNCERTAINTY),
-        friction.unwrap_or(0.0),
+        ground.map_or(0.0, |ground| ground.friction),
         cable.as_ref().map_or(0.0, |cable| cable.slack_percent),
     );
     let termination = cable.as_ref().and_then(|cable| cable.termination.as_deref());
-    let size = read_size(root.section_or_empty(&SIZE), termination);
+    let own_masses = matches!(&layout, Some(Layout::List { tires, .. }) if tires.iter().any(|tire| tire.mass_kg.is_some()));
+    let size = read_size(root.section_or_empty(&SIZE), termination, own_masses);
     Some(Plan {
         title,
         layout: layout?,
         tire: tire?,
         cable: cable?,
-        friction: friction?,
+        ground: ground?,
         blast_rows,
         limits: limits?,
         delays,
@@ -90,19 +91,34 @@ fn read_simulation(section: SectionReader<'_>) -> SimulationSpec {
     spec
 }
 
-fn read_tire(section: SectionReader<'_>) -> TireSpec {
+fn read_tire(section: SectionReader<'_>, method: Method) -> TireSpec {
     let spec = TireSpec {
         mass_kg: section.number(&tire::MASS_KG),
         outer_diameter_m: section.number(&tire::OUTER_DIAMETER_M),
+        restitution: section.number(&tire::RESTITUTION),
     };
+    if spec.restitution > 0.0 && method == Method::Newmark {
+        let message = "newmark has no restitution";
+        section.wrong(&tire::RESTITUTION, message, "leave it out, or choose method \"verlet\"");
+    }
     section.finish();
     spec
 }
 
-fn read_friction(section: SectionReader<'_>) -> f64 {
-    let friction = section.number(&ground::FRICTION);
+fn read_ground(section: SectionReader<'_>, simulation: &SimulationSpec) -> GroundSpec {
+    let spec = GroundSpec {
+        friction: section.number(&ground::FRICTION),
+        slope_percent: section.number(&ground::SLOPE_PERCENT),
+        slope_toward_deg: section.number(&ground::SLOPE_TOWARD_DEG),
+    };
+    if spec.slope_percent * 1e-2 > spec.friction && simulation.duration_s.is_none() {
+        let message =
+            format!("on a slope of {} % friction of {} holds no tire", spec.slope_percent, spec.friction);
+        let remedy = "the shelter never comes to rest: give [simulation] a duration_s";
+        section.wrong(&ground::SLOPE_PERCENT, message, remedy);
+    }
     section.finish();
-    friction
+    spec
 }
 
 fn read_limits(section: SectionReader<'_>) -> LimitsSpec {
@@ -127,6 +143,7 @@ fn read_cable(section: SectionReader<'_>, mistakes: &Mistakes) -> CableSpec {
         axial_stiffness_kn,
         breaking_force_kn: breaking_force_kn * termination_percent * 1e-2,
         slack_percent: section.number(&cable::SLACK_PERCENT),
+        end_stiffness_kn_m: section.number_if(&cable::END_STIFFNESS_KN_M),
         termination: termination.map(|known| known.name.clone()),
         termination_percent,
         on_overload: section.choice(&cable::ON_OVERLOAD, OnOverload::DEFAULT),

@@ -44,7 +44,7 @@ fn read_targets(
         mistakes.add(section.span.clone(), message, remedy);
     }
     if section.has(&blast_row::HOLES) {
-        return LaunchTargets::Holes(read_holes(section, gravity));
+        return LaunchTargets::Holes(read_holes(section, layout, gravity));
     }
     let launch = read_launch(section, gravity);
     if let Some(tires) = section.wholes(&blast_row::UNDER_TIRES) {
@@ -83,18 +83,26 @@ fn read_targets(
     LaunchTargets::UnderRow { row, launch }
 }
 
-fn read_holes(section: &SectionReader<'_>, gravity: f64) -> Vec<Hole> {
+fn read_holes(section: &SectionReader<'_>, layout: Option<&Layout>, gravity: f64) -> Vec<Hole> {
     let holes = section.sections(&blast_row::HOLES);
     if holes.is_empty() {
         section.wrong(&blast_row::HOLES, "a blast row without a hole", "list its holes, or remove the row");
     }
-    holes.into_iter().map(|hole| read_hole(hole, gravity)).collect()
+    holes.into_iter().map(|hole| read_hole(hole, layout, gravity)).collect()
 }
 
-fn read_hole(section: SectionReader<'_>, gravity: f64) -> Hole {
+fn read_hole(section: SectionReader<'_>, layout: Option<&Layout>, gravity: f64) -> Hole {
     let x_m = section.number(&hole::X_M);
     let y_m = section.number(&hole::Y_M);
     let launch = read_launch(&section, gravity);
+    if let Some([away, most]) =
+        layout.map(|layout| layout.beside(x_m, y_m)).filter(|[away, most]| away > most)
+    {
+        let message =
+            format!("this hole lies {away:.1} m beside the shelter, whose tires lie {most:.1} m apart");
+        let remedy = "holes and tires share one system of coordinates, in which tire (1,1) of a mesh lies at 0, 0; `shelter init --from` moves a list of holes there";
+        section.wrong(&hole::X_M, message, remedy);
+    }
     section.finish();
     Hole { x_m, y_m, launch }
 }

@@ -69,8 +69,8 @@ fn refuse_beside_detonator(section: &SectionReader<'_>, key: &Key) {
     }
 }
 
-/// Reads `[size]` of a plan with this termination.
-pub fn read_size(section: SectionReader<'_>, termination: Option<&str>) -> SizeSpec {
+/// Reads `[size]` of a plan with this termination; `own_masses`: listed tires have masses of their own.
+pub fn read_size(section: SectionReader<'_>, termination: Option<&str>, own_masses: bool) -> SizeSpec {
     let masses = section.numbers(&size::TIRE_MASS_KG).map_or_else(Vec::new, |list| list.value);
     let spec = SizeSpec {
         tire_mass_kg: masses.into_iter().map(|mass| mass.value).collect(),
@@ -82,6 +82,10 @@ pub fn read_size(section: SectionReader<'_>, termination: Option<&str>) -> SizeS
     {
         let message = format!("{termination}, the termination of [cable], fits no rope of {family}");
         section.wrong(&size::ROPES, message, "name another family, or give `termination_percent` in [cable]");
+    }
+    if own_masses && section.has(&size::TIRE_MASS_KG) {
+        let message = "the tires of the list have masses of their own";
+        section.wrong(&size::TIRE_MASS_KG, message, "remove these, or the mass_kg of each [[shelter.tire]]");
     }
     section.finish();
     spec

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::choice::OnOverload;
-use crate::plan::{Launch, LaunchTargets, Layout, Plan};
+use crate::plan::{DelayScatter, GroundSpec, Hole, Launch, LaunchTargets, Layout, Plan, Uncertainty};
 use crate::report::limits::limits;
 use crate::study::check_all::Results;
 use crate::study::sampling::Sampling;
@@ -20,13 +20,51 @@ pub fn shelter(case: &Case) -> Markup {
         table {
             tr { th { "Tires" } td { (scene.mass.len()) " of " (plan.tire.mass_kg) " kg, " (layout(plan)) ", " (rims(plan.tire.outer_diameter_m)) } }
             tr { th { "Cables" } td { (scene.cables.len()) ", " (cable) ", slack " (plan.cable.slack_percent) " %" (if plan.cable.on_overload == OnOverload::Break { "; past its breaking force a cable is gone" } else { "" }) } }
-            tr { th { "Friction" } td { (plan.friction) } }
+            tr { th { "Ground" } td { (ground(&plan.ground)) } }
             tr { th { "Limits" } td { (limits(case)) } }
             @for row in &plan.blast_rows {
                 tr { th { "Blast row " (row.name) } td { (launched(&row.targets)) } }
             }
         }
     }
+}
+
+/// What `[uncertainty]` says, with the defaults of keys left out.
+pub fn uncertainty(unknown: &Uncertainty) -> Markup {
+    let DelayScatter { sd_ms, cv_percent } = unknown.delay;
+    let between =
+        |[low, high]: [f64; 2], unit: &str| format!("anything between {low}{unit} and {high}{unit}");
+    let rows = [
+        (
+            "Delays between blast rows",
+            format!("standard deviation {sd_ms} ms or {cv_percent} % of the delay, the greater"),
+        ),
+        ("Delay in the holes", format!("{} ms, scattering alike", unknown.in_hole_delay_ms)),
+        (
+            "Launch velocities, hole by hole",
+            format!("coefficient of variation {} %", unknown.launch_cv_percent),
+        ),
+        (
+            "Launch velocities in common",
+            format!("coefficient of variation {} %", unknown.launch_common_percent),
+        ),
+        (
+            "Launch directions",
+            format!("standard deviation {}° about each horizontal axis", unknown.launch_tilt_deg),
+        ),
+        ("Friction", between(unknown.friction, "")),
+        ("Slack", between(unknown.slack_percent, " %")),
+        (
+            "Axial stiffness of the rope",
+            format!("its own, changed by {}", between(unknown.axial_stiffness_percent, " %")),
+        ),
+        ("Tire masses, tire by tire", format!("coefficient of variation {} %", unknown.tire_mass_cv_percent)),
+        (
+            "Breaking forces, cable by cable",
+            format!("coefficient of variation {} %", unknown.breaking_force_cv_percent),
+        ),
+    ];
+    html! { table { @for (name, text) in rows { tr { th { (name) } td { (text) } } } } }
 }
 
 fn layout(plan: &Plan) -> String {
@@ -42,6 +80,16 @@ fn layout(plan: &Plan) -> String {
             mesh.rows, mesh.columns, mesh.row_spacing_m, mesh.column_spacing_m
         ),
         Layout::List { .. } => "placed one by one".to_owned(),
+    }
+}
+
+fn ground(ground: &GroundSpec) -> String {
+    let GroundSpec { friction, slope_percent, slope_toward_deg } = *ground;
+    match slope_percent {
+        0.0 => format!("friction {friction}, level"),
+        _ => format!(
+            "friction {friction}, falls {slope_percent} % toward {slope_toward_deg}° from +x; heights are normal to it"
+        ),
     }
 }
 
@@ -62,7 +110,10 @@ fn launched(targets: &LaunchTargets) -> String {
             let numbers: Vec<String> = tires.iter().map(|tire| (tire + 1).to_string()).collect();
             format!("under tires {}, launch {}", numbers.join(", "), speed(launch))
         }
-        LaunchTargets::Holes(holes) => format!("{} holes", holes.len()),
+        LaunchTargets::Holes(holes) => {
+            let hole = |hole: &Hole| format!("({}, {}) m {}", hole.x_m, hole.y_m, speed(&hole.launch));
+            format!("{} holes: {}", holes.len(), holes.iter().map(hole).collect::<Vec<_>>().join(" · "))
+        }
     }
 }
 

@@ -31,7 +31,8 @@ table { border-collapse: collapse; width: 100% } th, td { text-align: left; padd
 td.n, th.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap }
 th::first-letter { text-transform: uppercase } .pass, .fail, .undecided { font-weight: bold }
 .quiet { color: #555 } .charts { display: flex; gap: 4mm; break-inside: avoid } .charts svg, .view svg { width: 100%; height: auto }
-.charts > div { flex: 1 } section { break-inside: avoid }
+.charts > div { flex: 1 } section { break-inside: avoid } section.long { break-inside: auto }
+pre { font-size: 8pt; white-space: pre-wrap; overflow-wrap: anywhere }
 ";
 
 /// What stands under the results, whatever the plan.
@@ -45,11 +46,17 @@ const ASSUMPTIONS: &[&str] = &[
 ];
 
 /// The page of one plan; `date` is printed as given.
-pub fn page(case: &Case, results: &Results, sampling: Option<&Sampling>, date: &str) -> String {
+pub fn page(
+    case: &Case,
+    results: &Results,
+    partial: bool,
+    sampling: Option<&Sampling>,
+    date: &str,
+) -> String {
     let plan = &case.plan;
     let hash = Sha256::digest(case.source.text.as_bytes());
     let hash: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
-    let report = check::report(case, results, false);
+    let report = check::report(case, results, false, partial);
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -95,6 +102,12 @@ pub fn page(case: &Case, results: &Results, sampling: Option<&Sampling>, date: &
                         }
                     }
                 }
+                @if sampling.is_some() {
+                    section {
+                        h2 { "What is not known" }
+                        (facts::uncertainty(&plan.uncertainty))
+                    }
+                }
                 section {
                     h2 { "What the model assumes" }
                     ul { @for assumption in ASSUMPTIONS { li { (assumption) } } }
@@ -102,7 +115,14 @@ pub fn page(case: &Case, results: &Results, sampling: Option<&Sampling>, date: &
                 section {
                     h2 { "Reproduce" }
                     p { (facts::command(case, results, sampling)) }
+                    @if partial { p { "The time was up before all was computed: the same command computes more." } }
                     p.quiet { "SHA-256 of the plan: " code { (hash) } }
+                }
+                @if !case.source.text.is_empty() {
+                    section.long {
+                        h2 { "The plan, word for word" }
+                        pre { (case.source.text) }
+                    }
                 }
             }
         }

@@ -80,7 +80,7 @@ impl SizeDocument {
             lightest: found.map(CombinationResult::of),
             tried: sizing.tried(),
             not_tried: sizing.combinations.len() - sizing.tried(),
-            fragile: sizing.fragile(),
+            fragile: sizing.with_risk(Verdict::Fail) + sizing.with_risk(Verdict::Undecided),
             partial: sizing.untried(Untried::OutOfTime) > 0,
             nearest: nearest.map(|(combination, _)| CombinationResult::of(combination)),
             frontier: sizing.frontier().into_iter().map(CombinationResult::of).collect(),

@@ -56,6 +56,9 @@ impl NewmarkCache {
         if !(settings.step > 0.0 && settings.step.is_finite()) {
             return Err(Failure::Step { step: settings.step, limit: f64::MAX, method: Method::Newmark });
         }
+        if scene.restitution > 0.0 {
+            return Err(Failure::Effect { effect: "restitution", method: Method::Newmark });
+        }
         let ties = self.ties.get_or_init(|| Ties::of_cables(&scene.cables, scene.mass.len()));
         Stepper::new(scene, ties, shot, settings).run(watch)
     }
@@ -97,9 +100,9 @@ struct Stepper<'a> {
     du: Vec<Vector3<f64>>,
     /// Displacement at the end of the step [m].
     end: Vec<Vector3<f64>>,
-    /// Cable force at the end of the step [N].
+    /// Cable force and gravity along the ground at the end of the step [N].
     f: Vec<Vector3<f64>>,
-    /// Cable force at the start of the step [N].
+    /// Cable force and gravity along the ground at the start of the step [N].
     f_start: Vec<Vector3<f64>>,
     /// Force that is out of balance at the end of the step [N].
     residual: Vec<Vector3<f64>>,
@@ -109,18 +112,24 @@ impl<'a> Stepper<'a> {
     /// Run of `shot` under `scene`, before the first step.
     fn new(scene: &'a Scene, ties: &'a Ties, shot: &'a Shot, settings: &Settings) -> Self {
         let zeros = || vec![Vector3::zeros(); scene.mass.len()];
-        let region =
-            Region { taut: vec![false; scene.cables.len()], ground: vec![Ground::Stick; scene.mass.len()] };
+        let friction = shot.friction.unwrap_or(scene.friction);
+        let slides = scene.slides(friction);
+        let mut wake = Wake::new(ties);
+        if slides {
+            wake.set_all_moving();
+        }
+        let ground = vec![if slides { Ground::Slip } else { Ground::Stick }; scene.mass.len()];
+        let region = Region { taut: vec![false; scene.cables.len()], ground };
         Self {
             scene: Cow::Borrowed(scene),
             shot,
-            friction: shot.friction.unwrap_or(scene.friction),
+            friction,
             step: settings.step,
-            clock: Clock::new(shot, settings),
-            moving: false,
+            clock: Clock::new(shot, settings, slides),
+            moving: slides,
             record: Record::new(settings.step),
             sampled: None,
-            wake: Wake::new(ties),
+            wake,
             asleep: 0.0,
             u: zeros(),
             v: zeros(),

@@ -29,7 +29,8 @@ impl Stepper<'_> {
         for &tire in &self.wake.awake {
             let (mass, value) = (self.scene.mass[tire], self.u[tire].z);
             height = height.max(value);
-            energy += mass * (0.5 * self.v[tire].norm_squared() + self.scene.gravity * value);
+            let potential = -self.scene.gravity().dot(&self.u[tire]);
+            energy += mass * (0.5 * self.v[tire].norm_squared() + potential);
             if value > self.record.height.value {
                 let sample = Peak { value, at: now, index: tire };
                 self.record.note_height(sample, self.v[tire].z, self.a[tire].z);

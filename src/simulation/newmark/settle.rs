@@ -52,7 +52,7 @@ impl Stepper<'_> {
         Err(Failure::Unsettled { what: Iteration::ContactRegion, at: self.clock.now() })
     }
 
-    /// Sets the cable forces at the start of the cut.
+    /// Sets the forces at the start of the cut.
     fn set_start_forces(&mut self) {
         cable_forces(
             &self.scene,
@@ -129,7 +129,7 @@ impl Stepper<'_> {
         Err(Failure::Unsettled { what: Iteration::Newton, at: self.clock.now() })
     }
 
-    /// Sets the cable forces and the residual of equilibrium at the end of the cut.
+    /// Sets the forces and the residual of equilibrium at the end of the cut.
     fn set_residual(&mut self, h: f64) {
         for &tire in &self.wake.awake {
             self.end[tire] = self.u[tire] + self.du[tire];
@@ -150,8 +150,8 @@ impl Stepper<'_> {
     }
 }
 
-/// Sets `forces` on the awake tires [N] to the sum over their cables; `law` gives the force of a cable [N] from its index and
-/// length [m].
+/// Sets `forces` on the awake tires [N] to gravity along the ground and the sum over their cables; `law` gives the force of a
+/// cable [N] from its index and length [m].
 fn cable_forces(
     scene: &Scene,
     wake: &Wake<'_>,
@@ -160,7 +160,7 @@ fn cable_forces(
     forces: &mut [Vector3<f64>],
 ) {
     for &tire in &wake.awake {
-        forces[tire] = Vector3::zeros();
+        forces[tire] = (scene.downhill * scene.mass[tire]).push(0.0);
     }
     for &n in &wake.blocks {
         let cable = &scene.cables[n];

@@ -21,8 +21,10 @@ pub struct Tires<S: Simd> {
     pub step: Wide<S>,
     /// Coefficient of friction μ.
     pub friction: Wide<S>,
-    /// Gravity g [m/s²].
+    /// Gravity g into the ground [m/s²].
     pub gravity: Wide<S>,
+    /// Gravity along the ground [m/s²].
+    pub downhill: [Wide<S>; 2],
 }
 
 /// Tires at the end of a step without landing and without firing, and their energies at tₙ.
@@ -42,15 +44,19 @@ pub struct Kicked<S: Simd> {
 
 impl<S: Simd> Tires<S> {
     /// Kicks and drifts the tires: free velocity v* = v + h (f/m − g), then support and friction of the ground, then
-    /// u + h v. Roots and quotients are computed only where a tire slips.
+    /// u + h v. Roots and quotients are computed only where a tire slips; `SLOPED`: the ground slopes.
     #[inline(always)]
-    pub fn kick(&self, simd: S) -> Kicked<S> {
-        let Self { u, v, f, mass, inverse, step, friction, gravity } = *self;
+    pub fn kick<const SLOPED: bool>(&self, simd: S) -> Kicked<S> {
+        let Self { u, v, f, mass, inverse, step, friction, gravity, downhill } = *self;
         let (zero, half) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5));
         let tiny = Wide::splat(simd, f64::MIN_POSITIVE);
+        let along = |c: usize| {
+            let pulled = f[c] * inverse;
+            if SLOPED { pulled + downhill[c] } else { pulled }
+        };
         let free = [
-            step.times_plus(f[0] * inverse, v[0]),
-            step.times_plus(f[1] * inverse, v[1]),
+            step.times_plus(along(0), v[0]),
+            step.times_plus(along(1), v[1]),
             step.times_plus(f[2] * inverse - gravity, v[2]),
         ];
         let supported = u[2].at_most(zero).and(free[2].less(zero));
@@ -83,10 +89,14 @@ impl<S: Simd> Tires<S> {
             motion = motion.max(v[c].abs()).max(after[c].abs());
             moved[c] = step.times_plus(after[c], u[c]);
         }
+        let mut height = gravity * u[2];
+        if SLOPED {
+            height = height - (downhill[0] * u[0] + downhill[1] * u[1]);
+        }
         Kicked {
             u: moved,
             v: after,
-            energy: mass * (half * speed2 + gravity * u[2]),
+            energy: mass * (half * speed2 + height),
             dissipated: mass * work,
             motion,
         }

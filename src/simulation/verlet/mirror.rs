@@ -111,6 +111,8 @@ impl Quotient {
             cables: cables.iter().map(|&c| scene.cables[c]).collect(),
             friction: scene.friction,
             gravity: scene.gravity,
+            downhill: scene.downhill,
+            restitution: scene.restitution,
             breaking_force: scene.breaking_force,
             strength: Vec::new(),
             mirrors: Vec::new(),

@@ -111,9 +111,10 @@ fn run(
     Stepper::new(part, scene, shot, settings).run(watch)
 }
 
-/// Mirror planes of the scene in which the shot is its own image.
+/// Mirror planes of the scene in which shot and slope are their own images.
 fn shared_planes<'s>(scene: &'s Scene, shot: &Shot) -> Vec<&'s Mirror> {
-    scene.mirrors.iter().filter(|mirror| shot.is_mirrored(mirror)).collect()
+    let is_shared = |mirror: &&Mirror| scene.downhill[mirror.axis] == 0.0 && shot.is_mirrored(mirror);
+    scene.mirrors.iter().filter(is_shared).collect()
 }
 
 impl Part {
@@ -132,12 +133,13 @@ impl Part {
 
     fn with_masses(scene: &Scene, quotient: Arc<Quotient>, blocks: Blocks, ties: Arc<Ties>) -> Self {
         let weighted = || quotient.weight.iter().enumerate().map(|(n, &w)| (scene.mass[quotient.tire(n)], w));
-        let spare = || std::iter::repeat_n(1.0, LANES);
+        // Spare lanes behind the last tire have no energy.
+        let spare = |value: f64| std::iter::repeat_n(value, LANES);
         // Images are not kicked, because only some of their cables are modelled.
         let inverse = |(mass, weight)| if weight > 0.0 { 1.0 / mass } else { 0.0 };
         Self {
-            mass: weighted().map(|(mass, weight)| mass * weight).chain(spare()).collect(),
-            inverse: weighted().map(inverse).chain(spare()).collect(),
+            mass: weighted().map(|(mass, weight)| mass * weight).chain(spare(0.0)).collect(),
+            inverse: weighted().map(inverse).chain(spare(1.0)).collect(),
             critical_step: scene.critical_step(),
             blocks,
             ties,

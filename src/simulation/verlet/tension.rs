@@ -7,7 +7,7 @@ use pulp::Simd;
 use crate::simulation::cable::{Block, Blocks};
 use crate::simulation::pack::{Aligned, Field, LANES, Pack, Wide};
 
-/// CableState of all cables from one step to the next, and their forces.
+/// All cables from one step to the next, and their forces.
 #[derive(Debug)]
 pub struct Tension<'a> {
     /// Number of cables of the whole scene that each element stands for; 0 for an empty slot (`n_elements`).
@@ -16,11 +16,11 @@ pub struct Tension<'a> {
     change: Aligned,
     /// Force on the first tire of each cable, as mean over the step [N] (`n_elements`); see [`Slices::evaluate`].
     force: Field,
-    /// CableState of the cables in each register, at the first element of the register (`n_elements`).
+    /// State of the cables in each register, at the first element of the register (`n_elements`).
     state: Vec<CableState>,
 }
 
-/// CableState of the cables in one register at the last evaluation.
+/// State of the cables in one register at the last evaluation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum CableState {
     /// All cables are slack, and were slack one step earlier.
@@ -41,7 +41,7 @@ pub struct Stress {
 }
 
 impl<'a> Tension<'a> {
-    /// CableState at rest.
+    /// Cables at rest.
     pub fn new(blocks: &'a Blocks) -> Self {
         let elements = blocks.weight.len();
         Self {

@@ -8,27 +8,28 @@ use crate::simulation::pack::{LANES, Wide};
 use crate::simulation::verlet::mirror::Image;
 
 /// Second pass; compiled for each instruction set and chosen at run time.
-pub(super) struct MoveTires<'s, 'a>(pub &'s mut Stepper<'a>, pub &'s mut StepTotals);
+/// `SLOPED`: the ground slopes.
+pub(super) struct MoveTires<'s, 'a, const SLOPED: bool>(pub &'s mut Stepper<'a>, pub &'s mut StepTotals);
 
-impl pulp::WithSimd for MoveTires<'_, '_> {
+impl<const SLOPED: bool> pulp::WithSimd for MoveTires<'_, '_, SLOPED> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        self.0.move_tires(simd, self.1);
+        self.0.move_tires::<S, SLOPED>(simd, self.1);
     }
 }
 
 impl Stepper<'_> {
     /// Kicks and drifts the awake tires, and adds their energies and greatest values to `totals`.
     #[inline(always)]
-    fn move_tires<S: Simd>(&mut self, simd: S, totals: &mut StepTotals) {
+    fn move_tires<S: Simd, const SLOPED: bool>(&mut self, simd: S, totals: &mut StepTotals) {
         let zero = Wide::splat(simd, 0.0);
         let mut events = Events {
             now: self.clock.now(),
             step: self.step,
             friction: self.friction,
-            gravity: self.gravity,
+            scene: self.scene,
             part: self.part,
             record: &mut self.record,
             totals,
@@ -47,7 +48,7 @@ impl Stepper<'_> {
             for lane in (0..LANES).step_by(Wide::<S>::LEN) {
                 let at = pack * LANES + lane;
                 let tires = events.tires(simd, State::new(&u, &v, forces, masses), at);
-                let kicked = tires.kick(simd);
+                let kicked = tires.kick::<SLOPED>(simd);
                 let is_higher = highest.less(tires.u[2]).any();
                 let end = at + Wide::<S>::LEN;
                 let fires = due.first().is_some_and(|due| due.tire < end);
@@ -55,7 +56,8 @@ impl Stepper<'_> {
                 if is_higher || fires || kicked.u[2].less(zero).any() {
                     let (fired, later) = due.split_at(due.partition_point(|due| due.tire < end));
                     let state = State::new(&u, &v, forces, masses);
-                    any_integrated = events.integrate_single_tires(state, at..end, kicked.u[2].pack(), fired);
+                    any_integrated =
+                        events.integrate_single_tires::<SLOPED>(state, at..end, kicked.u[2].pack(), fired);
                     highest = Wide::splat(simd, events.record.height.value);
                     due = later;
                 }

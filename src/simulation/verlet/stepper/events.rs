@@ -7,6 +7,7 @@ use pulp::{Scalar, Simd};
 
 use super::{DueFiring, Part, StepTotals};
 use crate::outcome::Peak;
+use crate::scene::Scene;
 use crate::simulation::contact::TireStep;
 use crate::simulation::pack::{LANES, Pack, Wide};
 use crate::simulation::record::Record;
@@ -58,8 +59,8 @@ pub struct Events<'e> {
     pub step: f64,
     /// Coefficient of friction.
     pub friction: f64,
-    /// Gravity [m/s²].
-    pub gravity: f64,
+    /// The scene.
+    pub scene: &'e Scene,
     /// Tires and cables that are modelled.
     pub part: &'e Part,
     /// Record of the run.
@@ -83,7 +84,8 @@ impl Events<'_> {
             inverse: Wide::load(simd, inverse, at),
             step: Wide::splat(simd, self.step),
             friction: Wide::splat(simd, self.friction),
-            gravity: Wide::splat(simd, self.gravity),
+            gravity: Wide::splat(simd, self.scene.gravity),
+            downhill: std::array::from_fn(|c| Wide::splat(simd, self.scene.downhill[c])),
         }
     }
 
@@ -95,7 +97,7 @@ impl Events<'_> {
     /// would cost memory accesses at every step.
     #[cold]
     #[inline(never)]
-    pub fn integrate_single_tires(
+    pub fn integrate_single_tires<const SLOPED: bool>(
         &mut self,
         state: State<'_>,
         tires: Range<usize>,
@@ -111,19 +113,19 @@ impl Events<'_> {
                 continue;
             }
             let alone = self.tires(Scalar::new(), state, tire);
-            let kicked = alone.kick(Scalar::new());
+            let kicked = alone.kick::<SLOPED>(Scalar::new());
             let number = |wide: Wide<Scalar>| wide.pack()[0];
             let vector = |of: [Wide<Scalar>; 3]| Vector3::from(of.map(number));
             let (displacement, inverse) = (vector(alone.u), number(alone.inverse));
             let velocity = 0.5 * (vector(alone.v) + vector(kicked.v));
-            let free = vector(alone.f) * inverse - Vector3::z() * self.gravity;
+            let free = vector(alone.f) * inverse + self.scene.gravity();
             if displacement.z > self.record.height.value {
                 let index = self.part.quotient.tire(tire);
                 let sample = Peak { value: displacement.z, at: self.now, index };
                 self.record.note_height(sample, velocity.z, free.z);
             }
             if has_event {
-                let step = TireStep::new(displacement, velocity, free, self.friction);
+                let step = TireStep::new(displacement, velocity, free, self.friction, self.scene.restitution);
                 self.integrate(step, free, tire, here, number(kicked.dissipated));
             }
         }

@@ -24,8 +24,8 @@ impl Stepper<'_> {
     #[inline(always)]
     fn evaluate_cables<S: Simd>(&mut self, simd: S) -> StepTotals {
         self.interpolate_peak();
-        let Self { part, wake, tension, u, stored, candidates, weakest, .. } = self;
-        let weakest = *weakest;
+        let Self { part, wake, tension, u, stored, candidates, strengths, .. } = self;
+        let [weakest, strongest] = *strengths;
         let (blocks, stored) = (&part.blocks.blocks[..], &mut stored[..part.blocks.blocks.len()]);
         let (u, mut tension) = (u.slices(), tension.slices());
         let (mut energy, mut force) = (self.asleep, [0.0; LANES]);
@@ -41,7 +41,8 @@ impl Stepper<'_> {
                 is_greater |= greatest.less(here).any();
             }
             if is_greater {
-                greatest = Wide::splat(simd, weakest * stress.force.into_iter().fold(0.0, f64::max));
+                let over_strength = stress.force.into_iter().fold(0.0, f64::max) / strongest;
+                greatest = Wide::splat(simd, weakest * over_strength.max(self.record.force.value));
                 candidates.push(n);
             }
         }
@@ -72,10 +73,17 @@ impl Stepper<'_> {
         }
     }
 
-    /// Removes the cables whose force is above the breaking force; their elastic energy is lost.
+    /// Removes the cables whose force over strength is above the breaking force; their elastic energy is lost.
     #[cold]
     fn break_cables(&mut self, totals: &mut StepTotals) {
         let (at, mut broken) = (self.clock.now(), Vec::new());
+        let breaks = |n: usize| {
+            let slots = 0..self.part.blocks.blocks[n].len;
+            slots.into_iter().any(|slot| self.force_over_strength(n, slot) > self.breaking_force)
+        };
+        if !self.wake.blocks.iter().copied().any(breaks) {
+            return;
+        }
         self.record.note_break(self.breaking_force);
         self.sampled = None;
         totals.force.iter_mut().for_each(|force| *force = force.min(self.breaking_force));

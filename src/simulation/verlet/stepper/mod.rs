@@ -4,7 +4,7 @@ mod advance;
 mod events;
 mod forces;
 
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 use self::advance::MoveTires;
 use self::events::Integrated;
@@ -67,12 +67,10 @@ pub(super) struct Stepper<'a> {
     /// Step [s].
     step: f64,
     friction: f64,
-    /// Gravity [m/s²].
-    gravity: f64,
     /// Force above which a cable of strength 1 breaks [N]; infinite where cables never break.
     breaking_force: f64,
-    /// Least strength of a cable.
-    weakest: f64,
+    /// Least and greatest strength of a cable.
+    strengths: [f64; 2],
     /// Blocks that may hold the greatest force so far.
     candidates: Vec<usize>,
     clock: Clock,
@@ -102,27 +100,38 @@ impl<'a> Stepper<'a> {
     pub(super) fn new(part: &'a Part, scene: &'a Scene, shot: &Shot, settings: &Settings) -> Self {
         let tires = part.quotient.weight.len();
         let firings = part.quotient.firings(shot);
+        let friction = shot.friction.unwrap_or(scene.friction);
+        let slides = scene.slides(friction);
+        let mut wake = Wake::new(&part.ties);
+        // The last cables may read one pack beyond the last tire.
+        let (u, mut v) = (Field::zeros(tires + LANES), Field::zeros(tires + LANES));
+        if slides {
+            wake.set_all_moving();
+            // Half a step before the start, of a motion that is at rest at the start.
+            let acceleration = scene.downhill - scene.downhill.normalize() * (friction * scene.gravity);
+            let before = -0.5 * settings.step * acceleration;
+            (0..2).for_each(|c| v.part[c][..tires].fill(before[c]));
+        }
         Self {
             scene,
             part,
             step: settings.step,
-            friction: shot.friction.unwrap_or(scene.friction),
-            gravity: scene.gravity,
+            friction,
             breaking_force: scene.breaking_force.unwrap_or(f64::INFINITY),
-            weakest: scene.strength.iter().copied().reduce(f64::min).unwrap_or(1.0),
+            strengths: [f64::min, f64::max]
+                .map(|of| scene.strength.iter().copied().reduce(of).unwrap_or(1.0)),
             candidates: Vec::with_capacity(part.blocks.blocks.len()),
-            clock: Clock::new(shot, settings),
-            moving: false,
+            clock: Clock::new(shot, settings, slides),
+            moving: slides,
             record: Record::new(settings.step),
             sampled: None,
             due: Vec::with_capacity(firings.len()),
             firings,
             integrated: Vec::with_capacity(LANES),
-            wake: Wake::new(&part.ties),
+            wake,
             tension: Tension::new(&part.blocks),
-            // The last cables may read one pack beyond the last tire.
-            u: Field::zeros(tires + LANES),
-            v: Field::zeros(tires + LANES),
+            u,
+            v,
             stored: vec![[0.0; LANES]; part.blocks.blocks.len()],
             asleep: [0.0; LANES],
         }
@@ -144,7 +153,10 @@ impl<'a> Stepper<'a> {
             if watch(&Snapshot { stepper: &self }).is_break() {
                 return Err(Failure::Stopped { at: self.clock.now() });
             }
-            arch.dispatch(MoveTires(&mut self, &mut totals));
+            match self.scene.downhill == Vector2::zeros() {
+                true => arch.dispatch(MoveTires::<false>(&mut self, &mut totals)),
+                false => arch.dispatch(MoveTires::<true>(&mut self, &mut totals)),
+            }
             self.end_step(&totals)?;
         }
     }
@@ -239,7 +251,7 @@ impl Motion for Snapshot<'_, '_> {
         let forces = tension.forces().sum_at(pulp::Scalar::new(), ends, tire % LANES);
         let force = Vector3::from(forces.map(|force| force.pack()[0]));
         let (inverse, impulse_to_force) = (part.inverse[tire], 1.0 / (part.inverse[tire] * step));
-        let acceleration = force * inverse - Vector3::z() * self.stepper.gravity;
+        let acceleration = force * inverse + self.stepper.scene.gravity();
         let free = self.stepper.v.vector(tire) + acceleration * *step;
         let (after, normal) = support(free, self.stepper.friction);
         ((free - after).xy().norm() * impulse_to_force, self.stepper.friction * normal * impulse_to_force)
