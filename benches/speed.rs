@@ -8,8 +8,8 @@ use shelter::choice::Method;
 use shelter::plan::{DelayScatter, Plan, Uncertainty};
 use shelter::simulation::{Model, Motion, Settings};
 use shelter::study::Progress;
-use shelter::study::batch::each;
-use shelter::study::draw::{Drawn, draw};
+use shelter::study::batch::run_jobs;
+use shelter::study::random_shot::{RandomShot, draw};
 use shelter::study::{Case, NoResult, check};
 
 fn main() {
@@ -95,7 +95,7 @@ fn scattered(bencher: Bencher, (rows, columns, samples): (usize, usize, usize)) 
     let drawn: Vec<_> = (0..samples).map(|number| draw(&case, &case.shots[0], 1, number)).collect();
     let settings = Settings { method: Method::Verlet, step: 2e-3, duration: Some(1.5) };
     let run = || {
-        each(&drawn, &Progress::default(), |Drawn { scene, shot, .. }| {
+        run_jobs(&drawn, &Progress::default(), |RandomShot { scene, shot, .. }| {
             let watch = &mut |_: &dyn Motion| ControlFlow::Continue(());
             case.model.run_variant(scene, shot, &settings, watch).map_err(NoResult::Failed)
         })
@@ -114,7 +114,7 @@ fn ten_options_checked(bencher: Bencher) {
     };
     let options: Vec<usize> = (0..case.shots.len()).collect();
     bencher.bench_local(|| {
-        each(&options, &Progress::default(), |&option| {
+        run_jobs(&options, &Progress::default(), |&option| {
             check::check(&case, option, &compute, &mut |_| ControlFlow::Continue(()))
                 .map_err(NoResult::Failed)
         })

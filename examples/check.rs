@@ -3,18 +3,25 @@
 use std::error::Error;
 use std::path::Path;
 
-use shelter::units::{Unit, value_and_error};
-use shelter::{Case, ComputeSettings};
+use shelter::units::{Unit, probabilities, value_and_error};
+use shelter::{Case, ComputeSettings, Progress, Sampling, check_all};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).unwrap_or_else(|| "plans/amur-three-rows.toml".to_owned());
     let case = Case::load(Path::new(&path))?;
-    let compute = ComputeSettings::of(&case.plan);
-    for (option, delay) in case.plan.delays.iter().enumerate() {
-        let checked = case.check(option, &compute)?;
-        let height = value_and_error(checked.height.value, checked.height.error, Unit::Metre);
-        let force = value_and_error(checked.force.value, checked.force.error, Unit::Kilonewton);
-        println!("{}: {:?}, height {height} m, cable force {force} kN", delay.name, checked.verdict);
+    let cases = [(&case, ComputeSettings::of(&case.plan))];
+    let judged = check_all(&cases, Some(&Sampling::OF_VERDICT), &Progress::default())?.value.remove(0);
+    for (delay, judged) in case.plan.delays.iter().zip(judged) {
+        let judged = judged?;
+        let force = &judged.nominal.force;
+        let force = value_and_error(force.value, force.error, Unit::Kilonewton);
+        let failing = judged.risk.as_ref().map(|risk| probabilities(risk.confidence.interval));
+        let failing = failing.unwrap_or_default();
+        println!(
+            "{}: {:?}, {failing} % of the shots fail, {force} kN as planned",
+            delay.name,
+            judged.verdict()
+        );
     }
     Ok(())
 }

@@ -12,7 +12,7 @@ use std::thread;
 use std::time::Duration;
 
 use crate::study::check::Checked;
-use crate::study::check_all::{Results, check_all};
+use crate::study::check_all::{OptionResults, check_all};
 use crate::study::flight::{Flight, record};
 use crate::study::margin::LaunchMargin;
 use crate::study::orders::{Orders, orders, rank};
@@ -69,7 +69,7 @@ pub enum StudyResult {
     /// Result of [`StudyKind::Orders`].
     Orders(Orders),
     /// Result of [`StudyKind::Risk`].
-    Risk(Sampling, Results),
+    Risk(Sampling, OptionResults),
     /// Result of [`StudyKind::Size`].
     Size(Sizing),
     /// Result of [`StudyKind::Flight`].
@@ -311,7 +311,7 @@ mod tests {
         }
     }
 
-    /// Results of every option, by option.
+    /// OptionResults of every option, by option.
     fn checked(jobs: &mut Jobs, options: usize) -> Vec<Result<Box<Checked>, NoResult>> {
         let mut results = Vec::new();
         wait(|| {

@@ -3,7 +3,7 @@
 //! # From a plan to a verdict
 //!
 //! ```
-//! use shelter::{Case, ComputeSettings, Plan, Verdict};
+//! use shelter::{Case, ComputeSettings, Plan, Progress, Sampling, Verdict, check_all};
 //!
 //! let text = r#"
 //! shelter = { layout = "grid", rows = 2, columns = 3, spacing_m = 1.5 }
@@ -16,9 +16,12 @@
 //! "#;
 //! let case = Case::new(Plan::parse("plan.toml", text)?);
 //! let compute = ComputeSettings::of(&case.plan);
+//! // The shot as planned alone:
 //! let checked = case.check(0, &compute)?;
-//! assert_eq!(checked.verdict, Verdict::Pass);
 //! assert!(checked.height.value + checked.height.error < 1.5);
+//! // The verdict of `shelter check`, which also samples what the plan does not know:
+//! let judged = check_all(&[(&case, compute)], Some(&Sampling::OF_VERDICT), &Progress::default())?.value;
+//! assert_eq!(judged[0][0].as_ref().map(|judged| judged.verdict()), Ok(Verdict::Pass));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -54,7 +57,7 @@
 //!
 //! A module may use the modules above it in this table, except those linked under "what it must not know". The test `layers`
 //! reads both from here and holds them. The command line and the terminal are two ways to call the same studies: `jobs`
-//! calls the very function that `shelter check` calls.
+//! calls the very functions that `shelter check` calls, one option at a time.
 //!
 //! # Rules
 //!
@@ -74,7 +77,11 @@
 //! The *utilization* of a shot is its greatest value over its limit. A *judged shot* is its verdict with height, force and drift,
 //! each with its error ([`Envelope`](study::Envelope)). A check climbs a *ladder* of steps, each a fixed ratio finer than the one
 //! before. A *sampling* says how many samples are drawn, from which seed, and when to stop. A *face* is one way to show a report:
-//! text, CSV, JSON, page or terminal. Everything else is the vocabulary of contact dynamics.
+//! text, CSV, JSON, page or terminal.
+//!
+//! *Nominal* is as planned, nothing varied. *Undecided* reads OPEN on screens. A *screen* in `study` is a coarse check of one shot
+//! among thousands. An *audit* runs some samples again at a finer step. A *shard* is one machine's part of a study; `--shard`
+//! writes it, and messages call it a share.
 
 pub mod choice;
 #[cfg(feature = "cli")]
@@ -98,5 +105,8 @@ pub mod verdict;
 pub use plan::Plan;
 pub use simulation::{Model, Motion, Settings};
 pub use study::check::{Checked, check};
-pub use study::{Case, ComputeSettings};
+pub use study::check_all::check_all;
+pub use study::judgement::Judgement;
+pub use study::sampling::Sampling;
+pub use study::{Case, ComputeSettings, Progress};
 pub use verdict::Verdict;

@@ -10,7 +10,7 @@ use shelter::choice::Accuracy;
 use shelter::plan::Plan;
 use shelter::study::check_all::check_all;
 use shelter::study::sample::Sample;
-use shelter::study::sampling::{Sampling, Target, draw_share, find_risks};
+use shelter::study::sampling::{Sampling, ShotToSample, draw_share, find_risks};
 use shelter::study::{Case, ComputeSettings, Progress, Shard};
 use shelter::verdict::Verdict;
 
@@ -34,7 +34,8 @@ const SEED: u64 = 1 << 40;
 fn brute_force(case: &Case, option: usize, samples: usize, accuracy: Accuracy) -> Vec<Sample> {
     let compute = ComputeSettings { accuracy, ..ComputeSettings::of(&case.plan) };
     let sampling = Sampling::exactly(samples, SEED);
-    let target = Target { case, shot: &case.shots[option], planned: None, compute, sampling, drawn: &[] };
+    let target =
+        ShotToSample { case, shot: &case.shots[option], planned: None, compute, sampling, precomputed: &[] };
     let drawn = draw_share(&[target], Shard::WHOLE, &Progress::default()).expect("samples");
     drawn.into_iter().filter_map(|(_, sample)| sample).collect()
 }
@@ -129,9 +130,9 @@ fn coverage(plans: usize, seeds: u64) {
             let compute = ComputeSettings { accuracy, ..ComputeSettings::of(&case.plan) };
             for seed in 1..=seeds {
                 let (shot, sampling) = (&case.shots[0], Sampling { seed, ..Sampling::OF_VERDICT });
-                let target = Target { case, shot, planned: None, compute, sampling, drawn: &[] };
+                let target = ShotToSample { case, shot, planned: None, compute, sampling, precomputed: &[] };
                 let found = find_risks(&[target], &Progress::default(), &mut |_, _| {});
-                let risk = found.expect("samples").0.remove(0);
+                let risk = found.expect("samples").value.remove(0);
                 let [low, high] = risk.confidence.interval;
                 covered.push((low..=high).contains(truth));
                 let verdict = risk.verdict();

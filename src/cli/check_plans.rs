@@ -11,17 +11,21 @@ use super::status::{FINER, Status};
 use crate::report::check::report;
 use crate::report::json::CheckDocument;
 use crate::report::model::Report;
-use crate::study::check_all::{Results, check_all, find_launch_margins};
+use crate::study::check_all::{OptionResults, check_all, find_launch_margins};
 use crate::study::sampling::Sampling;
 use crate::study::{Case, Finding, Found, NoResult};
 
 /// Checks all options of all cases in parallel; the results stand in the order of plans and options.
-pub fn check_plans(cases: &[Case], sampling: Option<Sampling>, compute: &Compute) -> Finding<Vec<Results>> {
+pub fn check_plans(
+    cases: &[Case],
+    sampling: Option<Sampling>,
+    compute: &Compute,
+) -> Finding<Vec<OptionResults>> {
     let cases: Vec<_> = cases.iter().map(|case| (case, compute.settings(&case.plan))).collect();
     run_study(compute, |progress| {
         let mut found = check_all(&cases, sampling.as_ref(), progress)?;
         if sampling.is_some() {
-            found.partial |= !find_launch_margins(&cases, &mut found.value, progress)?;
+            found.partial |= find_launch_margins(&cases, &mut found.value, progress)?.partial;
         }
         Ok(found)
     })
@@ -38,7 +42,7 @@ enum Documents {
 /// Prints the results of all cases; with `any` one passing option is enough.
 pub fn print_checks(
     cases: &[Case],
-    checked: &Found<Vec<Results>>,
+    checked: &Found<Vec<OptionResults>>,
     any: bool,
     format: FormatArg,
     look: &LookArguments,
@@ -47,7 +51,8 @@ pub fn print_checks(
     let pairs = || cases.iter().zip(checked);
     let reports: Vec<Report> = pairs().map(|(case, results)| report(case, results, any, *partial)).collect();
     let documents = || {
-        let document = |(case, results): (&Case, &Results)| CheckDocument::new(case, results, any, *partial);
+        let document =
+            |(case, results): (&Case, &OptionResults)| CheckDocument::new(case, results, any, *partial);
         let mut all: Vec<_> = pairs().map(document).collect();
         match all.len() {
             1 => Documents::One(Box::new(all.remove(0))),

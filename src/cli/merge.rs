@@ -10,7 +10,7 @@ use super::print_findings::{print_orders, print_risks};
 use super::status::{Status, failed, wrong};
 use crate::plan::PlanSource;
 use crate::study::check_all::judge_drawn;
-use crate::study::merge::{Findings, Question, merge};
+use crate::study::merge::{Question, ShardResults, merge};
 use crate::study::orders::{rank, refine};
 use crate::study::{Case, Found, Progress};
 
@@ -45,7 +45,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     }
     match (head.question, findings) {
         // Only all shares together tell which orders may be the worst.
-        (Question::Orders { intervals_s, sampling }, Findings::Orders(tried)) => {
+        (Question::Orders { intervals_s, sampling }, ShardResults::Orders(tried)) => {
             let (compute, progress) = (&head.compute, Progress::default());
             let ranked = refine(&case, tried, compute, &progress).and_then(|tried| {
                 rank(&case, tried, intervals_s.len(), sampling.as_ref(), compute, &progress)
@@ -57,7 +57,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
                 Err(reason) => failed(&reason),
             }
         }
-        (Question::Risk { sampling }, Findings::Risk(samples)) => {
+        (Question::Risk { sampling }, ShardResults::Risk(samples)) => {
             match judge_drawn(&case, &head.compute, &sampling, &samples, &Progress::default()) {
                 Ok(results) => print_risks(&case, &results, &sampling, false, arguments.format, look),
                 Err(reason) => failed(&reason),

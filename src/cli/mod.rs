@@ -1,7 +1,7 @@
 //! Commands: what users type becomes a study, a report and an exit status. clap stops here.
 //!
 //! One file per command, and no command uses another. They share [`arguments`], [`load_plans`], [`run_study`] (threads,
-//! progress, signals), [`print`](mod@print) (formats) and [`status`] (exit status). Results that several commands print are
+//! progress, signals), [`print`](mod@print) (formats) and [`status`] (exit status). OptionResults that several commands print are
 //! in [`check_plans`] and [`print_findings`].
 
 mod accuracy;

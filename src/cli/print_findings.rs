@@ -9,7 +9,7 @@ use crate::report::json::{OrdersDocument, RiskDocument};
 use crate::report::notes::SWAP;
 use crate::report::{orders, risk};
 use crate::study::Case;
-use crate::study::check_all::Results;
+use crate::study::check_all::OptionResults;
 use crate::study::orders::Orders;
 use crate::study::sampling::Sampling;
 use crate::study::swaps::swaps;
@@ -29,7 +29,7 @@ pub fn print_orders(
 /// Prints the risks of all options; `partial` where the time was up before all samples were drawn.
 pub fn print_risks(
     case: &Case,
-    results: &Results,
+    results: &OptionResults,
     sampling: &Sampling,
     partial: bool,
     format: FormatArg,

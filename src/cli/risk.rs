@@ -13,8 +13,8 @@ use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::report::notes;
 use crate::study::check_all::check_all;
-use crate::study::merge::{Findings, OptionSample, Question, write_share};
-use crate::study::sampling::{Sampling, Target, draw_share};
+use crate::study::merge::{OptionSample, Question, ShardResults, write_share};
+use crate::study::sampling::{Sampling, ShotToSample, draw_share};
 use crate::study::{Case, Found, Shard};
 
 #[derive(Args)]
@@ -62,8 +62,14 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
 /// Prints this machine's share of the samples.
 fn share(arguments: &Arguments, case: &Case, sampling: &Sampling, shard: Shard) -> io::Result<Status> {
     let settings = arguments.compute.settings(&case.plan);
-    let target =
-        |shot| Target { case, shot, planned: None, compute: settings, sampling: *sampling, drawn: &[] };
+    let target = |shot| ShotToSample {
+        case,
+        shot,
+        planned: None,
+        compute: settings,
+        sampling: *sampling,
+        precomputed: &[],
+    };
     let targets: Vec<_> = case.shots.iter().map(target).collect();
     let drawn = run_study(&arguments.compute, |progress| {
         let drawn = draw_share(&targets, shard, progress)?;
@@ -75,7 +81,7 @@ fn share(arguments: &Arguments, case: &Case, sampling: &Sampling, shard: Shard) 
         Err(reason) => failed(&reason),
         Ok(Found { value: samples, .. }) => {
             let question = Question::Risk { sampling: *sampling };
-            print_text(&write_share(case, question, settings, shard, &Findings::Risk(samples))?)?;
+            print_text(&write_share(case, question, settings, shard, &ShardResults::Risk(samples))?)?;
             Ok(Status::Pass)
         }
     }

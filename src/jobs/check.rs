@@ -6,12 +6,12 @@ use std::time::{Duration, Instant};
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
 use super::{Job, News};
-use crate::study::batch::each;
+use crate::study::batch::run_jobs;
 use crate::study::check::check;
 use crate::study::check_all::target;
 use crate::study::margin::launch_margin;
 use crate::study::risk::Risk;
-use crate::study::sampling::{Sampling, Target, find_risks};
+use crate::study::sampling::{Sampling, ShotToSample, find_risks};
 use crate::study::{Envelope, NoResult, guarded};
 
 /// Least time between two pieces of news about an option that computes.
@@ -60,7 +60,7 @@ impl Job {
         let target = |(option, planned): &(usize, Envelope)| {
             target(&self.case, *option, planned, &Sampling::OF_VERDICT, self.compute)
         };
-        let targets: Vec<Target<'_>> = options.iter().map(target).collect();
+        let targets: Vec<ShotToSample<'_>> = options.iter().map(target).collect();
         let mut told: Vec<Option<Instant>> = vec![None; options.len()];
         let mut watch = |n: usize, risk: &Risk| {
             if told[n].is_none_or(|told| told.elapsed() >= SAMPLED_EVERY) {
@@ -70,7 +70,7 @@ impl Job {
             }
         };
         let sampled = find_risks(&targets, &self.progress, &mut watch);
-        let risks = sampled.map(|(risks, _)| risks).inspect_err(|none| {
+        let risks = sampled.map(|found| found.value).inspect_err(|none| {
             for &(option, _) in options {
                 self.tell(News::Sampled { option, result: Err(none.clone()), more: false });
             }
@@ -90,6 +90,6 @@ impl Job {
             self.tell(News::Margin { option, margin });
             Ok(())
         };
-        each(options, progress, find).map(drop)
+        run_jobs(options, progress, find).map(drop)
     }
 }

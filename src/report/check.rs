@@ -6,7 +6,7 @@ use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
 use super::{no_result, report_head};
 use crate::plan::DelayOption;
 use crate::study::check::Checked;
-use crate::study::check_all::{Results, verdict};
+use crate::study::check_all::{OptionResults, verdict};
 use crate::study::judgement::Judgement;
 use crate::study::margin::LaunchMargin;
 use crate::study::reason::Reason;
@@ -105,7 +105,8 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 28] {
         Field::new(Column::scripts(&["launch_margin"]), |row| {
             let judged = row.result.as_ref().ok();
             match judged.and_then(|judged| judged.launch_margin) {
-                Some(LaunchMargin::UpTo { share, .. }) => Cell::Number(share),
+                Some(LaunchMargin::UpTo { rise, .. }) => Cell::Number(rise),
+                Some(LaunchMargin::NotPassing) => Cell::Number(0.0),
                 Some(LaunchMargin::Wide) | None => Cell::Nothing,
             }
         }),
@@ -157,7 +158,7 @@ const LAUNCH_MARGIN: Column = Column::words(&[], "launches").under("as planned")
 const DRIFT: Column = Column::numbers(&["drift_m", "drift_error_m"], "drift", Unit::Metre);
 
 /// The report of one plan, which is partial where the time was up; with `any` one passing option is enough.
-pub fn report(case: &Case, results: &Results, any: bool, partial: bool) -> Report {
+pub fn report(case: &Case, results: &OptionResults, any: bool, partial: bool) -> Report {
     // Without a limit on drift only the page has room for drift.
     let sampled = results.iter().flatten().any(|judged| judged.risk.is_some());
     let shown = |column: &Column| match column {

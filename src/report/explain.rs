@@ -6,13 +6,13 @@ use crate::scene::{Scene, Shot};
 use crate::study::Case;
 use crate::study::ComputeSettings;
 use crate::study::check::Checked;
-use crate::study::draw::Input;
+use crate::study::influence;
 use crate::study::judgement::Judgement;
 use crate::study::margin::LaunchMargin;
+use crate::study::random_shot::Input;
 use crate::study::reason::{EarlyEnd, Reason};
 use crate::study::risk::Risk;
 use crate::study::sample::SampleRun;
-use crate::study::shares;
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
@@ -65,7 +65,7 @@ pub fn risk_detail(case: &Case, judged: &Judgement) -> Option<Detail> {
     let verdict = risk.verdict();
     let text = match verdict {
         Verdict::Pass => return None,
-        Verdict::Undecided if risk.falls_short() => {
+        Verdict::Undecided if risk.planned_exceeds_samples() => {
             let text = "the shot as planned lies above all samples: the step of samples is too long for this motion; choose accuracy \"reference\"";
             text.to_owned()
         }
@@ -97,7 +97,7 @@ fn limits_exceeded(case: &Case, risk: &Risk) -> String {
 
 /// What decides how a shot turns out: `slack 61 %, launch 24 %, hole by hole and interplay 13 %`.
 pub fn inputs(risk: &Risk, limits: &Limits) -> Option<String> {
-    let shares = shares::input_shares(risk, limits)?;
+    let shares = influence::input_shares(risk, limits)?;
     let rest = 1.0 - shares.iter().map(|(_, share)| share).sum::<f64>();
     let worth = shares.iter().filter(|(_, share)| *share >= LEAST_SHARE);
     let mut words: Vec<String> =
@@ -121,7 +121,8 @@ fn input_name(input: Input) -> &'static str {
 /// How much faster the tires may leave, in words: `to +4 %`.
 pub fn launch_margin(margin: LaunchMargin) -> String {
     match margin {
-        LaunchMargin::UpTo { share, .. } => format!("to +{}", units::percent(share, 0)),
+        LaunchMargin::NotPassing => "to +0 %".to_owned(),
+        LaunchMargin::UpTo { rise, .. } => format!("to +{}", units::percent(rise, 0)),
         LaunchMargin::Wide => "over +100 %".to_owned(),
     }
 }
@@ -137,9 +138,9 @@ pub fn launch_limit(shot: &Shot, judged: &Judgement) -> Option<String> {
         if same { format!(", {} m/s", units::short(most)) } else { String::new() }
     };
     match judged.launch_margin? {
-        _ if judged.nominal.verdict != Verdict::Pass => None,
-        LaunchMargin::UpTo { share, then } => {
-            let (share, becomes) = (share + 0.01, if then == Verdict::Fail { "fails" } else { "open" });
+        LaunchMargin::NotPassing => None,
+        LaunchMargin::UpTo { rise, then } => {
+            let (share, becomes) = (rise + 0.01, if then == Verdict::Fail { "fails" } else { "open" });
             Some(format!("{becomes} from +{} launch{}", units::percent(share, 0), at(1.0 + share)))
         }
         LaunchMargin::Wide => Some(format!("passes up to +100 % launch{}", at(2.0))),

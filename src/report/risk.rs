@@ -6,7 +6,7 @@ use super::model::{Block, Cell, Column, Conclusion, Field, Report, Row, Table};
 use super::no_result;
 use super::report_head;
 use super::shared_columns::{FAILURES, VERDICT};
-use crate::study::check_all::{Results, verdict};
+use crate::study::check_all::{OptionResults, verdict};
 use crate::study::judgement::Judgement;
 use crate::study::risk::Risk;
 use crate::study::sampling::Sampling;
@@ -72,7 +72,7 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 10] {
 }
 
 /// The report of the samples of all options, which is partial where the time was up.
-pub fn report(case: &Case, results: &Results, sampling: &Sampling, partial: bool) -> Report {
+pub fn report(case: &Case, results: &OptionResults, sampling: &Sampling, partial: bool) -> Report {
     let options = case.plan.delays.iter().zip(results);
     let rows = options.map(|(delay, result)| OptionRow { case, name: &delay.name, result });
     let mut table = Table::of(&fields(), rows);

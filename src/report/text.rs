@@ -157,7 +157,7 @@ fn evenly([from, to]: [f64; 2], points: &[(f64, f64)]) -> Vec<f64> {
     (0..CHART_BARS).map(|n| value(from + n as f64 * width)).collect()
 }
 
-/// Both lines of a chart, each point as the first letter of its series.
+/// Every line of a chart, each point as the first letter of its series.
 fn plot(chart: &Chart) -> Vec<String> {
     let ([left, right], [bottom, top]) = (chart.x.ends(), chart.y.ends());
     let slot = |part: f64, size: usize| ((part * (size - 1) as f64).round() as usize).min(size - 1);

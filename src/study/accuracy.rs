@@ -5,7 +5,7 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, error};
+use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, step_error};
 use crate::choice::{Accuracy, Method};
 use crate::outcome::Outcome;
 use crate::plan::Timing;
@@ -62,7 +62,7 @@ pub struct AccuracyTable {
 /// Classes of accuracy: greatest relative error of height and of force.
 pub const CLASSES: [(f64, f64); 2] = [(0.01, 0.02), (0.002, 0.002)];
 
-/// Number of steps tried per method; each step is [`error::RATIO`] times shorter than the one before.
+/// Number of steps tried per method; each step is [`step_error::RATIO`] times shorter than the one before.
 const STEPS: i32 = 15;
 /// First step of the finest accuracy level over the step of the converged run.
 const FINER: f64 = 16.0;
@@ -84,7 +84,7 @@ pub fn measure(
     let coarsest = (0.95 * case.scene().critical_step()).min(8e-3);
     let (mut rows, mut partial) = (Vec::new(), false);
     for method in [Method::Verlet, Method::Newmark] {
-        let mut steps: Vec<f64> = (0..STEPS).map(|n| coarsest * error::RATIO.powi(-n)).collect();
+        let mut steps: Vec<f64> = (0..STEPS).map(|n| coarsest * step_error::RATIO.powi(-n)).collect();
         if method == Method::Verlet {
             // A step of a level takes the place of one that differs by rounding alone.
             steps.retain(|step| levels.iter().all(|(_, level)| (step / level - 1.0).abs() > 1e-9));

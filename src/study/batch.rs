@@ -16,7 +16,7 @@ pub fn thread_pool(threads: usize) -> Result<rayon::ThreadPool, NoResult> {
 
 /// Does `work` for every job, in parallel. Returns the results in the order of the jobs; `None` where the time ran out. The
 /// number of threads does not change the results.
-pub fn each<J: Sync, T: Send>(
+pub fn run_jobs<J: Sync, T: Send>(
     jobs: &[J],
     progress: &Progress,
     work: impl Fn(&J) -> Result<T, NoResult> + Sync,
@@ -62,7 +62,7 @@ pub fn judge_shot(
     checked.map(|checked| Envelope::of(&checked)).map_err(|failure| progress.no_result(failure))
 }
 
-/// Computes the envelope of every job, like [`each`]. A job whose run fails has the envelope [`Envelope::UNKNOWN`]; where
+/// Computes the envelope of every job, like [`run_jobs`]. A job whose run fails has the envelope [`Envelope::UNKNOWN`]; where
 /// every run fails, the study has no result.
 pub fn envelopes<J: Sync>(
     jobs: &[J],
@@ -79,7 +79,7 @@ pub fn envelopes<J: Sync>(
 }
 
 /// Like [`envelopes`], for a part of the jobs of a study: all of them may fail.
-pub fn part_of_envelopes<J: Sync>(
+pub fn envelopes_or_unknown<J: Sync>(
     jobs: &[J],
     progress: &Progress,
     work: impl Fn(&J) -> Result<Envelope, NoResult> + Sync,
@@ -96,7 +96,7 @@ fn results<J: Sync>(
     progress: &Progress,
     work: impl Fn(&J) -> Result<Envelope, NoResult> + Sync,
 ) -> Result<Vec<Option<Result<Envelope, Failure>>>, NoResult> {
-    each(jobs, progress, |job| match work(job) {
+    run_jobs(jobs, progress, |job| match work(job) {
         Err(NoResult::Failed(failure)) => Ok(Err(failure)),
         result => result.map(Ok),
     })
@@ -126,14 +126,14 @@ mod tests {
             progress.expire();
             Ok(job)
         };
-        assert_eq!(pool.install(|| each(&[1, 2], &progress, work)), Ok(vec![Some(1), None]));
+        assert_eq!(pool.install(|| run_jobs(&[1, 2], &progress, work)), Ok(vec![Some(1), None]));
     }
 
     #[test]
     fn a_panic_is_told_and_the_others_go_on() {
         let jobs = [1, 2, 3];
         let work = |&job: &i32| Ok(guarded(|| if job == 2 { panic!("job {job}") } else { Ok(10 * job) }));
-        let results = each(&jobs, &Progress::default(), work).expect("nobody stopped it");
+        let results = run_jobs(&jobs, &Progress::default(), work).expect("nobody stopped it");
         assert_eq!(results, [Some(Ok(10)), Some(Err(NoResult::Panicked("job 2".to_owned()))), Some(Ok(30))]);
     }
 }

@@ -1,6 +1,6 @@
 //! The verdict on one delay option, refined until the verdict is sure.
 //!
-//! The option is run at a ladder of steps; each step is [`error::RATIO`] times finer than the one before. The finest run
+//! The option is run at a ladder of steps; each step is [`step_error::RATIO`] times finer than the one before. The finest run
 //! gives the values. The coarser runs give the errors. While the verdict is open, a finer run is added.
 
 use std::cell::{Cell, RefCell};
@@ -9,14 +9,14 @@ use std::time::{Duration, Instant};
 
 use super::ladder::{estimates, nearest};
 use super::reason::{Reason, closes, find_reasons, limited};
-use super::{Case, ComputeSettings, error};
+use super::{Case, ComputeSettings, step_error};
 use crate::choice::Accuracy;
 use crate::outcome::{Broken, History, Outcome, RunEnd};
 use crate::scene::Shot;
 use crate::simulation::{Failure, Motion};
 use crate::verdict::{Estimate, Limits, Verdict};
 
-/// A judged delay option.
+/// A shot as planned, judged by a ladder of runs.
 #[derive(Clone, Debug)]
 pub struct Checked {
     /// Pass, fail, or undecided at the finest step allowed.
@@ -180,10 +180,10 @@ fn run_pairs(
     run: impl Fn(&Shot, f64) -> Result<Run, Failure>,
 ) -> Result<Vec<[Run; 2]>, Failure> {
     let field = ComputeSettings { accuracy: Accuracy::Field, step: None, ..*compute }.first_step(case);
-    let finer = step / (field * error::RATIO.powi(error::NEIGHBOURS as i32));
+    let finer = step / (field * step_error::RATIO.powi(step_error::NEIGHBOURS as i32));
     let relative = PAIR_CHANGE * finer.powi(2).min(1.0);
     let mut pairs = Vec::new();
-    for number in 0..error::PAIRS {
+    for number in 0..step_error::PAIRS {
         let [more, less] = shot.both_sides(case.scene().friction, relative, number);
         match run(&more, step).and_then(|more| Ok([more, run(&less, step)?])) {
             Ok(pair) => pairs.push(pair),
@@ -205,9 +205,9 @@ fn climb<R>(
     mut run: impl FnMut(f64) -> Result<R, Failure>,
     mut is_sure: impl FnMut(&[R], bool) -> Result<bool, Failure>,
 ) -> Result<(), Failure> {
-    let rung = |n: i32| first * error::RATIO.powi(n);
+    let rung = |n: i32| first * step_error::RATIO.powi(n);
     let mut runs = Vec::new();
-    for n in (1..=error::NEIGHBOURS as i32).rev() {
+    for n in (1..=step_error::NEIGHBOURS as i32).rev() {
         match run(rung(n)) {
             Ok(coarser) => runs.push(coarser),
             Err(Failure::Step { .. } | Failure::Diverged { .. } | Failure::Unsettled { .. }) => {}
@@ -309,7 +309,7 @@ mod tests {
         assert_eq!(climbed(1.0, true, 1e-9).1, 1.0, "though its only neighbour is finer");
         assert_eq!(climbed(4.0, false, 1.0).1, 1.0);
         assert!(
-            (climbed(1.0, false, 1.0).1 * error::RATIO - 1.0).abs() < 1e-12,
+            (climbed(1.0, false, 1.0).1 * step_error::RATIO - 1.0).abs() < 1e-12,
             "no error without a neighbour"
         );
         assert!((climbed(4.0, false, 0.0).1 * 64.0 - 1.0).abs() < 1e-12, "the finest step allowed");

@@ -28,7 +28,7 @@ struct Beta {
 /// Bounds of a failure probability, from the samples so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Confidence {
-    /// Failure probability from which the bounds shall tell.
+    /// Accepted failure probability, with which the bounds are compared.
     pub accepted: f64,
     /// Number of samples.
     pub samples: usize,

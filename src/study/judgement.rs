@@ -5,7 +5,7 @@ use super::margin::LaunchMargin;
 use super::risk::Risk;
 use crate::verdict::Verdict;
 
-/// A judged delay option.
+/// A delay option, judged as planned and by samples.
 #[derive(Clone, Debug)]
 pub struct Judgement {
     /// The shot as planned.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::error::{NEIGHBOURS, estimate, widened};
+use super::step_error::{NEIGHBOURS, estimate, widened};
 use crate::outcome::{History, Outcome, Peak, slice_at};
 use crate::verdict::Estimate;
 

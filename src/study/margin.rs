@@ -8,10 +8,12 @@ use crate::verdict::Verdict;
 /// How much faster all launches may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LaunchMargin {
-    /// The shot passes up to `share` above the planned launch velocities; at 1 % more the verdict is `then`.
+    /// The shot does not pass as planned.
+    NotPassing,
+    /// The shot passes up to `rise` above the planned launch velocities; at 1 % more the verdict is `then`.
     UpTo {
-        /// Rise of the launches over the plan's.
-        share: f64,
+        /// Share of the planned launch velocities.
+        rise: f64,
         /// Fail or undecided.
         then: Verdict,
     },
@@ -31,7 +33,7 @@ pub fn launch_margin(
     progress: &Progress,
 ) -> Result<LaunchMargin, NoResult> {
     if nominal != Verdict::Pass {
-        return Ok(LaunchMargin::UpTo { share: 0.0, then: nominal });
+        return Ok(LaunchMargin::NotPassing);
     }
     for percent in 1..=MOST_PERCENT {
         let faster = shot.with_launches(1.0 + 1e-2 * percent as f64);
@@ -42,7 +44,7 @@ pub fn launch_margin(
             Err(ended) => return Err(ended),
         };
         if then != Verdict::Pass {
-            return Ok(LaunchMargin::UpTo { share: 1e-2 * (percent - 1) as f64, then });
+            return Ok(LaunchMargin::UpTo { rise: 1e-2 * (percent - 1) as f64, then });
         }
     }
     Ok(LaunchMargin::Wide)

@@ -67,9 +67,9 @@ struct Foot {
     sha256: String,
 }
 
-/// Results of a study, in the order of one machine.
+/// OptionResults of a study, in the order of one machine.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Findings {
+pub enum ShardResults {
     /// Of `orders`.
     Orders(Vec<Tried>),
     /// Of `risk`.
@@ -81,16 +81,16 @@ const SCHEMA: &str = "shelter.shard/7";
 /// Version of this program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-impl Findings {
+impl ShardResults {
     /// Whether these can be findings of a study of `case`, each once.
     pub fn fit(&self, case: &Case) -> bool {
         let rows: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
         match self {
-            Findings::Orders(tried) => {
+            ShardResults::Orders(tried) => {
                 let complete = |tried: &Tried| tried.order.iter().copied().sorted().eq(rows.iter().copied());
                 tried.iter().all(complete) && tried.iter().map(|tried| tried.number).all_unique()
             }
-            Findings::Risk(samples) => {
+            ShardResults::Risk(samples) => {
                 samples.iter().all(|sample| sample.option < case.shots.len())
                     && samples.iter().map(|sample| (sample.option, sample.sample.number)).all_unique()
             }
@@ -103,8 +103,8 @@ impl Findings {
             results.iter().map(|result| Ok(serde_json::to_string(result)? + "\n")).collect()
         }
         match self {
-            Findings::Orders(tried) => lines(tried),
-            Findings::Risk(samples) => lines(samples),
+            ShardResults::Orders(tried) => lines(tried),
+            ShardResults::Risk(samples) => lines(samples),
         }
     }
 }
@@ -115,7 +115,7 @@ pub fn write_share(
     question: Question,
     compute: ComputeSettings,
     shard: Shard,
-    findings: &Findings,
+    findings: &ShardResults,
 ) -> serde_json::Result<String> {
     let head = Head {
         schema: SCHEMA.to_owned(),
@@ -137,7 +137,7 @@ fn checksum(text: &str) -> String {
 }
 
 /// Reads a share; says what is wrong with it. `name` stands for the file in messages.
-fn read_share(name: &str, text: &str) -> Result<(Head, Findings), String> {
+fn read_share(name: &str, text: &str) -> Result<(Head, ShardResults), String> {
     let wrong = |line: usize, error: &dyn std::fmt::Display| {
         format!("{name}:{line}: {error}; a share is what `shelter orders` or `risk` wrote with --shard")
     };
@@ -172,8 +172,8 @@ fn read_share(name: &str, text: &str) -> Result<(Head, Findings), String> {
     let mut lines: Vec<&str> = rest.lines().collect();
     lines.pop();
     let findings = match head.question {
-        Question::Orders { .. } => Findings::Orders(results(&lines, wrong)?),
-        Question::Risk { .. } => Findings::Risk(results(&lines, wrong)?),
+        Question::Orders { .. } => ShardResults::Orders(results(&lines, wrong)?),
+        Question::Risk { .. } => ShardResults::Risk(results(&lines, wrong)?),
     };
     Ok((head, findings))
 }
@@ -186,14 +186,14 @@ struct Origin {
 }
 
 /// Joins shares, given as `(name, text)`; says what is wrong with them.
-pub fn merge(shares: &[(String, String)]) -> Result<(Head, Findings), String> {
+pub fn merge(shares: &[(String, String)]) -> Result<(Head, ShardResults), String> {
     let mut heads: Vec<(&str, Head)> = Vec::new();
     let (mut orders, mut samples) = (Vec::new(), Vec::new());
     for (name, text) in shares {
         let (head, findings) = read_share(name, text)?;
         match findings {
-            Findings::Orders(tried) => orders.extend(tried),
-            Findings::Risk(drawn) => samples.extend(drawn),
+            ShardResults::Orders(tried) => orders.extend(tried),
+            ShardResults::Risk(drawn) => samples.extend(drawn),
         }
         heads.push((name, head));
     }
@@ -218,8 +218,8 @@ pub fn merge(shares: &[(String, String)]) -> Result<(Head, Findings), String> {
     orders.sort_by_key(|tried: &Tried| tried.number);
     samples.sort_by_key(|of: &OptionSample| (of.option, of.sample.number));
     let findings = match first.question {
-        Question::Orders { .. } => Findings::Orders(orders),
-        Question::Risk { .. } => Findings::Risk(samples),
+        Question::Orders { .. } => ShardResults::Orders(orders),
+        Question::Risk { .. } => ShardResults::Risk(samples),
     };
     Ok((first, findings))
 }

@@ -20,7 +20,7 @@ use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
-use super::batch::{judge_shot, part_of_envelopes};
+use super::batch::{envelopes_or_unknown, judge_shot};
 use super::risk_summary::{RiskSummary, sample_shots};
 use super::sampling::Sampling;
 use super::screen::{is_sure, screen};
@@ -81,14 +81,14 @@ impl Orders {
         Self { ranked: tried, complete, risks: None }
     }
 
-    /// Samples the worst and the best orders, and the best until its verdict is sure. Returns whether the time was up.
+    /// Samples the worst and the best orders, and the best until its verdict is sure.
     pub fn add_risk(
         &mut self,
         case: &Case,
         sampling: &Sampling,
         compute: &ComputeSettings,
         progress: &Progress,
-    ) -> Result<bool, NoResult> {
+    ) -> Finding<()> {
         let count = self.ranked.len();
         let ends: Vec<usize> = (0..count).filter(|&n| n < ENDS || n + ENDS >= count).collect();
         let shot = |&n: &usize| {
@@ -103,7 +103,7 @@ impl Orders {
         let partial = sampled.contains(&None);
         let known = ends.into_iter().zip(sampled).filter_map(|(n, sampled)| Some((n, sampled?)));
         self.risks = Some(known.collect());
-        Ok(partial)
+        Ok(Found { value: (), partial })
     }
 
     /// Whether samples were asked for.
@@ -146,7 +146,7 @@ pub fn rank(
     let Found { value: tried, mut partial } = tried;
     let mut orders = Orders::new(case, tried, intervals);
     if let Some(sampling) = sampling {
-        partial |= orders.add_risk(case, sampling, compute, progress)?;
+        partial |= orders.add_risk(case, sampling, compute, progress)?.partial;
     }
     Ok(Found { value: orders, partial })
 }
@@ -284,7 +284,7 @@ pub fn refine(
             }
             let shots: Vec<Shot> = next.iter().map(|&n| case.shot(&tried[n].order, interval)).collect();
             let judged =
-                part_of_envelopes(&shots, progress, |shot| judge_shot(case, shot, compute, progress))?;
+                envelopes_or_unknown(&shots, progress, |shot| judge_shot(case, shot, compute, progress))?;
             for (n, envelope) in next.into_iter().zip(judged) {
                 let Some(envelope) = envelope else { return Ok(Found { value: tried, partial: true }) };
                 for n in images[n].into_iter().chain([n]) {
@@ -307,7 +307,7 @@ fn screen_orders(
     let enough = |envelope: &Envelope, runs: usize| {
         is_sure(case, envelope, runs) || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= RUNS
     };
-    let envelopes = part_of_envelopes(&jobs, progress, |(_, (order, interval))| {
+    let envelopes = envelopes_or_unknown(&jobs, progress, |(_, (order, interval))| {
         screen(case, &case.shot(order, *interval), compute, progress, enough)
     })?;
     let tried = |((number, (order, interval)), envelope): (Job, Option<Envelope>)| {

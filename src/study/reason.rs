@@ -1,4 +1,5 @@
-//! Why an option fails or stays open: limits, broken cables, runs that end too early.
+//! Why one run fails or leaves a verdict open: limits, broken cables, an early end. Why samples do: [`Risk`](super::risk::Risk), in
+//! words in `report::explain`.
 
 use super::Case;
 use crate::outcome::{EndReason, Outcome};

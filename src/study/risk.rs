@@ -11,11 +11,11 @@ use super::{Case, Envelope};
 use crate::verdict::{Limits, Quantity, Verdict};
 
 /// Factor on a difference to one side, because the audit has an error of its own.
-const MOVED: f64 = 2.0;
+const BIAS_ALLOWANCE: f64 = 2.0;
 /// Probability below which a difference between samples and audit is more than chance.
-const CHANCE: f64 = 0.01;
+const SIGNIFICANCE: f64 = 0.01;
 /// Samples needed for bands.
-pub const FOR_BANDS: usize = 100;
+pub const SAMPLES_FOR_BANDS: usize = 100;
 
 /// The samples of one shot, in order of their numbers, and what they tell.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,12 +63,12 @@ impl Risk {
 
     /// Whether finer runs contradict the samples: those of the audit beyond chance, or the shot as planned.
     pub fn is_contradicted(&self) -> bool {
-        self.audit_differs() || self.is_biased() || self.falls_short()
+        self.audit_differs() || self.is_biased() || self.planned_exceeds_samples()
     }
 
     /// Whether the shot as planned, which is refined, lies so far above every sample that samples moved up by twice as much
     /// would go past a limit, though they pass: the error of their step is then greater than what is not known.
-    pub fn falls_short(&self) -> bool {
+    pub fn planned_exceeds_samples(&self) -> bool {
         let Some(planned) = self.planned else { return false };
         let would_fail = |quantity: Quantity| {
             let (refined, values) =
@@ -90,7 +90,7 @@ impl Risk {
                 audited.filter(|(coarse, fine)| (*coarse == Verdict::Pass) != (*fine == Verdict::Pass));
             changed.filter(|(_, fine)| (*fine != Verdict::Pass) == more).count()
         };
-        differs(count(true), count(false))
+        sign_test_rejects(count(true), count(false))
     }
 
     /// The samples that are not undecided.
@@ -103,11 +103,11 @@ impl Risk {
         self.samples.iter().filter_map(|sample| Some((&sample.run, sample.finer.as_ref()?)))
     }
 
-    /// Whether values at the finer step lie to one side, by a sign test, and so far that the samples, moved by [`MOVED`] times
+    /// Whether values at the finer step lie to one side, by a sign test, and so far that the samples, moved by [`BIAS_ALLOWANCE`] times
     /// the mean difference, lie on the other side of the accepted risk. Where little is unknown, all samples have the same error
     /// of the step, and none of them may change its verdict.
     fn is_biased(&self) -> bool {
-        let moved = Quantity::ALL.map(|quantity| self.moved_by(quantity));
+        let moved = Quantity::ALL.map(|quantity| self.bias_factor(quantity));
         let fails = |sample: &&Sample| {
             let value = |quantity: Quantity| sample.run.get(quantity) * moved[quantity as usize];
             self.limits.utilization(value) > 1.0
@@ -121,20 +121,24 @@ impl Risk {
     }
 
     /// Factor by which a quantity is to be moved: 1, unless the finer values lie to one side beyond chance.
-    fn moved_by(&self, quantity: Quantity) -> f64 {
+    fn bias_factor(&self, quantity: Quantity) -> f64 {
         let pairs = self.audited().map(|(coarse, fine)| fine.get(quantity) / coarse.get(quantity) - 1.0);
         let changes: Vec<f64> = pairs.filter(|change| change.is_finite()).collect();
         let count =
             |more: bool| changes.iter().filter(|&&change| change != 0.0 && (change > 0.0) == more).count();
-        let is_one_sided = differs(count(true), count(false));
-        if is_one_sided { 1.0 + MOVED * changes.iter().sum::<f64>() / changes.len() as f64 } else { 1.0 }
+        let is_one_sided = sign_test_rejects(count(true), count(false));
+        if is_one_sided {
+            1.0 + BIAS_ALLOWANCE * changes.iter().sum::<f64>() / changes.len() as f64
+        } else {
+            1.0
+        }
     }
 
     /// The 5th, 50th and 95th percentile and the greatest value of a quantity over the decided samples; `None` for fewer than
-    /// [`FOR_BANDS`].
+    /// [`SAMPLES_FOR_BANDS`].
     pub fn band(&self, quantity: Quantity) -> Option<[f64; 4]> {
         let values = self.decided().map(|sample| sample.run.get(quantity));
-        (self.decided().count() >= FOR_BANDS).then(|| percentiles(values, [0.05, 0.5, 0.95, 1.0]))?
+        (self.decided().count() >= SAMPLES_FOR_BANDS).then(|| percentiles(values, [0.05, 0.5, 0.95, 1.0]))?
     }
 }
 
@@ -150,7 +154,7 @@ pub(super) fn percentiles<const N: usize>(
 }
 
 /// Whether of samples that change, `more` to one side and `fewer` to the other, one side has more than by chance.
-fn differs(more: usize, fewer: usize) -> bool {
+fn sign_test_rejects(more: usize, fewer: usize) -> bool {
     let all = (more + fewer) as f64;
     let mut term = (-all * std::f64::consts::LN_2).exp();
     let mut tail = 0.0;
@@ -158,7 +162,7 @@ fn differs(more: usize, fewer: usize) -> bool {
         tail += term;
         term *= (all - k as f64) / (k as f64 + 1.0);
     }
-    2.0 * tail < CHANCE
+    2.0 * tail < SIGNIFICANCE
 }
 
 #[cfg(test)]
@@ -169,7 +173,12 @@ mod tests {
     /// 24/2048, 11 of 12 one of 26/4096.
     #[test]
     fn an_audit_differs_only_beyond_chance() {
-        assert!(!differs(0, 0) && !differs(7, 0) && differs(8, 0) && differs(0, 8));
-        assert!(!differs(10, 1) && differs(11, 1));
+        assert!(
+            !sign_test_rejects(0, 0)
+                && !sign_test_rejects(7, 0)
+                && sign_test_rejects(8, 0)
+                && sign_test_rejects(0, 8)
+        );
+        assert!(!sign_test_rejects(10, 1) && sign_test_rejects(11, 1));
     }
 }

@@ -2,7 +2,7 @@
 
 use super::confidence::Confidence;
 use super::risk::{Risk, percentiles};
-use super::sampling::{Sampling, Target, find_risks};
+use super::sampling::{Sampling, ShotToSample, find_risks};
 use super::{Case, ComputeSettings, Envelope, NoResult, Progress};
 use crate::scene::Shot;
 use crate::verdict::{Limits, Verdict};
@@ -64,16 +64,16 @@ pub fn sample_shots<'c>(
 ) -> Result<Vec<Option<RiskSummary>>, NoResult> {
     let mut all = Vec::with_capacity(shots.len());
     for shots in shots.chunks(AT_ONCE) {
-        let target = |(shot, planned): &'c (Shot, Envelope)| Target {
+        let target = |(shot, planned): &'c (Shot, Envelope)| ShotToSample {
             case,
             shot,
             planned: Some(*planned),
             compute: *compute,
             sampling: *sampling,
-            drawn: &[],
+            precomputed: &[],
         };
         let targets: Vec<_> = shots.iter().map(target).collect();
-        let (risks, _) = find_risks(&targets, progress, &mut |_, _| {})?;
+        let risks = find_risks(&targets, progress, &mut |_, _| {})?.value;
         let is_complete = |risk: &Risk| {
             let (drawn, verdict) = (risk.samples.len(), risk.confidence.verdict());
             drawn >= sampling.most || drawn >= sampling.least && verdict != Verdict::Undecided

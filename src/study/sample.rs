@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::Case;
-use super::draw::Input;
 use super::envelope::or_infinite;
+use super::random_shot::Input;
 use super::reason::{Reason, closes, find_reasons};
 use crate::outcome::{Outcome, Peak};
 use crate::scene::Shot;

@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
-use super::batch::each;
-use super::draw::{Drawn, draw};
+use super::batch::run_jobs;
+use super::influence::SAMPLES_FOR_SHARES;
+use super::random_shot::{Input, RandomShot, draw};
 use super::reason::closes;
-use super::risk::{FOR_BANDS, Risk};
+use super::risk::{Risk, SAMPLES_FOR_BANDS};
 use super::sample::{Sample, SampleRun};
-use super::shares::FOR_SHARES;
-use super::{Case, ComputeSettings, Envelope, NoResult, Progress, Shard, guarded};
+use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard, guarded};
 use crate::choice::{Accuracy, Method};
 use crate::scene::{Scene, Shot};
 use crate::verdict::Verdict;
@@ -31,7 +31,7 @@ pub struct Sampling {
 
 impl Sampling {
     /// The sampling of a verdict: enough for the shares of the inputs, and more until the verdict is sure.
-    pub const OF_VERDICT: Self = Self { least: FOR_SHARES, most: 2000, seed: 1, attempt: 0 };
+    pub const OF_VERDICT: Self = Self { least: SAMPLES_FOR_SHARES, most: 2000, seed: 1, attempt: 0 };
 
     /// Exactly `count` samples of each shot.
     pub const fn exactly(count: usize, seed: u64) -> Self {
@@ -40,7 +40,7 @@ impl Sampling {
 
     /// Samples of a first look at many shots: 100 of each, fewer of those that surely fail too often.
     pub fn first_look(&self) -> Self {
-        Self { least: 0, most: FOR_BANDS.min(self.most), ..*self }
+        Self { least: 0, most: SAMPLES_FOR_BANDS.min(self.most), ..*self }
     }
 
     /// The sampling of a shot that fails as planned: only to show by how much.
@@ -51,7 +51,7 @@ impl Sampling {
 
 /// A shot whose risk is asked for.
 #[derive(Clone, Copy, Debug)]
-pub struct Target<'c> {
+pub struct ShotToSample<'c> {
     /// The plan.
     pub case: &'c Case,
     /// The shot as planned.
@@ -62,11 +62,11 @@ pub struct Target<'c> {
     pub compute: ComputeSettings,
     /// Number of samples and seed.
     pub sampling: Sampling,
-    /// The first samples at the usual step, where other machines drew them.
-    pub drawn: &'c [Sample],
+    /// Samples at the usual step that other machines drew, in order of their numbers.
+    pub precomputed: &'c [Sample],
 }
 
-impl Target<'_> {
+impl ShotToSample<'_> {
     fn no_samples(&self) -> Risk {
         Risk::new(self.case, self.planned, self.sampling.attempt)
     }
@@ -82,30 +82,35 @@ const MOST_HALVINGS: u32 = 3;
 
 /// Draws and judges samples of every shot, until its risk is sure. `watch` sees every shot after each of its rounds.
 ///
-/// A shot has no more samples than the time sufficed for. Returns whether that was so.
+/// The result is partial where a shot has no more samples than the time sufficed for.
 pub fn find_risks(
-    targets: &[Target<'_>],
+    targets: &[ShotToSample<'_>],
     progress: &Progress,
     watch: &mut dyn FnMut(usize, &Risk),
-) -> Result<(Vec<Risk>, bool), NoResult> {
-    let mut risks: Vec<Risk> = targets.iter().map(Target::no_samples).collect();
+) -> Finding<Vec<Risk>> {
+    let mut risks: Vec<Risk> = targets.iter().map(ShotToSample::no_samples).collect();
     loop {
         let round = |(n, risk): (usize, &Risk)| {
             let (sampling, halvings) = (targets[n].sampling, risk.halvings);
             let from = risk.samples.len();
             let is_open = from < sampling.most && risk.confidence.verdict() == Verdict::Undecided;
-            let size = if from < FOR_SHARES { 50 } else { 100 };
+            let size = if from < SAMPLES_FOR_SHARES { 50 } else { 100 };
             let to = if from < sampling.least || is_open { (from + size).min(sampling.most) } else { from };
             (from..to).map(move |number| (n, number, halvings))
         };
         let jobs: Vec<(usize, usize, u32)> = risks.iter().enumerate().flat_map(round).collect();
         if jobs.is_empty() {
-            return Ok((risks, false));
+            return Ok(Found { value: risks, partial: false });
         }
-        let drawn = each(&jobs, progress, |&(n, number, halvings)| match targets[n].drawn.get(number) {
-            Some(sample) if halvings == 0 => Ok(*sample),
-            _ => guarded(|| run_sample(&targets[n], number, 2.0_f64.powi(halvings as i32), progress)),
-        })?;
+        let drawn =
+            run_jobs(&jobs, progress, |&(n, number, halvings)| match targets[n].precomputed.get(number) {
+                Some(sample) if halvings == 0 => Ok(*sample),
+                _ => {
+                    let sample =
+                        guarded(|| run_sample(&targets[n], number, 2.0_f64.powi(halvings as i32), progress));
+                    undecided_if_panicked(sample, number)
+                }
+            })?;
         let out_of_time = drawn.contains(&None);
         let mut complete = vec![true; targets.len()];
         for (&(n, ..), sample) in jobs.iter().zip(drawn) {
@@ -126,14 +131,24 @@ pub fn find_risks(
             watch(n, risk);
         }
         if out_of_time {
-            return Ok((risks, true));
+            return Ok(Found { value: risks, partial: true });
         }
+    }
+}
+
+/// A sample in which the program panicked shows nothing; the others go on.
+fn undecided_if_panicked(sample: Result<Sample, NoResult>, number: usize) -> Result<Sample, NoResult> {
+    match sample {
+        Err(NoResult::Panicked(_)) => {
+            Ok(Sample { number, run: SampleRun::FAILED, finer: None, inputs: [f64::NAN; Input::ALL.len()] })
+        }
+        sample => sample,
     }
 }
 
 /// Draws and judges the samples of every shot that belong to `shard`; `None` for those that the time did not suffice for.
 pub fn draw_share(
-    targets: &[Target<'_>],
+    targets: &[ShotToSample<'_>],
     shard: Shard,
     progress: &Progress,
 ) -> Result<Vec<(usize, Option<Sample>)>, NoResult> {
@@ -141,27 +156,36 @@ pub fn draw_share(
     let jobs: Vec<(usize, usize)> =
         (0..targets.len()).flat_map(of).filter(|&(_, number)| shard.has(number)).collect();
     let drawn =
-        each(&jobs, progress, |&(n, number)| guarded(|| run_sample(&targets[n], number, 1.0, progress)))?;
+        run_jobs(&jobs, progress, |&(n, number)| guarded(|| run_sample(&targets[n], number, 1.0, progress)))?;
     Ok(jobs.into_iter().map(|(n, _)| n).zip(drawn).collect())
 }
 
-/// Step of a sample [s]: the fixed step, or a fraction of the critical step of its own scene, and at most the step that
-/// resolves a landing.
+/// Longest step of a sample [s]: it resolves a landing.
+const LONGEST_STEP: f64 = 2e-3;
+/// Greatest step of a sample over the critical step of its own scene.
+const OF_CRITICAL_STEP: f64 = 0.55;
+/// Factor on the step of a sample where accuracy `reference` is asked for; draft and field use one step.
+const OF_REFERENCE: f64 = 0.25;
+/// Factor on the step of a sample where method `newmark` is asked for.
+const OF_NEWMARK: f64 = 0.25;
+
+/// Step of a sample [s]: the fixed step where there is one.
 fn step(compute: &ComputeSettings, scene: &Scene) -> f64 {
-    let level = if compute.accuracy == Accuracy::Reference { 0.25 } else { 1.0 };
-    let implicit = if compute.method == Method::Newmark { 0.25 } else { 1.0 };
-    compute.step.unwrap_or(implicit * level * 2e-3_f64.min(0.55 * scene.critical_step()))
+    let level = if compute.accuracy == Accuracy::Reference { OF_REFERENCE } else { 1.0 };
+    let implicit = if compute.method == Method::Newmark { OF_NEWMARK } else { 1.0 };
+    let usual = LONGEST_STEP.min(OF_CRITICAL_STEP * scene.critical_step());
+    compute.step.unwrap_or(implicit * level * usual)
 }
 
 /// Draws one sample and runs it, at a step shorter by the factor `finer`.
 fn run_sample(
-    target: &Target<'_>,
+    target: &ShotToSample<'_>,
     number: usize,
     finer: f64,
     progress: &Progress,
 ) -> Result<Sample, NoResult> {
-    let Target { case, shot, compute, sampling, .. } = *target;
-    let Drawn { scene, shot, inputs } = draw(case, shot, sampling.seed, number);
+    let ShotToSample { case, shot, compute, sampling, .. } = *target;
+    let RandomShot { scene, shot, inputs } = draw(case, shot, sampling.seed, number);
     // The run, and whether it failed or has no energy balance.
     let run = |step: f64| {
         let settings = case.settings(compute.method, step);
@@ -182,4 +206,16 @@ fn run_sample(
     let fine = if shows_nothing || is_audited { Some(run(step / AUDIT_FINER)?.0) } else { None };
     let best = fine.filter(|_| shows_nothing).unwrap_or(coarse);
     Ok(Sample { number, run: best, finer: fine.filter(|_| is_audited), inputs })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sample_that_panics_is_undecided_and_a_stop_stays_a_stop() {
+        let panicked = undecided_if_panicked(Err(NoResult::Panicked("why".to_owned())), 7).expect("a sample");
+        assert_eq!((panicked.number, panicked.run), (7, SampleRun::FAILED));
+        assert_eq!(undecided_if_panicked(Err(NoResult::Stopped), 7), Err(NoResult::Stopped));
+    }
 }

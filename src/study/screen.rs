@@ -1,13 +1,14 @@
 //! The verdict on a shot that is one of thousands: run at coarse steps first, and no finer than its verdict needs.
 //!
 //! A check begins at the step of the accuracy level and refines until the verdict is sure. A screen begins at 8 times the step
-//! of the field level, refines by [`error::RATIO`] until it has seen enough, and ends at the latest at the step at which a
-//! check begins. It does not look for rival peaks: the risk of what it passes is sampled. Where the step is fixed, or too few of the coarse runs succeed, the shot is checked instead.
+//! of the field level, refines by [`step_error::RATIO`] until it has seen enough, and ends at the latest at the step at which a
+//! check begins. Unlike a check it does not look for rival peaks ([`ladder`](super::ladder)). Where the step is fixed, or too few
+//! of the coarse runs succeed, the shot is checked instead.
 
 use super::batch::judge_shot;
 use super::ladder::peaks;
 use super::reason::{Reason, find_reasons};
-use super::{Case, ComputeSettings, Envelope, NoResult, Progress, error};
+use super::{Case, ComputeSettings, Envelope, NoResult, Progress, step_error};
 use crate::choice::Accuracy;
 use crate::outcome::Outcome;
 use crate::scene::Shot;
@@ -37,7 +38,7 @@ pub fn screen(
     }
     let last = compute.first_step(case);
     let field = ComputeSettings { accuracy: Accuracy::Field, step: None, ..*compute };
-    let mut step = field.first_step(case) * error::RATIO.powi(COARSER);
+    let mut step = field.first_step(case) * step_error::RATIO.powi(COARSER);
     let mut runs: Vec<Outcome> = Vec::new();
     loop {
         let is_last = step < 1.01 * last;
@@ -55,7 +56,7 @@ pub fn screen(
                 return Ok(envelope);
             }
         }
-        step /= error::RATIO;
+        step /= step_error::RATIO;
     }
 }
 

@@ -12,7 +12,7 @@ use itertools::Itertools;
 
 use super::batch::judge_shots;
 use super::confidence::Confidence;
-use super::sampling::{Sampling, Target, find_risks};
+use super::sampling::{Sampling, ShotToSample, find_risks};
 use super::{Bounded, Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress};
 use crate::plan::{Layout, Plan};
 use crate::ropes::{Rope, catalogue};
@@ -255,8 +255,9 @@ fn sample_hardest<'s>(
     let mut worst = SampledRisk { verdict: Verdict::Pass, samples: 0, failures: 0 };
     for (shot, planned) in shots {
         let planned = Some(planned);
-        let target = Target { case, shot, planned, compute: *compute, sampling: *sampling, drawn: &[] };
-        let (risks, partial) = find_risks(&[target], progress, &mut |_, _| {})?;
+        let target =
+            ShotToSample { case, shot, planned, compute: *compute, sampling: *sampling, precomputed: &[] };
+        let Found { value: risks, partial } = find_risks(&[target], progress, &mut |_, _| {})?;
         if partial {
             return Ok(None);
         }

@@ -5,7 +5,7 @@ use std::path::Path;
 use crossterm::event::{KeyCode, KeyEvent};
 use ratatui::layout::Position;
 
-use super::app::{App, Request, Target};
+use super::app::{App, ClickTarget, Request};
 use super::editor::Edit;
 use super::keymap::{Action, BINDINGS};
 use super::options::OptionState;
@@ -59,17 +59,17 @@ impl App {
         let hit = self.areas.iter().rev().find(|(area, _)| area.contains(at)).copied();
         let Some((area, target)) = hit else { return Request::None };
         match target {
-            Target::Act(action) => return self.act(action),
-            Target::Option(option) if option == self.selected => return self.act(Action::Open),
-            Target::Option(option) => self.selected = option,
-            Target::Sort(sort) => self.listing.sort_by(sort),
-            Target::Field(field) if field == self.editor.selected => return self.act(Action::Open),
-            Target::Field(field) => {
+            ClickTarget::Act(action) => return self.act(action),
+            ClickTarget::Option(option) if option == self.selected => return self.act(Action::Open),
+            ClickTarget::Option(option) => self.selected = option,
+            ClickTarget::Sort(sort) => self.listing.sort_by(sort),
+            ClickTarget::Field(field) if field == self.editor.selected => return self.act(Action::Open),
+            ClickTarget::Field(field) => {
                 return self.select_field(field as isize - self.editor.selected as isize);
             }
-            Target::Lines(_) => {}
-            Target::Study(kind) => self.studies.show(kind),
-            Target::Time(end) => {
+            ClickTarget::Lines(_) => {}
+            ClickTarget::Study(kind) => self.studies.show(kind),
+            ClickTarget::Time(end) => {
                 let share = f64::from(at.x - area.x) / f64::from(area.width.saturating_sub(1).max(1));
                 self.player.seek(share * end, end);
             }

@@ -21,7 +21,7 @@ use crate::jobs::{News, StudyKind};
 use crate::plan::{Plan, PlanSource};
 use crate::study::judgement::Judgement;
 use crate::study::risk::Risk;
-use crate::study::{Case, ComputeSettings, NoResult, error};
+use crate::study::{Case, ComputeSettings, NoResult, step_error};
 
 /// What the event loop must do after an update.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -31,7 +31,7 @@ pub enum Request {
     /// Check every option again.
     Check,
     /// Check every option of another plan, and end the studies of the old plan.
-    Replaced,
+    CheckNewPlan,
     /// Begin a study.
     Study(StudyKind),
     /// End a study.
@@ -54,7 +54,7 @@ pub enum Request {
 
 /// Effect of a click on an area of the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Target {
+pub enum ClickTarget {
     /// The same as a key.
     Act(Action),
     /// Selects an option; opens the option that is selected already.
@@ -72,7 +72,7 @@ pub enum Target {
 }
 
 /// Areas of the screen and what a click on each does; of several at a point the last counts.
-pub type Areas = Vec<(Rect, Target)>;
+pub type Areas = Vec<(Rect, ClickTarget)>;
 
 /// Everything that the screen shows.
 #[derive(Clone, Debug)]
@@ -203,7 +203,7 @@ impl App {
     pub fn note_drawn(&mut self, areas: Areas) {
         let scroll = if self.help { &mut self.help_scroll } else { &mut self.studies.scroll };
         for (_, target) in &areas {
-            if let Target::Lines(most) = target {
+            if let ClickTarget::Lines(most) = target {
                 *scroll = (*scroll).min(*most);
             }
         }
@@ -229,7 +229,7 @@ impl App {
         self.listing.baseline = None;
         self.studies.forget();
         self.player.option = None;
-        Request::Replaced
+        Request::CheckNewPlan
     }
 
     /// Shows the plan of the editor's text.
@@ -345,13 +345,13 @@ impl App {
         }
     }
 
-    /// Share done of the least number of runs: each run costs [`error::RATIO`] times the run before.
+    /// Share done of the least number of runs: each run costs [`step_error::RATIO`] times the run before.
     fn share_done(&self, option: usize, runs: usize, time: f64) -> f64 {
         let firings = &self.case.shots[option].firings;
         let last = firings.last().map_or(0.0, |firing| firing.at);
         let end = self.case.plan.simulation.duration_s.unwrap_or(last + USUAL_FLIGHT);
-        let cost = |runs: f64| error::RATIO.powf(runs) - 1.0;
-        let whole = cost(1.0 + error::NEIGHBOURS as f64);
+        let cost = |runs: f64| step_error::RATIO.powf(runs) - 1.0;
+        let whole = cost(1.0 + step_error::NEIGHBOURS as f64);
         let (before, after) = (cost(runs as f64), cost(runs as f64 + 1.0));
         ((before + (after - before) * (time / end).clamp(0.0, 1.0)) / whole).min(0.99)
     }

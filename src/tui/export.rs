@@ -10,7 +10,7 @@ use crate::file;
 use crate::jobs::{StudyKind, StudyResult};
 use crate::report::{self, charts, html};
 use crate::scene::fire_at_s;
-use crate::study::check_all::Results;
+use crate::study::check_all::OptionResults;
 use crate::study::sampling::Sampling;
 
 /// Writes the contents of the screen to a new file, in the format of the file's ending; or says why not.
@@ -75,8 +75,8 @@ fn finished(app: &App) -> Result<&ShownStudy, String> {
     }
 }
 
-/// Results of all options, once every option has one, with all its samples.
-fn results(app: &App) -> Result<Results, String> {
+/// OptionResults of all options, once every option has one, with all its samples.
+fn results(app: &App) -> Result<OptionResults, String> {
     let result = |state: &OptionState| match state {
         OptionState::Done { sampling: true, .. } => {
             Err("not all options have all their samples yet".to_owned())

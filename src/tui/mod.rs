@@ -153,7 +153,7 @@ impl Session {
         match request {
             Request::None | Request::Quit | Request::Suspend => {}
             Request::Check => self.jobs.check(&self.app.case, self.app.compute),
-            Request::Replaced => {
+            Request::CheckNewPlan => {
                 StudyKind::ALL.into_iter().for_each(|kind| self.jobs.cancel(kind));
                 self.jobs.check(&self.app.case, self.app.compute);
             }

@@ -11,7 +11,7 @@ mod regimes;
 use std::ops::ControlFlow;
 
 use shelter::choice::Accuracy;
-use shelter::study::error::{NEIGHBOURS, PAIRS};
+use shelter::study::step_error::{NEIGHBOURS, PAIRS};
 
 use self::compare::{compare, median, within};
 use self::regimes::Regime;

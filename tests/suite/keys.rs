@@ -212,7 +212,7 @@ fn the_order_editor_uses_the_keys_of_the_configuration() {
     assert_eq!(names(&app), ["1", "2", "3"], "keys without an action do nothing");
     press(&mut app, "nw");
     assert_eq!(names(&app), ["2", "1", "3"]);
-    assert_eq!(key(&mut app, KeyCode::Enter), Request::Replaced);
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::CheckNewPlan);
     assert_eq!(app.case.plan.delays[2].timing.fire_at_ms(), [20.0, 0.0, 40.0]);
 }
 

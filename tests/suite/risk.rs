@@ -8,14 +8,14 @@ use shelter::plan::{DelayScatter, Plan, Uncertainty};
 use shelter::scene::{Scene, Shot};
 use shelter::simulation::{Model, Settings};
 use shelter::study::check_all::{check_all, find_launch_margins, judge_drawn};
-use shelter::study::draw::{Drawn, draw};
+use shelter::study::influence::input_shares;
 use shelter::study::judgement::Judgement;
 use shelter::study::margin::LaunchMargin;
 use shelter::study::merge::OptionSample;
+use shelter::study::random_shot::{RandomShot, draw};
 use shelter::study::risk::Risk;
 use shelter::study::risk_summary::sample_shots;
-use shelter::study::sampling::{Sampling, Target, draw_share, find_risks};
-use shelter::study::shares::input_shares;
+use shelter::study::sampling::{Sampling, ShotToSample, draw_share, find_risks};
 use shelter::study::{Case, ComputeSettings, Envelope, Progress, Shard, thread_pool};
 use shelter::verdict::{Quantity, Verdict};
 
@@ -62,9 +62,9 @@ delay = [{{ name = "20", interval_ms = 20 }}, {{ name = "60", interval_ms = 60 }
 
 fn risk_of(case: &Case, sampling: &Sampling) -> Risk {
     let (shot, compute) = (&case.shots[0], ComputeSettings::of(&case.plan));
-    let target = Target { case, shot, planned: None, compute, sampling: *sampling, drawn: &[] };
+    let target = ShotToSample { case, shot, planned: None, compute, sampling: *sampling, precomputed: &[] };
     let found = find_risks(&[target], &Progress::default(), &mut |_, _| {});
-    found.expect("a result").0.remove(0)
+    found.expect("a result").value.remove(0)
 }
 
 /// Launch velocity at which a lone tire just reaches `height` [m].
@@ -139,17 +139,15 @@ fn the_launch_margin_is_the_room_below_the_limit() {
         let case = lone(height, 1.0);
         let cases = [(&case, ComputeSettings::of(&case.plan))];
         let mut results = check_all(&cases, None, &Progress::default()).expect("a result").value;
-        assert!(find_launch_margins(&cases, &mut results, &Progress::default()).expect("a result"));
+        let found = find_launch_margins(&cases, &mut results, &Progress::default()).expect("a result");
+        assert!(!found.partial);
         results[0].remove(0).expect("a result").launch_margin.expect("a margin")
     };
     assert_eq!(
         margin(6.27_f64.powi(2) / (2.0 * GRAVITY)),
-        LaunchMargin::UpTo { share: 0.04, then: Verdict::Fail }
+        LaunchMargin::UpTo { rise: 0.04, then: Verdict::Fail }
     );
-    assert_eq!(
-        margin(5.9_f64.powi(2) / (2.0 * GRAVITY)),
-        LaunchMargin::UpTo { share: 0.0, then: Verdict::Fail }
-    );
+    assert_eq!(margin(5.9_f64.powi(2) / (2.0 * GRAVITY)), LaunchMargin::NotPassing);
     assert_eq!(margin(12.1_f64.powi(2) / (2.0 * GRAVITY)), LaunchMargin::Wide);
 }
 
@@ -246,7 +244,14 @@ fn shares_that_the_audit_contradicts_are_sampled_anew() {
     let case = too_hard_for_samples();
     let compute = ComputeSettings::of(&case.plan);
     let (sampling, progress) = (Sampling::exactly(600, 1), Progress::default());
-    let target = Target { case: &case, shot: &case.shots[0], planned: None, compute, sampling, drawn: &[] };
+    let target = ShotToSample {
+        case: &case,
+        shot: &case.shots[0],
+        planned: None,
+        compute,
+        sampling,
+        precomputed: &[],
+    };
     let share = |index| draw_share(&[target], Shard { index, of: 2 }, &progress).expect("samples");
     let mut drawn: Vec<OptionSample> = [share(0), share(1)]
         .into_iter()
@@ -303,7 +308,7 @@ fn draws_have_the_moments_asked_for() {
     ];
     let mut values = names.map(|_| Vec::new());
     for number in 0..20_000 {
-        let Drawn { scene: drawn, shot, inputs } = draw(&case, nominal, 7, number);
+        let RandomShot { scene: drawn, shot, inputs } = draw(&case, nominal, 7, number);
         let first = shot.firings.iter().find(|f| f.tire == nominal.firings[0].tire).expect("the first hole");
         let same = shot.firings.iter().find(|firing| firing.tire == hole.tire).expect("the same hole");
         let heavier = drawn.mass[hole.tire] / scene.mass[hole.tire];
@@ -355,7 +360,7 @@ fn draws_have_the_moments_asked_for() {
 fn draws_are_the_same_for_every_option_and_accuracy() {
     let case = rows("[uncertainty]\nlaunch_cv_percent = 5\nlaunch_tilt_deg = 2\nin_hole_delay_ms = 500\n");
     let drawn = |option: usize, seed: u64, number: usize| {
-        let Drawn { scene, shot, inputs } = draw(&case, &case.shots[option], seed, number);
+        let RandomShot { scene, shot, inputs } = draw(&case, &case.shots[option], seed, number);
         let mut launches: Vec<_> =
             shot.firings.iter().map(|f| (f.tire, f.launch.map(f64::to_bits))).collect();
         launches.sort_by_key(|(tire, _)| *tire);
@@ -379,7 +384,7 @@ fn a_variant_runs_like_a_scene_laid_out_with_its_numbers() {
     for more in ["", "[uncertainty]\nlaunch_cv_percent = 0\ntire_mass_cv_percent = 0\n"] {
         let case = rows(more);
         for number in 0..3 {
-            let Drawn { scene, shot, .. } = draw(&case, &case.shots[0], 1, number);
+            let RandomShot { scene, shot, .. } = draw(&case, &case.shots[0], 1, number);
             for method in METHODS {
                 let laid_out = run_variant(&Model::new(scene.clone()), &scene, &shot, method);
                 let variant = run_variant(&base.model, &scene, &shot, method);
@@ -400,7 +405,7 @@ fn what_is_known_exactly_is_not_changed() {
         "[uncertainty]\ndelay_sd_ms = 0\nlaunch_cv_percent = 0\nlaunch_common_percent = 0\nfriction = [0.5, 0.5]\n\
          slack_percent = [2, 2]\naxial_stiffness_percent = [0, 0]\ntire_mass_cv_percent = 0\n",
     );
-    let Drawn { scene, shot, .. } = draw(&case, &case.shots[1], 1, 3);
+    let RandomShot { scene, shot, .. } = draw(&case, &case.shots[1], 1, 3);
     for method in METHODS {
         let exact = run_variant(&case.model, case.scene(), &case.shots[1], method);
         assert_eq!(run_variant(&case.model, &scene, &shot, method), exact);

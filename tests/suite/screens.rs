@@ -67,10 +67,7 @@ fn samples_stream_in_and_decide() {
     let sampling = line(&app, "9 ms");
     assert!(sampling.contains("? OPEN") && sampling.contains("200…"), "{sampling}");
     app.take_news(news(&app, 500, false));
-    app.take_news(News::Margin {
-        option: 1,
-        margin: LaunchMargin::UpTo { share: 0.04, then: Verdict::Fail },
-    });
+    app.take_news(News::Margin { option: 1, margin: LaunchMargin::UpTo { rise: 0.04, then: Verdict::Fail } });
     assert!(line(&app, "9 ms").contains("✓ PASS") && !line(&app, "9 ms").contains('…'));
     app.selected = 1;
     let screen = text(&draw(&app, 120, 36));

@@ -11,7 +11,7 @@ use shelter::study::check::{check, check_shot};
 use shelter::study::check_all::check_all;
 use shelter::study::orders::{Orders, Tried, orders, rank, refine};
 use shelter::study::risk::Risk;
-use shelter::study::sampling::{Sampling, Target, find_risks};
+use shelter::study::sampling::{Sampling, ShotToSample, find_risks};
 use shelter::study::size::{Demand, size};
 use shelter::study::swaps::swaps;
 use shelter::study::sweep::{GAP, Point, Sweep, sweep};
@@ -122,9 +122,10 @@ fn risky_sweep(case: &Case) -> (Sweep, Sampling, ComputeSettings) {
 /// The samples of one interval, drawn alone.
 fn risk_at(case: &Case, interval: f64, sampling: &Sampling, compute: ComputeSettings) -> Risk {
     let shot = case.shot(&[0, 1, 2], interval);
-    let target = Target { case, shot: &shot, planned: None, compute, sampling: *sampling, drawn: &[] };
+    let target =
+        ShotToSample { case, shot: &shot, planned: None, compute, sampling: *sampling, precomputed: &[] };
     let found = find_risks(&[target], &Progress::default(), &mut |_, _| {});
-    found.expect("samples").0.remove(0)
+    found.expect("samples").value.remove(0)
 }
 
 /// Windows of accepted risk, against the samples of each interval drawn alone.
@@ -203,8 +204,9 @@ fn the_ends_of_the_ranking_are_sampled() {
         };
         let sampling = if n == 71 { sampling } else { sampling.first_look() };
         let shot = case.shot(&tried.order, tried.interval);
-        let target = Target { case: &case, shot: &shot, planned: None, compute, sampling, drawn: &[] };
-        let (risks, _) = find_risks(&[target], &progress, &mut |_, _| {}).expect("samples");
+        let target =
+            ShotToSample { case: &case, shot: &shot, planned: None, compute, sampling, precomputed: &[] };
+        let risks = find_risks(&[target], &progress, &mut |_, _| {}).expect("samples").value;
         assert_eq!(risk.confidence, risks[0].confidence);
         assert_eq!(ranked.verdict_on(n), tried.envelope.verdict.max(risks[0].verdict()));
     }

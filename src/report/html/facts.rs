@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use crate::choice::OnOverload;
 use crate::plan::{DelayScatter, GroundSpec, Hole, Launch, LaunchTargets, Layout, Plan, Uncertainty};
 use crate::report::limits::limits;
-use crate::study::check_all::Results;
+use crate::study::check_all::OptionResults;
 use crate::study::sampling::Sampling;
 use crate::study::{Case, ComputeSettings};
 
@@ -138,7 +138,7 @@ fn quoted(path: &str) -> String {
 }
 
 /// The command that gives these results.
-pub fn command(case: &Case, results: &Results, sampling: Option<&Sampling>) -> String {
+pub fn command(case: &Case, results: &OptionResults, sampling: Option<&Sampling>) -> String {
     let mut command = format!("shelter check {}", quoted(&case.source.path));
     let (asked, of_plan) = (
         results.iter().flatten().next().map(|judged| judged.nominal.compute),

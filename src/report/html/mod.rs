@@ -19,7 +19,7 @@ use super::palette::Role;
 use super::{charts, check, explain};
 use crate::scene::fire_at_s;
 use crate::study::Case;
-use crate::study::check_all::Results;
+use crate::study::check_all::OptionResults;
 use crate::study::sampling::Sampling;
 use crate::verdict::Verdict;
 
@@ -48,7 +48,7 @@ const ASSUMPTIONS: &[&str] = &[
 /// The page of one plan; `date` is printed as given.
 pub fn page(
     case: &Case,
-    results: &Results,
+    results: &OptionResults,
     partial: bool,
     sampling: Option<&Sampling>,
     date: &str,

@@ -10,7 +10,7 @@ use crate::report::check::{judged_by, texts};
 use crate::report::no_result;
 use crate::scene::{Scene, TireId, fire_at_s};
 use crate::study::Case;
-use crate::study::check_all::{Results, verdict};
+use crate::study::check_all::{OptionResults, verdict};
 use crate::study::judgement::Judgement;
 use crate::study::margin::LaunchMargin;
 use crate::study::risk::Risk;
@@ -170,7 +170,8 @@ impl OptionValues {
             failure_probability: risk.map(failures),
             any_cable_breaks: risk.map(|risk| risk.breaks.interval.into()),
             launch_margin: match judged.launch_margin {
-                Some(LaunchMargin::UpTo { share, .. }) => Some(share),
+                Some(LaunchMargin::UpTo { rise, .. }) => Some(rise),
+                Some(LaunchMargin::NotPassing) => Some(0.0),
                 // Null would say that nothing fails: a margin that is not known is none.
                 None if risk.is_some() => Some(0.0),
                 Some(LaunchMargin::Wide) | None => None,
@@ -195,7 +196,7 @@ impl OptionValues {
 impl CheckDocument {
     /// The document of the results of one plan, which are partial where the time was up; with `any` one passing option is
     /// enough.
-    pub fn new(case: &Case, results: &Results, any: bool, partial: bool) -> Self {
+    pub fn new(case: &Case, results: &OptionResults, any: bool, partial: bool) -> Self {
         let (plan, scene) = (&case.plan, case.scene());
         let method = results
             .iter()

@@ -4,11 +4,11 @@ use serde::Serialize;
 
 use super::Limits;
 use crate::report::risk::swap_warning;
-use crate::study::check_all::{Results, verdict};
+use crate::study::check_all::{OptionResults, verdict};
+use crate::study::influence;
 use crate::study::judgement::Judgement;
 use crate::study::risk::Risk;
 use crate::study::sampling::Sampling;
-use crate::study::shares;
 use crate::study::swaps::Swap;
 use crate::study::{Case, NoResult};
 use crate::verdict::{Limits as Judged, Quantity, Verdict};
@@ -67,7 +67,7 @@ pub struct Share {
 
 /// The shares of the inputs, largest first; `None` for too few samples.
 pub fn input_shares(risk: &Risk, limits: &Judged) -> Option<Vec<Share>> {
-    let all = shares::input_shares(risk, limits)?.into_iter();
+    let all = influence::input_shares(risk, limits)?.into_iter();
     Some(all.map(|(input, share)| Share { name: input.name(), share }).collect())
 }
 
@@ -92,7 +92,13 @@ impl OptionResult {
 
 impl RiskDocument {
     /// The document of the samples of all options, which is partial where the time was up.
-    pub fn new(case: &Case, results: &Results, sampling: &Sampling, swaps: &[Swap], partial: bool) -> Self {
+    pub fn new(
+        case: &Case,
+        results: &OptionResults,
+        sampling: &Sampling,
+        swaps: &[Swap],
+        partial: bool,
+    ) -> Self {
         let options = case.plan.delays.iter().zip(results);
         Self {
             schema: "shelter.risk/1",

@@ -15,13 +15,13 @@
 //! have no damping.
 
 mod kick;
-mod mirror;
+mod reduction;
 mod stepper;
 mod tension;
 
 use std::sync::{Arc, OnceLock};
 
-use self::mirror::Quotient;
+use self::reduction::Reduction;
 use self::stepper::Stepper;
 use super::cable::Blocks;
 
@@ -42,7 +42,7 @@ pub struct VerletCache {
 /// Tires and cables that are integrated, laid out for the stepping loop; the same for every run.
 #[derive(Debug)]
 pub struct Part {
-    quotient: Arc<Quotient>,
+    reduction: Arc<Reduction>,
     blocks: Blocks,
     ties: Arc<Ties>,
     /// Mass of each tire × number of tires of the whole scene that the tire stands for [kg] (`n_tires` + [`LANES`]).
@@ -92,7 +92,7 @@ impl VerletCache {
     /// Number of tires that are integrated for a shot: a half or a quarter of the scene's where scene and shot are their own
     /// mirror image.
     pub fn modelled_tires(&self, scene: &Scene, shot: &Shot) -> usize {
-        self.part(scene, shot).quotient.modelled()
+        self.part(scene, shot).reduction.modelled()
     }
 }
 
@@ -119,20 +119,21 @@ fn shared_planes<'s>(scene: &'s Scene, shot: &Shot) -> Vec<&'s Mirror> {
 
 impl Part {
     fn new(scene: &Scene, planes: &[&Mirror]) -> Self {
-        let (quotient, part) = Quotient::new(scene, planes);
-        let blocks = Blocks::new(&part, &quotient.cable_weight);
+        let (reduction, part) = Reduction::new(scene, planes);
+        let blocks = Blocks::new(&part, &reduction.cable_weight);
         let ties = Ties::of_blocks(&blocks, part.mass.len());
-        Self::with_masses(scene, quotient.into(), blocks, ties.into())
+        Self::with_masses(scene, reduction.into(), blocks, ties.into())
     }
 
     /// The same layout with the numbers of `variant`.
     fn variant(&self, variant: &Scene) -> Self {
-        let blocks = self.blocks.with_numbers(|cable| &variant.cables[self.quotient.cable(cable)]);
-        Self::with_masses(variant, Arc::clone(&self.quotient), blocks, Arc::clone(&self.ties))
+        let blocks = self.blocks.with_numbers(|cable| &variant.cables[self.reduction.cable(cable)]);
+        Self::with_masses(variant, Arc::clone(&self.reduction), blocks, Arc::clone(&self.ties))
     }
 
-    fn with_masses(scene: &Scene, quotient: Arc<Quotient>, blocks: Blocks, ties: Arc<Ties>) -> Self {
-        let weighted = || quotient.weight.iter().enumerate().map(|(n, &w)| (scene.mass[quotient.tire(n)], w));
+    fn with_masses(scene: &Scene, reduction: Arc<Reduction>, blocks: Blocks, ties: Arc<Ties>) -> Self {
+        let weighted =
+            || reduction.weight.iter().enumerate().map(|(n, &w)| (scene.mass[reduction.tire(n)], w));
         // Spare lanes behind the last tire have no energy.
         let spare = |value: f64| std::iter::repeat_n(value, LANES);
         // Images are not kicked, because only some of their cables are modelled.
@@ -143,7 +144,7 @@ impl Part {
             critical_step: scene.critical_step(),
             blocks,
             ties,
-            quotient,
+            reduction,
         }
     }
 }

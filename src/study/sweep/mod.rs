@@ -5,7 +5,7 @@
 //! 2. The interval in the middle of a *gap* between two neighbours is tried, too, where the gap is wider than [`GAP`] and a
 //!    neighbour passes, where only one neighbour passes, or where both pass but the gap is not *calm*. Gaps are halved down
 //!    to [`NARROWEST`].
-//! 3. A gap of width w is calm where u + s w ≤ 1. u is the greater upper bound (value + error) of the utilization at its two
+//! 3. A gap of width w is calm where u + s w ≤ 1. u is the greater upper bound (value + 1.5 errors) of the utilization at its two
 //!    neighbours; s is the steepest change of utilization with the interval in this gap and the one on either side.
 //! 4. A window is a row of passing intervals with calm gaps no wider than [`GAP`]. Its ends are intervals that were tried.
 //!
@@ -17,7 +17,7 @@ mod accepted;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::batch::{envelopes, judge_shot, part_of_envelopes};
+use super::batch::{envelopes, envelopes_or_unknown, judge_shot};
 use super::risk_summary::RiskSummary;
 use super::sampling::Sampling;
 use super::screen::{is_sure, screen};
@@ -140,7 +140,7 @@ fn sweep_nominal(
         // Of the points between points that are known, all may fail.
         let judged = match tried.is_empty() {
             true => envelopes(&jobs, progress, work)?,
-            false => part_of_envelopes(&jobs, progress, work)?,
+            false => envelopes_or_unknown(&jobs, progress, work)?,
         };
         // Out of time: gaps keep the width they have, and windows end there.
         let partial = judged.contains(&None);

@@ -19,7 +19,7 @@ use super::parts::color;
 use crate::jobs::StudyKind;
 use crate::report::no_result;
 use crate::study::flight::Flight;
-use crate::tui::app::{App, Areas, Target};
+use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::studies::StudyState;
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
@@ -183,5 +183,5 @@ fn draw_bar(app: &App, flight: &Flight, frame: &mut Frame, area: Rect, areas: &m
         Span::styled("─".repeat(cells.saturating_sub(at + 1)), app.theme.quiet()),
     ]);
     frame.render_widget(line, bar);
-    areas.push((bar, Target::Time(flight.end())));
+    areas.push((bar, ClickTarget::Time(flight.end())));
 }

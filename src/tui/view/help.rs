@@ -5,7 +5,7 @@ use ratatui::layout::{Constraint, Flex, Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Clear, Padding, Paragraph};
 
-use crate::tui::app::{App, Areas, Target};
+use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::{Action, BINDINGS, Binding};
 
 const WORDS: &[(&str, &str)] = &[
@@ -56,10 +56,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     frame.render_widget(Clear, help);
     frame.render_widget(block, help);
     let parts = Layout::horizontal(vec![Constraint::Fill(1); columns]).split(inside);
-    *areas = vec![(area, Target::Act(Action::Help))];
+    *areas = vec![(area, ClickTarget::Act(Action::Help))];
     for (part, lines) in parts.iter().zip(lines.chunks(rows)) {
         let over = (lines.len() as u16).saturating_sub(part.height);
-        areas.push((Rect::ZERO, Target::Lines(over)));
+        areas.push((Rect::ZERO, ClickTarget::Lines(over)));
         frame.render_widget(Paragraph::new(lines.to_vec()).scroll((app.help_scroll.min(over), 0)), *part);
     }
 }

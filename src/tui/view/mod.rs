@@ -27,7 +27,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph, Wrap};
 
 use self::parts::draw_row;
-use super::app::{App, Areas, Target};
+use super::app::{App, Areas, ClickTarget};
 use super::keymap::{Action, BINDINGS};
 use super::options::OptionState;
 use super::prompt::{Prompt, Purpose};
@@ -96,9 +96,9 @@ fn draw_tabs(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     };
     let screens = Screen::ALL.into_iter().map(|screen| {
         let action = Action::Show(screen);
-        (tab(app.keymap.label(action, false), screen.name(), screen == app.screen), Target::Act(action))
+        (tab(app.keymap.label(action, false), screen.name(), screen == app.screen), ClickTarget::Act(action))
     });
-    let help = (tab(app.keymap.label(Action::Help, false), "Help", app.help), Target::Act(Action::Help));
+    let help = (tab(app.keymap.label(Action::Help, false), "Help", app.help), ClickTarget::Act(Action::Help));
     draw_row(screens.chain([help]), frame, area, areas);
 }
 
@@ -156,7 +156,7 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let label = |action: Action, short: &'static str| {
         let key = Span::styled(format!(" {} ", app.keymap.label(action, false)), app.theme.title());
         let line = Line::from(vec![key, Span::styled(format!("{short} "), app.theme.quiet())]);
-        (line, Target::Act(action))
+        (line, ClickTarget::Act(action))
     };
     let end = [label(Action::Help, "help"), label(Action::Quit, "quit")];
     let width: usize = end.iter().map(|(line, _)| line.width()).sum();

@@ -6,12 +6,12 @@ use ratatui::style::{Color, Style};
 use ratatui::text::Line;
 use ratatui::widgets::{Gauge, Paragraph, Wrap};
 
-use crate::tui::app::{App, Areas, Target};
+use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 
 /// Draws labels side by side, each an area to click; leaves out the labels that do not fit.
 pub fn draw_row<'l>(
-    labels: impl IntoIterator<Item = (Line<'l>, Target)>,
+    labels: impl IntoIterator<Item = (Line<'l>, ClickTarget)>,
     frame: &mut Frame,
     area: Rect,
     areas: &mut Areas,

@@ -11,7 +11,7 @@ use ratatui::widgets::{Block, Borders, Clear, List, ListState, Paragraph, Wrap};
 use super::parts::color;
 use super::table;
 use crate::scene::fire_at_s;
-use crate::tui::app::{App, Areas, Target};
+use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::editor::Order;
 use crate::tui::keymap::Action;
 use crate::units;
@@ -60,7 +60,7 @@ fn draw_fields(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let shown = (state.offset()..editor.fields.len()).take(usize::from(inside.height));
     for (y, field) in (inside.y..).zip(shown) {
         let row = Rect { y, height: 1, ..inside };
-        areas.push((row, Target::Field(field)));
+        areas.push((row, ClickTarget::Field(field)));
         if field == editor.selected {
             if let Some(input) = &editor.input {
                 let x = inside.x + (width + 3 + input.visual_cursor()) as u16;

@@ -18,7 +18,7 @@ use super::report::lines;
 use crate::jobs::StudyKind;
 use crate::report::explain::compute_label;
 use crate::report::no_result;
-use crate::tui::app::{App, Areas, Target};
+use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 use crate::tui::studies::{ShownStudy, StudyState};
 
@@ -54,7 +54,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         let name = Span::styled(format!(" {} ", about(kind).0), style);
         Line::from(vec![name, Span::styled(format!("{} ", app.studies.state(kind)), app.theme.quiet())])
     };
-    let tabs_drawn = StudyKind::OF_PLAN.map(|kind| (tab(kind), Target::Study(kind)));
+    let tabs_drawn = StudyKind::OF_PLAN.map(|kind| (tab(kind), ClickTarget::Study(kind)));
     draw_row(tabs_drawn, frame, tabs, areas);
     let kind = app.studies.shown;
     let settings = app.studies.finished(kind).map(|finished| settings(app, finished));
@@ -107,7 +107,7 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
     let height = (all.len() as u16).min(most);
     let [text, pictures] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(area);
     let beyond = (all.len() as u16).saturating_sub(height);
-    areas.push((text, Target::Lines(beyond)));
+    areas.push((text, ClickTarget::Lines(beyond)));
     let scrolled = usize::from(app.studies.scroll.min(beyond));
     frame.render_widget(Paragraph::new(all.split_off(scrolled)), text);
     chart::draw_all(app, &charts, frame, pictures);

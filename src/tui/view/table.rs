@@ -10,7 +10,7 @@ use crate::report::spark::sparkline;
 use crate::study::check::Checked;
 use crate::study::judgement::Judgement;
 use crate::study::risk::Risk;
-use crate::tui::app::{App, Areas, Target};
+use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::options::OptionState;
 use crate::tui::options::SortBy;
 use crate::tui::theme;
@@ -171,12 +171,12 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     frame.render_stateful_widget(table, area, &mut state);
     let mut x = area.x;
     for (_, sort, width) in heads {
-        areas.push((Rect { x, width, height: 1, ..area }, Target::Sort(sort)));
+        areas.push((Rect { x, width, height: 1, ..area }, ClickTarget::Sort(sort)));
         x += width + 1;
     }
     let shown = listed.iter().skip(state.offset()).take(usize::from(area.height.saturating_sub(1)));
     for (y, &option) in (area.y + 1..).zip(shown) {
-        areas.push((Rect { y, height: 1, ..area }, Target::Option(option)));
+        areas.push((Rect { y, height: 1, ..area }, ClickTarget::Option(option)));
     }
     if listed.is_empty() && area.height > 1 {
         let none = format!("no option has '{}' in its name or verdict; Esc shows all", app.listing.filter);

@@ -5,7 +5,7 @@ use pulp::Simd;
 use super::events::{Events, Integrated, State};
 use super::{StepTotals, Stepper};
 use crate::simulation::pack::{LANES, Wide};
-use crate::simulation::verlet::mirror::Image;
+use crate::simulation::verlet::reduction::Image;
 
 /// Second pass; compiled for each instruction set and chosen at run time.
 /// `SLOPED`: the ground slopes.
@@ -96,7 +96,7 @@ impl Stepper<'_> {
     /// Images have no velocity, so that they do not drift.
     pub(super) fn copy_images(&mut self) {
         let (u, v) = (self.u.slices_mut(), self.v.slices_mut());
-        for &Image { to, from, sign } in &self.part.quotient.images {
+        for &Image { to, from, sign } in &self.part.reduction.images {
             let mut moved = false;
             for c in 0..3 {
                 let value = sign[c] * u[c][from];
@@ -113,7 +113,7 @@ impl Stepper<'_> {
     /// Gives images the reflected velocities of their kept tires, until the next [`Self::copy_images`].
     pub(super) fn copy_velocities(&mut self) {
         let v = self.v.slices_mut();
-        for &Image { to, from, sign } in &self.part.quotient.images {
+        for &Image { to, from, sign } in &self.part.reduction.images {
             for c in 0..3 {
                 v[c][to] = sign[c] * v[c][from];
             }

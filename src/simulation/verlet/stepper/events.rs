@@ -120,7 +120,7 @@ impl Events<'_> {
             let velocity = 0.5 * (vector(alone.v) + vector(kicked.v));
             let free = vector(alone.f) * inverse + self.scene.gravity();
             if displacement.z > self.record.height.value {
-                let index = self.part.quotient.tire(tire);
+                let index = self.part.reduction.tire(tire);
                 let sample = Peak { value: displacement.z, at: self.now, index };
                 self.record.note_height(sample, velocity.z, free.z);
             }
@@ -145,7 +145,7 @@ impl Events<'_> {
         let last = motion.integrate(h, firings.iter().map(|due| (due.after, due.launch)));
         let velocity = motion.velocity - last * (0.5 * h);
         let (height, until) = motion.top;
-        let index = self.part.quotient.tire(tire);
+        let index = self.part.reduction.tire(tire);
         self.record.note_top(Peak { value: height, at: self.now + until, index });
         self.totals.height[0] = self.totals.height[0].max(height);
         self.totals.motion[0] = self.totals.motion[0].max(velocity.amax()).max(motion.displacement.z);

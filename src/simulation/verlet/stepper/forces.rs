@@ -3,7 +3,7 @@
 use pulp::Simd;
 use rustc_hash::FxHashSet;
 
-use super::{Sample, StepTotals, Stepper};
+use super::{PeakCable, StepTotals, Stepper};
 use crate::outcome::{Broken, Peak};
 use crate::simulation::pack::{LANES, Wide};
 
@@ -65,10 +65,10 @@ impl Stepper<'_> {
         for slot in 0..block.len {
             let force = self.force_over_strength(n, slot);
             if force > self.record.force.value {
-                let index = self.part.quotient.cable(self.part.blocks.cable(n, slot));
+                let index = self.part.reduction.cable(self.part.blocks.cable(n, slot));
                 self.record.force = Peak { value: force, at: self.clock.now(), index };
                 let before = self.stretch_over_strength(n, slot, -self.step);
-                self.sampled = Some(Sample { block: n, slot, before });
+                self.sampled = Some(PeakCable { block: n, slot, before });
             }
         }
     }
@@ -101,14 +101,14 @@ impl Stepper<'_> {
         }
         // Two cables of the part may be images of each other; each of the two breaks by itself.
         let mut known: FxHashSet<usize> = self.record.broken.iter().map(|broken| broken.cable).collect();
-        let all = self.part.quotient.cables_with_images(self.scene, &broken);
+        let all = self.part.reduction.cables_with_images(self.scene, &broken);
         let new = all.into_iter().filter(|&cable| known.insert(cable));
         self.record.broken.extend(new.map(|cable| Broken { at, cable }));
     }
 
     /// Moves the greatest force to the top of the parabola through the samples around it, one step after it was sampled.
     fn interpolate_peak(&mut self) {
-        if let Some(Sample { block, slot, before }) = self.sampled.take() {
+        if let Some(PeakCable { block, slot, before }) = self.sampled.take() {
             let after = self.stretch_over_strength(block, slot, 0.0);
             self.record.interpolate_force(before, after);
         }
@@ -122,7 +122,7 @@ impl Stepper<'_> {
 
     /// Strength of the cable in a slot of a block.
     fn strength(&self, block: usize, slot: usize) -> f64 {
-        self.scene.strength(self.part.quotient.cable(self.part.blocks.cable(block, slot)))
+        self.scene.strength(self.part.reduction.cable(self.part.blocks.cable(block, slot)))
     }
 
     /// k (L − L0) over strength of the cable in a slot of a block, its tires moved on over the time `ahead` [s] at their

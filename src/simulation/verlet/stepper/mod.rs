@@ -33,7 +33,7 @@ struct DueFiring {
 
 /// Cable in which the greatest force was sampled.
 #[derive(Clone, Copy, Debug)]
-struct Sample {
+struct PeakCable {
     block: usize,
     slot: usize,
     /// k (L − L0) over strength of the cable one step earlier [N].
@@ -78,7 +78,7 @@ pub(super) struct Stepper<'a> {
     moving: bool,
     record: Record,
     /// Cable of the greatest force, if that force was sampled one step ago.
-    sampled: Option<Sample>,
+    sampled: Option<PeakCable>,
     /// Firings of the present step, in order of tires.
     due: Vec<DueFiring>,
     /// Tires of the present register that were integrated by themselves.
@@ -98,8 +98,8 @@ pub(super) struct Stepper<'a> {
 impl<'a> Stepper<'a> {
     /// Run of `shot` under `scene`, before the first step.
     pub(super) fn new(part: &'a Part, scene: &'a Scene, shot: &Shot, settings: &Settings) -> Self {
-        let tires = part.quotient.weight.len();
-        let firings = part.quotient.firings(shot);
+        let tires = part.reduction.weight.len();
+        let firings = part.reduction.firings(shot);
         let friction = shot.friction.unwrap_or(scene.friction);
         let slides = scene.slides(friction);
         let mut wake = Wake::new(&part.ties);
@@ -211,8 +211,8 @@ impl<'a> Stepper<'a> {
         let past = self.clock.overshoot();
         let Self { part, u, v, record, clock, .. } = self;
         // Images have the state of the step before, and are left out.
-        let kept = part.quotient.weight.iter().enumerate().filter(|&(_, &weight)| weight > 0.0);
-        let tires = kept.map(|(tire, _)| (part.quotient.tire(tire), u.vector(tire) - v.vector(tire) * past));
+        let kept = part.reduction.weight.iter().enumerate().filter(|&(_, &weight)| weight > 0.0);
+        let tires = kept.map(|(tire, _)| (part.reduction.tire(tire), u.vector(tire) - v.vector(tire) * past));
         record.finish(tires, &clock, reason)
     }
 }
@@ -228,7 +228,7 @@ impl Motion for Snapshot<'_, '_> {
     }
 
     fn displacement(&self, tire: usize) -> Vector3<f64> {
-        let (kept, [x, y]) = self.stepper.part.quotient.kept(tire);
+        let (kept, [x, y]) = self.stepper.part.reduction.kept(tire);
         self.stepper.u.vector(kept).component_mul(&Vector3::new(x, y, 1.0))
     }
 
@@ -246,7 +246,7 @@ impl Motion for Snapshot<'_, '_> {
             return (0.0, 0.0);
         }
         let Stepper { part, tension, step, .. } = self.stepper;
-        let (tire, _) = part.quotient.kept(tire);
+        let (tire, _) = part.reduction.kept(tire);
         let ends = part.blocks.ends.of(tire / LANES);
         let forces = tension.forces().sum_at(pulp::Scalar::new(), ends, tire % LANES);
         let force = Vector3::from(forces.map(|force| force.pack()[0]));

@@ -14,7 +14,7 @@ use crate::scene::{Firing, Mirror, Scene, Shot};
 
 /// Relation between the part of a scene that is modelled and the whole scene.
 #[derive(Debug)]
-pub struct Quotient {
+pub struct Reduction {
     /// Copies to make after every step.
     pub images: Vec<Image>,
     /// Number of tires of the whole scene that each tire stands for; 0 for an image (`n_tires`).
@@ -48,8 +48,8 @@ pub struct Image {
     pub sign: [f64; 3],
 }
 
-impl Quotient {
-    /// Quotient of `scene` by `planes`, and the part that is modelled: kept tires and images in the order of the whole scene,
+impl Reduction {
+    /// Reduction of `scene` by `planes`, and the part that is modelled: kept tires and images in the order of the whole scene,
     /// and the cables of kept tires.
     pub fn new<'s>(scene: &'s Scene, planes: &[&Mirror]) -> (Self, Cow<'s, Scene>) {
         let n = scene.mass.len();
@@ -126,7 +126,7 @@ impl Quotient {
             let [a, b] = scene.cables[cable].ends.map(tire_weight);
             0.5 * (a + b)
         };
-        let quotient = Self {
+        let reduction = Self {
             weight: tire.iter().map(|&t| tire_weight(t)).collect(),
             cable_weight: cables.iter().map(cable_weight).collect(),
             images,
@@ -137,7 +137,7 @@ impl Quotient {
                 cable: cables,
             }),
         };
-        (quotient, Cow::Owned(part))
+        (reduction, Cow::Owned(part))
     }
 
     /// Firings of `shot` under kept tires, with indices in the part.

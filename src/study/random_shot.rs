@@ -31,7 +31,7 @@ pub enum Input {
 }
 
 impl Input {
-    /// Every input, in the order of the values of [`Drawn::inputs`].
+    /// Every input, in the order of the values of [`RandomShot::inputs`].
     pub const ALL: [Input; 4] = [Input::LaunchCommon, Input::Friction, Input::Slack, Input::AxialStiffness];
 
     /// Key of the input in `[uncertainty]`.
@@ -47,7 +47,7 @@ impl Input {
 
 /// One sample.
 #[derive(Clone, Debug)]
-pub struct Drawn {
+pub struct RandomShot {
     /// The shelter with the numbers of the sample.
     pub scene: Scene,
     /// The shot with the numbers of the sample.
@@ -99,7 +99,7 @@ fn normal(random: &mut ChaCha8Rng) -> f64 {
 }
 
 /// Draws sample `number` of the shots that the plan describes beside `nominal`.
-pub fn draw(case: &Case, nominal: &Shot, seed: u64, number: usize) -> Drawn {
+pub fn draw(case: &Case, nominal: &Shot, seed: u64, number: usize) -> RandomShot {
     let unknown = &case.plan.uncertainty;
     let mut random = Random::new(seed, number);
     let whole = random.at(Place::WholeShot);
@@ -131,7 +131,7 @@ pub fn draw(case: &Case, nominal: &Shot, seed: u64, number: usize) -> Drawn {
     let first = firings.iter().map(|firing| firing.at).fold(0.0, f64::min);
     firings.iter_mut().for_each(|firing| firing.at -= first);
     let shot = Shot { friction: Some(friction), ..Shot::from_firings(firings) };
-    Drawn { scene, shot, inputs: [launch_common, friction, slack_percent, stiffness] }
+    RandomShot { scene, shot, inputs: [launch_common, friction, slack_percent, stiffness] }
 }
 
 /// Shifts the firings [s], which are in order of time, by the scatter of the gaps before them. A gap stays a delay: it is

@@ -1,18 +1,18 @@
 //! What decides how a shot turns out: the shares of the inputs in the variance of its samples.
 
-use super::draw::Input;
+use super::random_shot::Input;
 use super::risk::Risk;
 use crate::verdict::{Limits, Quantity};
 
 /// Samples needed for the shares of the inputs.
-pub const FOR_SHARES: usize = 200;
+pub const SAMPLES_FOR_SHARES: usize = 200;
 
 /// Share of each input in the variance of the quantity nearest its limit, largest first; `None` for fewer than
-/// [`FOR_SHARES`] samples. What is missing to 1 comes from hole by hole and from the interplay of inputs.
+/// [`SAMPLES_FOR_SHARES`] samples. What is missing to 1 comes from hole by hole and from the interplay of inputs.
 pub fn input_shares(risk: &Risk, limits: &Limits) -> Option<Vec<(Input, f64)>> {
     let nearest = nearest_its_limit(risk, limits)?;
     let values: Vec<f64> = risk.decided().map(|sample| sample.run.get(nearest)).collect();
-    if values.len() < FOR_SHARES || values.iter().any(|value| !value.is_finite()) {
+    if values.len() < SAMPLES_FOR_SHARES || values.iter().any(|value| !value.is_finite()) {
         return None;
     }
     let share = |(n, input): (usize, Input)| {
