@@ -311,7 +311,7 @@ mod tests {
         }
     }
 
-    /// OptionResults of every option, by option.
+    /// Results of every option, by option.
     fn checked(jobs: &mut Jobs, options: usize) -> Vec<Result<Box<Checked>, NoResult>> {
         let mut results = Vec::new();
         wait(|| {

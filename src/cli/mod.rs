@@ -1,7 +1,7 @@
 //! Commands: what users type becomes a study, a report and an exit status. clap stops here.
 //!
 //! One file per command, and no command uses another. They share [`arguments`], [`load_plans`], [`run_study`] (threads,
-//! progress, signals), [`print`](mod@print) (formats) and [`status`] (exit status). OptionResults that several commands print are
+//! progress, signals), [`print`](mod@print) (formats) and [`status`] (exit status). Results that several commands print are
 //! in [`check_plans`] and [`print_findings`].
 
 mod accuracy;
@@ -10,6 +10,7 @@ mod check;
 mod check_plans;
 mod completions;
 mod config;
+mod effects;
 mod init;
 mod load_plans;
 mod man;
@@ -68,6 +69,8 @@ enum Command {
     Orders(orders::Arguments),
     /// How likely each option fails when what is not known varies, and what decides it
     Risk(risk::Arguments),
+    /// Which physical effects this scene requires: each switched on or taken away
+    Effects(effects::Arguments),
     /// The lightest rope, tires and border with which every option passes
     Size(size::Arguments),
     /// Joins the shares of `orders` or `risk` that several machines computed
@@ -120,6 +123,7 @@ pub fn run() -> ExitCode {
         (Some(Command::Sweep(arguments)), _) => sweep::run(&arguments, &cli.look),
         (Some(Command::Orders(arguments)), _) => orders::run(&arguments, &cli.look),
         (Some(Command::Risk(arguments)), _) => risk::run(&arguments, &cli.look),
+        (Some(Command::Effects(arguments)), _) => effects::run(&arguments, &cli.look),
         (Some(Command::Size(arguments)), _) => size::run(&arguments, &cli.look),
         (Some(Command::Merge(arguments)), _) => merge::run(&arguments, &cli.look),
         (Some(Command::Report(arguments)), _) => report::run(&arguments, &cli.look),

@@ -28,7 +28,20 @@ impl Plan {
         plan
     }
 
-    fn launches_mut(&mut self) -> impl Iterator<Item = &mut Launch> {
+    /// Launch velocities of all blast rows and holes.
+    pub fn launches(&self) -> impl Iterator<Item = &Launch> {
+        self.blast_rows.iter().flat_map(|row| -> Vec<&Launch> {
+            match &row.targets {
+                LaunchTargets::UnderRow { launch, .. } | LaunchTargets::UnderTires { launch, .. } => {
+                    vec![launch]
+                }
+                LaunchTargets::Holes(holes) => holes.iter().map(|hole| &hole.launch).collect(),
+            }
+        })
+    }
+
+    /// The same, to change them.
+    pub fn launches_mut(&mut self) -> impl Iterator<Item = &mut Launch> {
         self.blast_rows.iter_mut().flat_map(|row| -> Vec<&mut Launch> {
             match &mut row.targets {
                 LaunchTargets::UnderRow { launch, .. } | LaunchTargets::UnderTires { launch, .. } => {

@@ -3,7 +3,7 @@
 //! | what | where |
 //! |---|---|
 //! | what a report is | [`model`] |
-//! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`accuracy`], [`ropes`], [`trace`] |
+//! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`effects`], [`accuracy`], [`ropes`], [`trace`] |
 //! | words, charts and columns that reports share | [`explain`], [`limits`], [`no_result`], [`notes`], [`charts`], [`shared_columns`] |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |
 //! | what faces share | [`palette`], [`ascii`], [`spark`], labels of cells |
@@ -15,6 +15,7 @@ pub mod ascii;
 pub mod charts;
 pub mod check;
 pub mod csv;
+pub mod effects;
 pub mod explain;
 #[cfg(feature = "page")]
 pub mod html;

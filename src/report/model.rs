@@ -13,7 +13,7 @@ pub struct Report {
     pub title: String,
     /// Facts of the plan that hold for all results: size, limits.
     pub facts: Vec<String>,
-    /// OptionResults, from top to bottom.
+    /// Results, from top to bottom.
     pub blocks: Vec<Block>,
     /// What the results come to; always the last line.
     pub conclusion: Option<Conclusion>,
@@ -252,7 +252,7 @@ pub struct Chart {
     pub x: Axis,
     /// Vertical axis.
     pub y: Axis,
-    /// RandomShot in this order.
+    /// Drawn in this order.
     pub series: Vec<Series>,
     /// Limit of the quantity on the vertical axis.
     pub limit: Option<f64>,

@@ -10,7 +10,7 @@ use super::sampling::{Sampling, ShotToSample, find_risks};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, guarded};
 use crate::verdict::Verdict;
 
-/// OptionResults of the options of one plan, in their order (`n_options`).
+/// Results of the options of one plan, in their order (`n_options`).
 pub type OptionResults = Vec<Result<Judgement, NoResult>>;
 
 /// Judges every option of every case: first all shots as planned, then, where a `sampling` is given, how likely they fail.

@@ -67,7 +67,7 @@ struct Foot {
     sha256: String,
 }
 
-/// OptionResults of a study, in the order of one machine.
+/// Results of a study, in the order of one machine.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ShardResults {
     /// Of `orders`.

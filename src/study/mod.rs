@@ -10,6 +10,7 @@ pub mod check;
 pub mod check_all;
 mod compute;
 pub mod confidence;
+pub mod effects;
 mod envelope;
 pub mod flight;
 mod found;

@@ -178,7 +178,7 @@ fn step(compute: &ComputeSettings, scene: &Scene) -> f64 {
 }
 
 /// Draws one sample and runs it, at a step shorter by the factor `finer`.
-fn run_sample(
+pub(super) fn run_sample(
     target: &ShotToSample<'_>,
     number: usize,
     finer: f64,

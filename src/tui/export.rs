@@ -75,7 +75,7 @@ fn finished(app: &App) -> Result<&ShownStudy, String> {
     }
 }
 
-/// OptionResults of all options, once every option has one, with all its samples.
+/// Results of all options, once every option has one, with all its samples.
 fn results(app: &App) -> Result<OptionResults, String> {
     let result = |state: &OptionState| match state {
         OptionState::Done { sampling: true, .. } => {

@@ -420,6 +420,29 @@ fn packagers_get_completions_and_a_manual_page() {
 }
 
 #[test]
+fn effects_have_the_fields_scripts_read_and_a_sentence() {
+    let document = json(&on("paper-5-tire.toml", &["effects", "--format", "json"]));
+    assert_eq!(document["schema"], "shelter.effects/1");
+    let effects = document["options"][0]["effects"].as_array().expect("effects");
+    let tilt = effects.iter().find(|effect| effect["name"] == "tilt_deg").expect("a probe of tilt");
+    assert_eq!(
+        (&tilt["value"], &tilt["unit"], &tilt["source"]),
+        (&5.0.into(), &"°".into(), &"assumed".into())
+    );
+    assert!(tilt["cable_force_change"].is_f64() && tilt["flight_height_change"].is_f64());
+    assert!(tilt["required"].is_boolean() && tilt["cost"].is_f64() && tilt["verdict"].is_string());
+    let friction = effects.iter().find(|effect| effect["name"] == "friction").expect("a choice of the plan");
+    assert_eq!(friction["source"], "plan");
+    let output = on("paper-5-tire.toml", &["effects"]);
+    assert!(
+        text(&output.stdout).contains("this scene requires: launch direction"),
+        "{}",
+        text(&output.stdout)
+    );
+    assert_eq!(output.status.code(), Some(0));
+}
+
+#[test]
 fn accuracy_has_the_fields_scripts_read_and_the_paper_table() {
     let document = json(&on("paper-5-tire.toml", &["accuracy", "--format", "json"]));
     let rows = document["rows"].as_array().expect("rows");

@@ -8,7 +8,9 @@ use shelter::plan::Plan;
 use shelter::scene::{Firing, Scene, Shot};
 use shelter::simulation::Failure;
 use shelter::study::check::check;
-use shelter::study::{Case, ComputeSettings};
+use shelter::study::effects::{Effect, effects};
+use shelter::study::sampling::{Sampling, ShotToSample, draw_share};
+use shelter::study::{Case, ComputeSettings, Progress, Shard};
 
 use super::scenes::{GRAVITY, METHODS, close, fire, fire_rows, grid, run, settings, tires, try_run, watch};
 
@@ -174,9 +176,12 @@ fn a_slope_keeps_only_the_mirror_planes_along_it() {
 fn methods_agree_on_a_slope() {
     let scene = on_slope(grid(4, 5, 1.5, 1.4e6), 0.25, 200.0);
     let shot = fire_rows(&[1, 2], 5, 0.02);
-    let [verlet, newmark] = METHODS.map(|method| run(&scene, &shot, settings(method, 1e-4, Some(1.0))));
+    let [verlet, newmark] = METHODS.map(|method| run(&scene, &shot, settings(method, 1e-4, Some(3.0))));
     close(verlet.height.value, newmark.height.value, 2e-3 * newmark.height.value, "height");
     close(verlet.force.value, newmark.force.value, 5e-3 * newmark.force.value, "force");
+    // Tires that come to rest further down have less energy than at the start.
+    let residuals = [verlet, newmark].map(|out| out.ledger.residual());
+    assert!(residuals.iter().all(|&residual| residual < 2e-3), "{residuals:?}");
 }
 
 /// The plan of three rows as the prototype had it, with one option, and more keys in its sections.
@@ -223,4 +228,46 @@ fn effects_are_those_of_an_independent_prototype() {
         close(checked.height.value, height, 5e-3 * height, &format!("{name}: height"));
         close(checked.force.value * 1e-3, force, 1e-2 * force, &format!("{name}: force"));
     }
+}
+
+/// Median of the greatest force of 25 samples of the only option [N].
+fn median_force(case: &Case, compute: ComputeSettings) -> f64 {
+    let (shot, sampling) = (&case.shots[0], Sampling::exactly(25, Sampling::OF_VERDICT.seed));
+    let target = ShotToSample { case, shot, planned: None, compute, sampling, precomputed: &[] };
+    let drawn = draw_share(&[target], Shard::WHOLE, &Progress::default()).expect("samples");
+    let mut forces: Vec<f64> =
+        drawn.into_iter().map(|(_, sample)| sample.expect("time for all").run.force).collect();
+    forces.sort_by(f64::total_cmp);
+    forces[12]
+}
+
+/// Slack is a choice of this plan, and is compared with the plan without it; a slope is not, and is probed both ways, of which
+/// the harder counts. Verdicts are those of `check`.
+#[test]
+fn effects_compare_plans_with_and_without_them() {
+    let case = three_rows("", "", "", "");
+    let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
+    let found = effects(&case, &compute, &Progress::default()).expect("a result").value.remove(0);
+    let found = found.expect("time for all");
+    let of = |effect: Effect| *found.iter().find(|of| of.effect == effect).expect("tried");
+    assert!(!found.iter().any(|of| of.effect == Effect::Ballast), "the plan has none, and none is probed");
+    let verdict =
+        |case: &Case| check(case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a result").verdict;
+    let mut plan = case.plan.clone();
+    (plan.cable.slack_percent, plan.uncertainty.slack_percent) = (0.0, [0.0; 2]);
+    let tight = Case::new(plan);
+    let slack = of(Effect::Slack);
+    assert_eq!((slack.value, slack.assumed), (2.0, false));
+    assert_eq!(slack.force_change, median_force(&case, compute) / median_force(&tight, compute) - 1.0);
+    assert_eq!(slack.verdicts, [verdict(&tight), verdict(&case)]);
+    let slope = of(Effect::Slope);
+    let sloping = ["90", "270"].map(|toward| {
+        let ground = format!(", slope_percent = 10, slope_toward_deg = {toward}");
+        median_force(&three_rows(&ground, "", "", ""), compute) / median_force(&case, compute) - 1.0
+    });
+    assert_eq!((slope.value, slope.assumed), (10.0, true));
+    assert!(sloping.contains(&slope.force_change), "{slope:?} {sloping:?}");
+    // Yielding ends take more than half of the force: no median of an effect that matters is missed.
+    assert!(of(Effect::Ends).is_required() && of(Effect::Ends).force_change < -0.5);
+    assert!(!of(Effect::Restitution).is_required(), "{:?}", of(Effect::Restitution));
 }

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod check;
+mod effects;
 mod orders;
 mod risk;
 mod ropes;
@@ -15,6 +16,7 @@ use serde::Serialize;
 
 pub use self::accuracy::AccuracyDocument;
 pub use self::check::CheckDocument;
+pub use self::effects::EffectsDocument;
 pub use self::orders::OrdersDocument;
 pub use self::risk::RiskDocument;
 pub use self::ropes::RopesDocument;

@@ -26,7 +26,7 @@ mod system;
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 use self::region::{Ground, Region};
 use self::system::System;
@@ -83,6 +83,8 @@ struct Stepper<'a> {
     wake: Wake<'a>,
     /// Elastic energy of the cables asleep [J].
     asleep: f64,
+    /// Potential energy on the slope of all tires asleep [J].
+    asleep_on_slope: f64,
     /// Displacement [m].
     u: Vec<Vector3<f64>>,
     /// Velocity [m/s].
@@ -131,6 +133,7 @@ impl<'a> Stepper<'a> {
             sampled: None,
             wake,
             asleep: 0.0,
+            asleep_on_slope: 0.0,
             u: zeros(),
             v: zeros(),
             a: zeros(),
@@ -201,6 +204,12 @@ impl<'a> Stepper<'a> {
             };
             self.asleep += self.wake.fell_asleep.iter().map(stored).sum::<f64>();
             self.asleep -= self.wake.woke.iter().map(stored).sum::<f64>();
+            if self.scene.downhill != Vector2::zeros() {
+                let asleep = (0..self.u.len()).filter(|&tire| !self.wake.is_awake(tire));
+                let energy =
+                    |tire: usize| -self.scene.mass[tire] * self.scene.downhill.dot(&self.u[tire].xy());
+                self.asleep_on_slope = asleep.map(energy).sum();
+            }
         }
         changed
     }

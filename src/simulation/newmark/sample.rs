@@ -14,7 +14,7 @@ impl Stepper<'_> {
             self.record.interpolate_force(before, after);
         }
         let breaking_force = self.scene.breaking_force.unwrap_or(f64::INFINITY);
-        let (mut energy, mut height, mut force) = (self.asleep, 0.0_f64, 0.0_f64);
+        let (mut energy, mut height, mut force) = (self.asleep + self.asleep_on_slope, 0.0_f64, 0.0_f64);
         for &index in &self.wake.blocks {
             let cable = &self.scene.cables[index];
             let length = cable.displaced(&self.u).norm();

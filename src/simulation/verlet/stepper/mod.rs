@@ -93,6 +93,8 @@ pub(super) struct Stepper<'a> {
     stored: Vec<Pack>,
     /// Elastic energy of all blocks asleep [J].
     asleep: Pack,
+    /// Potential energy on the slope of all tires asleep [J].
+    asleep_on_slope: f64,
 }
 
 impl<'a> Stepper<'a> {
@@ -134,6 +136,7 @@ impl<'a> Stepper<'a> {
             v,
             stored: vec![[0.0; LANES]; part.blocks.blocks.len()],
             asleep: [0.0; LANES],
+            asleep_on_slope: 0.0,
         }
     }
 
@@ -148,6 +151,7 @@ impl<'a> Stepper<'a> {
             self.copy_images();
             if self.wake.refresh() {
                 self.move_stored_energy();
+                self.move_energy_on_slope();
             }
             let mut totals = arch.dispatch(EvaluateCables(&mut self));
             if watch(&Snapshot { stepper: &self }).is_break() {
@@ -189,10 +193,22 @@ impl<'a> Stepper<'a> {
         }
     }
 
+    /// Sums the potential energy of the tires asleep, which have none on level ground.
+    fn move_energy_on_slope(&mut self) {
+        let Self { scene, part, wake, u, .. } = self;
+        if scene.downhill == Vector2::zeros() {
+            return;
+        }
+        let tires = (0..part.reduction.weight.len()).filter(|tire| !wake.is_awake(tire / LANES));
+        let energy = |tire: usize| -part.mass[tire] * scene.downhill.dot(&u.vector(tire).xy());
+        self.asleep_on_slope = tires.map(energy).sum();
+    }
+
     /// Writes the step to ledger and history, and ticks the clock.
     fn end_step(&mut self, totals: &StepTotals) -> Result<(), Failure> {
         let greatest = |of: &Pack| of.iter().copied().fold(0.0, f64::max);
-        let (energy, dissipated) = (totals.energy.iter().sum::<f64>(), totals.dissipated.iter().sum::<f64>());
+        let energy = totals.energy.iter().sum::<f64>() + self.asleep_on_slope;
+        let dissipated = totals.dissipated.iter().sum::<f64>();
         let now = self.clock.now();
         if !(energy + dissipated).is_finite() {
             return Err(Failure::Diverged { at: now });

@@ -1,0 +1,39 @@
+//! `shelter effects`: which physical effects a scene requires.
+
+use std::io;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::arguments::{Compute, FormatArg, LookArguments};
+use super::load_plans::open;
+use super::print::print;
+use super::run_study::run_study;
+use super::status::{Status, failed};
+use crate::report::effects::report;
+use crate::report::json::EffectsDocument;
+use crate::study::Found;
+use crate::study::effects::effects;
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Plan to study; `-` reads standard input
+    plan: PathBuf,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    format: FormatArg,
+    #[command(flatten)]
+    compute: Compute,
+}
+
+pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
+    let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
+    let settings = arguments.compute.settings(&case.plan);
+    match run_study(&arguments.compute, |progress| effects(&case, &settings, progress)) {
+        Err(reason) => failed(&reason),
+        Ok(Found { value: found, partial }) => {
+            let document = || EffectsDocument::new(&case, &found, partial);
+            print(&[report(&case, &found, partial)], document, arguments.format, look)
+        }
+    }
+}

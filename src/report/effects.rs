@@ -1,0 +1,151 @@
+//! `effects` as a report: one row an effect, and what the scene requires.
+
+use super::model::{Block, Cell, Column, Conclusion, Report, Shown, Table};
+use super::report_head;
+use crate::study::Case;
+use crate::study::effects::{Effect, EffectOnOption, EffectsOnOptions, REQUIRED};
+use crate::units;
+use crate::verdict::Verdict;
+
+const FOR_PEOPLE: [Column; 7] = [
+    Column::words(&[], "effect"),
+    Column::words(&[], "value"),
+    Column::words(&[], "height"),
+    Column::words(&[], "force"),
+    Column::words(&[], "verdicts change"),
+    Column::words(&[], "required"),
+    Column::words(&[], "run time"),
+];
+
+const FOR_SCRIPTS: [Column; 10] = [
+    Column::scripts(&["option"]),
+    Column::scripts(&["name"]),
+    Column::scripts(&["value"]),
+    Column::scripts(&["unit"]),
+    Column::scripts(&["flight_height_change"]),
+    Column::scripts(&["cable_force_change"]),
+    Column::scripts(&["verdict"]),
+    Column::scripts(&["required"]),
+    Column::scripts(&["source"]),
+    Column::scripts(&["cost"]),
+];
+
+/// The report of all effects, which is partial where the time was up.
+pub fn report(case: &Case, effects: &EffectsOnOptions, partial: bool) -> Report {
+    let of = |effect: Effect| -> Vec<&EffectOnOption> {
+        effects.iter().flatten().flatten().filter(|of| of.effect == effect).collect()
+    };
+    let tried: Vec<Vec<&EffectOnOption>> =
+        Effect::ALL.into_iter().map(of).filter(|all| !all.is_empty()).collect();
+    let row = |all: &Vec<&EffectOnOption>| {
+        let first = all[0];
+        let changed = all.iter().filter(|of| of.verdicts[0] != of.verdicts[1]).count();
+        let required = all.iter().filter(|of| of.is_required()).count();
+        let words = [
+            first.effect.name().to_owned(),
+            value(first),
+            changes(all, |of| of.height_change),
+            changes(all, |of| of.force_change),
+            format!("{changed} of {}", all.len()),
+            if required > 0 { format!("by {required} of {}", all.len()) } else { "no".to_owned() },
+            format!("x {}", units::short(median(all.iter().map(|of| of.cost)))),
+        ];
+        words.map(Cell::Text).to_vec()
+    };
+    let options = case.plan.delays.iter().zip(effects);
+    let scripts = options.flat_map(|(delay, all)| {
+        all.iter().flatten().map(|of| {
+            let (key, source) = (of.effect.key(), if of.assumed { "assumed" } else { "plan" });
+            vec![
+                Cell::Text(delay.name.clone()),
+                Cell::Text(key.name.to_owned()),
+                Cell::Number(of.value),
+                Cell::Text(key.kind.unit().to_owned()),
+                Cell::Number(of.height_change),
+                Cell::Number(of.force_change),
+                Cell::Verdict(of.verdicts[1]),
+                Cell::Flag(of.is_required()),
+                Cell::Text(source.to_owned()),
+                Cell::Rounded(of.cost, 2),
+            ]
+        })
+    });
+    let blocks = vec![
+        Block::Text(vec![MEANING.to_owned()]),
+        Block::Table(Table::new(
+            &FOR_PEOPLE.map(|column| column.shown(Shown::People)),
+            tried.iter().map(row),
+        )),
+        Block::Text(sentences(&tried)),
+        Block::Table(Table::new(&FOR_SCRIPTS, scripts)),
+    ];
+    let conclusion = partial.then(|| Conclusion {
+        verdict: Verdict::Undecided,
+        text: "the time was up: not every option was tried".to_owned(),
+    });
+    Report { blocks, conclusion, ..report_head(case, false) }
+}
+
+/// What the columns say.
+const MEANING: &str = "change of the median over possible shots by each effect, from the least to the greatest over the options";
+
+/// `10 %`, `2000 kN/m (assumed)`.
+fn value(of: &EffectOnOption) -> String {
+    let unit = of.effect.key().kind.unit();
+    let assumed = if of.assumed { " (assumed)" } else { "" };
+    format!("{}{}{unit}{assumed}", of.value, if unit.is_empty() { "" } else { " " })
+}
+
+/// `-3 to +12 %`.
+fn changes(all: &[&EffectOnOption], change: fn(&EffectOnOption) -> f64) -> String {
+    let values = || all.iter().map(|of| change(of));
+    if values().any(|value| !value.is_finite()) {
+        return "unknown".to_owned();
+    }
+    let signed = |share: f64| format!("{:+.0}", 1e2 * share + 0.0);
+    let (least, most) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+    let [least, most] = [least, most].map(signed);
+    if least == most { format!("{least} %") } else { format!("{least} to {most} %") }
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// What the scene requires, what it does not, and on which side an effect errs that is left out.
+fn sentences(tried: &[Vec<&EffectOnOption>]) -> Vec<String> {
+    let names = |is: &dyn Fn(&[&EffectOnOption]) -> bool| -> Vec<&'static str> {
+        tried.iter().filter(|all| is(all)).map(|all| all[0].effect.name()).collect()
+    };
+    let is_required = |all: &[&EffectOnOption]| all.iter().any(|of| of.is_required());
+    let is_unsafe = |all: &[&EffectOnOption]| all.iter().any(|of| of.is_missed_on_the_unsafe_side());
+    let required = names(&is_required);
+    let others = names(&|all| !is_required(all));
+    let listed =
+        |names: &[&str]| if names.is_empty() { "none of these".to_owned() } else { names.join(", ") };
+    let mut lines = vec![format!("this scene requires: {}", listed(&required))];
+    if !others.is_empty() {
+        let most = units::percent(REQUIRED, 0);
+        lines.push(format!(
+            "not: {} (no verdict changes, height and force by less than {most})",
+            listed(&others)
+        ));
+    }
+    let overstated = names(&|all| is_required(all) && !is_unsafe(all));
+    if !overstated.is_empty() {
+        lines.push(format!("leaving these out only overstates height and force: {}", listed(&overstated)));
+    }
+    let below = names(&|all| all.iter().all(|of| of.is_below_error));
+    if !below.is_empty() {
+        lines.push(format!("below the error of the computation: {}", listed(&below)));
+    }
+    let probed = tried.iter().any(|all| all[0].assumed && is_required(all));
+    if probed {
+        lines.push(
+            "values marked assumed are probes: put yours into the plan, or show that it is 0".to_owned(),
+        );
+    }
+    lines
+}

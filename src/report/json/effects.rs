@@ -1,0 +1,75 @@
+//! Schema `shelter.effects/1`.
+
+use serde::Serialize;
+
+use crate::study::Case;
+use crate::study::effects::{EffectOnOption, EffectsOnOptions};
+use crate::verdict::Verdict;
+
+/// The document of all effects.
+#[derive(Serialize)]
+pub struct EffectsDocument {
+    schema: &'static str,
+    plan: String,
+    title: String,
+    partial: bool,
+    options: Vec<OptionEffects>,
+}
+
+#[derive(Serialize)]
+struct OptionEffects {
+    name: String,
+    /// Null where the time was up.
+    effects: Option<Vec<EffectResult>>,
+}
+
+/// Changes are relative; null where a run failed.
+#[derive(Serialize)]
+struct EffectResult {
+    name: &'static str,
+    value: f64,
+    unit: &'static str,
+    flight_height_change: Option<f64>,
+    cable_force_change: Option<f64>,
+    verdict: Verdict,
+    verdict_without: Verdict,
+    required: bool,
+    source: &'static str,
+    cost: f64,
+}
+
+impl EffectResult {
+    fn of(of: &EffectOnOption) -> Self {
+        let known = |change: f64| Some(change).filter(|change| change.is_finite());
+        let key = of.effect.key();
+        Self {
+            name: key.name,
+            value: of.value,
+            unit: key.kind.unit(),
+            flight_height_change: known(of.height_change),
+            cable_force_change: known(of.force_change),
+            verdict: of.verdicts[1],
+            verdict_without: of.verdicts[0],
+            required: of.is_required(),
+            source: if of.assumed { "assumed" } else { "plan" },
+            cost: of.cost,
+        }
+    }
+}
+
+impl EffectsDocument {
+    /// The document of all effects, which is partial where the time was up.
+    pub fn new(case: &Case, effects: &EffectsOnOptions, partial: bool) -> Self {
+        let options = case.plan.delays.iter().zip(effects).map(|(delay, all)| OptionEffects {
+            name: delay.name.clone(),
+            effects: all.as_ref().map(|all| all.iter().map(EffectResult::of).collect()),
+        });
+        Self {
+            schema: "shelter.effects/1",
+            plan: case.source.path.clone(),
+            title: case.title().to_owned(),
+            partial,
+            options: options.collect(),
+        }
+    }
+}
