@@ -37,7 +37,7 @@ pre { font-size: 8pt; white-space: pre-wrap; overflow-wrap: anywhere }
 
 /// What stands under the results, whatever the plan.
 const ASSUMPTIONS: &[&str] = &[
-    "Tires are point masses that do not turn; the ground is flat and hard, and a landing does not bounce.",
+    "Tires are point masses that do not turn; the ground is a hard plane. It is level, and a landing does not rebound, where the plan says nothing else.",
     "Cables are elastic, without mass and damping; they only pull, and their fastenings hold.",
     "Each hole gives its tire the launch velocity written in the plan, varied in the possible shots as [uncertainty] says; the program knows nothing of charges, stemming or gas.",
     "Friction on the ground is Coulomb's, with one coefficient.",
