@@ -13,6 +13,7 @@ use std::time::Duration;
 
 use crate::study::check::Checked;
 use crate::study::check_all::{OptionResults, check_all};
+use crate::study::effects::{EffectsOnOptions, effects};
 use crate::study::flight::{Flight, record};
 use crate::study::margin::LaunchMargin;
 use crate::study::orders::{Orders, orders, rank};
@@ -49,6 +50,8 @@ study_kinds! {
     Risk,
     /// The lightest shelter under which every option passes.
     Size,
+    /// Which effects the scene requires.
+    Effects,
     /// The motion of one option.
     Flight,
     /// The cost of accuracy, measured on one option.
@@ -57,8 +60,8 @@ study_kinds! {
 
 impl StudyKind {
     /// The kinds that answer a question about the whole plan, in the order of their tabs.
-    pub const OF_PLAN: [StudyKind; 4] =
-        [StudyKind::Sweep, StudyKind::Orders, StudyKind::Risk, StudyKind::Size];
+    pub const OF_PLAN: [StudyKind; 5] =
+        [StudyKind::Sweep, StudyKind::Orders, StudyKind::Risk, StudyKind::Size, StudyKind::Effects];
 }
 
 /// Result of a study.
@@ -72,6 +75,8 @@ pub enum StudyResult {
     Risk(Sampling, OptionResults),
     /// Result of [`StudyKind::Size`].
     Size(Sizing),
+    /// Result of [`StudyKind::Effects`].
+    Effects(EffectsOnOptions),
     /// Result of [`StudyKind::Flight`].
     Flight(Flight),
     /// Result of [`StudyKind::Accuracy`].
@@ -267,6 +272,7 @@ impl Job {
                     size(&case.plan, &demand, Some(&Sampling::OF_VERDICT), compute, progress)?.value,
                 ))
             }
+            StudyKind::Effects => Ok(StudyResult::Effects(effects(case, compute, progress)?.value)),
             StudyKind::Flight => record(case, option, compute, progress).map(StudyResult::Flight),
             StudyKind::Accuracy => {
                 Ok(StudyResult::Accuracy(accuracy::measure(case, option, LONGEST_RUN, progress)?.value))

@@ -9,11 +9,11 @@ use crate::verdict::Verdict;
 
 const FOR_PEOPLE: [Column; 7] = [
     Column::words(&[], "effect"),
-    Column::words(&[], "value"),
+    Column::words(&[], "required"),
     Column::words(&[], "height"),
     Column::words(&[], "force"),
     Column::words(&[], "verdicts change"),
-    Column::words(&[], "required"),
+    Column::words(&[], "value"),
     Column::words(&[], "run time"),
 ];
 
@@ -43,11 +43,11 @@ pub fn report(case: &Case, effects: &EffectsOnOptions, partial: bool) -> Report 
         let required = all.iter().filter(|of| of.is_required()).count();
         let words = [
             first.effect.name().to_owned(),
-            value(first),
+            if required > 0 { format!("by {required} of {}", all.len()) } else { "no".to_owned() },
             changes(all, |of| of.height_change),
             changes(all, |of| of.force_change),
             format!("{changed} of {}", all.len()),
-            if required > 0 { format!("by {required} of {}", all.len()) } else { "no".to_owned() },
+            value(first),
             format!("x {}", units::short(median(all.iter().map(|of| of.cost)))),
         ];
         words.map(Cell::Text).to_vec()
@@ -102,7 +102,7 @@ fn changes(all: &[&EffectOnOption], change: fn(&EffectOnOption) -> f64) -> Strin
     if values().any(|value| !value.is_finite()) {
         return "unknown".to_owned();
     }
-    let signed = |share: f64| format!("{:+.0}", 1e2 * share + 0.0);
+    let signed = |share: f64| format!("{:+}", (1e2 * share).round() + 0.0);
     let (least, most) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
     let [least, most] = [least, most].map(signed);
     if least == most { format!("{least} %") } else { format!("{least} to {most} %") }

@@ -53,6 +53,7 @@ impl ShownStudy {
             StudyResult::Risk(sampling, results) => {
                 (report::risk::report(case, results, sampling, false), notes::swaps(case))
             }
+            StudyResult::Effects(effects) => (report::effects::report(case, effects, false), Vec::new()),
             StudyResult::Size(sizing) => (report::size::report(case, sizing), Vec::new()),
             StudyResult::Accuracy(study) => (report::accuracy::report(case, study, &[]), Vec::new()),
             StudyResult::Flight(flight) => {

@@ -41,6 +41,9 @@ fn about(kind: StudyKind) -> (&'static str, &'static str) {
         StudyKind::Size => {
             ("Size", "What is the lightest rope, tire and border with which every option passes?")
         }
+        StudyKind::Effects => {
+            ("Effects", "Which effects does this scene require? Each switched on or taken away, by itself.")
+        }
         // Flight and accuracy have screens of their own.
         StudyKind::Flight | StudyKind::Accuracy => ("", ""),
     }
