@@ -46,7 +46,7 @@ study_kinds! {
     Sweep,
     /// All orders at the intervals of the delay options.
     Orders,
-    /// A thousand samples of every option.
+    /// Two thousand samples of every option.
     Risk,
     /// The lightest shelter under which every option passes.
     Size,
@@ -139,7 +139,7 @@ pub enum News {
 }
 
 /// Samples of every option.
-const SAMPLING: Sampling = Sampling::exactly(1000, 1);
+const SAMPLING: Sampling = Sampling::OF_RISK;
 /// Intervals swept [s].
 const INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: GAP };
 /// Longest run that [`StudyKind::Accuracy`] makes.

@@ -57,7 +57,7 @@
 //!
 //! A module may use the modules above it in this table, except those linked under "what it must not know". The test `layers`
 //! reads both from here and holds them. The command line and the terminal are two ways to call the same studies: `jobs`
-//! calls the very functions that `shelter check` calls, one option at a time.
+//! calls the very functions that `shelter check` calls, and tells what comes of each option as it comes.
 //!
 //! # Rules
 //!

@@ -34,7 +34,7 @@ pub struct Arguments {
 }
 
 /// Samples of each option where the command line does not say.
-const SAMPLES: usize = Sampling::OF_VERDICT.most;
+const SAMPLES: usize = Sampling::OF_RISK.most;
 /// Samples of all options together, some 150 bytes each.
 const MOST_SAMPLES: usize = 20_000_000;
 

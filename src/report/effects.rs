@@ -39,7 +39,7 @@ pub fn report(case: &Case, effects: &EffectsOnOptions, partial: bool) -> Report 
         Effect::ALL.into_iter().map(of).filter(|all| !all.is_empty()).collect();
     let row = |all: &Vec<&EffectOnOption>| {
         let first = all[0];
-        let changed = all.iter().filter(|of| of.verdicts[0] != of.verdicts[1]).count();
+        let changed = all.iter().filter(|of| of.verdict_changes()).count();
         let required = all.iter().filter(|of| of.is_required()).count();
         let words = [
             first.effect.name().to_owned(),
@@ -63,7 +63,7 @@ pub fn report(case: &Case, effects: &EffectsOnOptions, partial: bool) -> Report 
                 Cell::Text(key.kind.unit().to_owned()),
                 Cell::Number(of.height_change),
                 Cell::Number(of.force_change),
-                Cell::Verdict(of.verdicts[1]),
+                Cell::Verdict(of.verdict_with),
                 Cell::Flag(of.is_required()),
                 Cell::Text(source.to_owned()),
                 Cell::Rounded(of.cost, 2),
@@ -136,10 +136,6 @@ fn sentences(tried: &[Vec<&EffectOnOption>]) -> Vec<String> {
     let overstated = names(&|all| is_required(all) && !is_unsafe(all));
     if !overstated.is_empty() {
         lines.push(format!("leaving these out only overstates height and force: {}", listed(&overstated)));
-    }
-    let below = names(&|all| all.iter().all(|of| of.is_below_error));
-    if !below.is_empty() {
-        lines.push(format!("below the error of the computation: {}", listed(&below)));
     }
     let probed = tried.iter().any(|all| all[0].assumed && is_required(all));
     if probed {

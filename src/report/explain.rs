@@ -156,7 +156,7 @@ pub fn bands(risk: &Risk) -> Option<String> {
     };
     Some(format!(
         "5 to 95 % of {} samples: height {} · force {} · a cable breaks in {} %",
-        risk.samples.len(),
+        risk.decided().count(),
         band(Quantity::Height, Unit::Metre)?,
         band(Quantity::Force, Unit::Kilonewton)?,
         units::probabilities(risk.breaks.interval),

@@ -109,7 +109,7 @@ fn complete_row(row: &mut Row, case: &Case, result: &Result<Judgement, NoResult>
 pub fn swap_warning(case: &Case, swap: &Swap) -> String {
     let [first, second] = swap.rows.map(|row| &case.plan.blast_rows[row].name);
     format!(
-        "option {}: {} between rows {first} and {second} is short for the scatter of the detonators; a hole of row {second} fires before one of row {first} with a probability of {}",
+        "option {}: {} between rows {first} and {second} is short for the scatter of the detonators; a given hole of row {second} fires before a given hole of row {first} with a probability of {}",
         case.plan.delays[swap.option].name,
         units::exact_milliseconds(swap.interval),
         units::percent(swap.probability, 2),

@@ -84,8 +84,9 @@ impl Confidence {
     pub fn verdict(&self) -> Verdict {
         let [low, high] = self.interval;
         match (high < self.accepted, low > self.accepted) {
-            (true, _) => Verdict::Pass,
-            (_, true) => Verdict::Fail,
+            (true, false) => Verdict::Pass,
+            (false, true) => Verdict::Fail,
+            // The bounds of different looks contradict one another, or hold the accepted risk between them.
             _ => Verdict::Undecided,
         }
     }
@@ -206,6 +207,16 @@ mod tests {
             }
             assert!(samples as f64 / 100.0 <= most, "{p}: {samples}");
         }
+    }
+
+    /// Samples that stop passing contradict the bound found before.
+    #[test]
+    fn bounds_that_contradict_one_another_decide_nothing() {
+        let mut confidence = Confidence::new(0.01, 0);
+        (0..500).for_each(|_| confidence.push(Verdict::Pass));
+        assert_eq!(confidence.verdict(), Verdict::Pass);
+        (0..200).for_each(|_| confidence.push(Verdict::Fail));
+        assert_eq!(confidence.verdict(), Verdict::Undecided, "{:?}", confidence.interval);
     }
 
     #[test]

@@ -1,14 +1,17 @@
 //! Which effects a scene requires: each switched on, or taken away, by itself.
 //!
 //! 1. An effect of the plan is compared with the plan without it; one that the plan lacks is probed at a stated value. Directed
-//!    effects are probed both ways across the blast rows, and the harder way counts.
+//!    effects are probed along x and y, both ways, and the hardest direction counts.
 //! 2. Nominal differences alone are noise where a motion has several branches. So medians are compared, over the first
 //!    [`SAMPLES`] samples of `[uncertainty]`, with the same draws on both sides.
-//! 3. An effect is required where it changes the verdict on the shot as planned, or a median by more than [`REQUIRED`].
+//! 3. An effect is required where it changes on which side of the limits the shot as planned lies, or a median by more than
+//!    [`REQUIRED`], or where one of these is not known.
 
 use std::time::{Duration, Instant};
 
 use super::batch::run_jobs;
+use super::risk::percentiles;
+use super::sample::Sample;
 use super::sampling::{Sampling, ShotToSample, run_sample};
 use super::screen::{is_sure, screen};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, guarded};
@@ -87,7 +90,7 @@ impl Effect {
     }
 
     /// The value of the plan, in the unit of the key; `None` where the plan lacks the effect.
-    fn of(self, plan: &Plan) -> Option<f64> {
+    fn value_in(self, plan: &Plan) -> Option<f64> {
         let some = |value: f64| Some(value).filter(|&value| value > 0.0);
         match self {
             Self::Tilt => some(plan.launches().map(|launch| launch.tilt_deg).fold(0.0, f64::max)),
@@ -105,7 +108,7 @@ impl Effect {
     }
 
     /// The value at which the effect is probed where a plan lacks it; `None` for choices that every plan makes.
-    fn probe(self) -> Option<f64> {
+    fn probe_value(self) -> Option<f64> {
         match self {
             Self::Tilt => Some(5.0),
             Self::Slope => Some(10.0),
@@ -120,13 +123,13 @@ impl Effect {
         self != Self::Restitution || method == Method::Verlet
     }
 
-    /// Azimuths at which the effect is probed [°]: across the blast rows, which lie along x.
+    /// Azimuths at which the effect is probed [°].
     fn directions(self) -> &'static [f64] {
-        if matches!(self, Self::Tilt | Self::Slope) { &[90.0, 270.0] } else { &[0.0] }
+        if matches!(self, Self::Tilt | Self::Slope) { &[0.0, 90.0, 180.0, 270.0] } else { &[0.0] }
     }
 
     /// The plan with the effect at `value`, toward an azimuth [°] where it has a direction; without it where `None`.
-    fn set(self, plan: &Plan, value: Option<f64>, toward: f64) -> Plan {
+    fn plan_with(self, plan: &Plan, value: Option<f64>, toward: f64) -> Plan {
         let mut plan = plan.clone();
         let value_or_zero = value.unwrap_or(0.0);
         match self {
@@ -170,131 +173,144 @@ pub struct EffectOnOption {
     pub value: f64,
     /// Whether the value is a probe, not the plan's own.
     pub assumed: bool,
-    /// Median of the greatest height with the effect over that without it, less one.
+    /// Median of the greatest height with the effect over that without it, less one; not a number where one is unknown.
     pub height_change: f64,
     /// The same of the greatest cable force.
     pub force_change: f64,
-    /// Verdicts on the shot as planned, without the effect and with it.
-    pub verdicts: [Verdict; 2],
+    /// On which side of the limits the shot as planned lies without the effect.
+    pub verdict_without: Verdict,
+    /// The same with the effect.
+    pub verdict_with: Verdict,
     /// Time of a run with the effect over that of one without it.
     pub cost: f64,
-    /// Whether height and force change by less than their computing errors.
-    pub is_below_error: bool,
 }
 
 impl EffectOnOption {
-    /// Whether the scene requires the effect for this option.
-    pub fn is_required(&self) -> bool {
-        // A change that is no number comes of a run that failed: nothing shows that the effect may be left out.
-        let matters = |change: f64| change.is_nan() || change.abs() > REQUIRED;
-        self.verdicts[0] != self.verdicts[1] || matters(self.height_change) || matters(self.force_change)
+    fn new(variant: &Variant, without: &OptionFigures, with: &OptionFigures) -> Self {
+        Self {
+            effect: variant.effect,
+            value: variant.value,
+            assumed: variant.assumed,
+            height_change: change(without.height, with.height),
+            force_change: change(without.force, with.force),
+            verdict_without: without.verdict,
+            verdict_with: with.verdict,
+            cost: with.time.as_secs_f64() / without.time.as_secs_f64(),
+        }
     }
 
-    /// Whether a plan without the effect states too little height or force.
+    /// Whether the scene requires the effect for this option.
+    pub fn is_required(&self) -> bool {
+        let matters = |change: f64| change.is_nan() || change.abs() > REQUIRED;
+        self.verdict_changes() || matters(self.height_change) || matters(self.force_change)
+    }
+
+    /// Whether the effect brings the shot as planned to the other side of the limits.
+    pub fn verdict_changes(&self) -> bool {
+        self.verdict_without != self.verdict_with
+    }
+
+    /// Whether a plan without the effect states too little height or force, or may do so.
     pub fn is_missed_on_the_unsafe_side(&self) -> bool {
-        self.height_change > 0.0 || self.force_change > 0.0
+        let more = |change: f64| change.is_nan() || change > 0.0;
+        self.verdict_with > self.verdict_without || more(self.height_change) || more(self.force_change)
+    }
+
+    /// How hard the effect is on the option, to be compared with that of another direction.
+    fn harm(&self) -> (bool, Verdict, f64) {
+        let known = |change: f64| if change.is_nan() { f64::INFINITY } else { change };
+        (self.is_required(), self.verdict_with, known(self.height_change).max(known(self.force_change)))
+    }
+}
+
+/// Relative change of a median; not a number where a run behind it failed.
+fn change(without: f64, with: f64) -> f64 {
+    match without == with && without.is_finite() {
+        true => 0.0,
+        false if without.is_finite() && with.is_finite() => with / without - 1.0,
+        false => f64::NAN,
     }
 }
 
 /// Effects on every delay option, in the order of the plan (`n_options`); `None` where the time was up.
 pub type EffectsOnOptions = Vec<Option<Vec<EffectOnOption>>>;
 
-/// A plan with or without an effect, made ready.
+/// An effect to be tried; its plans are indices of cases.
 struct Variant {
     effect: Effect,
     value: f64,
     assumed: bool,
-    /// Without the effect, and with it toward each direction; `None`: the plan as it is.
-    without: Option<Case>,
-    with: Vec<Option<Case>>,
+    without: usize,
+    /// Toward each direction.
+    with: Vec<usize>,
 }
 
-/// What is known of one option of a plan.
-struct Known {
-    envelope: Envelope,
-    medians: [f64; 2],
+/// What is known of one option of one plan.
+struct OptionFigures {
+    /// On which side of the limits the shot as planned lies.
+    verdict: Verdict,
+    /// Median of the greatest height [m].
+    height: f64,
+    /// Median of the greatest cable force [N].
+    force: f64,
+    /// Time of all samples.
     time: Duration,
 }
 
+/// Index of the plan as it is among the cases.
+const AS_PLANNED: usize = 0;
+
 /// Switches every effect on and off for every delay option.
 pub fn effects(case: &Case, compute: &ComputeSettings, progress: &Progress) -> Finding<EffectsOnOptions> {
+    let mut cases = vec![case.clone()];
     let all = Effect::ALL.into_iter().filter(|effect| effect.is_in(compute.method));
-    let variants: Vec<Variant> = all.filter_map(|effect| variant(case, effect)).collect();
-    let options: Vec<usize> = (0..case.shots.len()).collect();
-    let found = run_jobs(&options, progress, |&option| {
-        guarded(|| {
-            let own = know(case, option, compute, progress)?;
-            variants.iter().map(|variant| compare(variant, &own, option, compute, progress)).collect()
-        })
+    let variants: Vec<Variant> = all.filter_map(|effect| variant(effect, &case.plan, &mut cases)).collect();
+    let jobs: Vec<(usize, usize)> = itertools::iproduct!(0..case.shots.len(), 0..cases.len()).collect();
+    let measured = run_jobs(&jobs, progress, |&(option, n)| {
+        guarded(|| measure_option(&cases[n], option, compute, progress))
     })?;
-    let partial = found.contains(&None);
+    let partial = measured.iter().any(Option::is_none);
+    let on_option = |figures: &[Option<OptionFigures>]| -> Option<Vec<EffectOnOption>> {
+        let figures: Vec<&OptionFigures> = figures.iter().map(Option::as_ref).collect::<Option<_>>()?;
+        variants.iter().map(|variant| hardest(variant, &figures)).collect()
+    };
+    let found = measured.chunks(cases.len()).map(on_option).collect();
     Ok(Found { value: found, partial })
 }
 
-fn variant(case: &Case, effect: Effect) -> Option<Variant> {
-    let plan = &case.plan;
-    let ready = |value, toward| Some(Case::new(effect.set(plan, value, toward)));
-    match (effect.of(plan), effect.probe()) {
+/// The plans with and without an effect, added to `cases`; `None` where there is nothing to try.
+fn variant(effect: Effect, plan: &Plan, cases: &mut Vec<Case>) -> Option<Variant> {
+    let mut add = |value, toward| {
+        cases.push(Case::new(effect.plan_with(plan, value, toward)));
+        cases.len() - 1
+    };
+    match (effect.value_in(plan), effect.probe_value()) {
         (Some(value), _) => {
-            Some(Variant { effect, value, assumed: false, without: ready(None, 0.0), with: vec![None] })
+            let (without, with) = (add(None, 0.0), vec![AS_PLANNED]);
+            Some(Variant { effect, value, assumed: false, without, with })
         }
         (None, Some(value)) => {
-            let with = effect.directions().iter().map(|&toward| ready(Some(value), toward)).collect();
-            Some(Variant { effect, value, assumed: true, without: None, with })
+            let with = effect.directions().iter().map(|&toward| add(Some(value), toward)).collect();
+            Some(Variant { effect, value, assumed: true, without: AS_PLANNED, with })
         }
         (None, None) => None,
     }
 }
 
-fn compare(
-    variant: &Variant,
-    own: &Known,
-    option: usize,
-    compute: &ComputeSettings,
-    progress: &Progress,
-) -> Result<EffectOnOption, NoResult> {
-    let of =
-        |case: &Option<Case>| case.as_ref().map(|case| know(case, option, compute, progress)).transpose();
-    let without = of(&variant.without)?;
-    let without = without.as_ref().unwrap_or(own);
-    let mut hardest: Option<EffectOnOption> = None;
-    for case in &variant.with {
-        let with = of(case)?;
-        let with = with.as_ref().unwrap_or(own);
-        let change = |n: usize| match [without.medians[n], with.medians[n]] {
-            [before, after] if before == after => 0.0,
-            [before, after] => after / before - 1.0,
-        };
-        let error = |quantity: Quantity| {
-            let bounded = own.envelope.get(quantity);
-            bounded.error / bounded.value
-        };
-        let here = EffectOnOption {
-            effect: variant.effect,
-            value: variant.value,
-            assumed: variant.assumed,
-            height_change: change(0),
-            force_change: change(1),
-            verdicts: [without.envelope.verdict, with.envelope.verdict],
-            cost: with.time.as_secs_f64() / without.time.as_secs_f64(),
-            is_below_error: change(0).abs() < error(Quantity::Height)
-                && change(1).abs() < error(Quantity::Force),
-        };
-        let harm = |of: &EffectOnOption| of.height_change.max(of.force_change);
-        if hardest.is_none_or(|hardest| harm(&here) > harm(&hardest)) {
-            hardest = Some(here);
-        }
-    }
-    hardest.ok_or(NoResult::OutOfTime)
+/// The effect in its hardest direction; `figures` are those of each case.
+fn hardest(variant: &Variant, figures: &[&OptionFigures]) -> Option<EffectOnOption> {
+    let all =
+        variant.with.iter().map(|&n| EffectOnOption::new(variant, figures[variant.without], figures[n]));
+    all.max_by(|a, b| a.harm().partial_cmp(&b.harm()).unwrap_or(std::cmp::Ordering::Equal))
 }
 
 /// Screens an option as planned, and takes the medians of its first samples.
-fn know(
+fn measure_option(
     case: &Case,
     option: usize,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Known, NoResult> {
+) -> Result<OptionFigures, NoResult> {
     let shot = &case.shots[option];
     let envelope = match screen(case, shot, compute, progress, |envelope, runs| is_sure(case, envelope, runs))
     {
@@ -304,16 +320,23 @@ fn know(
     let sampling = Sampling::exactly(SAMPLES, Sampling::OF_VERDICT.seed);
     let target = ShotToSample { case, shot, planned: None, compute: *compute, sampling, precomputed: &[] };
     let begun = Instant::now();
-    let mut values = [Vec::with_capacity(SAMPLES), Vec::with_capacity(SAMPLES)];
-    for number in 0..SAMPLES {
-        let sample = run_sample(&target, number, 1.0, progress)?;
-        values[0].push(sample.run.height);
-        values[1].push(sample.run.force);
-    }
+    let samples: Vec<Sample> =
+        (0..SAMPLES).map(|number| run_sample(&target, number, 1.0, progress)).collect::<Result<_, _>>()?;
     let time = begun.elapsed();
-    let medians = values.map(|mut values| {
-        values.sort_by(f64::total_cmp);
-        values[SAMPLES / 2]
-    });
-    Ok(Known { envelope, medians, time })
+    let median = |quantity: Quantity| {
+        let values = samples.iter().map(|sample| sample.run.get(quantity));
+        percentiles(values, [0.5]).map_or(f64::INFINITY, |[median]| median)
+    };
+    let (height, force) = (median(Quantity::Height), median(Quantity::Force));
+    Ok(OptionFigures { verdict: side(&envelope, case), height, force, time })
+}
+
+/// On which side of the limits a shot lies. A run that ends early counts by its values: without friction none comes to rest.
+fn side(envelope: &Envelope, case: &Case) -> Verdict {
+    let utilization = |errors: f64| envelope.with_errors(errors).utilization(&case.limits);
+    match (utilization(1.0) <= 1.0, utilization(-1.0) > 1.0) {
+        (true, _) => Verdict::Pass,
+        (_, true) => Verdict::Fail,
+        _ => Verdict::Undecided,
+    }
 }

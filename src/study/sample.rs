@@ -35,7 +35,7 @@ impl Sample {
 pub struct SampleRun {
     /// Whether it keeps every limit; undecided where the run ends too early, fails, or loses energy.
     pub verdict: Verdict,
-    /// Fail where a cable breaks; undecided where the verdict is.
+    /// Fail where a cable breaks; undecided where the verdict is, or where the run ends before one broke.
     pub breaks: Verdict,
     /// Greatest flight height [m].
     #[serde(deserialize_with = "or_infinite")]
@@ -68,9 +68,11 @@ impl SampleRun {
             false => Verdict::Undecided,
         };
         let broke = !outcome.broken.is_empty() || outcome.force.value > case.limits.breaking_force;
+        let ends_early = reasons.iter().any(|reason| matches!(reason, Reason::EndsEarly { .. }));
         let breaks = match verdict {
             Verdict::Undecided => Verdict::Undecided,
             _ if broke => Verdict::Fail,
+            _ if ends_early => Verdict::Undecided,
             _ => Verdict::Pass,
         };
         let [height, force, drift] = peaks.map(|peak| peak.value);

@@ -33,6 +33,9 @@ impl Sampling {
     /// The sampling of a verdict: enough for the shares of the inputs, and more until the verdict is sure.
     pub const OF_VERDICT: Self = Self { least: SAMPLES_FOR_SHARES, most: 2000, seed: 1, attempt: 0 };
 
+    /// The sampling of a study of risk: as many samples as a verdict may take.
+    pub const OF_RISK: Self = Self::exactly(Self::OF_VERDICT.most, Self::OF_VERDICT.seed);
+
     /// Exactly `count` samples of each shot.
     pub const fn exactly(count: usize, seed: u64) -> Self {
         Self { least: count, most: count, seed, attempt: 0 }
@@ -67,6 +70,12 @@ pub struct ShotToSample<'c> {
 }
 
 impl ShotToSample<'_> {
+    /// The sample of a number, where another machine drew it.
+    fn precomputed(&self, number: usize) -> Option<&Sample> {
+        let found = self.precomputed.binary_search_by_key(&number, |sample| sample.number);
+        found.ok().map(|n| &self.precomputed[n])
+    }
+
     fn no_samples(&self) -> Risk {
         Risk::new(self.case, self.planned, self.sampling.attempt)
     }
@@ -103,7 +112,7 @@ pub fn find_risks(
             return Ok(Found { value: risks, partial: false });
         }
         let drawn =
-            run_jobs(&jobs, progress, |&(n, number, halvings)| match targets[n].precomputed.get(number) {
+            run_jobs(&jobs, progress, |&(n, number, halvings)| match targets[n].precomputed(number) {
                 Some(sample) if halvings == 0 => Ok(*sample),
                 _ => {
                     let sample =

@@ -43,7 +43,7 @@ pub struct Kicked<S: Simd> {
 }
 
 impl<S: Simd> Tires<S> {
-    /// Kicks and drifts the tires: free velocity v* = v + h (f/m − g), then support and friction of the ground, then
+    /// Kicks and drifts the tires: free velocity v* = v + h (f/m + g), then support and friction of the ground, then
     /// u + h v. Roots and quotients are computed only where a tire slips; `SLOPED`: the ground slopes.
     #[inline(always)]
     pub fn kick<const SLOPED: bool>(&self, simd: S) -> Kicked<S> {

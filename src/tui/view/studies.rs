@@ -36,7 +36,7 @@ fn about(kind: StudyKind) -> (&'static str, &'static str) {
             "Which order of the rows is worst, which best? All orders at the intervals of the plan.",
         ),
         StudyKind::Risk => {
-            ("Risk", "How likely does each option fail when what is not known varies? 1000 samples each.")
+            ("Risk", "How likely does each option fail when what is not known varies? 2000 samples each.")
         }
         StudyKind::Size => {
             ("Size", "What is the lightest rope, tire and border with which every option passes?")
