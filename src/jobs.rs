@@ -13,7 +13,7 @@ use std::time::Duration;
 
 use crate::study::check::Checked;
 use crate::study::check_all::{OptionResults, check_all};
-use crate::study::effects::{EffectsOnOptions, effects};
+use crate::study::effects::{EffectsOnOptions, SAMPLES, effects};
 use crate::study::flight::{Flight, record};
 use crate::study::margin::LaunchMargin;
 use crate::study::orders::{Orders, orders, rank};
@@ -140,6 +140,8 @@ pub enum News {
 
 /// Samples of every option.
 const SAMPLING: Sampling = Sampling::OF_RISK;
+/// Samples of a study of effects.
+const EFFECTS: Sampling = Sampling::exactly(SAMPLES, Sampling::OF_RISK.seed);
 /// Intervals swept [s].
 const INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: GAP };
 /// Longest run that [`StudyKind::Accuracy`] makes.
@@ -272,7 +274,7 @@ impl Job {
                     size(&case.plan, &demand, Some(&Sampling::OF_VERDICT), compute, progress)?.value,
                 ))
             }
-            StudyKind::Effects => Ok(StudyResult::Effects(effects(case, compute, progress)?.value)),
+            StudyKind::Effects => Ok(StudyResult::Effects(effects(case, &EFFECTS, compute, progress)?.value)),
             StudyKind::Flight => record(case, option, compute, progress).map(StudyResult::Flight),
             StudyKind::Accuracy => {
                 Ok(StudyResult::Accuracy(accuracy::measure(case, option, LONGEST_RUN, progress)?.value))

@@ -230,7 +230,7 @@ fn reasons<'a>(case: &'a Case, judged: &'a Judgement) -> impl Iterator<Item = De
     judged.nominal.reasons.iter().map(detail).chain(risk_detail(case, judged))
 }
 
-fn details(case: &Case, judged: &Judgement) -> Vec<Detail> {
+pub(super) fn details(case: &Case, judged: &Judgement) -> Vec<Detail> {
     let checked = &judged.nominal;
     let mut details: Vec<Detail> = reasons(case, judged).collect();
     if !checked.broken.is_empty() {

@@ -5,26 +5,29 @@ use super::report_head;
 use crate::study::Case;
 use crate::study::effects::{Effect, EffectOnOption, EffectsOnOptions, REQUIRED};
 use crate::units;
-use crate::verdict::Verdict;
+use crate::verdict::{Quantity, Verdict};
 
-const FOR_PEOPLE: [Column; 7] = [
+const FOR_PEOPLE: [Column; 8] = [
     Column::words(&[], "effect"),
     Column::words(&[], "required"),
     Column::words(&[], "height"),
     Column::words(&[], "force"),
+    Column::words(&[], "drift"),
     Column::words(&[], "verdicts change"),
     Column::words(&[], "value"),
     Column::words(&[], "run time"),
 ];
 
-const FOR_SCRIPTS: [Column; 10] = [
+const FOR_SCRIPTS: [Column; 12] = [
     Column::scripts(&["option"]),
     Column::scripts(&["name"]),
     Column::scripts(&["value"]),
     Column::scripts(&["unit"]),
     Column::scripts(&["flight_height_change"]),
     Column::scripts(&["cable_force_change"]),
+    Column::scripts(&["drift_change"]),
     Column::scripts(&["verdict"]),
+    Column::scripts(&["verdict_without"]),
     Column::scripts(&["required"]),
     Column::scripts(&["source"]),
     Column::scripts(&["cost"]),
@@ -44,8 +47,9 @@ pub fn report(case: &Case, effects: &EffectsOnOptions, partial: bool) -> Report 
         let words = [
             first.effect.name().to_owned(),
             if required > 0 { format!("by {required} of {}", all.len()) } else { "no".to_owned() },
-            changes(all, |of| of.height_change),
-            changes(all, |of| of.force_change),
+            changes(all, Quantity::Height),
+            changes(all, Quantity::Force),
+            changes(all, Quantity::Drift),
             format!("{changed} of {}", all.len()),
             value(first),
             format!("x {}", units::short(median(all.iter().map(|of| of.cost)))),
@@ -61,9 +65,11 @@ pub fn report(case: &Case, effects: &EffectsOnOptions, partial: bool) -> Report 
                 Cell::Text(key.name.to_owned()),
                 Cell::Number(of.value),
                 Cell::Text(key.kind.unit().to_owned()),
-                Cell::Number(of.height_change),
-                Cell::Number(of.force_change),
+                Cell::Number(of.change(Quantity::Height)),
+                Cell::Number(of.change(Quantity::Force)),
+                Cell::Number(of.change(Quantity::Drift)),
                 Cell::Verdict(of.verdict_with),
+                Cell::Verdict(of.verdict_without),
                 Cell::Flag(of.is_required()),
                 Cell::Text(source.to_owned()),
                 Cell::Rounded(of.cost, 2),
@@ -87,7 +93,7 @@ pub fn report(case: &Case, effects: &EffectsOnOptions, partial: bool) -> Report 
 }
 
 /// What the columns say.
-const MEANING: &str = "change of the median over possible shots by each effect, from the least to the greatest over the options";
+const MEANING: &str = "change by each effect of the median over some possible shots, from the least to the greatest over the options; verdicts are those of the limits on the shot as planned alone, not those of `check`";
 
 /// `10 %`, `2000 kN/m (assumed)`.
 fn value(of: &EffectOnOption) -> String {
@@ -97,10 +103,13 @@ fn value(of: &EffectOnOption) -> String {
 }
 
 /// `-3 to +12 %`.
-fn changes(all: &[&EffectOnOption], change: fn(&EffectOnOption) -> f64) -> String {
-    let values = || all.iter().map(|of| change(of));
-    if values().any(|value| !value.is_finite()) {
+fn changes(all: &[&EffectOnOption], quantity: Quantity) -> String {
+    let values = || all.iter().map(|of| of.change(quantity));
+    if values().any(f64::is_nan) {
         return "unknown".to_owned();
+    }
+    if values().any(f64::is_infinite) {
+        return "from 0".to_owned();
     }
     let signed = |share: f64| format!("{:+}", (1e2 * share).round() + 0.0);
     let (least, most) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
@@ -121,6 +130,9 @@ fn sentences(tried: &[Vec<&EffectOnOption>]) -> Vec<String> {
     };
     let is_required = |all: &[&EffectOnOption]| all.iter().any(|of| of.is_required());
     let is_unsafe = |all: &[&EffectOnOption]| all.iter().any(|of| of.is_missed_on_the_unsafe_side());
+    if tried.is_empty() {
+        return Vec::new();
+    }
     let required = names(&is_required);
     let others = names(&|all| !is_required(all));
     let listed =
@@ -129,13 +141,13 @@ fn sentences(tried: &[Vec<&EffectOnOption>]) -> Vec<String> {
     if !others.is_empty() {
         let most = units::percent(REQUIRED, 0);
         lines.push(format!(
-            "not: {} (no verdict changes, height and force by less than {most})",
+            "not: {} (no verdict changes, what has a limit changes by less than {most}, or hardly against its limit)",
             listed(&others)
         ));
     }
     let overstated = names(&|all| is_required(all) && !is_unsafe(all));
     if !overstated.is_empty() {
-        lines.push(format!("leaving these out only overstates height and force: {}", listed(&overstated)));
+        lines.push(format!("leaving these out only overstates what has a limit: {}", listed(&overstated)));
     }
     let probed = tried.iter().any(|all| all[0].assumed && is_required(all));
     if probed {

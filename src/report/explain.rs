@@ -1,6 +1,7 @@
 //! Sentences about one checked option, the same in every face.
 
 use super::model::Detail;
+use crate::choice::Accuracy;
 use crate::outcome::Broken;
 use crate::scene::{Scene, Shot};
 use crate::study::Case;
@@ -63,15 +64,19 @@ pub fn risk_detail(case: &Case, judged: &Judgement) -> Option<Detail> {
     }
     let shots = format!("{failures} of {samples} possible shots fail{}", limits_exceeded(case, risk));
     let verdict = risk.verdict();
+    let ComputeSettings { accuracy, step, .. } = judged.nominal.compute;
+    let can_be_finer = step.is_none() && accuracy != Accuracy::Reference;
+    let finer = if can_be_finer { "; choose accuracy \"reference\"" } else { "" };
     let text = match verdict {
         Verdict::Pass => return None,
         Verdict::Undecided if risk.planned_exceeds_samples() => {
-            let text = "the shot as planned lies above all samples: the step of samples is too long for this motion; choose accuracy \"reference\"";
-            text.to_owned()
+            format!(
+                "the shot as planned lies above all samples: the step of samples is too long for this motion{finer}"
+            )
         }
         Verdict::Fail => format!("{shots}, surely more than the {accepted} accepted"),
         Verdict::Undecided if risk.is_contradicted() => {
-            format!("{shots}, but finer runs contradict them: choose accuracy \"reference\"")
+            format!("{shots}, but finer runs contradict them{finer}")
         }
         Verdict::Undecided if risk.confidence.undecided > 0 => {
             let undecided = risk.confidence.undecided;

@@ -1,7 +1,8 @@
 //! `risk` as a report: how likely each option fails, within which bands it stays, and what decides it.
 
 use super::charts;
-use super::explain::{compute_label, inputs, risk_detail};
+use super::check::details;
+use super::explain::{compute_label, inputs};
 use super::model::{Block, Cell, Column, Conclusion, Field, Report, Row, Table};
 use super::no_result;
 use super::report_head;
@@ -100,7 +101,7 @@ pub fn report(case: &Case, results: &OptionResults, sampling: &Sampling, partial
 
 fn complete_row(row: &mut Row, case: &Case, result: &Result<Judgement, NoResult>) {
     match result {
-        Ok(judged) => row.details = risk_detail(case, judged).into_iter().collect(),
+        Ok(judged) => row.details = details(case, judged),
         Err(reason) => row.missing = Some(no_result::message(reason)),
     }
 }

@@ -2,10 +2,11 @@
 //!
 //! 1. An effect of the plan is compared with the plan without it; one that the plan lacks is probed at a stated value. Directed
 //!    effects are probed along x and y, both ways, and the hardest direction counts.
-//! 2. Nominal differences alone are noise where a motion has several branches. So medians are compared, over the first
-//!    [`SAMPLES`] samples of `[uncertainty]`, with the same draws on both sides.
-//! 3. An effect is required where it changes on which side of the limits the shot as planned lies, or a median by more than
-//!    [`REQUIRED`], or where one of these is not known.
+//! 2. Nominal differences alone are noise where a motion has several branches. So medians are compared, over the first samples of
+//!    `[uncertainty]`, with the same draws on both sides.
+//! 3. An effect is required where it changes on which side of the limits the shot as planned lies; where it changes the median of a
+//!    quantity that has a limit by more than [`REQUIRED`], and by more than [`FLOOR`] of the limit; or where one of these is not
+//!    known.
 
 use std::time::{Duration, Instant};
 
@@ -18,12 +19,14 @@ use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress,
 use crate::choice::Method;
 use crate::plan::keys::{self, Key};
 use crate::plan::{Layout, Plan};
-use crate::verdict::{Quantity, Verdict};
+use crate::verdict::{Limits, Quantity, Verdict};
 
-/// Samples behind a median.
-const SAMPLES: usize = 25;
+/// Samples behind a median where nobody asks for another number.
+pub const SAMPLES: usize = 49;
 /// Change of a median from which an effect is required.
 pub const REQUIRED: f64 = 0.05;
+/// Change of a median over the limit below which the effect is not required: a few newtons more or less.
+pub const FLOOR: f64 = 0.01;
 /// Time after the last hole over which a shelter without friction is followed [s].
 const WITHOUT_FRICTION: f64 = 3.0;
 
@@ -173,10 +176,8 @@ pub struct EffectOnOption {
     pub value: f64,
     /// Whether the value is a probe, not the plan's own.
     pub assumed: bool,
-    /// Median of the greatest height with the effect over that without it, less one; not a number where one is unknown.
-    pub height_change: f64,
-    /// The same of the greatest cable force.
-    pub force_change: f64,
+    /// Change of the median of each of [`Quantity::ALL`].
+    pub changes: [Change; Quantity::ALL.len()],
     /// On which side of the limits the shot as planned lies without the effect.
     pub verdict_without: Verdict,
     /// The same with the effect.
@@ -186,23 +187,30 @@ pub struct EffectOnOption {
 }
 
 impl EffectOnOption {
-    fn new(variant: &Variant, without: &OptionFigures, with: &OptionFigures) -> Self {
+    fn new(variant: &Variant, without: &OptionFigures, with: &OptionFigures, limits: &Limits) -> Self {
         Self {
             effect: variant.effect,
             value: variant.value,
             assumed: variant.assumed,
-            height_change: change(without.height, with.height),
-            force_change: change(without.force, with.force),
+            changes: Quantity::ALL.map(|of| Change {
+                without: without.medians[of as usize],
+                with: with.medians[of as usize],
+                limit: limits.get(of),
+            }),
             verdict_without: without.verdict,
             verdict_with: with.verdict,
             cost: with.time.as_secs_f64() / without.time.as_secs_f64(),
         }
     }
 
+    /// Relative change of the median of a quantity.
+    pub fn change(&self, of: Quantity) -> f64 {
+        self.changes[of as usize].relative()
+    }
+
     /// Whether the scene requires the effect for this option.
     pub fn is_required(&self) -> bool {
-        let matters = |change: f64| change.is_nan() || change.abs() > REQUIRED;
-        self.verdict_changes() || matters(self.height_change) || matters(self.force_change)
+        self.verdict_changes() || self.changes.iter().any(Change::matters)
     }
 
     /// Whether the effect brings the shot as planned to the other side of the limits.
@@ -210,25 +218,55 @@ impl EffectOnOption {
         self.verdict_without != self.verdict_with
     }
 
-    /// Whether a plan without the effect states too little height or force, or may do so.
+    /// Whether a plan without the effect states too little, or may do so.
     pub fn is_missed_on_the_unsafe_side(&self) -> bool {
-        let more = |change: f64| change.is_nan() || change > 0.0;
-        self.verdict_with > self.verdict_without || more(self.height_change) || more(self.force_change)
+        let more = |change: &Change| {
+            change.limit.is_some() && (change.relative().is_nan() || change.relative() > 0.0)
+        };
+        self.verdict_with > self.verdict_without || self.changes.iter().any(more)
     }
 
     /// How hard the effect is on the option, to be compared with that of another direction.
     fn harm(&self) -> (bool, Verdict, f64) {
-        let known = |change: f64| if change.is_nan() { f64::INFINITY } else { change };
-        (self.is_required(), self.verdict_with, known(self.height_change).max(known(self.force_change)))
+        let used = |change: &Change| match change.relative().is_nan() {
+            true => f64::INFINITY,
+            false => change.limit.map_or(0.0, |limit| (change.with - change.without) / limit),
+        };
+        (
+            self.is_required(),
+            self.verdict_with,
+            self.changes.iter().map(used).fold(f64::NEG_INFINITY, f64::max),
+        )
     }
 }
 
-/// Relative change of a median; not a number where a run behind it failed.
-fn change(without: f64, with: f64) -> f64 {
-    match without == with && without.is_finite() {
-        true => 0.0,
-        false if without.is_finite() && with.is_finite() => with / without - 1.0,
-        false => f64::NAN,
+/// The median of a quantity without an effect and with it [SI].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Change {
+    /// Without the effect; infinite where a run failed.
+    pub without: f64,
+    /// With the effect; infinite where a run failed.
+    pub with: f64,
+    /// Limit of the quantity, if it has one.
+    pub limit: Option<f64>,
+}
+
+impl Change {
+    /// The median with the effect over that without it, less one; not a number where one is unknown.
+    pub fn relative(&self) -> f64 {
+        match self.without.is_finite() && self.with.is_finite() {
+            true if self.without == self.with => 0.0,
+            true => self.with / self.without - 1.0,
+            false => f64::NAN,
+        }
+    }
+
+    /// Whether the effect may not be left out, as far as this quantity says.
+    fn matters(&self) -> bool {
+        let relative = self.relative();
+        self.limit.is_some_and(|limit| {
+            relative.is_nan() || relative.abs() > REQUIRED && (self.with - self.without).abs() > FLOOR * limit
+        })
     }
 }
 
@@ -249,10 +287,8 @@ struct Variant {
 struct OptionFigures {
     /// On which side of the limits the shot as planned lies.
     verdict: Verdict,
-    /// Median of the greatest height [m].
-    height: f64,
-    /// Median of the greatest cable force [N].
-    force: f64,
+    /// Median of each of [`Quantity::ALL`] [SI].
+    medians: [f64; Quantity::ALL.len()],
     /// Time of all samples.
     time: Duration,
 }
@@ -261,18 +297,23 @@ struct OptionFigures {
 const AS_PLANNED: usize = 0;
 
 /// Switches every effect on and off for every delay option.
-pub fn effects(case: &Case, compute: &ComputeSettings, progress: &Progress) -> Finding<EffectsOnOptions> {
+pub fn effects(
+    case: &Case,
+    sampling: &Sampling,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Finding<EffectsOnOptions> {
     let mut cases = vec![case.clone()];
     let all = Effect::ALL.into_iter().filter(|effect| effect.is_in(compute.method));
     let variants: Vec<Variant> = all.filter_map(|effect| variant(effect, &case.plan, &mut cases)).collect();
     let jobs: Vec<(usize, usize)> = itertools::iproduct!(0..case.shots.len(), 0..cases.len()).collect();
     let measured = run_jobs(&jobs, progress, |&(option, n)| {
-        guarded(|| measure_option(&cases[n], option, compute, progress))
+        guarded(|| measure_option(&cases[n], option, sampling, compute, progress))
     })?;
     let partial = measured.iter().any(Option::is_none);
     let on_option = |figures: &[Option<OptionFigures>]| -> Option<Vec<EffectOnOption>> {
         let figures: Vec<&OptionFigures> = figures.iter().map(Option::as_ref).collect::<Option<_>>()?;
-        variants.iter().map(|variant| hardest(variant, &figures)).collect()
+        variants.iter().map(|variant| hardest(variant, &figures, &case.limits)).collect()
     };
     let found = measured.chunks(cases.len()).map(on_option).collect();
     Ok(Found { value: found, partial })
@@ -298,9 +339,11 @@ fn variant(effect: Effect, plan: &Plan, cases: &mut Vec<Case>) -> Option<Variant
 }
 
 /// The effect in its hardest direction; `figures` are those of each case.
-fn hardest(variant: &Variant, figures: &[&OptionFigures]) -> Option<EffectOnOption> {
-    let all =
-        variant.with.iter().map(|&n| EffectOnOption::new(variant, figures[variant.without], figures[n]));
+fn hardest(variant: &Variant, figures: &[&OptionFigures], limits: &Limits) -> Option<EffectOnOption> {
+    let all = variant
+        .with
+        .iter()
+        .map(|&n| EffectOnOption::new(variant, figures[variant.without], figures[n], limits));
     all.max_by(|a, b| a.harm().partial_cmp(&b.harm()).unwrap_or(std::cmp::Ordering::Equal))
 }
 
@@ -308,6 +351,7 @@ fn hardest(variant: &Variant, figures: &[&OptionFigures]) -> Option<EffectOnOpti
 fn measure_option(
     case: &Case,
     option: usize,
+    sampling: &Sampling,
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<OptionFigures, NoResult> {
@@ -317,18 +361,18 @@ fn measure_option(
         Err(NoResult::Failed(_)) => Envelope::UNKNOWN,
         screened => screened?,
     };
-    let sampling = Sampling::exactly(SAMPLES, Sampling::OF_VERDICT.seed);
-    let target = ShotToSample { case, shot, planned: None, compute: *compute, sampling, precomputed: &[] };
+    let target =
+        ShotToSample { case, shot, planned: None, compute: *compute, sampling: *sampling, precomputed: &[] };
     let begun = Instant::now();
-    let samples: Vec<Sample> =
-        (0..SAMPLES).map(|number| run_sample(&target, number, 1.0, progress)).collect::<Result<_, _>>()?;
+    let samples: Vec<Sample> = (0..sampling.most)
+        .map(|number| run_sample(&target, number, 1.0, progress))
+        .collect::<Result<_, _>>()?;
     let time = begun.elapsed();
     let median = |quantity: Quantity| {
         let values = samples.iter().map(|sample| sample.run.get(quantity));
         percentiles(values, [0.5]).map_or(f64::INFINITY, |[median]| median)
     };
-    let (height, force) = (median(Quantity::Height), median(Quantity::Force));
-    Ok(OptionFigures { verdict: side(&envelope, case), height, force, time })
+    Ok(OptionFigures { verdict: side(&envelope, case), medians: Quantity::ALL.map(median), time })
 }
 
 /// On which side of the limits a shot lies. A run that ends early counts by its values: without friction none comes to rest.

@@ -111,6 +111,7 @@ pub const BAD: &[(&str, &str)] = &[
     ("under_row = 1\nlaunch_m_s = 6.0", "holes = [{ x_m = 503221, y_m = 6112233, launch_m_s = 6 }]"),
     ("under_row = 1\nlaunch_m_s = 6.0", "holes = [{ x_m = -1.6, y_m = 1, launch_m_s = 6 }]"),
     ("friction = 0.5", "friction = 0.2\nslope_percent = 25"),
+    ("friction = 0.5", "friction = 0.5\nslope_percent = 45\n[uncertainty]\nfriction = [0.4, 0.6]"),
     ("mass_kg = 280", "mass_kg = 280\nrestitution = 0.3\n[simulation]\nmethod = \"newmark\""),
     ("mass_kg = 280", "mass_kg = 280\nrestitution = 1"),
     ("launch_m_s = 6.0\n[[blast_row]]", "[[blast_row]]"),

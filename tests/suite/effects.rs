@@ -8,9 +8,10 @@ use shelter::plan::Plan;
 use shelter::scene::{Firing, Scene, Shot};
 use shelter::simulation::Failure;
 use shelter::study::check::check;
-use shelter::study::effects::{Effect, effects};
+use shelter::study::effects::{Effect, SAMPLES, effects};
 use shelter::study::sampling::{Sampling, ShotToSample, draw_share};
 use shelter::study::{Case, ComputeSettings, Progress, Shard};
+use shelter::verdict::Quantity;
 
 use super::scenes::{GRAVITY, METHODS, close, fire, fire_rows, grid, run, settings, tires, try_run, watch};
 
@@ -230,15 +231,18 @@ fn effects_are_those_of_an_independent_prototype() {
     }
 }
 
-/// Median of the greatest force of 25 samples of the only option [N].
+/// Samples of `shelter effects`.
+const FEW: Sampling = Sampling::exactly(SAMPLES, Sampling::OF_VERDICT.seed);
+
+/// Median of the greatest force of 49 samples of the only option [N].
 fn median_force(case: &Case, compute: ComputeSettings) -> f64 {
-    let (shot, sampling) = (&case.shots[0], Sampling::exactly(25, Sampling::OF_VERDICT.seed));
+    let (shot, sampling) = (&case.shots[0], FEW);
     let target = ShotToSample { case, shot, planned: None, compute, sampling, precomputed: &[] };
     let drawn = draw_share(&[target], Shard::WHOLE, &Progress::default()).expect("samples");
     let mut forces: Vec<f64> =
         drawn.into_iter().map(|(_, sample)| sample.expect("time for all").run.force).collect();
     forces.sort_by(f64::total_cmp);
-    forces[12]
+    forces[24]
 }
 
 /// Where no run succeeds nothing is known, and nothing may be left out.
@@ -246,7 +250,7 @@ fn median_force(case: &Case, compute: ComputeSettings) -> f64 {
 fn what_failed_runs_leave_open_is_required() {
     let case = three_rows("", "", "", "");
     let compute = ComputeSettings { step: Some(1.0), ..ComputeSettings::of(&case.plan) };
-    let found = effects(&case, &compute, &Progress::default()).expect("a result").value.remove(0);
+    let found = effects(&case, &FEW, &compute, &Progress::default()).expect("a result").value.remove(0);
     let found = found.expect("time for all");
     assert!(found.iter().all(|of| of.is_required() && of.is_missed_on_the_unsafe_side()), "{found:?}");
 }
@@ -257,7 +261,7 @@ fn what_failed_runs_leave_open_is_required() {
 fn effects_compare_plans_with_and_without_them() {
     let case = three_rows("", "", "", "");
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
-    let found = effects(&case, &compute, &Progress::default()).expect("a result").value.remove(0);
+    let found = effects(&case, &FEW, &compute, &Progress::default()).expect("a result").value.remove(0);
     let found = found.expect("time for all");
     let of = |effect: Effect| *found.iter().find(|of| of.effect == effect).expect("tried");
     assert!(!found.iter().any(|of| of.effect == Effect::Ballast), "the plan has none, and none is probed");
@@ -268,7 +272,10 @@ fn effects_compare_plans_with_and_without_them() {
     let tight = Case::new(plan);
     let slack = of(Effect::Slack);
     assert_eq!((slack.value, slack.assumed), (2.0, false));
-    assert_eq!(slack.force_change, median_force(&case, compute) / median_force(&tight, compute) - 1.0);
+    assert_eq!(
+        slack.change(Quantity::Force),
+        median_force(&case, compute) / median_force(&tight, compute) - 1.0
+    );
     assert_eq!([slack.verdict_without, slack.verdict_with], [verdict(&tight), verdict(&case)]);
     let slope = of(Effect::Slope);
     let sloping = [0, 90, 180, 270].map(|toward| {
@@ -277,8 +284,33 @@ fn effects_compare_plans_with_and_without_them() {
     });
     assert_eq!((slope.value, slope.assumed), (10.0, true));
     let most = sloping.into_iter().fold(f64::NEG_INFINITY, f64::max);
-    assert!(slope.height_change > slope.force_change || slope.force_change == most, "{slope:?} {sloping:?}");
+    assert!(slope.change(Quantity::Force) == most, "{slope:?} {sloping:?}");
     // Yielding ends take more than half of the force: no median of an effect that matters is missed.
-    assert!(of(Effect::Ends).is_required() && of(Effect::Ends).force_change < -0.5);
+    assert!(of(Effect::Ends).is_required() && of(Effect::Ends).change(Quantity::Force) < -0.5);
     assert!(!of(Effect::Restitution).is_required(), "{:?}", of(Effect::Restitution));
+}
+
+/// A slope under two tied tires moves hardly more than their drift; where that has a limit, the slope is required.
+#[test]
+fn drift_counts_where_it_has_a_limit() {
+    let case = |drift: &str| {
+        let text = format!(
+            "shelter = {{ layout = \"grid\", rows = 1, columns = 2, spacing_m = 2.6 }}\n\
+             tire = {{ mass_kg = 280, outer_diameter_m = 1.6 }}\nground = {{ friction = 0.5 }}\n\
+             cable = {{ axial_stiffness_kn = 1000, breaking_force_kn = 200, slack_percent = 2 }}\n\
+             blast_row = [{{ name = \"1\", under_row = 1, launch_m_s = 6 }}]\n\
+             limits = {{ flight_height_m = 3, cable_safety_factor = 1.5{drift} }}\n\
+             delay = [{{ name = \"a\", interval_ms = 42 }}]\n"
+        );
+        Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
+    };
+    let required = |case: Case| {
+        let compute = ComputeSettings::of(&case.plan);
+        let found = effects(&case, &FEW, &compute, &Progress::default()).expect("a result").value.remove(0);
+        let found = found.expect("time for all");
+        let slope = *found.iter().find(|of| of.effect == Effect::Slope).expect("tried");
+        (slope.is_required(), slope.is_missed_on_the_unsafe_side())
+    };
+    assert_eq!(required(case(", drift_m = 0.8")), (true, true));
+    assert!(!required(case("")).0);
 }

@@ -49,7 +49,7 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
     let tire = root.section(&TIRE).map(|section| read_tire(section, simulation.method));
     let layout = root.section(&SHELTER).and_then(|section| read_layout(section, mistakes));
     let cable = root.section(&CABLE).map(|section| read_cable(section, mistakes));
-    let ground = root.section(&GROUND).map(|section| read_ground(section, &simulation));
+    let ground = root.section(&GROUND).map(read_ground);
     if let (Some(layout), Some(tire)) = (&layout, &tire) {
         check_gaps(layout, tire, root, mistakes);
     }
@@ -65,7 +65,7 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
     let termination = cable.as_ref().and_then(|cable| cable.termination.as_deref());
     let own_masses = matches!(&layout, Some(Layout::List { tires, .. }) if tires.iter().any(|tire| tire.mass_kg.is_some()));
     let size = read_size(root.section_or_empty(&SIZE), termination, own_masses);
-    Some(Plan {
+    let plan = Plan {
         title,
         layout: layout?,
         tire: tire?,
@@ -77,7 +77,9 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
         simulation,
         uncertainty,
         size,
-    })
+    };
+    check_slope(&plan, root, mistakes);
+    Some(plan)
 }
 
 fn read_simulation(section: SectionReader<'_>) -> SimulationSpec {
@@ -105,20 +107,27 @@ fn read_tire(section: SectionReader<'_>, method: Method) -> TireSpec {
     spec
 }
 
-fn read_ground(section: SectionReader<'_>, simulation: &SimulationSpec) -> GroundSpec {
+fn read_ground(section: SectionReader<'_>) -> GroundSpec {
     let spec = GroundSpec {
         friction: section.number(&ground::FRICTION),
         slope_percent: section.number(&ground::SLOPE_PERCENT),
         slope_toward_deg: section.number(&ground::SLOPE_TOWARD_DEG),
     };
-    if spec.slope_percent * 1e-2 > spec.friction && simulation.duration_s.is_none() {
-        let message =
-            format!("on a slope of {} % friction of {} holds no tire", spec.slope_percent, spec.friction);
-        let remedy = "the shelter never comes to rest: give [simulation] a duration_s";
-        section.wrong(&ground::SLOPE_PERCENT, message, remedy);
-    }
     section.finish();
     spec
+}
+
+/// Notes a mistake where friction, as little as it may be, does not hold a tire on the slope and nothing ends the run.
+fn check_slope(plan: &Plan, root: &SectionReader<'_>, mistakes: &Mistakes) {
+    let GroundSpec { friction, slope_percent, .. } = plan.ground;
+    let least = friction.min(plan.uncertainty.friction[0]);
+    if slope_percent * 1e-2 > least && plan.simulation.duration_s.is_none() {
+        let message = format!("on a slope of {slope_percent} % friction of {} holds no tire", least);
+        let remedy = "the shelter never comes to rest: give [simulation] a duration_s";
+        let section = root.section_if(&keys::plan::GROUND);
+        let span = section.map_or(0..0, |section| section.span_of(&ground::SLOPE_PERCENT));
+        mistakes.add(span, message, remedy);
+    }
 }
 
 fn read_limits(section: SectionReader<'_>) -> LimitsSpec {

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::study::Case;
 use crate::study::effects::{EffectOnOption, EffectsOnOptions};
-use crate::verdict::Verdict;
+use crate::verdict::{Quantity, Verdict};
 
 /// The document of all effects.
 #[derive(Serialize)]
@@ -23,7 +23,8 @@ struct OptionEffects {
     effects: Option<Vec<EffectResult>>,
 }
 
-/// Changes are relative; null where a run failed.
+/// Changes are relative; null where a run failed, or where there was nothing before. Verdicts are those of the limits on the shot
+/// as planned.
 #[derive(Serialize)]
 struct EffectResult {
     name: &'static str,
@@ -31,6 +32,7 @@ struct EffectResult {
     unit: &'static str,
     flight_height_change: Option<f64>,
     cable_force_change: Option<f64>,
+    drift_change: Option<f64>,
     verdict: Verdict,
     verdict_without: Verdict,
     required: bool,
@@ -46,8 +48,9 @@ impl EffectResult {
             name: key.name,
             value: of.value,
             unit: key.kind.unit(),
-            flight_height_change: known(of.height_change),
-            cable_force_change: known(of.force_change),
+            flight_height_change: known(of.change(Quantity::Height)),
+            cable_force_change: known(of.change(Quantity::Force)),
+            drift_change: known(of.change(Quantity::Drift)),
             verdict: of.verdict_with,
             verdict_without: of.verdict_without,
             required: of.is_required(),
