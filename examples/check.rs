@@ -15,13 +15,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         let judged = judged?;
         let force = &judged.nominal.force;
         let force = value_and_error(force.value, force.error, Unit::Kilonewton);
-        let failing = judged.risk.as_ref().map(|risk| probabilities(risk.confidence.interval));
+        let failing = judged.risk.as_ref().map(|risk| probabilities(risk.bounds.interval));
         let failing = failing.unwrap_or_default();
-        println!(
-            "{}: {:?}, {failing} % of the shots fail, {force} kN as planned",
-            delay.name,
-            judged.verdict()
-        );
+        let verdict = judged.verdict().label();
+        println!("{}: {verdict}, {failing} % of the shots fail, {force} kN as planned", delay.name);
     }
     Ok(())
 }

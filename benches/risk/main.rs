@@ -133,7 +133,7 @@ fn coverage(plans: usize, seeds: u64) {
                 let target = ShotToSample { case, shot, planned: None, compute, sampling, precomputed: &[] };
                 let found = find_risks(&[target], &Progress::default(), &mut |_, _| {});
                 let risk = found.expect("samples").value.remove(0);
-                let [low, high] = risk.confidence.interval;
+                let [low, high] = risk.bounds.interval;
                 covered.push((low..=high).contains(truth));
                 let verdict = risk.verdict();
                 let right = if *truth < accepted { Verdict::Pass } else { Verdict::Fail };
@@ -165,7 +165,7 @@ fn shipped(samples: usize) {
         for (option, result) in results.into_iter().enumerate() {
             let judged = result.expect("a result");
             let name = &case.plan.delays[option].name;
-            let [low, high] = judged.risk.as_ref().map_or([0.0, 1.0], |risk| risk.confidence.interval);
+            let [low, high] = judged.risk.as_ref().map_or([0.0, 1.0], |risk| risk.bounds.interval);
             let verdict = judged.verdict();
             let failing = (verdict == Verdict::Pass).then(|| {
                 let drawn = brute_force(&case, option, samples, Accuracy::Reference);

@@ -76,7 +76,7 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 28] {
         Field::new(Column::scripts(&["nominal_verdict"]), |row| {
             row.of(|checked| Cell::Verdict(checked.verdict))
         }),
-        Field::new(FAILURES, |row| row.sampled(|risk| Cell::Probability(risk.confidence.interval))),
+        Field::new(FAILURES, |row| row.sampled(|risk| Cell::Probability(risk.bounds.interval))),
         Field::new(HEIGHT, |row| row.of(|checked| height(checked.height.into()))),
         Field::new(NOMINAL_HEIGHT, |row| row.of(|checked| planned(checked.height, Unit::Metre))),
         Field::new(HEIGHT_BAND, |row| row.band(Quantity::Height, Unit::Metre)),

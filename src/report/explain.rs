@@ -57,7 +57,7 @@ fn quantity_name(quantity: Quantity) -> (&'static str, Unit) {
 pub fn risk_detail(case: &Case, judged: &Judgement) -> Option<Detail> {
     let risk = judged.risk.as_ref()?;
     let accepted = format!("{} %", units::short(case.plan.limits.accepted_risk_percent));
-    let (failures, samples) = (risk.confidence.failures, risk.confidence.samples);
+    let (failures, samples) = (risk.bounds.failures, risk.bounds.samples);
     if samples == 0 {
         let text = "no sample of the possible shots was drawn: the time was up".to_owned();
         return Some(Detail { verdict: Verdict::Undecided, text });
@@ -78,8 +78,8 @@ pub fn risk_detail(case: &Case, judged: &Judgement) -> Option<Detail> {
         Verdict::Undecided if risk.is_contradicted() => {
             format!("{shots}, but finer runs contradict them{finer}")
         }
-        Verdict::Undecided if risk.confidence.undecided > 0 => {
-            let undecided = risk.confidence.undecided;
+        Verdict::Undecided if risk.bounds.undecided > 0 => {
+            let undecided = risk.bounds.undecided;
             format!("{shots} and {undecided} stay undecided: not surely fewer than the {accepted} accepted")
         }
         Verdict::Undecided => format!("{shots}, not surely fewer than the {accepted} accepted"),

@@ -51,15 +51,13 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 10] {
             row.of(|risk| Cell::Count(risk.samples.len()))
         }),
         Field::new(Column::numbers(&["failures"], "failures", Unit::One), |row| {
-            row.of(|risk| Cell::Count(risk.confidence.failures))
+            row.of(|risk| Cell::Count(risk.bounds.failures))
         }),
-        Field::new(Column::scripts(&["undecided"]), |row| {
-            row.of(|risk| Cell::Count(risk.confidence.undecided))
-        }),
+        Field::new(Column::scripts(&["undecided"]), |row| row.of(|risk| Cell::Count(risk.bounds.undecided))),
         Field::new(Column::scripts(&["probability"]), |row| {
-            row.of(|risk| risk.confidence.probability().map_or(Cell::Nothing, Cell::Number))
+            row.of(|risk| risk.bounds.probability().map_or(Cell::Nothing, Cell::Number))
         }),
-        Field::new(FAILURES, |row| row.of(|risk| Cell::Probability(risk.confidence.interval))),
+        Field::new(FAILURES, |row| row.of(|risk| Cell::Probability(risk.bounds.interval))),
         Field::new(spread(height_keys, "height", Unit::Metre), |row| {
             row.spread(Quantity::Height, Unit::Metre)
         }),

@@ -34,12 +34,12 @@ pub fn force(force: Bounded) -> Cell {
 
 /// Cell of [`FAILURES`]; nothing where no sample was drawn.
 pub fn failures(risk: Option<&RiskSummary>) -> Cell {
-    drawn(risk).map_or(Cell::Nothing, |risk| Cell::Probability(risk.confidence.interval))
+    drawn(risk).map_or(Cell::Nothing, |risk| Cell::Probability(risk.bounds.interval))
 }
 
 /// Cell of [`PROBABILITY`]; nothing where no sample was drawn.
 pub fn probability(risk: Option<&RiskSummary>) -> Cell {
-    drawn(risk).and_then(|risk| risk.confidence.probability()).map_or(Cell::Nothing, Cell::Number)
+    drawn(risk).and_then(|risk| risk.bounds.probability()).map_or(Cell::Nothing, Cell::Number)
 }
 
 fn drawn(risk: Option<&RiskSummary>) -> Option<&RiskSummary> {
@@ -48,5 +48,5 @@ fn drawn(risk: Option<&RiskSummary>) -> Option<&RiskSummary> {
 
 /// `2 of 430 possible shots fail`.
 pub fn sampled(risk: &RiskSummary) -> String {
-    format!("{} of {} possible shots fail", risk.confidence.failures, risk.confidence.samples)
+    format!("{} of {} possible shots fail", risk.bounds.failures, risk.bounds.samples)
 }

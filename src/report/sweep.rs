@@ -109,7 +109,7 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
             lines.push(format!("inside a window the intervals sampled are at most {apart} apart"));
         }
         let open = accepted.iter().filter(|point| point.verdict() == Verdict::Undecided);
-        let samples = open.filter_map(|point| Some(point.risk?.confidence.samples));
+        let samples = open.filter_map(|point| Some(point.risk?.bounds.samples));
         if let Some(few) = samples.min() {
             lines
                 .push(format!("{few} samples cannot prove {risk}: `check` an interval before you choose it"));

@@ -5,7 +5,7 @@
 //! contradict the samples, the risk is open, and [`find_risks`](super::sampling::find_risks) samples the shot anew at half
 //! the step.
 
-use super::confidence::Confidence;
+use super::failure_bounds::FailureBounds;
 use super::sample::{Sample, SampleRun};
 use super::{Case, Envelope};
 use crate::verdict::{Limits, Quantity, Verdict};
@@ -23,9 +23,9 @@ pub struct Risk {
     /// The samples.
     pub samples: Vec<Sample>,
     /// Bounds of the failure probability.
-    pub confidence: Confidence,
+    pub bounds: FailureBounds,
     /// Bounds of the probability that a cable breaks.
-    pub breaks: Confidence,
+    pub breaks: FailureBounds,
     /// Times that the step was halved because finer runs contradicted the samples.
     pub halvings: u32,
     planned: Option<Envelope>,
@@ -37,28 +37,21 @@ impl Risk {
     /// For `attempt` see [`Sampling`](super::sampling::Sampling).
     pub fn new(case: &Case, planned: Option<Envelope>, attempt: usize) -> Self {
         let accepted = case.plan.limits.accepted_risk_percent * 1e-2;
-        let confidence = Confidence::new(accepted, attempt);
-        Self {
-            samples: Vec::new(),
-            confidence,
-            breaks: confidence,
-            halvings: 0,
-            planned,
-            limits: case.limits,
-        }
+        let bounds = FailureBounds::new(accepted, attempt);
+        Self { samples: Vec::new(), bounds, breaks: bounds, halvings: 0, planned, limits: case.limits }
     }
 
     /// Takes the next sample; one of the audit counts as it is at the finer step.
     pub fn push(&mut self, sample: Sample) {
         let SampleRun { verdict, breaks, .. } = *sample.finest();
-        self.confidence.push(verdict);
+        self.bounds.push(verdict);
         self.breaks.push(breaks);
         self.samples.push(sample);
     }
 
     /// The verdict of the samples; undecided where finer runs contradict them.
     pub fn verdict(&self) -> Verdict {
-        if self.is_contradicted() { Verdict::Undecided } else { self.confidence.verdict() }
+        if self.is_contradicted() { Verdict::Undecided } else { self.bounds.verdict() }
     }
 
     /// Whether finer runs contradict the samples: those of the audit beyond chance, or the shot as planned.
@@ -77,7 +70,7 @@ impl Risk {
             let limit = self.limits.get(quantity).unwrap_or(f64::INFINITY);
             refined > greatest && 2.0 * refined - greatest > limit
         };
-        let passes = self.confidence.verdict() == Verdict::Pass;
+        let passes = self.bounds.verdict() == Verdict::Pass;
         passes && Quantity::ALL.into_iter().any(would_fail)
     }
 
@@ -113,9 +106,9 @@ impl Risk {
             self.limits.utilization(value) > 1.0
         };
         let share = self.samples.iter().filter(fails).count() as f64 / self.samples.len().max(1) as f64;
-        match self.confidence.verdict() {
-            Verdict::Pass => share > self.confidence.accepted,
-            Verdict::Fail => moved != [1.0; 3] && share < self.confidence.accepted,
+        match self.bounds.verdict() {
+            Verdict::Pass => share > self.bounds.accepted,
+            Verdict::Fail => moved != [1.0; 3] && share < self.bounds.accepted,
             Verdict::Undecided => false,
         }
     }

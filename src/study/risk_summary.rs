@@ -1,6 +1,6 @@
 //! The risk of many shots of a study, of which only a summary is kept: few samples of each, or as many as a verdict needs.
 
-use super::confidence::Confidence;
+use super::failure_bounds::FailureBounds;
 use super::risk::{Risk, percentiles};
 use super::sampling::{Sampling, ShotToSample, find_risks};
 use super::{Case, ComputeSettings, Envelope, NoResult, Progress};
@@ -14,7 +14,7 @@ const AT_ONCE: usize = 64;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RiskSummary {
     /// Bounds of the failure probability.
-    pub confidence: Confidence,
+    pub bounds: FailureBounds,
     /// Verdict of the samples.
     pub verdict: Verdict,
     /// Whether finer runs contradict the samples.
@@ -26,27 +26,27 @@ pub struct RiskSummary {
 impl RiskSummary {
     /// What no sample tells.
     pub fn nothing(case: &Case) -> Self {
-        let confidence = Risk::new(case, None, 0).confidence;
+        let bounds = Risk::new(case, None, 0).bounds;
         let (verdict, utilization) = (Verdict::Undecided, f64::INFINITY);
-        Self { confidence, verdict, is_contradicted: false, utilization }
+        Self { bounds, verdict, is_contradicted: false, utilization }
     }
 
     fn of(risk: &Risk, limits: &Limits) -> Self {
         let shares = risk.samples.iter().map(|sample| sample.run.utilization(limits));
         let utilization = percentiles(shares, [0.95]).map_or(f64::INFINITY, |[p95]| p95);
         let (verdict, is_contradicted) = (risk.verdict(), risk.is_contradicted());
-        Self { confidence: risk.confidence, verdict, is_contradicted, utilization }
+        Self { bounds: risk.bounds, verdict, is_contradicted, utilization }
     }
 
     /// Whether any sample was drawn.
     pub fn is_drawn(&self) -> bool {
-        self.confidence.samples > 0
+        self.bounds.samples > 0
     }
 
     /// Whether the failing share so far does not exceed the accepted risk, and nothing speaks against the samples; not yet a
     /// verdict. Undecided samples count as failing.
     pub fn is_accepted(&self) -> bool {
-        let Confidence { accepted, samples, failures, undecided, .. } = self.confidence;
+        let FailureBounds { accepted, samples, failures, undecided, .. } = self.bounds;
         let failing = (failures + undecided) as f64;
         let is_open = !self.is_contradicted && self.verdict != Verdict::Fail;
         samples > 0 && is_open && failing <= accepted * samples as f64 + 1e-9
@@ -75,7 +75,7 @@ pub fn sample_shots<'c>(
         let targets: Vec<_> = shots.iter().map(target).collect();
         let risks = find_risks(&targets, progress, &mut |_, _| {})?.value;
         let is_complete = |risk: &Risk| {
-            let (drawn, verdict) = (risk.samples.len(), risk.confidence.verdict());
+            let (drawn, verdict) = (risk.samples.len(), risk.bounds.verdict());
             drawn >= sampling.most || drawn >= sampling.least && verdict != Verdict::Undecided
         };
         all.extend(risks.iter().map(|risk| is_complete(risk).then(|| RiskSummary::of(risk, &case.limits))));

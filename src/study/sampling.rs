@@ -1,6 +1,7 @@
 //! How many samples of which shots are drawn: in rounds over all shots, until each risk is sure.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
@@ -46,6 +47,23 @@ impl Sampling {
         Self { least: 0, most: SAMPLES_FOR_BANDS.min(self.most), ..*self }
     }
 
+    /// Numbers of the samples to draw next: none where there are enough, or as many as there may be.
+    fn next_round(&self, risk: &Risk) -> Range<usize> {
+        let from = risk.samples.len();
+        let is_open = risk.bounds.verdict() == Verdict::Undecided;
+        if from >= self.most || from >= self.least && !is_open {
+            return from..from;
+        }
+        let size = if from < SAMPLES_FOR_SHARES { SHORT_ROUND } else { LONG_ROUND };
+        from..(from + size).min(self.most)
+    }
+
+    /// The sampling of a full verdict on a shot that a first look chose for its draws: with draws of its own, as the `attempt`-th
+    /// of such shots.
+    pub fn with_fresh_draws(&self, attempt: usize) -> Self {
+        Self { seed: !self.seed, attempt, ..*self }
+    }
+
     /// The sampling of a shot that fails as planned: only to show by how much.
     pub fn least_only(&self) -> Self {
         Self { most: self.least, ..*self }
@@ -86,6 +104,9 @@ const AUDIT_EVERY: usize = 20;
 /// Step of a sample over the step of its audit.
 const AUDIT_FINER: f64 = 4.0;
 
+/// Samples of a round, while few are drawn and later.
+const SHORT_ROUND: usize = 50;
+const LONG_ROUND: usize = 100;
 /// Most times that a shot is sampled anew at half the step.
 const MOST_HALVINGS: u32 = 3;
 
@@ -100,12 +121,8 @@ pub fn find_risks(
     let mut risks: Vec<Risk> = targets.iter().map(ShotToSample::no_samples).collect();
     loop {
         let round = |(n, risk): (usize, &Risk)| {
-            let (sampling, halvings) = (targets[n].sampling, risk.halvings);
-            let from = risk.samples.len();
-            let is_open = from < sampling.most && risk.confidence.verdict() == Verdict::Undecided;
-            let size = if from < SAMPLES_FOR_SHARES { 50 } else { 100 };
-            let to = if from < sampling.least || is_open { (from + size).min(sampling.most) } else { from };
-            (from..to).map(move |number| (n, number, halvings))
+            let (numbers, halvings) = (targets[n].sampling.next_round(risk), risk.halvings);
+            numbers.map(move |number| (n, number, halvings))
         };
         let jobs: Vec<(usize, usize, u32)> = risks.iter().enumerate().flat_map(round).collect();
         if jobs.is_empty() {
@@ -220,6 +237,38 @@ pub(super) fn run_sample(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plan::PlanSource;
+
+    /// Rounds of 50 up to 200 samples, then of 100, until the bounds tell: 500 passes do, and so does the least number where a
+    /// shot fails as planned.
+    #[test]
+    fn rounds_end_where_the_bounds_tell() {
+        let text = include_str!("../../plans/paper-5-tire.toml").to_owned();
+        let source = PlanSource { path: String::new(), text };
+        let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let mut risk = Risk::new(&case, None, 0);
+        let (mut sizes, sampling) = (Vec::new(), Sampling::OF_VERDICT);
+        loop {
+            let round = sampling.next_round(&risk);
+            if round.is_empty() {
+                break;
+            }
+            sizes.push(round.len());
+            for number in round {
+                let run = SampleRun {
+                    verdict: Verdict::Pass,
+                    breaks: Verdict::Pass,
+                    height: 0.5,
+                    force: 1.0,
+                    drift: 0.0,
+                };
+                risk.push(Sample { number, run, finer: None, inputs: [1.0; Input::ALL.len()] });
+            }
+            let has_least = risk.samples.len() >= sampling.least;
+            assert_eq!(sampling.least_only().next_round(&risk).is_empty(), has_least);
+        }
+        assert_eq!(sizes, [50, 50, 50, 50, 100, 100, 100]);
+    }
 
     #[test]
     fn a_sample_that_panics_is_undecided_and_a_stop_stays_a_stop() {

@@ -11,7 +11,7 @@
 use itertools::Itertools;
 
 use super::batch::judge_shots;
-use super::confidence::Confidence;
+use super::failure_bounds::FailureBounds;
 use super::sampling::{Sampling, ShotToSample, find_risks};
 use super::{Bounded, Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress};
 use crate::plan::{Layout, Plan};
@@ -152,8 +152,8 @@ pub fn size(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Finding<Sizing> {
-    let own = plan.cable.rope.as_ref().and_then(|name| catalogue().find(name));
-    let wanted = plan.size.family.as_ref().or(own.map(|rope| &rope.family));
+    let own_rope = plan.cable.rope.as_ref().and_then(|name| catalogue().find(name));
+    let wanted = plan.size.family.as_ref().or(own_rope.map(|rope| &rope.family));
     let family = |rope: &&Rope| wanted.is_none_or(|family| *family == rope.family);
     let termination = plan.cable.termination.as_ref().and_then(|name| catalogue().termination(name));
     let fits = |rope: &&Rope| termination.is_none_or(|termination| termination.fits.contains(&rope.kind));
@@ -163,8 +163,8 @@ pub fn size(
         .filter(family)
         .filter(fits)
         .into_group_map_by(|rope| (rope.axial_stiffness_kn.to_bits(), rope.mass_kg_per_m.to_bits()));
-    let own = [plan.tire.mass_kg];
-    let masses = if plan.size.tire_mass_kg.is_empty() { &own[..] } else { &plan.size.tire_mass_kg };
+    let own_mass = [plan.tire.mass_kg];
+    let masses = if plan.size.tire_mass_kg.is_empty() { &own_mass[..] } else { &plan.size.tire_mass_kg };
     let most_border = if matches!(plan.layout, Layout::List { .. }) { 0 } else { plan.size.most_border_rows };
     let mut tried: Vec<(Combination, Hardest)> = Vec::new();
     // Index of the shot at which the last combination failed: the next combination likely fails at it, too.
@@ -261,7 +261,7 @@ fn sample_hardest<'s>(
         if partial {
             return Ok(None);
         }
-        let Confidence { samples, failures, .. } = risks[0].confidence;
+        let FailureBounds { samples, failures, .. } = risks[0].bounds;
         let share = |of: &SampledRisk| of.failures as f64 / of.samples.max(1) as f64;
         let here = SampledRisk { verdict: risks[0].verdict(), samples, failures };
         if here.verdict != Verdict::Pass {

@@ -87,7 +87,7 @@ fn the_interval_covers_a_known_probability() {
         let exact = exceeds(speed_to_reach(height) / 6.0, 0.1);
         let missed = (0..100).filter(|&seed| {
             let risk = risk_of(&case, &Sampling::exactly(300, seed));
-            let [low, high] = risk.confidence.interval;
+            let [low, high] = risk.bounds.interval;
             !(low..=high).contains(&exact)
         });
         let missed = missed.count();
@@ -112,7 +112,7 @@ fn verdicts_follow_the_accepted_risk() {
         };
         assert!(expected, "{factor}: {exact}");
         let risk = risk_of(&case, &Sampling { least: 0, ..Sampling::OF_VERDICT });
-        assert_eq!(risk.verdict(), verdict, "{exact}: {:?}", risk.confidence);
+        assert_eq!(risk.verdict(), verdict, "{exact}: {:?}", risk.bounds);
         assert!(risk.samples.len() <= most, "{} samples at {exact}", risk.samples.len());
     }
 }
@@ -171,14 +171,14 @@ fn samples_whose_step_is_too_long_pass_nothing() {
         check_all(&cases, Some(&Sampling::OF_VERDICT), &Progress::default()).expect("a result").value;
     let judged = found.remove(0).remove(0).expect("a result");
     let risk = judged.risk.as_ref().expect("samples");
-    assert_eq!((judged.nominal.verdict, risk.confidence.verdict()), (Verdict::Pass, Verdict::Pass));
+    assert_eq!((judged.nominal.verdict, risk.bounds.verdict()), (Verdict::Pass, Verdict::Pass));
     assert_eq!(judged.verdict(), Verdict::Undecided, "{:?}", risk.samples[0]);
     assert!(risk.halvings > 0, "the audit saw it, too");
     // Sweeps and orders sample shots this way.
     let shots = [(case.shots[0].clone(), Envelope::of(&judged.nominal))];
     let sampled = sample_shots(&case, &shots, &Sampling::OF_VERDICT, &cases[0].1, &Progress::default());
     let sampled = sampled.expect("a result").remove(0).expect("samples");
-    assert_eq!((sampled.confidence.verdict(), sampled.verdict), (Verdict::Pass, Verdict::Undecided));
+    assert_eq!((sampled.bounds.verdict(), sampled.verdict), (Verdict::Pass, Verdict::Undecided));
 }
 
 /// A plan in which little is unknown, so that all samples have the same error of the step: their force is 3 % too small, and
@@ -233,7 +233,7 @@ fn samples_that_share_one_error_pass_nothing() {
     let case = Case::new(Plan::parse("", BIASED).unwrap_or_else(|mistakes| panic!("{mistakes}")));
     for seed in 1..=5 {
         let risk = risk_of(&case, &Sampling { seed, ..Sampling::OF_VERDICT });
-        assert_ne!(risk.verdict(), Verdict::Pass, "{seed}: {:?}", risk.confidence);
+        assert_ne!(risk.verdict(), Verdict::Pass, "{seed}: {:?}", risk.bounds);
     }
 }
 

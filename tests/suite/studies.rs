@@ -138,11 +138,11 @@ fn windows_of_accepted_risk_are_those_of_the_samples() {
     let (mut accepted, mut refused) = (0, 0);
     for point in &sampled {
         assert!(inside(&swept.nominal_windows, point.interval));
-        let confidence = point.risk.expect("sampled").confidence;
+        let bounds = point.risk.expect("sampled").bounds;
         // More samples have the few intervals that got a full verdict.
-        if confidence.samples <= 100 {
-            let alone = risk_at(&case, point.interval, &sampling.first_look(), compute).confidence;
-            assert_eq!(confidence, alone, "the same draws at every interval");
+        if bounds.samples <= 100 {
+            let alone = risk_at(&case, point.interval, &sampling.first_look(), compute).bounds;
+            assert_eq!(bounds, alone, "the same draws at every interval");
             let keeps = 20 * alone.failures <= alone.samples;
             assert_eq!(inside(&swept.windows, point.interval), keeps, "{}", point.interval);
             (accepted, refused) = (accepted + usize::from(keeps), refused + usize::from(!keeps));
@@ -166,13 +166,8 @@ fn the_recommended_interval_has_a_full_verdict() {
     let checked = check_shot(&case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
     assert_eq!((best.verdict(), best.envelope), (Verdict::Pass, Envelope::of(&checked.expect("a result"))));
     // The first look chose the interval for its draws; the verdict has others.
-    let full = risk_at(
-        &case,
-        best.interval,
-        &Sampling { seed: !sampling.seed, attempt: 1 + swept.refuted, ..sampling },
-        compute,
-    );
-    assert_eq!((full.verdict(), best.risk.expect("sampled").confidence), (Verdict::Pass, full.confidence));
+    let full = risk_at(&case, best.interval, &sampling.with_fresh_draws(1 + swept.refuted), compute);
+    assert_eq!((full.verdict(), best.risk.expect("sampled").bounds), (Verdict::Pass, full.bounds));
 }
 
 /// A hundred samples of an interval may keep the accepted risk, and its full verdict does not pass: it is not recommended.
@@ -207,7 +202,7 @@ fn the_ends_of_the_ranking_are_sampled() {
         let target =
             ShotToSample { case: &case, shot: &shot, planned: None, compute, sampling, precomputed: &[] };
         let risks = find_risks(&[target], &progress, &mut |_, _| {}).expect("samples").value;
-        assert_eq!(risk.confidence, risks[0].confidence);
+        assert_eq!(risk.bounds, risks[0].bounds);
         assert_eq!(ranked.verdict_on(n), tried.envelope.verdict.max(risks[0].verdict()));
     }
 }

@@ -160,9 +160,9 @@ impl OptionValues {
     fn new(case: &Case, judged: &Judgement) -> Self {
         let (scene, checked, risk) = (case.scene(), &judged.nominal, judged.risk.as_ref());
         let failures = |risk: &Risk| Failures {
-            bounds: risk.confidence.interval.into(),
-            samples: risk.confidence.samples,
-            undecided: risk.confidence.undecided,
+            bounds: risk.bounds.interval.into(),
+            samples: risk.bounds.samples,
+            undecided: risk.bounds.undecided,
         };
         let drift_is_judged = risk.filter(|_| case.limits.drift.is_some());
         Self {

@@ -74,15 +74,15 @@ pub fn input_shares(risk: &Risk, limits: &Judged) -> Option<Vec<Share>> {
 impl OptionResult {
     fn new(case: &Case, name: &str, result: &Result<Judgement, NoResult>) -> Self {
         let risk = result.as_ref().ok().and_then(|judged| judged.risk.as_ref());
-        let confidence = risk.map(|risk| risk.confidence);
+        let bounds = risk.map(|risk| risk.bounds);
         Self {
             name: name.to_owned(),
             verdict: result.as_ref().map_or(Verdict::Undecided, Judgement::verdict).name(),
-            samples: confidence.map_or(0, |c| c.samples),
-            failures: confidence.map_or(0, |c| c.failures),
-            undecided: confidence.map_or(0, |c| c.undecided),
-            probability: confidence.and_then(|c| c.probability()),
-            interval_95: confidence.map_or([0.0, 1.0], |c| c.interval),
+            samples: bounds.map_or(0, |c| c.samples),
+            failures: bounds.map_or(0, |c| c.failures),
+            undecided: bounds.map_or(0, |c| c.undecided),
+            probability: bounds.and_then(|c| c.probability()),
+            interval_95: bounds.map_or([0.0, 1.0], |c| c.interval),
             flight_height_m: risk.and_then(|risk| Band::of(risk, Quantity::Height)),
             cable_force_n: risk.and_then(|risk| Band::of(risk, Quantity::Force)),
             inputs: risk.and_then(|risk| input_shares(risk, &case.limits)),

@@ -55,8 +55,7 @@ pub fn add_risk(
             break;
         };
         tried.insert(nanoseconds(candidate.interval));
-        // The first look chose this shot for its draws: the verdict has draws of its own.
-        let own = Sampling { seed: !sampling.seed, attempt: tried.len(), ..*sampling };
+        let own = sampling.with_fresh_draws(tried.len());
         match judge(case, case.shot(&swept.order, candidate.interval), &own, compute, progress)? {
             None => partial = true,
             Some((envelope, risk)) => {

@@ -100,7 +100,7 @@ fn sampled(judged: &Judgement) -> Option<&Risk> {
 
 /// Bounds of the share of shots that fail.
 fn fails(judged: &Judgement) -> String {
-    sampled(judged).map_or_else(String::new, |risk| units::probabilities(risk.confidence.interval))
+    sampled(judged).map_or_else(String::new, |risk| units::probabilities(risk.bounds.interval))
 }
 
 /// Number of samples; dots as long as more come.

@@ -27,7 +27,7 @@ struct Beta {
 
 /// Bounds of a failure probability, from the samples so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Confidence {
+pub struct FailureBounds {
     /// Accepted failure probability, with which the bounds are compared.
     pub accepted: f64,
     /// Number of samples.
@@ -40,11 +40,11 @@ pub struct Confidence {
     pub interval: [f64; 2],
     /// Probability of a wrong bound on one side, over all looks together.
     error: f64,
-    above: [Beta; 2],
-    below: [Beta; 2],
+    upper_mixture: [Beta; 2],
+    lower_mixture: [Beta; 2],
 }
 
-impl Confidence {
+impl FailureBounds {
     /// No sample yet of the shot of this `attempt`: see [`Sampling`](super::sampling::Sampling).
     pub fn new(accepted: f64, attempt: usize) -> Self {
         let beta = |weight, a, b| Beta { weight, a, b };
@@ -55,8 +55,8 @@ impl Confidence {
             failures: 0,
             undecided: 0,
             interval: [0.0, 1.0],
-            above: [beta(0.9, 0.5, 2.0 / accepted), beta(0.1, 0.5, 0.5)],
-            below: [beta(0.5, 1.0, 1.0), beta(0.5, 0.5, 0.35 / accepted)],
+            upper_mixture: [beta(0.9, 0.5, 2.0 / accepted), beta(0.1, 0.5, 0.5)],
+            lower_mixture: [beta(0.5, 1.0, 1.0), beta(0.5, 0.5, 0.35 / accepted)],
         }
     }
 
@@ -72,11 +72,20 @@ impl Confidence {
 
     /// Narrows the interval by the samples so far.
     fn look(&mut self) {
-        let Self { samples, failures, undecided, interval: [low, high], error, above, below, .. } = *self;
+        let Self {
+            samples,
+            failures,
+            undecided,
+            interval: [low, high],
+            error,
+            upper_mixture,
+            lower_mixture,
+            ..
+        } = *self;
         let most = failures + undecided;
         self.interval = [
-            low.max(bound(&below, failures, samples, error, 0.0)),
-            high.min(bound(&above, most, samples, error, 1.0)),
+            low.max(bound(&lower_mixture, failures, samples, error, 0.0)),
+            high.min(bound(&upper_mixture, most, samples, error, 1.0)),
         ];
     }
 
@@ -157,10 +166,10 @@ mod tests {
         for (p, accepted) in [(0.01, 0.01), (0.3, 0.01), (0.1, 0.1)] {
             let mut wrong = [0; 2];
             for _ in 0..2000 {
-                let mut confidence = Confidence::new(accepted, 0);
-                (0..2000).for_each(|_| confidence.push(drawn(&mut random, p)));
+                let mut bounds = FailureBounds::new(accepted, 0);
+                (0..2000).for_each(|_| bounds.push(drawn(&mut random, p)));
                 // The interval only narrows, so its last bounds are wrong if any were.
-                let [low, high] = confidence.interval;
+                let [low, high] = bounds.interval;
                 wrong[0] += usize::from(low > p);
                 wrong[1] += usize::from(high < p);
             }
@@ -177,9 +186,9 @@ mod tests {
         let mut random = ChaCha8Rng::seed_from_u64(7);
         let mut any_passes = || {
             (1..=6).any(|attempt| {
-                let mut confidence = Confidence::new(0.1, attempt);
-                (0..1000).for_each(|_| confidence.push(drawn(&mut random, 0.1)));
-                confidence.interval[1] < 0.1
+                let mut bounds = FailureBounds::new(0.1, attempt);
+                (0..1000).for_each(|_| bounds.push(drawn(&mut random, 0.1)));
+                bounds.interval[1] < 0.1
             })
         };
         let wrong = (0..1000).filter(|_| any_passes()).count();
@@ -198,12 +207,12 @@ mod tests {
         ] {
             let mut samples = 0;
             for _ in 0..100 {
-                let mut confidence = Confidence::new(0.01, 0);
-                while confidence.verdict() == Verdict::Undecided {
-                    confidence.push(drawn(&mut random, p));
+                let mut bounds = FailureBounds::new(0.01, 0);
+                while bounds.verdict() == Verdict::Undecided {
+                    bounds.push(drawn(&mut random, p));
                 }
-                assert_eq!(confidence.verdict(), verdict, "{p}");
-                samples += confidence.samples;
+                assert_eq!(bounds.verdict(), verdict, "{p}");
+                samples += bounds.samples;
             }
             assert!(samples as f64 / 100.0 <= most, "{p}: {samples}");
         }
@@ -212,19 +221,19 @@ mod tests {
     /// Samples that stop passing contradict the bound found before.
     #[test]
     fn bounds_that_contradict_one_another_decide_nothing() {
-        let mut confidence = Confidence::new(0.01, 0);
-        (0..500).for_each(|_| confidence.push(Verdict::Pass));
-        assert_eq!(confidence.verdict(), Verdict::Pass);
-        (0..200).for_each(|_| confidence.push(Verdict::Fail));
-        assert_eq!(confidence.verdict(), Verdict::Undecided, "{:?}", confidence.interval);
+        let mut bounds = FailureBounds::new(0.01, 0);
+        (0..500).for_each(|_| bounds.push(Verdict::Pass));
+        assert_eq!(bounds.verdict(), Verdict::Pass);
+        (0..200).for_each(|_| bounds.push(Verdict::Fail));
+        assert_eq!(bounds.verdict(), Verdict::Undecided, "{:?}", bounds.interval);
     }
 
     #[test]
     fn undecided_samples_widen_the_interval_to_both_sides() {
         let after = |of: Verdict| {
-            let mut confidence = Confidence::new(0.01, 0);
-            (0..100).for_each(|n| confidence.push(if n % 10 == 0 { of } else { Verdict::Pass }));
-            confidence
+            let mut bounds = FailureBounds::new(0.01, 0);
+            (0..100).for_each(|n| bounds.push(if n % 10 == 0 { of } else { Verdict::Pass }));
+            bounds
         };
         let [failed, passed, open] = [Verdict::Fail, Verdict::Pass, Verdict::Undecided].map(after);
         assert_eq!(open.interval, [passed.interval[0], failed.interval[1]]);
