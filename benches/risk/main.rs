@@ -10,7 +10,7 @@ use shelter::choice::Accuracy;
 use shelter::plan::Plan;
 use shelter::study::check_all::check_all;
 use shelter::study::sample::Sample;
-use shelter::study::sampling::{Sampling, ShotToSample, draw_share, find_risks};
+use shelter::study::sampling::{Sampling, ShotToSample, draw_shard, find_risks};
 use shelter::study::{Case, ComputeSettings, Progress, Shard};
 use shelter::verdict::Verdict;
 
@@ -36,7 +36,7 @@ fn brute_force(case: &Case, option: usize, samples: usize, accuracy: Accuracy) -
     let sampling = Sampling::exactly(samples, SEED);
     let target =
         ShotToSample { case, shot: &case.shots[option], planned: None, compute, sampling, precomputed: &[] };
-    let drawn = draw_share(&[target], Shard::WHOLE, &Progress::default()).expect("samples");
+    let drawn = draw_shard(&[target], Shard::WHOLE, &Progress::default()).expect("samples");
     drawn.into_iter().filter_map(|(_, sample)| sample).collect()
 }
 
@@ -131,7 +131,7 @@ fn coverage(plans: usize, seeds: u64) {
             for seed in 1..=seeds {
                 let (shot, sampling) = (&case.shots[0], Sampling { seed, ..Sampling::OF_VERDICT });
                 let target = ShotToSample { case, shot, planned: None, compute, sampling, precomputed: &[] };
-                let found = find_risks(&[target], &Progress::default(), &mut |_, _| {});
+                let found = find_risks(&[target], &Progress::default());
                 let risk = found.expect("samples").value.remove(0);
                 let [low, high] = risk.bounds.interval;
                 covered.push((low..=high).contains(truth));

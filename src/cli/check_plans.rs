@@ -25,7 +25,7 @@ pub fn check_plans(
     run_study(compute, |progress| {
         let mut found = check_all(&cases, sampling.as_ref(), progress)?;
         if sampling.is_some() {
-            found.partial |= find_launch_margins(&cases, &mut found.value, progress)?.partial;
+            found.partial |= find_launch_margins(&cases, &mut found.value, progress, &|_, _| {})?.partial;
         }
         Ok(found)
     })

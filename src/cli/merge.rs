@@ -1,4 +1,4 @@
-//! `shelter merge`: the shares of a study joined.
+//! `shelter merge`: the shards of a study joined.
 
 use std::io;
 use std::path::PathBuf;
@@ -25,14 +25,14 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
-    let mut shares = Vec::new();
+    let mut shards = Vec::new();
     for file in &arguments.files {
         match std::fs::read_to_string(file) {
-            Ok(text) => shares.push((file.display().to_string(), text)),
+            Ok(text) => shards.push((file.display().to_string(), text)),
             Err(error) => return wrong(&format!("cannot read {}: {error}", file.display())),
         }
     }
-    let (head, findings) = match merge(&shares) {
+    let (head, findings) = match merge(&shards) {
         Ok(merged) => merged,
         Err(message) => return wrong(&message),
     };
@@ -41,10 +41,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(mistakes) => return wrong(&mistakes.to_string()),
     };
     if !findings.fit(&case) {
-        return wrong("the shares hold results that do not belong to their plan: one share is damaged");
+        return wrong("the shards hold results that do not belong to their plan: one shard is damaged");
     }
     match (head.question, findings) {
-        // Only all shares together tell which orders may be the worst.
+        // Only all shards together tell which orders may be the worst.
         (Question::Orders { intervals_s, sampling }, ShardResults::Orders(tried)) => {
             let (compute, progress) = (&head.compute, Progress::default());
             let ranked = refine(&case, tried, compute, &progress).and_then(|tried| {
@@ -63,6 +63,6 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
                 Err(reason) => failed(&reason),
             }
         }
-        _ => wrong("the shares do not fit together"),
+        _ => wrong("the shards do not fit together"),
     }
 }

@@ -73,7 +73,7 @@ enum Command {
     Effects(effects::Arguments),
     /// The lightest rope, tires and border with which every option passes
     Size(size::Arguments),
-    /// Joins the shares of `orders` or `risk` that several machines computed
+    /// Joins the shards of `orders` or `risk` that several machines computed
     Merge(merge::Arguments),
     /// One self-contained page for the blast file
     Report(report::Arguments),

@@ -23,7 +23,7 @@ pub struct Arguments {
     /// Intervals in ms; default: those of the delay options
     #[arg(long, value_name = "FROM..TO:STEP", value_parser = intervals, allow_hyphen_values = true)]
     interval: Option<Intervals>,
-    /// This machine's share; `shelter merge` joins the shares
+    /// This machine's shard; `shelter merge` joins the shards
     #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with_all = ["timeout", "format"])]
     shard: Option<Shard>,
     #[command(flatten)]

@@ -14,7 +14,7 @@ use super::status::{Status, failed, wrong};
 use crate::report::notes;
 use crate::study::check_all::check_all;
 use crate::study::merge::{OptionSample, Question, ShardResults, write_share};
-use crate::study::sampling::{Sampling, ShotToSample, draw_share};
+use crate::study::sampling::{Sampling, ShotToSample, draw_shard};
 use crate::study::{Case, Found, Shard};
 
 #[derive(Args)]
@@ -23,7 +23,7 @@ pub struct Arguments {
     plan: PathBuf,
     #[command(flatten)]
     sampling: SamplingArguments,
-    /// This machine's share; `shelter merge` joins the shares
+    /// This machine's shard; `shelter merge` joins the shards
     #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with_all = ["timeout", "format"])]
     shard: Option<Shard>,
     /// Output format
@@ -48,7 +48,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         return wrong(&message);
     }
     if let Some(shard) = arguments.shard {
-        return share(arguments, &case, &sampling, shard);
+        return draw(arguments, &case, &sampling, shard);
     }
     let cases = [(&case, arguments.compute.settings(&case.plan))];
     match run_study(&arguments.compute, |progress| check_all(&cases, Some(&sampling), progress)) {
@@ -59,8 +59,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     }
 }
 
-/// Prints this machine's share of the samples.
-fn share(arguments: &Arguments, case: &Case, sampling: &Sampling, shard: Shard) -> io::Result<Status> {
+/// Draws and prints this machine's shard of the samples.
+fn draw(arguments: &Arguments, case: &Case, sampling: &Sampling, shard: Shard) -> io::Result<Status> {
     let settings = arguments.compute.settings(&case.plan);
     let target = |shot| ShotToSample {
         case,
@@ -72,7 +72,7 @@ fn share(arguments: &Arguments, case: &Case, sampling: &Sampling, shard: Shard) 
     };
     let targets: Vec<_> = case.shots.iter().map(target).collect();
     let drawn = run_study(&arguments.compute, |progress| {
-        let drawn = draw_share(&targets, shard, progress)?;
+        let drawn = draw_shard(&targets, shard, progress)?;
         let samples =
             drawn.into_iter().filter_map(|(option, sample)| Some(OptionSample { option, sample: sample? }));
         Ok(Found { value: samples.collect(), partial: false })

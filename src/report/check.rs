@@ -2,61 +2,36 @@
 
 use super::explain::{broken, compute_label, launch_margin, reason, risk_detail};
 use super::model::{Block, Cell, Column, Conclusion, Detail, Field, Report, Shown, Table};
+use super::option_row::{OptionRow, option_rows};
 use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
 use super::{no_result, report_head};
-use crate::plan::DelayOption;
+use crate::study::Case;
 use crate::study::check::Checked;
 use crate::study::check_all::{OptionResults, verdict};
 use crate::study::judgement::Judgement;
 use crate::study::margin::LaunchMargin;
 use crate::study::reason::Reason;
-use crate::study::risk::Risk;
-use crate::study::{Case, NoResult};
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Quantity, Verdict};
 
-/// A delay option and its result.
-struct OptionRow<'a> {
-    case: &'a Case,
-    delay: &'a DelayOption,
-    result: &'a Result<Judgement, NoResult>,
+fn band(row: &OptionRow<'_>, quantity: Quantity, unit: Unit) -> Cell {
+    row.sampled(|risk| {
+        risk.band(quantity).map_or(Cell::Nothing, |[p05, _, p95, _]| Cell::Band([p05, p95], unit))
+    })
 }
 
-impl OptionRow<'_> {
-    /// A cell of the result; nothing where there is none.
-    fn of(&self, cell: impl FnOnce(&Checked) -> Cell) -> Cell {
-        self.result.as_ref().map_or(Cell::Nothing, |judged| cell(&judged.nominal))
+/// Why the option does not pass, or has no result.
+fn all_reasons(row: &OptionRow<'_>) -> String {
+    match row.result {
+        Ok(judged) => texts(row.case, judged).join("; "),
+        Err(reason) => no_result::message(reason),
     }
+}
 
-    /// A cell of the samples; nothing where there are none.
-    fn sampled(&self, cell: impl FnOnce(&Risk) -> Cell) -> Cell {
-        let risk = self.result.as_ref().ok().and_then(|judged| judged.risk.as_ref());
-        risk.map_or(Cell::Nothing, cell)
-    }
-
-    fn band(&self, quantity: Quantity, unit: Unit) -> Cell {
-        self.sampled(|risk| {
-            risk.band(quantity).map_or(Cell::Nothing, |[p05, _, p95, _]| Cell::Band([p05, p95], unit))
-        })
-    }
-
-    fn verdict(&self) -> Verdict {
-        self.result.as_ref().map_or(Verdict::Undecided, Judgement::verdict)
-    }
-
-    /// Why the option does not pass, or has no result.
-    fn reasons(&self) -> String {
-        match self.result {
-            Ok(judged) => texts(self.case, judged).join("; "),
-            Err(reason) => no_result::message(reason),
-        }
-    }
-
-    /// Firing times of the rows in the order of the plan: `0, 20, 40 ms`.
-    fn firing(&self) -> String {
-        let times: Vec<String> = self.delay.timing.fire_at_ms().iter().map(f64::to_string).collect();
-        format!("{} ms", times.join(", "))
-    }
+/// Firing times of the rows in the order of the plan: `0, 20, 40 ms`.
+fn firing(row: &OptionRow<'_>) -> String {
+    let times: Vec<String> = row.delay.timing.fire_at_ms().iter().map(f64::to_string).collect();
+    format!("{} ms", times.join(", "))
 }
 
 fn fields<'a>() -> [Field<OptionRow<'a>>; 28] {
@@ -65,7 +40,7 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 28] {
         Field::new(Column::scripts(&["plan"]), |row| Cell::Text(row.case.source.path.clone())),
         Field::new(Column::words(&["option"], "option"), |row| Cell::Text(row.delay.name.clone())),
         Field::new(Column::words(&[], "rows fire, as listed, at").shown(Shown::Page), |row| {
-            Cell::Text(row.firing())
+            Cell::Text(firing(row))
         }),
         Field::new(VERDICT, |row| Cell::Verdict(row.verdict())),
         Field::new(Column::scripts(&["judged"]), |row| {
@@ -74,30 +49,30 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 28] {
                 .map_or(Cell::Nothing, |judged| Cell::Text(judged_by(row.case, judged).to_owned()))
         }),
         Field::new(Column::scripts(&["nominal_verdict"]), |row| {
-            row.of(|checked| Cell::Verdict(checked.verdict))
+            row.planned(|checked| Cell::Verdict(checked.verdict))
         }),
         Field::new(FAILURES, |row| row.sampled(|risk| Cell::Probability(risk.bounds.interval))),
-        Field::new(HEIGHT, |row| row.of(|checked| height(checked.height.into()))),
-        Field::new(NOMINAL_HEIGHT, |row| row.of(|checked| planned(checked.height, Unit::Metre))),
-        Field::new(HEIGHT_BAND, |row| row.band(Quantity::Height, Unit::Metre)),
+        Field::new(HEIGHT, |row| row.planned(|checked| height(checked.height.into()))),
+        Field::new(NOMINAL_HEIGHT, |row| row.planned(|checked| planned(checked.height, Unit::Metre))),
+        Field::new(HEIGHT_BAND, |row| band(row, Quantity::Height, Unit::Metre)),
         Field::new(Column::scripts(&["flight_height_at_s"]), |row| {
-            row.of(|checked| Cell::Number(checked.height.at))
+            row.planned(|checked| Cell::Number(checked.height.at))
         }),
         Field::new(Column::scripts(&["flight_height_tire"]), |row| {
-            row.of(|checked| Cell::Text(row.case.scene().tire[checked.height.index].to_string()))
+            row.planned(|checked| Cell::Text(row.case.scene().tire[checked.height.index].to_string()))
         }),
-        Field::new(FORCE, |row| row.of(|checked| force(checked.force.into()))),
-        Field::new(NOMINAL_FORCE, |row| row.of(|checked| planned(checked.force, Unit::Kilonewton))),
-        Field::new(FORCE_BAND, |row| row.band(Quantity::Force, Unit::Kilonewton)),
+        Field::new(FORCE, |row| row.planned(|checked| force(checked.force.into()))),
+        Field::new(NOMINAL_FORCE, |row| row.planned(|checked| planned(checked.force, Unit::Kilonewton))),
+        Field::new(FORCE_BAND, |row| band(row, Quantity::Force, Unit::Kilonewton)),
         Field::new(Column::scripts(&["cable_force_at_s"]), |row| {
-            row.of(|checked| Cell::Number(checked.force.at))
+            row.planned(|checked| Cell::Number(checked.force.at))
         }),
         Field::new(Column::scripts(&["cable_force_cable"]), |row| {
-            row.of(|checked| Cell::Text(row.case.scene().cable_name(checked.force.index)))
+            row.planned(|checked| Cell::Text(row.case.scene().cable_name(checked.force.index)))
         }),
         Field::new(
             Column::numbers(&["cable_safety_factor"], "factor", Unit::One).under("as planned"),
-            |row| row.of(|checked| Cell::Factor(checked.safety_factor)),
+            |row| row.planned(|checked| Cell::Factor(checked.safety_factor)),
         ),
         Field::new(Column::scripts(&["low_95_any_cable_breaks", "high_95_any_cable_breaks"]), |row| {
             row.sampled(|risk| Cell::Probability(risk.breaks.interval))
@@ -117,25 +92,25 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 28] {
             margin.map_or(Cell::Nothing, |margin| Cell::Text(launch_margin(margin)))
         }),
         Field::new(DRIFT, |row| {
-            row.of(|Checked { drift, .. }| Cell::Estimate {
+            row.planned(|Checked { drift, .. }| Cell::Estimate {
                 value: drift.value,
                 error: drift.error,
                 unit: Unit::Metre,
             })
         }),
         Field::new(Column::scripts(&["broken_cables"]), |row| {
-            row.of(|checked| Cell::Count(checked.broken.len()))
+            row.planned(|checked| Cell::Count(checked.broken.len()))
         }),
-        Field::new(Column::scripts(&["dt_s"]), |row| row.of(|checked| Cell::Number(checked.step))),
+        Field::new(Column::scripts(&["dt_s"]), |row| row.planned(|checked| Cell::Number(checked.step))),
         Field::new(Column::scripts(&["energy_residual"]), |row| {
-            row.of(|checked| Cell::Number(checked.energy_residual))
+            row.planned(|checked| Cell::Number(checked.energy_residual))
         }),
-        Field::new(Column::scripts(&["reasons"]), |row| Cell::Text(row.reasons())),
+        Field::new(Column::scripts(&["reasons"]), |row| Cell::Text(all_reasons(row))),
         Field::new(words("height over time"), |row| {
-            row.of(|checked| bars(&checked.history.height, row.case.limits.height))
+            row.planned(|checked| bars(&checked.history.height, row.case.limits.height))
         }),
         Field::new(words("force over time"), |row| {
-            row.of(|checked| bars(&checked.history.force, row.case.limits.force))
+            row.planned(|checked| bars(&checked.history.force, row.case.limits.force))
         }),
     ]
 }
@@ -167,8 +142,7 @@ pub fn report(case: &Case, results: &OptionResults, any: bool, partial: bool) ->
         column if *column == DRIFT && case.limits.drift.is_none() => column.shown(Shown::Page),
         column => *column,
     };
-    let options = case.plan.delays.iter().zip(results);
-    let mut table = Table::of(&fields(), options.map(|(delay, result)| OptionRow { case, delay, result }));
+    let mut table = Table::of(&fields(), option_rows(case, results));
     table.columns = table.columns.iter().map(shown).collect();
     for (row, result) in table.rows.iter_mut().zip(results) {
         match result {

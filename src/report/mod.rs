@@ -4,7 +4,7 @@
 //! |---|---|
 //! | what a report is | [`model`] |
 //! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`effects`], [`accuracy`], [`ropes`], [`trace`] |
-//! | words, charts and columns that reports share | [`explain`], [`limits`], [`no_result`], [`notes`], [`charts`], [`shared_columns`] |
+//! | words, charts and columns that reports share | [`explain`], [`limits`], [`no_result`], [`notes`], [`charts`], [`shared_columns`], rows of options |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |
 //! | what faces share | [`palette`], [`ascii`], [`spark`], labels of cells |
 //!
@@ -25,6 +25,7 @@ pub mod limits;
 pub mod model;
 pub mod no_result;
 pub mod notes;
+mod option_row;
 pub mod orders;
 pub mod palette;
 pub mod risk;

@@ -4,12 +4,11 @@ use super::charts;
 use super::check::details;
 use super::explain::{compute_label, inputs};
 use super::model::{Block, Cell, Column, Conclusion, Field, Report, Row, Table};
-use super::no_result;
-use super::report_head;
+use super::option_row::{OptionRow, option_rows};
 use super::shared_columns::{FAILURES, VERDICT};
+use super::{no_result, report_head};
 use crate::study::check_all::{OptionResults, verdict};
 use crate::study::judgement::Judgement;
-use crate::study::risk::Risk;
 use crate::study::sampling::Sampling;
 use crate::study::swaps::Swap;
 use crate::study::{Case, NoResult};
@@ -18,63 +17,46 @@ use crate::verdict::{Quantity, Verdict};
 
 const SPREAD: &str = "5 · 50 · 95 % · max";
 
-/// A delay option and its result.
-struct OptionRow<'a> {
-    case: &'a Case,
-    name: &'a str,
-    result: &'a Result<Judgement, NoResult>,
-}
-
-impl OptionRow<'_> {
-    /// A cell of the samples; nothing where there are none.
-    fn of(&self, cell: impl FnOnce(&Risk) -> Cell) -> Cell {
-        let risk = self.result.as_ref().ok().and_then(|judged| judged.risk.as_ref());
-        risk.map_or(Cell::Nothing, cell)
-    }
-
-    fn spread(&self, quantity: Quantity, unit: Unit) -> Cell {
-        self.of(|risk| risk.band(quantity).map_or(Cell::Nothing, |band| Cell::Spread(band, unit)))
-    }
+fn spread(row: &OptionRow<'_>, quantity: Quantity, unit: Unit) -> Cell {
+    row.sampled(|risk| risk.band(quantity).map_or(Cell::Nothing, |band| Cell::Spread(band, unit)))
 }
 
 fn fields<'a>() -> [Field<OptionRow<'a>>; 10] {
-    let spread = |keys, heading, unit| Column::numbers(keys, heading, unit).under(SPREAD);
+    let column = |keys, heading, unit| Column::numbers(keys, heading, unit).under(SPREAD);
     let height_keys =
         &["flight_height_p05_m", "flight_height_p50_m", "flight_height_p95_m", "flight_height_max_m"];
     let force_keys = &["cable_force_p05_n", "cable_force_p50_n", "cable_force_p95_n", "cable_force_max_n"];
     [
-        Field::new(Column::words(&["name"], "option"), |row| Cell::Text(row.name.to_owned())),
-        Field::new(VERDICT, |row| {
-            Cell::Verdict(row.result.as_ref().map_or(Verdict::Undecided, Judgement::verdict))
-        }),
+        Field::new(Column::words(&["name"], "option"), |row| Cell::Text(row.delay.name.clone())),
+        Field::new(VERDICT, |row| Cell::Verdict(row.verdict())),
         Field::new(Column::numbers(&["samples"], "samples", Unit::One), |row| {
-            row.of(|risk| Cell::Count(risk.samples.len()))
+            row.sampled(|risk| Cell::Count(risk.samples.len()))
         }),
         Field::new(Column::numbers(&["failures"], "failures", Unit::One), |row| {
-            row.of(|risk| Cell::Count(risk.bounds.failures))
+            row.sampled(|risk| Cell::Count(risk.bounds.failures))
         }),
-        Field::new(Column::scripts(&["undecided"]), |row| row.of(|risk| Cell::Count(risk.bounds.undecided))),
+        Field::new(Column::scripts(&["undecided"]), |row| {
+            row.sampled(|risk| Cell::Count(risk.bounds.undecided))
+        }),
         Field::new(Column::scripts(&["probability"]), |row| {
-            row.of(|risk| risk.bounds.probability().map_or(Cell::Nothing, Cell::Number))
+            row.sampled(|risk| risk.bounds.probability().map_or(Cell::Nothing, Cell::Number))
         }),
-        Field::new(FAILURES, |row| row.of(|risk| Cell::Probability(risk.bounds.interval))),
-        Field::new(spread(height_keys, "height", Unit::Metre), |row| {
-            row.spread(Quantity::Height, Unit::Metre)
+        Field::new(FAILURES, |row| row.sampled(|risk| Cell::Probability(risk.bounds.interval))),
+        Field::new(column(height_keys, "height", Unit::Metre), |row| {
+            spread(row, Quantity::Height, Unit::Metre)
         }),
-        Field::new(spread(force_keys, "force", Unit::Kilonewton), |row| {
-            row.spread(Quantity::Force, Unit::Kilonewton)
+        Field::new(column(force_keys, "force", Unit::Kilonewton), |row| {
+            spread(row, Quantity::Force, Unit::Kilonewton)
         }),
         Field::new(Column::words(&["inputs"], "what decides it"), |row| {
-            row.of(|risk| Cell::Text(inputs(risk, &row.case.limits).unwrap_or_default()))
+            row.sampled(|risk| Cell::Text(inputs(risk, &row.case.limits).unwrap_or_default()))
         }),
     ]
 }
 
 /// The report of the samples of all options, which is partial where the time was up.
 pub fn report(case: &Case, results: &OptionResults, sampling: &Sampling, partial: bool) -> Report {
-    let options = case.plan.delays.iter().zip(results);
-    let rows = options.map(|(delay, result)| OptionRow { case, name: &delay.name, result });
-    let mut table = Table::of(&fields(), rows);
+    let mut table = Table::of(&fields(), option_rows(case, results));
     for (row, result) in table.rows.iter_mut().zip(results) {
         complete_row(row, case, result);
     }

@@ -44,15 +44,15 @@ pub fn report(case: &Case, sizing: &Sizing) -> Report {
     facts.push(
         "a lighter tire leaves faster, a heavier one slower: the holes give the same momentum".to_owned(),
     );
-    let frontier = sizing.frontier();
-    let rows = frontier.iter().filter_map(|combination| {
+    let choices: Vec<&Combination> = sizing.choices().collect();
+    let rows = choices.iter().filter_map(|combination| {
         let trial = combination.trial.ok()?;
         let used =
             [Cell::Utilization(trial.utilization), height(trial.worst.height), force(trial.worst.force)];
         Some(parts(combination).into_iter().chain(used).collect())
     });
     let mut blocks = vec![Block::Text(tried(sizing))];
-    if !frontier.is_empty() {
+    if !choices.is_empty() {
         blocks.push(Block::Table(Table::new(&FRONTIER, rows)));
     } else if let Some((combination, trial)) = nearest(sizing) {
         blocks.push(Block::Text(vec![format!("nearest: {}", sentence(combination, &trial))]));
@@ -95,9 +95,9 @@ fn tried(sizing: &Sizing) -> Vec<String> {
     let mut lines = vec![format!("{} of {} combinations tried", sizing.tried(), sizing.combinations.len())];
     let unstable = format!("the motion cannot be computed at this step: {FINER}");
     let reasons = [
-        (Untried::SameStiffnessFails, "a stronger rope of the same stiffness already fails"),
+        (Untried::StrongerRopeDoesNotHold, "a stronger rope of the same stiffness does not hold"),
         (Untried::OutOfTime, "the time was up"),
-        (Untried::Unstable, unstable.as_str()),
+        (Untried::RunFailed, unstable.as_str()),
     ];
     for (why, reason) in reasons {
         match sizing.untried(why) {
@@ -119,24 +119,22 @@ fn tried(sizing: &Sizing) -> Vec<String> {
 }
 
 fn conclusion(sizing: &Sizing) -> Conclusion {
-    let open = sizing.untried(Untried::OutOfTime) > 0 || sizing.untried(Untried::Unstable) > 0;
     let found = sizing.found().and_then(|found| Some((found, found.trial.ok()?)));
-    let (verdict, text) = match found {
-        // A lighter one may hold among those that are left.
-        Some((found, trial)) if open => {
-            (Verdict::Undecided, format!("lightest so far {}", sentence(found, &trial)))
+    let text = match found {
+        Some((found, trial)) => {
+            let so_far = if sizing.is_incomplete() { " so far" } else { "" };
+            format!("lightest{so_far} {}", sentence(found, &trial))
         }
-        Some((found, trial)) => (Verdict::Pass, format!("lightest {}", sentence(found, &trial))),
-        None if open => (Verdict::Undecided, "no combination tried so far holds".to_owned()),
+        None if sizing.is_incomplete() => "no combination tried so far holds".to_owned(),
         None if sizing.with_risk(Verdict::Undecided) > 0 => {
-            (Verdict::Undecided, "no combination surely holds: give more samples".to_owned())
+            "no combination surely holds: give more samples".to_owned()
         }
         None if sizing.with_risk(Verdict::Fail) > 0 => {
-            (Verdict::Fail, "no combination holds for more than the shots as planned".to_owned())
+            "no combination holds for more than the shots as planned".to_owned()
         }
-        None => (Verdict::Fail, "no combination holds".to_owned()),
+        None => "no combination holds".to_owned(),
     };
-    Conclusion { verdict, text }
+    Conclusion { verdict: sizing.verdict(), text }
 }
 
 /// The combination with the least utilization.

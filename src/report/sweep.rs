@@ -191,18 +191,10 @@ fn listed(what: &str, windows: &[[f64; 2]]) -> Vec<String> {
     lines
 }
 
-/// Passes only where every interval of the range was tried and passes.
 fn conclusion(sweep: &Sweep, partial: bool) -> Conclusion {
-    let (tried, count) = (sweep.points.len(), |verdict: Verdict| {
-        sweep.points.iter().filter(|point| point.verdict() == verdict).count()
-    });
-    let (failing, not_passing) = (count(Verdict::Fail), tried - count(Verdict::Pass));
+    let tried = sweep.points.len();
+    let not_passing = sweep.points.iter().filter(|point| point.verdict() != Verdict::Pass).count();
     let so_far = if partial { " so far" } else { "" };
-    let verdict = match not_passing {
-        0 if tried > 0 && !partial => Verdict::Pass,
-        _ if failing > 0 => Verdict::Fail,
-        _ => Verdict::Undecided,
-    };
     let has_risk = sweep.points.iter().any(|point| point.risk.is_some());
     let text = match not_passing {
         _ if has_risk => {
@@ -219,7 +211,7 @@ fn conclusion(sweep: &Sweep, partial: bool) -> Conclusion {
             "{not_passing} of {tried} intervals tried{so_far} do not pass (the plan's own numbers only)"
         ),
     };
-    Conclusion { verdict, text }
+    Conclusion { verdict: sweep.verdict(partial), text }
 }
 
 #[cfg(test)]

@@ -1,17 +1,50 @@
 //! All delay options of one plan or of several, judged in parallel.
 
+use std::ops::ControlFlow;
+
 use super::batch::run_jobs;
-use super::check::check;
+use super::check::{CheckStep, Checked, check};
 use super::judgement::Judgement;
-use super::margin::launch_margin;
+use super::margin::{LaunchMargin, launch_margin};
 use super::merge::OptionSample;
+use super::risk::Risk;
 use super::sample::Sample;
-use super::sampling::{Sampling, ShotToSample, find_risks};
+use super::sampling::{Sampling, ShotToSample, find_risks, find_risks_watched};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, guarded};
 use crate::verdict::Verdict;
 
 /// Results of the options of one plan, in their order (`n_options`).
 pub type OptionResults = Vec<Result<Judgement, NoResult>>;
+
+/// An option of one of several cases.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CaseOption {
+    /// Index of the case.
+    pub case: usize,
+    /// Index of the option in its plan.
+    pub option: usize,
+}
+
+/// What becomes known of an option while all are judged, in this order.
+#[derive(Clone, Copy, Debug)]
+pub enum CheckEvent<'r> {
+    /// A run of the shot as planned has gone on by [`STEPS_PER_EVENT`] steps.
+    Running(CheckStep),
+    /// The shot as planned is judged, or has no result.
+    Nominal(&'r Result<Checked, NoResult>),
+    /// A round of samples was drawn.
+    Sampled(&'r Risk),
+    /// All samples were drawn.
+    Risk(&'r Risk),
+    /// The launch margin is known.
+    Margin(LaunchMargin),
+}
+
+/// Steps of a run between two events.
+const STEPS_PER_EVENT: usize = 64;
+
+/// Sees events, on the threads that compute.
+pub type Watch<'w> = &'w (dyn Fn(CaseOption, CheckEvent<'_>) + Sync);
 
 /// Judges every option of every case: first all shots as planned, then, where a `sampling` is given, how likely they fail.
 /// Returns the results by case; an option that the time did not suffice for has the result [`NoResult::OutOfTime`].
@@ -20,56 +53,94 @@ pub fn check_all(
     sampling: Option<&Sampling>,
     progress: &Progress,
 ) -> Finding<Vec<OptionResults>> {
-    let jobs: Vec<(usize, usize)> = cases
-        .iter()
-        .enumerate()
-        .flat_map(|(n, (case, _))| (0..case.shots.len()).map(move |option| (n, option)))
-        .collect();
-    let checked = run_jobs(&jobs, progress, |&(n, option)| {
-        let (case, compute) = &cases[n];
-        let checked = guarded(|| {
-            check(case, option, compute, &mut |_| progress.flow())
-                .map_err(|failure| progress.no_result(failure))
-        });
-        match checked {
+    check_all_watched(cases, sampling, progress, &|_, _| {})
+}
+
+/// Like [`check_all`], seen by `watch`.
+pub fn check_all_watched(
+    cases: &[(&Case, ComputeSettings)],
+    sampling: Option<&Sampling>,
+    progress: &Progress,
+    watch: Watch<'_>,
+) -> Finding<Vec<OptionResults>> {
+    let of_case = |case: usize| (0..cases[case].0.shots.len()).map(move |option| CaseOption { case, option });
+    let options: Vec<CaseOption> = (0..cases.len()).flat_map(of_case).collect();
+    let checked = run_jobs(&options, progress, |&at| {
+        let nominal = guarded(|| check_nominal(cases, at, progress, watch));
+        watch(at, CheckEvent::Nominal(&nominal));
+        match nominal {
             Err(ended @ (NoResult::Stopped | NoResult::OutOfTime)) => Err(ended),
             // An option without a result is no reason for the others to have none.
             result => Ok(result),
         }
     })?;
     let mut partial = checked.iter().any(Option::is_none);
-    let checked = checked.into_iter().map(|checked| checked.unwrap_or(Err(NoResult::OutOfTime)));
-    let mut judged: Vec<_> = checked.map(|checked| checked.map(Judgement::nominal)).collect();
-    if let Some(sampling) = sampling {
-        let known = jobs.iter().zip(&mut judged).filter_map(|(&at, of)| Some((at, of.as_mut().ok()?)));
-        partial |= add_risks(cases, known.collect(), sampling, progress)?.partial;
+    let mut results: Vec<OptionResults> = vec![Vec::new(); cases.len()];
+    for (at, nominal) in options.into_iter().zip(checked) {
+        let nominal = nominal.unwrap_or(Err(NoResult::OutOfTime));
+        results[at.case].push(nominal.map(Judgement::nominal));
     }
-    let mut results: Vec<OptionResults> = cases.iter().map(|_| Vec::new()).collect();
-    for ((n, _), judged) in jobs.into_iter().zip(judged) {
-        results[n].push(judged);
+    if let Some(sampling) = sampling {
+        partial |= add_risks(cases, &mut results, sampling, progress, watch)?.partial;
     }
     Ok(Found { value: results, partial })
 }
 
-/// Samples options that are judged as planned, each given as `(case, option)`.
+fn check_nominal(
+    cases: &[(&Case, ComputeSettings)],
+    at: CaseOption,
+    progress: &Progress,
+    watch: Watch<'_>,
+) -> Result<Checked, NoResult> {
+    let (case, compute) = &cases[at.case];
+    let mut steps = 0_usize;
+    let checked = check(case, at.option, compute, &mut |step| {
+        steps += 1;
+        if steps.is_multiple_of(STEPS_PER_EVENT) {
+            watch(at, CheckEvent::Running(step));
+        }
+        progress.flow()
+    });
+    checked.map_err(|failure| progress.no_result(failure))
+}
+
+/// The options that are judged as planned.
+fn judged(results: &mut [OptionResults]) -> Vec<(CaseOption, &mut Judgement)> {
+    let of_case = |(case, results)| {
+        let options = <OptionResults as AsMut<[_]>>::as_mut(results).iter_mut().enumerate();
+        options.filter_map(move |(option, result)| Some((CaseOption { case, option }, result.as_mut().ok()?)))
+    };
+    results.iter_mut().enumerate().flat_map(of_case).collect()
+}
+
+/// Samples the options that are judged as planned.
 fn add_risks(
     cases: &[(&Case, ComputeSettings)],
-    mut judged: Vec<((usize, usize), &mut Judgement)>,
+    results: &mut [OptionResults],
     sampling: &Sampling,
     progress: &Progress,
+    watch: Watch<'_>,
 ) -> Finding<()> {
-    let target = |((n, option), judged): &((usize, usize), &mut Judgement)| {
-        let (case, compute) = cases[*n];
-        target(case, *option, &Envelope::of(&judged.nominal), sampling, compute)
+    let mut judged = judged(results);
+    let target = |(at, judgement): &(CaseOption, &mut Judgement)| {
+        let (case, compute) = cases[at.case];
+        target(case, at.option, &Envelope::of(&judgement.nominal), sampling, compute)
     };
     let targets: Vec<ShotToSample<'_>> = judged.iter().map(target).collect();
-    let Found { value: risks, partial } = find_risks(&targets, progress, &mut |_, _| {})?;
-    judged.iter_mut().zip(risks).for_each(|((_, judged), risk)| judged.risk = Some(risk));
+    let mut sampled = |n: usize, risk: &Risk| {
+        watch(judged[n].0, CheckEvent::Sampled(risk));
+        ControlFlow::Continue(())
+    };
+    let Found { value: risks, partial } = find_risks_watched(&targets, progress, &mut sampled)?;
+    for ((at, judgement), risk) in judged.iter_mut().zip(risks) {
+        watch(*at, CheckEvent::Risk(&risk));
+        judgement.risk = Some(risk);
+    }
     Ok(Found { value: (), partial })
 }
 
 /// An option to be sampled, judged as `planned`; one that fails is sampled only to show by how much.
-pub fn target<'c>(
+fn target<'c>(
     case: &'c Case,
     option: usize,
     planned: &Envelope,
@@ -93,27 +164,23 @@ pub fn find_launch_margins(
     cases: &[(&Case, ComputeSettings)],
     results: &mut [OptionResults],
     progress: &Progress,
+    watch: Watch<'_>,
 ) -> Finding<()> {
-    let mut known: Vec<((usize, usize), &mut Judgement)> = Vec::new();
-    for (n, results) in results.iter_mut().enumerate() {
-        let judged = results
-            .iter_mut()
-            .enumerate()
-            .filter_map(|(option, result)| Some((option, result.as_mut().ok()?)));
-        known.extend(judged.map(|(option, judged)| ((n, option), judged)));
-    }
-    let jobs: Vec<_> = known.iter().map(|(at, judged)| (*at, judged.nominal.verdict)).collect();
-    let margins = run_jobs(&jobs, progress, |&((n, option), nominal)| {
-        let (case, compute) = &cases[n];
-        match guarded(|| launch_margin(case, &case.shots[option], nominal, compute, progress)) {
+    let judged = judged(results);
+    let jobs: Vec<_> = judged.iter().map(|(at, judgement)| (*at, judgement.nominal.verdict)).collect();
+    let margins = run_jobs(&jobs, progress, |&(at, nominal)| {
+        let (case, compute) = &cases[at.case];
+        match guarded(|| launch_margin(case, &case.shots[at.option], nominal, compute, progress)) {
             // The verdicts stand without it.
             Err(NoResult::Panicked(_)) => Ok(None),
-            margin => margin.map(Some),
+            margin => margin.map(Some).inspect(|margin| {
+                margin.iter().for_each(|&margin| watch(at, CheckEvent::Margin(margin)));
+            }),
         }
     })?;
     let partial = margins.contains(&None);
-    for ((_, judged), margin) in known.into_iter().zip(margins) {
-        judged.launch_margin = margin.flatten();
+    for ((_, judgement), margin) in judged.into_iter().zip(margins) {
+        judgement.launch_margin = margin.flatten();
     }
     Ok(Found { value: (), partial })
 }
@@ -134,7 +201,7 @@ pub fn judge_drawn(
             let planned = Envelope::of(&judged.nominal);
             let target =
                 ShotToSample { precomputed: &drawn, ..target(case, option, &planned, sampling, *compute) };
-            judged.risk = find_risks(&[target], progress, &mut |_, _| {})?.value.pop();
+            judged.risk = find_risks(&[target], progress)?.value.pop();
         }
     }
     Ok(results)

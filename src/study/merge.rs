@@ -1,6 +1,6 @@
-//! A study spread over several machines: each machine writes its share of the results, and `merge` joins the shares.
+//! A study spread over several machines: each machine writes its shard of the results, and `merge` joins the shards.
 //!
-//! A share is lines of JSON. The first line is the [`Head`]: the question, and the plan itself, so that merging needs no
+//! A shard is lines of JSON. The first line is the [`Head`]: the question, and the plan itself, so that merging needs no
 //! other file. Each further line is one result. The last line is the SHA-256 checksum of all lines before it.
 
 use itertools::Itertools;
@@ -41,12 +41,12 @@ pub struct OptionSample {
     pub sample: Sample,
 }
 
-/// The first line of a share.
+/// The first line of a shard.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Head {
     /// [`SCHEMA`].
     pub schema: String,
-    /// Version of the program that wrote the share.
+    /// Version of the program that wrote the shard.
     pub version: String,
     /// The question.
     pub question: Question,
@@ -56,11 +56,11 @@ pub struct Head {
     pub plan: String,
     /// Text of the plan.
     pub text: String,
-    /// Which share this is.
+    /// Which shard this is.
     pub shard: Shard,
 }
 
-/// The last line of a share.
+/// The last line of a shard.
 #[derive(Serialize, Deserialize)]
 struct Foot {
     /// SHA-256 of all lines before, in hexadecimal digits.
@@ -76,7 +76,7 @@ pub enum ShardResults {
     Risk(Vec<OptionSample>),
 }
 
-/// Name of this format of shares.
+/// Name of this format of shards.
 const SCHEMA: &str = "shelter.shard/7";
 /// Version of this program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -109,7 +109,7 @@ impl ShardResults {
     }
 }
 
-/// Text of a share of the study of `case`.
+/// Text of a shard of the study of `case`.
 pub fn write_share(
     case: &Case,
     question: Question,
@@ -136,30 +136,30 @@ fn checksum(text: &str) -> String {
     Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Reads a share; says what is wrong with it. `name` stands for the file in messages.
+/// Reads a shard; says what is wrong with it. `name` stands for the file in messages.
 fn read_share(name: &str, text: &str) -> Result<(Head, ShardResults), String> {
     let wrong = |line: usize, error: &dyn std::fmt::Display| {
-        format!("{name}:{line}: {error}; a share is what `shelter orders` or `risk` wrote with --shard")
+        format!("{name}:{line}: {error}; a shard is what `shelter orders` or `risk` wrote with --shard")
     };
     let (first, rest) = text.split_once('\n').ok_or_else(|| wrong(1, &"the file has no second line"))?;
     let Origin { schema, version } = serde_json::from_str(first).map_err(|error| wrong(1, &error))?;
     if schema != SCHEMA || version != VERSION {
         return Err(format!(
-            "{name}: a share of format {schema}, version {version}, but this is {SCHEMA}, version {VERSION}: compute all shares and merge them with one version"
+            "{name}: a shard of format {schema}, version {version}, but this is {SCHEMA}, version {VERSION}: compute all shards and merge them with one version"
         ));
     }
     let body = text.trim_end_matches('\n');
     let (before, last) = body.rsplit_once('\n').unwrap_or((body, ""));
     let foot: Foot = serde_json::from_str(last)
-        .map_err(|_| format!("{name}: the last line, a checksum, is missing; copy the share again"))?;
+        .map_err(|_| format!("{name}: the last line, a checksum, is missing; copy the shard again"))?;
     if foot.sha256 != checksum(&format!("{before}\n")) {
         return Err(format!(
-            "{name}: the share is not as it was written: its checksum differs; copy it again"
+            "{name}: the shard is not as it was written: its checksum differs; copy it again"
         ));
     }
     let head: Head = serde_json::from_str(first).map_err(|error| wrong(1, &error))?;
     if head.shard.index >= head.shard.of {
-        return Err(wrong(1, &"there is no such share"));
+        return Err(wrong(1, &"there is no such shard"));
     }
     fn results<T: DeserializeOwned>(
         lines: &[&str],
@@ -185,11 +185,11 @@ struct Origin {
     version: String,
 }
 
-/// Joins shares, given as `(name, text)`; says what is wrong with them.
-pub fn merge(shares: &[(String, String)]) -> Result<(Head, ShardResults), String> {
+/// Joins shards, given as `(name, text)`; says what is wrong with them.
+pub fn merge(shards: &[(String, String)]) -> Result<(Head, ShardResults), String> {
     let mut heads: Vec<(&str, Head)> = Vec::new();
     let (mut orders, mut samples) = (Vec::new(), Vec::new());
-    for (name, text) in shares {
+    for (name, text) in shards {
         let (head, findings) = read_share(name, text)?;
         match findings {
             ShardResults::Orders(tried) => orders.extend(tried),
@@ -197,17 +197,17 @@ pub fn merge(shares: &[(String, String)]) -> Result<(Head, ShardResults), String
         }
         heads.push((name, head));
     }
-    let (_, first) = heads.first().cloned().ok_or("no share to merge")?;
+    let (_, first) = heads.first().cloned().ok_or("no shard to merge")?;
     for (name, head) in &heads {
         let shard = Shard { index: first.shard.index, ..head.shard };
         if (Head { shard, ..head.clone() }) != first {
-            return Err(format!("{name}: a share of another study than {}", heads[0].0));
+            return Err(format!("{name}: a shard of another study than {}", heads[0].0));
         }
     }
     for index in 0..first.shard.of {
         let count = heads.iter().filter(|(_, head)| head.shard.index == index).count();
         if count != 1 {
-            let which = format!("share {}/{}", index + 1, first.shard.of);
+            let which = format!("shard {}/{}", index + 1, first.shard.of);
             return Err(if count == 0 {
                 format!("{which} is missing")
             } else {

@@ -2,7 +2,7 @@
 //!
 //! A [`Case`] is a plan made ready to run. A study takes a case and returns plain data, which every face draws; `size` takes a
 //! plan and makes a case of each combination.
-//! Studies do not print and do not compute physics. Only `merge` reads and writes a file format: that of shares.
+//! Studies do not print and do not compute physics. Only `merge` reads and writes a file format: that of shards.
 
 pub mod accuracy;
 pub mod batch;
@@ -151,12 +151,12 @@ impl Intervals {
     }
 }
 
-/// The share of one machine in a study spread over several machines.
+/// The shard of one machine in a study spread over several machines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shard {
-    /// Number of the share, from 0.
+    /// Number of the shard, from 0.
     pub index: usize,
-    /// Number of shares.
+    /// Number of shards.
     pub of: usize,
 }
 
@@ -164,7 +164,7 @@ impl Shard {
     /// The whole study.
     pub const WHOLE: Shard = Shard { index: 0, of: 1 };
 
-    /// Whether the share holds piece `number` of the work.
+    /// Whether the shard holds piece `number` of the work.
     pub fn has(self, number: usize) -> bool {
         number % self.of == self.index
     }

@@ -161,7 +161,7 @@ pub fn tries_all(case: &Case) -> bool {
     case.plan.blast_rows.len() <= MOST_ROWS
 }
 
-/// Tries the orders at every interval [s]; only the share `shard` of them.
+/// Tries the orders at every interval [s]; only those of `shard`.
 pub fn orders(
     case: &Case,
     intervals: &[f64],

@@ -1,7 +1,7 @@
 //! Draws the shots that `[uncertainty]` describes.
 //!
 //! A sample is a variant of the scene and a shot. Every draw follows from the seed, the number of the sample, and its place:
-//! an input of the whole shot, a gap between blast rows, a tire, or a cable. So a sample does not depend on threads, shares,
+//! an input of the whole shot, a gap between blast rows, a tire, or a cable. So a sample does not depend on threads, shards,
 //! accuracy or the order of options, and the options of a plan are compared on the same draws.
 //!
 //! Factors on launch velocities, masses and breaking forces are lognormal with mean 1. A hole's launch velocity belongs to a

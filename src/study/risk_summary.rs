@@ -73,7 +73,7 @@ pub fn sample_shots<'c>(
             precomputed: &[],
         };
         let targets: Vec<_> = shots.iter().map(target).collect();
-        let risks = find_risks(&targets, progress, &mut |_, _| {})?.value;
+        let risks = find_risks(&targets, progress)?.value;
         let is_complete = |risk: &Risk| {
             let (drawn, verdict) = (risk.samples.len(), risk.bounds.verdict());
             drawn >= sampling.most || drawn >= sampling.least && verdict != Verdict::Undecided

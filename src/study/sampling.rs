@@ -1,7 +1,7 @@
 //! How many samples of which shots are drawn: in rounds over all shots, until each risk is sure.
 
 use std::collections::BTreeSet;
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 
 use serde::{Deserialize, Serialize};
 
@@ -110,13 +110,18 @@ const LONG_ROUND: usize = 100;
 /// Most times that a shot is sampled anew at half the step.
 const MOST_HALVINGS: u32 = 3;
 
-/// Draws and judges samples of every shot, until its risk is sure. `watch` sees every shot after each of its rounds.
+/// Draws and judges samples of every shot, until its risk is sure.
 ///
 /// The result is partial where a shot has no more samples than the time sufficed for.
-pub fn find_risks(
+pub fn find_risks(targets: &[ShotToSample<'_>], progress: &Progress) -> Finding<Vec<Risk>> {
+    find_risks_watched(targets, progress, &mut |_, _| ControlFlow::Continue(()))
+}
+
+/// Like [`find_risks`]; `watch` sees every shot after each of its rounds, and may end the sampling of all.
+pub fn find_risks_watched(
     targets: &[ShotToSample<'_>],
     progress: &Progress,
-    watch: &mut dyn FnMut(usize, &Risk),
+    watch: &mut dyn FnMut(usize, &Risk) -> ControlFlow<()>,
 ) -> Finding<Vec<Risk>> {
     let mut risks: Vec<Risk> = targets.iter().map(ShotToSample::no_samples).collect();
     loop {
@@ -154,7 +159,9 @@ pub fn find_risks(
                 *risk = target.no_samples();
                 risk.halvings = halvings;
             }
-            watch(n, risk);
+            if watch(n, risk).is_break() {
+                return Ok(Found { value: risks, partial: false });
+            }
         }
         if out_of_time {
             return Ok(Found { value: risks, partial: true });
@@ -173,7 +180,7 @@ fn undecided_if_panicked(sample: Result<Sample, NoResult>, number: usize) -> Res
 }
 
 /// Draws and judges the samples of every shot that belong to `shard`; `None` for those that the time did not suffice for.
-pub fn draw_share(
+pub fn draw_shard(
     targets: &[ShotToSample<'_>],
     shard: Shard,
     progress: &Progress,

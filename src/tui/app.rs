@@ -21,7 +21,7 @@ use crate::jobs::{News, StudyKind};
 use crate::plan::{Plan, PlanSource};
 use crate::study::judgement::Judgement;
 use crate::study::risk::Risk;
-use crate::study::{Case, ComputeSettings, NoResult, step_error};
+use crate::study::{Case, ComputeSettings, step_error};
 
 /// What the event loop must do after an update.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -311,7 +311,12 @@ impl App {
                 });
                 self.set_option(option, state);
             }
-            News::Sampled { option, result, more } => self.take_samples(option, result, more),
+            News::Sampled { option, risk, more } => {
+                if let Some(OptionState::Done { judgement, sampling }) = self.options.get_mut(option) {
+                    judgement.risk = Some(*risk);
+                    *sampling = more;
+                }
+            }
             News::Margin { option, margin } => {
                 if let Some(OptionState::Done { judgement, .. }) = self.options.get_mut(option) {
                     judgement.launch_margin = Some(margin);
@@ -325,17 +330,6 @@ impl App {
                 let state = result.map_or_else(StudyState::Failed, finish);
                 self.studies.set(kind, state);
             }
-        }
-    }
-
-    fn take_samples(&mut self, option: usize, result: Result<Box<Risk>, NoResult>, more: bool) {
-        match (self.options.get_mut(option), result) {
-            (Some(OptionState::Done { judgement, sampling }), Ok(risk)) => {
-                judgement.risk = Some(*risk);
-                *sampling = more;
-            }
-            (_, Err(none)) => self.set_option(option, OptionState::Failed(none)),
-            (_, Ok(_)) => {}
         }
     }
 

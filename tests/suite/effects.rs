@@ -9,7 +9,7 @@ use shelter::scene::{Firing, Scene, Shot};
 use shelter::simulation::Failure;
 use shelter::study::check::check;
 use shelter::study::effects::{Effect, SAMPLES, effects};
-use shelter::study::sampling::{Sampling, ShotToSample, draw_share};
+use shelter::study::sampling::{Sampling, ShotToSample, draw_shard};
 use shelter::study::{Case, ComputeSettings, Progress, Shard};
 use shelter::verdict::Quantity;
 
@@ -238,7 +238,7 @@ const FEW: Sampling = Sampling::exactly(SAMPLES, Sampling::OF_VERDICT.seed);
 fn median_force(case: &Case, compute: ComputeSettings) -> f64 {
     let (shot, sampling) = (&case.shots[0], FEW);
     let target = ShotToSample { case, shot, planned: None, compute, sampling, precomputed: &[] };
-    let drawn = draw_share(&[target], Shard::WHOLE, &Progress::default()).expect("samples");
+    let drawn = draw_shard(&[target], Shard::WHOLE, &Progress::default()).expect("samples");
     let mut forces: Vec<f64> =
         drawn.into_iter().map(|(_, sample)| sample.expect("time for all").run.force).collect();
     forces.sort_by(f64::total_cmp);

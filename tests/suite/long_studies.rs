@@ -33,16 +33,16 @@ fn sweep_has_the_fields_scripts_read() {
     assert_eq!(csv.status.code(), Some(1));
 }
 
-/// A share that is cut off, edited, or of another version is refused, whatever was changed in it.
+/// A shard that is cut off, edited, or of another version is refused, whatever was changed in it.
 #[test]
 fn a_share_that_is_not_as_it_was_written_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let study = ["risk", &shipped("amur-three-rows.toml"), "--accuracy", "draft", "--samples", "2"];
-    let share = |index: usize| {
-        let share = shelter(&[&study[..], &["--shard", &format!("{index}/2")]].concat());
-        String::from_utf8(share.stdout).expect("UTF-8")
+    let shard = |index: usize| {
+        let shard = shelter(&[&study[..], &["--shard", &format!("{index}/2")]].concat());
+        String::from_utf8(shard.stdout).expect("UTF-8")
     };
-    let (first, second) = (share(1), share(2));
+    let (first, second) = (shard(1), shard(2));
     let merged = |text: &str| {
         let files = [("a", text), ("b", second.as_str())].map(|(name, text)| {
             let file = folder.path().join(name);
@@ -62,7 +62,7 @@ fn a_share_that_is_not_as_it_was_written_is_refused() {
     assert_eq!(merged(&first).0, Some(1), "as written: some samples fail");
     let lines: Vec<&str> = first.lines().collect();
     let cases = [
-        (lines[..lines.len() - 1].join("\n"), "copy the share again"),
+        (lines[..lines.len() - 1].join("\n"), "copy the shard again"),
         (lines[..1].join("\n"), "no second line"),
         (String::new(), "no second line"),
         // Values altered within their types: a fail that became a pass.
@@ -108,35 +108,33 @@ fn the_estimated_duration_is_for_terminals() {
 }
 
 #[test]
-fn shares_merge_into_the_whole_byte_for_byte() {
+fn shards_merge_into_the_whole_byte_for_byte() {
     let plan = shipped("amur-three-rows.toml");
     let folder = tempfile::tempdir().expect("a folder");
     let orders: &[&str] = &["orders", &plan, "--accuracy", "draft", "--nominal"];
     let sampled: &[&str] = &["orders", &plan, "--accuracy", "draft", "--samples", "150", "--seed", "3"];
     let risk: &[&str] = &["risk", &plan, "--accuracy", "draft", "--samples", "31", "--seed", "4"];
     for command in [orders, sampled, risk] {
-        for format in ["json", "csv", "text"] {
-            let whole = shelter(&[command, &["--format", format, "--threads", "1"]].concat());
-            for of in 1..4 {
-                let files: Vec<String> = (1..=of)
-                    .rev()
-                    .map(|index| {
-                        let share = shelter(&[command, &["--shard", &format!("{index}/{of}")]].concat());
-                        let file = folder.path().join(format!("{index}"));
-                        std::fs::write(&file, &share.stdout).expect("written");
-                        file.to_str().expect("UTF-8").to_owned()
-                    })
-                    .collect();
-                let mut merge = vec!["merge", "--format", format];
-                merge.extend(files.iter().map(String::as_str));
-                let merged = shelter(&merge);
+        let wholes = ["json", "csv", "text"]
+            .map(|format| (format, shelter(&[command, &["--format", format, "--threads", "1"]].concat())));
+        for of in [1, 3] {
+            let shard = |index: i32| {
+                let shard = shelter(&[command, &["--shard", &format!("{index}/{of}")]].concat());
+                let file = folder.path().join(format!("{index}"));
+                std::fs::write(&file, &shard.stdout).expect("written");
+                file.to_str().expect("UTF-8").to_owned()
+            };
+            let files: Vec<String> = (1..=of).rev().map(shard).collect();
+            let files: Vec<&str> = files.iter().map(String::as_str).collect();
+            for (format, whole) in &wholes {
+                let merged = shelter(&[&["merge", "--format", format], &files[..]].concat());
                 assert_eq!(merged.stdout, whole.stdout, "{format} of {of}");
                 assert_eq!(merged.status.code(), whole.status.code());
-                if of > 1 {
-                    let missing = shelter(&merge[..merge.len() - 1]);
-                    assert_eq!(missing.status.code(), Some(2));
-                    assert!(String::from_utf8_lossy(&missing.stderr).contains("is missing"));
-                }
+            }
+            if of > 1 {
+                let missing = shelter(&[&["merge"], &files[1..]].concat());
+                assert_eq!(missing.status.code(), Some(2));
+                assert!(String::from_utf8_lossy(&missing.stderr).contains("is missing"));
             }
         }
     }
@@ -147,8 +145,8 @@ fn the_number_of_threads_changes_nothing() {
     let plan = shipped("amur-three-rows.toml");
     for command in [
         &["risk", &plan, "--accuracy", "draft", "--samples", "60"][..],
-        &["orders", &plan, "--accuracy", "draft"],
-        &["size", &plan, "--accuracy", "draft", "--option", "42 ms"],
+        &["orders", &plan, "--accuracy", "draft", "--samples", "150"],
+        &["size", &plan, "--accuracy", "draft", "--option", "42 ms", "--ropes", "EN 12385-4 6x36 FC"],
         &["sweep", &plan, "--accuracy", "draft", "--interval", "50..70:10"],
     ] {
         let [one, two] =
@@ -183,18 +181,16 @@ fn risk_counts_its_samples() {
 #[test]
 fn size_writes_its_choice() {
     let text = std::fs::read_to_string(shipped("amur-three-rows.toml")).expect("the plan");
-    let text = text.replace("flight_height_m = 2.35", "flight_height_m = 3.2 # higher");
-    // Short intervals: at long ones no rope holds in nearly all possible shots.
+    // Few combinations: each that holds as planned is sampled.
     let text = text
-        .replace("at_ms = [0, 500, 1000]", "interval_ms = 15")
-        .replace("interval_ms = 109", "interval_ms = 12");
-    let text =
-        text.replace("interval_ms = 42", "interval_ms = 6").replace("interval_ms = 25", "interval_ms = 3");
+        .replace("ropes = \"GOST 2688-80\"", "ropes = \"EN 12385-4 6x36 FC\"")
+        .replace("tire_mass_kg = [280, 350]", "tire_mass_kg = [280]");
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("plan.toml");
     std::fs::write(&file, &text).expect("written");
     let path = file.to_str().expect("UTF-8");
-    let output = shelter(&["size", path, "--write", "--format", "json", "--accuracy", "draft"]);
+    let size = ["size", path, "--option", "42 ms", "--write", "--format", "json", "--accuracy", "draft"];
+    let output = shelter(&size);
     let document: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
     assert_eq!(document["found"], true, "{document}");
     assert_eq!(document["risk"]["verdict"], "pass");
@@ -207,7 +203,7 @@ fn size_writes_its_choice() {
         written.lines().filter(kept).collect::<Vec<_>>(),
         text.lines().filter(kept).collect::<Vec<_>>()
     );
-    assert_eq!(shelter(&["check", path, "--accuracy", "draft"]).status.code(), Some(0));
+    assert_eq!(shelter(&["check", path, "--any", "--accuracy", "draft"]).status.code(), Some(0));
     assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 1, "nothing is left beside it");
 }
 
@@ -257,7 +253,7 @@ fn an_interrupt_ends_a_command_with_130() {
     }
 }
 
-/// What is computed by then is told, with the status of what is not sure; shares, which must be whole, refuse it.
+/// What is computed by then is told, with the status of what is not sure; shards, which must be whole, refuse it.
 #[test]
 fn a_timeout_ends_with_what_is_there() {
     let plan = &shipped("large-50x50.toml");
@@ -276,8 +272,8 @@ fn a_timeout_ends_with_what_is_there() {
     }
     let check = shelter(&["check", plan, "--dt", "2e-7", "--timeout", "0.3"]);
     assert!(String::from_utf8_lossy(&check.stdout).contains("not computed: the time was up"));
-    let share = shelter(&["orders", plan, "--shard", "1/2", "--timeout", "1"]);
-    assert_eq!(share.status.code(), Some(2));
+    let shard = shelter(&["orders", plan, "--shard", "1/2", "--timeout", "1"]);
+    assert_eq!(shard.status.code(), Some(2));
 }
 
 #[test]

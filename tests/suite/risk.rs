@@ -15,7 +15,7 @@ use shelter::study::merge::OptionSample;
 use shelter::study::random_shot::{RandomShot, draw};
 use shelter::study::risk::Risk;
 use shelter::study::risk_summary::sample_shots;
-use shelter::study::sampling::{Sampling, ShotToSample, draw_share, find_risks};
+use shelter::study::sampling::{Sampling, ShotToSample, draw_shard, find_risks};
 use shelter::study::{Case, ComputeSettings, Envelope, Progress, Shard, thread_pool};
 use shelter::verdict::{Quantity, Verdict};
 
@@ -63,7 +63,7 @@ delay = [{{ name = "20", interval_ms = 20 }}, {{ name = "60", interval_ms = 60 }
 fn risk_of(case: &Case, sampling: &Sampling) -> Risk {
     let (shot, compute) = (&case.shots[0], ComputeSettings::of(&case.plan));
     let target = ShotToSample { case, shot, planned: None, compute, sampling: *sampling, precomputed: &[] };
-    let found = find_risks(&[target], &Progress::default(), &mut |_, _| {});
+    let found = find_risks(&[target], &Progress::default());
     found.expect("a result").value.remove(0)
 }
 
@@ -139,7 +139,8 @@ fn the_launch_margin_is_the_room_below_the_limit() {
         let case = lone(height, 1.0);
         let cases = [(&case, ComputeSettings::of(&case.plan))];
         let mut results = check_all(&cases, None, &Progress::default()).expect("a result").value;
-        let found = find_launch_margins(&cases, &mut results, &Progress::default()).expect("a result");
+        let found =
+            find_launch_margins(&cases, &mut results, &Progress::default(), &|_, _| {}).expect("a result");
         assert!(!found.partial);
         results[0].remove(0).expect("a result").launch_margin.expect("a margin")
     };
@@ -237,7 +238,7 @@ fn samples_that_share_one_error_pass_nothing() {
     }
 }
 
-/// Shares are drawn at the usual step; where the audit contradicts them, all of them together are sampled anew, as on one
+/// Shards are drawn at the usual step; where the audit contradicts them, all of them together are sampled anew, as on one
 /// machine.
 #[test]
 fn shares_that_the_audit_contradicts_are_sampled_anew() {
@@ -252,8 +253,8 @@ fn shares_that_the_audit_contradicts_are_sampled_anew() {
         sampling,
         precomputed: &[],
     };
-    let share = |index| draw_share(&[target], Shard { index, of: 2 }, &progress).expect("samples");
-    let mut drawn: Vec<OptionSample> = [share(0), share(1)]
+    let shard = |index| draw_shard(&[target], Shard { index, of: 2 }, &progress).expect("samples");
+    let mut drawn: Vec<OptionSample> = [shard(0), shard(1)]
         .into_iter()
         .flatten()
         .map(|(option, sample)| OptionSample { option, sample: sample.expect("time for all") })

@@ -60,8 +60,8 @@ fn samples_stream_in_and_decide() {
     assert!(line(&app, "9 ms").contains("? OPEN") && line(&app, "9 ms").contains(" 0…"));
     assert!(app.busy());
     let news = |app: &App, count, more| {
-        let result = Ok(Box::new(samples(&app.case, count, false)));
-        News::Sampled { option: 1, result, more }
+        let risk = Box::new(samples(&app.case, count, false));
+        News::Sampled { option: 1, risk, more }
     };
     app.take_news(news(&app, 200, true));
     let sampling = line(&app, "9 ms");
@@ -72,7 +72,7 @@ fn samples_stream_in_and_decide() {
     app.selected = 1;
     let screen = text(&draw(&app, 120, 36));
     assert!(screen.contains("as planned it fails from +5 % launch, 6.3 m/s"), "{screen}");
-    app.take_news(News::Sampled { option: 0, result: Err(NoResult::OutOfTime), more: false });
+    app.take_news(News::Checked { option: 0, result: Err(NoResult::OutOfTime) });
     assert!(matches!(app.options[0], OptionState::Failed(NoResult::OutOfTime)));
 }
 

@@ -231,7 +231,9 @@ pub fn spreads(app: &App) -> [(StudyKind, StudyResult); 3] {
     let combinations = catalogue().ropes.iter().take(8).enumerate().map(|(n, rope)| {
         let share = 1.5 - 0.1 * n as f64;
         let risk = Some(SampledRisk { verdict: Verdict::Pass, samples: 3045, failures: 2 });
-        let trial = Trial { holds: share < 1.0, worst: envelope(share), utilization: share, shots: 7, risk };
+        let holds = share < 1.0;
+        let worst = envelope(share);
+        let trial = Trial { holds, worst, utilization: share, shots: 7, risk, is_choice: holds };
         let (total_mass, trial) = (14_000.0 + 100.0 * n as f64, Ok(trial));
         Combination { rope, tire_mass: 280.0, border_rows: 0, tires: 50, total_mass, trial }
     });

@@ -83,7 +83,7 @@ impl SizeDocument {
             fragile: sizing.with_risk(Verdict::Fail) + sizing.with_risk(Verdict::Undecided),
             partial: sizing.untried(Untried::OutOfTime) > 0,
             nearest: nearest.map(|(combination, _)| CombinationResult::of(combination)),
-            frontier: sizing.frontier().into_iter().map(CombinationResult::of).collect(),
+            frontier: sizing.choices().map(CombinationResult::of).collect(),
         }
     }
 }

@@ -72,6 +72,15 @@ pub struct Sweep {
     pub refuted: usize,
 }
 
+impl Sweep {
+    /// The verdict: pass only where every interval of the range was tried and passes. It is `partial` where the time was up.
+    pub fn verdict(&self, partial: bool) -> Verdict {
+        let worst = Verdict::worst(self.points.iter().map(Point::verdict));
+        let is_open = worst == Verdict::Pass && (partial || self.points.is_empty());
+        if is_open { Verdict::Undecided } else { worst }
+    }
+}
+
 /// An interval deep inside a safe window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recommended {

@@ -1,0 +1,176 @@
+//! Checks and studies in the background: requests come in, news goes out.
+//!
+//! At most one job of each kind runs: a new request ends the old job of its kind. A job ends within one step of a run.
+//! The work is the same functions that the commands call; the results do not depend on the number of threads. A panic is
+//! the result [`NoResult::Panicked`] of the option or study that panicked.
+
+mod check;
+mod studies;
+
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread;
+
+pub use studies::{StudyKind, StudyResult};
+
+use crate::study::check::Checked;
+use crate::study::margin::LaunchMargin;
+use crate::study::risk::Risk;
+use crate::study::{Case, ComputeSettings, NoResult, Progress, guarded, thread_pool};
+
+/// News of a job.
+#[derive(Debug)]
+pub enum News {
+    /// An option computes.
+    Checking {
+        /// Index of the option.
+        option: usize,
+        /// Runs finished.
+        runs: usize,
+        /// Time that the present run has reached [s].
+        time: f64,
+    },
+    /// An option is judged as planned, or has no result.
+    Checked {
+        /// Index of the option.
+        option: usize,
+        /// Its result.
+        result: Result<Box<Checked>, NoResult>,
+    },
+    /// Samples of an option that is judged as planned.
+    Sampled {
+        /// Index of the option.
+        option: usize,
+        /// All its samples so far.
+        risk: Box<Risk>,
+        /// Whether more samples come.
+        more: bool,
+    },
+    /// How much faster than planned the tires may leave.
+    Margin {
+        /// Index of the option.
+        option: usize,
+        /// The margin.
+        margin: LaunchMargin,
+    },
+    /// A study computes.
+    Studying {
+        /// Which study.
+        kind: StudyKind,
+        /// Shots judged.
+        done: usize,
+        /// Shots expected, as far as is known.
+        total: usize,
+    },
+    /// A study has ended by itself.
+    Studied {
+        /// Which study.
+        kind: StudyKind,
+        /// The settings it computed with.
+        compute: ComputeSettings,
+        /// Its result.
+        result: Result<Box<StudyResult>, NoResult>,
+    },
+}
+
+/// The jobs under way.
+pub struct Jobs {
+    threads: usize,
+    check: Option<Arc<Progress>>,
+    studies: [Option<Arc<Progress>>; StudyKind::ALL.len()],
+    /// Shots judged and expected of each study, as told last.
+    told: [(usize, usize); StudyKind::ALL.len()],
+    sender: Sender<(Arc<Progress>, News)>,
+    receiver: Receiver<(Arc<Progress>, News)>,
+}
+
+/// What the work of one job needs.
+struct Job {
+    case: Arc<Case>,
+    compute: ComputeSettings,
+    progress: Arc<Progress>,
+    sender: Sender<(Arc<Progress>, News)>,
+}
+
+impl Jobs {
+    /// No job yet. Each job will use `threads` threads; 0: one per core.
+    pub fn new(threads: usize) -> Self {
+        let cores = || thread::available_parallelism().map_or(1, usize::from);
+        let threads = if threads == 0 { cores() } else { threads };
+        let (sender, receiver) = channel();
+        let (studies, told) = Default::default();
+        Self { threads, check: None, studies, told, sender, receiver }
+    }
+
+    /// Checks every option of `case`: first as planned, then by samples, then for its launch margin. Each result is news by
+    /// itself.
+    pub fn check(&mut self, case: &Arc<Case>, compute: ComputeSettings) {
+        let job = self.job(case, compute);
+        end(self.check.replace(Arc::clone(&job.progress)));
+        match thread_pool(self.threads) {
+            Ok(pool) => pool.spawn(move || job.check_all()),
+            Err(none) => job.tell_no_result(&none),
+        }
+    }
+
+    /// Begins a study; `option` is the option of a study of one option.
+    pub fn study(&mut self, kind: StudyKind, case: &Arc<Case>, option: usize, compute: ComputeSettings) {
+        let job = self.job(case, compute);
+        end(self.studies[kind as usize].replace(Arc::clone(&job.progress)));
+        self.told[kind as usize] = (0, 0);
+        let tell = move |job: &Job, result| job.tell(News::Studied { kind, compute, result });
+        match thread_pool(self.threads) {
+            Ok(pool) => pool.spawn(move || tell(&job, guarded(|| job.study(kind, option).map(Box::new)))),
+            Err(none) => tell(&job, Err(none)),
+        }
+    }
+
+    /// Ends a study without a result.
+    pub fn cancel(&mut self, kind: StudyKind) {
+        end(self.studies[kind as usize].take());
+    }
+
+    /// News since the last call; a job that was replaced or cancelled has none.
+    pub fn news(&mut self) -> Vec<News> {
+        let mut news = Vec::new();
+        for (_, told) in self.receiver.try_iter().filter(|(job, _)| !job.stopped()) {
+            if let News::Studied { kind, .. } = told {
+                self.studies[kind as usize] = None;
+            }
+            news.push(told);
+        }
+        for kind in StudyKind::ALL {
+            let Some(progress) = &self.studies[kind as usize] else { continue };
+            let (done, total) = progress.counts();
+            if std::mem::replace(&mut self.told[kind as usize], (done, total)) != (done, total) {
+                news.push(News::Studying { kind, done, total });
+            }
+        }
+        news
+    }
+
+    fn job(&self, case: &Arc<Case>, compute: ComputeSettings) -> Job {
+        Job { case: Arc::clone(case), compute, progress: Arc::default(), sender: self.sender.clone() }
+    }
+}
+
+impl Drop for Jobs {
+    fn drop(&mut self) {
+        end(self.check.take());
+        StudyKind::ALL.into_iter().for_each(|kind| self.cancel(kind));
+    }
+}
+
+fn end(job: Option<Arc<Progress>>) {
+    job.iter().for_each(|progress| progress.stop());
+}
+
+impl Job {
+    fn tell(&self, news: News) {
+        // No receiver: the program quits, and nobody waits for the news.
+        let _ = self.sender.send((Arc::clone(&self.progress), news));
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,116 @@
+//! The studies that the terminal offers, with the settings that it gives them.
+
+use std::time::Duration;
+
+use super::Job;
+use crate::study::check_all::{OptionResults, check_all};
+use crate::study::effects::{EffectsOnOptions, SAMPLES, effects};
+use crate::study::flight::{Flight, record};
+use crate::study::orders::{Orders, orders, rank};
+use crate::study::sampling::Sampling;
+use crate::study::size::{Demand, Sizing, size};
+use crate::study::sweep::{GAP, Sweep, sweep};
+use crate::study::{Intervals, NoResult, Shard, accuracy};
+
+/// Declares the kinds of studies and the list of all of them, in one order.
+macro_rules! study_kinds {
+    ($( $(#[$about:meta])* $kind:ident, )+) => {
+        /// A study that the terminal offers.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum StudyKind {
+            $( $(#[$about])* $kind, )+
+        }
+
+        impl StudyKind {
+            /// Every kind, in the order of declaration.
+            pub const ALL: [StudyKind; [$(StudyKind::$kind),+].len()] = [$(StudyKind::$kind),+];
+        }
+    };
+}
+
+study_kinds! {
+    /// Intervals from 0 to 500 ms, rows in the order listed.
+    Sweep,
+    /// All orders at the intervals of the delay options.
+    Orders,
+    /// Two thousand samples of every option.
+    Risk,
+    /// The lightest shelter under which every option passes.
+    Size,
+    /// Which effects the scene requires.
+    Effects,
+    /// The motion of one option.
+    Flight,
+    /// The cost of accuracy, measured on one option.
+    Accuracy,
+}
+
+impl StudyKind {
+    /// The kinds that answer a question about the whole plan, in the order of their tabs.
+    pub const OF_PLAN: [StudyKind; 5] =
+        [StudyKind::Sweep, StudyKind::Orders, StudyKind::Risk, StudyKind::Size, StudyKind::Effects];
+}
+
+/// Result of a study.
+#[derive(Clone, Debug)]
+pub enum StudyResult {
+    /// Result of [`StudyKind::Sweep`].
+    Sweep(Sweep),
+    /// Result of [`StudyKind::Orders`].
+    Orders(Orders),
+    /// Result of [`StudyKind::Risk`].
+    Risk(Sampling, OptionResults),
+    /// Result of [`StudyKind::Size`].
+    Size(Sizing),
+    /// Result of [`StudyKind::Effects`].
+    Effects(EffectsOnOptions),
+    /// Result of [`StudyKind::Flight`].
+    Flight(Flight),
+    /// Result of [`StudyKind::Accuracy`].
+    Accuracy(accuracy::AccuracyTable),
+}
+
+/// Samples of every option.
+const SAMPLING: Sampling = Sampling::OF_RISK;
+/// Samples of a study of effects.
+const EFFECTS: Sampling = Sampling::exactly(SAMPLES, Sampling::OF_RISK.seed);
+/// Intervals swept [s].
+const INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: GAP };
+/// Longest run that [`StudyKind::Accuracy`] makes.
+const LONGEST_RUN: Duration = Duration::from_secs(1);
+
+impl Job {
+    pub(super) fn study(&self, kind: StudyKind, option: usize) -> Result<StudyResult, NoResult> {
+        let Self { case, compute, progress, .. } = self;
+        match kind {
+            StudyKind::Sweep => {
+                let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
+                Ok(StudyResult::Sweep(
+                    sweep(case, &order, &INTERVALS, Some(&Sampling::OF_VERDICT), compute, progress)?.value,
+                ))
+            }
+            StudyKind::Orders => {
+                let intervals = case.intervals();
+                let tried = orders(case, &intervals, Shard::WHOLE, compute, progress)?;
+                let sampling = Some(&Sampling::OF_VERDICT);
+                let ranked = rank(case, tried, intervals.len(), sampling, compute, progress)?;
+                Ok(StudyResult::Orders(ranked.value))
+            }
+            StudyKind::Risk => {
+                let mut results = check_all(&[(case, *compute)], Some(&SAMPLING), progress)?.value;
+                Ok(StudyResult::Risk(SAMPLING, results.remove(0)))
+            }
+            StudyKind::Size => {
+                let demand = Demand::Options((0..case.shots.len()).collect());
+                Ok(StudyResult::Size(
+                    size(&case.plan, &demand, Some(&Sampling::OF_VERDICT), compute, progress)?.value,
+                ))
+            }
+            StudyKind::Effects => Ok(StudyResult::Effects(effects(case, &EFFECTS, compute, progress)?.value)),
+            StudyKind::Flight => record(case, option, compute, progress).map(StudyResult::Flight),
+            StudyKind::Accuracy => {
+                Ok(StudyResult::Accuracy(accuracy::measure(case, option, LONGEST_RUN, progress)?.value))
+            }
+        }
+    }
+}

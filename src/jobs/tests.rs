@@ -1,0 +1,161 @@
+use std::time::{Duration, Instant};
+
+use super::*;
+use crate::plan::PlanSource;
+
+const STUDY: StudyKind = StudyKind::Orders;
+
+fn case() -> Arc<Case> {
+    let text = include_str!("../../plans/amur-three-rows.toml").to_owned();
+    let case = Case::parse(PlanSource { path: String::new(), text });
+    Arc::new(case.unwrap_or_else(|mistakes| panic!("{mistakes}")))
+}
+
+fn coarse(case: &Case) -> ComputeSettings {
+    ComputeSettings { step: Some(1e-3), ..ComputeSettings::of(&case.plan) }
+}
+
+/// Settings that make a run last for minutes.
+fn endless(case: &Case) -> ComputeSettings {
+    ComputeSettings { step: Some(1e-9), ..ComputeSettings::of(&case.plan) }
+}
+
+/// Calls `look` until there is a value.
+fn wait<T>(mut look: impl FnMut() -> Option<T>) -> T {
+    let begun = Instant::now();
+    loop {
+        if let Some(found) = look() {
+            return found;
+        }
+        assert!(begun.elapsed() < Duration::from_secs(60), "nothing came");
+        thread::sleep(Duration::from_millis(5));
+    }
+}
+
+/// Results of every option, by option.
+fn checked(jobs: &mut Jobs, options: usize) -> Vec<Result<Box<Checked>, NoResult>> {
+    let mut results = Vec::new();
+    wait(|| {
+        for news in jobs.news() {
+            if let News::Checked { option, result } = news {
+                results.push((option, result));
+            }
+        }
+        (results.len() == options).then_some(())
+    });
+    results.sort_by_key(|(option, _)| *option);
+    results.into_iter().map(|(_, result)| result).collect()
+}
+
+/// Samples and launch margins of every option, by option.
+fn sampled(jobs: &mut Jobs, options: usize) -> Vec<(Box<Risk>, LaunchMargin)> {
+    let (mut risks, mut margins) = (vec![None; options], vec![None; options]);
+    wait(|| {
+        for news in jobs.news() {
+            match news {
+                News::Sampled { option, risk, more: false } => risks[option] = Some(risk),
+                News::Margin { option, margin } => margins[option] = Some(margin),
+                _ => {}
+            }
+        }
+        margins.iter().all(Option::is_some).then_some(())
+    });
+    risks.into_iter().zip(margins).filter_map(|(risk, margin)| Some((risk?, margin?))).collect()
+}
+
+#[test]
+fn results_do_not_depend_on_the_number_of_threads() {
+    let case = case();
+    let options = case.shots.len();
+    let values = |threads| {
+        let mut jobs = Jobs::new(threads);
+        jobs.check(&case, coarse(&case));
+        let results = checked(&mut jobs, options);
+        let values = results.into_iter().map(|result| result.map(|c| (c.height, c.force)));
+        (values.collect::<Vec<_>>(), sampled(&mut jobs, options))
+    };
+    let (few, many) = (values(1), values(3));
+    assert_eq!(few, many);
+    assert!(few.1.iter().all(|(risk, _)| risk.samples.len() >= 200));
+}
+
+#[test]
+fn a_new_request_ends_sampling() {
+    let (case, mut jobs) = (case(), Jobs::new(2));
+    // Hundreds of samples of each option at this step would take minutes.
+    jobs.check(&case, ComputeSettings { step: Some(5e-5), ..coarse(&case) });
+    checked(&mut jobs, case.shots.len());
+    let progress = jobs.check.clone().expect("under way");
+    jobs.check(&case, coarse(&case));
+    let begun = Instant::now();
+    wait(|| {
+        jobs.news();
+        (Arc::strong_count(&progress) == 1).then_some(())
+    });
+    assert!(begun.elapsed() < Duration::from_secs(5), "{:?}", begun.elapsed());
+}
+
+#[test]
+fn the_newest_request_of_a_kind_wins() {
+    let (case, mut jobs) = (case(), Jobs::new(2));
+    jobs.check(&case, endless(&case));
+    jobs.study(STUDY, &case, 0, endless(&case));
+    jobs.check(&case, coarse(&case));
+    jobs.study(STUDY, &case, 0, coarse(&case));
+    let (mut options, mut studies) = (Vec::new(), Vec::new());
+    wait(|| {
+        for news in jobs.news() {
+            match news {
+                News::Checked { option, result } => options.push((option, result.expect("a result").compute)),
+                News::Studied { compute, result, .. } => studies.push((compute, result.is_ok())),
+                News::Checking { .. }
+                | News::Sampled { .. }
+                | News::Margin { .. }
+                | News::Studying { .. } => {}
+            }
+        }
+        (options.len() == case.shots.len() && !studies.is_empty()).then_some(())
+    });
+    assert!(options.iter().all(|(_, compute)| *compute == coarse(&case)));
+    assert_eq!(studies, [(coarse(&case), true)]);
+}
+
+#[test]
+fn a_cancelled_study_ends_within_a_step_and_has_no_news() {
+    let (case, mut jobs) = (case(), Jobs::new(1));
+    jobs.study(STUDY, &case, 0, endless(&case));
+    wait(|| jobs.news().into_iter().find(|news| matches!(news, News::Studying { done: 0, total: 1.., .. })));
+    let progress = jobs.studies[STUDY as usize].clone().expect("under way");
+    jobs.cancel(STUDY);
+    // The work and its news hold the progress; once both are gone, the test alone does.
+    wait(|| {
+        assert!(jobs.news().is_empty());
+        (Arc::strong_count(&progress) == 1).then_some(())
+    });
+}
+
+#[test]
+fn a_panic_is_the_result_of_its_option_or_study_alone() {
+    let (good, mut jobs) = (case(), Jobs::new(2));
+    let mut bad = (*good).clone();
+    bad.shots[1].firings[0].tire = usize::MAX;
+    jobs.check(&Arc::new(bad), coarse(&good));
+    let results = checked(&mut jobs, good.shots.len());
+    for (option, result) in results.iter().enumerate() {
+        assert_eq!(matches!(result, Err(NoResult::Panicked(_))), option == 1, "{option}");
+    }
+    jobs.study(StudyKind::Flight, &good, usize::MAX, coarse(&good));
+    let told = wait(|| jobs.news().pop());
+    assert!(matches!(told, News::Studied { result: Err(NoResult::Panicked(_)), .. }), "{told:?}");
+}
+
+#[test]
+fn dropping_the_runner_ends_every_job() {
+    let (case, mut jobs) = (case(), Jobs::new(1));
+    jobs.check(&case, endless(&case));
+    StudyKind::ALL.into_iter().for_each(|kind| jobs.study(kind, &case, 0, endless(&case)));
+    let all: Vec<_> = jobs.studies.iter().chain([&jobs.check]).flatten().cloned().collect();
+    assert_eq!(all.len(), 1 + StudyKind::ALL.len());
+    drop(jobs);
+    wait(|| all.iter().all(|progress| Arc::strong_count(progress) == 1).then_some(()));
+}

@@ -1,0 +1,43 @@
+//! A delay option and its result, as a row of a table.
+
+use super::model::Cell;
+use crate::plan::DelayOption;
+use crate::study::check::Checked;
+use crate::study::check_all::OptionResults;
+use crate::study::judgement::Judgement;
+use crate::study::risk::Risk;
+use crate::study::{Case, NoResult};
+use crate::verdict::Verdict;
+
+/// A delay option and its result.
+pub struct OptionRow<'a> {
+    pub case: &'a Case,
+    pub delay: &'a DelayOption,
+    pub result: &'a Result<Judgement, NoResult>,
+}
+
+/// A row for every option of a case.
+pub fn option_rows<'a>(
+    case: &'a Case,
+    results: &'a OptionResults,
+) -> impl Iterator<Item = OptionRow<'a>> + Clone {
+    let options = case.plan.delays.iter().zip(results);
+    options.map(move |(delay, result)| OptionRow { case, delay, result })
+}
+
+impl OptionRow<'_> {
+    /// A cell of the shot as planned; nothing where there is no result.
+    pub fn planned(&self, cell: impl FnOnce(&Checked) -> Cell) -> Cell {
+        self.result.as_ref().map_or(Cell::Nothing, |judged| cell(&judged.nominal))
+    }
+
+    /// A cell of the samples; nothing where there are none.
+    pub fn sampled(&self, cell: impl FnOnce(&Risk) -> Cell) -> Cell {
+        let risk = self.result.as_ref().ok().and_then(|judged| judged.risk.as_ref());
+        risk.map_or(Cell::Nothing, cell)
+    }
+
+    pub fn verdict(&self) -> Verdict {
+        self.result.as_ref().map_or(Verdict::Undecided, Judgement::verdict)
+    }
+}

@@ -1,0 +1,260 @@
+//! The lightest rope, tires and border with which a shelter holds.
+//!
+//! Each combination of rope, tire mass and border rows is a shelter of its own. A stiffer rope pulls harder; a heavier tire
+//! flies lower and pulls longer; so one combination says nothing about another, with one exception: ropes of equal
+//! stiffness move the shelter alike, and the stronger rope holds wherever the weaker one holds. The strongest rope of each
+//! stiffness is tried first. Where it fails, the other ropes of that stiffness are not tried.
+//!
+//! A combination that holds as planned is a choice only if surely fewer shots than accepted fail of those that `[uncertainty]`
+//! describes. From the lightest on, every combination with more margin than the choices before is sampled so.
+
+mod trial;
+
+use std::cmp::Ordering;
+
+use itertools::Itertools;
+
+use self::trial::{Candidate, Hardest};
+use super::sampling::Sampling;
+use super::{ComputeSettings, Envelope, Finding, Found, NoResult, Progress};
+use crate::plan::{Layout, Plan};
+use crate::ropes::{Rope, catalogue};
+use crate::verdict::Verdict;
+
+/// The shots that a shelter must hold.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Demand {
+    /// Delay options of the plan, by their indices.
+    Options(Vec<usize>),
+    /// Every order of the blast rows (at most [`MOST_ROWS`](super::orders::MOST_ROWS)) at each of these intervals [s].
+    AnyOrder(Vec<f64>),
+}
+
+/// One combination of rope, tire mass and border rows.
+#[derive(Clone, Debug)]
+pub struct Combination {
+    /// Rope of the catalogue.
+    pub rope: &'static Rope,
+    /// Mass of a tire [kg].
+    pub tire_mass: f64,
+    /// Rows of ballast on each side.
+    pub border_rows: usize,
+    /// Number of tires.
+    pub tires: usize,
+    /// Mass of all tires and cables [kg].
+    pub total_mass: f64,
+    /// Result of its trial, or why there was no trial.
+    pub trial: Result<Trial, Untried>,
+}
+
+/// Why a combination was not tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Untried {
+    /// A stronger rope of the same stiffness does not hold.
+    StrongerRopeDoesNotHold,
+    /// The time did not suffice.
+    OutOfTime,
+    /// A run failed.
+    RunFailed,
+}
+
+/// Result of trying a combination.
+#[derive(Clone, Copy, Debug)]
+pub struct Trial {
+    /// Whether every shot passes as planned.
+    pub holds: bool,
+    /// The worst shot judged. Where the combination does not hold, shots that were not judged may be worse.
+    pub worst: Envelope,
+    /// Utilization of the worst shot: the greatest value over its limit.
+    pub utilization: f64,
+    /// Number of shots judged.
+    pub shots: usize,
+    /// What the samples tell; `None` where none were drawn.
+    pub risk: Option<SampledRisk>,
+    /// Whether it is a choice: it holds, the risk of its shots passes, and its utilization is smaller than that of every
+    /// lighter choice.
+    pub is_choice: bool,
+}
+
+/// Samples of the worst shot of a combination: that with the worst verdict, then that of which the greatest share fails.
+#[derive(Clone, Copy, Debug)]
+pub struct SampledRisk {
+    /// The verdict of the samples.
+    pub verdict: Verdict,
+    /// Number of samples.
+    pub samples: usize,
+    /// Number of those that failed.
+    pub failures: usize,
+}
+
+impl SampledRisk {
+    fn compare(&self, other: &Self) -> Ordering {
+        let share = |of: &Self| of.failures as f64 / of.samples.max(1) as f64;
+        self.verdict.cmp(&other.verdict).then(share(self).total_cmp(&share(other)))
+    }
+}
+
+/// Result of sizing.
+#[derive(Clone, Debug)]
+pub struct Sizing {
+    /// All combinations, the lightest first.
+    pub combinations: Vec<Combination>,
+}
+
+impl Sizing {
+    /// The verdict: pass where the lightest choice is known, fail where no combination is one. While combinations are untried for
+    /// want of time or of a run, a lighter one may be a choice.
+    pub fn verdict(&self) -> Verdict {
+        let is_open =
+            self.is_incomplete() || self.found().is_none() && self.with_risk(Verdict::Undecided) > 0;
+        match self.found() {
+            _ if is_open => Verdict::Undecided,
+            Some(_) => Verdict::Pass,
+            None => Verdict::Fail,
+        }
+    }
+
+    /// Whether combinations are untried that may be a choice.
+    pub fn is_incomplete(&self) -> bool {
+        self.untried(Untried::OutOfTime) > 0 || self.untried(Untried::RunFailed) > 0
+    }
+
+    /// The lightest choice; of equally light ones, that of the weakest rope.
+    pub fn found(&self) -> Option<&Combination> {
+        self.choices().next()
+    }
+
+    /// All choices, the lightest first.
+    pub fn choices(&self) -> impl Iterator<Item = &Combination> {
+        self.combinations.iter().filter(|c| c.trial.is_ok_and(|trial| trial.is_choice))
+    }
+
+    /// Number of combinations that were tried.
+    pub fn tried(&self) -> usize {
+        self.combinations.iter().filter(|c| c.trial.is_ok()).count()
+    }
+
+    /// Number of combinations that hold as planned, and whose risk has this verdict.
+    pub fn with_risk(&self, verdict: Verdict) -> usize {
+        let has = |c: &&Combination| {
+            c.trial.is_ok_and(|trial| trial.risk.is_some_and(|risk| risk.verdict == verdict))
+        };
+        self.combinations.iter().filter(has).count()
+    }
+
+    /// Number of combinations that were not tried for reason `why`.
+    pub fn untried(&self, why: Untried) -> usize {
+        self.combinations.iter().filter(|c| c.trial.is_err_and(|untried| untried == why)).count()
+    }
+}
+
+/// What is asked of every combination.
+#[derive(Clone, Copy)]
+struct Question<'q> {
+    plan: &'q Plan,
+    demand: &'q Demand,
+    compute: &'q ComputeSettings,
+    progress: &'q Progress,
+}
+
+/// Tries the combinations that the plan allows, of ropes that its termination fits, until the time is up. Without a `sampling`
+/// only the shots as planned count.
+pub fn size(
+    plan: &Plan,
+    demand: &Demand,
+    sampling: Option<&Sampling>,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Finding<Sizing> {
+    let question = Question { plan, demand, compute, progress };
+    let mut tried = try_all(&question)?;
+    tried.sort_by(|(a, _), (b, _)| {
+        let strength = |c: &Combination| c.rope.breaking_force_kn;
+        a.total_mass.total_cmp(&b.total_mass).then(strength(a).total_cmp(&strength(b)))
+    });
+    choose(&question, &mut tried, sampling)?;
+    let sizing = Sizing { combinations: tried.into_iter().map(|(combination, _)| combination).collect() };
+    let partial = sizing.untried(Untried::OutOfTime) > 0;
+    Ok(Found { value: sizing, partial })
+}
+
+/// Tries every combination with its shots as planned.
+fn try_all(question: &Question<'_>) -> Result<Vec<(Combination, Hardest)>, NoResult> {
+    let plan = question.plan;
+    let own_mass = [plan.tire.mass_kg];
+    let masses = if plan.size.tire_mass_kg.is_empty() { &own_mass[..] } else { &plan.size.tire_mass_kg };
+    let most_border = if matches!(plan.layout, Layout::List { .. }) { 0 } else { plan.size.most_border_rows };
+    let mut tried = Vec::new();
+    // Index of the shot at which the last combination failed: the next combination likely fails at it, too.
+    let mut likeliest = 0;
+    for (ropes, &tire_mass, border_rows) in
+        itertools::iproduct!(ropes_by_stiffness(plan), masses, 0..=most_border)
+    {
+        let mut stronger_holds = true;
+        for rope in ropes {
+            let candidate = Candidate::new(question, rope, tire_mass, border_rows);
+            let (mut hardest, mut trial) = (Hardest::new(), Err(Untried::StrongerRopeDoesNotHold));
+            if question.progress.expired() {
+                trial = Err(Untried::OutOfTime);
+            } else if stronger_holds {
+                match candidate.try_as_planned(&mut likeliest) {
+                    Ok(Some((made, shots))) => (trial, hardest) = (Ok(made), shots),
+                    Ok(None) => trial = Err(Untried::OutOfTime),
+                    Err(NoResult::Failed(_)) => trial = Err(Untried::RunFailed),
+                    Err(ended) => return Err(ended),
+                }
+            }
+            // A run that fails says nothing about weaker ropes.
+            stronger_holds = match trial {
+                Ok(trial) => trial.holds,
+                Err(why) => why != Untried::StrongerRopeDoesNotHold,
+            };
+            tried.push((candidate.combination(trial), hardest));
+        }
+    }
+    Ok(tried)
+}
+
+/// Ropes that the plan allows and its termination fits: those of equal stiffness and mass together, the strongest first.
+fn ropes_by_stiffness(plan: &Plan) -> Vec<Vec<&'static Rope>> {
+    let own_rope = plan.cable.rope.as_ref().and_then(|name| catalogue().find(name));
+    let wanted = plan.size.family.as_ref().or(own_rope.map(|rope| &rope.family));
+    let of_family = |rope: &&Rope| wanted.is_none_or(|family| *family == rope.family);
+    let termination = plan.cable.termination.as_ref().and_then(|name| catalogue().termination(name));
+    let fits = |rope: &&Rope| termination.is_none_or(|termination| termination.fits.contains(&rope.kind));
+    let ropes = catalogue().ropes.iter().filter(of_family).filter(fits);
+    // The bit patterns of positive numbers sort like the numbers.
+    let stiffness = |rope: &&Rope| (rope.axial_stiffness_kn.to_bits(), rope.mass_kg_per_m.to_bits());
+    let strongest_first = |a: &&Rope, b: &&Rope| b.breaking_force_kn.total_cmp(&a.breaking_force_kn);
+    let groups = ropes.into_group_map_by(stiffness).into_iter().sorted_by_key(|(stiffness, _)| *stiffness);
+    groups.map(|(_, ropes)| ropes.into_iter().sorted_by(strongest_first).collect()).collect()
+}
+
+/// Marks the choices among combinations that are sorted by mass: samples those that could be one.
+fn choose(
+    question: &Question<'_>,
+    tried: &mut [(Combination, Hardest)],
+    sampling: Option<&Sampling>,
+) -> Result<(), NoResult> {
+    let (mut least, mut attempt) = (f64::INFINITY, 0);
+    for (combination, hardest) in tried {
+        let Ok(mut trial) = combination.trial else { continue };
+        if !trial.holds || trial.utilization >= least {
+            continue;
+        }
+        if let Some(sampling) = sampling {
+            attempt += 1;
+            let Combination { rope, tire_mass, border_rows, .. } = *combination;
+            let candidate = Candidate::new(question, rope, tire_mass, border_rows);
+            let Some(risk) = candidate.sample(hardest, &Sampling { least: 0, attempt, ..*sampling })? else {
+                combination.trial = Err(Untried::OutOfTime);
+                continue;
+            };
+            trial.risk = Some(risk);
+        }
+        trial.is_choice = trial.risk.is_none_or(|risk| risk.verdict == Verdict::Pass);
+        least = if trial.is_choice { trial.utilization } else { least };
+        combination.trial = Ok(trial);
+    }
+    Ok(())
+}

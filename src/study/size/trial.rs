@@ -1,0 +1,141 @@
+//! One combination of rope, tire mass and border rows: its trial with the shots as planned, and its samples.
+
+use std::ops::ControlFlow;
+
+use itertools::Itertools;
+
+use super::{Combination, Demand, Question, SampledRisk, Trial, Untried};
+use crate::ropes::Rope;
+use crate::scene::Shot;
+use crate::study::batch::judge_shots;
+use crate::study::failure_bounds::FailureBounds;
+use crate::study::risk::Risk;
+use crate::study::sampling::{Sampling, ShotToSample, find_risks_watched};
+use crate::study::{Bounded, Case, Envelope, Found, NoResult};
+use crate::verdict::Verdict;
+
+/// Number of orders, the hardest ones, that are sampled.
+const HARDEST: usize = 8;
+/// Number of shots judged together before a failure ends the trial. A fixed number: the shots judged do not depend on the
+/// number of threads.
+const AT_ONCE: usize = 32;
+
+/// The shots that a combination is sampled with, hardest first: the index of each and what it is as planned.
+pub(super) type Hardest = Vec<(usize, Envelope)>;
+
+/// A combination made ready to run.
+pub(super) struct Candidate<'q> {
+    question: &'q Question<'q>,
+    rope: &'static Rope,
+    tire_mass: f64,
+    border_rows: usize,
+    case: Case,
+    shots: Vec<Shot>,
+}
+
+impl<'q> Candidate<'q> {
+    pub(super) fn new(
+        question: &'q Question<'q>,
+        rope: &'static Rope,
+        tire_mass: f64,
+        border_rows: usize,
+    ) -> Self {
+        let case = Case::new(question.plan.with(rope, tire_mass, border_rows));
+        let shots = match question.demand {
+            Demand::Options(options) => options.iter().map(|&option| case.shots[option].clone()).collect(),
+            Demand::AnyOrder(intervals) => all_orders(&case, intervals),
+        };
+        Self { question, rope, tire_mass, border_rows, case, shots }
+    }
+
+    /// The combination with the result of its trial.
+    pub(super) fn combination(&self, trial: Result<Trial, Untried>) -> Combination {
+        let scene = self.case.scene();
+        let length: f64 = scene.cables.iter().map(|cable| cable.rest_length).sum();
+        Combination {
+            rope: self.rope,
+            tire_mass: self.tire_mass,
+            border_rows: self.border_rows,
+            tires: scene.mass.len(),
+            total_mass: scene.mass.iter().sum::<f64>() + length * self.rope.mass_kg_per_m,
+            trial,
+        }
+    }
+
+    /// Judges the shots as planned, that of index `likeliest` first, up to those judged together with one that does not pass;
+    /// `None` where the time was up. `likeliest` becomes the index of the shot that does not pass.
+    pub(super) fn try_as_planned(&self, likeliest: &mut usize) -> Result<Option<(Trial, Hardest)>, NoResult> {
+        let (case, Question { compute, progress, demand, .. }) = (&self.case, self.question);
+        let mut order: Vec<usize> = (0..self.shots.len()).collect();
+        if *likeliest < order.len() {
+            order.swap(0, *likeliest);
+        }
+        let mut judged: Vec<Envelope> = Vec::new();
+        let mut holds = true;
+        for chunk in order.chunks(AT_ONCE) {
+            let part: Vec<Shot> = chunk.iter().map(|&n| self.shots[n].clone()).collect();
+            let envelopes = judge_shots(case, &part, compute, progress)?;
+            let Some(envelopes) = envelopes.into_iter().collect::<Option<Vec<_>>>() else { return Ok(None) };
+            let failed = envelopes.iter().position(|envelope| envelope.verdict != Verdict::Pass);
+            judged.extend(envelopes);
+            if let Some(failed) = failed {
+                *likeliest = chunk[failed];
+                holds = false;
+                break;
+            }
+        }
+        let utilization = |envelope: &Envelope| envelope.utilization(&case.limits);
+        let by_utilization =
+            |a: &usize, b: &usize| utilization(&judged[*b]).total_cmp(&utilization(&judged[*a]));
+        let hardest: Vec<usize> = (0..judged.len()).sorted_by(by_utilization).collect();
+        let zero = Bounded::default();
+        let nothing = Envelope { verdict: Verdict::Pass, height: zero, force: zero, drift: zero };
+        let worst = hardest.first().map_or(nothing, |&n| judged[n]);
+        let trial = Trial {
+            holds,
+            worst,
+            utilization: utilization(&worst),
+            shots: judged.len(),
+            risk: None,
+            is_choice: false,
+        };
+        let most = if matches!(demand, Demand::Options(_)) { order.len() } else { HARDEST };
+        Ok(Some((trial, hardest.into_iter().take(most).map(|n| (order[n], judged[n])).collect())))
+    }
+
+    /// Samples shots until each risk is sure, or one surely fails; `None` where the time was up.
+    pub(super) fn sample(
+        &self,
+        hardest: &Hardest,
+        sampling: &Sampling,
+    ) -> Result<Option<SampledRisk>, NoResult> {
+        let target = |&(n, planned): &(usize, Envelope)| ShotToSample {
+            case: &self.case,
+            shot: &self.shots[n],
+            planned: Some(planned),
+            compute: *self.question.compute,
+            sampling: *sampling,
+            precomputed: &[],
+        };
+        let targets: Vec<ShotToSample<'_>> = hardest.iter().map(target).collect();
+        let until_one_fails = &mut |_, risk: &Risk| match risk.verdict() {
+            Verdict::Fail => ControlFlow::Break(()),
+            Verdict::Pass | Verdict::Undecided => ControlFlow::Continue(()),
+        };
+        let Found { value: risks, partial } =
+            find_risks_watched(&targets, self.question.progress, until_one_fails)?;
+        let worst = risks.iter().map(|risk| {
+            let FailureBounds { samples, failures, .. } = risk.bounds;
+            SampledRisk { verdict: risk.verdict(), samples, failures }
+        });
+        let nothing = SampledRisk { verdict: Verdict::Pass, samples: 0, failures: 0 };
+        let worst = worst.max_by(SampledRisk::compare).unwrap_or(nothing);
+        Ok((!partial).then_some(worst))
+    }
+}
+
+fn all_orders(case: &Case, intervals: &[f64]) -> Vec<Shot> {
+    let rows = case.plan.blast_rows.len();
+    let orders = (0..rows).permutations(rows).collect_vec();
+    itertools::iproduct!(intervals, &orders).map(|(&interval, order)| case.shot(order, interval)).collect()
+}
