@@ -15,18 +15,42 @@ pub enum Column {
     Launch,
 }
 
+impl Column {
+    /// The unit in which the values are read; empty where they have none.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::X | Self::Y => "m",
+            Self::Fire | Self::Delay => "ms",
+            Self::Launch => "m/s",
+            Self::Pattern | Self::Id | Self::Row | Self::From => "",
+        }
+    }
+}
+
 /// What a name of a column means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meaning {
     Known(Column),
-    /// A time or a velocity that does not say its unit; the unit that is read.
-    WithoutUnit(&'static str),
+    /// A time or a velocity that does not say its unit.
+    WithoutUnit(Column),
+    /// A column in another unit than the one that is read; the unit.
+    OtherUnit(Column, &'static str),
     /// Perhaps a firing time, a delay, a row or a launch velocity.
     Unclear,
     Other,
 }
 
-/// Names of the columns, in small letters and without signs or spaces.
+impl Meaning {
+    /// The column that the name stands for, in whatever unit.
+    pub fn column(self) -> Option<Column> {
+        match self {
+            Self::Known(column) | Self::WithoutUnit(column) | Self::OtherUnit(column, _) => Some(column),
+            Self::Unclear | Self::Other => None,
+        }
+    }
+}
+
+/// Names of the columns without their unit, in small letters and without signs or spaces.
 #[rustfmt::skip]
 const NAMES: &[(Column, &[&str])] = &[
     (Column::Pattern, &["entityname", "blast", "blastname", "layername", "pattern", "patternname"]),
@@ -37,32 +61,34 @@ const NAMES: &[(Column, &[&str])] = &[
         "bohrloch", "bohrlochnr", "nummer", "nr",
     ]),
     (Column::X, &[
-        "x", "xm", "east", "easting", "eastingm", "startx", "startxlocation", "collarx", "xcollar",
-        "х", "хм", "восток", "este", "estem", "ost", "ostwert", "rechtswert",
+        "x", "east", "easting", "startx", "startxlocation", "collarx", "xcollar",
+        "х", "восток", "este", "ost", "ostwert", "rechtswert",
     ]),
     (Column::Y, &[
-        "y", "ym", "north", "northing", "northingm", "starty", "startylocation", "collary", "ycollar",
-        "у", "ум", "север", "norte", "nortem", "nord", "nordwert", "hochwert",
+        "y", "north", "northing", "starty", "startylocation", "collary", "ycollar",
+        "у", "север", "norte", "nord", "nordwert", "hochwert",
     ]),
     (Column::Row, &["row", "rowid", "rowname", "rowno", "blastrow", "ряд", "номерряда", "fila", "reihe", "bohrreihe"]),
     (Column::From, &["from", "fromid", "fromhole", "fromholeid", "отскважины", "desde", "von", "vonbohrloch"]),
-];
-
-/// Names of times, without their unit.
-#[rustfmt::skip]
-const TIMES: &[(Column, &[&str])] = &[
     (Column::Fire, &[
-        "fire", "fireat", "firetime", "firingtime", "initiationtime", "holetime",
-        "времявзрыва", "времясрабатывания", "tiempodedisparo", "zündzeit", "zündzeitpunkt",
+        "fire", "fireat", "firetime", "firingtime", "initiationtime", "holetime", "time",
+        "время", "времявзрыва", "времясрабатывания", "tiempo", "tiempodedisparo", "zeit", "zündzeit", "zündzeitpunkt",
     ]),
     (Column::Delay, &["delay", "timingdelay", "замедление", "retardo", "verzögerung"]),
+    (Column::Launch, &["launch", "launchvelocity", "v0"]),
 ];
-const MILLISECONDS: &[&str] = &["ms", "msec", "milliseconds", "мс"];
 
-/// Names of the launch velocity, without its unit.
-const LAUNCH: &[&str] = &["launch", "launchvelocity", "v0"];
-/// Ends of a name in small letters, without brackets.
-const METRES_PER_SECOND: &[&str] = &["m/s", "m_s", "mpers", "м/с"];
+/// Units, each with the ends of names that say it, in small letters and without brackets.
+#[rustfmt::skip]
+const UNITS: &[(&str, &[&str])] = &[
+    ("m", &["m", "м"]),
+    ("ms", &["ms", "msec", "milliseconds", "мс"]),
+    ("m/s", &["m/s", "m_s", "mpers", "м/с"]),
+    ("mm", &["mm", "мм"]), ("cm", &["cm", "см"]), ("km", &["km", "км"]), ("ft", &["ft", "feet", "'"]),
+    ("°", &["°", "deg"]),
+    ("s", &["s", "sec", "sek", "seg", "seconds", "с", "сек"]), ("µs", &["us", "µs", "μs", "мкс"]),
+    ("ft/s", &["ft/s"]), ("km/h", &["km/h", "км/ч"]),
+];
 
 /// A program whose lists do not say the unit of their firing times in the header.
 pub struct Program {
@@ -125,30 +151,34 @@ impl Program {
 
 /// What the name of a column means in a list of a program that is not known.
 pub fn meaning(name: &str) -> Meaning {
-    // Without its signs a velocity in m/s would look like a time in ms.
-    let small = name.trim().trim_end_matches([')', ']']).to_lowercase();
-    let velocity = METRES_PER_SECOND.iter().find_map(|unit| small.strip_suffix(unit));
-    if velocity.is_some_and(|name| LAUNCH.contains(&plain(name).as_str())) {
-        return Meaning::Known(Column::Launch);
+    if let Some((column, unit)) = with_unit(name) {
+        return if unit == column.unit() { Meaning::Known(column) } else { Meaning::OtherUnit(column, unit) };
     }
-    let whole = plain(name);
-    let of = |table: &[(Column, &[&str])], name: &str| {
-        table.iter().find(|(_, names)| names.contains(&name)).map(|(column, _)| *column)
-    };
-    let in_ms = |unit: &&str| of(TIMES, whole.strip_suffix(unit)?);
-    if let Some(column) = of(NAMES, &whole) {
-        Meaning::Known(column)
-    } else if velocity.is_some() {
-        unclear(name)
-    } else if let Some(column) = MILLISECONDS.iter().find_map(in_ms) {
-        Meaning::Known(column)
-    } else if of(TIMES, &whole).is_some() {
-        Meaning::WithoutUnit("ms")
-    } else if LAUNCH.contains(&whole.as_str()) {
-        Meaning::WithoutUnit("m/s")
-    } else {
-        unclear(name)
+    match named(&plain(name)) {
+        Some(column @ (Column::Fire | Column::Delay | Column::Launch)) => Meaning::WithoutUnit(column),
+        Some(column) => Meaning::Known(column),
+        None => unclear(name),
     }
+}
+
+/// The column of a plain name without a unit.
+fn named(plain: &str) -> Option<Column> {
+    NAMES.iter().find(|(_, names)| names.contains(&plain)).map(|(column, _)| *column)
+}
+
+/// The column and the unit of a name that ends with one: `X (m)`, `fire_ms`, `Zeit [ms]`. Another unit than the one that is
+/// read counts only after a sign or a space: `delays` is no delay in seconds.
+fn with_unit(name: &str) -> Option<(Column, &'static str)> {
+    let small = name.trim().trim_end_matches([')', ']', '.']).trim_end().to_lowercase();
+    let sign = |c: char| !c.is_alphanumeric();
+    let ends = UNITS.iter().flat_map(|(unit, ends)| ends.iter().map(move |end| (*unit, *end)));
+    ends.filter_map(|(unit, end)| {
+        let before = small.strip_suffix(end)?;
+        let column = named(&plain(before)).filter(|column| !column.unit().is_empty())?;
+        let apart = before.ends_with(sign) || end.starts_with(sign);
+        (apart || unit == column.unit()).then_some((column, unit))
+    })
+    .next()
 }
 
 /// Whether a name that is not known may stand for a firing time, a delay or a row. The time at which a value was measured
@@ -161,4 +191,35 @@ fn unclear(name: &str) -> Meaning {
             || TIMING.iter().any(|part| whole.contains(part))
             || words.any(|word| TIMING_WORDS.contains(&word.as_str())));
     if timing { Meaning::Unclear } else { Meaning::Other }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_of_names_are_read_or_told() {
+        for name in ["X (м)", "Y (m)", "x_m", "Easting[m]", "Север, м", "estem"] {
+            assert!(matches!(meaning(name), Meaning::Known(Column::X | Column::Y)), "{name}");
+        }
+        for name in ["Время (мс)", "Tiempo (ms)", "Zeit [ms]", "Time, ms", "Time (ms.)", "fire_ms", "firems"]
+        {
+            assert_eq!(meaning(name), Meaning::Known(Column::Fire), "{name}");
+        }
+        for name in ["Время", "Tiempo", "Zeit", "Time", "Firing time ()"] {
+            assert_eq!(meaning(name), Meaning::WithoutUnit(Column::Fire), "{name}");
+        }
+        for name in ["Time (s)", "Время, с", "Zeit [sek]", "Tiempo_s", "Time (sec)"] {
+            assert_eq!(meaning(name), Meaning::OtherUnit(Column::Fire, "s"), "{name}");
+        }
+        assert_eq!(meaning("y (mm)"), Meaning::OtherUnit(Column::Y, "mm"));
+        assert_eq!(meaning("x (')"), Meaning::OtherUnit(Column::X, "ft"));
+        assert_eq!(meaning("v0, m/s"), Meaning::Known(Column::Launch));
+        assert_eq!(meaning("launch_ms"), Meaning::OtherUnit(Column::Launch, "ms"));
+        // The ends of these names are no units.
+        for name in ["delays", "rows", "firing times", "Fire at (m:s)"] {
+            assert_eq!(meaning(name), Meaning::Unclear, "{name}");
+        }
+        assert_eq!(meaning("from"), Meaning::Known(Column::From));
+    }
 }

@@ -21,6 +21,8 @@ pub struct Columns {
     pub left_out: Vec<String>,
     /// What the list was taken for.
     pub note: Option<String>,
+    /// Whether rows say only where holes lie, as in the lists of design programs.
+    pub rows_are_places: bool,
 }
 
 impl Columns {
@@ -69,7 +71,7 @@ pub fn without_header(first: &Line) -> Result<Columns, Vec<Mistake>> {
     let note = format!(
         "the list has no header: its {width} columns are read as Kirra writes them, with delays in ms after the hole named"
     );
-    Ok(Columns { read, width, left_out: Vec::new(), note: Some(note) })
+    Ok(Columns { read, width, note: Some(note), ..Columns::default() })
 }
 
 /// The columns of a list whose first line names them.
@@ -86,18 +88,31 @@ pub fn with_header(header: &Line) -> Result<Columns, Vec<Mistake>> {
         wrong("a name runs over several lines".to_owned(), "is a quotation mark missing?".to_owned());
     }
     for (n, name) in header.values[..width].iter().enumerate() {
-        match program.map_or_else(|| meaning(name), |program| program.meaning(name)) {
-            Meaning::Known(column) => {
-                if columns.has(column) {
-                    let message = format!("two columns are a hole's {column:?}; the second is `{name}`").to_lowercase();
-                    wrong(message, "rename or remove one of them".to_owned());
-                }
-                columns.read.push((column, n));
+        let meaning = program.map_or_else(|| meaning(name), |program| program.meaning(name));
+        if let Some(column) = meaning.column() {
+            if columns.has(column) {
+                let message =
+                    format!("two columns are a hole's {column:?}; the second is `{name}`").to_lowercase();
+                wrong(message, "rename or remove one of them".to_owned());
             }
-            Meaning::WithoutUnit(unit) => wrong(
-                format!("the column `{name}` does not say its unit"),
-                format!("call it `{name} {unit}` if it is in {unit}; else convert it"),
-            ),
+            columns.read.push((column, n));
+        }
+        match meaning {
+            Meaning::Known(_) => {}
+            Meaning::WithoutUnit(column) => {
+                let unit = column.unit();
+                wrong(
+                    format!("the column `{name}` does not say its unit"),
+                    format!("call it `{name} {unit}` if it is in {unit}; else convert it"),
+                );
+            }
+            Meaning::OtherUnit(column, found) => {
+                let unit = column.unit();
+                wrong(
+                    format!("the column `{name}` is in {found}, not in {unit}"),
+                    format!("convert its values to {unit}, and write {unit} in its name"),
+                );
+            }
             Meaning::Unclear => wrong(
                 format!("the column `{name}` looks like a time, a row or a launch velocity, and is not known"),
                 "call it fire_ms if it is the firing time in ms counted from the first hole, delay_ms if it is a delay in ms after the hole in a column `from`, row, or launch_m_s; else remove it".to_owned(),
@@ -133,6 +148,7 @@ pub fn with_header(header: &Line) -> Result<Columns, Vec<Mistake>> {
         [true, false, true] => columns.left_out.extend(columns.index(Column::From).map(|n| format!("`{}`", header.values[n]))),
         _ => {}
     }
+    columns.rows_are_places = program.is_some();
     columns.note = program
         .map(|program| format!("the columns are those of {}: its firing times are in ms", program.name));
     if mistakes.is_empty() { Ok(columns) } else { Err(mistakes) }

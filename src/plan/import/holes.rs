@@ -38,6 +38,8 @@ pub struct Holes {
     pub left_out: Vec<String>,
     /// What was read in one of several possible ways.
     pub notes: Vec<String>,
+    /// Whether rows say only where holes lie: those of design programs may fire in any order.
+    pub rows_are_places: bool,
 }
 
 /// Names of lines that sum up a list, in small letters.
@@ -78,7 +80,11 @@ pub fn read(source: &str) -> Result<Holes, Vec<Mistake>> {
         return Err(vec![mistake(0..0, "the list of holes is empty", REMEDY)]);
     };
     let columns = if table.has_header { with_header(first)? } else { without_header(first)? };
-    let mut list = Holes { notes: columns.note.iter().cloned().collect(), ..Holes::default() };
+    let mut list = Holes {
+        notes: columns.note.iter().cloned().collect(),
+        rows_are_places: columns.rows_are_places,
+        ..Holes::default()
+    };
     list.left_out.extend(table.titles.iter().map(|title| format!("the line `{title}`")));
     if !columns.left_out.is_empty() {
         list.left_out.push(format!("the columns {}", columns.left_out.join(", ")));
@@ -112,22 +118,30 @@ pub fn read(source: &str) -> Result<Holes, Vec<Mistake>> {
     }
     remarks(&list.holes, &mut mistakes);
     rows(&list.holes, &mut mistakes);
-    positions(&list.holes, &mut mistakes);
+    name_patterns(&mut list, &patterns);
+    repeated(&list.holes, &mut mistakes);
     if list.holes.is_empty() && mistakes.is_empty() {
         mistakes.push(mistake(0..0, "the list has no hole", "write one line for each hole"));
     }
-    name_patterns(&mut list, &patterns);
     if mistakes.is_empty() { Ok(list) } else { Err(mistakes) }
 }
 
-/// No two holes may lie in one place.
-pub fn positions(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
-    let mut known = HashSet::new();
+/// No two holes may lie in one place, and no two holes of a row may have one name.
+pub fn repeated(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
+    let (mut places, mut names) = (HashSet::new(), HashSet::new());
     for hole in holes {
-        if !known.insert([hole.x_m + 0.0, hole.y_m + 0.0].map(f64::to_bits)) {
-            let message = format!("hole {} lies where another does", hole.id);
-            mistakes.push(mistake(hole.span.clone(), message, "correct its x and y, or remove the line"));
-        }
+        let new_place = places.insert([hole.x_m + 0.0, hole.y_m + 0.0].map(f64::to_bits));
+        let new_name = names.insert((hole.id.as_str(), hole.row.as_deref()));
+        let (what, remedy) = match (new_place, new_name) {
+            (true, true) => continue,
+            (false, true) => ("lies where another does", "correct its x and y, or remove the line"),
+            (false, false) => ("is listed twice in one place", "remove one of the two"),
+            (true, false) => (
+                "is listed twice in two places",
+                "remove the wrong one; if both are holes, give each a name of its own",
+            ),
+        };
+        mistakes.push(mistake(hole.span.clone(), format!("hole {} {what}", hole.id), remedy));
     }
 }
 
@@ -202,7 +216,10 @@ fn decimal_comma(table: &Table, columns: &Columns, notes: &mut Vec<String>) -> R
         let line = lines.iter().find(|line| numbers(line).iter().any(|value| value.contains(sign)));
         Err(vec![mistake(line.map_or(0..0, |line| line.span.clone()), message, remedy)])
     };
-    let plain = "write all numbers with decimal points, and without signs between thousands";
+    let ambiguous = |sign: char| {
+        let message = format!("`{}` may be a decimal number or thousands", with(sign));
+        wrong(sign, message, &number::both_ways(with(sign), sign))
+    };
     match number::decimals(all.iter().map(String::as_str), table.separator != b',') {
         Decimals::Point => Ok(false),
         Decimals::Comma => {
@@ -211,16 +228,11 @@ fn decimal_comma(table: &Table, columns: &Columns, notes: &mut Vec<String>) -> R
             Ok(true)
         }
         Decimals::Mixed => {
-            wrong(',', format!("`{}` has a comma, other numbers have a decimal point", with(',')), plain)
+            let message = format!("`{}` has a comma, other numbers have a decimal point", with(','));
+            wrong(',', message, "write all numbers with decimal points, and without signs between thousands")
         }
-        Decimals::AmbiguousComma => {
-            wrong(',', format!("`{}` may be a decimal number or thousands", with(',')), plain)
-        }
-        Decimals::AmbiguousPoint => wrong(
-            '.',
-            format!("`{}` may be a decimal number or thousands", with('.')),
-            "if the points are decimal points, separate the values by commas; else remove the points",
-        ),
+        Decimals::AmbiguousComma => ambiguous(','),
+        Decimals::AmbiguousPoint => ambiguous('.'),
     }
 }
 

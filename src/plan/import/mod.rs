@@ -9,6 +9,7 @@ mod shotplus;
 mod table;
 mod timing;
 
+use std::collections::HashSet;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -155,6 +156,13 @@ fn summary(list: &Holes, timed: &Timed) -> String {
     let has_delays = holes.iter().any(|hole| hole.delay_ms.is_some());
     if has_delays && holes.iter().any(|hole| hole.fire_ms.is_some()) && !delays_are_whole(holes) {
         left_out.push("the delays after other holes, which not every hole has".to_owned());
+    }
+    if timed.without_rows {
+        left_out.push("the rows, as the firing times group the holes otherwise".to_owned());
+    }
+    let names: HashSet<&str> = holes.iter().map(|hole| hole.id.as_str()).collect();
+    if names.len() < holes.len() {
+        line += "; holes of different rows have the same names";
     }
     if !left_out.is_empty() {
         line += &format!("; left out: {}", left_out.join("; "));

@@ -38,6 +38,18 @@ pub fn decimals<'v>(values: impl Iterator<Item = &'v str>, european: bool) -> De
     }
 }
 
+/// What to write instead of a value whose `sign` may separate decimals or thousands. Four decimals are no thousands.
+pub fn both_ways(value: &str, sign: char) -> String {
+    let name = if sign == ',' { "comma" } else { "point" };
+    let as_thousands = format!("write {} if the {name} separates thousands", value.replace(sign, ""));
+    match value.split_once(sign) {
+        Some((whole, decimals)) if !decimals.contains(sign) => {
+            format!("{as_thousands}, {whole}.{decimals}0 if it separates decimals; write all numbers alike")
+        }
+        _ => as_thousands,
+    }
+}
+
 /// Whether a value is a number with a decimal comma, and not one with thousands.
 pub fn surely_decimal_comma(text: &str) -> bool {
     let text = without_spaces(text);
@@ -101,6 +113,18 @@ mod tests {
                 && !surely_decimal_comma("0,255,0")
                 && !surely_decimal_comma("1,234")
         );
+    }
+
+    #[test]
+    fn what_is_told_to_write_is_sure() {
+        assert_eq!(
+            both_ways("1,500", ','),
+            "write 1500 if the comma separates thousands, 1.5000 if it separates decimals; write all numbers alike"
+        );
+        for european in [false, true] {
+            assert_eq!(decimals(["1.5000", "1500"].into_iter(), european), Decimals::Point);
+        }
+        assert_eq!(both_ways("1.234.567", '.'), "write 1234567 if the point separates thousands");
     }
 
     #[test]

@@ -14,7 +14,7 @@ use quick_xml::escape::resolve_predefined_entity;
 use quick_xml::events::Event;
 use zip::ZipArchive;
 
-use super::holes::{Holes, ListedHole, positions};
+use super::holes::{Holes, ListedHole, repeated};
 use crate::plan::diagnostic::Mistake;
 use crate::plan::keys::{Key, delay, hole};
 use crate::plan::source::{MOST_BYTES, Unreadable, text_of};
@@ -63,7 +63,7 @@ pub fn read(xml: &str) -> Result<Holes, Vec<Mistake>> {
         steepest_deg = steepest_deg.max(hole.number("DesignAngle").unwrap_or(0.0).abs());
         list.holes.push(listed);
     }
-    positions(&list.holes, &mut mistakes);
+    repeated(&list.holes, &mut mistakes);
     if list.holes.is_empty() && mistakes.is_empty() {
         mistakes.push(wrong(0..0, format!("{LIST} lists no hole that fires"), REMEDY));
     }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::columns::{Column, Meaning, meaning};
+use super::columns::{Column, meaning};
 use crate::plan::diagnostic::Mistake;
 
 /// One line of the list.
@@ -52,8 +52,7 @@ pub fn split(source: &str, remedy: &str) -> Result<Table, Vec<Mistake>> {
             lines(source, separator).map_err(|error| wrong(format!("the table cannot be read: {error}")));
         let Ok(lines) = lines else { continue };
         let names_both = |line: &Line| {
-            let named =
-                |column: Column| line.values.iter().any(|name| meaning(name) == Meaning::Known(column));
+            let named = |column| line.values.iter().any(|name| meaning(name).column() == Some(column));
             named(Column::X) && named(Column::Y)
         };
         let header = lines.iter().take(HEADER_WITHIN).position(names_both);

@@ -22,6 +22,8 @@ pub struct Timed {
     pub groups: Vec<Group>,
     /// Firing time of the first hole as the list counts it [ms].
     pub first_ms: f64,
+    /// Whether the list has rows, and the groups are others.
+    pub without_rows: bool,
 }
 
 /// Groups the holes of a list.
@@ -57,11 +59,41 @@ pub fn timed(table: &Holes) -> Result<Timed, Vec<Mistake>> {
         groups[group].holes.push(n);
     }
     groups.sort_by(|a, b| a.fire_ms.unwrap_or(0.0).total_cmp(&b.fire_ms.unwrap_or(0.0)));
-    let rows: Option<Vec<String>> = groups.iter().map(|group| one_row(&table.holes, group)).collect();
-    if let Some(rows) = rows.filter(|rows| rows.iter().collect::<HashSet<_>>().len() == rows.len()) {
-        groups.iter_mut().zip(rows).for_each(|(group, row)| group.name = row);
+    if !table.rows_are_places {
+        rows_agree(&table.holes, &groups)?;
     }
-    Ok(Timed { groups, first_ms })
+    let rows: Option<Vec<String>> = groups.iter().map(|group| one_row(&table.holes, group)).collect();
+    let rows = rows.filter(|rows| rows.iter().collect::<HashSet<_>>().len() == rows.len());
+    let without_rows = rows.is_none() && table.holes.iter().any(|hole| hole.row.is_some());
+    groups.iter_mut().zip(rows.unwrap_or_default()).for_each(|(group, row)| group.name = row);
+    Ok(Timed { groups, first_ms, without_rows })
+}
+
+/// Rows that fire together may do so at one time only: a row that fires with another row and at another time, too, has a
+/// wrong time or a wrong hole.
+fn rows_agree(holes: &[ListedHole], groups: &[Group]) -> Result<(), Vec<Mistake>> {
+    let row = |hole: usize| holes[hole].row.as_deref();
+    let mut groups_of: HashMap<&str, HashSet<usize>> = HashMap::new();
+    for (n, group) in groups.iter().enumerate() {
+        group.holes.iter().filter_map(|&hole| row(hole)).for_each(|row| {
+            groups_of.entry(row).or_default().insert(n);
+        });
+    }
+    for group in groups {
+        let fires_again = |row: &str| groups_of.get(row).is_some_and(|groups| groups.len() > 1);
+        let odd = group.holes.iter().find(|&&hole| row(hole).is_some_and(fires_again));
+        let Some((&odd, here)) = odd.and_then(|odd| Some((odd, row(*odd)?))) else { continue };
+        let Some(other) = group.holes.iter().filter_map(|&hole| row(hole)).find(|&row| row != here) else {
+            continue;
+        };
+        let message = format!(
+            "hole {} fires with row {other}, other holes of its row {here} at another time",
+            holes[odd].id
+        );
+        let remedy = "correct its time or its row; where rows only say where holes lie, remove their column";
+        return Err(vec![wrong(&holes[odd], message, remedy)]);
+    }
+    Ok(())
 }
 
 /// The row of a group, where all its holes are of one row.
