@@ -108,6 +108,10 @@ pub const BAD: &[(&str, &str)] = &[
     ("launch_m_s = 6.0\n[[blast_row]]", "launch_m_s = -6.0\n[[blast_row]]"),
     ("launch_m_s = 6.0\n[[blast_row]]", "launch_m_s = 1e9\n[[blast_row]]"),
     ("launch_m_s = 6.0\n[[blast_row]]", "launch_m_s = 0\n[[blast_row]]"),
+    (
+        "under_row = 1\nlaunch_m_s = 6.0",
+        "tilt_deg = 10\nfree_flight_height_m = 1.8\nholes = [{ x_m = 1, y_m = 1, launch_m_s = 6 }]",
+    ),
     ("under_row = 1\nlaunch_m_s = 6.0", "holes = [{ x_m = 503221, y_m = 6112233, launch_m_s = 6 }]"),
     ("under_row = 1\nlaunch_m_s = 6.0", "holes = [{ x_m = -1.6, y_m = 1, launch_m_s = 6 }]"),
     ("friction = 0.5", "friction = 0.2\nslope_percent = 25"),

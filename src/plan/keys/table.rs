@@ -149,7 +149,7 @@ sections! {
             .edit("under row");
         UNDER_TIRES = key("under_tires", Kind::List(&TIRE_NUMBER), "[3, 4]", "launches these tires of a list");
         HOLES = key("holes", Kind::Sections(&hole::SECTION), "[{ x_m = 1.5, y_m = 4.5, launch_m_s = 6.0 }]",
-            "one by one");
+            "one by one; each hole has its own launch_m_s or free_flight_height_m, and tilt_deg with tilt_toward_deg");
     }
 
     hole "a hole" "one hole; it launches the nearest tire" {

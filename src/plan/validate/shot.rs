@@ -44,6 +44,17 @@ fn read_targets(
         mistakes.add(section.span.clone(), message, remedy);
     }
     if section.has(&blast_row::HOLES) {
+        for key in [
+            &blast_row::LAUNCH_M_S,
+            &blast_row::FREE_FLIGHT_HEIGHT_M,
+            &blast_row::TILT_DEG,
+            &blast_row::TILT_TOWARD_DEG,
+        ] {
+            if section.has(key) {
+                let message = format!("`{}` stands beside `holes`", key.name);
+                section.wrong(key, message, "write it in each hole of `holes`, behind its x_m and y_m");
+            }
+        }
         return LaunchTargets::Holes(read_holes(section, layout, gravity));
     }
     let launch = read_launch(section, gravity);
