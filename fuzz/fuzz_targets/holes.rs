@@ -3,15 +3,17 @@
 
 use libfuzzer_sys::fuzz_target;
 use shelter::plan::Plan;
-use shelter::plan::import::plan_from_holes;
+use shelter::plan::import::{Directions, plan_from_holes};
 
 fuzz_target!(|text: &str| {
-    match plan_from_holes("holes.csv", text) {
-        Ok(imported) => {
-            if let Err(mistakes) = Plan::parse("plan.toml", &imported.text) {
-                panic!("{}\n{}", mistakes.render(false), imported.text);
+    for directions in [Directions::Vertical, Directions::AgainstHoles] {
+        match plan_from_holes("holes.csv", text, directions) {
+            Ok(imported) => {
+                if let Err(mistakes) = Plan::parse("plan.toml", &imported.text) {
+                    panic!("{}\n{}", mistakes.render(false), imported.text);
+                }
             }
+            Err(mistakes) => assert!(!mistakes.render(false).is_empty()),
         }
-        Err(mistakes) => assert!(!mistakes.render(false).is_empty()),
     }
 });

@@ -8,7 +8,7 @@ use clap::Args;
 use super::arguments::LookArguments;
 use super::status::Status;
 use crate::file;
-use crate::plan::import::plan_from_file;
+use crate::plan::import::{Directions, plan_from_file};
 
 /// The starter plan.
 pub const STARTER: &str = include_str!("../../plans/amur-three-rows.toml");
@@ -20,12 +20,16 @@ pub struct Arguments {
     /// Build the plan from a list of holes, as Kirra and others export it, or from a design of SHOTPlus (.spf)
     #[arg(long, value_name = "HOLES")]
     from: Option<PathBuf>,
+    /// Let each launch point against the way down of its hole, from the angles and bearings of the list; default: straight up
+    #[arg(long, requires = "from")]
+    directions: bool,
 }
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
+    let directions = if arguments.directions { Directions::AgainstHoles } else { Directions::Vertical };
     let text = match &arguments.from {
         None => STARTER.to_owned(),
-        Some(list) => match plan_from_file(list) {
+        Some(list) => match plan_from_file(list, directions) {
             Ok(imported) => {
                 imported.notes.iter().for_each(|note| eprintln!("note: {note}"));
                 imported.text

@@ -369,6 +369,7 @@ const COMMANDS: &[&[&str]] = &[
     &["init", "plan.toml"],
     &["init", "new.toml", "--from", "none.csv"],
     &["init", "new.toml", "--from", "plan.toml"],
+    &["init", "new.toml", "--directions"],
     &["ropes", "plan.toml"],
     &["completions", "tcsh"],
     &["plan.toml", "extra.toml"],

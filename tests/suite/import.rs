@@ -2,20 +2,25 @@
 
 use std::path::Path;
 
-use shelter::plan::import::{Imported, plan_from_file, plan_from_holes};
-use shelter::plan::{LaunchTargets, Plan, Timing};
+use shelter::plan::import::{Directions, Imported, plan_from_file, plan_from_holes};
+use shelter::plan::{Hole, LaunchTargets, Plan, Timing};
 use shelter::study::Case;
 
+use crate::support::{shelter, text};
+
 fn imported(list: &str) -> Plan {
-    let text = plan_from_holes("holes.csv", list).unwrap_or_else(|mistakes| panic!("{mistakes}")).text;
+    let read = plan_from_holes("holes.csv", list, Directions::Vertical);
+    let text = read.unwrap_or_else(|mistakes| panic!("{mistakes}")).text;
     Plan::parse("plan.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"))
+}
+
+fn holes_of(targets: &LaunchTargets) -> &[Hole] {
+    if let LaunchTargets::Holes(holes) = targets { holes } else { &[] }
 }
 
 /// Names of the blast rows with their number of holes, and the firing times.
 fn rows_and_times(plan: &Plan) -> (Vec<(&str, usize)>, Vec<f64>) {
-    let holes =
-        |targets: &LaunchTargets| if let LaunchTargets::Holes(holes) = targets { holes.len() } else { 0 };
-    let rows = plan.blast_rows.iter().map(|row| (row.name.as_str(), holes(&row.targets))).collect();
+    let rows = plan.blast_rows.iter().map(|row| (row.name.as_str(), holes_of(&row.targets).len())).collect();
     (rows, plan.delays[0].timing.fire_at_ms())
 }
 
@@ -104,7 +109,7 @@ fn every_bad_line_is_named_with_its_remedy() {
     let told: Vec<String> = lists
         .iter()
         .map(|list| {
-            let words = match plan_from_holes("holes.csv", list) {
+            let words = match plan_from_holes("holes.csv", list, Directions::Vertical) {
                 Ok(_) => panic!("{list} is accepted"),
                 Err(mistakes) => {
                     let line = |(line, column, message, remedy)| {
@@ -119,7 +124,58 @@ fn every_bad_line_is_named_with_its_remedy() {
     insta::assert_snapshot!(told.join("\n"));
 }
 
-/// Every list is read rightly, or refused with its line and a remedy: no value, time or row is guessed or dropped unsaid.
+/// Each launch opposes the way down of its hole: of a hole that dips to the north it points to the south, and so on.
+#[test]
+fn launch_directions_come_from_angles_and_bearings() {
+    let list = "hole,x,y,row,angle_from_vertical_deg,bearing_deg\n\
+        vertical,0,0,1,0,45\nto the north,2,0,1,15,0\nto the east,4,0,1,20,90\nto the south west,6,0,1,5,225\n";
+    let read = plan_from_holes("holes.csv", list, Directions::AgainstHoles);
+    let Imported { text, notes } = read.unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let plan = Plan::parse("plan.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"));
+    let holes = holes_of(&plan.blast_rows[0].targets);
+    let tilts: Vec<_> =
+        holes.iter().map(|hole| (hole.launch.tilt_deg, hole.launch.tilt_toward_deg)).collect();
+    assert_eq!(tilts, [(0.0, 0.0), (15.0, 270.0), (20.0, 180.0), (5.0, 45.0)]);
+    assert!(text.contains("# Launch directions are assumed"), "{text}");
+    assert!(
+        notes[0]
+            .ends_with("; launches point against the holes' way down, up to 20 degrees from the vertical")
+    );
+    assert!(notes[1].contains("launch directions"), "{notes:?}");
+    // x points to the east, y to the north.
+    let launch: Vec<_> = Case::new(plan).shots[0].firings.iter().map(|firing| firing.launch).collect();
+    assert!(launch[0].x == 0.0 && launch[0].y == 0.0 && launch[0].z > 0.0);
+    assert!(launch[1].x.abs() < 1e-12 && launch[1].y < 0.0 && launch[1].z > 0.0);
+    assert!(launch[2].x < 0.0 && launch[2].y.abs() < 1e-12 && launch[2].z > 0.0);
+    // Without the request nothing of it is read.
+    let upright = imported(list);
+    assert!(holes_of(&upright.blast_rows[0].targets).iter().all(|hole| hole.launch.tilt_deg == 0.0));
+}
+
+#[test]
+fn the_program_tells_what_it_does_with_directions() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    std::fs::write(path("with.csv"), "id,x,y,angle_from_vertical_deg,bearing\n1,0,0,10,0\n")
+        .expect("written");
+    std::fs::write(path("without.csv"), "id,x,y\n1,0,0\n").expect("written");
+    let read = shelter(&["init", &path("plan.toml"), "--from", &path("with.csv"), "--directions"]);
+    assert_eq!(read.status.code(), Some(0));
+    let first = text(&read.stderr).lines().next().unwrap_or_default().to_owned();
+    assert!(
+        first.starts_with("note: read 1 hole") && first.contains("way down, up to 10 degrees"),
+        "{first}"
+    );
+    let plan = std::fs::read_to_string(path("plan.toml")).expect("a plan");
+    assert!(plan.contains("tilt_deg = 10.0, tilt_toward_deg = 270.0 }, # 1"), "{plan}");
+    let refused = shelter(&["init", &path("none.toml"), "--from", &path("without.csv"), "--directions"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(text(&refused.stderr).contains("no column is the bearing"), "{}", text(&refused.stderr));
+    assert!(!Path::new(&path("none.toml")).exists());
+}
+
+/// Every list is read rightly, or refused with its line and a remedy: no value, time or row is guessed or dropped unsaid. Those
+/// named `directions-` are read with their directions.
 #[test]
 fn lists_are_read_or_refused_and_never_guessed() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/lists");
@@ -130,7 +186,9 @@ fn lists_are_read_or_refused_and_never_guessed() {
     let mut outcomes = String::new();
     for file in files {
         let name = file.file_name().and_then(|name| name.to_str()).expect("UTF-8").to_owned();
-        let read = plan_from_file(&file);
+        let directions =
+            if name.starts_with("directions-") { Directions::AgainstHoles } else { Directions::Vertical };
+        let read = plan_from_file(&file, directions);
         outcomes += &format!("## {name}\n");
         match read {
             Ok(Imported { text, notes }) => {
@@ -138,9 +196,14 @@ fn lists_are_read_or_refused_and_never_guessed() {
                     Plan::parse("plan.toml", &text).unwrap_or_else(|mistakes| panic!("{name}: {mistakes}"));
                 notes.iter().for_each(|note| outcomes += &format!("{note}\n"));
                 for row in &plan.blast_rows {
-                    let LaunchTargets::Holes(holes) = &row.targets else { panic!("{name}: no holes") };
-                    let at: Vec<_> =
-                        holes.iter().map(|hole| format!("({}, {})", hole.x_m, hole.y_m)).collect();
+                    let at = holes_of(&row.targets).iter().map(|hole| {
+                        let tilt = match hole.launch.tilt_deg {
+                            0.0 => String::new(),
+                            tilt => format!(" tilted {tilt} toward {}", hole.launch.tilt_toward_deg),
+                        };
+                        format!("({}, {}){tilt}", hole.x_m, hole.y_m)
+                    });
+                    let at: Vec<_> = at.collect();
                     outcomes += &format!("    row {:?}: {}\n", row.name, at.join(" "));
                 }
                 outcomes += &format!("    {:?}\n", plan.delays[0].timing);
@@ -159,9 +222,11 @@ fn lists_are_read_or_refused_and_never_guessed() {
 proptest::proptest! {
     /// Nothing that is not a list of holes does harm, and whatever is accepted is a plan.
     #[test]
-    fn any_text_is_a_plan_or_a_mistake(list in "(id|x|y|row|fire_ms|delay_ms|from|[-0-9.,;e \t]{0,12}|\n){0,40}") {
-        if let Ok(Imported { text, .. }) = plan_from_holes("holes.csv", &list) {
-            proptest::prop_assert!(Plan::parse("plan.toml", &text).is_ok(), "{text}");
+    fn any_text_is_a_plan_or_a_mistake(list in "(id|x|y|row|fire_ms|delay_ms|from|bearing|angle_from_vertical_deg|[-0-9.,;e \t]{0,12}|\n){0,40}") {
+        for directions in [Directions::Vertical, Directions::AgainstHoles] {
+            if let Ok(Imported { text, .. }) = plan_from_holes("holes.csv", &list, directions) {
+                proptest::prop_assert!(Plan::parse("plan.toml", &text).is_ok(), "{text}");
+            }
         }
     }
 }

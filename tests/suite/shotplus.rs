@@ -5,7 +5,7 @@ use std::path::Path;
 
 use shelter::Plan;
 use shelter::plan::LaunchTargets;
-use shelter::plan::import::{Imported, plan_from_file};
+use shelter::plan::import::{Directions, Imported, plan_from_file};
 use zip::write::SimpleFileOptions;
 
 use crate::support::{shelter, text};
@@ -65,10 +65,18 @@ fn design(holes: &[String]) -> Vec<u8> {
 
 /// What becomes of a file: notes and plan, or every mistake.
 fn outcome(bytes: &[u8], name: &str) -> Result<(Vec<String>, Plan, String), String> {
+    outcome_with(bytes, name, Directions::Vertical)
+}
+
+fn outcome_with(
+    bytes: &[u8],
+    name: &str,
+    directions: Directions,
+) -> Result<(Vec<String>, Plan, String), String> {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join(name);
     std::fs::write(&path, bytes).expect("written");
-    match plan_from_file(&path) {
+    match plan_from_file(&path, directions) {
         Ok(Imported { text, notes }) => {
             let plan =
                 Plan::parse("plan.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"));
@@ -184,6 +192,38 @@ fn a_design_that_does_not_say_it_all_is_refused_by_name() {
     insta::assert_snapshot!(format!("{told}## a table named .SPF\n{no_archive}"));
 }
 
+/// Angle and bearing of a design become the direction of the launch; a hole of which the design does not say them is named.
+#[test]
+fn launch_directions_come_from_the_design() {
+    let [first, second, third] = three();
+    let dips = |hole: &str, angle: f64, bearing: f64| {
+        let said = format!("<DesignAngle>{angle}</DesignAngle><DesignBearing>{bearing}</DesignBearing>");
+        hole.replace("<DesignAngle>0</DesignAngle>", &said)
+    };
+    let holes = [dips(&first, 0.0, 88.736), dips(&second, 10.0, 0.0), dips(&third, 12.5, 90.0)];
+    let (notes, plan, text) =
+        outcome_with(&design(&holes), "blast.spf", Directions::AgainstHoles).expect("a plan");
+    let tilts: Vec<_> = plan.launches().map(|launch| (launch.tilt_deg, launch.tilt_toward_deg)).collect();
+    assert_eq!(tilts, [(0.0, 0.0), (10.0, 270.0), (12.5, 180.0)]);
+    assert_eq!(
+        notes[..2],
+        [
+            "read 3 holes in 3 blast rows, which fire from 500 to 542 ms; launches point against the holes' way down, up to 12.5 degrees from the vertical",
+            "assumed, put in yours: launch velocities, launch directions, tires, rope, slack, friction, limits and [uncertainty]",
+        ]
+    );
+    assert!(text.contains("tilt_deg = 12.5, tilt_toward_deg = 180.0 }, # 7, 47.0 kg"), "{text}");
+    let unsaid = [
+        first,
+        second.replace("<DesignAngle>0", "<DesignAngle>10"),
+        third.replace("<DesignAngle>0", "<DesignAngle>90"),
+    ];
+    let refused =
+        outcome_with(&design(&unsaid), "blast.spf", Directions::AgainstHoles).expect_err("a mistake");
+    assert!(refused.contains("hole A&2: DesignBearing is ``"), "{refused}");
+    assert!(refused.contains("hole 7: DesignAngle is `90`"), "{refused}");
+}
+
 /// Two detonators in one charge are one shot: the first fires it.
 #[test]
 fn a_second_detonator_does_not_move_a_charge() {
@@ -232,7 +272,7 @@ proptest::proptest! {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("blast.spf");
         std::fs::write(&path, &bytes).expect("written");
-        match plan_from_file(&path) {
+        match plan_from_file(&path, Directions::AgainstHoles) {
             Ok(Imported { text, .. }) => proptest::prop_assert!(Plan::parse("plan.toml", &text).is_ok(), "{text}"),
             Err(mistakes) => proptest::prop_assert!(!mistakes.render(false).is_empty()),
         }

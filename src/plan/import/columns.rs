@@ -13,6 +13,8 @@ pub enum Column {
     Delay,
     From,
     Launch,
+    Angle,
+    Bearing,
 }
 
 impl Column {
@@ -22,6 +24,7 @@ impl Column {
             Self::X | Self::Y => "m",
             Self::Fire | Self::Delay => "ms",
             Self::Launch => "m/s",
+            Self::Angle | Self::Bearing => "°",
             Self::Pattern | Self::Id | Self::Row | Self::From => "",
         }
     }
@@ -76,6 +79,8 @@ const NAMES: &[(Column, &[&str])] = &[
     ]),
     (Column::Delay, &["delay", "timingdelay", "замедление", "retardo", "verzögerung"]),
     (Column::Launch, &["launch", "launchvelocity", "v0"]),
+    (Column::Angle, &["anglefromvertical"]),
+    (Column::Bearing, &["bearing", "holebearing"]),
 ];
 
 /// Units, each with the ends of names that say it, in small letters and without brackets.
@@ -90,13 +95,15 @@ const UNITS: &[(&str, &[&str])] = &[
     ("ft/s", &["ft/s"]), ("km/h", &["km/h", "км/ч"]),
 ];
 
-/// A program whose lists do not say the unit of their firing times in the header.
+/// A program whose lists do not say in the header in which unit they fire, and from where angles count.
 pub struct Program {
     pub name: &'static str,
     /// Columns by which a list is known as the program's.
     columns: &'static [&'static str],
     /// Columns of firing times [ms].
     times: &'static [&'static str],
+    /// Column of the angles from the vertical [°].
+    angle: &'static str,
 }
 
 const PROGRAMS: &[Program] = &[
@@ -104,11 +111,13 @@ const PROGRAMS: &[Program] = &[
         name: "Kirra",
         columns: &["entityname", "holeid", "timingdelaymilliseconds"],
         times: &["initiationtime", "holetime"],
+        angle: "holeangle",
     },
     Program {
         name: "BlastLogic",
         columns: &["blast", "holeid", "bearing", "subdrill", "time"],
         times: &["time"],
+        angle: "angle",
     },
 ];
 
@@ -145,7 +154,11 @@ pub fn program(header: &[String]) -> Option<&'static Program> {
 impl Program {
     /// What the name of a column means in the lists of this program.
     pub fn meaning(&self, name: &str) -> Meaning {
-        if self.times.contains(&plain(name).as_str()) { Meaning::Known(Column::Fire) } else { meaning(name) }
+        match plain(name).as_str() {
+            time if self.times.contains(&time) => Meaning::Known(Column::Fire),
+            angle if angle == self.angle => Meaning::Known(Column::Angle),
+            _ => meaning(name),
+        }
     }
 }
 
@@ -216,6 +229,7 @@ mod tests {
         assert_eq!(meaning("x (')"), Meaning::OtherUnit(Column::X, "ft"));
         assert_eq!(meaning("v0, m/s"), Meaning::Known(Column::Launch));
         assert_eq!(meaning("launch_ms"), Meaning::OtherUnit(Column::Launch, "ms"));
+        assert_eq!(meaning("bearing_deg"), Meaning::Known(Column::Bearing));
         // The ends of these names are no units.
         for name in ["delays", "rows", "firing times", "Fire at (m:s)"] {
             assert_eq!(meaning(name), Meaning::Unclear, "{name}");

@@ -2,6 +2,7 @@
 //! header are known.
 
 use super::columns::{Column, Meaning, meaning, plain, program};
+use super::direction::Directions;
 use super::table::Line;
 use crate::plan::diagnostic::Mistake;
 use crate::plan::read::nearest;
@@ -44,7 +45,12 @@ const KIRRA_WITHOUT_TIMES: &[(usize, &str)] = &[
 ];
 
 /// The columns of a list without a header: a list of Kirra that names the hole before each as `Pattern:::Hole`.
-pub fn without_header(first: &Line) -> Result<Columns, Vec<Mistake>> {
+pub fn without_header(first: &Line, directions: Directions) -> Result<Columns, Vec<Mistake>> {
+    if directions == Directions::AgainstHoles {
+        let message = "a table without a header does not say the angles and bearings of its holes".to_owned();
+        let remedy = "export it with a header and all columns, or leave out --directions".to_owned();
+        return Err(vec![Mistake { span: first.span.clone(), message, remedy }]);
+    }
     let width = first.values.len();
     let names_a_hole = |n: usize| first.values[n].contains(":::");
     let read = match width {
@@ -75,7 +81,7 @@ pub fn without_header(first: &Line) -> Result<Columns, Vec<Mistake>> {
 }
 
 /// The columns of a list whose first line names them.
-pub fn with_header(header: &Line) -> Result<Columns, Vec<Mistake>> {
+pub fn with_header(header: &Line, directions: Directions) -> Result<Columns, Vec<Mistake>> {
     // Cells without a name at the end of a header are not columns.
     let width = header.values.iter().rposition(|name| !name.is_empty()).map_or(0, |last| last + 1);
     let mut columns = Columns { width, ..Columns::default() };
@@ -88,7 +94,12 @@ pub fn with_header(header: &Line) -> Result<Columns, Vec<Mistake>> {
         wrong("a name runs over several lines".to_owned(), "is a quotation mark missing?".to_owned());
     }
     for (n, name) in header.values[..width].iter().enumerate() {
-        let meaning = program.map_or_else(|| meaning(name), |program| program.meaning(name));
+        let mut meaning = program.map_or_else(|| meaning(name), |program| program.meaning(name));
+        if directions == Directions::Vertical
+            && matches!(meaning.column(), Some(Column::Angle | Column::Bearing))
+        {
+            meaning = Meaning::Other;
+        }
         if let Some(column) = meaning.column() {
             if columns.has(column) {
                 let message =
@@ -132,6 +143,20 @@ pub fn with_header(header: &Line) -> Result<Columns, Vec<Mistake>> {
             wrong(format!("no column is {word}"), format!("{near}{REMEDY}"));
         }
     }
+    if directions == Directions::AgainstHoles {
+        if !columns.has(Column::Angle) {
+            wrong(
+                "no column is the angle of the holes from the vertical".to_owned(),
+                "name it angle_from_vertical_deg, 0 in a vertical hole (90 less a dip), or leave out --directions".to_owned(),
+            );
+        }
+        if !columns.has(Column::Bearing) {
+            wrong(
+                "no column is the bearing of the holes".to_owned(),
+                "name it bearing_deg, clockwise from north toward the bottom of the hole, or leave out --directions".to_owned(),
+            );
+        }
+    }
     match [Column::Fire, Column::Delay, Column::From].map(|column| columns.has(column)) {
         [false, false, true] => wrong(
             "holes that follow others, without a column of their delays".to_owned(),
@@ -149,7 +174,12 @@ pub fn with_header(header: &Line) -> Result<Columns, Vec<Mistake>> {
         _ => {}
     }
     columns.rows_are_places = program.is_some();
-    columns.note = program
-        .map(|program| format!("the columns are those of {}: its firing times are in ms", program.name));
+    let angles = match directions {
+        Directions::Vertical => "",
+        Directions::AgainstHoles => ", its angles count from the vertical",
+    };
+    columns.note = program.map(|program| {
+        format!("the columns are those of {}: its firing times are in ms{angles}", program.name)
+    });
     if mistakes.is_empty() { Ok(columns) } else { Err(mistakes) }
 }

@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 use super::columns::Column;
+use super::direction::{Directions, Tilt};
 use super::header::{Columns, REMEDY, with_header, without_header};
 use super::number::{self, Decimals};
 use super::table::{Line, Table, split};
@@ -24,6 +25,8 @@ pub struct ListedHole {
     pub delay_ms: Option<f64>,
     pub from: Option<String>,
     pub launch_m_s: Option<f64>,
+    /// `None`: the launch is vertical.
+    pub tilt: Option<Tilt>,
     /// Mass of its explosive [kg].
     pub charge_kg: Option<f64>,
     /// Bytes of the line in the source.
@@ -74,12 +77,13 @@ fn mistake(span: Range<usize>, message: impl Into<String>, remedy: impl Into<Str
 }
 
 /// All holes of the list, or all its mistakes.
-pub fn read(source: &str) -> Result<Holes, Vec<Mistake>> {
+pub fn read(source: &str, directions: Directions) -> Result<Holes, Vec<Mistake>> {
     let table = split(source, REMEDY)?;
     let Some(first) = table.lines.first() else {
         return Err(vec![mistake(0..0, "the list of holes is empty", REMEDY)]);
     };
-    let columns = if table.has_header { with_header(first)? } else { without_header(first)? };
+    let columns =
+        if table.has_header { with_header(first, directions)? } else { without_header(first, directions)? };
     let mut list = Holes {
         notes: columns.note.iter().cloned().collect(),
         rows_are_places: columns.rows_are_places,
@@ -200,8 +204,8 @@ fn name_patterns(list: &mut Holes, patterns: &[String]) {
 /// Whether the numbers of the list have decimal commas; notes it where they have.
 fn decimal_comma(table: &Table, columns: &Columns, notes: &mut Vec<String>) -> Result<bool, Vec<Mistake>> {
     let lines = &table.lines[usize::from(table.has_header)..];
-    let numeric = [Column::X, Column::Y, Column::Fire, Column::Delay, Column::Launch];
-    let read: Vec<usize> = numeric.iter().filter_map(|&column| columns.index(column)).collect();
+    let numeric = columns.read.iter().filter(|(column, _)| !column.unit().is_empty());
+    let read: Vec<usize> = numeric.map(|(_, n)| *n).collect();
     let others = |n: usize| columns.read.iter().all(|(_, known)| *known != n);
     // Columns that are not read tell decimal commas, too.
     let counts = |&(n, value): &(usize, &String)| {
@@ -259,12 +263,10 @@ fn read_hole(line: &Line, columns: &Columns, comma: bool, mistakes: &mut Vec<Mis
                 None
             }
             None if must => {
-                let message = format!("the line has no {word}");
-                mistakes.push(mistake(
-                    line.span.clone(),
-                    message,
-                    "write a number in metres, or remove the line",
-                ));
+                let message = format!("the line has no {}", word.trim_start_matches("the "));
+                let unit = if column.unit() == "m" { "metres" } else { "degrees" };
+                let remedy = format!("write a number in {unit}, or remove the line");
+                mistakes.push(mistake(line.span.clone(), message, remedy));
                 None
             }
             None => None,
@@ -274,6 +276,10 @@ fn read_hole(line: &Line, columns: &Columns, comma: bool, mistakes: &mut Vec<Mis
     let fire_ms = value(Column::Fire, "the firing time", &delay::INTERVAL_MS, false);
     let delay_ms = value(Column::Delay, "the delay", &delay::INTERVAL_MS, false);
     let launch_m_s = value(Column::Launch, "the launch velocity", &hole::LAUNCH_M_S, false);
+    let inclined = columns.index(Column::Angle).is_some();
+    let angle_deg = value(Column::Angle, "the angle from the vertical", &hole::TILT_DEG, inclined);
+    let has_bearing = angle_deg.is_some_and(|angle| angle > 0.0);
+    let bearing_deg = value(Column::Bearing, "the bearing", &hole::TILT_TOWARD_DEG, has_bearing);
     let text = |column: Column| field(column).map(str::to_owned);
     let id = text(Column::Id).unwrap_or_else(|| line.number.to_string());
     let sums_up = |name: &&str| SUMS.contains(&name.to_lowercase().trim_end_matches([':', ' ']));
@@ -301,6 +307,7 @@ fn read_hole(line: &Line, columns: &Columns, comma: bool, mistakes: &mut Vec<Mis
         delay_ms,
         from: text(Column::From),
         launch_m_s,
+        tilt: angle_deg.zip(bearing_deg).and_then(|(angle, bearing)| Tilt::against_hole(angle, bearing)),
         charge_kg: None,
         span: line.span.clone(),
     })

@@ -1,6 +1,7 @@
 //! A starter plan from a list of holes, as blast design programs export it.
 
 mod columns;
+mod direction;
 mod header;
 mod holes;
 mod number;
@@ -13,6 +14,8 @@ use std::collections::HashSet;
 use std::fmt::Write;
 use std::path::Path;
 
+pub use self::direction::Directions;
+use self::direction::Tilt;
 use self::holes::{Holes, ListedHole};
 use self::timing::{Group, Timed, delays_are_whole, timed};
 use super::Diagnostics;
@@ -43,30 +46,31 @@ pub struct Imported {
 
 /// A plan for the list of holes in a file; `-` is standard input. A ZIP archive is a design of SHOTPlus, anything else a table
 /// as [`plan_from_holes`] takes it.
-pub fn plan_from_file(path: &Path) -> Result<Imported, Diagnostics> {
+pub fn plan_from_file(path: &Path, directions: Directions) -> Result<Imported, Diagnostics> {
     let name = path.display().to_string();
     let unreadable = |(message, remedy): Unreadable| Diagnostics::unreadable(&name, message, remedy);
     let bytes = read_bytes(path).map_err(unreadable)?;
     if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06") {
-        plan_from_design(&name, &bytes)
+        plan_from_design(&name, &bytes, directions)
     } else if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("spf")) {
         let message = "the file is no ZIP archive, as designs of SHOTPlus 6 are".to_owned();
         Err(unreadable((message, "copy it again, or save it in SHOTPlus 6 again")))
     } else {
-        plan_from_holes(&name, &text_of(bytes).map_err(unreadable)?)
+        plan_from_holes(&name, &text_of(bytes).map_err(unreadable)?, directions)
     }
 }
 
 #[cfg(feature = "shotplus")]
-fn plan_from_design(name: &str, archive: &[u8]) -> Result<Imported, Diagnostics> {
+fn plan_from_design(name: &str, archive: &[u8], directions: Directions) -> Result<Imported, Diagnostics> {
     let unreadable = |(message, remedy): Unreadable| Diagnostics::unreadable(name, message, remedy);
     let xml = shotplus::list(archive).map_err(unreadable)?;
-    let holes = shotplus::read(&xml).map_err(|mistakes| Diagnostics::new(name, &xml, mistakes))?;
-    plan(name, &xml, holes)
+    let holes = shotplus::read(&xml, directions);
+    let holes = holes.map_err(|mistakes| Diagnostics::new(name, &xml, mistakes))?;
+    plan(name, &xml, holes, directions)
 }
 
 #[cfg(not(feature = "shotplus"))]
-fn plan_from_design(name: &str, _: &[u8]) -> Result<Imported, Diagnostics> {
+fn plan_from_design(name: &str, _: &[u8], _: Directions) -> Result<Imported, Diagnostics> {
     let message = "designs of SHOTPlus are not read by this build".to_owned();
     Err(Diagnostics::unreadable(name, message, "build it with the feature `shotplus`"))
 }
@@ -75,14 +79,15 @@ fn plan_from_design(name: &str, _: &[u8]) -> Result<Imported, Diagnostics> {
 ///
 /// The header names the columns: hole, x and y in metres, and one of: a row; a firing time (`fire_ms`, counted from the
 /// first hole); a delay after another hole (`delay_ms` and `from`). Of lists without a header those of Kirra that name the
-/// hole before each are read.
-pub fn plan_from_holes(name: &str, text: &str) -> Result<Imported, Diagnostics> {
+/// hole before each are read. Directions need the columns `angle_from_vertical_deg` and `bearing_deg`.
+pub fn plan_from_holes(name: &str, text: &str, directions: Directions) -> Result<Imported, Diagnostics> {
     let source = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let holes = holes::read(source).map_err(|mistakes| Diagnostics::new(name, source, mistakes))?;
-    plan(name, source, holes)
+    let holes =
+        holes::read(source, directions).map_err(|mistakes| Diagnostics::new(name, source, mistakes))?;
+    plan(name, source, holes, directions)
 }
 
-fn plan(name: &str, source: &str, list: Holes) -> Result<Imported, Diagnostics> {
+fn plan(name: &str, source: &str, list: Holes, directions: Directions) -> Result<Imported, Diagnostics> {
     let timed = launches_are_whole(&list.holes).and_then(|()| timed(&list));
     let timed = timed.map_err(|mistakes| Diagnostics::new(name, source, mistakes))?;
     let nearest = nearest_distance(&list.holes);
@@ -103,12 +108,13 @@ fn plan(name: &str, source: &str, list: Holes) -> Result<Imported, Diagnostics> 
             "are x and y in metres? split the list into blasts",
         ));
     }
-    let text = write(name, &layout, &list.holes, &timed.groups);
-    let mut notes = vec![summary(&list, &timed)];
-    let launch =
+    let text = write(name, &layout, &list.holes, &timed.groups, directions);
+    let mut notes = vec![summary(&list, &timed, directions)];
+    let velocities =
         if list.holes.iter().all(|hole| hole.launch_m_s.is_none()) { "launch velocities, " } else { "" };
+    let tilts = if directions == Directions::AgainstHoles { "launch directions, " } else { "" };
     notes.push(format!(
-        "assumed, put in yours: {launch}tires, rope, slack, friction, limits and [uncertainty]"
+        "assumed, put in yours: {velocities}{tilts}tires, rope, slack, friction, limits and [uncertainty]"
     ));
     notes.extend(list.notes);
     Ok(Imported { text, notes })
@@ -128,8 +134,8 @@ fn launches_are_whole(holes: &[ListedHole]) -> Result<(), Vec<Mistake>> {
     Err(without.iter().map(mistake).collect())
 }
 
-/// What was read, in one line: holes, blast rows, first and last firing time, what was left out.
-fn summary(list: &Holes, timed: &Timed) -> String {
+/// What was read, in one line: holes, blast rows, first and last firing time, launch directions, what was left out.
+fn summary(list: &Holes, timed: &Timed, directions: Directions) -> String {
     let holes = &list.holes;
     let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
     let read = format!("read {} in {}", count(holes.len(), "hole"), count(timed.groups.len(), "blast row"));
@@ -163,6 +169,16 @@ fn summary(list: &Holes, timed: &Timed) -> String {
     let names: HashSet<&str> = holes.iter().map(|hole| hole.id.as_str()).collect();
     if names.len() < holes.len() {
         line += "; holes of different rows have the same names";
+    }
+    let tilts = holes.iter().filter_map(|hole| hole.tilt).map(|tilt| tilt.deg);
+    match (directions, tilts.reduce(f64::max)) {
+        (Directions::Vertical, _) => {}
+        (Directions::AgainstHoles, None) => line += "; launches are vertical, as all holes are",
+        (Directions::AgainstHoles, Some(steepest_deg)) => {
+            line += &format!(
+                "; launches point against the holes' way down, up to {steepest_deg} degrees from the vertical"
+            );
+        }
     }
     if !left_out.is_empty() {
         line += &format!("; left out: {}", left_out.join("; "));
@@ -211,7 +227,13 @@ fn nearest_distance(holes: &[ListedHole]) -> f64 {
     all.get(all.len() / 2).copied().unwrap_or(f64::INFINITY)
 }
 
-fn write(name: &str, cover: &Cover, holes: &[ListedHole], groups: &[Group]) -> String {
+fn write(
+    name: &str,
+    cover: &Cover,
+    holes: &[ListedHole],
+    groups: &[Group],
+    directions: Directions,
+) -> String {
     let &Cover { rows, columns, spacing_m, origin } = cover;
     let shelter = Shelter { rows, columns, spacing_m, ..USUAL };
     let remark =
@@ -219,6 +241,9 @@ fn write(name: &str, cover: &Cover, holes: &[ListedHole], groups: &[Group]) -> S
     let mut text =
         "# Written by `shelter init --from`. Put in your tires, rope, friction and limits, and the launch velocity.\n"
             .to_owned();
+    if directions == Directions::AgainstHoles {
+        text += "# Launch directions are assumed: each launch points against the way down of its hole, by its angle and bearing.\n";
+    }
     text += &shelter.sections(&format!("Holes of {name}"), &remark);
     for group in groups {
         text += &header(&blast_row::SECTION);
@@ -228,13 +253,14 @@ fn write(name: &str, cover: &Cover, holes: &[ListedHole], groups: &[Group]) -> S
             let hole = &holes[hole];
             let _ = writeln!(
                 text,
-                "    {{ {} = {:.3}, {} = {:.3}, {} = {:?} }}, # {}{}",
+                "    {{ {} = {:.3}, {} = {:.3}, {} = {:?}{} }}, # {}{}",
                 hole::X_M.name,
                 hole.x_m - origin[0],
                 hole::Y_M.name,
                 hole.y_m - origin[1],
                 hole::LAUNCH_M_S.name,
                 hole.launch_m_s.unwrap_or(LAUNCH_M_S),
+                hole.tilt.map_or(String::new(), tilt_keys),
                 hole.id,
                 hole.charge_kg.map_or(String::new(), |mass| format!(", {mass:.1} kg")),
             );
@@ -254,4 +280,10 @@ fn write(name: &str, cover: &Cover, holes: &[ListedHole], groups: &[Group]) -> S
         None => INTERVALS_MS.into_iter().for_each(|interval| text += &starter::delay(interval)),
     }
     text + &starter::uncertainty()
+}
+
+/// The keys of a tilt, behind the others of its hole.
+fn tilt_keys(tilt: Tilt) -> String {
+    let (angle, toward) = (hole::TILT_DEG.name, hole::TILT_TOWARD_DEG.name);
+    format!(", {angle} = {:?}, {toward} = {:?}", tilt.deg, tilt.toward_deg)
 }

@@ -14,6 +14,7 @@ use quick_xml::escape::resolve_predefined_entity;
 use quick_xml::events::Event;
 use zip::ZipArchive;
 
+use super::direction::{Directions, Tilt};
 use super::holes::{Holes, ListedHole, repeated};
 use crate::plan::diagnostic::Mistake;
 use crate::plan::keys::{Key, delay, hole};
@@ -47,7 +48,7 @@ pub fn list(archive: &[u8]) -> Result<String, Unreadable> {
 }
 
 /// All holes of the list, or all its mistakes.
-pub fn read(xml: &str) -> Result<Holes, Vec<Mistake>> {
+pub fn read(xml: &str, directions: Directions) -> Result<Holes, Vec<Mistake>> {
     let elements = holes(xml)?;
     let (mut list, mut mistakes) = (Holes::default(), Vec::new());
     let (dummies, holes): (Vec<_>, Vec<_>) =
@@ -55,7 +56,7 @@ pub fn read(xml: &str) -> Result<Holes, Vec<Mistake>> {
     let detonators = holes.iter().any(|hole| hole.has_detonator());
     let (mut moved_m, mut steepest_deg) = (0.0_f64, 0.0_f64);
     for (n, hole) in holes.iter().enumerate() {
-        let Some(listed) = hole.listed(n, detonators, &mut mistakes) else { continue };
+        let Some(listed) = hole.listed(n, detonators, directions, &mut mistakes) else { continue };
         let actual = ["X", "Y"].map(|axis| hole.number(&format!("ActualCoordinates/{axis}")));
         if let [Some(x), Some(y)] = actual {
             moved_m = moved_m.max((x - listed.x_m).hypot(y - listed.y_m));
@@ -74,7 +75,7 @@ pub fn read(xml: &str) -> Result<Holes, Vec<Mistake>> {
         let names: Vec<&str> = dummies.iter().filter_map(|hole| hole.text("HoleId")).collect();
         list.left_out.push(format!("the dummy holes {}", names.join(", ")));
     }
-    if steepest_deg > 0.0 {
+    if steepest_deg > 0.0 && directions == Directions::Vertical {
         list.left_out
             .push(format!("the angles of the holes, up to {steepest_deg} degrees from the vertical"));
     }
@@ -127,7 +128,13 @@ impl Element {
     }
 
     /// The hole, or what keeps it from being one.
-    fn listed(&self, n: usize, detonators: bool, mistakes: &mut Vec<Mistake>) -> Option<ListedHole> {
+    fn listed(
+        &self,
+        n: usize,
+        detonators: bool,
+        directions: Directions,
+        mistakes: &mut Vec<Mistake>,
+    ) -> Option<ListedHole> {
         let before = mistakes.len();
         let id = self.text("HoleId").map_or_else(|| format!("number {}", n + 1), str::to_owned);
         let mut say =
@@ -137,16 +144,26 @@ impl Element {
             if number.is_none() {
                 let text = self.all(path).join(" and ");
                 let message = format!("hole {id}: {path} is `{text}`");
-                say(
-                    message,
-                    "it must be one number: correct the hole in SHOTPlus, tie it in, and save again",
+                let remedy = format!(
+                    "it must be one number from {} to {}: correct the hole in SHOTPlus, tie it in, and save again",
+                    key.kind.range().start(),
+                    key.kind.range().end()
                 );
+                say(message, &remedy);
             }
             number
         };
         let x_m = number("DesignCoordinates/X", &hole::X_M);
         let y_m = number("DesignCoordinates/Y", &hole::Y_M);
         let stated_ms = number("FiringTime", &delay::INTERVAL_MS);
+        let tilt = match directions {
+            Directions::Vertical => None,
+            Directions::AgainstHoles => {
+                number("DesignAngle", &hole::TILT_DEG).filter(|&angle| angle > 0.0).and_then(|angle| {
+                    Tilt::against_hole(angle, number("DesignBearing", &hole::TILT_TOWARD_DEG)?)
+                })
+            }
+        };
         let fire_ms = stated_ms.and_then(|stated_ms| self.fire_ms(&id, stated_ms, detonators, mistakes));
         if mistakes.len() > before {
             return None;
@@ -160,6 +177,7 @@ impl Element {
             delay_ms: None,
             from: None,
             launch_m_s: None,
+            tilt,
             charge_kg: self.charge_kg(),
             span: self.span.clone(),
             id,
