@@ -253,6 +253,8 @@ pub struct Launch {
     pub tilt_deg: f64,
     /// Direction of the tilt along the ground: azimuth from +x toward +y [°].
     pub tilt_toward_deg: f64,
+    /// Time over which the hole pushes [ms]; 0: at once.
+    pub push_ms: f64,
 }
 
 /// Limits of a passing option.

@@ -78,6 +78,9 @@ pub fn risk_detail(case: &Case, judged: &Judgement) -> Option<Detail> {
         Verdict::Undecided if risk.is_contradicted() => {
             format!("{shots}, but finer runs contradict them{finer}")
         }
+        Verdict::Undecided if risk.bounds.verdict() == Verdict::Pass => {
+            format!("{shots}, but too few of them are run at a finer step, too: draw 200 or more")
+        }
         Verdict::Undecided if risk.bounds.undecided > 0 => {
             let undecided = risk.bounds.undecided;
             format!("{shots} and {undecided} stay undecided: not surely fewer than the {accepted} accepted")

@@ -2,7 +2,7 @@
 
 use super::risk::swap_warning;
 use crate::plan::keys::Key;
-use crate::plan::{Plan, Timing};
+use crate::plan::{Launch, Plan, Timing};
 use crate::study::Case;
 use crate::study::swaps::swaps as find_swaps;
 
@@ -21,8 +21,12 @@ pub fn orders(case: &Case) -> Option<String> {
 pub fn effects(plan: &Plan) -> Option<String> {
     let (ground, tire, cable) = (&plan.ground, &plan.tire, &plan.cable);
     let told = |holds: bool, text: String| holds.then_some(text);
+    let greatest = |of: fn(&Launch) -> f64| plan.launches().map(of).fold(0.0, f64::max);
+    let (tilt, push) = (greatest(|launch| launch.tilt_deg), greatest(|launch| launch.push_ms));
     let parts = [
         told(plan.simulation.gravity_m_s2 != 9.81, format!("gravity {} m/s²", plan.simulation.gravity_m_s2)),
+        told(tilt > 0.0, format!("launches tilted by up to {tilt}°")),
+        told(push > 0.0, format!("launches pushed over up to {push} ms")),
         told(
             ground.slope_percent > 0.0,
             format!(

@@ -7,7 +7,7 @@ use super::model::{Block, Cell, Column, Conclusion, Report, Table};
 use super::no_result::FINER;
 use super::shared_columns::{FORCE, HEIGHT, force, height};
 use crate::study::Case;
-use crate::study::size::{Combination, Sizing, Trial, Untried};
+use crate::study::size::{Combination, SampledRisk, Sizing, Trial, Untried};
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
@@ -146,7 +146,12 @@ pub(super) fn nearest(sizing: &Sizing) -> Option<(&Combination, Trial)> {
 fn sentence(combination: &Combination, trial: &Trial) -> String {
     let risk = match trial.risk {
         None => " (the plan's own numbers only)".to_owned(),
-        Some(risk) => format!(", {} of {} possible shots fail at most", risk.failures, risk.samples),
+        Some(SampledRisk { failures, samples, most, .. }) => {
+            format!(
+                ", at most {} of the possible shots fail ({failures} of {samples})",
+                units::percent(most, 2)
+            )
+        }
     };
     format!(
         "{}, tires of {} kg, {}: {} t in all, {} of the limits used, {} judged{risk}",

@@ -2,7 +2,7 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use super::{Cable, Scene, Shot, TireId, with_ends};
+use super::{Cable, Firing, Scene, Shot, TireId, with_ends};
 use crate::choice::{Link, OnOverload};
 use crate::plan::{BlastRow, Launch, LaunchTargets, Layout, Mesh, Plan, Timing, fire_in_turn};
 
@@ -30,16 +30,20 @@ impl Shot {
 
     /// Shot of blast rows fired at the times `at` [s] under `scene` (`n_blast_rows`).
     fn of_rows(scene: &Scene, rows: &[BlastRow], at: &[f64]) -> Self {
-        let targets: Vec<_> = rows.iter().map(|row| scene.targets(&row.targets)).collect();
-        Self::from_targets(&targets, at)
+        let fire = |(row, &at): (&BlastRow, &f64)| {
+            let firings = scene.firings(&row.targets).into_iter();
+            firings.map(move |firing| Firing { at, ..firing }).collect::<Vec<_>>()
+        };
+        Self::from_firings(rows.iter().zip(at).flat_map(fire).collect())
     }
 }
 
-/// Launch velocity as a vector [m/s].
-fn velocity(launch: &Launch) -> Vector3<f64> {
-    let Launch { speed_m_s, tilt_deg, tilt_toward_deg } = *launch;
+/// Firing at time 0 under a tire.
+fn firing(tire: usize, launch: &Launch) -> Firing {
+    let Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms } = *launch;
     let sideways = azimuth(tilt_toward_deg).push(0.0);
-    speed_m_s * (cosine(tilt_deg - 90.0) * sideways + cosine(tilt_deg) * Vector3::z())
+    let launch = speed_m_s * (cosine(tilt_deg - 90.0) * sideways + cosine(tilt_deg) * Vector3::z());
+    Firing { at: 0.0, tire, launch, push: seconds(push_ms) }
 }
 
 /// Direction along the ground at an azimuth [°] from +x toward +y.
@@ -184,20 +188,20 @@ impl Scene {
         ties
     }
 
-    /// Tires that a blast row launches, each with its launch velocity [m/s].
-    pub fn targets(&self, targets: &LaunchTargets) -> Vec<(usize, Vector3<f64>)> {
+    /// Firings of the holes of a blast row at time 0.
+    pub fn firings(&self, targets: &LaunchTargets) -> Vec<Firing> {
         match targets {
             LaunchTargets::UnderRow { row, launch } => {
                 let in_row = |&n: &usize| matches!(self.tire[n], TireId::Cell { row: r, .. } if r == *row);
                 let tires = (0..self.tire.len()).filter(in_row);
-                tires.map(|tire| (tire, velocity(launch))).collect()
+                tires.map(|tire| firing(tire, launch)).collect()
             }
             LaunchTargets::UnderTires { tires, launch } => {
-                tires.iter().map(|&tire| (tire, velocity(launch))).collect()
+                tires.iter().map(|&tire| firing(tire, launch)).collect()
             }
             LaunchTargets::Holes(holes) => holes
                 .iter()
-                .filter_map(|hole| Some((self.nearest(hole.x_m, hole.y_m)?, velocity(&hole.launch))))
+                .filter_map(|hole| Some(firing(self.nearest(hole.x_m, hole.y_m)?, &hole.launch)))
                 .collect(),
         }
     }

@@ -13,14 +13,22 @@ pub struct Firing {
     pub at: f64,
     /// Index of the tire above the hole.
     pub tire: usize,
-    /// Launch velocity, added to the velocity of the tire [m/s].
+    /// Launch velocity: impulse of the hole over the mass of the tire [m/s].
     pub launch: Vector3<f64>,
+    /// Time over which the impulse acts, as a constant force [s]; 0: at once.
+    pub push: f64,
 }
 
 impl Firing {
     /// Firing at time `at` [s] that launches a tire straight up with `speed` [m/s].
     pub fn up(at: f64, tire: usize, speed: f64) -> Self {
-        Self { at, tire, launch: Vector3::z() * speed }
+        Self { at, tire, launch: Vector3::z() * speed, push: 0.0 }
+    }
+
+    /// Its image in a mirror plane.
+    pub fn mirrored(&self, mirror: &Mirror) -> Self {
+        let (tire, launch) = mirror.reflect(self.tire, self.launch);
+        Self { tire, launch, ..*self }
     }
 }
 
@@ -34,14 +42,6 @@ pub struct Shot {
 }
 
 impl Shot {
-    /// Shot of blast rows with known targets `(tire, launch velocity [m/s])`, each row fired at its time `at` [s] (both `n_rows`).
-    pub fn from_targets(targets: &[Vec<(usize, Vector3<f64>)>], at: &[f64]) -> Self {
-        let fire = |(row, &at): (&Vec<(usize, Vector3<f64>)>, &f64)| -> Vec<Firing> {
-            row.iter().map(|&(tire, launch)| Firing { at, tire, launch }).collect()
-        };
-        Self::from_firings(targets.iter().zip(at).flat_map(fire).collect())
-    }
-
     /// Shot of `firings` in any order.
     pub fn from_firings(mut firings: Vec<Firing>) -> Self {
         firings.sort_by(|a, b| a.at.total_cmp(&b.at).then(a.tire.cmp(&b.tire)));
@@ -81,11 +81,8 @@ impl Shot {
 
     /// Whether the shot is its own image in a mirror plane.
     pub fn is_mirrored(&self, mirror: &Mirror) -> bool {
-        let image = |firing: &Firing| {
-            let (tire, launch) = mirror.reflect(firing.tire, firing.launch);
-            Firing { tire, launch, ..*firing }
-        };
-        Self::from_firings(self.firings.iter().map(image).collect()).firings == self.firings
+        let image = self.firings.iter().map(|firing| firing.mirrored(mirror));
+        Self::from_firings(image.collect()).firings == self.firings
     }
 }
 

@@ -5,7 +5,7 @@
 //! then stops sideways if |v*ₜ| ≤ μp/m; otherwise it loses μp/m of its sideways speed. This is the exact solution at the
 //! tire, without iteration and without penalty stiffness.
 //!
-//! [`TireStep::integrate`] moves one tire through a step in which the tire lands or is fired at. Forces are constant over the
+//! [`TireStep::integrate`] moves one tire through a step in which the tire lands, is fired at, or is pushed. Forces are constant over the
 //! step, so every phase (flight, slide under friction of one direction, stick) is a parabola, and every event has its own time.
 
 use nalgebra::{Vector2, Vector3};
@@ -25,6 +25,17 @@ fn apply_friction(velocity: Vector2<f64>, loss: f64) -> Vector2<f64> {
     if speed <= loss { Vector2::zeros() } else { velocity * (1.0 - loss / speed) }
 }
 
+/// What a hole does to a tire within a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Impulse {
+    /// Time since the start of the step [s].
+    pub after: f64,
+    /// Velocity added at once [m/s].
+    pub launch: Vector3<f64>,
+    /// Acceleration added from then on [m/s²].
+    pub push: Vector3<f64>,
+}
+
 /// Motion of one tire over one step under constant force.
 #[derive(Clone, Copy, Debug)]
 pub struct TireStep {
@@ -32,8 +43,10 @@ pub struct TireStep {
     pub displacement: Vector3<f64>,
     /// Velocity [m/s].
     pub velocity: Vector3<f64>,
-    /// Acceleration by cables and gravity, without the ground [m/s²].
+    /// Acceleration by cables, gravity and pushes, without the ground [m/s²].
     free: Vector3<f64>,
+    /// Acceleration by pushes [m/s²].
+    pub push: Vector3<f64>,
     /// Coefficient of friction μ.
     friction: f64,
     /// Normal speed after a landing over normal speed before.
@@ -65,30 +78,40 @@ impl TireStep {
         restitution: f64,
     ) -> Self {
         let (lost, put_in, elapsed, top) = (0.0, 0.0, 0.0, (0.0, 0.0));
-        Self { displacement, velocity, free, friction, restitution, lost, put_in, elapsed, top }
+        let push = Vector3::zeros();
+        Self { displacement, velocity, free, push, friction, restitution, lost, put_in, elapsed, top }
     }
 
-    /// Integrates the motion over a step of length `h` [s], with landings and `launches` (time since the start of the step
-    /// [s], velocity [m/s]).
+    /// Integrates the motion over a step of length `h` [s], with landings and the `impulses` of holes, in order of time.
     ///
     /// Returns the acceleration a of the last phase [m/s²]: v − a h/2 is the mid-step velocity of central differences.
-    pub fn integrate(&mut self, h: f64, launches: impl Iterator<Item = (f64, Vector3<f64>)>) -> Vector3<f64> {
+    pub fn integrate(&mut self, h: f64, impulses: impl Iterator<Item = Impulse>) -> Vector3<f64> {
         let mut now = 0.0;
-        for (at, launch) in launches {
-            self.integrate_unfired(at - now, h);
-            now = at;
+        for Impulse { after, launch, push } in impulses {
+            self.integrate_between(after - now, h);
+            now = after;
             self.put_in += launch.dot(&(self.velocity + 0.5 * launch));
             self.velocity += launch;
+            self.push += push;
+            self.free += push;
         }
-        self.integrate_unfired(h - now, h)
+        self.integrate_between(h - now, h)
+    }
+
+    /// Integrates over `left` [s] of a step of length `h` [s] between impulses; returns the acceleration of the last phase
+    /// [m/s²].
+    fn integrate_between(&mut self, left: f64, h: f64) -> Vector3<f64> {
+        let before = self.displacement;
+        let acceleration = self.integrate_unfired(left, h);
+        self.put_in += self.push.dot(&(self.displacement - before));
+        acceleration
     }
 
     fn on_ground(&self) -> bool {
         self.displacement.z <= 0.0 && self.velocity.z <= 0.0
     }
 
-    /// Integrates over `left` [s] of a step of length `h` [s] without a launch; returns the acceleration of the last phase
-    /// [m/s²].
+    /// The same without the work of pushes.
     fn integrate_unfired(&mut self, mut left: f64, h: f64) -> Vector3<f64> {
         while !(self.on_ground() && self.free.z <= 0.0) {
             match self.landing().filter(|&landing| landing <= left) {
@@ -241,7 +264,7 @@ mod tests {
     fn one_step_holds_a_launch_a_landing_and_a_stop() {
         let (above, sideways) = (Vector3::z() * 1e-300, Vector3::x() * 3.0);
         let mut step = TireStep::new(above, sideways, -Vector3::z() * G, 0.5, 0.0);
-        step.integrate(5.0, [(0.0, Vector3::z() * 2.0)].into_iter());
+        step.integrate(5.0, [Impulse { launch: Vector3::z() * 2.0, ..Impulse::default() }].into_iter());
         let sideways = 3.0 - 0.5 * 2.0;
         let way = 3.0 * 2.0 * 2.0 / G + sideways * sideways / (2.0 * 0.5 * G);
         assert!((step.displacement.x - way).abs() < 1e-12);

@@ -35,6 +35,8 @@ const WITHOUT_FRICTION: f64 = 3.0;
 pub enum Effect {
     /// Launches tilted from the ground's normal.
     Tilt,
+    /// Launches that take time.
+    Push,
     /// Sloping ground.
     Slope,
     /// Landings that rebound.
@@ -53,8 +55,9 @@ pub enum Effect {
 
 impl Effect {
     /// All effects.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Tilt,
+        Self::Push,
         Self::Slope,
         Self::Restitution,
         Self::Ends,
@@ -68,6 +71,7 @@ impl Effect {
     pub fn key(self) -> &'static Key {
         match self {
             Self::Tilt => &keys::blast_row::TILT_DEG,
+            Self::Push => &keys::blast_row::PUSH_MS,
             Self::Slope => &keys::ground::SLOPE_PERCENT,
             Self::Restitution => &keys::tire::RESTITUTION,
             Self::Ends => &keys::cable::END_STIFFNESS_KN_M,
@@ -82,6 +86,7 @@ impl Effect {
     pub fn name(self) -> &'static str {
         match self {
             Self::Tilt => "launch direction",
+            Self::Push => "push over a time",
             Self::Slope => "slope",
             Self::Restitution => "rebound of landings",
             Self::Ends => "yielding ends",
@@ -97,6 +102,7 @@ impl Effect {
         let some = |value: f64| Some(value).filter(|&value| value > 0.0);
         match self {
             Self::Tilt => some(plan.launches().map(|launch| launch.tilt_deg).fold(0.0, f64::max)),
+            Self::Push => some(plan.launches().map(|launch| launch.push_ms).fold(0.0, f64::max)),
             Self::Slope => some(plan.ground.slope_percent),
             Self::Restitution => some(plan.tire.restitution),
             Self::Ends => plan.cable.end_stiffness_kn_m,
@@ -114,6 +120,7 @@ impl Effect {
     fn probe_value(self) -> Option<f64> {
         match self {
             Self::Tilt => Some(5.0),
+            Self::Push => Some(20.0),
             Self::Slope => Some(10.0),
             Self::Restitution => Some(0.3),
             Self::Ends => Some(2000.0),
@@ -123,7 +130,7 @@ impl Effect {
 
     /// Whether a method has the effect.
     fn is_in(self, method: Method) -> bool {
-        self != Self::Restitution || method == Method::Verlet
+        !matches!(self, Self::Push | Self::Restitution) || method == Method::Verlet
     }
 
     /// Azimuths at which the effect is probed [°].
@@ -139,6 +146,7 @@ impl Effect {
             Self::Tilt => plan.launches_mut().for_each(|launch| {
                 (launch.tilt_deg, launch.tilt_toward_deg) = (value_or_zero, toward);
             }),
+            Self::Push => plan.launches_mut().for_each(|launch| launch.push_ms = value_or_zero),
             Self::Slope => {
                 (plan.ground.slope_percent, plan.ground.slope_toward_deg) = (value_or_zero, toward)
             }

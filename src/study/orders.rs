@@ -14,7 +14,6 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use itertools::Itertools;
-use nalgebra::Vector3;
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
@@ -26,7 +25,7 @@ use super::sampling::Sampling;
 use super::screen::{is_sure, screen};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard};
 use crate::plan::BlastRow;
-use crate::scene::Shot;
+use crate::scene::{Firing, Shot};
 use crate::verdict::Verdict;
 
 /// Greatest number of blast rows whose orders are all tried: 40,320 orders.
@@ -214,17 +213,16 @@ type Job = (usize, (Vec<usize>, f64));
 
 /// Blast row that is the mirror image of each blast row; `None` where the shelter has no mirror plane that moves rows.
 fn twin(case: &Case) -> Option<Vec<usize>> {
-    type Target = (usize, Vector3<f64>);
-    let holes = |image: &dyn Fn(Target) -> Target| -> Vec<Vec<(usize, [u64; 3])>> {
+    let holes = |image: &dyn Fn(&Firing) -> Firing| -> Vec<Vec<Firing>> {
         let row = |row: &BlastRow| {
-            let targets = case.scene().targets(&row.targets).into_iter().map(image);
-            targets.map(|(tire, launch)| (tire, launch.map(f64::to_bits).into())).sorted().collect()
+            let firings = case.scene().firings(&row.targets);
+            Shot::from_firings(firings.iter().map(image).collect()).firings
         };
         case.plan.blast_rows.iter().map(row).collect()
     };
-    let rows = holes(&|target| target);
+    let rows = holes(&Firing::clone);
     case.scene().mirrors.iter().find_map(|mirror| {
-        let images = holes(&|(tire, launch)| mirror.reflect(tire, launch));
+        let images = holes(&|firing| firing.mirrored(mirror));
         let twin: Vec<usize> =
             images.iter().map(|image| rows.iter().position(|row| row == image)).collect::<Option<_>>()?;
         let returns = twin.iter().enumerate().all(|(row, &other)| twin[other] == row);

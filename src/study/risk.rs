@@ -14,6 +14,10 @@ use crate::verdict::{Limits, Quantity, Verdict};
 const BIAS_ALLOWANCE: f64 = 2.0;
 /// Probability below which a difference between samples and audit is more than chance.
 const SIGNIFICANCE: f64 = 0.01;
+/// Quantile of the normal distribution that both sides together exceed with the probability [`SIGNIFICANCE`].
+const SIGNIFICANT_DEVIATIONS: f64 = 2.576;
+/// Samples of the audit without which no risk passes.
+pub const LEAST_AUDITS: usize = 20;
 /// Samples needed for bands.
 pub const SAMPLES_FOR_BANDS: usize = 100;
 
@@ -28,6 +32,8 @@ pub struct Risk {
     pub breaks: FailureBounds,
     /// Times that the step was halved because finer runs contradicted the samples.
     pub halvings: u32,
+    /// Whether samples are audited: not where the user fixed the step.
+    is_audited: bool,
     planned: Option<Envelope>,
     limits: Limits,
 }
@@ -35,10 +41,11 @@ pub struct Risk {
 impl Risk {
     /// No sample yet of a shot that was judged as `planned`; the plan of `case` names the accepted risk.
     /// For `attempt` see [`Sampling`](super::sampling::Sampling).
-    pub fn new(case: &Case, planned: Option<Envelope>, attempt: usize) -> Self {
+    pub fn new(case: &Case, planned: Option<Envelope>, attempt: usize, is_audited: bool) -> Self {
         let accepted = case.plan.limits.accepted_risk_percent * 1e-2;
         let bounds = FailureBounds::new(accepted, attempt);
-        Self { samples: Vec::new(), bounds, breaks: bounds, halvings: 0, planned, limits: case.limits }
+        let limits = case.limits;
+        Self { samples: Vec::new(), bounds, breaks: bounds, halvings: 0, is_audited, planned, limits }
     }
 
     /// Takes the next sample; one of the audit counts as it is at the finer step.
@@ -49,9 +56,21 @@ impl Risk {
         self.samples.push(sample);
     }
 
-    /// The verdict of the samples; undecided where finer runs contradict them.
+    /// The verdict of the samples; undecided where finer runs contradict them, or where a pass has too few of these.
     pub fn verdict(&self) -> Verdict {
-        if self.is_contradicted() { Verdict::Undecided } else { self.bounds.verdict() }
+        match self.bounds_of_audited() {
+            Verdict::Undecided => Verdict::Undecided,
+            _ if self.is_contradicted() => Verdict::Undecided,
+            verdict => verdict,
+        }
+    }
+
+    /// The verdict of the bounds; no pass before [`LEAST_AUDITS`] samples are audited.
+    pub fn bounds_of_audited(&self) -> Verdict {
+        match self.bounds.verdict() {
+            Verdict::Pass if self.is_audited && self.audited().count() < LEAST_AUDITS => Verdict::Undecided,
+            verdict => verdict,
+        }
     }
 
     /// Whether finer runs contradict the samples: those of the audit beyond chance, or the shot as planned.
@@ -96,9 +115,9 @@ impl Risk {
         self.samples.iter().filter_map(|sample| Some((&sample.run, sample.finer.as_ref()?)))
     }
 
-    /// Whether values at the finer step lie to one side, by a sign test, and so far that the samples, moved by [`BIAS_ALLOWANCE`] times
-    /// the mean difference, lie on the other side of the accepted risk. Where little is unknown, all samples have the same error
-    /// of the step, and none of them may change its verdict.
+    /// Whether values at the finer step lie to one side, beyond chance, and so far that of the samples, moved by [`BIAS_ALLOWANCE`]
+    /// times the mean difference, a share fails that is outside the bounds or on the other side of the accepted risk. Where
+    /// little is unknown, all samples have the same error of the step, and none of them may change its verdict.
     fn is_biased(&self) -> bool {
         let moved = Quantity::ALL.map(|quantity| self.bias_factor(quantity));
         let fails = |sample: &&Sample| {
@@ -106,21 +125,22 @@ impl Risk {
             self.limits.utilization(value) > 1.0
         };
         let share = self.samples.iter().filter(fails).count() as f64 / self.samples.len().max(1) as f64;
-        match self.bounds.verdict() {
-            Verdict::Pass => share > self.bounds.accepted,
-            Verdict::Fail => moved != [1.0; 3] && share < self.bounds.accepted,
-            Verdict::Undecided => false,
-        }
+        let is_moved = moved != [1.0; 3];
+        let [low, high] = self.bounds.interval;
+        let is_outside = is_moved && !(low..=high).contains(&share);
+        is_outside
+            || match self.bounds.verdict() {
+                Verdict::Pass => share > self.bounds.accepted,
+                Verdict::Fail => is_moved && share < self.bounds.accepted,
+                Verdict::Undecided => false,
+            }
     }
 
     /// Factor by which a quantity is to be moved: 1, unless the finer values lie to one side beyond chance.
     fn bias_factor(&self, quantity: Quantity) -> f64 {
         let pairs = self.audited().map(|(coarse, fine)| fine.get(quantity) / coarse.get(quantity) - 1.0);
         let changes: Vec<f64> = pairs.filter(|change| change.is_finite()).collect();
-        let count =
-            |more: bool| changes.iter().filter(|&&change| change != 0.0 && (change > 0.0) == more).count();
-        let is_one_sided = sign_test_rejects(count(true), count(false));
-        if is_one_sided {
+        if lies_to_one_side(&changes) {
             1.0 + BIAS_ALLOWANCE * changes.iter().sum::<f64>() / changes.len() as f64
         } else {
             1.0
@@ -144,6 +164,17 @@ pub(super) fn percentiles<const N: usize>(
     sorted.sort_by(f64::total_cmp);
     let at = |share: f64| sorted[((share * sorted.len() as f64).ceil() as usize).max(1) - 1];
     (!sorted.is_empty()).then(|| shares.map(at))
+}
+
+/// Whether changes lie to one side beyond chance, by their signs and ranks (Wilcoxon 1945): ten of which nine are alike and
+/// large, and one is small, do.
+fn lies_to_one_side(changes: &[f64]) -> bool {
+    let mut changes: Vec<f64> = changes.iter().copied().filter(|&change| change != 0.0).collect();
+    changes.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let ranks = changes.iter().enumerate().map(|(n, change)| change.signum() * (n + 1) as f64);
+    let count = changes.len() as f64;
+    let deviation = (count * (count + 1.0) * (2.0 * count + 1.0) / 6.0).sqrt();
+    ranks.sum::<f64>().abs() > SIGNIFICANT_DEVIATIONS * deviation
 }
 
 /// Whether of samples that change, `more` to one side and `fewer` to the other, one side has more than by chance.
@@ -173,5 +204,16 @@ mod tests {
                 && sign_test_rejects(0, 8)
         );
         assert!(!sign_test_rejects(10, 1) && sign_test_rejects(11, 1));
+    }
+
+    /// With n of one sign the rank sum is n (n + 1)/2: 36 of 8 is 2.52 deviations of 14.28, 45 of 9 is 2.67 of 16.88.
+    #[test]
+    fn changes_lie_to_one_side_only_beyond_chance() {
+        let alike = |count: usize| (0..count).map(|n| 0.03 + 1e-4 * n as f64).collect::<Vec<_>>();
+        assert!(!lies_to_one_side(&[]) && !lies_to_one_side(&alike(8)) && lies_to_one_side(&alike(9)));
+        let with_one = |odd: f64| [alike(9), vec![odd]].concat();
+        assert!(lies_to_one_side(&with_one(-0.01)) && !lies_to_one_side(&with_one(-0.1)));
+        let both: Vec<f64> = (0..100).map(|n| if n % 2 == 0 { 0.01 } else { -0.01 }).collect();
+        assert!(!lies_to_one_side(&both));
     }
 }

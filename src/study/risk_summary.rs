@@ -26,7 +26,7 @@ pub struct RiskSummary {
 impl RiskSummary {
     /// What no sample tells.
     pub fn nothing(case: &Case) -> Self {
-        let bounds = Risk::new(case, None, 0).bounds;
+        let bounds = Risk::new(case, None, 0, true).bounds;
         let (verdict, utilization) = (Verdict::Undecided, f64::INFINITY);
         Self { bounds, verdict, is_contradicted: false, utilization }
     }

@@ -9,7 +9,7 @@ use super::batch::run_jobs;
 use super::influence::SAMPLES_FOR_SHARES;
 use super::random_shot::{Input, RandomShot, draw};
 use super::reason::closes;
-use super::risk::{Risk, SAMPLES_FOR_BANDS};
+use super::risk::{LEAST_AUDITS, Risk, SAMPLES_FOR_BANDS};
 use super::sample::{Sample, SampleRun};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard, guarded};
 use crate::choice::{Accuracy, Method};
@@ -50,7 +50,7 @@ impl Sampling {
     /// Numbers of the samples to draw next: none where there are enough, or as many as there may be.
     fn next_round(&self, risk: &Risk) -> Range<usize> {
         let from = risk.samples.len();
-        let is_open = risk.bounds.verdict() == Verdict::Undecided;
+        let is_open = risk.bounds_of_audited() == Verdict::Undecided;
         if from >= self.most || from >= self.least && !is_open {
             return from..from;
         }
@@ -95,12 +95,15 @@ impl ShotToSample<'_> {
     }
 
     fn no_samples(&self) -> Risk {
-        Risk::new(self.case, self.planned, self.sampling.attempt)
+        Risk::new(self.case, self.planned, self.sampling.attempt, self.compute.step.is_none())
     }
 }
 
-/// One sample in so many is audited: 5 %.
+/// One sample in so many is audited: 5 %, and more of the first ones.
 const AUDIT_EVERY: usize = 20;
+const AUDIT_EVERY_AT_FIRST: usize = 10;
+/// Number of samples of which more are audited: enough for [`LEAST_AUDITS`].
+const FIRST_SAMPLES: usize = AUDIT_EVERY_AT_FIRST * LEAST_AUDITS;
 /// Step of a sample over the step of its audit.
 const AUDIT_FINER: f64 = 4.0;
 
@@ -235,7 +238,8 @@ pub(super) fn run_sample(
     if compute.step.is_some() {
         return Ok(Sample { number, run: coarse, finer: None, inputs });
     }
-    let is_audited = number % AUDIT_EVERY == AUDIT_EVERY / 2;
+    let every = if number < FIRST_SAMPLES { AUDIT_EVERY_AT_FIRST } else { AUDIT_EVERY };
+    let is_audited = number % every == every / 2;
     let fine = if shows_nothing || is_audited { Some(run(step / AUDIT_FINER)?.0) } else { None };
     let best = fine.filter(|_| shows_nothing).unwrap_or(coarse);
     Ok(Sample { number, run: best, finer: fine.filter(|_| is_audited), inputs })
@@ -253,7 +257,7 @@ mod tests {
         let text = include_str!("../../plans/paper-5-tire.toml").to_owned();
         let source = PlanSource { path: String::new(), text };
         let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
-        let mut risk = Risk::new(&case, None, 0);
+        let mut risk = Risk::new(&case, None, 0, false);
         let (mut sizes, sampling) = (Vec::new(), Sampling::OF_VERDICT);
         loop {
             let round = sampling.next_round(&risk);

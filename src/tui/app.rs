@@ -305,7 +305,7 @@ impl App {
             News::Checked { option, result } => {
                 let state = result.map_or_else(OptionState::Failed, |checked| {
                     // An option without samples is undecided: nobody takes its verdict as planned for the verdict.
-                    let risk = Some(Risk::new(&self.case, None, 0));
+                    let risk = Some(Risk::new(&self.case, None, 0, true));
                     let judgement = Box::new(Judgement { risk, ..Judgement::nominal(*checked) });
                     OptionState::Done { judgement, sampling: true }
                 });

@@ -72,7 +72,7 @@ fn validates_a_tire_rests_where_friction_holds_it() {
 #[test]
 fn validates_a_slide_uphill() {
     let scene = on_slope(tires(&[(0.0, 0.0)], 280.0), 0.3, 180.0);
-    let shot = Shot::from_firings(vec![Firing { at: 0.0, tire: 0, launch: Vector3::x() * 4.0 }]);
+    let shot = Shot::from_firings(vec![Firing { at: 0.0, tire: 0, launch: Vector3::x() * 4.0, push: 0.0 }]);
     let way = 16.0 / (2.0 * (scene.downhill.norm() + 0.5 * scene.gravity));
     for method in METHODS {
         for h in [1e-2, 1e-3] {
@@ -122,7 +122,7 @@ fn a_bounce_rubs_with_its_whole_impulse() {
     let mut scene = tires(&[(0.0, 0.0)], 280.0);
     (scene.restitution, scene.friction) = (0.5, 0.1);
     let launch = Vector3::new(3.0, 0.0, 4.0);
-    let shot = Shot::from_firings(vec![Firing { at: 0.0, tire: 0, launch }]);
+    let shot = Shot::from_firings(vec![Firing { at: 0.0, tire: 0, launch, push: 0.0 }]);
     let flight = 2.0 * 4.0 / GRAVITY;
     let mut path = Vec::new();
     watch(&scene, &shot, settings(Method::Verlet, 1e-3, Some(1.1)), |motion| {
@@ -136,11 +136,81 @@ fn a_bounce_rubs_with_its_whole_impulse() {
 }
 
 #[test]
-fn newmark_refuses_restitution_by_name() {
+fn newmark_refuses_what_it_lacks_by_name() {
+    let refused = |effect| Err(Failure::Effect { effect, method: Method::Newmark });
     let mut scene = tires(&[(0.0, 0.0)], 280.0);
+    let pushed = try_run(&scene, &pushes(&[(0.0, 0.02)]), settings(Method::Newmark, 1e-3, None));
+    assert_eq!(pushed, refused("push"));
     scene.restitution = 0.3;
-    let refused = try_run(&scene, &fire(&[0], LAUNCH), settings(Method::Newmark, 1e-3, None));
-    assert_eq!(refused, Err(Failure::Effect { effect: "restitution", method: Method::Newmark }));
+    let rebounding = try_run(&scene, &fire(&[0], LAUNCH), settings(Method::Newmark, 1e-3, None));
+    assert_eq!(rebounding, refused("restitution"));
+}
+
+/// Pushes of a lone tire: the time of each firing and of its push [s].
+fn pushes(times: &[(f64, f64)]) -> Shot {
+    let push = |&(at, push): &(f64, f64)| Firing { push, ..Firing::up(at, 0, LAUNCH) };
+    Shot::from_firings(times.iter().map(push).collect())
+}
+
+/// Pushed over τ with V₀/τ > g, a lone tire rises V₀²/2g − V₀ τ/2, whatever part of a step the push begins and ends in. The
+/// push does the work m (V₀/τ) s over the way s = (V₀/τ − g) τ²/2, which the ledger holds exactly.
+#[test]
+fn validates_a_push_over_a_time() {
+    let scene = tires(&[(0.0, 0.0)], 280.0);
+    for push in [0.5e-3, 0.02, 0.0317, 0.1] {
+        for at in [0.0, 0.000_73] {
+            let height = LAUNCH * LAUNCH / (2.0 * GRAVITY) - 0.5 * LAUNCH * push;
+            let way = 0.5 * (LAUNCH / push - GRAVITY) * push * push;
+            for h in [4e-3, 1e-3] {
+                let out = run(&scene, &pushes(&[(at, push)]), settings(Method::Verlet, h, None));
+                close(out.height.value, height, 1e-9, &format!("{push} s at {h} s: height"));
+                close(out.ledger.put_in, 280.0 * LAUNCH / push * way, 1e-6, "work of the push");
+                assert!(out.ledger.residual() < 1e-9, "{:e}", out.ledger.residual());
+            }
+        }
+    }
+}
+
+/// Two pushes that overlap add up: from the start of the second the acceleration is twice V₀/τ − g, and so on.
+#[test]
+fn validates_pushes_that_overlap() {
+    let (push, later) = (0.05, 0.02);
+    let scene = tires(&[(0.0, 0.0)], 280.0);
+    let (mut speed, mut height) = (0.0, 0.0);
+    for (holes, time) in [(1.0, later), (2.0, push - later), (1.0, later)] {
+        let acceleration = holes * LAUNCH / push - GRAVITY;
+        height += speed * time + 0.5 * acceleration * time * time;
+        speed += acceleration * time;
+    }
+    height += speed * speed / (2.0 * GRAVITY);
+    let shot = pushes(&[(0.0, push), (later, push)]);
+    for h in [3.3e-3, 1e-3] {
+        let out = run(&scene, &shot, settings(Method::Verlet, h, None));
+        close(out.height.value, height, 1e-9, "height");
+        assert!(out.ledger.residual() < 1e-9, "{:e}", out.ledger.residual());
+    }
+}
+
+/// A push weaker than gravity lifts nothing. Sideways it slides a tire only against the friction that is left, and what it
+/// puts in is what friction takes.
+#[test]
+fn validates_a_push_along_the_ground() {
+    let (push, launch) = (0.5, Vector3::new(4.0, 0.0, 2.0));
+    let shot = Shot::from_firings(vec![Firing { at: 0.0, tire: 0, launch, push }]);
+    let out = run(&tires(&[(0.0, 0.0)], 280.0), &shot, settings(Method::Verlet, 1e-3, None));
+    let force = launch / push;
+    let acceleration = force.x - 0.5 * (GRAVITY - force.z);
+    let speed = acceleration * push;
+    let way = 0.5 * speed * push + speed * speed / (2.0 * 0.5 * GRAVITY);
+    assert_eq!(out.height.value, 0.0);
+    close(out.drift.value, way, 1e-5, "way");
+    close(
+        out.ledger.dissipated,
+        out.ledger.put_in,
+        2e-3 * out.ledger.put_in,
+        "friction takes what is put in",
+    );
+    assert!(out.ledger.residual() < 2e-3, "{:e}", out.ledger.residual());
 }
 
 /// A slope across a mirror plane takes the plane away; along it, half a shelter moves like the whole.
@@ -220,6 +290,8 @@ fn effects_are_those_of_an_independent_prototype() {
             1.6488,
             112.07,
         ),
+        ("push over 10 ms", three_rows("", "", "", "push_ms = 10"), 1.7165, 63.31),
+        ("push over 30 ms", three_rows("", "", "", "push_ms = 30"), 1.6625, 62.03),
         ("restitution 0.3", three_rows("", ", restitution = 0.3", "", ""), 1.7435, 63.95),
         ("restitution 0.6", three_rows("", ", restitution = 0.6", "", ""), 1.7435, 63.95),
     ];

@@ -11,7 +11,7 @@ use shelter::simulation::Model;
 use super::scenes::{METHODS, fire, grid, quincunx, run, settings, watch};
 
 /// A random grid with random friction, slack, launches and firing times; half of them on level ground without rebound, the
-/// others on a slope on which friction holds, or with landings that rebound, or both.
+/// others on a slope on which friction holds, or with landings that rebound, or both. Some holes push over a time.
 fn shelter() -> impl Strategy<Value = (Scene, Shot)> {
     let size = (1..4_usize, 2..5_usize);
     let effects = prop_oneof![
@@ -23,8 +23,9 @@ fn shelter() -> impl Strategy<Value = (Scene, Shot)> {
     (size, 0.5..4.0, 5.0..7.0, 0.0..0.9, 1.0..1.06, effects).prop_flat_map(
         |((rows, columns), spacing, ea, mu, slack, (held, toward, restitution))| {
             let tires = rows * columns;
-            let firing =
-                (0..tires, 0.0..0.3, 0.5..8.0).prop_map(|(tire, at, launch)| Firing::up(at, tire, launch));
+            let push = prop_oneof![3 => Just(0.0), 1 => 1e-3..0.05];
+            let firing = (0..tires, 0.0..0.3, 0.5..8.0, push)
+                .prop_map(|(tire, at, launch, push)| Firing { push, ..Firing::up(at, tire, launch) });
             proptest::collection::vec(firing, 1..4).prop_map(move |firings| {
                 let mut scene = grid(rows, columns, spacing, 10_f64.powf(ea));
                 (scene.friction, scene.restitution) = (mu, restitution);
@@ -39,9 +40,10 @@ fn shelter() -> impl Strategy<Value = (Scene, Shot)> {
     )
 }
 
-/// The methods that have the effects of a scene.
-fn methods(scene: &Scene) -> &'static [Method] {
-    if scene.restitution > 0.0 { &METHODS[..1] } else { &METHODS }
+/// The methods that have the effects of a scene and a shot.
+fn methods(scene: &Scene, shot: &Shot) -> &'static [Method] {
+    let pushes = shot.firings.iter().any(|firing| firing.push > 0.0);
+    if scene.restitution > 0.0 || pushes { &METHODS[..1] } else { &METHODS }
 }
 
 /// A twentieth of the critical step, 1 ms at most [s].
@@ -79,7 +81,7 @@ fn scaled(scene: &Scene, shot: &Shot, scale: f64) -> (Scene, Shot) {
         cable.rest_length *= scale;
         cable.stiffness /= scale;
     }
-    let firing = |f: &Firing| Firing { at: root * f.at, launch: root * f.launch, ..*f };
+    let firing = |f: &Firing| Firing { at: root * f.at, launch: root * f.launch, push: root * f.push, ..*f };
     (large, Shot::from_firings(shot.firings.iter().map(firing).collect()))
 }
 
@@ -96,7 +98,7 @@ proptest! {
     /// energy comes from anywhere: what the ledger calls dissipated only grows, and never exceeds what was put in.
     #[test]
     fn the_ledger_closes_and_energy_never_grows_by_itself((scene, shot) in shelter()) {
-        for &method in methods(&scene) {
+        for &method in methods(&scene, &shot) {
             let short = run(&scene, &shot, settings(method, step(&scene), Some(0.7)));
             let long = run(&scene, &shot, settings(method, step(&scene), Some(1.5)));
             prop_assert!(long.ledger.residual() < 2e-2, "{:?} {:e}", method, long.ledger.residual());
@@ -115,7 +117,7 @@ proptest! {
     fn contact_holds_at_every_step_and_nothing_moves_beforehand((scene, shot) in shelter(), later in 0.01..2.0_f64) {
         let shot = delayed(&shot, later);
         let first = shot.firings[0].at;
-        for &method in methods(&scene) {
+        for &method in methods(&scene, &shot) {
             let (mut lowest, mut outside_cone, mut early, mut finite) = (0.0_f64, 0.0_f64, 0.0_f64, true);
             let out = watch(&scene, &shot, settings(method, step(&scene), Some(later + 1.0)), |motion| {
                 for tire in 0..scene.mass.len() {
@@ -218,7 +220,7 @@ proptest! {
                 Shot { friction: Some(0.1 * n as f64), ..Shot::from_firings(shot.firings.iter().map(later).collect()) }
             })
             .collect();
-        for &method in methods(&scene) {
+        for &method in methods(&scene, &shot) {
             let settings = settings(method, step(&scene), Some(0.6));
             let model = Model::new(scene.clone());
             let go = |shot: &Shot| model.run(shot, &settings, &mut |_| ControlFlow::Continue(()));
@@ -258,7 +260,7 @@ proptest! {
         let mut halves = scene.clone();
         halves.cables.iter_mut().for_each(|cable| cable.stiffness *= 0.5);
         halves.cables.extend(halves.cables.clone());
-        for &method in methods(&scene) {
+        for &method in methods(&scene, &shot) {
             let settings = settings(method, step(&scene), Some(0.4));
             let (a, b) = (run(&scene, &shot, settings), run(&halves, &shot, settings));
             prop_assert!((a.height.value - b.height.value).abs() < 1e-7 * (1e-3 + a.height.value), "{:?}", method);

@@ -238,6 +238,38 @@ fn samples_that_share_one_error_pass_nothing() {
     }
 }
 
+/// The same where 10 % are accepted, so that few samples seem to do: 17 to 19 % fail, by 600 samples at 50 µs. With ten audits
+/// of 200 samples and a test of their signs alone 7 of 20 seeds passed it.
+#[test]
+fn few_samples_that_share_one_error_pass_nothing() {
+    let text = BIASED
+        .replace("mass_kg=50.0", "mass_kg=48.676")
+        .replace(
+            "axial_stiffness_kn=6371.038785020701\nbreaking_force_kn=1.8164",
+            "rope=\"GOST 2688-80 12 1960\"",
+        )
+        .replace("cable_safety_factor=1\n", "cable_safety_factor=46.6\naccepted_risk_percent=10\n");
+    let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+    let passed = (1..=20).filter(|&seed| {
+        let at_once = Sampling { seed, least: 0, ..Sampling::OF_VERDICT };
+        risk_of(&case, &at_once).verdict() == Verdict::Pass
+    });
+    assert_eq!(passed.collect::<Vec<u64>>(), [0; 0]);
+}
+
+/// Bounds that the audit shows to be wrong are not kept because they leave the verdict open: at this strength 8 % fail, by
+/// 10,000 samples at 20 µs, where samples at their own step say 0.2 to 1.3 %.
+#[test]
+fn open_bounds_that_share_one_error_are_looked_through() {
+    let text = BIASED.replace("breaking_force_kn=1.8164", "breaking_force_kn=1.8240");
+    let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+    for seed in 1..=6 {
+        let risk = risk_of(&case, &Sampling { seed, ..Sampling::OF_VERDICT });
+        let [low, high] = risk.bounds.interval;
+        assert!((low..=high).contains(&0.083) || risk.is_contradicted(), "{seed}: {low} to {high}");
+    }
+}
+
 /// Shards are drawn at the usual step; where the audit contradicts them, all of them together are sampled anew, as on one
 /// machine.
 #[test]

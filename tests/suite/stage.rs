@@ -72,7 +72,7 @@ pub fn checked(verdict: Verdict) -> Checked {
 
 /// Round samples, of which none fails or one in ten.
 pub fn samples(case: &Case, count: usize, some_fail: bool) -> Risk {
-    let mut risk = Risk::new(case, None, 0);
+    let mut risk = Risk::new(case, None, 0, false);
     for number in 0..count {
         let part = number as f64 / count as f64;
         let fails = some_fail && number % 10 == 3;
@@ -230,7 +230,7 @@ pub fn spreads(app: &App) -> [(StudyKind, StudyResult); 3] {
     let judged = app.options.iter().enumerate().map(|(n, _)| Ok(judgement(&app.case, n)));
     let combinations = catalogue().ropes.iter().take(8).enumerate().map(|(n, rope)| {
         let share = 1.5 - 0.1 * n as f64;
-        let risk = Some(SampledRisk { verdict: Verdict::Pass, samples: 3045, failures: 2 });
+        let risk = Some(SampledRisk { verdict: Verdict::Pass, samples: 3045, failures: 2, most: 0.004 });
         let holds = share < 1.0;
         let worst = envelope(share);
         let trial = Trial { holds, worst, utilization: share, shots: 7, risk, is_choice: holds };

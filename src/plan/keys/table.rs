@@ -145,11 +145,13 @@ sections! {
         TILT_TOWARD_DEG = key("tilt_toward_deg", number("°", -360.0..=360.0), "90",
             "direction of the tilt, from +x toward +y").default(0.0).edit("tilt toward, deg")
             .offered_beside(TILT_DEG.name);
+        PUSH_MS = key("push_ms", number("ms", 0.0..=200.0), "20", "time over which the launch acts, as a constant force")
+            .default(0.0).edit("push, ms");
         UNDER_ROW = key("under_row", Kind::ShelterRow(0.0..=1e7), "2", "launches every tire of this shelter row")
             .edit("under row");
         UNDER_TIRES = key("under_tires", Kind::List(&TIRE_NUMBER), "[3, 4]", "launches these tires of a list");
         HOLES = key("holes", Kind::Sections(&hole::SECTION), "[{ x_m = 1.5, y_m = 4.5, launch_m_s = 6.0 }]",
-            "one by one; each hole has its own launch_m_s or free_flight_height_m, and tilt_deg with tilt_toward_deg");
+            "one by one; each hole has its own launch_m_s or free_flight_height_m, tilt_deg with tilt_toward_deg, and push_ms");
     }
 
     hole "a hole" "one hole; it launches the nearest tire" {
@@ -159,6 +161,7 @@ sections! {
         FREE_FLIGHT_HEIGHT_M = blast_row::FREE_FLIGHT_HEIGHT_M;
         TILT_DEG = blast_row::TILT_DEG;
         TILT_TOWARD_DEG = blast_row::TILT_TOWARD_DEG;
+        PUSH_MS = blast_row::PUSH_MS;
     }
 
     limits "[limits]" "what an option must keep to pass" {

@@ -53,7 +53,7 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
     if let (Some(layout), Some(tire)) = (&layout, &tire) {
         check_gaps(layout, tire, root, mistakes);
     }
-    let blast_rows = read_blast_rows(root, layout.as_ref(), simulation.gravity_m_s2, mistakes);
+    let blast_rows = read_blast_rows(root, layout.as_ref(), &simulation, mistakes);
     let limits = root.section(&LIMITS).map(read_limits);
     let delays = read_delays(root, &blast_rows, mistakes);
     let uncertainty = read_uncertainty(

@@ -2,14 +2,15 @@
 
 use std::collections::{HashMap, HashSet};
 
+use crate::choice::Method;
 use crate::plan::keys::{blast_row, delay, hole, plan};
 use crate::plan::read::{Mistakes, SectionReader, nearest};
-use crate::plan::{BlastRow, DelayOption, Hole, Launch, LaunchTargets, Layout, Timing};
+use crate::plan::{BlastRow, DelayOption, Hole, Launch, LaunchTargets, Layout, SimulationSpec, Timing};
 
 pub fn read_blast_rows(
     root: &SectionReader<'_>,
     layout: Option<&Layout>,
-    gravity: f64,
+    simulation: &SimulationSpec,
     mistakes: &Mistakes,
 ) -> Vec<BlastRow> {
     let mut rows: Vec<BlastRow> = Vec::new();
@@ -19,7 +20,7 @@ pub fn read_blast_rows(
             let message = format!("two blast rows are named \"{}\"", name.value);
             mistakes.add(name.span.clone(), message, "give each its own name");
         }
-        let targets = read_targets(&section, layout, gravity, mistakes);
+        let targets = read_targets(&section, layout, simulation, mistakes);
         rows.push(BlastRow { name: name.value.to_owned(), targets });
         section.finish();
     }
@@ -29,7 +30,7 @@ pub fn read_blast_rows(
 fn read_targets(
     section: &SectionReader<'_>,
     layout: Option<&Layout>,
-    gravity: f64,
+    simulation: &SimulationSpec,
     mistakes: &Mistakes,
 ) -> LaunchTargets {
     let given =
@@ -49,15 +50,16 @@ fn read_targets(
             &blast_row::FREE_FLIGHT_HEIGHT_M,
             &blast_row::TILT_DEG,
             &blast_row::TILT_TOWARD_DEG,
+            &blast_row::PUSH_MS,
         ] {
             if section.has(key) {
                 let message = format!("`{}` stands beside `holes`", key.name);
                 section.wrong(key, message, "write it in each hole of `holes`, behind its x_m and y_m");
             }
         }
-        return LaunchTargets::Holes(read_holes(section, layout, gravity));
+        return LaunchTargets::Holes(read_holes(section, layout, simulation));
     }
-    let launch = read_launch(section, gravity);
+    let launch = read_launch(section, simulation);
     if let Some(tires) = section.wholes(&blast_row::UNDER_TIRES) {
         let count = match layout {
             Some(Layout::List { tires, .. }) => tires.len(),
@@ -94,18 +96,22 @@ fn read_targets(
     LaunchTargets::UnderRow { row, launch }
 }
 
-fn read_holes(section: &SectionReader<'_>, layout: Option<&Layout>, gravity: f64) -> Vec<Hole> {
+fn read_holes(
+    section: &SectionReader<'_>,
+    layout: Option<&Layout>,
+    simulation: &SimulationSpec,
+) -> Vec<Hole> {
     let holes = section.sections(&blast_row::HOLES);
     if holes.is_empty() {
         section.wrong(&blast_row::HOLES, "a blast row without a hole", "list its holes, or remove the row");
     }
-    holes.into_iter().map(|hole| read_hole(hole, layout, gravity)).collect()
+    holes.into_iter().map(|hole| read_hole(hole, layout, simulation)).collect()
 }
 
-fn read_hole(section: SectionReader<'_>, layout: Option<&Layout>, gravity: f64) -> Hole {
+fn read_hole(section: SectionReader<'_>, layout: Option<&Layout>, simulation: &SimulationSpec) -> Hole {
     let x_m = section.number(&hole::X_M);
     let y_m = section.number(&hole::Y_M);
-    let launch = read_launch(&section, gravity);
+    let launch = read_launch(&section, simulation);
     if let Some([away, most]) =
         layout.map(|layout| layout.beside(x_m, y_m)).filter(|[away, most]| away > most)
     {
@@ -139,20 +145,26 @@ fn check_row(section: &SectionReader<'_>, layout: Option<&Layout>, row: f64) {
     }
 }
 
-fn read_launch(section: &SectionReader<'_>, gravity: f64) -> Launch {
+fn read_launch(section: &SectionReader<'_>, simulation: &SimulationSpec) -> Launch {
     if section.has(&blast_row::TILT_TOWARD_DEG) && !section.has(&blast_row::TILT_DEG) {
         let message = "`tilt_toward_deg` stands without `tilt_deg`";
         section.wrong(&blast_row::TILT_TOWARD_DEG, message, "add tilt_deg, or remove it");
     }
+    let push_ms = section.number(&blast_row::PUSH_MS);
+    if push_ms > 0.0 && simulation.method == Method::Newmark {
+        let message = "newmark has no push over a time";
+        section.wrong(&blast_row::PUSH_MS, message, "leave it out, or choose method \"verlet\"");
+    }
     Launch {
-        speed_m_s: read_speed(section, gravity),
+        speed_m_s: read_speed(section, simulation),
         tilt_deg: section.number(&blast_row::TILT_DEG),
         tilt_toward_deg: section.number(&blast_row::TILT_TOWARD_DEG),
+        push_ms,
     }
 }
 
 /// Launch speed [m/s].
-fn read_speed(section: &SectionReader<'_>, gravity: f64) -> f64 {
+fn read_speed(section: &SectionReader<'_>, simulation: &SimulationSpec) -> f64 {
     match (section.has(&blast_row::LAUNCH_M_S), section.has(&blast_row::FREE_FLIGHT_HEIGHT_M)) {
         (true, true) => {
             section.wrong(
@@ -164,11 +176,11 @@ fn read_speed(section: &SectionReader<'_>, gravity: f64) -> f64 {
         }
         (false, true) => {
             let height = section.number(&blast_row::FREE_FLIGHT_HEIGHT_M);
-            if gravity == 0.0 {
+            if simulation.gravity_m_s2 == 0.0 {
                 let message = "without gravity no launch velocity follows from a height";
                 section.wrong(&blast_row::FREE_FLIGHT_HEIGHT_M, message, "give launch_m_s instead");
             }
-            (2.0 * gravity * height).sqrt()
+            (2.0 * simulation.gravity_m_s2 * height).sqrt()
         }
         _ => section.number(&blast_row::LAUNCH_M_S),
     }

@@ -118,12 +118,15 @@ fn launched(targets: &LaunchTargets) -> String {
 }
 
 fn speed(launch: &Launch) -> String {
-    let Launch { speed_m_s, tilt_deg, tilt_toward_deg } = *launch;
-    if tilt_deg == 0.0 {
-        format!("{speed_m_s} m/s")
-    } else {
-        format!("{speed_m_s} m/s, tilted by {tilt_deg}° toward {tilt_toward_deg}° from +x")
+    let Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms } = *launch;
+    let mut text = format!("{speed_m_s} m/s");
+    if tilt_deg > 0.0 {
+        text += &format!(", tilted by {tilt_deg}° toward {tilt_toward_deg}° from +x");
     }
+    if push_ms > 0.0 {
+        text += &format!(", pushed over {push_ms} ms");
+    }
+    text
 }
 
 /// A path as a shell takes it; one of standard input by a word in its place.

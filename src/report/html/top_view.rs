@@ -35,7 +35,7 @@ pub fn svg(case: &Case, option: Option<usize>) -> String {
 fn names(case: &Case) -> Vec<(usize, String)> {
     let row = |row: &BlastRow| {
         let mut name = row.name.clone();
-        let tires = case.scene().targets(&row.targets).into_iter().map(|(tire, _)| tire);
+        let tires = case.scene().firings(&row.targets).into_iter().map(|firing| firing.tire);
         tires.map(|tire| (tire, std::mem::take(&mut name))).collect::<Vec<_>>()
     };
     case.plan.blast_rows.iter().flat_map(row).collect()

@@ -59,10 +59,9 @@ impl CombinationResult {
             total_mass_kg: *total_mass,
             use_of_limits: trial.ok().map(|trial| trial.utilization),
             worst: trial.ok().map(|trial| Values::of(&trial.worst)),
-            risk: trial
-                .ok()
-                .and_then(|trial| trial.risk)
-                .map(|SampledRisk { verdict, samples, failures }| RiskResult { verdict, samples, failures }),
+            risk: trial.ok().and_then(|trial| trial.risk).map(
+                |SampledRisk { verdict, samples, failures, .. }| RiskResult { verdict, samples, failures },
+            ),
         }
     }
 }

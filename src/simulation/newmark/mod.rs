@@ -59,6 +59,9 @@ impl NewmarkCache {
         if scene.restitution > 0.0 {
             return Err(Failure::Effect { effect: "restitution", method: Method::Newmark });
         }
+        if shot.firings.iter().any(|firing| firing.push > 0.0) {
+            return Err(Failure::Effect { effect: "push", method: Method::Newmark });
+        }
         let ties = self.ties.get_or_init(|| Ties::of_cables(&scene.cables, scene.mass.len()));
         Stepper::new(scene, ties, shot, settings).run(watch)
     }

@@ -85,6 +85,8 @@ pub struct SampledRisk {
     pub samples: usize,
     /// Number of those that failed.
     pub failures: usize,
+    /// Upper bound of the failure probability.
+    pub most: f64,
 }
 
 impl SampledRisk {

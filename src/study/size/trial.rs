@@ -125,10 +125,10 @@ impl<'q> Candidate<'q> {
         let Found { value: risks, partial } =
             find_risks_watched(&targets, self.question.progress, until_one_fails)?;
         let worst = risks.iter().map(|risk| {
-            let FailureBounds { samples, failures, .. } = risk.bounds;
-            SampledRisk { verdict: risk.verdict(), samples, failures }
+            let FailureBounds { samples, failures, interval: [_, most], .. } = risk.bounds;
+            SampledRisk { verdict: risk.verdict(), samples, failures, most }
         });
-        let nothing = SampledRisk { verdict: Verdict::Pass, samples: 0, failures: 0 };
+        let nothing = SampledRisk { verdict: Verdict::Pass, samples: 0, failures: 0, most: 1.0 };
         let worst = worst.max_by(SampledRisk::compare).unwrap_or(nothing);
         Ok((!partial).then_some(worst))
     }

@@ -34,6 +34,7 @@ impl Stepper<'_> {
             record: &mut self.record,
             totals,
             integrated: &mut self.integrated,
+            pushes: &mut self.pushes,
         };
         let Self { part, wake, tension, u, v, due, .. } = self;
         let (u, v, forces) = (u.slices_mut(), v.slices_mut(), tension.forces());

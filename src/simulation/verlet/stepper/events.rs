@@ -5,7 +5,8 @@ use std::ops::Range;
 use nalgebra::Vector3;
 use pulp::{Scalar, Simd};
 
-use super::{DueFiring, Part, StepTotals};
+use super::impulses::{DueImpulse, Pushes};
+use super::{Part, StepTotals};
 use crate::outcome::Peak;
 use crate::scene::Scene;
 use crate::simulation::contact::TireStep;
@@ -69,6 +70,8 @@ pub struct Events<'e> {
     pub totals: &'e mut StepTotals,
     /// Tires of the present register that were integrated by themselves.
     pub integrated: &'e mut Vec<Integrated>,
+    /// Pushes that began in an earlier step or go on after this one.
+    pub pushes: &'e mut Pushes,
 }
 
 impl Events<'_> {
@@ -92,8 +95,8 @@ impl Events<'_> {
     /// Notes new greatest heights in the register of `tires`, and integrates each tire that lands or is fired at by itself.
     /// Returns whether any tire was integrated.
     ///
-    /// `ahead` is the height of each tire at the end of the step [m]; a tire with a negative height lands. `firings` are those
-    /// of this register. Kick and forces of these few tires are computed a second time: to keep the values of the registers
+    /// `ahead` is the height of each tire at the end of the step [m]; a tire with a negative height lands. `due` are the
+    /// impulses on this register. Kick and forces of these few tires are computed a second time: to keep the values of the registers
     /// would cost memory accesses at every step.
     #[cold]
     #[inline(never)]
@@ -102,11 +105,11 @@ impl Events<'_> {
         state: State<'_>,
         tires: Range<usize>,
         ahead: Pack,
-        mut firings: &[DueFiring],
+        mut due: &[DueImpulse],
     ) -> bool {
         for (tire, ahead) in tires.zip(ahead) {
-            let (here, later) = firings.split_at(firings.partition_point(|due| due.tire <= tire));
-            firings = later;
+            let (here, later) = due.split_at(due.partition_point(|due| due.tire <= tire));
+            due = later;
             let has_event = ahead < 0.0 || !here.is_empty();
             let is_image = self.part.inverse[tire] == 0.0;
             if is_image || !has_event && state.u[2][tire] <= self.record.height.value {
@@ -117,42 +120,61 @@ impl Events<'_> {
             let number = |wide: Wide<Scalar>| wide.pack()[0];
             let vector = |of: [Wide<Scalar>; 3]| Vector3::from(of.map(number));
             let (displacement, inverse) = (vector(alone.u), number(alone.inverse));
-            let velocity = 0.5 * (vector(alone.v) + vector(kicked.v));
+            let unpushed = 0.5 * (vector(alone.v) + vector(kicked.v));
+            let pushed_on_ground = self.pushes.velocity_on_ground(tire);
+            let velocity = pushed_on_ground.unwrap_or(unpushed);
             let free = vector(alone.f) * inverse + self.scene.gravity();
             if displacement.z > self.record.height.value {
                 let index = self.part.reduction.tire(tire);
                 let sample = Peak { value: displacement.z, at: self.now, index };
-                self.record.note_height(sample, velocity.z, free.z);
+                let pushed: f64 =
+                    here.iter().filter(|due| due.impulse.after <= 0.0).map(|due| due.impulse.push.z).sum();
+                self.record.note_height(sample, velocity.z, free.z + pushed);
             }
             if has_event {
+                let missing = velocity.norm_squared() - unpushed.norm_squared();
+                self.totals.energy[0] += 0.5 * self.part.mass[tire] * missing;
+                // Half of what the kick dissipates lies before this step, where a push has not counted it already.
+                let undone = if pushed_on_ground.is_some() { 1.0 } else { 0.5 } * number(kicked.dissipated);
                 let step = TireStep::new(displacement, velocity, free, self.friction, self.scene.restitution);
-                self.integrate(step, free, tire, here, number(kicked.dissipated));
+                self.integrate(step, free, tire, here, undone);
             }
         }
         !self.integrated.is_empty()
     }
 
-    /// Integrates one tire through the step; `kick_dissipated` [J] is the energy that its kick has dissipated already.
+    /// Integrates one tire through the step; `undone` [J] is what its kick counts as dissipated within
+    /// the step.
     fn integrate(
         &mut self,
         mut motion: TireStep,
         free: Vector3<f64>,
         tire: usize,
-        firings: &[DueFiring],
-        kick_dissipated: f64,
+        due: &[DueImpulse],
+        undone: f64,
     ) {
         let h = self.step;
-        let last = motion.integrate(h, firings.iter().map(|due| (due.after, due.launch)));
-        let velocity = motion.velocity - last * (0.5 * h);
+        let last = motion.integrate(h, due.iter().map(|due| due.impulse));
+        let goes_on = self.pushes.go_on(tire);
+        let in_air = motion.displacement.z > 0.0 || motion.velocity.z > 0.0;
+        let unpushed = if goes_on && in_air { last - motion.push } else { last };
+        let velocity = motion.velocity - unpushed * (0.5 * h);
         let (height, until) = motion.top;
         let index = self.part.reduction.tire(tire);
         self.record.note_top(Peak { value: height, at: self.now + until, index });
         self.totals.height[0] = self.totals.height[0].max(height);
         self.totals.motion[0] = self.totals.motion[0].max(velocity.amax()).max(motion.displacement.z);
         // Friction of the whole step is counted here. The kicks before and after count half a step each, and are taken off.
-        let next_half = 0.5 * h * (free - last).xy().dot(&motion.velocity.xy());
+        let next_half = if goes_on {
+            if !in_air {
+                self.pushes.keep(tire, motion.velocity);
+            }
+            0.0
+        } else {
+            0.5 * h * (free - last).xy().dot(&motion.velocity.xy())
+        };
         let mass = self.part.mass[tire];
-        self.totals.lost += mass * (motion.lost - next_half) - 0.5 * kick_dissipated;
+        self.totals.lost += mass * (motion.lost - next_half) - undone;
         self.totals.put_in += mass * motion.put_in;
         self.integrated.push(Integrated { tire, displacement: motion.displacement, velocity });
     }

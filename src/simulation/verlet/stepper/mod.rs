@@ -3,12 +3,14 @@
 mod advance;
 mod events;
 mod forces;
+mod impulses;
 
 use nalgebra::{Vector2, Vector3};
 
 use self::advance::MoveTires;
 use self::events::Integrated;
 use self::forces::EvaluateCables;
+use self::impulses::{DueImpulse, Pushes};
 use super::Part;
 use crate::outcome::{EndReason, Outcome};
 use crate::scene::{Firing, Scene, Shot};
@@ -19,17 +21,6 @@ use crate::simulation::record::Record;
 use crate::simulation::verlet::tension::Tension;
 use crate::simulation::wake::Wake;
 use crate::simulation::{Failure, Motion, Settings, Watcher};
-
-/// A hole that fires within the present step.
-#[derive(Clone, Copy, Debug)]
-struct DueFiring {
-    /// Index of the tire in the part.
-    tire: usize,
-    /// Time since the start of the step [s].
-    after: f64,
-    /// Launch velocity [m/s].
-    launch: Vector3<f64>,
-}
 
 /// Cable in which the greatest force was sampled.
 #[derive(Clone, Copy, Debug)]
@@ -79,8 +70,9 @@ pub(super) struct Stepper<'a> {
     record: Record,
     /// Cable of the greatest force, if that force was sampled one step ago.
     sampled: Option<PeakCable>,
-    /// Firings of the present step, in order of tires.
-    due: Vec<DueFiring>,
+    /// Impulses of the present step, in order of tires, then of time.
+    due: Vec<DueImpulse>,
+    pushes: Pushes,
     /// Tires of the present register that were integrated by themselves.
     integrated: Vec<Integrated>,
     wake: Wake<'a>,
@@ -127,7 +119,8 @@ impl<'a> Stepper<'a> {
             moving: slides,
             record: Record::new(settings.step),
             sampled: None,
-            due: Vec::with_capacity(firings.len()),
+            due: Vec::with_capacity(2 * firings.len()),
+            pushes: Pushes::with_capacity(firings.len()),
             firings,
             integrated: Vec::with_capacity(LANES),
             wake,
@@ -147,7 +140,7 @@ impl<'a> Stepper<'a> {
             if let Some(reason) = self.clock.end_reason(self.moving, &self.firings) {
                 return Ok(self.finish(reason));
             }
-            self.collect_due_firings();
+            self.collect_due_impulses();
             self.copy_images();
             if self.wake.refresh() {
                 self.move_stored_energy();
@@ -163,24 +156,6 @@ impl<'a> Stepper<'a> {
             }
             self.end_step(&totals)?;
         }
-    }
-
-    /// Collects the holes that fire before the step ends, and wakes their tires.
-    fn collect_due_firings(&mut self) {
-        self.due.clear();
-        let start = self.clock.since_base();
-        let end = start + self.step;
-        while let Some(firing) = self.firings.get(self.clock.fired) {
-            let at = firing.at - self.clock.base;
-            if at >= end {
-                break;
-            }
-            let after = (at - start).clamp(0.0, self.step);
-            self.due.push(DueFiring { tire: firing.tire, after, launch: firing.launch });
-            self.wake.set_moving(firing.tire / LANES, true);
-            self.clock.fired += 1;
-        }
-        self.due.sort_by_key(|due| due.tire);
     }
 
     /// Adds the energy of blocks that fell asleep to the energy asleep, and takes off the energy of blocks that woke.

@@ -1,0 +1,118 @@
+//! What holes do within a step: launches at once, and pushes that go on over many steps.
+//!
+//! A tire under a push is integrated by itself in every step of the push. Its velocity at mid-step holds what the push has
+//! added until the step ends, so that the kick of a whole register, which knows nothing of pushes, gives the velocity at the
+//! start of the next step. On the ground that kick has another friction than the tire: its velocity is kept beside it.
+
+use nalgebra::Vector3;
+
+use super::Stepper;
+use crate::simulation::contact::Impulse;
+use crate::simulation::pack::LANES;
+
+/// Impulse on a tire within the present step.
+#[derive(Clone, Copy, Debug)]
+pub struct DueImpulse {
+    /// Index of the tire in the part.
+    pub tire: usize,
+    /// When and how.
+    pub impulse: Impulse,
+}
+
+/// Pushes that go on after the present step.
+#[derive(Clone, Debug)]
+pub struct Pushes {
+    active: Vec<Push>,
+    /// Tires on the ground that were under a push as the present step began.
+    began: Vec<PushedTire>,
+    /// The same for the next step.
+    next: Vec<PushedTire>,
+}
+
+/// A push that goes on after the present step.
+#[derive(Clone, Copy, Debug)]
+struct Push {
+    tire: usize,
+    /// [m/s²].
+    acceleration: Vector3<f64>,
+    /// Its end [s].
+    until: f64,
+}
+
+/// A tire on the ground that is under a push as a step begins.
+#[derive(Clone, Copy, Debug)]
+struct PushedTire {
+    tire: usize,
+    /// Velocity as the step begins [m/s].
+    velocity: Vector3<f64>,
+}
+
+impl Pushes {
+    /// Room for as many pushes at once.
+    pub fn with_capacity(count: usize) -> Self {
+        let [began, next] = [Vec::with_capacity(count), Vec::with_capacity(count)];
+        Self { active: Vec::with_capacity(count), began, next }
+    }
+
+    /// Velocity of a tire on the ground that was under a push as the step began [m/s].
+    pub fn velocity_on_ground(&self, tire: usize) -> Option<Vector3<f64>> {
+        self.began.iter().find(|pushed| pushed.tire == tire).map(|pushed| pushed.velocity)
+    }
+
+    /// Whether a push on a tire goes on after the present step.
+    pub fn go_on(&self, tire: usize) -> bool {
+        self.active.iter().any(|push| push.tire == tire)
+    }
+
+    /// Keeps the velocity of a tire on the ground, under a push, at the end of the present step [m/s].
+    pub fn keep(&mut self, tire: usize, velocity: Vector3<f64>) {
+        self.next.push(PushedTire { tire, velocity });
+    }
+}
+
+impl Stepper<'_> {
+    /// Collects the impulses of the present step, and wakes their tires.
+    pub(super) fn collect_due_impulses(&mut self) {
+        let Self { clock, step, firings, due, pushes, wake, .. } = self;
+        due.clear();
+        let start = clock.since_base();
+        let end = start + *step;
+        let after = |at: f64| (at - start).clamp(0.0, *step);
+        let pushed = |tire, after, push| {
+            let impulse = Impulse { after, push, ..Impulse::default() };
+            DueImpulse { tire, impulse }
+        };
+        std::mem::swap(&mut pushes.began, &mut pushes.next);
+        pushes.next.clear();
+        pushes.active.retain(|&Push { tire, acceleration, until }| {
+            due.push(pushed(tire, 0.0, acceleration));
+            let until = until - clock.base;
+            let ends = until < end;
+            if ends {
+                due.push(pushed(tire, after(until), -acceleration));
+            }
+            !ends
+        });
+        while let Some(firing) = firings.get(clock.fired) {
+            let (tire, at) = (firing.tire, firing.at - clock.base);
+            if at >= end {
+                break;
+            }
+            clock.fired += 1;
+            if firing.push <= 0.0 {
+                let impulse = Impulse { after: after(at), launch: firing.launch, ..Impulse::default() };
+                due.push(DueImpulse { tire, impulse });
+                continue;
+            }
+            let acceleration = firing.launch / firing.push;
+            due.push(pushed(tire, after(at), acceleration));
+            if at + firing.push < end {
+                due.push(pushed(tire, after(at + firing.push), -acceleration));
+            } else {
+                pushes.active.push(Push { tire, acceleration, until: firing.at + firing.push });
+            }
+        }
+        due.iter().for_each(|due| wake.set_moving(due.tire / LANES, true));
+        due.sort_by(|a, b| a.tire.cmp(&b.tire).then(a.impulse.after.total_cmp(&b.impulse.after)));
+    }
+}
