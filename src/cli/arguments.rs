@@ -137,6 +137,11 @@ impl VerdictArguments {
     pub fn sampling(self) -> Option<Sampling> {
         (!self.nominal).then(|| self.sampling.of_verdict())
     }
+
+    /// Exactly as many samples of every option as asked for, or `usual`; `None` where only the shot as planned counts.
+    pub fn exactly(self, usual: usize) -> Option<Sampling> {
+        (!self.nominal).then(|| self.sampling.exactly(usual))
+    }
 }
 
 /// A parser that takes the names of a choice, and shows them in the help.

@@ -60,7 +60,9 @@ pub fn print_checks(
         }
     };
     let status = print(&reports, documents, format, look)?;
-    if checked.iter().flatten().any(|result| matches!(result, Err(NoResult::Failed(_)))) {
+    let needs_finer_step =
+        |failed: &NoResult| matches!(failed, NoResult::Failed(failure) if failure.needs_finer_step());
+    if checked.iter().flatten().any(|result| result.as_ref().is_err_and(needs_finer_step)) {
         eprintln!("a run failed: {FINER}");
     }
     Ok(status)

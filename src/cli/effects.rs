@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, LookArguments, SamplingArguments};
+use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments};
 use super::load_plans::open;
 use super::print::print;
 use super::run_study::run_study;
@@ -20,7 +20,7 @@ pub struct Arguments {
     /// Plan to study; `-` reads standard input
     plan: PathBuf,
     #[command(flatten)]
-    sampling: SamplingArguments,
+    verdict: VerdictArguments,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: FormatArg,
@@ -30,9 +30,9 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
-    let sampling = arguments.sampling.exactly(SAMPLES);
+    let sampling = arguments.verdict.exactly(SAMPLES);
     let settings = arguments.compute.settings(&case.plan);
-    match run_study(&arguments.compute, |progress| effects(&case, &sampling, &settings, progress)) {
+    match run_study(&arguments.compute, |progress| effects(&case, sampling.as_ref(), &settings, progress)) {
         Err(reason) => failed(&reason),
         Ok(Found { value: found, partial }) => {
             let document = || EffectsDocument::new(&case, &found, partial);

@@ -106,7 +106,9 @@ impl Job {
                     size(&case.plan, &demand, Some(&Sampling::OF_VERDICT), compute, progress)?.value,
                 ))
             }
-            StudyKind::Effects => Ok(StudyResult::Effects(effects(case, &EFFECTS, compute, progress)?.value)),
+            StudyKind::Effects => {
+                Ok(StudyResult::Effects(effects(case, Some(&EFFECTS), compute, progress)?.value))
+            }
             StudyKind::Flight => record(case, option, compute, progress).map(StudyResult::Flight),
             StudyKind::Accuracy => {
                 Ok(StudyResult::Accuracy(accuracy::measure(case, option, LONGEST_RUN, progress)?.value))

@@ -9,7 +9,6 @@ use crate::study::Case;
 use crate::study::check::Checked;
 use crate::study::check_all::{OptionResults, verdict};
 use crate::study::judgement::Judgement;
-use crate::study::margin::LaunchMargin;
 use crate::study::reason::Reason;
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Quantity, Verdict};
@@ -78,12 +77,8 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 28] {
             row.sampled(|risk| Cell::Probability(risk.breaks.interval))
         }),
         Field::new(Column::scripts(&["launch_margin"]), |row| {
-            let judged = row.result.as_ref().ok();
-            match judged.and_then(|judged| judged.launch_margin) {
-                Some(LaunchMargin::UpTo { rise, .. }) => Cell::Number(rise),
-                Some(LaunchMargin::NotPassing) => Cell::Number(0.0),
-                Some(LaunchMargin::Wide) | None => Cell::Nothing,
-            }
+            let margin = row.result.as_ref().ok().and_then(Judgement::known_launch_margin);
+            margin.map_or(Cell::Nothing, Cell::Number)
         }),
         Field::new(LAUNCH_MARGIN, |row| {
             let judged = row.result.as_ref().ok();

@@ -93,7 +93,7 @@ pub fn report(case: &Case, effects: &EffectsOnOptions, partial: bool) -> Report 
 }
 
 /// What the columns say.
-const MEANING: &str = "change by each effect of the median over some possible shots, from the least to the greatest over the options; verdicts are those of the limits on the shot as planned alone, not those of `check`";
+const MEANING: &str = "change by each effect of the median over some possible shots, in the hardest direction, from the least to the greatest over the options; verdicts are those of the limits on the shot as planned alone, not those of `check`";
 
 /// `10 %`, `2000 kN/m (assumed)`.
 fn value(of: &EffectOnOption) -> String {
@@ -129,7 +129,7 @@ fn sentences(tried: &[Vec<&EffectOnOption>]) -> Vec<String> {
         tried.iter().filter(|all| is(all)).map(|all| all[0].effect.name()).collect()
     };
     let is_required = |all: &[&EffectOnOption]| all.iter().any(|of| of.is_required());
-    let is_unsafe = |all: &[&EffectOnOption]| all.iter().any(|of| of.is_missed_on_the_unsafe_side());
+    let is_unsafe = |all: &[&EffectOnOption]| all.iter().any(|of| of.is_missed_on_the_unsafe_side);
     if tried.is_empty() {
         return Vec::new();
     }
@@ -141,13 +141,16 @@ fn sentences(tried: &[Vec<&EffectOnOption>]) -> Vec<String> {
     if !others.is_empty() {
         let most = units::percent(REQUIRED, 0);
         lines.push(format!(
-            "not: {} (no verdict changes, what has a limit changes by less than {most}, or hardly against its limit)",
+            "not, at the values tried: {} (no verdict changes; of what has a limit the median changes and the 95th percentile rises by less than {most}, or hardly against its limit)",
             listed(&others)
         ));
     }
     let overstated = names(&|all| is_required(all) && !is_unsafe(all));
     if !overstated.is_empty() {
-        lines.push(format!("leaving these out only overstates what has a limit: {}", listed(&overstated)));
+        lines.push(format!(
+            "at the values tried, leaving these out only overstates what has a limit: {}",
+            listed(&overstated)
+        ));
     }
     let probed = tried.iter().any(|all| all[0].assumed && is_required(all));
     if probed {

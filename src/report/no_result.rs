@@ -17,9 +17,7 @@ pub fn message(no_result: &NoResult) -> String {
 /// Remedy for a run that failed by itself, and for a plan that lacks what the study needs.
 fn remedy(no_result: &NoResult) -> Option<&'static str> {
     match no_result {
-        NoResult::Failed(Failure::Step { .. } | Failure::Diverged { .. } | Failure::Unsettled { .. }) => {
-            Some(FINER)
-        }
+        NoResult::Failed(failure) if failure.needs_finer_step() => Some(FINER),
         NoResult::Failed(Failure::Effect { .. }) => Some("choose method \"verlet\", or leave it out"),
         _ => None,
     }
@@ -28,6 +26,7 @@ fn remedy(no_result: &NoResult) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::choice::Method;
 
     #[test]
     fn only_a_run_that_failed_by_itself_has_a_remedy() {
@@ -36,6 +35,8 @@ mod tests {
             diverged,
             "the motion is no longer finite at 0.3 s: choose a finer accuracy or a smaller step"
         );
+        let lacking = message(&Failure::Effect { effect: "push", method: Method::Newmark }.into());
+        assert_eq!(lacking, "newmark has no push: choose method \"verlet\", or leave it out");
         assert_eq!(message(&Failure::Stopped { at: 0.3 }.into()), "stopped at 0.3 s before the end");
     }
 }

@@ -45,6 +45,13 @@ pub enum Failure {
     },
 }
 
+impl Failure {
+    /// Whether a finer step may help.
+    pub fn needs_finer_step(&self) -> bool {
+        matches!(self, Self::Step { .. } | Self::Diverged { .. } | Self::Unsettled { .. })
+    }
+}
+
 /// An iteration within a step of `newmark`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Iteration {

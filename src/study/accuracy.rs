@@ -10,7 +10,7 @@ use crate::choice::{Accuracy, Method};
 use crate::outcome::Outcome;
 use crate::plan::Timing;
 use crate::scene::Shot;
-use crate::simulation::{Failure, Settings};
+use crate::simulation::Settings;
 
 /// One method at one step.
 #[derive(Clone, Debug)]
@@ -102,6 +102,8 @@ pub fn measure(
                     partial = true;
                     break;
                 }
+                // The method lacks an effect of the plan: it has no rows.
+                Err(NoResult::Failed(_)) => break,
                 result => result?,
             };
             progress.advance();
@@ -145,8 +147,8 @@ fn run(
         let start = Instant::now();
         let outcome = match case.model.run(shot, &settings, &mut |_| progress.flow()) {
             Ok(outcome) => outcome,
-            Err(stopped @ Failure::Stopped { .. }) => return Err(progress.no_result(stopped)),
-            Err(_) => return Ok(None),
+            Err(failure) if failure.needs_finer_step() => return Ok(None),
+            Err(failure) => return Err(progress.no_result(failure)),
         };
         let wall = start.elapsed();
         if best.as_ref().is_none_or(|(_, least)| wall < *least) {

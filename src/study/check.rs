@@ -210,8 +210,8 @@ fn climb<R>(
     for n in (1..=step_error::NEIGHBOURS as i32).rev() {
         match run(rung(n)) {
             Ok(coarser) => runs.push(coarser),
-            Err(Failure::Step { .. } | Failure::Diverged { .. } | Failure::Unsettled { .. }) => {}
-            Err(stopped) => return Err(stopped),
+            Err(failure) if failure.needs_finer_step() => {}
+            Err(failure) => return Err(failure),
         }
     }
     for finer in 0..=MOST_REFINEMENTS {

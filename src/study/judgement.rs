@@ -17,6 +17,17 @@ pub struct Judgement {
 }
 
 impl Judgement {
+    /// How much faster than planned the tires may leave, as a share; `None` where nothing fails up to the greatest rise tried,
+    /// or where only a shot that passes as planned was asked for. A margin that is not known is none.
+    pub fn known_launch_margin(&self) -> Option<f64> {
+        match self.launch_margin {
+            Some(LaunchMargin::UpTo { rise, .. }) => Some(rise),
+            Some(LaunchMargin::Wide) => None,
+            None if self.risk.is_none() && self.nominal.verdict == Verdict::Pass => None,
+            Some(LaunchMargin::NotPassing) | None => Some(0.0),
+        }
+    }
+
     /// The judgement of the shot as planned alone.
     pub fn nominal(nominal: Checked) -> Self {
         Self { nominal, risk: None, launch_margin: None }

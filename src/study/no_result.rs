@@ -28,9 +28,6 @@ pub enum NoResult {
     /// A plan whose options have firing times of their own has no interval to try orders at.
     #[error("no delay option has an interval")]
     NoInterval,
-    /// A machine that sees only its shard of the samples cannot tell when the verdict is certain.
-    #[error("samples drawn until the verdict is certain cannot be split into shards")]
-    ShardedUntilCertain,
 }
 
 /// Does one piece of work; turns a panic into [`NoResult::Panicked`], so that other work goes on.

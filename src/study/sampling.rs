@@ -139,11 +139,7 @@ pub fn find_risks_watched(
         let drawn =
             run_jobs(&jobs, progress, |&(n, number, halvings)| match targets[n].precomputed(number) {
                 Some(sample) if halvings == 0 => Ok(*sample),
-                _ => {
-                    let sample =
-                        guarded(|| run_sample(&targets[n], number, 2.0_f64.powi(halvings as i32), progress));
-                    undecided_if_panicked(sample, number)
-                }
+                _ => run_sample(&targets[n], number, halvings, progress),
             })?;
         let out_of_time = drawn.contains(&None);
         let mut complete = vec![true; targets.len()];
@@ -172,6 +168,16 @@ pub fn find_risks_watched(
     }
 }
 
+/// Draws one sample and runs it, at a step halved `halvings` times.
+pub(super) fn run_sample(
+    target: &ShotToSample<'_>,
+    number: usize,
+    halvings: u32,
+    progress: &Progress,
+) -> Result<Sample, NoResult> {
+    undecided_if_panicked(guarded(|| try_sample(target, number, halvings, progress)), number)
+}
+
 /// A sample in which the program panicked shows nothing; the others go on.
 fn undecided_if_panicked(sample: Result<Sample, NoResult>, number: usize) -> Result<Sample, NoResult> {
     match sample {
@@ -191,8 +197,7 @@ pub fn draw_shard(
     let of = |n: usize| (0..targets[n].sampling.most).map(move |number| (n, number));
     let jobs: Vec<(usize, usize)> =
         (0..targets.len()).flat_map(of).filter(|&(_, number)| shard.has(number)).collect();
-    let drawn =
-        run_jobs(&jobs, progress, |&(n, number)| guarded(|| run_sample(&targets[n], number, 1.0, progress)))?;
+    let drawn = run_jobs(&jobs, progress, |&(n, number)| run_sample(&targets[n], number, 0, progress))?;
     Ok(jobs.into_iter().map(|(n, _)| n).zip(drawn).collect())
 }
 
@@ -213,11 +218,10 @@ fn step(compute: &ComputeSettings, scene: &Scene) -> f64 {
     compute.step.unwrap_or(implicit * level * usual)
 }
 
-/// Draws one sample and runs it, at a step shorter by the factor `finer`.
-pub(super) fn run_sample(
+fn try_sample(
     target: &ShotToSample<'_>,
     number: usize,
-    finer: f64,
+    halvings: u32,
     progress: &Progress,
 ) -> Result<Sample, NoResult> {
     let ShotToSample { case, shot, compute, sampling, .. } = *target;
@@ -233,7 +237,7 @@ pub(super) fn run_sample(
             },
         }
     };
-    let step = step(&compute, &scene) / finer;
+    let step = step(&compute, &scene) * 0.5_f64.powi(halvings as i32);
     let (coarse, shows_nothing) = run(step)?;
     if compute.step.is_some() {
         return Ok(Sample { number, run: coarse, finer: None, inputs });

@@ -12,7 +12,6 @@ use super::{Case, ComputeSettings, Envelope, NoResult, Progress, step_error};
 use crate::choice::Accuracy;
 use crate::outcome::Outcome;
 use crate::scene::Shot;
-use crate::simulation::Failure;
 use crate::verdict::Verdict;
 
 /// Number of steps above the first step of `field`: the coarsest is 8 times that, with `verlet` at most 0.8 of the critical
@@ -44,7 +43,7 @@ pub fn screen(
         let is_last = step < 1.01 * last;
         match case.model.run(shot, &case.settings(compute.method, step), &mut |_| progress.flow()) {
             Ok(outcome) => runs.push(outcome),
-            Err(Failure::Step { .. } | Failure::Diverged { .. } | Failure::Unsettled { .. }) if !is_last => {}
+            Err(failure) if failure.needs_finer_step() && !is_last => {}
             Err(failure) => return Err(progress.no_result(failure)),
         }
         if is_last && runs.len() < RUNS_OF_PASS {

@@ -419,6 +419,29 @@ fn packagers_get_completions_and_a_manual_page() {
     assert!(text(&shelter(&["man"]).stdout).contains(".TH"));
 }
 
+/// A method that lacks an effect of the plan is refused with the remedy that helps, and has no rows in a table of steps.
+#[test]
+fn what_a_method_lacks_is_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let plan = folder.path().join("plan.toml");
+    let pushed = std::fs::read_to_string(shipped("paper-5-tire.toml")).expect("the plan");
+    let pushed = pushed.replacen("launch_m_s", "push_ms = 20\nlaunch_m_s", 1);
+    std::fs::write(&plan, pushed).expect("written");
+    let plan = plan.to_str().expect("UTF-8");
+    for command in ["check", "risk", "accuracy"] {
+        let arguments: &[&str] =
+            if command == "accuracy" { &[command, plan] } else { &[command, plan, "--method", "newmark"] };
+        let output = shelter(arguments);
+        let told = format!("{}{}", text(&output.stdout), text(&output.stderr));
+        if command == "accuracy" {
+            assert!(!told.lines().any(|line| line.starts_with("newmark")), "{told}");
+        } else {
+            assert!(told.contains("newmark has no push: choose method"), "{command}: {told}");
+            assert!(!told.contains("finer"), "{command}: {told}");
+        }
+    }
+}
+
 #[test]
 fn effects_have_the_fields_scripts_read_and_a_sentence() {
     let document = json(&on("paper-5-tire.toml", &["effects", "--format", "json"]));

@@ -10,7 +10,7 @@ use crate::units;
 /// Width and height [px].
 const SIZE: (u32, u32) = (420, 220);
 
-type RandomShot = Result<(), Box<dyn std::error::Error>>;
+type Drawn = Result<(), Box<dyn std::error::Error>>;
 
 /// A chart; `None` where it cannot be drawn.
 pub fn svg(chart: &Chart) -> Option<String> {
@@ -29,7 +29,7 @@ pub fn color(role: Role) -> RGBColor {
     RGBColor(red, green, blue)
 }
 
-fn draw(chart: &Chart, area: &DrawingArea<SVGBackend, Shift>) -> RandomShot {
+fn draw(chart: &Chart, area: &DrawingArea<SVGBackend, Shift>) -> Drawn {
     let ([left, right], [bottom, top]) = (chart.x.ends(), chart.y.ends());
     let right = right.max(left + f64::MIN_POSITIVE);
     let mut canvas = ChartBuilder::on(area)

@@ -12,7 +12,6 @@ use crate::scene::{Scene, TireId, fire_at_s};
 use crate::study::Case;
 use crate::study::check_all::{OptionResults, verdict};
 use crate::study::judgement::Judgement;
-use crate::study::margin::LaunchMargin;
 use crate::study::risk::Risk;
 use crate::verdict::{Estimate, Quantity, Verdict};
 
@@ -169,13 +168,7 @@ impl OptionValues {
             nominal_verdict: checked.verdict.name(),
             failure_probability: risk.map(failures),
             any_cable_breaks: risk.map(|risk| risk.breaks.interval.into()),
-            launch_margin: match judged.launch_margin {
-                Some(LaunchMargin::UpTo { rise, .. }) => Some(rise),
-                Some(LaunchMargin::NotPassing) => Some(0.0),
-                // Null would say that nothing fails: a margin that is not known is none.
-                None if risk.is_some() => Some(0.0),
-                Some(LaunchMargin::Wide) | None => None,
-            },
+            launch_margin: judged.known_launch_margin(),
             inputs: risk.and_then(|risk| input_shares(risk, &case.limits)),
             flight_height_m: AtTire::new(scene, &checked.height, Band::of(risk, Quantity::Height)),
             cable_force_n: AtCable::new(scene, &checked.force, Band::of(risk, Quantity::Force)),

@@ -12,6 +12,8 @@ pub struct EffectsDocument {
     schema: &'static str,
     plan: String,
     title: String,
+    /// What verdicts are about: the limits on the shot as planned.
+    judged: &'static str,
     partial: bool,
     options: Vec<OptionEffects>,
 }
@@ -71,6 +73,7 @@ impl EffectsDocument {
             schema: "shelter.effects/1",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
+            judged: "nominal",
             partial,
             options: options.collect(),
         }
