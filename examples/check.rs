@@ -4,18 +4,18 @@ use std::error::Error;
 use std::path::Path;
 
 use shelter::units::{Unit, probabilities, value_and_error};
-use shelter::{Case, ComputeSettings, Progress, Sampling, check_all};
+use shelter::{Case, ComputeSettings, Progress, Sampling};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).unwrap_or_else(|| "plans/amur-three-rows.toml".to_owned());
     let case = Case::load(Path::new(&path))?;
-    let cases = [(&case, ComputeSettings::of(&case.plan))];
-    let judged = check_all(&cases, Some(&Sampling::OF_VERDICT), &Progress::default())?.value.remove(0);
-    for (delay, judged) in case.plan.delays.iter().zip(judged) {
+    let compute = ComputeSettings::of(&case.plan);
+    let found = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &Progress::default())?;
+    for (delay, judged) in case.plan.delays.iter().zip(found.value) {
         let judged = judged?;
         let force = &judged.nominal.force;
         let force = value_and_error(force.value, force.error, Unit::Kilonewton);
-        let failing = judged.risk.as_ref().map(|risk| probabilities(risk.bounds.interval));
+        let failing = judged.risk.drawn().map(|risk| probabilities(risk.bounds.interval));
         let failing = failing.unwrap_or_default();
         let verdict = judged.verdict().label();
         println!("{}: {verdict}, {failing} % of the shots fail, {force} kN as planned", delay.name);

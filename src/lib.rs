@@ -3,7 +3,7 @@
 //! # From a plan to a verdict
 //!
 //! ```
-//! use shelter::{Case, ComputeSettings, Plan, Progress, Sampling, Verdict, check_all};
+//! use shelter::{Case, ComputeSettings, Plan, Progress, Sampling, Verdict};
 //!
 //! let text = r#"
 //! shelter = { layout = "grid", rows = 2, columns = 3, spacing_m = 1.5 }
@@ -20,8 +20,8 @@
 //! let checked = case.check(0, &compute)?;
 //! assert!(checked.height.value + checked.height.error < 1.5);
 //! // The verdict of `shelter check`, which also samples what the plan does not know:
-//! let judged = check_all(&[(&case, compute)], Some(&Sampling::OF_VERDICT), &Progress::default())?.value;
-//! assert_eq!(judged[0][0].as_ref().map(|judged| judged.verdict()), Ok(Verdict::Pass));
+//! let found = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &Progress::default())?;
+//! assert_eq!(found.value[0].as_ref().map(|judged| judged.verdict()), Ok(Verdict::Pass));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

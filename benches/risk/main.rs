@@ -8,7 +8,6 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use shelter::choice::Accuracy;
 use shelter::plan::Plan;
-use shelter::study::check_all::check_all;
 use shelter::study::sample::Sample;
 use shelter::study::sampling::{Sampling, ShotToSample, draw_shard, find_risks};
 use shelter::study::{Case, ComputeSettings, Progress, Shard};
@@ -34,8 +33,7 @@ const SEED: u64 = 1 << 40;
 fn brute_force(case: &Case, option: usize, samples: usize, accuracy: Accuracy) -> Vec<Sample> {
     let compute = ComputeSettings { accuracy, ..ComputeSettings::of(&case.plan) };
     let sampling = Sampling::exactly(samples, SEED);
-    let target =
-        ShotToSample { case, shot: &case.shots[option], planned: None, compute, sampling, precomputed: &[] };
+    let target = ShotToSample::new(case, &case.shots[option], compute, sampling);
     let drawn = draw_shard(&[target], Shard::WHOLE, &Progress::default()).expect("samples");
     drawn.into_iter().filter_map(|(_, sample)| sample).collect()
 }
@@ -130,7 +128,7 @@ fn coverage(plans: usize, seeds: u64) {
             let compute = ComputeSettings { accuracy, ..ComputeSettings::of(&case.plan) };
             for seed in 1..=seeds {
                 let (shot, sampling) = (&case.shots[0], Sampling { seed, ..Sampling::OF_VERDICT });
-                let target = ShotToSample { case, shot, planned: None, compute, sampling, precomputed: &[] };
+                let target = ShotToSample::new(case, shot, compute, sampling);
                 let found = find_risks(&[target], &Progress::default());
                 let risk = found.expect("samples").value.remove(0);
                 let [low, high] = risk.bounds.interval;
@@ -159,13 +157,13 @@ fn shipped(samples: usize) {
     println!("plan, option: verdict, interval of check; failing share of {samples} at a fine step");
     for file in std::fs::read_dir(folder).expect("the plans").flatten() {
         let case = Case::load(&file.path()).unwrap_or_else(|mistakes| panic!("{mistakes}"));
-        let cases = [(&case, ComputeSettings::of(&case.plan))];
-        let results = check_all(&cases, Some(&Sampling::OF_VERDICT), &Progress::default());
-        let results = results.expect("a result").value.remove(0);
+        let compute = ComputeSettings::of(&case.plan);
+        let results = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &Progress::default());
+        let results = results.expect("a result").value;
         for (option, result) in results.into_iter().enumerate() {
             let judged = result.expect("a result");
             let name = &case.plan.delays[option].name;
-            let [low, high] = judged.risk.as_ref().map_or([0.0, 1.0], |risk| risk.bounds.interval);
+            let [low, high] = judged.risk.drawn().map_or([0.0, 1.0], |risk| risk.bounds.interval);
             let verdict = judged.verdict();
             let failing = (verdict == Verdict::Pass).then(|| {
                 let drawn = brute_force(&case, option, samples, Accuracy::Reference);

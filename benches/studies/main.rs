@@ -16,7 +16,7 @@ use std::time::Instant;
 use itertools::Itertools;
 use rayon::prelude::*;
 use shelter::study::check::check_shot;
-use shelter::study::orders::orders;
+use shelter::study::orders::try_orders;
 use shelter::study::sweep::sweep;
 use shelter::study::{Case, ComputeSettings, Envelope, Intervals, Progress, Shard};
 use shelter::verdict::Verdict;
@@ -100,7 +100,7 @@ fn compare_orders(rows: usize, random: u64) {
         };
         for interval in INTERVALS {
             let begun = Instant::now();
-            let found = orders(&case, &[interval], Shard::WHOLE, &compute, &Progress::default());
+            let found = try_orders(&case, &[interval], Shard::WHOLE, &compute, &Progress::default());
             let (found, wall) = (found.expect("a result").value, begun.elapsed().as_secs_f64());
             let found: Vec<Envelope> = found.iter().map(|tried| tried.envelope).collect();
             let begun = Instant::now();

@@ -13,7 +13,7 @@ use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::report::notes;
 use crate::study::merge::{Question, ShardResults, write_share};
-use crate::study::orders::{MOST_ROWS, count, orders, rank, tries_all};
+use crate::study::orders::{MOST_ROWS, count, orders, tries_all, try_orders};
 use crate::study::{Found, Intervals, Shard};
 
 #[derive(Args)]
@@ -58,8 +58,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let settings = arguments.compute.settings(&case.plan);
     let sampling = arguments.verdict.sampling();
     if let Some(shard) = arguments.shard {
-        let tried =
-            run_study(&arguments.compute, |progress| orders(&case, &intervals_s, shard, &settings, progress));
+        let tried = run_study(&arguments.compute, |progress| {
+            try_orders(&case, &intervals_s, shard, &settings, progress)
+        });
         return match tried {
             Err(reason) => failed(&reason),
             Ok(Found { value: tried, .. }) => {
@@ -70,8 +71,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         };
     }
     let ranked = run_study(&arguments.compute, |progress| {
-        let tried = orders(&case, &intervals_s, Shard::WHOLE, &settings, progress)?;
-        rank(&case, tried, intervals_s.len(), sampling.as_ref(), &settings, progress)
+        orders(&case, &intervals_s, sampling.as_ref(), &settings, progress)
     });
     match ranked {
         Err(reason) => failed(&reason),

@@ -12,7 +12,6 @@ use super::print_findings::print_risks;
 use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::report::notes;
-use crate::study::check_all::check_all;
 use crate::study::merge::{OptionSample, Question, ShardResults, write_share};
 use crate::study::sampling::{Sampling, ShotToSample, draw_shard};
 use crate::study::{Case, Found, Shard};
@@ -50,11 +49,12 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if let Some(shard) = arguments.shard {
         return draw(arguments, &case, &sampling, shard);
     }
-    let cases = [(&case, arguments.compute.settings(&case.plan))];
-    match run_study(&arguments.compute, |progress| check_all(&cases, Some(&sampling), progress)) {
+    let settings = arguments.compute.settings(&case.plan);
+    let judge = |progress: &_| case.judge_options(&settings, Some(&sampling), progress);
+    match run_study(&arguments.compute, judge) {
         Err(reason) => failed(&reason),
-        Ok(Found { value, partial }) => {
-            print_risks(&case, &value[0], &sampling, partial, arguments.format, look)
+        Ok(Found { value: results, partial }) => {
+            print_risks(&case, &results, &sampling, partial, arguments.format, look)
         }
     }
 }
@@ -62,14 +62,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
 /// Draws and prints this machine's shard of the samples.
 fn draw(arguments: &Arguments, case: &Case, sampling: &Sampling, shard: Shard) -> io::Result<Status> {
     let settings = arguments.compute.settings(&case.plan);
-    let target = |shot| ShotToSample {
-        case,
-        shot,
-        planned: None,
-        compute: settings,
-        sampling: *sampling,
-        precomputed: &[],
-    };
+    let target = |shot| ShotToSample::new(case, shot, settings, *sampling);
     let targets: Vec<_> = case.shots.iter().map(target).collect();
     let drawn = run_study(&arguments.compute, |progress| {
         let drawn = draw_shard(&targets, shard, progress)?;

@@ -3,14 +3,14 @@
 use std::time::Duration;
 
 use super::Job;
-use crate::study::check_all::{OptionResults, check_all};
+use crate::study::check_all::OptionResults;
 use crate::study::effects::{EffectsOnOptions, SAMPLES, effects};
 use crate::study::flight::{Flight, record};
-use crate::study::orders::{Orders, orders, rank};
+use crate::study::orders::{Orders, orders};
 use crate::study::sampling::Sampling;
 use crate::study::size::{Demand, Sizing, size};
 use crate::study::sweep::{GAP, Sweep, sweep};
-use crate::study::{Intervals, NoResult, Shard, accuracy};
+use crate::study::{Intervals, NoResult, accuracy};
 
 /// Declares the kinds of studies and the list of all of them, in one order.
 macro_rules! study_kinds {
@@ -90,15 +90,12 @@ impl Job {
                 ))
             }
             StudyKind::Orders => {
-                let intervals = case.intervals();
-                let tried = orders(case, &intervals, Shard::WHOLE, compute, progress)?;
                 let sampling = Some(&Sampling::OF_VERDICT);
-                let ranked = rank(case, tried, intervals.len(), sampling, compute, progress)?;
-                Ok(StudyResult::Orders(ranked.value))
+                Ok(StudyResult::Orders(orders(case, &case.intervals(), sampling, compute, progress)?.value))
             }
             StudyKind::Risk => {
-                let mut results = check_all(&[(case, *compute)], Some(&SAMPLING), progress)?.value;
-                Ok(StudyResult::Risk(SAMPLING, results.remove(0)))
+                let results = case.judge_options(compute, Some(&SAMPLING), progress)?.value;
+                Ok(StudyResult::Risk(SAMPLING, results))
             }
             StudyKind::Size => {
                 let demand = Demand::Options((0..case.shots.len()).collect());

@@ -2,12 +2,12 @@
 
 use toml_edit::{DocumentMut, Item, Table, TableLike, Value, value};
 
+use super::Plan;
 use super::keys::blast_row::{FREE_FLIGHT_HEIGHT_M, HOLES, LAUNCH_M_S};
 use super::keys::cable::{AXIAL_STIFFNESS_KN, BREAKING_FORCE_KN, ROPE};
 use super::keys::shelter::BORDER_ROWS;
 use super::keys::tire::MASS_KG;
 use super::keys::{Key, plan};
-use super::{Launch, LaunchTargets, Plan};
 use crate::ropes::Rope;
 
 impl Plan {
@@ -26,30 +26,6 @@ impl Plan {
             mesh.border_rows = border_rows;
         }
         plan
-    }
-
-    /// Launch velocities of all blast rows and holes.
-    pub fn launches(&self) -> impl Iterator<Item = &Launch> {
-        self.blast_rows.iter().flat_map(|row| -> Vec<&Launch> {
-            match &row.targets {
-                LaunchTargets::UnderRow { launch, .. } | LaunchTargets::UnderTires { launch, .. } => {
-                    vec![launch]
-                }
-                LaunchTargets::Holes(holes) => holes.iter().map(|hole| &hole.launch).collect(),
-            }
-        })
-    }
-
-    /// The same, to change them.
-    pub fn launches_mut(&mut self) -> impl Iterator<Item = &mut Launch> {
-        self.blast_rows.iter_mut().flat_map(|row| -> Vec<&mut Launch> {
-            match &mut row.targets {
-                LaunchTargets::UnderRow { launch, .. } | LaunchTargets::UnderTires { launch, .. } => {
-                    vec![launch]
-                }
-                LaunchTargets::Holes(holes) => holes.iter_mut().map(|hole| &mut hole.launch).collect(),
-            }
-        })
     }
 }
 

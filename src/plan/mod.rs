@@ -74,6 +74,30 @@ impl Plan {
     pub fn parse(path: &str, text: &str) -> Result<Self, Diagnostics> {
         validate::parse(path, text)
     }
+
+    /// Launch velocities of all blast rows and holes.
+    pub fn launches(&self) -> impl Iterator<Item = &Launch> {
+        self.blast_rows.iter().flat_map(|row| -> Vec<&Launch> {
+            match &row.targets {
+                LaunchTargets::UnderRow { launch, .. } | LaunchTargets::UnderTires { launch, .. } => {
+                    vec![launch]
+                }
+                LaunchTargets::Holes(holes) => holes.iter().map(|hole| &hole.launch).collect(),
+            }
+        })
+    }
+
+    /// The same, to change them.
+    pub fn launches_mut(&mut self) -> impl Iterator<Item = &mut Launch> {
+        self.blast_rows.iter_mut().flat_map(|row| -> Vec<&mut Launch> {
+            match &mut row.targets {
+                LaunchTargets::UnderRow { launch, .. } | LaunchTargets::UnderTires { launch, .. } => {
+                    vec![launch]
+                }
+                LaunchTargets::Holes(holes) => holes.iter_mut().map(|hole| &mut hole.launch).collect(),
+            }
+        })
+    }
 }
 
 /// Positions of the tires, and the neighbours that are tied.

@@ -129,22 +129,17 @@ const DRIFT: Column = Column::numbers(&["drift_m", "drift_error_m"], "drift", Un
 
 /// The report of one plan, which is partial where the time was up; with `any` one passing option is enough.
 pub fn report(case: &Case, results: &OptionResults, any: bool, partial: bool) -> Report {
-    // Without a limit on drift only the page has room for drift.
-    let sampled = results.iter().flatten().any(|judged| judged.risk.is_some());
+    let sampled = results.iter().flatten().any(|judged| judged.risk.is_asked());
     let shown = |column: &Column| match column {
         column if [HEIGHT, FORCE].contains(column) && sampled => column.shown(Shown::Scripts),
         column if OF_SAMPLES.contains(column) && !sampled => column.shown(Shown::Scripts),
+        // Without a limit on drift only the page has room for drift.
         column if *column == DRIFT && case.limits.drift.is_none() => column.shown(Shown::Page),
         column => *column,
     };
     let mut table = Table::of(&fields(), option_rows(case, results));
     table.columns = table.columns.iter().map(shown).collect();
-    for (row, result) in table.rows.iter_mut().zip(results) {
-        match result {
-            Ok(judged) => row.details = details(case, judged),
-            Err(reason) => row.missing = Some(no_result::message(reason)),
-        }
-    }
+    complete_rows(&mut table, case, results);
     let passed = results.iter().flatten().filter(|judged| judged.verdict() == Verdict::Pass).count();
     let so_far = if partial { " so far, the time was up" } else { "" };
     let mut text = format!("{passed} of {} options pass{so_far}{}", results.len(), meaning(case, sampled));
@@ -165,10 +160,10 @@ fn planned(of: Estimate, unit: Unit) -> Cell {
 
 /// What was judged, as scripts read it.
 pub fn judged_by(case: &Case, judged: &Judgement) -> &'static str {
-    match (&judged.risk, case.plan.uncertainty.assumed) {
-        (None, _) => "nominal",
-        (Some(_), true) => "default",
-        (Some(_), false) => "plan",
+    match (judged.risk.is_asked(), case.plan.uncertainty.assumed) {
+        (false, _) => "nominal",
+        (true, true) => "default",
+        (true, false) => "plan",
     }
 }
 
@@ -199,7 +194,17 @@ fn reasons<'a>(case: &'a Case, judged: &'a Judgement) -> impl Iterator<Item = De
     judged.nominal.reasons.iter().map(detail).chain(risk_detail(case, judged))
 }
 
-pub(super) fn details(case: &Case, judged: &Judgement) -> Vec<Detail> {
+/// Adds to the row of each option why it does not pass, or has no result.
+pub(super) fn complete_rows(table: &mut Table, case: &Case, results: &OptionResults) {
+    for (row, result) in table.rows.iter_mut().zip(results) {
+        match result {
+            Ok(judged) => row.details = details(case, judged),
+            Err(reason) => row.missing = Some(no_result::message(reason)),
+        }
+    }
+}
+
+fn details(case: &Case, judged: &Judgement) -> Vec<Detail> {
     let checked = &judged.nominal;
     let mut details: Vec<Detail> = reasons(case, judged).collect();
     if !checked.broken.is_empty() {

@@ -55,13 +55,15 @@ fn quantity_name(quantity: Quantity) -> (&'static str, Unit) {
 
 /// Why the shots that `[uncertainty]` describes do not pass, if they do not.
 pub fn risk_detail(case: &Case, judged: &Judgement) -> Option<Detail> {
-    let risk = judged.risk.as_ref()?;
-    let accepted = format!("{} %", units::short(case.plan.limits.accepted_risk_percent));
-    let (failures, samples) = (risk.bounds.failures, risk.bounds.samples);
-    if samples == 0 {
+    if !judged.risk.is_asked() {
+        return None;
+    }
+    let Some(risk) = judged.risk.drawn().filter(|risk| !risk.samples.is_empty()) else {
         let text = "no sample of the possible shots was drawn: the time was up".to_owned();
         return Some(Detail { verdict: Verdict::Undecided, text });
-    }
+    };
+    let accepted = format!("{} %", units::short(case.plan.limits.accepted_risk_percent));
+    let (failures, samples) = (risk.bounds.failures, risk.bounds.samples);
     let shots = format!("{failures} of {samples} possible shots fail{}", limits_exceeded(case, risk));
     let verdict = risk.verdict();
     let ComputeSettings { accuracy, step, .. } = judged.nominal.compute;

@@ -45,6 +45,11 @@ fn row_names(case: &Case, rows: &[usize]) -> Vec<String> {
     rows.iter().map(|&row| case.plan.blast_rows[row].name.clone()).collect()
 }
 
+/// Title and file of a plan.
+fn title(case: &Case) -> String {
+    format!("{} · {}", case.title(), case.source.path)
+}
+
 /// The accepted risk, and what was assumed of inputs; nothing where only the shots as planned were judged.
 fn accepted_risk(case: &Case, sampled: bool) -> String {
     let unknown = &case.plan.uncertainty;
@@ -72,7 +77,7 @@ fn report_head(case: &Case, sampled: bool) -> Report {
     }
     facts += &accepted_risk(case, sampled);
     Report {
-        title: format!("{} · {}", case.title(), case.source.path),
+        title: title(case),
         facts: [facts].into_iter().chain(notes::effects(plan)).chain(notes::ranges(case)).collect(),
         ..Report::default()
     }

@@ -33,7 +33,7 @@ impl OptionRow<'_> {
 
     /// A cell of the samples; nothing where there are none.
     pub fn sampled(&self, cell: impl FnOnce(&Risk) -> Cell) -> Cell {
-        let risk = self.result.as_ref().ok().and_then(|judged| judged.risk.as_ref());
+        let risk = self.result.as_ref().ok().and_then(|judged| judged.risk.drawn());
         risk.map_or(Cell::Nothing, cell)
     }
 

@@ -41,7 +41,7 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
             force(tried.envelope.force),
         ];
         if orders.has_risk() {
-            let risk = orders.risk(n);
+            let risk = orders.risk(n).drawn().copied();
             cells.extend([failures(risk), probability(risk), Cell::Verdict(tried.envelope.verdict)]);
         }
         cells
@@ -55,7 +55,7 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
     let so_far = if partial { " so far" } else { "" };
     let planned = if orders.has_risk() { " as planned" } else { " (the plan's own numbers only)" };
     let mut text = format!("{} of {all} orders pass{planned}{so_far}", orders.passing_as_planned());
-    if let Some((n, risk)) = all.checked_sub(1).and_then(|n| Some((n, orders.risk(n)?))) {
+    if let Some((n, risk)) = all.checked_sub(1).and_then(|n| Some((n, *orders.risk(n).drawn()?))) {
         text += &format!("; the best: {}, {}", orders.verdict_on(n).label(), sampled(risk));
     }
     let picture = charts::orders(case, orders);

@@ -1,17 +1,16 @@
 //! `risk` as a report: how likely each option fails, within which bands it stays, and what decides it.
 
 use super::charts;
-use super::check::details;
+use super::check::complete_rows;
 use super::explain::{compute_label, inputs};
-use super::model::{Block, Cell, Column, Conclusion, Field, Report, Row, Table};
+use super::model::{Block, Cell, Column, Conclusion, Field, Report, Table};
 use super::option_row::{OptionRow, option_rows};
+use super::report_head;
 use super::shared_columns::{FAILURES, VERDICT};
-use super::{no_result, report_head};
+use crate::study::Case;
 use crate::study::check_all::{OptionResults, verdict};
-use crate::study::judgement::Judgement;
 use crate::study::sampling::Sampling;
 use crate::study::swaps::Swap;
-use crate::study::{Case, NoResult};
 use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict};
 
@@ -57,9 +56,7 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 10] {
 /// The report of the samples of all options, which is partial where the time was up.
 pub fn report(case: &Case, results: &OptionResults, sampling: &Sampling, partial: bool) -> Report {
     let mut table = Table::of(&fields(), option_rows(case, results));
-    for (row, result) in table.rows.iter_mut().zip(results) {
-        complete_row(row, case, result);
-    }
+    complete_rows(&mut table, case, results);
     let head = format!("up to {} samples of each option, seed {}", sampling.most, sampling.seed);
     let mut blocks = vec![Block::Text(vec![head]), Block::Table(table)];
     let risks = case
@@ -67,7 +64,7 @@ pub fn report(case: &Case, results: &OptionResults, sampling: &Sampling, partial
         .delays
         .iter()
         .zip(results)
-        .filter_map(|(delay, result)| Some((delay.name.as_str(), result.as_ref().ok()?.risk.as_ref()?)));
+        .filter_map(|(delay, result)| Some((delay.name.as_str(), result.as_ref().ok()?.risk.drawn()?)));
     blocks.extend(risks.map(|(name, risk)| Block::Picture(charts::risk(case, name, risk))));
     let passed = results.iter().flatten().filter(|judged| judged.verdict() == Verdict::Pass).count();
     let mut text =
@@ -77,13 +74,6 @@ pub fn report(case: &Case, results: &OptionResults, sampling: &Sampling, partial
     }
     let conclusion = Some(Conclusion { verdict: verdict(results, false), text });
     Report { blocks, conclusion, ..report_head(case, true) }
-}
-
-fn complete_row(row: &mut Row, case: &Case, result: &Result<Judgement, NoResult>) {
-    match result {
-        Ok(judged) => row.details = details(case, judged),
-        Err(reason) => row.missing = Some(no_result::message(reason)),
-    }
 }
 
 /// The warning that two blast rows may fire in the wrong order.

@@ -34,16 +34,12 @@ pub fn force(force: Bounded) -> Cell {
 
 /// Cell of [`FAILURES`]; nothing where no sample was drawn.
 pub fn failures(risk: Option<&RiskSummary>) -> Cell {
-    drawn(risk).map_or(Cell::Nothing, |risk| Cell::Probability(risk.bounds.interval))
+    risk.map_or(Cell::Nothing, |risk| Cell::Probability(risk.bounds.interval))
 }
 
 /// Cell of [`PROBABILITY`]; nothing where no sample was drawn.
 pub fn probability(risk: Option<&RiskSummary>) -> Cell {
-    drawn(risk).and_then(|risk| risk.bounds.probability()).map_or(Cell::Nothing, Cell::Number)
-}
-
-fn drawn(risk: Option<&RiskSummary>) -> Option<&RiskSummary> {
-    risk.filter(|risk| risk.is_drawn())
+    risk.and_then(|risk| risk.bounds.probability()).map_or(Cell::Nothing, Cell::Number)
 }
 
 /// `2 of 430 possible shots fail`.

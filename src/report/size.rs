@@ -1,11 +1,11 @@
 //! `size` as a report: the lightest combinations that hold.
 
-use super::accepted_risk;
 use super::charts;
 use super::limits::limits_of_any_rope;
 use super::model::{Block, Cell, Column, Conclusion, Report, Table};
 use super::no_result::FINER;
 use super::shared_columns::{FORCE, HEIGHT, force, height};
+use super::{accepted_risk, title};
 use crate::study::Case;
 use crate::study::size::{Combination, SampledRisk, Sizing, Trial, Untried};
 use crate::units::{self, Unit};
@@ -71,12 +71,7 @@ pub fn report(case: &Case, sizing: &Sizing) -> Report {
     });
     blocks.push(Block::Table(Table::new(&COMBINATIONS, all)));
     blocks.push(Block::Picture(charts::size(sizing)));
-    Report {
-        title: format!("{} · {}", case.title(), case.source.path),
-        facts,
-        blocks,
-        conclusion: Some(conclusion(sizing)),
-    }
+    Report { title: title(case), facts, blocks, conclusion: Some(conclusion(sizing)) }
 }
 
 /// Rope, mass of a tire, border rows, tires and total mass.

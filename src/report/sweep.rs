@@ -53,16 +53,12 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
             force(envelope.force),
             Cell::Verdict(point.verdict()),
             Cell::Verdict(envelope.verdict),
-            probability(risk.as_ref()),
-            failures(risk.as_ref()),
+            probability(risk.drawn()),
+            failures(risk.drawn()),
         ]
     };
     blocks.push(Block::Table(Table::new(&POINTS, sweep.points.iter().map(point))));
-    Report {
-        blocks,
-        conclusion: Some(conclusion(sweep, partial)),
-        ..report_head(case, sweep.points.iter().any(|point| point.risk.is_some()))
-    }
+    Report { blocks, conclusion: Some(conclusion(sweep, partial)), ..report_head(case, sweep.has_risk()) }
 }
 
 fn ends(case: &Case, sweep: &Sweep) -> Table {
@@ -71,11 +67,11 @@ fn ends(case: &Case, sweep: &Sweep) -> Table {
         let point = point?;
         let Point { interval, envelope, risk } = point;
         let name = [Cell::Text(name.to_owned()), Cell::Interval(*interval), Cell::Verdict(point.verdict())];
-        let values = [height(envelope.height), force(envelope.force), failures(risk.as_ref())];
+        let values = [height(envelope.height), force(envelope.force), failures(risk.drawn())];
         Some([name, values].concat())
     };
-    let has_risk = sweep.points.iter().any(Point::is_sampled);
-    let columns = if has_risk { &ENDS[..] } else { &ENDS[..5] };
+    // A column without any cell is left out.
+    let columns = if sweep.points.iter().any(Point::is_sampled) { &ENDS[..] } else { &ENDS[..5] };
     let cut = |mut cells: Vec<Cell>| {
         cells.truncate(columns.len());
         cells
@@ -93,7 +89,7 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
     }
     let so_far = if partial { " so far" } else { "" };
     let sampled: Vec<&Point> = sweep.points.iter().filter(|point| point.is_sampled()).collect();
-    let has_risk = sweep.points.iter().any(|point| point.risk.is_some());
+    let has_risk = sweep.has_risk();
     let mut lines = Vec::new();
     if has_risk {
         let risk = format!("{} %", case.plan.limits.accepted_risk_percent);
@@ -109,7 +105,7 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
             lines.push(format!("inside a window the intervals sampled are at most {apart} apart"));
         }
         let open = accepted.iter().filter(|point| point.verdict() == Verdict::Undecided);
-        let samples = open.filter_map(|point| Some(point.risk?.bounds.samples));
+        let samples = open.filter_map(|point| Some(point.risk.drawn()?.bounds.samples));
         if let Some(few) = samples.min() {
             lines
                 .push(format!("{few} samples cannot prove {risk}: `check` an interval before you choose it"));
@@ -149,10 +145,10 @@ fn recommended(sweep: &Sweep, has_risk: bool) -> Vec<String> {
             units::exact_milliseconds(room),
             units::percent((1e3 * utilization).ceil() * 1e-3, 1)
         ));
-        if let Some(risk) = sweep.best().and_then(|point| point.risk) {
+        if let Some(risk) = sweep.best().and_then(|point| point.risk.drawn()) {
             lines.push(format!(
                 "its full verdict is PASS: {}, at each look surely fewer than accepted",
-                sampled(&risk)
+                sampled(risk)
             ));
         }
     } else if has_risk && sweep.refuted == 0 {
@@ -195,7 +191,7 @@ fn conclusion(sweep: &Sweep, partial: bool) -> Conclusion {
     let tried = sweep.points.len();
     let not_passing = sweep.points.iter().filter(|point| point.verdict() != Verdict::Pass).count();
     let so_far = if partial { " so far" } else { "" };
-    let has_risk = sweep.points.iter().any(|point| point.risk.is_some());
+    let has_risk = sweep.has_risk();
     let text = match not_passing {
         _ if has_risk => {
             let planned = |point: &&Point| point.envelope.verdict == Verdict::Pass;
@@ -218,6 +214,7 @@ fn conclusion(sweep: &Sweep, partial: bool) -> Conclusion {
 mod tests {
     use super::*;
     use crate::study::Envelope;
+    use crate::study::sampled::Sampled;
 
     #[test]
     fn a_sweep_passes_only_where_every_interval_passes() {
@@ -226,7 +223,7 @@ mod tests {
             let point = |(n, &verdict): (usize, &Verdict)| Point {
                 interval: n as f64,
                 envelope: envelope(verdict),
-                risk: None,
+                risk: Sampled::NotAsked,
             };
             let points = verdicts.iter().enumerate().map(point).collect();
             let Conclusion { verdict, text } = conclusion(

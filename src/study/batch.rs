@@ -69,12 +69,16 @@ pub fn envelopes<J: Sync>(
     progress: &Progress,
     work: impl Fn(&J) -> Result<Envelope, NoResult> + Sync,
 ) -> Result<Vec<Option<Envelope>>, NoResult> {
-    let done = results(jobs, progress, work)?;
+    let done = run_jobs(jobs, progress, |job| match work(job) {
+        Err(NoResult::Failed(failure)) => Ok(Err(failure)),
+        result => result.map(Ok),
+    })?;
     if done.iter().flatten().all(Result::is_err)
         && let Some(Err(failure)) = done.iter().flatten().next()
     {
         return Err(NoResult::Failed(failure.clone()));
     }
+    let known = |result: Result<Envelope, Failure>| result.unwrap_or(Envelope::UNKNOWN);
     Ok(done.into_iter().map(|result| result.map(known)).collect())
 }
 
@@ -84,22 +88,15 @@ pub fn envelopes_or_unknown<J: Sync>(
     progress: &Progress,
     work: impl Fn(&J) -> Result<Envelope, NoResult> + Sync,
 ) -> Result<Vec<Option<Envelope>>, NoResult> {
-    Ok(results(jobs, progress, work)?.into_iter().map(|result| result.map(known)).collect())
+    run_jobs(jobs, progress, |job| or_unknown(work(job)))
 }
 
-fn known(result: Result<Envelope, Failure>) -> Envelope {
-    result.unwrap_or(Envelope::UNKNOWN)
-}
-
-fn results<J: Sync>(
-    jobs: &[J],
-    progress: &Progress,
-    work: impl Fn(&J) -> Result<Envelope, NoResult> + Sync,
-) -> Result<Vec<Option<Result<Envelope, Failure>>>, NoResult> {
-    run_jobs(jobs, progress, |job| match work(job) {
-        Err(NoResult::Failed(failure)) => Ok(Err(failure)),
-        result => result.map(Ok),
-    })
+/// A run that failed is a shot of which nothing is known.
+pub fn or_unknown(judged: Result<Envelope, NoResult>) -> Result<Envelope, NoResult> {
+    match judged {
+        Err(NoResult::Failed(_)) => Ok(Envelope::UNKNOWN),
+        judged => judged,
+    }
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ use super::margin::{LaunchMargin, launch_margin};
 use super::merge::OptionSample;
 use super::risk::Risk;
 use super::sample::Sample;
+use super::sampled::Sampled;
 use super::sampling::{Sampling, ShotToSample, find_risks, find_risks_watched};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, guarded};
 use crate::verdict::Verdict;
@@ -54,6 +55,19 @@ pub fn check_all(
     progress: &Progress,
 ) -> Finding<Vec<OptionResults>> {
     check_all_watched(cases, sampling, progress, &|_, _| {})
+}
+
+impl Case {
+    /// Judges every delay option: as planned, then, where a `sampling` is given, how likely it fails.
+    pub fn judge_options(
+        &self,
+        compute: &ComputeSettings,
+        sampling: Option<&Sampling>,
+        progress: &Progress,
+    ) -> Finding<OptionResults> {
+        let Found { mut value, partial } = check_all(&[(self, *compute)], sampling, progress)?;
+        Ok(Found { value: value.remove(0), partial })
+    }
 }
 
 /// Like [`check_all`], seen by `watch`.
@@ -134,7 +148,7 @@ fn add_risks(
     let Found { value: risks, partial } = find_risks_watched(&targets, progress, &mut sampled)?;
     for ((at, judgement), risk) in judged.iter_mut().zip(risks) {
         watch(*at, CheckEvent::Risk(&risk));
-        judgement.risk = Some(risk);
+        judgement.risk = Sampled::Drawn(risk);
     }
     Ok(Found { value: (), partial })
 }
@@ -149,14 +163,7 @@ fn target<'c>(
 ) -> ShotToSample<'c> {
     let fails = planned.verdict == Verdict::Fail;
     let sampling = if fails { sampling.least_only() } else { *sampling };
-    ShotToSample {
-        case,
-        shot: &case.shots[option],
-        planned: Some(*planned),
-        compute,
-        sampling,
-        precomputed: &[],
-    }
+    ShotToSample::new(case, &case.shots[option], compute, sampling).planned(*planned)
 }
 
 /// Finds the launch margin of every option of every case that has a result.
@@ -193,15 +200,14 @@ pub fn judge_drawn(
     samples: &[OptionSample],
     progress: &Progress,
 ) -> Result<OptionResults, NoResult> {
-    let mut results = check_all(&[(case, *compute)], None, progress)?.value.remove(0);
+    let mut results = case.judge_options(compute, None, progress)?.value;
     for (option, result) in results.iter_mut().enumerate() {
         if let Ok(judged) = result {
             let of_option = samples.iter().filter(|of| of.option == option);
             let drawn: Vec<Sample> = of_option.map(|of| of.sample).collect();
             let planned = Envelope::of(&judged.nominal);
-            let target =
-                ShotToSample { precomputed: &drawn, ..target(case, option, &planned, sampling, *compute) };
-            judged.risk = find_risks(&[target], progress)?.value.pop();
+            let target = target(case, option, &planned, sampling, *compute).precomputed(&drawn);
+            judged.risk = Sampled::Drawn(find_risks(&[target], progress)?.value.remove(0));
         }
     }
     Ok(results)

@@ -17,6 +17,14 @@ pub struct ComputeSettings {
     pub step: Option<f64>,
 }
 
+/// Factor on the step of a run by `method`: `newmark` errs more at the same step.
+pub(super) fn of_method(method: Method) -> f64 {
+    match method {
+        Method::Verlet => 1.0,
+        Method::Newmark => 0.25,
+    }
+}
+
 impl ComputeSettings {
     /// The settings that a plan asks for.
     pub fn of(plan: &Plan) -> Self {
@@ -46,7 +54,6 @@ impl ComputeSettings {
             Accuracy::Field => (0.1, 1e-3),
             Accuracy::Reference => (0.025, 2.5e-4),
         };
-        let implicit = if self.method == Method::Newmark { 0.25 } else { 1.0 };
-        implicit * longest.min(fraction * case.scene().critical_step())
+        of_method(self.method) * longest.min(fraction * case.scene().critical_step())
     }
 }

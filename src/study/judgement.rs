@@ -3,6 +3,7 @@
 use super::check::Checked;
 use super::margin::LaunchMargin;
 use super::risk::Risk;
+use super::sampled::{self, Sampled};
 use crate::verdict::Verdict;
 
 /// A delay option, judged as planned and by samples.
@@ -10,8 +11,8 @@ use crate::verdict::Verdict;
 pub struct Judgement {
     /// The shot as planned.
     pub nominal: Checked,
-    /// The shots that `[uncertainty]` describes; `None` where only the shot as planned was asked for.
-    pub risk: Option<Risk>,
+    /// The shots that `[uncertainty]` describes. Of a sampling that the time cut short there may be no sample.
+    pub risk: Sampled<Risk>,
     /// How much faster than planned the tires may leave; `None` where it was not asked for, or the time was up.
     pub launch_margin: Option<LaunchMargin>,
 }
@@ -23,20 +24,19 @@ impl Judgement {
         match self.launch_margin {
             Some(LaunchMargin::UpTo { rise, .. }) => Some(rise),
             Some(LaunchMargin::Wide) => None,
-            None if self.risk.is_none() && self.nominal.verdict == Verdict::Pass => None,
+            None if !self.risk.is_asked() && self.nominal.verdict == Verdict::Pass => None,
             Some(LaunchMargin::NotPassing) | None => Some(0.0),
         }
     }
 
     /// The judgement of the shot as planned alone.
     pub fn nominal(nominal: Checked) -> Self {
-        Self { nominal, risk: None, launch_margin: None }
+        Self { nominal, risk: Sampled::NotAsked, launch_margin: None }
     }
 
     /// Pass where the shot as planned passes and surely fewer shots than accepted fail; fail where the shot as planned
     /// fails, or surely more shots than accepted.
     pub fn verdict(&self) -> Verdict {
-        let risk = self.risk.as_ref().map_or(Verdict::Pass, Risk::verdict);
-        self.nominal.verdict.max(risk)
+        sampled::verdict(self.nominal.verdict, self.risk.map(Risk::verdict))
     }
 }

@@ -1,6 +1,7 @@
 //! How much faster than planned the tires may leave before the shot as planned no longer passes.
 
-use super::screen::{is_sure, screen};
+use super::batch::or_unknown;
+use super::screen::screen;
 use super::{Case, ComputeSettings, NoResult, Progress};
 use crate::scene::Shot;
 use crate::verdict::Verdict;
@@ -37,12 +38,7 @@ pub fn launch_margin(
     }
     for percent in 1..=MOST_PERCENT {
         let faster = shot.with_launches(1.0 + 1e-2 * percent as f64);
-        let enough = |envelope: &_, runs| is_sure(case, envelope, runs);
-        let then = match screen(case, &faster, compute, progress, enough) {
-            Ok(screened) => screened.verdict,
-            Err(NoResult::Failed(_)) => Verdict::Undecided,
-            Err(ended) => return Err(ended),
-        };
+        let then = or_unknown(screen(case, &faster, compute, progress))?.verdict;
         if then != Verdict::Pass {
             return Ok(LaunchMargin::UpTo { rise: 1e-2 * (percent - 1) as f64, then });
         }

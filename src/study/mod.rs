@@ -27,6 +27,7 @@ pub mod reason;
 pub mod risk;
 pub mod risk_summary;
 pub mod sample;
+pub mod sampled;
 pub mod sampling;
 mod screen;
 pub mod size;

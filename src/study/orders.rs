@@ -21,8 +21,9 @@ use serde::{Deserialize, Serialize};
 
 use super::batch::{envelopes_or_unknown, judge_shot};
 use super::risk_summary::{RiskSummary, sample_shots};
+use super::sampled::{self, Sampled};
 use super::sampling::Sampling;
-use super::screen::{is_sure, screen};
+use super::screen::{is_sure, screen_until};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard};
 use crate::plan::BlastRow;
 use crate::scene::{Firing, Shot};
@@ -110,15 +111,17 @@ impl Orders {
         self.risks.is_some()
     }
 
-    /// What the samples of the order ranked `n` tell; `None` where none were drawn.
-    pub fn risk(&self, n: usize) -> Option<&RiskSummary> {
-        self.risks.as_ref()?.get(&n)
+    /// What the samples of the order ranked `n` tell.
+    pub fn risk(&self, n: usize) -> Sampled<&RiskSummary> {
+        match &self.risks {
+            None => Sampled::NotAsked,
+            Some(risks) => risks.get(&n).map_or(Sampled::NotDrawn, Sampled::Drawn),
+        }
     }
 
     /// The verdict on the order ranked `n`: as planned, and of its samples where samples were asked for.
     pub fn verdict_on(&self, n: usize) -> Verdict {
-        let sampled = self.risk(n).map_or(Verdict::Undecided, |risk| risk.verdict);
-        self.ranked[n].envelope.verdict.max(if self.has_risk() { sampled } else { Verdict::Pass })
+        sampled::verdict(self.ranked[n].envelope.verdict, self.risk(n).map(|risk| risk.verdict))
     }
 
     /// The verdict on all orders; undecided where none was tried.
@@ -133,7 +136,7 @@ impl Orders {
     }
 }
 
-/// Ranks the orders tried at `intervals` intervals; with a `sampling` it adds the risk of both ends.
+/// Ranks orders tried at `intervals` intervals, by one machine or by many; with a `sampling` it adds the risk of both ends.
 pub fn rank(
     case: &Case,
     tried: Found<Vec<Tried>>,
@@ -160,8 +163,20 @@ pub fn tries_all(case: &Case) -> bool {
     case.plan.blast_rows.len() <= MOST_ROWS
 }
 
-/// Tries the orders at every interval [s]; only those of `shard`.
+/// Tries the orders at every interval [s], and ranks them; with a `sampling` it adds the risk of both ends.
 pub fn orders(
+    case: &Case,
+    intervals: &[f64],
+    sampling: Option<&Sampling>,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Finding<Orders> {
+    let tried = try_orders(case, intervals, Shard::WHOLE, compute, progress)?;
+    rank(case, tried, intervals.len(), sampling, compute, progress)
+}
+
+/// Tries the orders at every interval [s]; only those of `shard`.
+pub fn try_orders(
     case: &Case,
     intervals: &[f64],
     shard: Shard,
@@ -306,7 +321,7 @@ fn screen_orders(
         is_sure(case, envelope, runs) || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= RUNS
     };
     let envelopes = envelopes_or_unknown(&jobs, progress, |(_, (order, interval))| {
-        screen(case, &case.shot(order, *interval), compute, progress, enough)
+        screen_until(case, &case.shot(order, *interval), compute, progress, enough)
     })?;
     let tried = |((number, (order, interval)), envelope): (Job, Option<Envelope>)| {
         envelope.map(|envelope| Tried { number, order, interval, envelope })

@@ -24,23 +24,11 @@ pub struct RiskSummary {
 }
 
 impl RiskSummary {
-    /// What no sample tells.
-    pub fn nothing(case: &Case) -> Self {
-        let bounds = Risk::new(case, None, 0, true).bounds;
-        let (verdict, utilization) = (Verdict::Undecided, f64::INFINITY);
-        Self { bounds, verdict, is_contradicted: false, utilization }
-    }
-
     fn of(risk: &Risk, limits: &Limits) -> Self {
         let shares = risk.samples.iter().map(|sample| sample.run.utilization(limits));
         let utilization = percentiles(shares, [0.95]).map_or(f64::INFINITY, |[p95]| p95);
         let (verdict, is_contradicted) = (risk.verdict(), risk.is_contradicted());
         Self { bounds: risk.bounds, verdict, is_contradicted, utilization }
-    }
-
-    /// Whether any sample was drawn.
-    pub fn is_drawn(&self) -> bool {
-        self.bounds.samples > 0
     }
 
     /// Whether the failing share so far does not exceed the accepted risk, and nothing speaks against the samples; not yet a
@@ -64,13 +52,8 @@ pub fn sample_shots<'c>(
 ) -> Result<Vec<Option<RiskSummary>>, NoResult> {
     let mut all = Vec::with_capacity(shots.len());
     for shots in shots.chunks(AT_ONCE) {
-        let target = |(shot, planned): &'c (Shot, Envelope)| ShotToSample {
-            case,
-            shot,
-            planned: Some(*planned),
-            compute: *compute,
-            sampling: *sampling,
-            precomputed: &[],
+        let target = |(shot, planned): &'c (Shot, Envelope)| {
+            ShotToSample::new(case, shot, *compute, *sampling).planned(*planned)
         };
         let targets: Vec<_> = shots.iter().map(target).collect();
         let risks = find_risks(&targets, progress)?.value;

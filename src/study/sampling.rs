@@ -6,13 +6,14 @@ use std::ops::{ControlFlow, Range};
 use serde::{Deserialize, Serialize};
 
 use super::batch::run_jobs;
+use super::compute::of_method;
 use super::influence::SAMPLES_FOR_SHARES;
 use super::random_shot::{Input, RandomShot, draw};
 use super::reason::closes;
 use super::risk::{LEAST_AUDITS, Risk, SAMPLES_FOR_BANDS};
 use super::sample::{Sample, SampleRun};
 use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard, guarded};
-use crate::choice::{Accuracy, Method};
+use crate::choice::Accuracy;
 use crate::scene::{Scene, Shot};
 use crate::verdict::Verdict;
 
@@ -87,9 +88,24 @@ pub struct ShotToSample<'c> {
     pub precomputed: &'c [Sample],
 }
 
-impl ShotToSample<'_> {
+impl<'c> ShotToSample<'c> {
+    /// A shot that nobody has judged or sampled yet.
+    pub fn new(case: &'c Case, shot: &'c Shot, compute: ComputeSettings, sampling: Sampling) -> Self {
+        Self { case, shot, planned: None, compute, sampling, precomputed: &[] }
+    }
+
+    /// The same shot, judged as `planned`.
+    pub fn planned(self, planned: Envelope) -> Self {
+        Self { planned: Some(planned), ..self }
+    }
+
+    /// The same shot, of which other machines drew samples at the usual step, in order of their numbers.
+    pub fn precomputed(self, precomputed: &'c [Sample]) -> Self {
+        Self { precomputed, ..self }
+    }
+
     /// The sample of a number, where another machine drew it.
-    fn precomputed(&self, number: usize) -> Option<&Sample> {
+    fn drawn_elsewhere(&self, number: usize) -> Option<&Sample> {
         let found = self.precomputed.binary_search_by_key(&number, |sample| sample.number);
         found.ok().map(|n| &self.precomputed[n])
     }
@@ -137,7 +153,7 @@ pub fn find_risks_watched(
             return Ok(Found { value: risks, partial: false });
         }
         let drawn =
-            run_jobs(&jobs, progress, |&(n, number, halvings)| match targets[n].precomputed(number) {
+            run_jobs(&jobs, progress, |&(n, number, halvings)| match targets[n].drawn_elsewhere(number) {
                 Some(sample) if halvings == 0 => Ok(*sample),
                 _ => run_sample(&targets[n], number, halvings, progress),
             })?;
@@ -207,15 +223,12 @@ const LONGEST_STEP: f64 = 2e-3;
 const OF_CRITICAL_STEP: f64 = 0.55;
 /// Factor on the step of a sample where accuracy `reference` is asked for; draft and field use one step.
 const OF_REFERENCE: f64 = 0.25;
-/// Factor on the step of a sample where method `newmark` is asked for.
-const OF_NEWMARK: f64 = 0.25;
 
 /// Step of a sample [s]: the fixed step where there is one.
 fn step(compute: &ComputeSettings, scene: &Scene) -> f64 {
     let level = if compute.accuracy == Accuracy::Reference { OF_REFERENCE } else { 1.0 };
-    let implicit = if compute.method == Method::Newmark { OF_NEWMARK } else { 1.0 };
     let usual = LONGEST_STEP.min(OF_CRITICAL_STEP * scene.critical_step());
-    compute.step.unwrap_or(implicit * level * usual)
+    compute.step.unwrap_or(of_method(compute.method) * level * usual)
 }
 
 fn try_sample(

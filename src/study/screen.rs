@@ -24,8 +24,18 @@ const RUNS_OF_PASS: usize = 3;
 /// Factor on the error of a coarse run with which a fail must still stand.
 const SURE_FAIL: f64 = 3.0;
 
-/// Judges a shot at ever finer steps until `enough`, which gets the last run judged and the number of runs, returns true.
+/// Judges a shot at ever finer steps until it lies surely on one side of its limits.
 pub fn screen(
+    case: &Case,
+    shot: &Shot,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<Envelope, NoResult> {
+    screen_until(case, shot, compute, progress, |screened, runs| is_sure(case, screened, runs))
+}
+
+/// Judges a shot at ever finer steps until `enough`, which gets the last run judged and the number of runs, returns true.
+pub fn screen_until(
     case: &Case,
     shot: &Shot,
     compute: &ComputeSettings,

@@ -20,7 +20,7 @@ use super::theme::Theme;
 use crate::jobs::{News, StudyKind};
 use crate::plan::{Plan, PlanSource};
 use crate::study::judgement::Judgement;
-use crate::study::risk::Risk;
+use crate::study::sampled::Sampled;
 use crate::study::{Case, ComputeSettings, step_error};
 
 /// What the event loop must do after an update.
@@ -304,8 +304,8 @@ impl App {
             }
             News::Checked { option, result } => {
                 let state = result.map_or_else(OptionState::Failed, |checked| {
-                    // An option without samples is undecided: nobody takes its verdict as planned for the verdict.
-                    let risk = Some(Risk::new(&self.case, None, 0, true));
+                    // Nobody takes its verdict as planned for the verdict.
+                    let risk = Sampled::NotDrawn;
                     let judgement = Box::new(Judgement { risk, ..Judgement::nominal(*checked) });
                     OptionState::Done { judgement, sampling: true }
                 });
@@ -313,7 +313,7 @@ impl App {
             }
             News::Sampled { option, risk, more } => {
                 if let Some(OptionState::Done { judgement, sampling }) = self.options.get_mut(option) {
-                    judgement.risk = Some(*risk);
+                    judgement.risk = Sampled::Drawn(*risk);
                     *sampling = more;
                 }
             }

@@ -97,7 +97,7 @@ impl SortBy {
                 Verdict::Undecided => 1.0,
                 Verdict::Fail => 2.0,
             },
-            SortBy::Risk => risk.as_ref().map_or(1.0, |risk| risk.bounds.interval[1]),
+            SortBy::Risk => risk.drawn().map_or(1.0, |risk| risk.bounds.interval[1]),
             SortBy::Height => nominal.height.value,
             SortBy::Force => nominal.force.value,
             SortBy::Drift => nominal.drift.value,

@@ -15,6 +15,7 @@ use shelter::study::merge::OptionSample;
 use shelter::study::random_shot::{RandomShot, draw};
 use shelter::study::risk::Risk;
 use shelter::study::risk_summary::sample_shots;
+use shelter::study::sampled::Sampled;
 use shelter::study::sampling::{Sampling, ShotToSample, draw_shard, find_risks};
 use shelter::study::{Case, ComputeSettings, Envelope, Progress, Shard, thread_pool};
 use shelter::verdict::{Quantity, Verdict};
@@ -62,7 +63,7 @@ delay = [{{ name = "20", interval_ms = 20 }}, {{ name = "60", interval_ms = 60 }
 
 fn risk_of(case: &Case, sampling: &Sampling) -> Risk {
     let (shot, compute) = (&case.shots[0], ComputeSettings::of(&case.plan));
-    let target = ShotToSample { case, shot, planned: None, compute, sampling: *sampling, precomputed: &[] };
+    let target = ShotToSample::new(case, shot, compute, *sampling);
     let found = find_risks(&[target], &Progress::default());
     found.expect("a result").value.remove(0)
 }
@@ -122,9 +123,9 @@ fn verdicts_follow_the_accepted_risk() {
 fn a_shot_that_passes_as_planned_fails_by_its_risk() {
     let case = lone(6.1_f64.powi(2) / (2.0 * GRAVITY), 5.0);
     let judged = |sampling: Option<&Sampling>| -> Judgement {
-        let cases = [(&case, ComputeSettings::of(&case.plan))];
-        let mut found = check_all(&cases, sampling, &Progress::default()).expect("a result").value;
-        found.remove(0).remove(0).expect("a result")
+        let compute = ComputeSettings::of(&case.plan);
+        let found = case.judge_options(&compute, sampling, &Progress::default());
+        found.expect("a result").value.remove(0).expect("a result")
     };
     assert_eq!(judged(None).verdict(), Verdict::Pass);
     let both = judged(Some(&Sampling::OF_VERDICT));
@@ -171,7 +172,7 @@ fn samples_whose_step_is_too_long_pass_nothing() {
     let mut found =
         check_all(&cases, Some(&Sampling::OF_VERDICT), &Progress::default()).expect("a result").value;
     let judged = found.remove(0).remove(0).expect("a result");
-    let risk = judged.risk.as_ref().expect("samples");
+    let risk = judged.risk.drawn().expect("samples");
     assert_eq!((judged.nominal.verdict, risk.bounds.verdict()), (Verdict::Pass, Verdict::Pass));
     assert_eq!(judged.verdict(), Verdict::Undecided, "{:?}", risk.samples[0]);
     assert!(risk.halvings > 0, "the audit saw it, too");
@@ -277,14 +278,7 @@ fn shares_that_the_audit_contradicts_are_sampled_anew() {
     let case = too_hard_for_samples();
     let compute = ComputeSettings::of(&case.plan);
     let (sampling, progress) = (Sampling::exactly(600, 1), Progress::default());
-    let target = ShotToSample {
-        case: &case,
-        shot: &case.shots[0],
-        planned: None,
-        compute,
-        sampling,
-        precomputed: &[],
-    };
+    let target = ShotToSample::new(&case, &case.shots[0], compute, sampling);
     let shard = |index| draw_shard(&[target], Shard { index, of: 2 }, &progress).expect("samples");
     let mut drawn: Vec<OptionSample> = [shard(0), shard(1)]
         .into_iter()
@@ -293,10 +287,10 @@ fn shares_that_the_audit_contradicts_are_sampled_anew() {
         .collect();
     drawn.sort_by_key(|of| of.sample.number);
     let joined = judge_drawn(&case, &compute, &sampling, &drawn, &progress).expect("a result").remove(0);
-    let whole = check_all(&[(&case, compute)], Some(&sampling), &progress).expect("a result").value;
-    let whole = whole[0][0].as_ref().expect("a result").risk.as_ref().expect("samples");
+    let whole = case.judge_options(&compute, Some(&sampling), &progress).expect("a result").value;
+    let whole = whole[0].as_ref().expect("a result").risk.drawn().expect("samples");
     assert!(whole.halvings > 0, "a test that can fail");
-    assert_eq!(joined.expect("a result").risk.as_ref(), Some(whole));
+    assert_eq!(joined.expect("a result").risk.drawn(), Some(whole));
 }
 
 /// Mean and standard deviation.
@@ -502,10 +496,10 @@ fn samples_are_the_same_on_any_number_of_threads() {
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
     let sampling = Sampling::exactly(120, 1);
     let on = |threads| {
-        let work = || check_all(&[(&case, compute)], Some(&sampling), &Progress::default());
-        let mut found = thread_pool(threads).expect("threads").install(work).expect("a result").value;
-        let risk = |judged: Judgement| judged.risk.expect("samples");
-        found.remove(0).into_iter().map(|result| risk(result.expect("a result"))).collect::<Vec<Risk>>()
+        let work = || case.judge_options(&compute, Some(&sampling), &Progress::default());
+        let found = thread_pool(threads).expect("threads").install(work).expect("a result").value;
+        let risk = |judged: Judgement| judged.risk.drawn().cloned().expect("samples");
+        found.into_iter().map(|result| risk(result.expect("a result"))).collect::<Vec<Risk>>()
     };
     let one = on(1);
     assert_eq!(one, on(3));
@@ -516,6 +510,6 @@ fn samples_are_the_same_on_any_number_of_threads() {
         .collect();
     let joined = judge_drawn(&case, &compute, &sampling, &drawn, &Progress::default()).expect("a result");
     for (joined, one) in joined.into_iter().zip(one) {
-        assert_eq!(joined.expect("a result").risk, Some(one));
+        assert_eq!(joined.expect("a result").risk, Sampled::Drawn(one));
     }
 }

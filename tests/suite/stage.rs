@@ -18,6 +18,7 @@ use shelter::study::orders::{Orders, Tried};
 use shelter::study::reason::Reason;
 use shelter::study::risk::Risk;
 use shelter::study::sample::{Sample, SampleRun};
+use shelter::study::sampled::Sampled;
 use shelter::study::sampling::Sampling;
 use shelter::study::size::{Combination, SampledRisk, Sizing, Trial};
 use shelter::study::sweep::{Point, Recommended, Sweep};
@@ -96,7 +97,7 @@ pub fn samples(case: &Case, count: usize, some_fail: bool) -> Risk {
 pub fn judgement(case: &Case, option: usize) -> Judgement {
     let verdict = if option.is_multiple_of(3) { Verdict::Fail } else { Verdict::Pass };
     let risk = samples(case, 200, option.is_multiple_of(2));
-    Judgement { risk: Some(risk), ..Judgement::nominal(checked(verdict)) }
+    Judgement { risk: Sampled::Drawn(risk), ..Judgement::nominal(checked(verdict)) }
 }
 
 /// A judged option.
@@ -111,7 +112,7 @@ pub fn finished() -> App {
     for (n, row) in app.options.iter_mut().enumerate() {
         let risk = if n == 4 { samples(&app.case, 500, false) } else { samples(&app.case, 200, n % 2 == 0) };
         let nominal = Judgement::nominal(checked(verdicts[n % 3]));
-        *row = done(Judgement { risk: Some(risk), ..nominal }, false);
+        *row = done(Judgement { risk: Sampled::Drawn(risk), ..nominal }, false);
     }
     app
 }
@@ -159,7 +160,7 @@ pub fn swept() -> StudyResult {
         Point {
             interval: n as f64 * 0.01,
             envelope: Envelope { verdict, height, force, drift: Bounded::default() },
-            risk: None,
+            risk: Sampled::NotAsked,
         }
     };
     let windows = vec![[0.0, 0.03], [0.08, 0.13], [0.18, 0.24], [0.29, 0.34], [0.39, 0.44], [0.5, 0.5]];

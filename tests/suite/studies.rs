@@ -10,8 +10,9 @@ use shelter::ropes::{Kind, catalogue};
 use shelter::study::check::{check, check_shot};
 use shelter::study::check_all::check_all;
 use shelter::study::judgement::Judgement;
-use shelter::study::orders::{Orders, Tried, orders, rank, refine};
+use shelter::study::orders::{Orders, Tried, orders, refine, try_orders};
 use shelter::study::risk::Risk;
+use shelter::study::sampled::Sampled;
 use shelter::study::sampling::{Sampling, ShotToSample, find_risks};
 use shelter::study::size::{Demand, size};
 use shelter::study::swaps::swaps;
@@ -123,8 +124,7 @@ fn risky_sweep(case: &Case) -> (Sweep, Sampling, ComputeSettings) {
 /// The samples of one interval, drawn alone.
 fn risk_at(case: &Case, interval: f64, sampling: &Sampling, compute: ComputeSettings) -> Risk {
     let shot = case.shot(&[0, 1, 2], interval);
-    let target =
-        ShotToSample { case, shot: &shot, planned: None, compute, sampling: *sampling, precomputed: &[] };
+    let target = ShotToSample::new(case, &shot, compute, *sampling);
     let found = find_risks(&[target], &Progress::default());
     found.expect("samples").value.remove(0)
 }
@@ -139,7 +139,7 @@ fn windows_of_accepted_risk_are_those_of_the_samples() {
     let (mut accepted, mut refused) = (0, 0);
     for point in &sampled {
         assert!(inside(&swept.nominal_windows, point.interval));
-        let bounds = point.risk.expect("sampled").bounds;
+        let bounds = point.risk.drawn().expect("sampled").bounds;
         // More samples have the few intervals that got a full verdict.
         if bounds.samples <= 100 {
             let alone = risk_at(&case, point.interval, &sampling.first_look(), compute).bounds;
@@ -168,7 +168,7 @@ fn the_recommended_interval_has_a_full_verdict() {
     assert_eq!((best.verdict(), best.envelope), (Verdict::Pass, Envelope::of(&checked.expect("a result"))));
     // The first look chose the interval for its draws; the verdict has others.
     let full = risk_at(&case, best.interval, &sampling.with_fresh_draws(1 + swept.refuted), compute);
-    assert_eq!((full.verdict(), best.risk.expect("sampled").bounds), (Verdict::Pass, full.bounds));
+    assert_eq!((full.verdict(), best.risk.drawn().expect("sampled").bounds), (Verdict::Pass, full.bounds));
 }
 
 /// A hundred samples of an interval may keep the accepted risk, and its full verdict does not pass: it is not recommended.
@@ -187,21 +187,20 @@ fn the_ends_of_the_ranking_are_sampled() {
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
     let (progress, intervals) = (Progress::default(), [0.02, 0.045, 0.2]);
     let sampling = Sampling { most: 500, ..Sampling::OF_VERDICT };
-    let tried = || orders(&case, &intervals, Shard::WHOLE, &compute, &progress).expect("a result");
-    let nominal = rank(&case, tried(), 3, None, &compute, &progress).expect("a result").value;
-    let ranked = rank(&case, tried(), 3, Some(&sampling), &compute, &progress).expect("a result").value;
+    let orders = |sampling| orders(&case, &intervals, sampling, &compute, &progress);
+    let nominal = orders(None).expect("a result").value;
+    let ranked = orders(Some(&sampling)).expect("a result").value;
     assert_eq!((&ranked.ranked, ranked.ranked.len()), (&nominal.ranked, 72));
     for (n, tried) in ranked.ranked.iter().enumerate() {
         assert_eq!(nominal.verdict_on(n), tried.envelope.verdict);
-        let Some(risk) = ranked.risk(n) else {
+        let Sampled::Drawn(risk) = ranked.risk(n) else {
             assert!((20..52).contains(&n));
             assert!(ranked.verdict_on(n) != Verdict::Pass, "not sampled, so not sure");
             continue;
         };
         let sampling = if n == 71 { sampling } else { sampling.first_look() };
         let shot = case.shot(&tried.order, tried.interval);
-        let target =
-            ShotToSample { case: &case, shot: &shot, planned: None, compute, sampling, precomputed: &[] };
+        let target = ShotToSample::new(&case, &shot, compute, sampling);
         let risks = find_risks(&[target], &progress).expect("samples").value;
         assert_eq!(risk.bounds, risks[0].bounds);
         assert_eq!(ranked.verdict_on(n), tried.envelope.verdict.max(risks[0].verdict()));
@@ -245,7 +244,7 @@ fn orders_find_the_worst_and_the_best_of_brute_force() {
     for interval in [0.02, 0.045, 0.2] {
         let compute = ComputeSettings::of(&case.plan);
         let tried =
-            orders(&case, &[interval], Shard::WHOLE, &compute, &Progress::default()).expect("a result");
+            try_orders(&case, &[interval], Shard::WHOLE, &compute, &Progress::default()).expect("a result");
         let ranked = Orders::new(&case, tried.value, 1).ranked;
         let share = |envelope: &Envelope| envelope.utilization(&case.limits);
         let brute: HashMap<Vec<usize>, Envelope> =
@@ -303,7 +302,7 @@ fn a_fixed_step_is_the_step_of_every_shot() {
         Envelope::of(&checked.expect("a result"))
     };
     let progress = Progress::default();
-    let tried = orders(&case, &[0.045], Shard::WHOLE, &compute, &progress).expect("a result").value;
+    let tried = try_orders(&case, &[0.045], Shard::WHOLE, &compute, &progress).expect("a result").value;
     assert_eq!(tried.len(), 6);
     for tried in tried {
         assert_eq!(tried.envelope, fixed(&tried.order, tried.interval));
@@ -322,9 +321,9 @@ fn mirrored_orders_are_judged_once() {
     let compute = ComputeSettings::of(&case.plan);
     let progress = Progress::default();
     let tried =
-        orders(&case, &[0.045], Shard { index: 0, of: 2 }, &compute, &progress).expect("a result").value;
+        try_orders(&case, &[0.045], Shard { index: 0, of: 2 }, &compute, &progress).expect("a result").value;
     let other =
-        orders(&case, &[0.045], Shard { index: 1, of: 2 }, &compute, &progress).expect("a result").value;
+        try_orders(&case, &[0.045], Shard { index: 1, of: 2 }, &compute, &progress).expect("a result").value;
     assert_eq!(progress.counts(), (12, 12));
     let by_order: HashMap<&[usize], &Tried> =
         tried.iter().chain(&other).map(|tried| (tried.order.as_slice(), tried)).collect();
@@ -355,7 +354,8 @@ fn many_rows_are_searched() {
     }
     plan.delays.clear();
     let case = Case::new(plan);
-    let tried = orders(&case, &[0.002], Shard::WHOLE, &ComputeSettings::of(&case.plan), &Progress::default());
+    let tried =
+        try_orders(&case, &[0.002], Shard::WHOLE, &ComputeSettings::of(&case.plan), &Progress::default());
     let tried = tried.expect("a result").value;
     assert!(tried.len() > 1000);
     let different: HashSet<&[usize]> = tried.iter().map(|t| t.order.as_slice()).collect();
@@ -446,7 +446,7 @@ fn a_study_without_time_is_partial() {
     let partial = |progress: &Progress| {
         [
             sweep(&case, &[0, 1], &intervals, None, &compute, progress).map(|found| found.partial),
-            orders(&case, &[0.02], Shard::WHOLE, &compute, progress).map(|found| found.partial),
+            try_orders(&case, &[0.02], Shard::WHOLE, &compute, progress).map(|found| found.partial),
             size(&case.plan, &demand, Some(&three), &compute, progress).map(|found| found.partial),
             check_all(&[(&case, compute)], None, progress).map(|found| found.partial),
             check_all(&[(&case, compute)], Some(&three), progress).map(|found| found.partial),
@@ -463,5 +463,5 @@ fn a_stopped_study_has_no_result() {
     let case = case(3, "");
     let progress = Progress::default();
     progress.stop();
-    assert!(orders(&case, &[0.02], Shard::WHOLE, &ComputeSettings::of(&case.plan), &progress).is_err());
+    assert!(try_orders(&case, &[0.02], Shard::WHOLE, &ComputeSettings::of(&case.plan), &progress).is_err());
 }

@@ -157,7 +157,7 @@ impl AtCable {
 
 impl OptionValues {
     fn new(case: &Case, judged: &Judgement) -> Self {
-        let (scene, checked, risk) = (case.scene(), &judged.nominal, judged.risk.as_ref());
+        let (scene, checked, risk) = (case.scene(), &judged.nominal, judged.risk.drawn());
         let failures = |risk: &Risk| Failures {
             bounds: risk.bounds.interval.into(),
             samples: risk.bounds.samples,

@@ -86,7 +86,7 @@ struct SampledValues {
 
 impl SampledValues {
     fn of(nominal_verdict: Verdict, risk: Option<&RiskSummary>) -> Self {
-        let drawn = risk.filter(|risk| risk.is_drawn()).map(|risk| risk.bounds);
+        let drawn = risk.map(|risk| risk.bounds);
         Self {
             nominal_verdict,
             samples: drawn.map_or(0, |drawn| drawn.samples),

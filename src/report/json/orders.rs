@@ -44,7 +44,7 @@ impl OrdersDocument {
                 order: row_names(case, &tried.order),
                 interval_s: tried.interval,
                 values: Values::of(&judged),
-                sampled: SampledValues::of(tried.envelope.verdict, orders.risk(n)),
+                sampled: SampledValues::of(tried.envelope.verdict, orders.risk(n).drawn().copied()),
             }
         };
         let count = orders.ranked.len();

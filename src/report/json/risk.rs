@@ -73,7 +73,7 @@ pub fn input_shares(risk: &Risk, limits: &Judged) -> Option<Vec<Share>> {
 
 impl OptionResult {
     fn new(case: &Case, name: &str, result: &Result<Judgement, NoResult>) -> Self {
-        let risk = result.as_ref().ok().and_then(|judged| judged.risk.as_ref());
+        let risk = result.as_ref().ok().and_then(|judged| judged.risk.drawn());
         let bounds = risk.map(|risk| risk.bounds);
         Self {
             name: name.to_owned(),

@@ -38,7 +38,7 @@ struct IntervalResult {
 impl IntervalResult {
     fn of(point: &Point) -> Self {
         let judged = Envelope { verdict: point.verdict(), ..point.envelope };
-        let sampled = SampledValues::of(point.envelope.verdict, point.risk.as_ref());
+        let sampled = SampledValues::of(point.envelope.verdict, point.risk.drawn());
         Self { interval_s: point.interval, values: Values::of(&judged), sampled }
     }
 }

@@ -14,11 +14,11 @@ use std::cmp::Ordering;
 use std::time::Instant;
 
 pub use self::effect::Effect;
-use super::batch::run_jobs;
+use super::batch::{or_unknown, run_jobs};
 use super::risk::percentiles;
 use super::sample::Sample;
 use super::sampling::{Sampling, ShotToSample, run_sample};
-use super::screen::{is_sure, screen};
+use super::screen::screen;
 use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, guarded};
 use crate::plan::Plan;
 use crate::verdict::{Limits, Quantity, Verdict};
@@ -246,11 +246,7 @@ fn measure_option(
 ) -> Result<OptionFigures, NoResult> {
     let shot = &case.shots[option];
     let begun = Instant::now();
-    let envelope = match screen(case, shot, compute, progress, |envelope, runs| is_sure(case, envelope, runs))
-    {
-        Err(NoResult::Failed(_)) => Envelope::UNKNOWN,
-        screened => screened?,
-    };
+    let envelope = or_unknown(screen(case, shot, compute, progress))?;
     let verdict = side(&envelope, case);
     let Some(sampling) = sampling else {
         let spreads = Quantity::ALL.map(|quantity| {
@@ -259,8 +255,7 @@ fn measure_option(
         });
         return Ok(OptionFigures { verdict, spreads, time: begun.elapsed().as_secs_f64() });
     };
-    let target =
-        ShotToSample { case, shot, planned: None, compute: *compute, sampling: *sampling, precomputed: &[] };
+    let target = ShotToSample::new(case, shot, *compute, *sampling);
     let timed_sample = |number: usize| -> Result<(Sample, f64), NoResult> {
         let begun = Instant::now();
         Ok((run_sample(&target, number, 0, progress)?, begun.elapsed().as_secs_f64()))

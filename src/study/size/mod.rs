@@ -15,6 +15,7 @@ use std::cmp::Ordering;
 use itertools::Itertools;
 
 use self::trial::{Candidate, Hardest};
+use super::sampled::{Sampled, verdict};
 use super::sampling::Sampling;
 use super::{ComputeSettings, Envelope, Finding, Found, NoResult, Progress};
 use crate::plan::{Layout, Plan};
@@ -244,6 +245,7 @@ fn choose(
         if !trial.holds || trial.utilization >= least {
             continue;
         }
+        let mut sampled = Sampled::NotAsked;
         if let Some(sampling) = sampling {
             attempt += 1;
             let Combination { rope, tire_mass, border_rows, .. } = *combination;
@@ -252,9 +254,10 @@ fn choose(
                 combination.trial = Err(Untried::OutOfTime);
                 continue;
             };
-            trial.risk = Some(risk);
+            sampled = Sampled::Drawn(risk);
         }
-        trial.is_choice = trial.risk.is_none_or(|risk| risk.verdict == Verdict::Pass);
+        trial.risk = sampled.drawn().copied();
+        trial.is_choice = verdict(Verdict::Pass, sampled.map(|risk| risk.verdict)) == Verdict::Pass;
         least = if trial.is_choice { trial.utilization } else { least };
         combination.trial = Ok(trial);
     }

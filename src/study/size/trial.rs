@@ -109,13 +109,9 @@ impl<'q> Candidate<'q> {
         hardest: &Hardest,
         sampling: &Sampling,
     ) -> Result<Option<SampledRisk>, NoResult> {
-        let target = |&(n, planned): &(usize, Envelope)| ShotToSample {
-            case: &self.case,
-            shot: &self.shots[n],
-            planned: Some(planned),
-            compute: *self.question.compute,
-            sampling: *sampling,
-            precomputed: &[],
+        let compute = self.question.compute;
+        let target = |&(n, planned): &(usize, Envelope)| {
+            ShotToSample::new(&self.case, &self.shots[n], *compute, *sampling).planned(planned)
         };
         let targets: Vec<ShotToSample<'_>> = hardest.iter().map(target).collect();
         let until_one_fails = &mut |_, risk: &Risk| match risk.verdict() {

@@ -11,8 +11,9 @@ use std::collections::BTreeSet;
 
 use super::{APART, Point, Sweep, deepest, nanoseconds, windows};
 use crate::scene::Shot;
-use crate::study::batch::judge_shot;
+use crate::study::batch::{judge_shot, or_unknown};
 use crate::study::risk_summary::{RiskSummary, sample_shots};
+use crate::study::sampled::Sampled;
 use crate::study::sampling::Sampling;
 use crate::study::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress};
 use crate::verdict::Verdict;
@@ -35,9 +36,9 @@ pub fn add_risk(
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
     let sampled = sample_shots(case, &shots, &sampling.first_look(), compute, progress)?;
     partial |= sampled.contains(&None);
-    swept.points.iter_mut().for_each(|point| point.risk = Some(RiskSummary::nothing(case)));
+    swept.points.iter_mut().for_each(|point| point.risk = Sampled::NotDrawn);
     for (&n, sampled) in chosen.iter().zip(sampled) {
-        swept.points[n].risk = sampled.or(swept.points[n].risk);
+        swept.points[n].risk = sampled.map_or(Sampled::NotDrawn, Sampled::Drawn);
     }
     swept.recommended = None;
     let mut tried = BTreeSet::new();
@@ -48,7 +49,7 @@ pub fn add_risk(
             break;
         }
         let drawn: Vec<Point> = swept.points.iter().filter(|point| point.is_sampled()).copied().collect();
-        let used = |point: &Point| point.risk.map_or(f64::INFINITY, |risk| risk.utilization);
+        let used = |point: &Point| point.risk.drawn().map_or(f64::INFINITY, |risk| risk.utilization);
         let open = |point: &Point| !tried.contains(&nanoseconds(point.interval));
         let Some(candidate) = deepest(&drawn, &swept.windows, used, open) else { break };
         let Some(n) = swept.points.iter().position(|point| point.interval == candidate.interval) else {
@@ -60,7 +61,8 @@ pub fn add_risk(
             None => partial = true,
             Some((envelope, risk)) => {
                 let point = &mut swept.points[n];
-                (point.envelope, point.risk) = (envelope, risk.or(point.risk));
+                point.envelope = envelope;
+                point.risk = risk.map_or(point.risk, Sampled::Drawn);
                 if point.verdict() == Verdict::Pass {
                     swept.recommended = Some(candidate);
                     break;
@@ -80,9 +82,8 @@ fn judge(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Option<(Envelope, Option<RiskSummary>)>, NoResult> {
-    let envelope = match judge_shot(case, &shot, compute, progress) {
+    let envelope = match or_unknown(judge_shot(case, &shot, compute, progress)) {
         Err(NoResult::OutOfTime) => return Ok(None),
-        Err(NoResult::Failed(_)) => Envelope::UNKNOWN,
         judged => judged?,
     };
     if envelope.verdict != Verdict::Pass {

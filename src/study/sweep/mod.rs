@@ -19,8 +19,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::batch::{envelopes, envelopes_or_unknown, judge_shot};
 use super::risk_summary::RiskSummary;
+use super::sampled::{self, Sampled};
 use super::sampling::Sampling;
-use super::screen::{is_sure, screen};
+use super::screen::screen;
 use super::{Case, ComputeSettings, Envelope, Finding, Found, Intervals, NoResult, Progress};
 use crate::plan::Timing;
 use crate::scene::seconds;
@@ -33,24 +34,24 @@ pub struct Point {
     pub interval: f64,
     /// Verdict, height, force and drift of the shot as planned.
     pub envelope: Envelope,
-    /// What the samples tell; `None` where only the shots as planned were asked for.
-    pub risk: Option<RiskSummary>,
+    /// What the samples tell.
+    pub risk: Sampled<RiskSummary>,
 }
 
 impl Point {
     /// The verdict: of the shot as planned, and of its samples where they were asked for.
     pub fn verdict(&self) -> Verdict {
-        self.envelope.verdict.max(self.risk.map_or(Verdict::Pass, |risk| risk.verdict))
+        sampled::verdict(self.envelope.verdict, self.risk.map(|risk| risk.verdict))
     }
 
     /// Whether samples were drawn.
     pub fn is_sampled(&self) -> bool {
-        self.risk.is_some_and(|risk| risk.is_drawn())
+        self.risk.drawn().is_some()
     }
 
     /// Whether the shot as planned passes, and the failing share of its samples does not exceed the accepted risk.
     pub fn is_accepted(&self) -> bool {
-        passes(self) && self.risk.is_some_and(|risk| risk.is_accepted())
+        passes(self) && self.risk.drawn().is_some_and(RiskSummary::is_accepted)
     }
 }
 
@@ -141,9 +142,7 @@ fn sweep_nominal(
             let shot = case.shot(order, in_seconds(at));
             match exact.contains(&at) {
                 true => judge_shot(case, &shot, compute, progress),
-                false => {
-                    screen(case, &shot, compute, progress, |envelope, runs| is_sure(case, envelope, runs))
-                }
+                false => screen(case, &shot, compute, progress),
             }
         };
         // Of the points between points that are known, all may fail.
@@ -156,7 +155,7 @@ fn sweep_nominal(
         tried.extend(jobs.into_iter().zip(judged).filter_map(|(at, envelope)| Some((at, envelope?))));
         let points: Vec<Point> = tried
             .iter()
-            .map(|(&at, &envelope)| Point { interval: in_seconds(at), envelope, risk: None })
+            .map(|(&at, &envelope)| Point { interval: in_seconds(at), envelope, risk: Sampled::NotAsked })
             .collect();
         next = if partial { BTreeSet::new() } else { middles(case, &points).into_iter().collect() };
         if !next.is_empty() {
@@ -312,9 +311,14 @@ impl Sweep {
         [at(self.points.first()), at(self.points.last())]
     }
 
+    /// Whether samples were asked for.
+    pub fn has_risk(&self) -> bool {
+        self.points.iter().any(|point| point.risk.is_asked())
+    }
+
     /// Greatest distance between neighbouring points inside any window [s]; of the sampled points where there are samples.
     pub fn largest_gap(&self) -> f64 {
-        let counts = |point: &&Point| point.risk.is_none_or(|risk| risk.is_drawn());
+        let counts = |point: &&Point| !point.risk.is_asked() || point.is_sampled();
         let points: Vec<Point> = self.points.iter().filter(counts).copied().collect();
         let gap = |pair: &[Point]| {
             let inside = |[from, to]: &[f64; 2]| *from <= pair[0].interval && pair[1].interval <= *to;
@@ -351,7 +355,7 @@ mod tests {
             let verdict = if value > 1.0 { Verdict::Fail } else { Verdict::Pass };
             let height = Bounded { value, error: 0.0 };
             let envelope = Envelope { verdict, height, force: Bounded::default(), drift: Bounded::default() };
-            Point { interval: in_seconds(at), envelope, risk: None }
+            Point { interval: in_seconds(at), envelope, risk: Sampled::NotAsked }
         };
         let count = (20.0 / step) as i64;
         let mut points: Vec<Point> = (0..=count).map(|n| point((n as f64 * step * 1e6) as i64)).collect();
@@ -405,7 +409,7 @@ mod tests {
                 let height = Bounded { value, error: 0.0 };
                 let envelope =
                     Envelope { verdict, height, force: Bounded::default(), drift: Bounded::default() };
-                Point { interval: in_seconds(i64::from(n) * 100_000), envelope, risk: None }
+                Point { interval: in_seconds(i64::from(n) * 100_000), envelope, risk: Sampled::NotAsked }
             })
             .collect();
         let windows = windows(&case, &points);

@@ -23,6 +23,7 @@ use crate::report::{charts, no_result};
 use crate::scene::fire_at_s;
 use crate::study::judgement::Judgement;
 use crate::study::risk::Risk;
+use crate::study::sampled;
 use crate::tui::app::App;
 use crate::tui::options::OptionState;
 use crate::tui::theme;
@@ -65,7 +66,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         Layout::vertical([Constraint::Length(lines.min(most)), Constraint::Min(0)]).areas(inside);
     frame.render_widget(Paragraph::new(facts).wrap(Wrap { trim: true }), text);
     let history = charts::history(&app.case, &judged.nominal.history, &fire_at_s(&delay.timing));
-    let risk = judged.risk.as_ref().filter(|risk| !risk.samples.is_empty());
+    let risk = judged.risk.drawn().filter(|risk| !risk.samples.is_empty());
     draw_charts(app, history, risk, frame, rest);
 }
 
@@ -91,7 +92,7 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     let of = checked.reasons.iter().map(|of| Detail { verdict: of.verdict(), text: reason(of) });
     // As long as samples come, how many there are says more than that they do not suffice.
     let open = app.options[app.selected].is_sampling()
-        && judged.risk.as_ref().is_some_and(|risk| risk.verdict() == Verdict::Undecided);
+        && sampled::verdict(Verdict::Pass, judged.risk.map(Risk::verdict)) == Verdict::Undecided;
     let mut lines: Vec<Line> = of
         .chain(risk_detail(case, judged).filter(|_| !open))
         .map(|Detail { verdict, text }| {
@@ -102,7 +103,7 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     if !checked.broken.is_empty() {
         lines.push(Line::styled(broken(case.scene(), checked), theme.limit()));
     }
-    let risk = judged.risk.as_ref().filter(|risk| !risk.samples.is_empty());
+    let risk = judged.risk.drawn().filter(|risk| !risk.samples.is_empty());
     if open {
         let samples = risk.map_or(0, |risk| risk.samples.len());
         lines.push(Line::styled(format!("? {samples} samples so far, more come"), theme.firing()));

@@ -10,6 +10,7 @@ use crate::report::spark::sparkline;
 use crate::study::check::Checked;
 use crate::study::judgement::Judgement;
 use crate::study::risk::Risk;
+use crate::study::sampled::Sampled;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::options::OptionState;
 use crate::tui::options::SortBy;
@@ -95,7 +96,7 @@ const COLUMNS: &[Column] = &[
 
 /// The samples, once there are some.
 fn sampled(judged: &Judgement) -> Option<&Risk> {
-    judged.risk.as_ref().filter(|risk| !risk.samples.is_empty())
+    judged.risk.drawn().filter(|risk| !risk.samples.is_empty())
 }
 
 /// Bounds of the share of shots that fail.
@@ -106,7 +107,10 @@ fn fails(judged: &Judgement) -> String {
 /// Number of samples; dots as long as more come.
 fn samples(app: &App, option: usize, judged: &Judgement) -> String {
     let more = if app.options[option].is_sampling() { "…" } else { "" };
-    judged.risk.as_ref().map_or_else(String::new, |risk| format!("{}{more}", risk.samples.len()))
+    match &judged.risk {
+        Sampled::NotAsked => String::new(),
+        risk => format!("{}{more}", risk.drawn().map_or(0, |risk| risk.samples.len())),
+    }
 }
 
 /// 5th and 95th percentile of a quantity.
