@@ -115,7 +115,7 @@ fn ten_options_checked(bencher: Bencher) {
     let options: Vec<usize> = (0..case.shots.len()).collect();
     bencher.bench_local(|| {
         run_jobs(&options, &Progress::default(), |&option| {
-            check::check(&case, option, &compute, &mut |_| ControlFlow::Continue(()))
+            check::check_as_planned(&case, option, &compute, &mut |_| ControlFlow::Continue(()))
                 .map_err(NoResult::Failed)
         })
     });

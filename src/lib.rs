@@ -17,7 +17,7 @@
 //! let case = Case::new(Plan::parse("plan.toml", text)?);
 //! let compute = ComputeSettings::of(&case.plan);
 //! // The shot as planned alone:
-//! let checked = case.check(0, &compute)?;
+//! let checked = case.check_as_planned(0, &compute)?;
 //! assert!(checked.height.value + checked.height.error < 1.5);
 //! // The verdict of `shelter check`, which also samples what the plan does not know:
 //! let found = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &Progress::default())?;
@@ -75,7 +75,7 @@
 //! *taut* or *slack*; a tire on the ground *sticks* or *slips*.
 //!
 //! The *utilization* of a shot is its greatest value over its limit. A *judged shot* is its verdict with height, force and drift,
-//! each with its error ([`Envelope`](study::Envelope)). A check climbs a *ladder* of steps, each a fixed ratio finer than the one
+//! each with its error ([`JudgedShot`](study::JudgedShot)). A check climbs a *ladder* of steps, each a fixed ratio finer than the one
 //! before. A *sampling* says how many samples are drawn, from which seed, and when to stop. A *face* is one way to show a report:
 //! text, CSV, JSON, page or terminal.
 //!
@@ -104,7 +104,7 @@ pub mod verdict;
 
 pub use plan::Plan;
 pub use simulation::{Model, Motion, Settings};
-pub use study::check::{Checked, check};
+pub use study::check::{Checked, check_as_planned};
 pub use study::check_all::check_all;
 pub use study::judgement::Judgement;
 pub use study::sampling::Sampling;

@@ -110,16 +110,6 @@ impl History {
         }
     }
 
-    /// Greatest samples in each of `SLICES` equal parts of the time up to `end` [s], of `buckets` of this history.
-    pub fn slices<const SLICES: usize>(&self, buckets: &[f64], end: f64) -> [f64; SLICES] {
-        let mut greatest = [0.0_f64; SLICES];
-        for (n, &value) in buckets.iter().enumerate() {
-            let slice = slice_at::<SLICES>((n as f64 + 0.5) * self.width, end);
-            greatest[slice] = greatest[slice].max(value);
-        }
-        greatest
-    }
-
     /// Notes the greatest height [m] and force [N] at time `at` [s].
     #[inline]
     pub fn note(&mut self, at: f64, height: f64, force: f64) {
@@ -137,6 +127,16 @@ impl History {
         self.height[bucket] = self.height[bucket].max(height);
         self.force[bucket] = self.force[bucket].max(force);
     }
+}
+
+/// Greatest value of `buckets`, each `width` [s] wide, in each of `SLICES` equal parts of the time to `end` [s].
+pub fn slices<const SLICES: usize>(buckets: &[f64], width: f64, end: f64) -> [f64; SLICES] {
+    let mut greatest = [0.0_f64; SLICES];
+    for (n, &value) in buckets.iter().enumerate() {
+        let slice = slice_at::<SLICES>((n as f64 + 0.5) * width, end);
+        greatest[slice] = greatest[slice].max(value);
+    }
+    greatest
 }
 
 /// Number of the slice of the time up to `end` [s] that holds the time `at` [s].

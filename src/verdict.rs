@@ -113,7 +113,8 @@ impl Limits {
 
     /// Utilization: the greatest value over its limit; above 1 a shot fails.
     pub fn utilization(&self, value: impl Fn(Quantity) -> f64) -> f64 {
-        let shares = Quantity::ALL.into_iter().filter_map(|of| Some(value(of) / self.get(of)?));
+        let shares =
+            Quantity::ALL.into_iter().filter_map(|quantity| Some(value(quantity) / self.get(quantity)?));
         shares.fold(0.0, f64::max)
     }
 }

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use shelter::choice::{Accuracy, Method};
 use shelter::plan::Plan;
 use shelter::simulation::{Model, Settings};
-use shelter::study::check::{Checked, check};
+use shelter::study::check::{Checked, check_as_planned};
 use shelter::study::{Case, ComputeSettings};
 use shelter::verdict::{Limits, Verdict};
 
@@ -56,12 +56,12 @@ pub fn compare(regime: Regime, n: u64, accuracy: Accuracy, limits: usize) -> Com
     let truth = case.model.run(&case.shots[0], &settings, &mut |_| ControlFlow::Continue(()));
     let truth = truth.unwrap_or_else(|failure| panic!("{regime:?} {n}: {failure}"));
     let judge = |case: &Case, compute: &ComputeSettings| -> Checked {
-        check(case, 0, compute, &mut |_| ControlFlow::Continue(()))
+        check_as_planned(case, 0, compute, &mut |_| ControlFlow::Continue(()))
             .unwrap_or_else(|failure| panic!("{regime:?} {n}: {failure}"))
     };
     let own_step = ComputeSettings { step: Some(at_level(accuracy).first_step(&case)), ..at_level(accuracy) };
     let first = judge(&case, &own_step);
-    let relative = |error: f64, of: f64| if of > 1e-6 { (error / of).abs() } else { 0.0 };
+    let relative = |error: f64, value: f64| if value > 1e-6 { (error / value).abs() } else { 0.0 };
     let exact = [truth.height.value, truth.force.value, truth.drift.value];
     let found = [first.height, first.force, first.drift];
     let (mut verdicts, mut steps) = (Vec::new(), 0);

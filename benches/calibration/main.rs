@@ -29,7 +29,8 @@ fn main() {
         println!("\n{}: {} scenes\n", accuracy.name(), all.len());
         println!("| regime | height | force | drift |");
         println!("|---|---|---|---|");
-        let percents = |of: &dyn Fn(usize) -> f64| [0, 1, 2].map(|q| format!("{:.1} %", of(q))).join(" | ");
+        let percents =
+            |share: &dyn Fn(usize) -> f64| [0, 1, 2].map(|q| format!("{:.1} %", share(q))).join(" | ");
         for regime in Regime::ALL {
             let own = |q| within(all.iter().filter(|c| c.regime == regime), q);
             println!("| {regime:?} | {} |", percents(&own));
@@ -56,7 +57,7 @@ fn main() {
             "\n{} limits 0.01 to 10 % from the true values: {flips} verdicts flip, {open} open",
             verdicts.len()
         );
-        let sum = |of: fn(&Compared) -> usize| all.iter().map(of).sum::<usize>() as f64;
+        let sum = |count: fn(&Compared) -> usize| all.iter().map(count).sum::<usize>() as f64;
         let share = sum(|c| c.steps) / sum(|c| c.steps_at_finest);
         println!("{:.1} % of the steps that single runs at the step of the truth take", 100.0 * share);
     }

@@ -38,8 +38,8 @@ fn brute_force(case: &Case, option: usize, samples: usize, accuracy: Accuracy) -
     drawn.into_iter().filter_map(|(_, sample)| sample).collect()
 }
 
-fn share(of: impl Iterator<Item = bool>) -> f64 {
-    let all: Vec<bool> = of.collect();
+fn share(flags: impl Iterator<Item = bool>) -> f64 {
+    let all: Vec<bool> = flags.collect();
     all.iter().filter(|&&is| is).count() as f64 / all.len() as f64
 }
 

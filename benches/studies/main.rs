@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use shelter::study::check::check_shot;
 use shelter::study::orders::try_orders;
 use shelter::study::sweep::sweep;
-use shelter::study::{Case, ComputeSettings, Envelope, Intervals, Progress, Shard};
+use shelter::study::{Case, ComputeSettings, Intervals, JudgedShot, Progress, Shard};
 use shelter::verdict::Verdict;
 
 /// Distance between the intervals that are checked inside windows [s].
@@ -40,10 +40,10 @@ fn main() {
     }
 }
 
-fn checked(case: &Case, order: &[usize], interval: f64) -> Envelope {
+fn checked(case: &Case, order: &[usize], interval: f64) -> JudgedShot {
     let compute = ComputeSettings::of(&case.plan);
     let checked = check_shot(case, &case.shot(order, interval), &compute, &mut |_| ControlFlow::Continue(()));
-    checked.map_or(Envelope::UNKNOWN, |checked| Envelope::of(&checked))
+    checked.map_or(JudgedShot::UNKNOWN, |checked| JudgedShot::of(&checked))
 }
 
 fn compare_windows(random: u64) {
@@ -93,22 +93,22 @@ fn compare_orders(rows: usize, random: u64) {
         let rim = n % 2 == 0;
         let case = plans::case(n, Some(rows), rim);
         let compute = ComputeSettings::of(&case.plan);
-        let ends = |all: &[Envelope]| {
+        let ends = |all: &[JudgedShot]| {
             let order = |a: &f64, b: &f64| a.total_cmp(b);
-            let all = all.iter().map(|envelope| envelope.utilization(&case.limits));
+            let all = all.iter().map(|judged| judged.utilization(&case.limits));
             [all.clone().max_by(order), all.min_by(order)].map(|end| end.expect("an order"))
         };
         for interval in INTERVALS {
             let begun = Instant::now();
             let found = try_orders(&case, &[interval], Shard::WHOLE, &compute, &Progress::default());
             let (found, wall) = (found.expect("a result").value, begun.elapsed().as_secs_f64());
-            let found: Vec<Envelope> = found.iter().map(|tried| tried.envelope).collect();
+            let found: Vec<JudgedShot> = found.iter().map(|tried| tried.as_planned).collect();
             let begun = Instant::now();
             let compared = hardest_and_easiest(&case, rows, interval);
-            let brute: Vec<Envelope> =
+            let brute: Vec<JudgedShot> =
                 compared.par_iter().map(|order| checked(&case, order, interval)).collect();
             let ([worst, best], [high, low]) = (ends(&found), ends(&brute));
-            let [upper, _] = ends(&brute.iter().map(|envelope| envelope.with_errors(1.0)).collect_vec());
+            let [upper, _] = ends(&brute.iter().map(|judged| judged.with_errors(1.0)).collect_vec());
             println!(
                 "| {n}, {} | {:.0} | {high:.4}, {:.4} | {:.3} % | {low:.4} | {:.3} % | {wall:.1} | {:.1} |",
                 if rim { "rim to rim" } else { "centre to centre" },

@@ -178,11 +178,11 @@ pub fn intervals(text: &str) -> Result<Intervals, String> {
 /// `I/N`, I from 1.
 pub fn shard(text: &str) -> Result<Shard, String> {
     let wrong = || format!("'{text}' is no shard: write I/N, such as 1/4 to 4/4");
-    let (index, of) = text.split_once('/').ok_or_else(wrong)?;
-    let [index, of] = [index, of].map(|text| text.trim().parse::<usize>().map_err(|_| wrong()));
-    let (index, of) = (index?, of?);
-    if index == 0 || index > of {
+    let (number, count) = text.split_once('/').ok_or_else(wrong)?;
+    let [number, count] = [number, count].map(|text| text.trim().parse::<usize>().map_err(|_| wrong()));
+    let (number, count) = (number?, count?);
+    if number == 0 || number > count {
         return Err(wrong());
     }
-    Ok(Shard { index: index - 1, of })
+    Ok(Shard { index: number - 1, of: count })
 }

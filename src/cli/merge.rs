@@ -32,7 +32,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             Err(error) => return wrong(&format!("cannot read {}: {error}", file.display())),
         }
     }
-    let (head, findings) = match merge(&shards) {
+    let (head, results) = match merge(&shards) {
         Ok(merged) => merged,
         Err(message) => return wrong(&message),
     };
@@ -40,10 +40,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Ok(case) => case,
         Err(mistakes) => return wrong(&mistakes.to_string()),
     };
-    if !findings.fit(&case) {
+    if !results.belong_to(&case) {
         return wrong("the shards hold results that do not belong to their plan: one shard is damaged");
     }
-    match (head.question, findings) {
+    match (head.question, results) {
         // Only all shards together tell which orders may be the worst.
         (Question::Orders { intervals_s, sampling }, ShardResults::Orders(tried)) => {
             let (compute, progress) = (&head.compute, Progress::default());

@@ -12,7 +12,7 @@ use super::print_findings::print_orders;
 use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::report::notes;
-use crate::study::merge::{Question, ShardResults, write_share};
+use crate::study::merge::{Question, ShardResults, write_shard};
 use crate::study::orders::{MOST_ROWS, count, orders, tries_all, try_orders};
 use crate::study::{Found, Intervals, Shard};
 
@@ -65,7 +65,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             Err(reason) => failed(&reason),
             Ok(Found { value: tried, .. }) => {
                 let question = Question::Orders { intervals_s, sampling };
-                print_text(&write_share(&case, question, settings, shard, &ShardResults::Orders(tried))?)?;
+                print_text(&write_shard(&case, question, settings, shard, &ShardResults::Orders(tried))?)?;
                 Ok(Status::Pass)
             }
         };

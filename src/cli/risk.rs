@@ -12,7 +12,7 @@ use super::print_findings::print_risks;
 use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::report::notes;
-use crate::study::merge::{OptionSample, Question, ShardResults, write_share};
+use crate::study::merge::{OptionSample, Question, ShardResults, write_shard};
 use crate::study::sampling::{Sampling, ShotToSample, draw_shard};
 use crate::study::{Case, Found, Shard};
 
@@ -74,7 +74,7 @@ fn draw(arguments: &Arguments, case: &Case, sampling: &Sampling, shard: Shard) -
         Err(reason) => failed(&reason),
         Ok(Found { value: samples, .. }) => {
             let question = Question::Risk { sampling: *sampling };
-            print_text(&write_share(case, question, settings, shard, &ShardResults::Risk(samples))?)?;
+            print_text(&write_shard(case, question, settings, shard, &ShardResults::Risk(samples))?)?;
             Ok(Status::Pass)
         }
     }

@@ -74,7 +74,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     };
     let document = || SizeDocument::new(&case, &sizing);
     let status = print(&[report(&case, &sizing)], document, arguments.format, look)?;
-    if let (Status::Pass, true, Some(found)) = (status, arguments.write, sizing.found()) {
+    if let (Status::Pass, true, Some(found)) = (status, arguments.write, sizing.lightest_choice()) {
         write(arguments, &case, found)?;
     }
     Ok(status)

@@ -117,8 +117,8 @@ pub enum Layout {
 }
 
 impl Layout {
-    /// How far a point lies beside the tires [m], and how far from one another tied tires lie [m].
-    pub fn beside(&self, x: f64, y: f64) -> [f64; 2] {
+    /// Distance of a point from the area of a mesh, or from the nearest listed tire [m].
+    pub fn distance_outside(&self, x: f64, y: f64) -> f64 {
         match self {
             Layout::Grid(mesh) | Layout::Quincunx(mesh) => {
                 let border = mesh.border_rows as f64;
@@ -126,16 +126,25 @@ impl Layout {
                     (-border * spacing - at).max(at - (count as f64 - 1.0 + border) * spacing).max(0.0)
                 };
                 let (across, along) = (mesh.column_spacing_m, mesh.row_spacing_m);
-                [beyond(x, mesh.columns, across).hypot(beyond(y, mesh.rows, along)), across.max(along)]
+                beyond(x, mesh.columns, across).hypot(beyond(y, mesh.rows, along))
             }
+            Layout::List { tires, .. } => {
+                let distances = tires.iter().map(|tire| (tire.x_m - x).hypot(tire.y_m - y));
+                distances.fold(f64::INFINITY, f64::min)
+            }
+        }
+    }
+
+    /// Greatest distance between the centres of tied tires [m]; of a mesh its greater spacing.
+    pub fn widest_tie(&self) -> f64 {
+        match self {
+            Layout::Grid(mesh) | Layout::Quincunx(mesh) => mesh.column_spacing_m.max(mesh.row_spacing_m),
             Layout::List { tires, cables } => {
-                let nearest = tires.iter().map(|tire| (tire.x_m - x).hypot(tire.y_m - y));
                 let length = |&(a, b): &(usize, usize)| {
                     Some((tires.get(a)?, tires.get(b)?)).map(|(a, b)| (a.x_m - b.x_m).hypot(a.y_m - b.y_m))
                 };
                 // Tires without ties say nothing about a distance; no tire is wider.
-                let apart = cables.iter().filter_map(length).reduce(f64::max).unwrap_or(5.0);
-                [nearest.fold(f64::INFINITY, f64::min), apart]
+                cables.iter().filter_map(length).reduce(f64::max).unwrap_or(5.0)
             }
         }
     }

@@ -2,9 +2,11 @@
 
 use super::charts;
 use super::model::{Block, Cell, Column, Field, Report, Table};
+use super::paper_table::paper_table;
 use crate::choice::Method;
 use crate::study::Case;
-use crate::study::accuracy::{AccuracyTable, CLASSES, Measured, PAPER, PaperRow, StepRow};
+use crate::study::accuracy::{AccuracyTable, CLASSES, ErrorClass, Measured, StepRow};
+use crate::study::paper_table::PaperRow;
 use crate::units::{self, Unit};
 
 /// One method at one step.
@@ -22,8 +24,8 @@ impl MeasuredRow<'_> {
     /// The accuracy level that starts at this step.
     fn level(&self) -> Cell {
         let of_level = |step: f64| step == self.row.step && self.row.method == Method::Verlet;
-        let level = self.study.levels.iter().find(|(_, step)| of_level(*step));
-        level.map_or(Cell::Nothing, |(level, _)| Cell::Text(level.name().to_owned()))
+        let level = self.study.levels.iter().find(|level| of_level(level.step));
+        level.map_or(Cell::Nothing, |found| Cell::Text(found.level.name().to_owned()))
     }
 }
 
@@ -60,16 +62,6 @@ fn fields<'a>() -> [Field<MeasuredRow<'a>>; 13] {
     ]
 }
 
-const PAPER_COLUMNS: [Column; 7] = [
-    Column::numbers(&[], "step", Unit::One),
-    Column::numbers(&[], "height", Unit::Metre).under("paper"),
-    Column::numbers(&[], "height", Unit::Metre).under("ours"),
-    Column::numbers(&[], "force", Unit::Kilonewton).under("paper"),
-    Column::numbers(&[], "force", Unit::Kilonewton).under("ours"),
-    Column::numbers(&[], "force at 0.16 s", Unit::Kilonewton).under("paper"),
-    Column::numbers(&[], "force at 0.16 s", Unit::Kilonewton).under("ours"),
-];
-
 /// The report of one option; `paper` holds our values for the source paper's table, by method, where the plan is the
 /// paper's.
 pub fn report(case: &Case, study: &AccuracyTable, paper: &[(Method, Vec<PaperRow>)]) -> Report {
@@ -95,7 +87,7 @@ fn steps(study: &AccuracyTable) -> Table {
 }
 
 /// The cheapest step of each method within a class of errors.
-fn cheapest(study: &AccuracyTable, class: (f64, f64)) -> String {
+fn cheapest(study: &AccuracyTable, class: ErrorClass) -> String {
     let methods = [Method::Verlet, Method::Newmark];
     let best = methods.map(|method| study.cheapest(method, class));
     let found = methods.into_iter().zip(best).map(|(method, best)| match best {
@@ -115,28 +107,6 @@ fn cheapest(study: &AccuracyTable, class: (f64, f64)) -> String {
         }
         _ => String::new(),
     };
-    let (height, force) = (class.0 * 100.0, class.1 * 100.0);
+    let (height, force) = (class.height * 100.0, class.force * 100.0);
     format!("within {height} % of height and {force} % of force: {}{times}", found.join("; "))
-}
-
-/// The table of the source paper beside our values by one method.
-fn paper_table(method: Method, ours: &[PaperRow]) -> [Block; 2] {
-    let title = format!("Table 1 of the source paper, ours ({}) beside it", method.name());
-    let printed = |value: f64| match value.is_nan() {
-        true => Cell::Text("-".to_owned()),
-        false => Cell::Rounded(value, 3),
-    };
-    let row = |(paper, ours): (&PaperRow, &PaperRow)| {
-        vec![
-            Cell::Time(paper.0),
-            printed(paper.1),
-            Cell::Rounded(ours.1, 4),
-            printed(paper.2 * 1e-3),
-            Cell::Rounded(ours.2 * 1e-3, 4),
-            printed(paper.3 * 1e-3),
-            Cell::Rounded(ours.3 * 1e-3, 4),
-        ]
-    };
-    let table = Table::new(&PAPER_COLUMNS, PAPER.iter().zip(ours).map(row));
-    [Block::Text(vec![title]), Block::Table(table)]
 }

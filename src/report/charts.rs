@@ -8,7 +8,7 @@ use crate::study::orders::Orders;
 use crate::study::risk::Risk;
 use crate::study::size::{Combination, Sizing};
 use crate::study::sweep::{Point, Sweep};
-use crate::study::{Case, Envelope};
+use crate::study::{Case, JudgedShot};
 use crate::units::Unit;
 use crate::verdict::{Quantity, Verdict};
 
@@ -23,7 +23,7 @@ pub fn history(case: &Case, history: &History, firings: &[f64]) -> [Chart; 2] {
     let middle = |(n, &value): (usize, &f64)| ((n as f64 + 0.5) * history.width, value);
     let chart = |name, unit, values: &[f64], limit| Chart {
         firings: firings.to_vec(),
-        ..limited(time, (name, unit), values.iter().enumerate().map(middle).collect(), limit)
+        ..quantity_chart(time, (name, unit), values.iter().enumerate().map(middle).collect(), limit)
     };
     [
         chart(HEIGHT, Unit::Metre, &history.height, case.limits.height),
@@ -38,24 +38,24 @@ const FORCE: &str = "cable force";
 /// share that fails, too.
 pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
     let interval = axis("interval", Unit::Millisecond, sweep.range());
-    let chart = |name, unit, of: fn(&Envelope) -> f64, limit| {
-        let point = |point: &Point| (point.interval, of(&point.envelope));
+    let chart = |name, unit, quantity: fn(&JudgedShot) -> f64, limit| {
+        let point = |point: &Point| (point.interval, quantity(&point.as_planned));
         // A run that failed has no value.
         let points = sweep.points.iter().map(point).filter(|(_, value)| value.is_finite()).collect();
-        Chart { windows: sweep.windows.clone(), ..limited(interval, (name, unit), points, limit) }
+        Chart { windows: sweep.windows.clone(), ..quantity_chart(interval, (name, unit), points, limit) }
     };
     let mut charts = vec![
-        chart(HEIGHT, Unit::Metre, |envelope| envelope.height.value, case.limits.height),
-        chart(FORCE, Unit::Kilonewton, |envelope| envelope.force.value, case.limits.force),
+        chart(HEIGHT, Unit::Metre, |judged| judged.height.value, case.limits.height),
+        chart(FORCE, Unit::Kilonewton, |judged| judged.force.value, case.limits.force),
     ];
-    let failing = |point: &Point| match point.envelope.verdict {
+    let failing = |point: &Point| match point.as_planned.verdict {
         Verdict::Fail => Some((point.interval, 1.0)),
         _ => Some((point.interval, point.risk.drawn()?.bounds.probability()?)),
     };
     if sweep.points.iter().any(Point::is_sampled) {
         let points = sweep.points.iter().filter_map(failing).collect();
         let accepted = 1e-2 * case.plan.limits.accepted_risk_percent;
-        let chart = limited(interval, ("failing share", Unit::Percent), points, accepted);
+        let chart = quantity_chart(interval, ("failing share", Unit::Percent), points, accepted);
         let title = format!("{} (100 % where the shot as planned fails)", chart.title);
         let y = axis("failing share", Unit::Percent, [0.0, 1.0]);
         charts.push(Chart { title, y, windows: sweep.windows.clone(), ..chart });
@@ -64,7 +64,7 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
 }
 
 /// A quantity with its limit.
-fn limited(x: Axis, (name, unit): (&'static str, Unit), points: Vec<(f64, f64)>, limit: f64) -> Chart {
+fn quantity_chart(x: Axis, (name, unit): (&'static str, Unit), points: Vec<(f64, f64)>, limit: f64) -> Chart {
     let top = points.iter().map(|(_, value)| *value).fold(limit, f64::max) * HEADROOM;
     Chart {
         title: format!("{name} against {}", x.name),
@@ -88,15 +88,15 @@ pub fn work_precision(study: &AccuracyTable) -> Option<Chart> {
         rows.filter_map(|row| Some((row.step, work_and_error(&row.result?)?)))
     };
     let all = |method: Method| runs(method).map(|(_, point)| point).collect();
-    let is_level = |step: &f64| study.levels.iter().any(|(_, level)| level == step);
+    let is_level = |step: &f64| study.levels.iter().any(|level| level.step == *step);
     let levels = runs(Method::Verlet).filter(|(step, _)| is_level(step)).map(|(_, point)| point).collect();
     let series = vec![
         Series { name: Method::Verlet.name(), kind: SeriesKind::Curve, points: all(Method::Verlet) },
         Series { name: Method::Newmark.name(), kind: SeriesKind::Comparison, points: all(Method::Newmark) },
         Series { name: "levels", kind: SeriesKind::Points, points: levels },
     ];
-    let decades = |of: fn(&(f64, f64)) -> f64| {
-        let values = series.iter().flat_map(|series| &series.points).map(of);
+    let decades = |coordinate: fn(&(f64, f64)) -> f64| {
+        let values = series.iter().flat_map(|series| &series.points).map(coordinate);
         let low = values.clone().reduce(f64::min)?.log10().floor();
         let high = values.reduce(f64::max)?.log10().ceil().max(low + 1.0);
         Some([low, high].map(|exponent| 10_f64.powf(exponent)))
@@ -122,7 +122,7 @@ pub fn work_and_error(measured: &Measured) -> Option<(f64, f64)> {
 
 /// Utilization of every order, from the worst to the best.
 pub fn orders(case: &Case, orders: &Orders) -> Chart {
-    let share = orders.ranked.iter().map(|tried| tried.envelope.utilization(&case.limits));
+    let share = orders.ranked.iter().map(|tried| tried.as_planned.utilization(&case.limits));
     let curve = share.enumerate().map(|(n, share)| ((n + 1) as f64, share)).collect();
     utilization("from the worst order to the best", ("order", Unit::One), curve, Vec::new())
 }
@@ -137,7 +137,7 @@ pub fn samples(case: &Case, risk: &Risk) -> [Chart; 2] {
         // A sample whose run failed has no value.
         let points = points.filter(|(_, value)| value.is_finite()).collect();
         let share = axis("share of samples", Unit::Percent, [0.0, 1.0]);
-        let chart = limited(share, (name, unit), points, limit);
+        let chart = quantity_chart(share, (name, unit), points, limit);
         // The samples lie close together, far from 0: the axis shows only where they and the limit are.
         let values = chart.series.iter().flat_map(|series| &series.points).map(|(_, value)| *value);
         let [low, high] = values.fold([limit; 2], |[low, high], value| [low.min(value), high.max(value)]);

@@ -154,8 +154,8 @@ pub fn report(case: &Case, results: &OptionResults, any: bool, partial: bool) ->
 }
 
 /// A value of the shot as planned, with no more digits than its error leaves.
-fn planned(of: Estimate, unit: Unit) -> Cell {
-    Cell::Text(units::known(of.value, of.error, unit))
+fn planned(peak: Estimate, unit: Unit) -> Cell {
+    Cell::Text(units::known(peak.value, peak.error, unit))
 }
 
 /// What was judged, as scripts read it.
@@ -190,7 +190,7 @@ pub fn texts(case: &Case, judged: &Judgement) -> Vec<String> {
 }
 
 fn reasons<'a>(case: &'a Case, judged: &'a Judgement) -> impl Iterator<Item = Detail> + 'a {
-    let detail = |of: &Reason| Detail { verdict: of.verdict(), text: reason(of) };
+    let detail = |why: &Reason| Detail { verdict: why.verdict(), text: reason(why) };
     judged.nominal.reasons.iter().map(detail).chain(risk_detail(case, judged))
 }
 

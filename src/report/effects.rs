@@ -35,15 +35,15 @@ const FOR_SCRIPTS: [Column; 12] = [
 
 /// The report of all effects, which is partial where the time was up.
 pub fn report(case: &Case, effects: &EffectsOnOptions, partial: bool) -> Report {
-    let of = |effect: Effect| -> Vec<&EffectOnOption> {
-        effects.iter().flatten().flatten().filter(|of| of.effect == effect).collect()
+    let rows_of = |effect: Effect| -> Vec<&EffectOnOption> {
+        effects.iter().flatten().flatten().filter(|row| row.effect == effect).collect()
     };
     let tried: Vec<Vec<&EffectOnOption>> =
-        Effect::ALL.into_iter().map(of).filter(|all| !all.is_empty()).collect();
+        Effect::ALL.into_iter().map(rows_of).filter(|all| !all.is_empty()).collect();
     let row = |all: &Vec<&EffectOnOption>| {
         let first = all[0];
-        let changed = all.iter().filter(|of| of.verdict_changes()).count();
-        let required = all.iter().filter(|of| of.is_required()).count();
+        let changed = all.iter().filter(|row| row.verdict_changes()).count();
+        let required = all.iter().filter(|row| row.is_required()).count();
         let words = [
             first.effect.name().to_owned(),
             if required > 0 { format!("by {required} of {}", all.len()) } else { "no".to_owned() },
@@ -52,27 +52,27 @@ pub fn report(case: &Case, effects: &EffectsOnOptions, partial: bool) -> Report 
             changes(all, Quantity::Drift),
             format!("{changed} of {}", all.len()),
             value(first),
-            format!("x {}", units::short(median(all.iter().map(|of| of.cost)))),
+            format!("x {}", units::short(median(all.iter().map(|row| row.cost)))),
         ];
         words.map(Cell::Text).to_vec()
     };
     let options = case.plan.delays.iter().zip(effects);
     let scripts = options.flat_map(|(delay, all)| {
-        all.iter().flatten().map(|of| {
-            let (key, source) = (of.effect.key(), if of.assumed { "assumed" } else { "plan" });
+        all.iter().flatten().map(|row| {
+            let (key, source) = (row.effect.key(), if row.assumed { "assumed" } else { "plan" });
             vec![
                 Cell::Text(delay.name.clone()),
                 Cell::Text(key.name.to_owned()),
-                Cell::Number(of.value),
+                Cell::Number(row.value),
                 Cell::Text(key.kind.unit().to_owned()),
-                Cell::Number(of.change(Quantity::Height)),
-                Cell::Number(of.change(Quantity::Force)),
-                Cell::Number(of.change(Quantity::Drift)),
-                Cell::Verdict(of.verdict_with),
-                Cell::Verdict(of.verdict_without),
-                Cell::Flag(of.is_required()),
+                Cell::Number(row.change(Quantity::Height)),
+                Cell::Number(row.change(Quantity::Force)),
+                Cell::Number(row.change(Quantity::Drift)),
+                Cell::Verdict(row.verdict_with),
+                Cell::Verdict(row.verdict_without),
+                Cell::Flag(row.is_required()),
                 Cell::Text(source.to_owned()),
-                Cell::Rounded(of.cost, 2),
+                Cell::Rounded(row.cost, 2),
             ]
         })
     });
@@ -96,15 +96,15 @@ pub fn report(case: &Case, effects: &EffectsOnOptions, partial: bool) -> Report 
 const MEANING: &str = "change by each effect of the median over some possible shots, in the hardest direction, from the least to the greatest over the options; verdicts are those of the limits on the shot as planned alone, not those of `check`";
 
 /// `10 %`, `2000 kN/m (assumed)`.
-fn value(of: &EffectOnOption) -> String {
-    let unit = of.effect.key().kind.unit();
-    let assumed = if of.assumed { " (assumed)" } else { "" };
-    format!("{}{}{unit}{assumed}", of.value, if unit.is_empty() { "" } else { " " })
+fn value(row: &EffectOnOption) -> String {
+    let unit = row.effect.key().kind.unit();
+    let assumed = if row.assumed { " (assumed)" } else { "" };
+    format!("{}{}{unit}{assumed}", row.value, if unit.is_empty() { "" } else { " " })
 }
 
 /// `-3 to +12 %`.
 fn changes(all: &[&EffectOnOption], quantity: Quantity) -> String {
-    let values = || all.iter().map(|of| of.change(quantity));
+    let values = || all.iter().map(|row| row.change(quantity));
     if values().any(f64::is_nan) {
         return "unknown".to_owned();
     }
@@ -128,8 +128,8 @@ fn sentences(tried: &[Vec<&EffectOnOption>]) -> Vec<String> {
     let names = |is: &dyn Fn(&[&EffectOnOption]) -> bool| -> Vec<&'static str> {
         tried.iter().filter(|all| is(all)).map(|all| all[0].effect.name()).collect()
     };
-    let is_required = |all: &[&EffectOnOption]| all.iter().any(|of| of.is_required());
-    let is_unsafe = |all: &[&EffectOnOption]| all.iter().any(|of| of.is_missed_on_the_unsafe_side);
+    let is_required = |all: &[&EffectOnOption]| all.iter().any(|row| row.is_required());
+    let is_unsafe = |all: &[&EffectOnOption]| all.iter().any(|row| row.is_missed_on_the_unsafe_side);
     if tried.is_empty() {
         return Vec::new();
     }

@@ -231,8 +231,8 @@ pub fn broken(scene: &Scene, checked: &Checked) -> String {
 /// Greatest height, force and drift, with their errors, places and times.
 pub fn peaks(scene: &Scene, checked: &Checked) -> String {
     let [highest, hardest] = peak(scene, checked);
-    let value = |of: &Estimate, unit: Unit| {
-        format!("{} {}", value_and_error(of.value, of.error, unit), unit.symbol())
+    let value = |peak: &Estimate, unit: Unit| {
+        format!("{} {}", value_and_error(peak.value, peak.error, unit), unit.symbol())
     };
     format!(
         "height {}, {highest} · force {}, {hardest} · drift {}",

@@ -28,6 +28,7 @@ pub mod notes;
 mod option_row;
 pub mod orders;
 pub mod palette;
+mod paper_table;
 pub mod risk;
 pub mod ropes;
 pub mod shared_columns;

@@ -21,7 +21,7 @@ pub fn orders(case: &Case) -> Option<String> {
 pub fn effects(plan: &Plan) -> Option<String> {
     let (ground, tire, cable) = (&plan.ground, &plan.tire, &plan.cable);
     let told = |holds: bool, text: String| holds.then_some(text);
-    let greatest = |of: fn(&Launch) -> f64| plan.launches().map(of).fold(0.0, f64::max);
+    let greatest = |quantity: fn(&Launch) -> f64| plan.launches().map(quantity).fold(0.0, f64::max);
     let (tilt, push) = (greatest(|launch| launch.tilt_deg), greatest(|launch| launch.push_ms));
     let parts = [
         told(plan.simulation.gravity_m_s2 != 9.81, format!("gravity {} m/s²", plan.simulation.gravity_m_s2)),

@@ -37,12 +37,12 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
             Cell::Text(row_names(case, &tried.order).join(" ")),
             Cell::Interval(tried.interval),
             Cell::Verdict(orders.verdict_on(n)),
-            height(tried.envelope.height),
-            force(tried.envelope.force),
+            height(tried.as_planned.height),
+            force(tried.as_planned.force),
         ];
         if orders.has_risk() {
             let risk = orders.risk(n).drawn().copied();
-            cells.extend([failures(risk), probability(risk), Cell::Verdict(tried.envelope.verdict)]);
+            cells.extend([failures(risk), probability(risk), Cell::Verdict(tried.as_planned.verdict)]);
         }
         cells
     };

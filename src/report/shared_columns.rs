@@ -1,7 +1,7 @@
 //! Columns that several reports share.
 
 use super::model::{Cell, Column};
-use crate::study::Bounded;
+use crate::study::ValueWithError;
 use crate::study::risk_summary::RiskSummary;
 use crate::units::Unit;
 
@@ -23,12 +23,12 @@ pub const NOMINAL_VERDICT: Column = Column::scripts(&["nominal_verdict"]);
 pub const INTERVAL: Column = Column::numbers(&["interval_s"], "interval", Unit::One);
 
 /// Cell of [`HEIGHT`].
-pub fn height(height: Bounded) -> Cell {
+pub fn height(height: ValueWithError) -> Cell {
     Cell::Estimate { value: height.value, error: height.error, unit: Unit::Metre }
 }
 
 /// Cell of [`FORCE`].
-pub fn force(force: Bounded) -> Cell {
+pub fn force(force: ValueWithError) -> Cell {
     Cell::Estimate { value: force.value, error: force.error, unit: Unit::Kilonewton }
 }
 

@@ -39,7 +39,10 @@ const COMBINATIONS: [Column; 9] = [
 /// The report of all combinations.
 pub fn report(case: &Case, sizing: &Sizing) -> Report {
     let mut facts = vec![format!("limits: {}", limits_of_any_rope(case))];
-    let sampled = sizing.combinations.iter().any(|of| of.trial.is_ok_and(|trial| trial.risk.is_some()));
+    let sampled = sizing
+        .combinations
+        .iter()
+        .any(|combination| combination.trial.is_ok_and(|trial| trial.risk.is_some()));
     facts[0] += &accepted_risk(case, sampled);
     facts.push(
         "a lighter tire leaves faster, a heavier one slower: the holes give the same momentum".to_owned(),
@@ -87,7 +90,8 @@ fn parts(combination: &Combination) -> [Cell; 5] {
 
 /// How many combinations were tried, and why the others were not.
 fn tried(sizing: &Sizing) -> Vec<String> {
-    let mut lines = vec![format!("{} of {} combinations tried", sizing.tried(), sizing.combinations.len())];
+    let mut lines =
+        vec![format!("{} of {} combinations tried", sizing.count_tried(), sizing.combinations.len())];
     let unstable = format!("the motion cannot be computed at this step: {FINER}");
     let reasons = [
         (Untried::StrongerRopeDoesNotHold, "a stronger rope of the same stiffness does not hold"),
@@ -95,7 +99,7 @@ fn tried(sizing: &Sizing) -> Vec<String> {
         (Untried::RunFailed, unstable.as_str()),
     ];
     for (why, reason) in reasons {
-        match sizing.untried(why) {
+        match sizing.count_untried(why) {
             0 => {}
             count => lines.push(format!("{count} not tried: {reason}")),
         }
@@ -105,7 +109,7 @@ fn tried(sizing: &Sizing) -> Vec<String> {
         (Verdict::Undecided, "too few samples to tell whether more of the possible shots fail than accepted"),
     ];
     for (verdict, reason) in reasons {
-        match sizing.with_risk(verdict) {
+        match sizing.count_with_risk(verdict) {
             0 => {}
             count => lines.push(format!("{count} not chosen: the shots as planned pass, but {reason}")),
         }
@@ -114,17 +118,17 @@ fn tried(sizing: &Sizing) -> Vec<String> {
 }
 
 fn conclusion(sizing: &Sizing) -> Conclusion {
-    let found = sizing.found().and_then(|found| Some((found, found.trial.ok()?)));
+    let found = sizing.lightest_choice().and_then(|found| Some((found, found.trial.ok()?)));
     let text = match found {
         Some((found, trial)) => {
             let so_far = if sizing.is_incomplete() { " so far" } else { "" };
             format!("lightest{so_far} {}", sentence(found, &trial))
         }
         None if sizing.is_incomplete() => "no combination tried so far holds".to_owned(),
-        None if sizing.with_risk(Verdict::Undecided) > 0 => {
+        None if sizing.count_with_risk(Verdict::Undecided) > 0 => {
             "no combination surely holds: give more samples".to_owned()
         }
-        None if sizing.with_risk(Verdict::Fail) > 0 => {
+        None if sizing.count_with_risk(Verdict::Fail) > 0 => {
             "no combination holds for more than the shots as planned".to_owned()
         }
         None => "no combination holds".to_owned(),

@@ -46,13 +46,13 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
         blocks.push(Block::Text(windows(case, sweep, partial)));
     }
     let point = |point: &Point| {
-        let Point { interval, envelope, risk } = point;
+        let Point { interval, as_planned, risk } = point;
         vec![
             Cell::Interval(*interval),
-            height(envelope.height),
-            force(envelope.force),
+            height(as_planned.height),
+            force(as_planned.force),
             Cell::Verdict(point.verdict()),
-            Cell::Verdict(envelope.verdict),
+            Cell::Verdict(as_planned.verdict),
             probability(risk.drawn()),
             failures(risk.drawn()),
         ]
@@ -65,9 +65,9 @@ fn ends(case: &Case, sweep: &Sweep) -> Table {
     let ends = [("worst", sweep.worst(case)), ("recommended", sweep.best())];
     let end = |(name, point): (&str, Option<&Point>)| {
         let point = point?;
-        let Point { interval, envelope, risk } = point;
+        let Point { interval, as_planned, risk } = point;
         let name = [Cell::Text(name.to_owned()), Cell::Interval(*interval), Cell::Verdict(point.verdict())];
-        let values = [height(envelope.height), force(envelope.force), failures(risk.drawn())];
+        let values = [height(as_planned.height), force(as_planned.force), failures(risk.drawn())];
         Some([name, values].concat())
     };
     // A column without any cell is left out.
@@ -134,13 +134,13 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
 fn recommended(sweep: &Sweep, has_risk: bool) -> Vec<String> {
     let mut lines = Vec::new();
     if let Some(Recommended { interval, room, utilization }) = sweep.recommended {
-        let of = if has_risk {
+        let what = if has_risk {
             "95 % of the possible shots use at most"
         } else {
             "the shot as planned uses at most"
         };
         lines.push(format!(
-            "recommended {}: within {} of it {of} {} of the limits, the most room x margin",
+            "recommended {}: within {} of it {what} {} of the limits, the most room x margin",
             units::exact_milliseconds(interval),
             units::exact_milliseconds(room),
             units::percent((1e3 * utilization).ceil() * 1e-3, 1)
@@ -194,7 +194,7 @@ fn conclusion(sweep: &Sweep, partial: bool) -> Conclusion {
     let has_risk = sweep.has_risk();
     let text = match not_passing {
         _ if has_risk => {
-            let planned = |point: &&Point| point.envelope.verdict == Verdict::Pass;
+            let planned = |point: &&Point| point.as_planned.verdict == Verdict::Pass;
             let planned = sweep.points.iter().filter(planned).count();
             let best = sweep.best().map_or("none is recommended".to_owned(), |best| {
                 format!("recommended {}: PASS", units::exact_milliseconds(best.interval))
@@ -213,16 +213,16 @@ fn conclusion(sweep: &Sweep, partial: bool) -> Conclusion {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::Envelope;
+    use crate::study::JudgedShot;
     use crate::study::sampled::Sampled;
 
     #[test]
     fn a_sweep_passes_only_where_every_interval_passes() {
         let said = |verdicts: &[Verdict], partial: bool| {
-            let envelope = |verdict| Envelope { verdict, ..Envelope::UNKNOWN };
+            let as_planned = |verdict| JudgedShot { verdict, ..JudgedShot::UNKNOWN };
             let point = |(n, &verdict): (usize, &Verdict)| Point {
                 interval: n as f64,
-                envelope: envelope(verdict),
+                as_planned: as_planned(verdict),
                 risk: Sampled::NotAsked,
             };
             let points = verdicts.iter().enumerate().map(point).collect();

@@ -2,15 +2,12 @@
 //!
 //! The errors are differences from a converged run.
 
-use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, step_error};
 use crate::choice::{Accuracy, Method};
 use crate::outcome::Outcome;
-use crate::plan::Timing;
 use crate::scene::Shot;
-use crate::simulation::Settings;
 
 /// One method at one step.
 #[derive(Clone, Debug)]
@@ -55,12 +52,31 @@ pub struct AccuracyTable {
     pub rows: Vec<StepRow>,
     /// Step of the converged run [s]; its method is `verlet`.
     pub reference_step: f64,
-    /// Accuracy levels, each with its first step [s].
-    pub levels: [(Accuracy, f64); 3],
+    /// The accuracy levels, the coarsest first.
+    pub levels: [LevelStep; 3],
 }
 
-/// Classes of accuracy: greatest relative error of height and of force.
-pub const CLASSES: [(f64, f64); 2] = [(0.01, 0.02), (0.002, 0.002)];
+/// An accuracy level and its step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LevelStep {
+    /// The level.
+    pub level: Accuracy,
+    /// Step at which refinement starts [s].
+    pub step: f64,
+}
+
+/// A class of accuracy: greatest relative errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ErrorClass {
+    /// Of the height.
+    pub height: f64,
+    /// Of the force.
+    pub force: f64,
+}
+
+/// The classes of accuracy, the coarser first.
+pub const CLASSES: [ErrorClass; 2] =
+    [ErrorClass { height: 0.01, force: 0.02 }, ErrorClass { height: 0.002, force: 0.002 }];
 
 /// Number of steps tried per method; each step is [`step_error::RATIO`] times shorter than the one before.
 const STEPS: i32 = 15;
@@ -74,9 +90,9 @@ pub fn measure(
     patience: Duration,
     progress: &Progress,
 ) -> Finding<AccuracyTable> {
-    let levels =
-        [Accuracy::Draft, Accuracy::Field, Accuracy::Reference].map(|level| (level, first_step(case, level)));
-    let reference_step = levels[2].1 / FINER;
+    let levels = [Accuracy::Draft, Accuracy::Field, Accuracy::Reference]
+        .map(|level| LevelStep { level, step: first_step(case, level) });
+    let reference_step = levels[2].step / FINER;
     let shot = &case.shots[option];
     progress.expect(2 * STEPS as usize + levels.len() + 1);
     let reference = run(case, shot, Method::Verlet, reference_step, progress)?;
@@ -87,8 +103,8 @@ pub fn measure(
         let mut steps: Vec<f64> = (0..STEPS).map(|n| coarsest * step_error::RATIO.powi(-n)).collect();
         if method == Method::Verlet {
             // A step of a level takes the place of one that differs by rounding alone.
-            steps.retain(|step| levels.iter().all(|(_, level)| (step / level - 1.0).abs() > 1e-9));
-            steps.extend(levels.map(|(_, step)| step));
+            steps.retain(|step| levels.iter().all(|level| (step / level.step - 1.0).abs() > 1e-9));
+            steps.extend(levels.map(|level| level.step));
             steps.sort_by(|a, b| b.total_cmp(a));
             steps.dedup();
         }
@@ -122,9 +138,9 @@ fn first_step(case: &Case, accuracy: Accuracy) -> f64 {
 
 impl AccuracyTable {
     /// The longest step of a method at which this step and all shorter steps are within a class; with its computing time.
-    pub fn cheapest(&self, method: Method, class: (f64, f64)) -> Option<(f64, Duration)> {
+    pub fn cheapest(&self, method: Method, class: ErrorClass) -> Option<(f64, Duration)> {
         let within = |row: &&StepRow| {
-            let good = |m: &Measured| m.height_error <= class.0 && m.force_error <= class.1;
+            let good = |m: &Measured| m.height_error <= class.height && m.force_error <= class.force;
             row.result.as_ref().is_some_and(good)
         };
         let rows = self.rows.iter().filter(|row| row.method == method).rev().take_while(within);
@@ -162,8 +178,8 @@ fn run(
 }
 
 fn compared(outcome: &Outcome, wall: Duration, reference: Option<&(Outcome, Duration)>) -> Measured {
-    let error = |value: f64, of: fn(&Outcome) -> f64| {
-        let exact = reference.map_or(f64::NAN, |(outcome, _)| of(outcome));
+    let error = |value: f64, quantity: fn(&Outcome) -> f64| {
+        let exact = reference.map_or(f64::NAN, |(outcome, _)| quantity(outcome));
         if exact == value { 0.0 } else { ((value - exact) / exact).abs() }
     };
     Measured {
@@ -177,48 +193,4 @@ fn compared(outcome: &Outcome, wall: Duration, reference: Option<&(Outcome, Dura
         energy_residual: outcome.ledger.residual(),
         wall,
     }
-}
-
-/// A row of the source paper's Table 1: step [s], height [m], greatest force and force at 0.16 s [N].
-pub type PaperRow = (f64, f64, f64, f64);
-
-/// Table 1 of the source paper as printed; NaN where the table has a dash.
-pub const PAPER: [PaperRow; 6] = [
-    (5e-4, 0.705, 17_668.0, 9_265.0),
-    (2.5e-4, 0.707, 17_687.0, 8_284.0),
-    (2e-4, 0.708, 17_704.0, 7_461.0),
-    (1e-4, 0.708, 17_704.0, 7_456.0),
-    (6.25e-5, 0.708, 17_701.0, 7_521.0),
-    (5e-5, f64::NAN, f64::NAN, 7_452.0),
-];
-
-/// Table 1 computed by `method`, where the plan is the shelter of the paper: five tires of 280 kg over one hole.
-pub fn paper_table(case: &Case, method: Method) -> Option<Vec<PaperRow>> {
-    let scene = case.scene();
-    let single =
-        matches!(case.plan.delays.as_slice(), [delay] if matches!(delay.timing, Timing::Interval { .. }));
-    let centre = case.shots.first()?.firings.first()?.tire;
-    let [5, 8] = [scene.mass.len(), scene.cables.len()] else { return None };
-    if !single || case.shots[0].firings.len() != 1 || scene.mass[0] != 280.0 || scene.friction != 0.5 {
-        return None;
-    }
-    let diagonal = scene.cables.iter().position(|cable| cable.ends.contains(&centre))?;
-    PAPER
-        .iter()
-        .map(|row| row.0)
-        .map(|step| {
-            let settings = Settings { method, step, duration: Some(1.0) };
-            let (mut late, mut before) = (f64::NAN, (0.0, 0.0));
-            let outcome = case.model.run(&case.shots[0], &settings, &mut |motion| {
-                let now = (motion.time(), motion.force(diagonal));
-                if before.0 < 0.16 && now.0 >= 0.16 - 1e-12 {
-                    let part = ((0.16 - before.0) / (now.0 - before.0)).clamp(0.0, 1.0);
-                    late = before.1 + part * (now.1 - before.1);
-                }
-                before = now;
-                ControlFlow::Continue(())
-            });
-            outcome.ok().map(|outcome| (step, outcome.height.value, outcome.force.value, late))
-        })
-        .collect()
 }

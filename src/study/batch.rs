@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::check::check_shot;
-use super::envelope::Envelope;
+use super::judged_shot::JudgedShot;
 use super::{Case, ComputeSettings, NoResult, Progress};
 use crate::scene::Shot;
 use crate::simulation::Failure;
@@ -47,8 +47,8 @@ pub fn judge_shots(
     shots: &[Shot],
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Vec<Option<Envelope>>, NoResult> {
-    envelopes(shots, progress, |shot| judge_shot(case, shot, compute, progress))
+) -> Result<Vec<Option<JudgedShot>>, NoResult> {
+    judge_all(shots, progress, |shot| judge_shot(case, shot, compute, progress))
 }
 
 /// Judges one shot, refined until its verdict is sure.
@@ -57,18 +57,18 @@ pub fn judge_shot(
     shot: &Shot,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Envelope, NoResult> {
+) -> Result<JudgedShot, NoResult> {
     let checked = check_shot(case, shot, compute, &mut |_| progress.flow());
-    checked.map(|checked| Envelope::of(&checked)).map_err(|failure| progress.no_result(failure))
+    checked.map(|checked| JudgedShot::of(&checked)).map_err(|failure| progress.no_result(failure))
 }
 
-/// Computes the envelope of every job, like [`run_jobs`]. A job whose run fails has the envelope [`Envelope::UNKNOWN`]; where
-/// every run fails, the study has no result.
-pub fn envelopes<J: Sync>(
+/// Judges the shot of every job, like [`run_jobs`]. A job whose run fails has the result [`JudgedShot::UNKNOWN`]; where every run
+/// fails, the study has no result.
+pub fn judge_all<J: Sync>(
     jobs: &[J],
     progress: &Progress,
-    work: impl Fn(&J) -> Result<Envelope, NoResult> + Sync,
-) -> Result<Vec<Option<Envelope>>, NoResult> {
+    work: impl Fn(&J) -> Result<JudgedShot, NoResult> + Sync,
+) -> Result<Vec<Option<JudgedShot>>, NoResult> {
     let done = run_jobs(jobs, progress, |job| match work(job) {
         Err(NoResult::Failed(failure)) => Ok(Err(failure)),
         result => result.map(Ok),
@@ -78,23 +78,23 @@ pub fn envelopes<J: Sync>(
     {
         return Err(NoResult::Failed(failure.clone()));
     }
-    let known = |result: Result<Envelope, Failure>| result.unwrap_or(Envelope::UNKNOWN);
+    let known = |result: Result<JudgedShot, Failure>| result.unwrap_or(JudgedShot::UNKNOWN);
     Ok(done.into_iter().map(|result| result.map(known)).collect())
 }
 
-/// Like [`envelopes`], for a part of the jobs of a study: all of them may fail.
-pub fn envelopes_or_unknown<J: Sync>(
+/// Like [`judge_all`], for a part of the jobs of a study: all of them may fail.
+pub fn judge_all_or_unknown<J: Sync>(
     jobs: &[J],
     progress: &Progress,
-    work: impl Fn(&J) -> Result<Envelope, NoResult> + Sync,
-) -> Result<Vec<Option<Envelope>>, NoResult> {
+    work: impl Fn(&J) -> Result<JudgedShot, NoResult> + Sync,
+) -> Result<Vec<Option<JudgedShot>>, NoResult> {
     run_jobs(jobs, progress, |job| or_unknown(work(job)))
 }
 
 /// A run that failed is a shot of which nothing is known.
-pub fn or_unknown(judged: Result<Envelope, NoResult>) -> Result<Envelope, NoResult> {
+pub fn or_unknown(judged: Result<JudgedShot, NoResult>) -> Result<JudgedShot, NoResult> {
     match judged {
-        Err(NoResult::Failed(_)) => Ok(Envelope::UNKNOWN),
+        Err(NoResult::Failed(_)) => Ok(JudgedShot::UNKNOWN),
         judged => judged,
     }
 }
@@ -108,11 +108,11 @@ mod tests {
     #[test]
     fn a_run_that_fails_is_open_unless_all_fail() {
         let failure = NoResult::Failed(Failure::Diverged { at: 1.0 });
-        let good = Envelope { verdict: Verdict::Pass, ..Envelope::UNKNOWN };
+        let good = JudgedShot { verdict: Verdict::Pass, ..JudgedShot::UNKNOWN };
         let work = |&job: &i32| if job == 2 { Err(failure.clone()) } else { Ok(good) };
-        let some = envelopes(&[1, 2], &Progress::default(), work).expect("one of them is good");
-        assert_eq!(some, [Some(good), Some(Envelope::UNKNOWN)]);
-        assert_eq!(envelopes(&[2, 2], &Progress::default(), work), Err(failure.clone()));
+        let some = judge_all(&[1, 2], &Progress::default(), work).expect("one of them is good");
+        assert_eq!(some, [Some(good), Some(JudgedShot::UNKNOWN)]);
+        assert_eq!(judge_all(&[2, 2], &Progress::default(), work), Err(failure.clone()));
     }
 
     #[test]

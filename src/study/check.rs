@@ -1,4 +1,4 @@
-//! The verdict on one delay option, refined until the verdict is sure.
+//! The verdict on the shot as planned of one delay option, refined until the verdict is sure.
 //!
 //! The option is run at a ladder of steps; each step is [`step_error::RATIO`] times finer than the one before. The finest run
 //! gives the values. The coarser runs give the errors. While the verdict is open, a finer run is added.
@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use super::ladder::{estimates, nearest};
-use super::reason::{Reason, closes, find_reasons, limited};
+use super::reason::{Reason, closes, find_reasons, with_limits};
 use super::{Case, ComputeSettings, step_error};
 use crate::choice::Accuracy;
 use crate::outcome::{Broken, History, Outcome, RunEnd};
@@ -76,7 +76,7 @@ impl Checked {
     fn is_sure(&self, limits: &Limits) -> bool {
         let verdict = |times: f64| {
             let larger = |estimate: Estimate| Estimate { error: times * estimate.error, ..estimate };
-            let each = limited([self.height, self.force, self.drift], limits)
+            let each = with_limits([self.height, self.force, self.drift], limits)
                 .map(|(_, estimate, limit)| larger(estimate).against(limit));
             Verdict::worst(each)
         };
@@ -89,12 +89,12 @@ impl Checked {
     }
 }
 
-/// Judges one delay option. `watch` sees the progress and may stop the check.
+/// Judges the shot as planned of one delay option. `watch` sees the progress and may stop the check.
 ///
 /// # Panics
 ///
 /// Where the plan has no delay option with the index `option`.
-pub fn check(
+pub fn check_as_planned(
     case: &Case,
     option: usize,
     compute: &ComputeSettings,
@@ -104,13 +104,14 @@ pub fn check(
 }
 
 impl Case {
-    /// Judges one delay option; [`check`] is the same with a watcher.
+    /// Judges the shot as planned of one delay option, which alone makes no shot safe: [`Case::judge_options`] also samples what the
+    /// plan does not know. [`check_as_planned`] is the same with a watcher.
     ///
     /// # Panics
     ///
     /// Where the plan has no delay option with the index `option`.
-    pub fn check(&self, option: usize, compute: &ComputeSettings) -> Result<Checked, Failure> {
-        check(self, option, compute, &mut |_| ControlFlow::Continue(()))
+    pub fn check_as_planned(&self, option: usize, compute: &ComputeSettings) -> Result<Checked, Failure> {
+        check_as_planned(self, option, compute, &mut |_| ControlFlow::Continue(()))
     }
 }
 

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::batch::run_jobs;
-use super::check::{CheckStep, Checked, check};
+use super::check::{CheckStep, Checked, check_as_planned};
 use super::judgement::Judgement;
 use super::margin::{LaunchMargin, launch_margin};
 use super::merge::OptionSample;
@@ -11,7 +11,7 @@ use super::risk::Risk;
 use super::sample::Sample;
 use super::sampled::Sampled;
 use super::sampling::{Sampling, ShotToSample, find_risks, find_risks_watched};
-use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, guarded};
+use super::{Case, ComputeSettings, Finding, Found, JudgedShot, NoResult, Progress, guarded};
 use crate::verdict::Verdict;
 
 /// Results of the options of one plan, in their order (`n_options`).
@@ -108,7 +108,7 @@ fn check_nominal(
 ) -> Result<Checked, NoResult> {
     let (case, compute) = &cases[at.case];
     let mut steps = 0_usize;
-    let checked = check(case, at.option, compute, &mut |step| {
+    let checked = check_as_planned(case, at.option, compute, &mut |step| {
         steps += 1;
         if steps.is_multiple_of(STEPS_PER_EVENT) {
             watch(at, CheckEvent::Running(step));
@@ -138,7 +138,7 @@ fn add_risks(
     let mut judged = judged(results);
     let target = |(at, judgement): &(CaseOption, &mut Judgement)| {
         let (case, compute) = cases[at.case];
-        target(case, at.option, &Envelope::of(&judgement.nominal), sampling, compute)
+        target(case, at.option, &JudgedShot::of(&judgement.nominal), sampling, compute)
     };
     let targets: Vec<ShotToSample<'_>> = judged.iter().map(target).collect();
     let mut sampled = |n: usize, risk: &Risk| {
@@ -157,7 +157,7 @@ fn add_risks(
 fn target<'c>(
     case: &'c Case,
     option: usize,
-    planned: &Envelope,
+    planned: &JudgedShot,
     sampling: &Sampling,
     compute: ComputeSettings,
 ) -> ShotToSample<'c> {
@@ -203,9 +203,9 @@ pub fn judge_drawn(
     let mut results = case.judge_options(compute, None, progress)?.value;
     for (option, result) in results.iter_mut().enumerate() {
         if let Ok(judged) = result {
-            let of_option = samples.iter().filter(|of| of.option == option);
-            let drawn: Vec<Sample> = of_option.map(|of| of.sample).collect();
-            let planned = Envelope::of(&judged.nominal);
+            let of_option = samples.iter().filter(|drawn| drawn.option == option);
+            let drawn: Vec<Sample> = of_option.map(|drawn| drawn.sample).collect();
+            let planned = JudgedShot::of(&judged.nominal);
             let target = target(case, option, &planned, sampling, *compute).precomputed(&drawn);
             judged.risk = Sampled::Drawn(find_risks(&[target], progress)?.value.remove(0));
         }

@@ -230,9 +230,9 @@ mod tests {
 
     #[test]
     fn undecided_samples_widen_the_interval_to_both_sides() {
-        let after = |of: Verdict| {
+        let after = |tenth: Verdict| {
             let mut bounds = FailureBounds::new(0.01, 0);
-            (0..100).for_each(|n| bounds.push(if n % 10 == 0 { of } else { Verdict::Pass }));
+            (0..100).for_each(|n| bounds.push(if n % 10 == 0 { tenth } else { Verdict::Pass }));
             bounds
         };
         let [failed, passed, open] = [Verdict::Fail, Verdict::Pass, Verdict::Undecided].map(after);

@@ -8,7 +8,7 @@ use crate::verdict::{Limits, Quantity};
 pub const SAMPLES_FOR_SHARES: usize = 200;
 
 /// Share of each input in the variance of the quantity nearest its limit, largest first; `None` for fewer than
-/// [`SAMPLES_FOR_SHARES`] samples. What is missing to 1 comes from hole by hole and from the interplay of inputs.
+/// [`SAMPLES_FOR_SHARES`] samples. The remainder is scatter from hole to hole and interaction between inputs.
 pub fn input_shares(risk: &Risk, limits: &Limits) -> Option<Vec<(Input, f64)>> {
     let nearest = nearest_its_limit(risk, limits)?;
     let values: Vec<f64> = risk.decided().map(|sample| sample.run.get(nearest)).collect();
@@ -16,8 +16,8 @@ pub fn input_shares(risk: &Risk, limits: &Limits) -> Option<Vec<(Input, f64)>> {
         return None;
     }
     let share = |(n, input): (usize, Input)| {
-        let of: Vec<f64> = risk.decided().map(|sample| sample.inputs[n]).collect();
-        (input, share_of_variance(&of, &values))
+        let inputs: Vec<f64> = risk.decided().map(|sample| sample.inputs[n]).collect();
+        (input, share_of_variance(&inputs, &values))
     };
     let mut shares: Vec<_> = Input::ALL.into_iter().enumerate().map(share).collect();
     shares.sort_by(|a, b| b.1.total_cmp(&a.1));
@@ -47,7 +47,7 @@ fn share_of_variance(input: &[f64], values: &[f64]) -> f64 {
     if input[order[0]] == input[order[n - 1]] {
         return 0.0;
     }
-    let mean = |of: &[usize]| of.iter().map(|&i| values[i]).sum::<f64>() / of.len() as f64;
+    let mean = |bin: &[usize]| bin.iter().map(|&i| values[i]).sum::<f64>() / bin.len() as f64;
     let whole = mean(&order);
     let total: f64 = values.iter().map(|value| (value - whole).powi(2)).sum();
     let bin = |b: usize| &order[b * n / bins..(b + 1) * n / bins];

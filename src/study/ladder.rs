@@ -1,9 +1,10 @@
-//! Height, force and drift of a shot with their errors, from runs at a ladder of steps. A check judges by [`estimates`], a screen by [`peaks`].
+//! Height, force and drift of a shot with their errors, from runs at a ladder of steps. A check judges by [`estimates`], a screen by
+//! [`peaks`].
 
 use std::ops::Range;
 
 use super::step_error::{NEIGHBOURS, estimate, widened};
-use crate::outcome::{History, Outcome, Peak, slice_at};
+use crate::outcome::{History, Outcome, Peak, slice_at, slices};
 use crate::verdict::Estimate;
 
 /// Number of equal parts of a run in which rivals of its greatest value are looked for.
@@ -26,14 +27,14 @@ pub fn estimates(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
 pub fn peaks(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
     let near = &runs[nearest(runs.len())];
     let last = runs[runs.len() - 1];
-    let of_peak = |of: fn(&Outcome) -> Peak| {
-        let Peak { value, at, index } = of(last);
-        let error = estimate(last.step, value, near.iter().map(|run| (run.step, of(run).value)));
-        let between = near.first().map_or(value, |coarsest| of(coarsest).value);
-        let pairs = pairs.iter().map(|pair| pair.map(|run| of(run).value));
+    let estimate_of = |peak: fn(&Outcome) -> Peak| {
+        let Peak { value, at, index } = peak(last);
+        let error = estimate(last.step, value, near.iter().map(|run| (run.step, peak(run).value)));
+        let between = near.first().map_or(value, |coarsest| peak(coarsest).value);
+        let pairs = pairs.iter().map(|pair| pair.map(|run| peak(run).value));
         Estimate { value, error: widened(error, between, pairs), at, index }
     };
-    [of_peak(|run| run.height), of_peak(|run| run.force), of_peak(|run| run.drift)]
+    [estimate_of(|run| run.height), estimate_of(|run| run.force), estimate_of(|run| run.drift)]
 }
 
 /// Which of `count` runs give the errors of the last.
@@ -47,11 +48,11 @@ fn beside_rivals(
     near: &[&Outcome],
     last: &Outcome,
     greatest: Estimate,
-    of: fn(&History) -> &Vec<f64>,
+    buckets: fn(&History) -> &Vec<f64>,
 ) -> Estimate {
-    let slices = |run: &Outcome| run.history.slices::<SLICES>(of(&run.history), last.end.at);
-    let own = slices(last);
-    let near: Vec<_> = near.iter().map(|run| (run.step, slices(run))).collect();
+    let parts = |run: &Outcome| slices::<SLICES>(buckets(&run.history), run.history.width, last.end.at);
+    let own = parts(last);
+    let near: Vec<_> = near.iter().map(|run| (run.step, parts(run))).collect();
     let reach = |n: usize| own[n] + estimate(last.step, own[n], near.iter().map(|(step, v)| (*step, v[n])));
     let top = slice_at::<SLICES>(greatest.at, last.end.at);
     let highest = (0..SLICES).filter(|n| n.abs_diff(top) > 1).map(reach).fold(0.0, f64::max);

@@ -8,7 +8,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use super::orders::Tried;
+use super::orders::TriedOrder;
 use super::sample::Sample;
 use super::sampling::Sampling;
 use super::{Case, ComputeSettings, Shard};
@@ -71,23 +71,24 @@ struct Foot {
 #[derive(Clone, Debug, PartialEq)]
 pub enum ShardResults {
     /// Of `orders`.
-    Orders(Vec<Tried>),
+    Orders(Vec<TriedOrder>),
     /// Of `risk`.
     Risk(Vec<OptionSample>),
 }
 
 /// Name of this format of shards.
-const SCHEMA: &str = "shelter.shard/7";
+const SCHEMA: &str = "shelter.shard/8";
 /// Version of this program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 impl ShardResults {
-    /// Whether these can be findings of a study of `case`, each once.
-    pub fn fit(&self, case: &Case) -> bool {
+    /// Whether these can be results of a study of `case`, each once.
+    pub fn belong_to(&self, case: &Case) -> bool {
         let rows: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
         match self {
             ShardResults::Orders(tried) => {
-                let complete = |tried: &Tried| tried.order.iter().copied().sorted().eq(rows.iter().copied());
+                let complete =
+                    |tried: &TriedOrder| tried.order.iter().copied().sorted().eq(rows.iter().copied());
                 tried.iter().all(complete) && tried.iter().map(|tried| tried.number).all_unique()
             }
             ShardResults::Risk(samples) => {
@@ -110,12 +111,12 @@ impl ShardResults {
 }
 
 /// Text of a shard of the study of `case`.
-pub fn write_share(
+pub fn write_shard(
     case: &Case,
     question: Question,
     compute: ComputeSettings,
     shard: Shard,
-    findings: &ShardResults,
+    results: &ShardResults,
 ) -> serde_json::Result<String> {
     let head = Head {
         schema: SCHEMA.to_owned(),
@@ -126,7 +127,7 @@ pub fn write_share(
         text: case.source.text.clone(),
         shard,
     };
-    let text = serde_json::to_string(&head)? + "\n" + &findings.lines()?;
+    let text = serde_json::to_string(&head)? + "\n" + &results.lines()?;
     let foot = Foot { sha256: checksum(&text) };
     Ok(text + &serde_json::to_string(&foot)? + "\n")
 }
@@ -137,7 +138,7 @@ fn checksum(text: &str) -> String {
 }
 
 /// Reads a shard; says what is wrong with it. `name` stands for the file in messages.
-fn read_share(name: &str, text: &str) -> Result<(Head, ShardResults), String> {
+fn read_shard(name: &str, text: &str) -> Result<(Head, ShardResults), String> {
     let wrong = |line: usize, error: &dyn std::fmt::Display| {
         format!("{name}:{line}: {error}; a shard is what `shelter orders` or `risk` wrote with --shard")
     };
@@ -171,11 +172,11 @@ fn read_share(name: &str, text: &str) -> Result<(Head, ShardResults), String> {
     }
     let mut lines: Vec<&str> = rest.lines().collect();
     lines.pop();
-    let findings = match head.question {
+    let results = match head.question {
         Question::Orders { .. } => ShardResults::Orders(results(&lines, wrong)?),
         Question::Risk { .. } => ShardResults::Risk(results(&lines, wrong)?),
     };
-    Ok((head, findings))
+    Ok((head, results))
 }
 
 /// What the first line of any version says.
@@ -190,8 +191,8 @@ pub fn merge(shards: &[(String, String)]) -> Result<(Head, ShardResults), String
     let mut heads: Vec<(&str, Head)> = Vec::new();
     let (mut orders, mut samples) = (Vec::new(), Vec::new());
     for (name, text) in shards {
-        let (head, findings) = read_share(name, text)?;
-        match findings {
+        let (head, results) = read_shard(name, text)?;
+        match results {
             ShardResults::Orders(tried) => orders.extend(tried),
             ShardResults::Risk(drawn) => samples.extend(drawn),
         }
@@ -215,11 +216,11 @@ pub fn merge(shards: &[(String, String)]) -> Result<(Head, ShardResults), String
             });
         }
     }
-    orders.sort_by_key(|tried: &Tried| tried.number);
-    samples.sort_by_key(|of: &OptionSample| (of.option, of.sample.number));
-    let findings = match first.question {
+    orders.sort_by_key(|tried: &TriedOrder| tried.number);
+    samples.sort_by_key(|drawn: &OptionSample| (drawn.option, drawn.sample.number));
+    let results = match first.question {
         Question::Orders { .. } => ShardResults::Orders(orders),
         Question::Risk { .. } => ShardResults::Risk(samples),
     };
-    Ok((first, findings))
+    Ok((first, results))
 }

@@ -19,12 +19,12 @@ use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
-use super::batch::{envelopes_or_unknown, judge_shot};
+use super::batch::{judge_all_or_unknown, judge_shot};
 use super::risk_summary::{RiskSummary, sample_shots};
 use super::sampled::{self, Sampled};
 use super::sampling::Sampling;
-use super::screen::{is_sure, screen_until};
-use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard};
+use super::screen::{screen_is_sure, screen_until};
+use super::{Case, ComputeSettings, Finding, Found, JudgedShot, NoResult, Progress, Shard};
 use crate::plan::BlastRow;
 use crate::scene::{Firing, Shot};
 use crate::verdict::Verdict;
@@ -49,7 +49,7 @@ const ENDS: usize = 20;
 
 /// One order at one interval.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Tried {
+pub struct TriedOrder {
     /// Number of this trial, in the order in which one machine tries them.
     pub number: usize,
     /// Blast rows in firing order.
@@ -57,14 +57,14 @@ pub struct Tried {
     /// Interval between successive rows [s].
     pub interval: f64,
     /// Verdict, height, force and drift.
-    pub envelope: Envelope,
+    pub as_planned: JudgedShot,
 }
 
 /// Result of trying orders.
 #[derive(Clone, Debug)]
 pub struct Orders {
     /// From the worst to the best.
-    pub ranked: Vec<Tried>,
+    pub ranked: Vec<TriedOrder>,
     /// Whether all possible orders were tried.
     pub complete: bool,
     /// Samples of ranked orders, by their indices; `None` where only the shots as planned were asked for.
@@ -73,7 +73,7 @@ pub struct Orders {
 
 impl Orders {
     /// Ranks the orders that one or many machines tried, at `intervals` intervals.
-    pub fn new(case: &Case, mut tried: Vec<Tried>, intervals: usize) -> Self {
+    pub fn new(case: &Case, mut tried: Vec<TriedOrder>, intervals: usize) -> Self {
         let complete = tries_all(case) && tried.len() == count(case, intervals);
         tried.sort_by(|a, b| {
             utilization(case, b).total_cmp(&utilization(case, a)).then(a.number.cmp(&b.number))
@@ -92,8 +92,8 @@ impl Orders {
         let count = self.ranked.len();
         let ends: Vec<usize> = (0..count).filter(|&n| n < ENDS || n + ENDS >= count).collect();
         let shot = |&n: &usize| {
-            let Tried { order, interval, envelope, .. } = &self.ranked[n];
-            (case.shot(order, *interval), *envelope)
+            let TriedOrder { order, interval, as_planned, .. } = &self.ranked[n];
+            (case.shot(order, *interval), *as_planned)
         };
         let shots: Vec<_> = ends.iter().map(shot).collect();
         let mut sampled = sample_shots(case, &shots, &sampling.first_look(), compute, progress)?;
@@ -121,7 +121,7 @@ impl Orders {
 
     /// The verdict on the order ranked `n`: as planned, and of its samples where samples were asked for.
     pub fn verdict_on(&self, n: usize) -> Verdict {
-        sampled::verdict(self.ranked[n].envelope.verdict, self.risk(n).map(|risk| risk.verdict))
+        sampled::verdict(self.ranked[n].as_planned.verdict, self.risk(n).map(|risk| risk.verdict))
     }
 
     /// The verdict on all orders; undecided where none was tried.
@@ -132,14 +132,14 @@ impl Orders {
 
     /// Number of orders that pass as planned.
     pub fn passing_as_planned(&self) -> usize {
-        self.ranked.iter().filter(|tried| tried.envelope.verdict == Verdict::Pass).count()
+        self.ranked.iter().filter(|tried| tried.as_planned.verdict == Verdict::Pass).count()
     }
 }
 
 /// Ranks orders tried at `intervals` intervals, by one machine or by many; with a `sampling` it adds the risk of both ends.
 pub fn rank(
     case: &Case,
-    tried: Found<Vec<Tried>>,
+    tried: Found<Vec<TriedOrder>>,
     intervals: usize,
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
@@ -182,14 +182,14 @@ pub fn try_orders(
     shard: Shard,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<Vec<Tried>> {
+) -> Finding<Vec<TriedOrder>> {
     if intervals.is_empty() {
         return Err(NoResult::NoInterval);
     }
     let rows = case.plan.blast_rows.len();
     // Where no run at all succeeds, the first order tells why.
-    let known = |found: Found<Vec<Tried>>| {
-        if found.value.iter().all(|tried| tried.envelope == Envelope::UNKNOWN) {
+    let known = |found: Found<Vec<TriedOrder>>| {
+        if found.value.iter().all(|tried| tried.as_planned == JudgedShot::UNKNOWN) {
             for tried in found.value.iter().take(1) {
                 judge_shot(case, &case.shot(&tried.order, tried.interval), compute, progress)?;
             }
@@ -199,21 +199,20 @@ pub fn try_orders(
     if !tries_all(case) {
         return search(case, intervals, compute, progress).and_then(known);
     }
-    let twin = twin(case);
+    let mirror_rows = mirror_rows(case);
     let all = intervals
         .iter()
         .flat_map(|&interval| (0..rows).permutations(rows).map(move |order| (order, interval)));
-    let jobs: Vec<Job> = all.enumerate().collect();
-    let own = |(number, (order, _)): &&Job| shard.has(*number) && *order <= mirrored(order, &twin);
-    let first: Vec<Job> = jobs.iter().filter(own).cloned().collect();
-    let found = screen_orders(case, first, compute, progress)?;
-    let per_interval = jobs.len() / intervals.len();
+    let per_interval = count(case, 1);
+    let all = all.enumerate().map(|(number, (order, interval))| OrderToTry { number, order, interval });
+    let own = |one: &OrderToTry| shard.has(one.number) && one.order <= mirrored(&one.order, &mirror_rows);
+    let found = screen_orders(case, all.filter(own).collect(), compute, progress)?;
     let mut tried = Vec::with_capacity(2 * found.value.len());
     for one in found.value {
-        let order = mirrored(&one.order, &twin);
+        let order = mirrored(&one.order, &mirror_rows);
         if order != one.order {
-            let number = one.number - one.number % per_interval + number(&order);
-            tried.push(Tried { number, order, ..one });
+            let number = one.number - one.number % per_interval + lexicographic_number(&order);
+            tried.push(TriedOrder { number, order, ..one });
         }
         tried.push(one);
     }
@@ -224,10 +223,18 @@ pub fn try_orders(
     refine(case, tried, compute, progress).and_then(known)
 }
 
-type Job = (usize, (Vec<usize>, f64));
+/// An order to be judged at one interval.
+struct OrderToTry {
+    /// Number of the trial, as in [`TriedOrder::number`].
+    number: usize,
+    /// Blast rows in firing order.
+    order: Vec<usize>,
+    /// Interval between successive rows [s].
+    interval: f64,
+}
 
 /// Blast row that is the mirror image of each blast row; `None` where the shelter has no mirror plane that moves rows.
-fn twin(case: &Case) -> Option<Vec<usize>> {
+fn mirror_rows(case: &Case) -> Option<Vec<usize>> {
     let holes = |image: &dyn Fn(&Firing) -> Firing| -> Vec<Vec<Firing>> {
         let row = |row: &BlastRow| {
             let firings = case.scene().firings(&row.targets);
@@ -238,52 +245,54 @@ fn twin(case: &Case) -> Option<Vec<usize>> {
     let rows = holes(&Firing::clone);
     case.scene().mirrors.iter().find_map(|mirror| {
         let images = holes(&|firing| firing.mirrored(mirror));
-        let twin: Vec<usize> =
+        let mirror_row: Vec<usize> =
             images.iter().map(|image| rows.iter().position(|row| row == image)).collect::<Option<_>>()?;
-        let returns = twin.iter().enumerate().all(|(row, &other)| twin[other] == row);
-        (returns && twin.iter().enumerate().any(|(row, &other)| row != other)).then_some(twin)
+        let returns = mirror_row.iter().enumerate().all(|(row, &other)| mirror_row[other] == row);
+        let moves = mirror_row.iter().enumerate().any(|(row, &other)| row != other);
+        (returns && moves).then_some(mirror_row)
     })
 }
 
-fn mirrored(order: &[usize], twin: &Option<Vec<usize>>) -> Vec<usize> {
-    order.iter().map(|&row| twin.as_ref().map_or(row, |twin| twin[row])).collect()
+fn mirrored(order: &[usize], mirror_rows: &Option<Vec<usize>>) -> Vec<usize> {
+    order.iter().map(|&row| mirror_rows.as_ref().map_or(row, |mirror_rows| mirror_rows[row])).collect()
 }
 
 /// Number of a permutation in lexicographic order.
-fn number(order: &[usize]) -> usize {
+fn lexicographic_number(order: &[usize]) -> usize {
     let smaller = |n: usize| order[n + 1..].iter().filter(|&&later| later < order[n]).count();
     (0..order.len()).fold(0, |rank, n| rank * (order.len() - n) + smaller(n))
 }
 
-fn utilization(case: &Case, tried: &Tried) -> f64 {
-    tried.envelope.utilization(&case.limits)
+fn utilization(case: &Case, tried: &TriedOrder) -> f64 {
+    tried.as_planned.utilization(&case.limits)
 }
 
 /// Judges as `check` does, at every interval, the orders that may be the worst or the best, until none is left.
 pub fn refine(
     case: &Case,
-    mut tried: Vec<Tried>,
+    mut tried: Vec<TriedOrder>,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<Vec<Tried>> {
-    let twin = twin(case);
+) -> Finding<Vec<TriedOrder>> {
+    let mirror_rows = mirror_rows(case);
     let mut refined = HashSet::new();
     let index: HashMap<(u64, Vec<usize>), usize> =
         tried.iter().enumerate().map(|(n, t)| ((t.interval.to_bits(), t.order.clone()), n)).collect();
-    let image_of = |t: &Tried| index.get(&(t.interval.to_bits(), mirrored(&t.order, &twin))).copied();
+    let image_of =
+        |t: &TriedOrder| index.get(&(t.interval.to_bits(), mirrored(&t.order, &mirror_rows))).copied();
     let images: Vec<Option<usize>> = tried.iter().map(image_of).collect();
     let intervals: Vec<f64> = tried.iter().map(|tried| tried.interval).dedup().collect();
     // Towards the worst, then towards the best.
     for (interval, sign) in itertools::iproduct!(intervals, [1.0, -1.0]) {
         loop {
             let mine = |n: &usize| tried[*n].interval == interval;
-            let is_known = |n: &usize| tried[*n].envelope != Envelope::UNKNOWN;
+            let is_known = |n: &usize| tried[*n].as_planned != JudgedShot::UNKNOWN;
             let judged = (0..tried.len()).filter(|n| mine(n) && refined.contains(n) && is_known(n));
             let farthest =
                 judged.map(|n| sign * utilization(case, &tried[n])).fold(f64::NEG_INFINITY, f64::max);
             // An order whose runs failed may be the worst, and is not the best.
             let reach = |n: usize| match is_known(&n) {
-                true => sign * tried[n].envelope.with_errors(sign * REACH).utilization(&case.limits),
+                true => sign * tried[n].as_planned.with_errors(sign * REACH).utilization(&case.limits),
                 false => sign * f64::INFINITY,
             };
             let next: Vec<usize> = (0..tried.len())
@@ -297,11 +306,11 @@ pub fn refine(
             }
             let shots: Vec<Shot> = next.iter().map(|&n| case.shot(&tried[n].order, interval)).collect();
             let judged =
-                envelopes_or_unknown(&shots, progress, |shot| judge_shot(case, shot, compute, progress))?;
-            for (n, envelope) in next.into_iter().zip(judged) {
-                let Some(envelope) = envelope else { return Ok(Found { value: tried, partial: true }) };
+                judge_all_or_unknown(&shots, progress, |shot| judge_shot(case, shot, compute, progress))?;
+            for (n, as_planned) in next.into_iter().zip(judged) {
+                let Some(as_planned) = as_planned else { return Ok(Found { value: tried, partial: true }) };
                 for n in images[n].into_iter().chain([n]) {
-                    tried[n].envelope = envelope;
+                    tried[n].as_planned = as_planned;
                     refined.insert(n);
                 }
             }
@@ -313,21 +322,21 @@ pub fn refine(
 /// Judges orders by a screen.
 fn screen_orders(
     case: &Case,
-    jobs: Vec<Job>,
+    orders: Vec<OrderToTry>,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<Vec<Tried>> {
-    let enough = |envelope: &Envelope, runs: usize| {
-        is_sure(case, envelope, runs) || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= RUNS
+) -> Finding<Vec<TriedOrder>> {
+    let enough = |screened: &JudgedShot, runs: usize| {
+        screen_is_sure(case, screened, runs) || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= RUNS
     };
-    let envelopes = envelopes_or_unknown(&jobs, progress, |(_, (order, interval))| {
+    let screened = judge_all_or_unknown(&orders, progress, |OrderToTry { order, interval, .. }| {
         screen_until(case, &case.shot(order, *interval), compute, progress, enough)
     })?;
-    let tried = |((number, (order, interval)), envelope): (Job, Option<Envelope>)| {
-        envelope.map(|envelope| Tried { number, order, interval, envelope })
+    let tried = |(OrderToTry { number, order, interval }, as_planned): (_, Option<JudgedShot>)| {
+        as_planned.map(|as_planned| TriedOrder { number, order, interval, as_planned })
     };
-    let partial = envelopes.contains(&None);
-    Ok(Found { value: jobs.into_iter().zip(envelopes).filter_map(tried).collect(), partial })
+    let partial = screened.contains(&None);
+    Ok(Found { value: orders.into_iter().zip(screened).filter_map(tried).collect(), partial })
 }
 
 fn search(
@@ -335,9 +344,9 @@ fn search(
     intervals: &[f64],
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<Vec<Tried>> {
+) -> Finding<Vec<TriedOrder>> {
     let rows: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
-    let mut tried: Vec<Tried> = Vec::new();
+    let mut tried: Vec<TriedOrder> = Vec::new();
     for (n, &interval) in intervals.iter().enumerate() {
         let mut random = ChaCha8Rng::seed_from_u64(n as u64);
         let mut starts = vec![rows.clone(), rows.iter().rev().copied().collect()];
@@ -347,19 +356,19 @@ fn search(
             order
         }));
         let first = tried.len();
-        if add(case, &mut tried, first, starts, interval, compute, progress)? {
+        if screen_new_orders(case, &mut tried, first, starts, interval, compute, progress)? {
             return Ok(Found { value: tried, partial: true });
         }
         let mut climbers: Vec<(f64, Vec<usize>)> = Vec::new();
         for sign in [1.0, -1.0] {
-            let rank = |tried: &&Tried| -sign * utilization(case, tried);
+            let rank = |tried: &&TriedOrder| -sign * utilization(case, tried);
             let hardest = tried[first..].iter().sorted_by(|a, b| rank(a).total_cmp(&rank(b)));
             climbers.extend(hardest.take(CLIMBERS).map(|tried| (sign, tried.order.clone())));
         }
         // All climbers take a step at once; those that meet become one.
         while !climbers.is_empty() {
             let all = climbers.iter().flat_map(|(_, order)| exchanges(order)).unique().collect();
-            if add(case, &mut tried, first, all, interval, compute, progress)? {
+            if screen_new_orders(case, &mut tried, first, all, interval, compute, progress)? {
                 return Ok(Found { value: tried, partial: true });
             }
             let known: HashMap<&[usize], f64> =
@@ -389,9 +398,9 @@ fn exchanges(order: &[usize]) -> impl Iterator<Item = Vec<usize>> {
 }
 
 /// Judges the orders that are not among `tried[first..]`, and adds them; returns whether the time was up.
-fn add(
+fn screen_new_orders(
     case: &Case,
-    tried: &mut Vec<Tried>,
+    tried: &mut Vec<TriedOrder>,
     first: usize,
     orders: Vec<Vec<usize>>,
     interval: f64,
@@ -400,8 +409,8 @@ fn add(
 ) -> Result<bool, NoResult> {
     let known: HashSet<&[usize]> = tried[first..].iter().map(|t| t.order.as_slice()).collect();
     let new = orders.into_iter().unique().filter(|order| !known.contains(order.as_slice()));
-    let jobs = new.enumerate().map(|(n, order)| (tried.len() + n, (order, interval))).collect();
-    let Found { value, partial } = screen_orders(case, jobs, compute, progress)?;
+    let new = new.enumerate().map(|(n, order)| OrderToTry { number: tried.len() + n, order, interval });
+    let Found { value, partial } = screen_orders(case, new.collect(), compute, progress)?;
     tried.extend(value);
     Ok(partial)
 }
@@ -413,7 +422,7 @@ mod tests {
     #[test]
     fn permutations_are_numbered_as_they_are_listed() {
         for (number, order) in (0..5).permutations(5).enumerate() {
-            assert_eq!(super::number(&order), number);
+            assert_eq!(super::lexicographic_number(&order), number);
         }
     }
 }

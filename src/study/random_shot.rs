@@ -15,6 +15,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use super::Case;
 use crate::plan::Uncertainty;
+use crate::plan::keys::{Key, uncertainty};
 use crate::scene::{Cable, Firing, Scene, Shot, with_ends};
 
 /// An input that is the same in the whole shot, and not known exactly.
@@ -34,13 +35,13 @@ impl Input {
     /// Every input, in the order of the values of [`RandomShot::inputs`].
     pub const ALL: [Input; 4] = [Input::LaunchCommon, Input::Friction, Input::Slack, Input::AxialStiffness];
 
-    /// Key of the input in `[uncertainty]`.
-    pub fn name(self) -> &'static str {
+    /// The key of a plan that says how well the input is known.
+    pub fn key(self) -> &'static Key {
         match self {
-            Input::LaunchCommon => "launch_common_percent",
-            Input::Friction => "friction",
-            Input::Slack => "slack_percent",
-            Input::AxialStiffness => "axial_stiffness_percent",
+            Input::LaunchCommon => &uncertainty::LAUNCH_COMMON_PERCENT,
+            Input::Friction => &uncertainty::FRICTION,
+            Input::Slack => &uncertainty::SLACK_PERCENT,
+            Input::AxialStiffness => &uncertainty::AXIAL_STIFFNESS_PERCENT,
         }
     }
 }

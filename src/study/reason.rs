@@ -82,7 +82,7 @@ fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<EarlyEnd> {
 
 /// Why a run of a shot does not pass, given its height, force and drift with their errors; empty for a pass.
 pub fn find_reasons(case: &Case, shot: &Shot, outcome: &Outcome, estimates: [Estimate; 3]) -> Vec<Reason> {
-    let limits = limited(estimates, &case.limits).map(|(quantity, estimate, limit)| Reason::Limit {
+    let limits = with_limits(estimates, &case.limits).map(|(quantity, estimate, limit)| Reason::Limit {
         quantity,
         verdict: estimate.against(limit),
         estimate,
@@ -103,7 +103,7 @@ pub(super) fn closes(residual: f64) -> bool {
 }
 
 /// The quantities that have a limit, each with its estimate and its limit; `estimates` are height, force and drift.
-pub(super) fn limited(
+pub(super) fn with_limits(
     estimates: [Estimate; 3],
     limits: &Limits,
 ) -> impl Iterator<Item = (Quantity, Estimate, f64)> {

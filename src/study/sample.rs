@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Case;
-use super::envelope::or_infinite;
+use super::judged_shot::or_infinite;
 use super::random_shot::Input;
 use super::reason::{Reason, closes, find_reasons};
 use crate::outcome::{Outcome, Peak};

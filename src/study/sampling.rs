@@ -12,7 +12,7 @@ use super::random_shot::{Input, RandomShot, draw};
 use super::reason::closes;
 use super::risk::{LEAST_AUDITS, Risk, SAMPLES_FOR_BANDS};
 use super::sample::{Sample, SampleRun};
-use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, Shard, guarded};
+use super::{Case, ComputeSettings, Finding, Found, JudgedShot, NoResult, Progress, Shard, guarded};
 use crate::choice::Accuracy;
 use crate::scene::{Scene, Shot};
 use crate::verdict::Verdict;
@@ -79,7 +79,7 @@ pub struct ShotToSample<'c> {
     /// The shot as planned.
     pub shot: &'c Shot,
     /// The shot as planned, judged by finer runs; `None` where it is not known.
-    pub planned: Option<Envelope>,
+    pub planned: Option<JudgedShot>,
     /// Method and accuracy.
     pub compute: ComputeSettings,
     /// Number of samples and seed.
@@ -95,7 +95,7 @@ impl<'c> ShotToSample<'c> {
     }
 
     /// The same shot, judged as `planned`.
-    pub fn planned(self, planned: Envelope) -> Self {
+    pub fn planned(self, planned: JudgedShot) -> Self {
         Self { planned: Some(planned), ..self }
     }
 
@@ -210,9 +210,9 @@ pub fn draw_shard(
     shard: Shard,
     progress: &Progress,
 ) -> Result<Vec<(usize, Option<Sample>)>, NoResult> {
-    let of = |n: usize| (0..targets[n].sampling.most).map(move |number| (n, number));
+    let of_target = |n: usize| (0..targets[n].sampling.most).map(move |number| (n, number));
     let jobs: Vec<(usize, usize)> =
-        (0..targets.len()).flat_map(of).filter(|&(_, number)| shard.has(number)).collect();
+        (0..targets.len()).flat_map(of_target).filter(|&(_, number)| shard.has(number)).collect();
     let drawn = run_jobs(&jobs, progress, |&(n, number)| run_sample(&targets[n], number, 0, progress))?;
     Ok(jobs.into_iter().map(|(n, _)| n).zip(drawn).collect())
 }

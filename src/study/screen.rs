@@ -8,7 +8,7 @@
 use super::batch::judge_shot;
 use super::ladder::peaks;
 use super::reason::{Reason, find_reasons};
-use super::{Case, ComputeSettings, Envelope, NoResult, Progress, step_error};
+use super::{Case, ComputeSettings, JudgedShot, NoResult, Progress, step_error};
 use crate::choice::Accuracy;
 use crate::outcome::Outcome;
 use crate::scene::Shot;
@@ -30,8 +30,8 @@ pub fn screen(
     shot: &Shot,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Envelope, NoResult> {
-    screen_until(case, shot, compute, progress, |screened, runs| is_sure(case, screened, runs))
+) -> Result<JudgedShot, NoResult> {
+    screen_until(case, shot, compute, progress, |screened, runs| screen_is_sure(case, screened, runs))
 }
 
 /// Judges a shot at ever finer steps until `enough`, which gets the last run judged and the number of runs, returns true.
@@ -40,8 +40,8 @@ pub fn screen_until(
     shot: &Shot,
     compute: &ComputeSettings,
     progress: &Progress,
-    enough: impl Fn(&Envelope, usize) -> bool,
-) -> Result<Envelope, NoResult> {
+    enough: impl Fn(&JudgedShot, usize) -> bool,
+) -> Result<JudgedShot, NoResult> {
     if compute.step.is_some() {
         return judge_shot(case, shot, compute, progress);
     }
@@ -60,9 +60,9 @@ pub fn screen_until(
             return judge_shot(case, shot, compute, progress);
         }
         if runs.len() > 1 {
-            let envelope = judge(case, shot, &runs);
-            if is_last || enough(&envelope, runs.len()) {
-                return Ok(envelope);
+            let screened = judge(case, shot, &runs);
+            if is_last || enough(&screened, runs.len()) {
+                return Ok(screened);
             }
         }
         step /= step_error::RATIO;
@@ -70,15 +70,15 @@ pub fn screen_until(
 }
 
 /// The last run judged, with the runs before as its neighbours.
-fn judge(case: &Case, shot: &Shot, runs: &[Outcome]) -> Envelope {
+fn judge(case: &Case, shot: &Shot, runs: &[Outcome]) -> JudgedShot {
     let all: Vec<&Outcome> = runs.iter().collect();
     let estimates = peaks(&all, &[]);
     let reasons = find_reasons(case, shot, all[all.len() - 1], estimates);
-    Envelope::new(Verdict::worst(reasons.iter().map(Reason::verdict)), estimates)
+    JudgedShot::new(Verdict::worst(reasons.iter().map(Reason::verdict)), estimates)
 }
 
 /// Whether the values of a screen of `runs` runs lie so far from all limits that its verdict stands.
-pub fn is_sure(case: &Case, screened: &Envelope, runs: usize) -> bool {
+pub fn screen_is_sure(case: &Case, screened: &JudgedShot, runs: usize) -> bool {
     match screened.verdict {
         Verdict::Pass => {
             runs >= RUNS_OF_PASS && screened.with_errors(SURE_PASS).utilization(&case.limits) <= 1.0

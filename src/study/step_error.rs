@@ -75,7 +75,7 @@ mod tests {
     #[test]
     fn shots_on_both_sides_of_an_event_widen_the_error() {
         let smooth = |launch: f64| launch * launch / 19.62;
-        let pair = |of: fn(f64) -> f64| [of(6.006), of(5.994)];
+        let pair = |peak: fn(f64) -> f64| [peak(6.006), peak(5.994)];
         assert_eq!(widened(1e-5, smooth(6.0), [pair(|launch| launch * launch / 19.62)]), 1e-5);
         // Faster than 6 m/s the tire is caught by a cable.
         let caught = |launch: f64| if launch > 6.0 { 1.5 } else { launch * launch / 19.62 };

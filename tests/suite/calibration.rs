@@ -36,7 +36,7 @@ fn reported_errors_hold_and_are_not_too_wide() {
 #[test]
 fn only_open_verdicts_cost_more() {
     use shelter::plan::Plan;
-    use shelter::study::check::check;
+    use shelter::study::check::check_as_planned;
     use shelter::study::{Case, ComputeSettings};
     let path = shipped("amur-three-rows.toml");
     let mut case = Case::new(Plan::load(path.as_ref()).expect("a shipped plan"));
@@ -44,7 +44,8 @@ fn only_open_verdicts_cost_more() {
     let mut judge = |height: f64| {
         case.limits.height = height;
         case.limits.force = 1e9;
-        check(&case, 4, &compute, &mut |_| ControlFlow::Continue(())).expect("the run has an outcome")
+        check_as_planned(&case, 4, &compute, &mut |_| ControlFlow::Continue(()))
+            .expect("the run has an outcome")
     };
     let far = judge(3.0);
     assert_eq!(far.runs, 1 + NEIGHBOURS + 2 * PAIRS as usize);

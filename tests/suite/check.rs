@@ -246,7 +246,7 @@ fn json_tells_the_risk() {
         assert_eq!(document["judged"], judged);
         for option in document["options"].as_array().expect("options") {
             let failures = &option["failure_probability"];
-            let number = |of: &serde_json::Value| of.as_f64().expect("a number");
+            let number = |value: &serde_json::Value| value.as_f64().expect("a number");
             assert!(number(&failures["low"]) < number(&failures["high"]), "{failures}");
             assert!((200..=250).contains(&failures["samples"].as_u64().expect("a count")));
             assert_eq!(failures["undecided"], 0);

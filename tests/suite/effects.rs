@@ -7,7 +7,7 @@ use shelter::choice::{Accuracy, Method};
 use shelter::plan::Plan;
 use shelter::scene::{Firing, Scene, Shot};
 use shelter::simulation::Failure;
-use shelter::study::check::check;
+use shelter::study::check::check_as_planned;
 use shelter::study::effects::{Effect, SAMPLES, effects};
 use shelter::study::sampling::{Sampling, ShotToSample, draw_shard};
 use shelter::study::{Case, ComputeSettings, Progress, Shard};
@@ -297,7 +297,8 @@ fn effects_are_those_of_an_independent_prototype() {
     ];
     for (name, case, height, force) in cases {
         let compute = ComputeSettings { accuracy: Accuracy::Reference, ..ComputeSettings::of(&case.plan) };
-        let checked = check(&case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a result");
+        let checked =
+            check_as_planned(&case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a result");
         close(checked.height.value, height, 5e-3 * height, &format!("{name}: height"));
         close(checked.force.value * 1e-3, force, 1e-2 * force, &format!("{name}: force"));
     }
@@ -337,8 +338,9 @@ fn effects_compare_plans_with_and_without_them() {
     let found = found.expect("time for all");
     let of = |effect: Effect| *found.iter().find(|of| of.effect == effect).expect("tried");
     assert!(!found.iter().any(|of| of.effect == Effect::Ballast), "the plan has none, and none is probed");
-    let verdict =
-        |case: &Case| check(case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a result").verdict;
+    let verdict = |case: &Case| {
+        check_as_planned(case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a result").verdict
+    };
     let mut plan = case.plan.clone();
     (plan.cable.slack_percent, plan.uncertainty.slack_percent) = (0.0, [0.0; 2]);
     let tight = Case::new(plan);
@@ -374,7 +376,7 @@ fn cables_that_break_fail_with_an_effect_and_without() {
     let text = text.replace("rows = 1, columns = 2", "rows = 2, columns = 1");
     let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
     let compute = ComputeSettings::of(&case.plan);
-    assert_eq!(case.check(0, &compute).expect("a result").verdict, Verdict::Fail);
+    assert_eq!(case.check_as_planned(0, &compute).expect("a result").verdict, Verdict::Fail);
     let found = effects(&case, Some(&FEW), &compute, &Progress::default()).expect("a result").value.remove(0);
     let found = found.expect("time for all");
     let slope = found.iter().find(|of| of.effect == Effect::Slope).expect("tried");
@@ -390,7 +392,8 @@ fn effects_of_the_shot_as_planned_alone() {
     let found = found.expect("time for all");
     let push = found.iter().find(|of| of.effect == Effect::Push).expect("tried");
     let pushed = three_rows("", "", "", "push_ms = 20");
-    let [pushed, at_once] = [&pushed, &case].map(|case| case.check(0, &compute).expect("a result"));
+    let [pushed, at_once] =
+        [&pushed, &case].map(|case| case.check_as_planned(0, &compute).expect("a result"));
     // A screen ends at a coarser step than a check: its errors here are below 1 %.
     let change = pushed.height.value / at_once.height.value - 1.0;
     close(push.change(Quantity::Height), change, 1e-2, "height");

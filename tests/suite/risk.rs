@@ -17,7 +17,7 @@ use shelter::study::risk::Risk;
 use shelter::study::risk_summary::sample_shots;
 use shelter::study::sampled::Sampled;
 use shelter::study::sampling::{Sampling, ShotToSample, draw_shard, find_risks};
-use shelter::study::{Case, ComputeSettings, Envelope, Progress, Shard, thread_pool};
+use shelter::study::{Case, ComputeSettings, JudgedShot, Progress, Shard, thread_pool};
 use shelter::verdict::{Quantity, Verdict};
 
 use crate::scenes::{GRAVITY, METHODS, fire, tie, tires};
@@ -177,7 +177,7 @@ fn samples_whose_step_is_too_long_pass_nothing() {
     assert_eq!(judged.verdict(), Verdict::Undecided, "{:?}", risk.samples[0]);
     assert!(risk.halvings > 0, "the audit saw it, too");
     // Sweeps and orders sample shots this way.
-    let shots = [(case.shots[0].clone(), Envelope::of(&judged.nominal))];
+    let shots = [(case.shots[0].clone(), JudgedShot::of(&judged.nominal))];
     let sampled = sample_shots(&case, &shots, &Sampling::OF_VERDICT, &cases[0].1, &Progress::default());
     let sampled = sampled.expect("a result").remove(0).expect("samples");
     assert_eq!((sampled.bounds.verdict(), sampled.verdict), (Verdict::Pass, Verdict::Undecided));
@@ -274,7 +274,7 @@ fn open_bounds_that_share_one_error_are_looked_through() {
 /// Shards are drawn at the usual step; where the audit contradicts them, all of them together are sampled anew, as on one
 /// machine.
 #[test]
-fn shares_that_the_audit_contradicts_are_sampled_anew() {
+fn shards_that_the_audit_contradicts_are_sampled_anew() {
     let case = too_hard_for_samples();
     let compute = ComputeSettings::of(&case.plan);
     let (sampling, progress) = (Sampling::exactly(600, 1), Progress::default());
@@ -285,7 +285,7 @@ fn shares_that_the_audit_contradicts_are_sampled_anew() {
         .flatten()
         .map(|(option, sample)| OptionSample { option, sample: sample.expect("time for all") })
         .collect();
-    drawn.sort_by_key(|of| of.sample.number);
+    drawn.sort_by_key(|drawn| drawn.sample.number);
     let joined = judge_drawn(&case, &compute, &sampling, &drawn, &progress).expect("a result").remove(0);
     let whole = case.judge_options(&compute, Some(&sampling), &progress).expect("a result").value;
     let whole = whole[0].as_ref().expect("a result").risk.drawn().expect("samples");
@@ -482,7 +482,7 @@ fn the_input_that_decides_has_the_greatest_share() {
     );
     let risk = risk_of(&case, &Sampling::exactly(400, 3));
     let shares = input_shares(&risk, &case.limits).expect("enough samples");
-    assert_eq!(shares[0].0.name(), "slack_percent", "{shares:?}");
+    assert_eq!(shares[0].0.key().name, "slack_percent", "{shares:?}");
     assert!(shares[0].1 > 0.5 && shares.iter().map(|(_, share)| share).sum::<f64>() < 1.1, "{shares:?}");
     let few = risk_of(&case, &Sampling::exactly(150, 3));
     assert!(input_shares(&few, &case.limits).is_none());

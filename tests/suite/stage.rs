@@ -11,10 +11,10 @@ use shelter::choice::{Accuracy, Method};
 use shelter::jobs::{News, StudyKind, StudyResult};
 use shelter::outcome::{EndReason, History, RunEnd};
 use shelter::ropes::catalogue;
-use shelter::study::accuracy::{AccuracyTable, Measured, StepRow};
+use shelter::study::accuracy::{AccuracyTable, LevelStep, Measured, StepRow};
 use shelter::study::check::Checked;
 use shelter::study::judgement::Judgement;
-use shelter::study::orders::{Orders, Tried};
+use shelter::study::orders::{Orders, TriedOrder};
 use shelter::study::reason::Reason;
 use shelter::study::risk::Risk;
 use shelter::study::sample::{Sample, SampleRun};
@@ -22,8 +22,8 @@ use shelter::study::sampled::Sampled;
 use shelter::study::sampling::Sampling;
 use shelter::study::size::{Combination, SampledRisk, Sizing, Trial};
 use shelter::study::sweep::{Point, Recommended, Sweep};
-use shelter::study::{Bounded, Envelope};
 use shelter::study::{Case, ComputeSettings, NoResult, flight};
+use shelter::study::{JudgedShot, ValueWithError};
 use shelter::tui::app::{App, Areas, Request};
 use shelter::tui::config::Config;
 use shelter::tui::options::OptionState;
@@ -155,11 +155,11 @@ pub fn swept() -> StudyResult {
     let point = |n: usize| {
         let share = (n as f64 * 0.3).sin().abs();
         let verdict = if share < 0.8 { Verdict::Pass } else { Verdict::Fail };
-        let height = Bounded { value: 2.0 * share, error: 0.01 };
-        let force = Bounded { value: 76_000.0 * share, error: 250.0 };
+        let height = ValueWithError { value: 2.0 * share, error: 0.01 };
+        let force = ValueWithError { value: 76_000.0 * share, error: 250.0 };
         Point {
             interval: n as f64 * 0.01,
-            envelope: Envelope { verdict, height, force, drift: Bounded::default() },
+            as_planned: JudgedShot { verdict, height, force, drift: ValueWithError::default() },
             risk: Sampled::NotAsked,
         }
     };
@@ -177,7 +177,8 @@ pub fn swept() -> StudyResult {
 
 /// What accuracy costs, with round numbers.
 pub fn measured() -> StudyResult {
-    let levels = [(Accuracy::Draft, 8e-4), (Accuracy::Field, 4e-4), (Accuracy::Reference, 1e-4)];
+    let levels = [(Accuracy::Draft, 8e-4), (Accuracy::Field, 4e-4), (Accuracy::Reference, 1e-4)]
+        .map(|(level, step)| LevelStep { level, step });
     let row = |n: i32, method: Method| {
         let part = 0.5_f64.powi(n);
         let cost = if method == Method::Verlet { 1.0 } else { 50.0 };
@@ -209,31 +210,31 @@ pub fn recorded(app: &App, option: usize) -> StudyResult {
 }
 
 /// What is kept of a shot that uses so much of its limits.
-fn envelope(share: f64) -> Envelope {
+fn judged_shot(share: f64) -> JudgedShot {
     let verdict = if share < 1.0 { Verdict::Pass } else { Verdict::Fail };
-    Envelope {
+    JudgedShot {
         verdict,
-        height: Bounded { value: 1.8 * share, error: 0.01 },
-        force: Bounded { value: 61_000.0 * share, error: 250.0 },
-        drift: Bounded::default(),
+        height: ValueWithError { value: 1.8 * share, error: 0.01 },
+        force: ValueWithError { value: 61_000.0 * share, error: 250.0 },
+        drift: ValueWithError::default(),
     }
 }
 
 /// Orders, samples and sizes with round numbers.
 pub fn spreads(app: &App) -> [(StudyKind, StudyResult); 3] {
     let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
-    let tried = orders.iter().enumerate().map(|(number, order)| Tried {
+    let tried = orders.iter().enumerate().map(|(number, order)| TriedOrder {
         number,
         order: order.to_vec(),
         interval: 0.02,
-        envelope: envelope(1.5 - 0.2 * number as f64),
+        as_planned: judged_shot(1.5 - 0.2 * number as f64),
     });
     let judged = app.options.iter().enumerate().map(|(n, _)| Ok(judgement(&app.case, n)));
     let combinations = catalogue().ropes.iter().take(8).enumerate().map(|(n, rope)| {
         let share = 1.5 - 0.1 * n as f64;
         let risk = Some(SampledRisk { verdict: Verdict::Pass, samples: 3045, failures: 2, most: 0.004 });
         let holds = share < 1.0;
-        let worst = envelope(share);
+        let worst = judged_shot(share);
         let trial = Trial { holds, worst, utilization: share, shots: 7, risk, is_choice: holds };
         let (total_mass, trial) = (14_000.0 + 100.0 * n as f64, Ok(trial));
         Combination { rope, tire_mass: 280.0, border_rows: 0, tires: 50, total_mass, trial }

@@ -7,10 +7,10 @@ use itertools::Itertools;
 use shelter::choice::Accuracy;
 use shelter::plan::{DelayScatter, LaunchTargets, Plan, Timing};
 use shelter::ropes::{Kind, catalogue};
-use shelter::study::check::{check, check_shot};
+use shelter::study::check::{check_as_planned, check_shot};
 use shelter::study::check_all::check_all;
 use shelter::study::judgement::Judgement;
-use shelter::study::orders::{Orders, Tried, orders, refine, try_orders};
+use shelter::study::orders::{Orders, TriedOrder, orders, refine, try_orders};
 use shelter::study::risk::Risk;
 use shelter::study::sampled::Sampled;
 use shelter::study::sampling::{Sampling, ShotToSample, find_risks};
@@ -18,7 +18,7 @@ use shelter::study::size::{Demand, size};
 use shelter::study::swaps::swaps;
 use shelter::study::sweep::{GAP, Point, Sweep, sweep};
 use shelter::study::{Case, ComputeSettings, Intervals, Shard};
-use shelter::study::{Envelope, Progress};
+use shelter::study::{JudgedShot, Progress};
 use shelter::verdict::Verdict;
 
 /// A shelter with `rows` blast rows in the middle of 6 × 4 tires, and more keys.
@@ -47,11 +47,11 @@ fn case(rows: usize, more: &str) -> Case {
     Case::new(plan(rows, more))
 }
 
-fn judged(case: &Case, order: &[usize], interval: f64) -> Envelope {
+fn judged(case: &Case, order: &[usize], interval: f64) -> JudgedShot {
     let compute = ComputeSettings::of(&case.plan);
     let shot = case.shot(order, interval);
     let checked = check_shot(case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
-    Envelope::of(&checked.expect("a result"))
+    JudgedShot::of(&checked.expect("a result"))
 }
 
 /// Every point has the verdict of `check`; at the intervals of the plan's options it has the very numbers.
@@ -62,13 +62,13 @@ fn a_sweep_is_the_check_of_every_interval() {
     let swept =
         sweep(&case, &[0, 1, 2], &intervals, None, &ComputeSettings::of(&case.plan), &Progress::default());
     let swept = swept.expect("a result").value;
-    let verdict = |point: &Point| point.envelope.verdict;
+    let verdict = |point: &Point| point.as_planned.verdict;
     let (mut own, mut decided) = (0, 0);
     for point in &swept.points {
         let checked = judged(&case, &[0, 1, 2], point.interval);
         if [0.02, 0.045].contains(&point.interval) {
             own += 1;
-            assert_eq!(point.envelope, checked);
+            assert_eq!(point.as_planned, checked);
         }
         if verdict(point) != Verdict::Undecided {
             decided += 1;
@@ -80,8 +80,8 @@ fn a_sweep_is_the_check_of_every_interval() {
     }
     assert_eq!(own, 2);
     assert!(decided > 100 && 20 * decided > 19 * swept.points.len(), "{decided} of {}", swept.points.len());
-    let shares: Vec<f64> = swept.points.iter().map(|p| p.envelope.utilization(&case.limits)).collect();
-    let worst = swept.worst(&case).expect("points").envelope.utilization(&case.limits);
+    let shares: Vec<f64> = swept.points.iter().map(|p| p.as_planned.utilization(&case.limits)).collect();
+    let worst = swept.worst(&case).expect("points").as_planned.utilization(&case.limits);
     assert_eq!(worst, shares.iter().copied().fold(0.0, f64::max));
     // Where the verdict changes, neighbours are 1/32 ms apart at most.
     for pair in swept
@@ -100,7 +100,7 @@ fn a_sweep_is_the_check_of_every_interval() {
     let recommended = swept.recommended.expect("a window");
     let near = |point: &&Point| (point.interval - recommended.interval).abs() <= recommended.room;
     for point in swept.points.iter().filter(near) {
-        assert!(point.envelope.with_errors(1.0).utilization(&case.limits) <= recommended.utilization);
+        assert!(point.as_planned.with_errors(1.0).utilization(&case.limits) <= recommended.utilization);
     }
 }
 
@@ -165,7 +165,10 @@ fn the_recommended_interval_has_a_full_verdict() {
     let best = swept.best().expect("a window");
     let shot = case.shot(&[0, 1, 2], best.interval);
     let checked = check_shot(&case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
-    assert_eq!((best.verdict(), best.envelope), (Verdict::Pass, Envelope::of(&checked.expect("a result"))));
+    assert_eq!(
+        (best.verdict(), best.as_planned),
+        (Verdict::Pass, JudgedShot::of(&checked.expect("a result")))
+    );
     // The first look chose the interval for its draws; the verdict has others.
     let full = risk_at(&case, best.interval, &sampling.with_fresh_draws(1 + swept.refuted), compute);
     assert_eq!((full.verdict(), best.risk.drawn().expect("sampled").bounds), (Verdict::Pass, full.bounds));
@@ -192,7 +195,7 @@ fn the_ends_of_the_ranking_are_sampled() {
     let ranked = orders(Some(&sampling)).expect("a result").value;
     assert_eq!((&ranked.ranked, ranked.ranked.len()), (&nominal.ranked, 72));
     for (n, tried) in ranked.ranked.iter().enumerate() {
-        assert_eq!(nominal.verdict_on(n), tried.envelope.verdict);
+        assert_eq!(nominal.verdict_on(n), tried.as_planned.verdict);
         let Sampled::Drawn(risk) = ranked.risk(n) else {
             assert!((20..52).contains(&n));
             assert!(ranked.verdict_on(n) != Verdict::Pass, "not sampled, so not sure");
@@ -203,7 +206,7 @@ fn the_ends_of_the_ranking_are_sampled() {
         let target = ShotToSample::new(&case, &shot, compute, sampling);
         let risks = find_risks(&[target], &progress).expect("samples").value;
         assert_eq!(risk.bounds, risks[0].bounds);
-        assert_eq!(ranked.verdict_on(n), tried.envelope.verdict.max(risks[0].verdict()));
+        assert_eq!(ranked.verdict_on(n), tried.as_planned.verdict.max(risks[0].verdict()));
     }
 }
 
@@ -233,8 +236,8 @@ fn every_option_at_one_interval_is_a_point() {
     let swept =
         sweep(&case, &[0, 1, 2], &intervals, None, &compute, &Progress::default()).expect("a result").value;
     let point = swept.points.iter().find(|point| point.interval == 0.031_062_7);
-    let checked = check(&case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a result");
-    assert_eq!(point.expect("the option is tried").envelope, Envelope::of(&checked));
+    let checked = check_as_planned(&case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a result");
+    assert_eq!(point.expect("the option is tried").as_planned, JudgedShot::of(&checked));
 }
 
 /// All orders stand in the ranking once, with the verdict of `check`; the worst and the best have the very numbers.
@@ -246,18 +249,18 @@ fn orders_find_the_worst_and_the_best_of_brute_force() {
         let tried =
             try_orders(&case, &[interval], Shard::WHOLE, &compute, &Progress::default()).expect("a result");
         let ranked = Orders::new(&case, tried.value, 1).ranked;
-        let share = |envelope: &Envelope| envelope.utilization(&case.limits);
-        let brute: HashMap<Vec<usize>, Envelope> =
+        let share = |judged: &JudgedShot| judged.utilization(&case.limits);
+        let brute: HashMap<Vec<usize>, JudgedShot> =
             (0..4).permutations(4).map(|order| (order.clone(), judged(&case, &order, interval))).collect();
         assert_eq!(ranked.len(), 24);
-        for tried in ranked.iter().filter(|tried| tried.envelope.verdict != Verdict::Undecided) {
-            assert_eq!(tried.envelope.verdict, brute[&tried.order].verdict);
+        for tried in ranked.iter().filter(|tried| tried.as_planned.verdict != Verdict::Undecided) {
+            assert_eq!(tried.as_planned.verdict, brute[&tried.order].verdict);
         }
         let all = || brute.values().map(share);
         let [worst, best] = [&ranked[0], &ranked[23]];
-        assert_eq!(share(&worst.envelope), all().fold(0.0, f64::max));
-        assert_eq!(share(&best.envelope), all().fold(f64::INFINITY, f64::min));
-        assert_eq!(worst.envelope, brute[&worst.order]);
+        assert_eq!(share(&worst.as_planned), all().fold(0.0, f64::max));
+        assert_eq!(share(&best.as_planned), all().fold(f64::INFINITY, f64::min));
+        assert_eq!(worst.as_planned, brute[&worst.order]);
     }
 }
 
@@ -285,10 +288,11 @@ fn mirrored_case() -> Case {
 fn an_order_without_its_mirrored_order_is_refined() {
     let case = mirrored_case();
     let order = vec![3, 2, 1, 0];
-    let tried = Tried { number: 0, order: order.clone(), interval: 0.045, envelope: Envelope::UNKNOWN };
+    let tried =
+        TriedOrder { number: 0, order: order.clone(), interval: 0.045, as_planned: JudgedShot::UNKNOWN };
     let compute = ComputeSettings::of(&case.plan);
     let refined = refine(&case, vec![tried], &compute, &Progress::default()).expect("a result").value;
-    assert_eq!(refined[0].envelope, judged(&case, &order, 0.045));
+    assert_eq!(refined[0].as_planned, judged(&case, &order, 0.045));
 }
 
 /// With a fixed step no study chooses steps of its own.
@@ -299,18 +303,18 @@ fn a_fixed_step_is_the_step_of_every_shot() {
     let fixed = |order: &[usize], interval: f64| {
         let shot = case.shot(order, interval);
         let checked = check_shot(&case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
-        Envelope::of(&checked.expect("a result"))
+        JudgedShot::of(&checked.expect("a result"))
     };
     let progress = Progress::default();
     let tried = try_orders(&case, &[0.045], Shard::WHOLE, &compute, &progress).expect("a result").value;
     assert_eq!(tried.len(), 6);
     for tried in tried {
-        assert_eq!(tried.envelope, fixed(&tried.order, tried.interval));
+        assert_eq!(tried.as_planned, fixed(&tried.order, tried.interval));
     }
     let intervals = Intervals { from: 0.03, to: 0.031, step: 0.001 };
     let swept = sweep(&case, &[0, 1, 2], &intervals, None, &compute, &progress).expect("a result").value;
     for point in swept.points {
-        assert_eq!(point.envelope, fixed(&[0, 1, 2], point.interval));
+        assert_eq!(point.as_planned, fixed(&[0, 1, 2], point.interval));
     }
 }
 
@@ -325,17 +329,17 @@ fn mirrored_orders_are_judged_once() {
     let other =
         try_orders(&case, &[0.045], Shard { index: 1, of: 2 }, &compute, &progress).expect("a result").value;
     assert_eq!(progress.counts(), (12, 12));
-    let by_order: HashMap<&[usize], &Tried> =
+    let by_order: HashMap<&[usize], &TriedOrder> =
         tried.iter().chain(&other).map(|tried| (tried.order.as_slice(), tried)).collect();
     assert_eq!(by_order.len(), 24);
     for (number, order) in (0..4).permutations(4).enumerate() {
         let mirrored: Vec<usize> = order.iter().map(|row| 3 - row).collect();
         let [one, image] = [&order, &mirrored].map(|order| by_order[order.as_slice()]);
-        assert_eq!((one.number, one.envelope), (number, image.envelope));
+        assert_eq!((one.number, one.as_planned), (number, image.as_planned));
         let brute = judged(&case, &order, 0.045);
         assert!(
-            (one.envelope.height.value - brute.height.value).abs()
-                < one.envelope.height.error + brute.height.error
+            (one.as_planned.height.value - brute.height.value).abs()
+                < one.as_planned.height.error + brute.height.error
         );
     }
 }
@@ -363,7 +367,7 @@ fn many_rows_are_searched() {
     let listed: Vec<usize> = (0..rows).collect();
     let reversed: Vec<usize> = (0..rows).rev().collect();
     assert_eq!([&tried[0].order, &tried[1].order], [&listed, &reversed]);
-    let share = |tried: &Tried| tried.envelope.utilization(&case.limits);
+    let share = |tried: &TriedOrder| tried.as_planned.utilization(&case.limits);
     let by_order: HashMap<&[usize], f64> = tried.iter().map(|t| (t.order.as_slice(), share(t))).collect();
     let ranked = Orders::new(&case, tried.clone(), 1).ranked;
     let worst = &ranked[0];
@@ -376,8 +380,8 @@ fn many_rows_are_searched() {
     assert!(share(best) < share(worst));
     for a in 0..rows {
         for b in a + 1..rows {
-            let exchanged = |of: &Tried| {
-                let mut order = of.order.clone();
+            let exchanged = |tried: &TriedOrder| {
+                let mut order = tried.order.clone();
                 order.swap(a, b);
                 *by_order.get(order.as_slice()).expect("the exchange is tried")
             };
@@ -416,7 +420,7 @@ fn the_lightest_shelter_is_that_of_brute_force() {
         let passes_as_planned = |judged: &Judgement| judged.nominal.verdict == Verdict::Pass;
         fragile += usize::from(results.iter().flatten().all(passes_as_planned));
     }
-    let found = sizing.found().map_or(f64::INFINITY, |found| found.total_mass);
+    let found = sizing.lightest_choice().map_or(f64::INFINITY, |found| found.total_mass);
     assert!((found - lightest).abs() <= 1e-9 * lightest || found == lightest, "{found} {lightest}");
     assert!(lightest.is_finite() && fragile > 0, "the test sizes nothing: {lightest} {fragile}");
     let margins: Vec<f64> = sizing.choices().filter_map(|c| Some(c.trial.ok()?.utilization)).collect();

@@ -200,8 +200,11 @@ impl Cover {
     fn of(holes: &[ListedHole], nearest: f64) -> Self {
         let spacing_m =
             if NEAR_M.contains(&nearest) { (nearest * 100.0).round() / 100.0 } else { USUAL.spacing_m };
-        let range = |of: fn(&ListedHole) -> f64| {
-            holes.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
+        let range = |coordinate: fn(&ListedHole) -> f64| {
+            holes
+                .iter()
+                .map(coordinate)
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
         };
         let ((left, right), (bottom, top)) = (range(|hole| hole.x_m), range(|hole| hole.y_m));
         let count = |way: f64| (way / spacing_m - 1e-6).ceil().max(0.0) as usize + 1 + 2 * MARGIN;

@@ -96,15 +96,15 @@ mod tests {
 
     #[test]
     fn decimal_commas_are_told_from_thousands() {
-        let of = |values: &[&str]| decimals(values.iter().copied(), false);
+        let decimals_of = |values: &[&str]| decimals(values.iter().copied(), false);
         let european = |values: &[&str]| decimals(values.iter().copied(), true);
-        assert_eq!(of(&["1.5", "2", "B1"]), Decimals::Point);
-        assert_eq!(of(&["512 345,10", "1,234"]), Decimals::Comma);
-        assert_eq!(of(&["0,250"]), Decimals::Comma);
-        assert_eq!(of(&["1,234", "12"]), Decimals::AmbiguousComma);
-        assert_eq!(of(&["1,234,567"]), Decimals::AmbiguousComma);
-        assert_eq!(of(&["1,5", "1.5"]), Decimals::Mixed);
-        assert_eq!(of(&["1.560", "12"]), Decimals::Point);
+        assert_eq!(decimals_of(&["1.5", "2", "B1"]), Decimals::Point);
+        assert_eq!(decimals_of(&["512 345,10", "1,234"]), Decimals::Comma);
+        assert_eq!(decimals_of(&["0,250"]), Decimals::Comma);
+        assert_eq!(decimals_of(&["1,234", "12"]), Decimals::AmbiguousComma);
+        assert_eq!(decimals_of(&["1,234,567"]), Decimals::AmbiguousComma);
+        assert_eq!(decimals_of(&["1,5", "1.5"]), Decimals::Mixed);
+        assert_eq!(decimals_of(&["1.560", "12"]), Decimals::Point);
         assert_eq!(european(&["1.560", "12"]), Decimals::AmbiguousPoint);
         assert_eq!(european(&["1.560", "0.000"]), Decimals::Point);
         assert_eq!(european(&["1.560", "5403.210"]), Decimals::Point);

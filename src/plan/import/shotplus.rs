@@ -237,9 +237,9 @@ impl Element {
     fn charge_kg(&self) -> Option<f64> {
         let kinds = self.all("DesignLoading/Decks/Type");
         let weights = self.all("DesignLoading/Decks/Weight");
-        let of =
+        let explosive =
             |(kind, weight): (&String, &String)| weight.parse::<f64>().ok().filter(|_| kind == "Explosive");
-        let mass = kinds.iter().zip(weights).filter_map(of).sum();
+        let mass = kinds.iter().zip(weights).filter_map(explosive).sum();
         Some(mass).filter(|&mass| mass > 0.0 && kinds.len() == weights.len())
     }
 }

@@ -112,9 +112,8 @@ fn read_hole(section: SectionReader<'_>, layout: Option<&Layout>, simulation: &S
     let x_m = section.number(&hole::X_M);
     let y_m = section.number(&hole::Y_M);
     let launch = read_launch(&section, simulation);
-    if let Some([away, most]) =
-        layout.map(|layout| layout.beside(x_m, y_m)).filter(|[away, most]| away > most)
-    {
+    let distances = layout.map(|layout| (layout.distance_outside(x_m, y_m), layout.widest_tie()));
+    if let Some((away, most)) = distances.filter(|(away, most)| away > most) {
         let message =
             format!("this hole lies {away:.1} m beside the shelter, whose tires lie {most:.1} m apart");
         let remedy = "holes and tires share one system of coordinates, in which tire (1,1) of a mesh lies at 0, 0; `shelter init --from` moves a list of holes there";

@@ -71,7 +71,7 @@ impl AccuracyDocument {
     /// The document of a study.
     pub fn new(case: &Case, study: &AccuracyTable) -> Self {
         let choice = |dt_s| MethodAndStep { method: Method::Verlet.name(), dt_s };
-        let [draft, field, reference] = study.levels.map(|(_, step)| choice(step));
+        let [draft, field, reference] = study.levels.map(|level| choice(level.step));
         Self {
             schema: "shelter.accuracy/1",
             plan: case.source.path.clone(),

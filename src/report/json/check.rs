@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::Number;
 
-use super::Limits;
+use super::LimitsObject;
 use super::risk::{Share, input_shares};
 use crate::outcome::Broken;
 use crate::report::check::{judged_by, texts};
@@ -26,8 +26,8 @@ pub struct CheckDocument {
     verdict: &'static str,
     partial: bool,
     scene: SceneSize,
-    limits: Limits,
-    options: Vec<OptionResult>,
+    limits: LimitsObject,
+    options: Vec<CheckedOption>,
 }
 
 #[derive(Serialize)]
@@ -38,7 +38,7 @@ struct SceneSize {
 }
 
 #[derive(Serialize)]
-struct OptionResult {
+struct CheckedOption {
     name: String,
     fire_at_s: Vec<f64>,
     verdict: &'static str,
@@ -92,13 +92,13 @@ impl From<[f64; 2]> for Bounds {
 
 /// Percentiles of the samples; null for too few samples.
 #[derive(Serialize)]
-struct Band {
+struct Percentiles {
     p05: Option<f64>,
     p50: Option<f64>,
     p95: Option<f64>,
 }
 
-impl Band {
+impl Percentiles {
     fn of(risk: Option<&Risk>, quantity: Quantity) -> Self {
         let band = risk.and_then(|risk| risk.band(quantity)).map(|band| band.map(Some));
         let [p05, p50, p95, _] = band.unwrap_or_default();
@@ -111,7 +111,7 @@ struct AtTire {
     value: f64,
     error: f64,
     #[serde(flatten)]
-    band: Band,
+    band: Percentiles,
     at_s: f64,
     tire: Vec<Number>,
 }
@@ -121,7 +121,7 @@ struct AtCable {
     value: f64,
     error: f64,
     #[serde(flatten)]
-    band: Band,
+    band: Percentiles,
     at_s: f64,
     cable: Option<[Vec<Number>; 2]>,
 }
@@ -141,14 +141,14 @@ impl BrokenCable {
 }
 
 impl AtTire {
-    fn new(scene: &Scene, estimate: &Estimate, band: Band) -> Self {
+    fn new(scene: &Scene, estimate: &Estimate, band: Percentiles) -> Self {
         let Estimate { value, error, at, index } = *estimate;
         Self { value, error, band, at_s: at, tire: scene.tire.get(index).map(address).unwrap_or_default() }
     }
 }
 
 impl AtCable {
-    fn new(scene: &Scene, estimate: &Estimate, band: Band) -> Self {
+    fn new(scene: &Scene, estimate: &Estimate, band: Percentiles) -> Self {
         let Estimate { value, error, at, index } = *estimate;
         let ends = |cable: &crate::scene::Cable| cable.ends.map(|end| address(&scene.tire[end]));
         Self { value, error, band, at_s: at, cable: scene.cables.get(index).map(ends) }
@@ -170,10 +170,10 @@ impl OptionValues {
             any_cable_breaks: risk.map(|risk| risk.breaks.interval.into()),
             launch_margin: judged.known_launch_margin(),
             inputs: risk.and_then(|risk| input_shares(risk, &case.limits)),
-            flight_height_m: AtTire::new(scene, &checked.height, Band::of(risk, Quantity::Height)),
-            cable_force_n: AtCable::new(scene, &checked.force, Band::of(risk, Quantity::Force)),
+            flight_height_m: AtTire::new(scene, &checked.height, Percentiles::of(risk, Quantity::Height)),
+            cable_force_n: AtCable::new(scene, &checked.force, Percentiles::of(risk, Quantity::Force)),
             cable_safety_factor: Some(checked.safety_factor).filter(|factor| factor.is_finite()),
-            drift_m: AtTire::new(scene, &checked.drift, Band::of(drift_is_judged, Quantity::Drift)),
+            drift_m: AtTire::new(scene, &checked.drift, Percentiles::of(drift_is_judged, Quantity::Drift)),
             broken: checked.broken.iter().map(|broken| BrokenCable::new(scene, broken)).collect(),
             method: checked.compute.method.name(),
             dt_s: checked.step,
@@ -196,7 +196,7 @@ impl CheckDocument {
             .flatten()
             .next()
             .map_or(plan.simulation.method, |judged| judged.nominal.compute.method);
-        let options = plan.delays.iter().zip(results).map(|(delay, result)| OptionResult {
+        let options = plan.delays.iter().zip(results).map(|(delay, result)| CheckedOption {
             name: delay.name.clone(),
             fire_at_s: fire_at_s(&delay.timing),
             verdict: result.as_ref().map_or(Verdict::Undecided, Judgement::verdict).name(),
@@ -219,7 +219,7 @@ impl CheckDocument {
                 cables: scene.cables.len(),
                 modelled_tires: case.modelled_tires(method),
             },
-            limits: Limits::of(case),
+            limits: LimitsObject::of(case),
             options: options.collect(),
         }
     }

@@ -43,21 +43,21 @@ struct EffectResult {
 }
 
 impl EffectResult {
-    fn of(of: &EffectOnOption) -> Self {
+    fn of(row: &EffectOnOption) -> Self {
         let known = |change: f64| Some(change).filter(|change| change.is_finite());
-        let key = of.effect.key();
+        let key = row.effect.key();
         Self {
             name: key.name,
-            value: of.value,
+            value: row.value,
             unit: key.kind.unit(),
-            flight_height_change: known(of.change(Quantity::Height)),
-            cable_force_change: known(of.change(Quantity::Force)),
-            drift_change: known(of.change(Quantity::Drift)),
-            verdict: of.verdict_with,
-            verdict_without: of.verdict_without,
-            required: of.is_required(),
-            source: if of.assumed { "assumed" } else { "plan" },
-            cost: of.cost,
+            flight_height_change: known(row.change(Quantity::Height)),
+            cable_force_change: known(row.change(Quantity::Force)),
+            drift_change: known(row.change(Quantity::Drift)),
+            verdict: row.verdict_with,
+            verdict_without: row.verdict_without,
+            required: row.is_required(),
+            source: if row.assumed { "assumed" } else { "plan" },
+            cost: row.cost,
         }
     }
 }

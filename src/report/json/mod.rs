@@ -24,7 +24,7 @@ pub use self::size::SizeDocument;
 pub use self::sweep::SweepDocument;
 pub use self::trace::TraceDocument;
 use crate::study::risk_summary::RiskSummary;
-use crate::study::{Case, Envelope};
+use crate::study::{Case, JudgedShot};
 use crate::verdict::Verdict;
 
 /// A document with a line end.
@@ -34,7 +34,7 @@ pub fn text(document: &impl Serialize) -> io::Result<String> {
 
 /// Limits of a plan.
 #[derive(Serialize)]
-struct Limits {
+struct LimitsObject {
     flight_height_m: f64,
     cable_force_n: f64,
     cable_safety_factor: f64,
@@ -42,7 +42,7 @@ struct Limits {
     drift_m: Option<f64>,
 }
 
-impl Limits {
+impl LimitsObject {
     fn of(case: &Case) -> Self {
         Self {
             flight_height_m: case.limits.height,
@@ -64,13 +64,13 @@ struct Values {
 }
 
 impl Values {
-    fn of(envelope: &Envelope) -> Self {
+    fn of(judged: &JudgedShot) -> Self {
         Self {
-            flight_height_m: envelope.height.value,
-            flight_height_error_m: envelope.height.error,
-            cable_force_n: envelope.force.value,
-            cable_force_error_n: envelope.force.error,
-            verdict: envelope.verdict,
+            flight_height_m: judged.height.value,
+            flight_height_error_m: judged.height.error,
+            cable_force_n: judged.force.value,
+            cable_force_error_n: judged.force.error,
+            verdict: judged.verdict,
         }
     }
 }

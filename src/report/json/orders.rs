@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use super::{Limits, SampledValues, Values};
+use super::{LimitsObject, SampledValues, Values};
 use crate::report::row_names;
 use crate::study::orders::Orders;
-use crate::study::{Case, Envelope};
+use crate::study::{Case, JudgedShot};
 
 /// The document of all orders tried.
 #[derive(Serialize)]
@@ -14,7 +14,7 @@ pub struct OrdersDocument {
     plan: String,
     title: String,
     partial: bool,
-    limits: Limits,
+    limits: LimitsObject,
     count: usize,
     complete: bool,
     /// Number of orders that pass as planned.
@@ -39,12 +39,12 @@ impl OrdersDocument {
     pub fn new(case: &Case, orders: &Orders, partial: bool) -> Self {
         let result = |n: usize| {
             let tried = &orders.ranked[n];
-            let judged = Envelope { verdict: orders.verdict_on(n), ..tried.envelope };
+            let judged = JudgedShot { verdict: orders.verdict_on(n), ..tried.as_planned };
             OrderResult {
                 order: row_names(case, &tried.order),
                 interval_s: tried.interval,
                 values: Values::of(&judged),
-                sampled: SampledValues::of(tried.envelope.verdict, orders.risk(n).drawn().copied()),
+                sampled: SampledValues::of(tried.as_planned.verdict, orders.risk(n).drawn().copied()),
             }
         };
         let count = orders.ranked.len();
@@ -53,7 +53,7 @@ impl OrdersDocument {
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
             partial,
-            limits: Limits::of(case),
+            limits: LimitsObject::of(case),
             count,
             complete: orders.complete,
             nominal_passing: orders.passing_as_planned(),

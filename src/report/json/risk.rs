@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::Limits;
+use super::LimitsObject;
 use crate::report::risk::swap_warning;
 use crate::study::check_all::{OptionResults, verdict};
 use crate::study::influence;
@@ -11,7 +11,7 @@ use crate::study::risk::Risk;
 use crate::study::sampling::Sampling;
 use crate::study::swaps::Swap;
 use crate::study::{Case, NoResult};
-use crate::verdict::{Limits as Judged, Quantity, Verdict};
+use crate::verdict::{Limits, Quantity, Verdict};
 
 /// The document of the samples of all options.
 #[derive(Serialize)]
@@ -21,15 +21,15 @@ pub struct RiskDocument {
     title: String,
     verdict: &'static str,
     partial: bool,
-    limits: Limits,
+    limits: LimitsObject,
     samples: usize,
     seed: u64,
-    options: Vec<OptionResult>,
+    options: Vec<SampledOption>,
     warnings: Vec<String>,
 }
 
 #[derive(Serialize)]
-struct OptionResult {
+struct SampledOption {
     name: String,
     verdict: &'static str,
     samples: usize,
@@ -37,21 +37,21 @@ struct OptionResult {
     undecided: usize,
     probability: Option<f64>,
     interval_95: [f64; 2],
-    flight_height_m: Option<Band>,
-    cable_force_n: Option<Band>,
+    flight_height_m: Option<PercentilesAndMost>,
+    cable_force_n: Option<PercentilesAndMost>,
     inputs: Option<Vec<Share>>,
 }
 
 /// Percentiles of the samples, and their greatest value.
 #[derive(Serialize)]
-pub struct Band {
+pub struct PercentilesAndMost {
     p05: f64,
     p50: f64,
     p95: f64,
     max: f64,
 }
 
-impl Band {
+impl PercentilesAndMost {
     /// The band of a quantity of the samples; `None` for too few samples.
     pub fn of(risk: &Risk, quantity: Quantity) -> Option<Self> {
         risk.band(quantity).map(|[p05, p50, p95, max]| Self { p05, p50, p95, max })
@@ -66,12 +66,12 @@ pub struct Share {
 }
 
 /// The shares of the inputs, largest first; `None` for too few samples.
-pub fn input_shares(risk: &Risk, limits: &Judged) -> Option<Vec<Share>> {
+pub fn input_shares(risk: &Risk, limits: &Limits) -> Option<Vec<Share>> {
     let all = influence::input_shares(risk, limits)?.into_iter();
-    Some(all.map(|(input, share)| Share { name: input.name(), share }).collect())
+    Some(all.map(|(input, share)| Share { name: input.key().name, share }).collect())
 }
 
-impl OptionResult {
+impl SampledOption {
     fn new(case: &Case, name: &str, result: &Result<Judgement, NoResult>) -> Self {
         let risk = result.as_ref().ok().and_then(|judged| judged.risk.drawn());
         let bounds = risk.map(|risk| risk.bounds);
@@ -83,8 +83,8 @@ impl OptionResult {
             undecided: bounds.map_or(0, |c| c.undecided),
             probability: bounds.and_then(|c| c.probability()),
             interval_95: bounds.map_or([0.0, 1.0], |c| c.interval),
-            flight_height_m: risk.and_then(|risk| Band::of(risk, Quantity::Height)),
-            cable_force_n: risk.and_then(|risk| Band::of(risk, Quantity::Force)),
+            flight_height_m: risk.and_then(|risk| PercentilesAndMost::of(risk, Quantity::Height)),
+            cable_force_n: risk.and_then(|risk| PercentilesAndMost::of(risk, Quantity::Force)),
             inputs: risk.and_then(|risk| input_shares(risk, &case.limits)),
         }
     }
@@ -106,10 +106,10 @@ impl RiskDocument {
             title: case.title().to_owned(),
             verdict: verdict(results, false).name(),
             partial,
-            limits: Limits::of(case),
+            limits: LimitsObject::of(case),
             samples: sampling.most,
             seed: sampling.seed,
-            options: options.map(|(delay, result)| OptionResult::new(case, &delay.name, result)).collect(),
+            options: options.map(|(delay, result)| SampledOption::new(case, &delay.name, result)).collect(),
             warnings: swaps.iter().map(|swap| swap_warning(case, swap)).collect(),
         }
     }

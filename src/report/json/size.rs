@@ -69,7 +69,7 @@ impl CombinationResult {
 impl SizeDocument {
     /// The document of all combinations.
     pub fn new(case: &Case, sizing: &Sizing) -> Self {
-        let found = sizing.found();
+        let found = sizing.lightest_choice();
         let nearest = if found.is_none() { nearest(sizing) } else { None };
         Self {
             schema: "shelter.size/1",
@@ -77,10 +77,10 @@ impl SizeDocument {
             title: case.title().to_owned(),
             found: found.is_some(),
             lightest: found.map(CombinationResult::of),
-            tried: sizing.tried(),
-            not_tried: sizing.combinations.len() - sizing.tried(),
-            fragile: sizing.with_risk(Verdict::Fail) + sizing.with_risk(Verdict::Undecided),
-            partial: sizing.untried(Untried::OutOfTime) > 0,
+            tried: sizing.count_tried(),
+            not_tried: sizing.combinations.len() - sizing.count_tried(),
+            fragile: sizing.count_with_risk(Verdict::Fail) + sizing.count_with_risk(Verdict::Undecided),
+            partial: sizing.count_untried(Untried::OutOfTime) > 0,
             nearest: nearest.map(|(combination, _)| CombinationResult::of(combination)),
             frontier: sizing.choices().map(CombinationResult::of).collect(),
         }

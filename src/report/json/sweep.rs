@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use super::{Limits, SampledValues, Values};
+use super::{LimitsObject, SampledValues, Values};
 use crate::report::row_names;
 use crate::study::Case;
-use crate::study::Envelope;
+use crate::study::JudgedShot;
 use crate::study::sweep::{Point, Sweep};
 
 /// The document of one sweep.
@@ -16,7 +16,7 @@ pub struct SweepDocument {
     title: String,
     partial: bool,
     order: Vec<String>,
-    limits: Limits,
+    limits: LimitsObject,
     points: Vec<IntervalResult>,
     nominal_windows_s: Vec<[f64; 2]>,
     windows_s: Vec<[f64; 2]>,
@@ -37,8 +37,8 @@ struct IntervalResult {
 
 impl IntervalResult {
     fn of(point: &Point) -> Self {
-        let judged = Envelope { verdict: point.verdict(), ..point.envelope };
-        let sampled = SampledValues::of(point.envelope.verdict, point.risk.drawn());
+        let judged = JudgedShot { verdict: point.verdict(), ..point.as_planned };
+        let sampled = SampledValues::of(point.as_planned.verdict, point.risk.drawn());
         Self { interval_s: point.interval, values: Values::of(&judged), sampled }
     }
 }
@@ -52,7 +52,7 @@ impl SweepDocument {
             title: case.title().to_owned(),
             partial,
             order: row_names(case, &sweep.order),
-            limits: Limits::of(case),
+            limits: LimitsObject::of(case),
             points: sweep.points.iter().map(IntervalResult::of).collect(),
             nominal_windows_s: sweep.nominal_windows.clone(),
             windows_s: sweep.windows.clone(),

@@ -19,7 +19,7 @@ use super::risk::percentiles;
 use super::sample::Sample;
 use super::sampling::{Sampling, ShotToSample, run_sample};
 use super::screen::screen;
-use super::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress, guarded};
+use super::{Case, ComputeSettings, Finding, Found, JudgedShot, NoResult, Progress, guarded};
 use crate::plan::Plan;
 use crate::verdict::{Limits, Quantity, Verdict};
 
@@ -71,8 +71,8 @@ impl EffectOnOption {
     }
 
     /// Relative change of the median of a quantity.
-    pub fn change(&self, of: Quantity) -> f64 {
-        self.changes[of as usize].relative()
+    pub fn change(&self, quantity: Quantity) -> f64 {
+        self.changes[quantity as usize].relative()
     }
 
     /// Whether the scene requires the effect for this option.
@@ -231,7 +231,7 @@ fn hardest(variant: &Variant, figures: &[&OptionFigures], limits: &Limits) -> Op
         .with
         .iter()
         .map(|&n| EffectOnOption::new(variant, figures[variant.without], figures[n], limits));
-    let is_missed_on_the_unsafe_side = all.clone().any(|of| of.is_missed_on_the_unsafe_side);
+    let is_missed_on_the_unsafe_side = all.clone().any(|row| row.is_missed_on_the_unsafe_side);
     let hardest = all.max_by(|a, b| a.severity().partial_cmp(&b.severity()).unwrap_or(Ordering::Equal));
     Some(EffectOnOption { is_missed_on_the_unsafe_side, ..hardest? })
 }
@@ -246,11 +246,11 @@ fn measure_option(
 ) -> Result<OptionFigures, NoResult> {
     let shot = &case.shots[option];
     let begun = Instant::now();
-    let envelope = or_unknown(screen(case, shot, compute, progress))?;
-    let verdict = side(&envelope, case);
+    let as_planned = or_unknown(screen(case, shot, compute, progress))?;
+    let verdict = verdict_of_values(&as_planned, case);
     let Some(sampling) = sampling else {
         let spreads = Quantity::ALL.map(|quantity| {
-            let value = envelope.get(quantity).value;
+            let value = as_planned.get(quantity).value;
             Spread { median: value, p95: value }
         });
         return Ok(OptionFigures { verdict, spreads, time: begun.elapsed().as_secs_f64() });
@@ -271,10 +271,10 @@ fn measure_option(
 }
 
 /// On which side of the limits a shot lies. A run that ends early counts by its values: without friction none comes to rest.
-fn side(envelope: &Envelope, case: &Case) -> Verdict {
-    let utilization = |errors: f64| envelope.with_errors(errors).utilization(&case.limits);
+fn verdict_of_values(judged: &JudgedShot, case: &Case) -> Verdict {
+    let utilization = |errors: f64| judged.with_errors(errors).utilization(&case.limits);
     match (utilization(1.0) <= 1.0, utilization(-1.0) > 1.0) {
-        _ if envelope.verdict == Verdict::Fail => Verdict::Fail,
+        _ if judged.verdict == Verdict::Fail => Verdict::Fail,
         (true, _) => Verdict::Pass,
         (_, true) => Verdict::Fail,
         _ => Verdict::Undecided,

@@ -17,7 +17,7 @@ use itertools::Itertools;
 use self::trial::{Candidate, Hardest};
 use super::sampled::{Sampled, verdict};
 use super::sampling::Sampling;
-use super::{ComputeSettings, Envelope, Finding, Found, NoResult, Progress};
+use super::{ComputeSettings, Finding, Found, JudgedShot, NoResult, Progress};
 use crate::plan::{Layout, Plan};
 use crate::ropes::{Rope, catalogue};
 use crate::verdict::Verdict;
@@ -65,7 +65,7 @@ pub struct Trial {
     /// Whether every shot passes as planned.
     pub holds: bool,
     /// The worst shot judged. Where the combination does not hold, shots that were not judged may be worse.
-    pub worst: Envelope,
+    pub worst: JudgedShot,
     /// Utilization of the worst shot: the greatest value over its limit.
     pub utilization: f64,
     /// Number of shots judged.
@@ -92,7 +92,7 @@ pub struct SampledRisk {
 
 impl SampledRisk {
     fn compare(&self, other: &Self) -> Ordering {
-        let share = |of: &Self| of.failures as f64 / of.samples.max(1) as f64;
+        let share = |sampled: &Self| sampled.failures as f64 / sampled.samples.max(1) as f64;
         self.verdict.cmp(&other.verdict).then(share(self).total_cmp(&share(other)))
     }
 }
@@ -108,9 +108,9 @@ impl Sizing {
     /// The verdict: pass where the lightest choice is known, fail where no combination is one. While combinations are untried for
     /// want of time or of a run, a lighter one may be a choice.
     pub fn verdict(&self) -> Verdict {
-        let is_open =
-            self.is_incomplete() || self.found().is_none() && self.with_risk(Verdict::Undecided) > 0;
-        match self.found() {
+        let is_open = self.is_incomplete()
+            || self.lightest_choice().is_none() && self.count_with_risk(Verdict::Undecided) > 0;
+        match self.lightest_choice() {
             _ if is_open => Verdict::Undecided,
             Some(_) => Verdict::Pass,
             None => Verdict::Fail,
@@ -119,11 +119,11 @@ impl Sizing {
 
     /// Whether combinations are untried that may be a choice.
     pub fn is_incomplete(&self) -> bool {
-        self.untried(Untried::OutOfTime) > 0 || self.untried(Untried::RunFailed) > 0
+        self.count_untried(Untried::OutOfTime) > 0 || self.count_untried(Untried::RunFailed) > 0
     }
 
     /// The lightest choice; of equally light ones, that of the weakest rope.
-    pub fn found(&self) -> Option<&Combination> {
+    pub fn lightest_choice(&self) -> Option<&Combination> {
         self.choices().next()
     }
 
@@ -133,12 +133,12 @@ impl Sizing {
     }
 
     /// Number of combinations that were tried.
-    pub fn tried(&self) -> usize {
+    pub fn count_tried(&self) -> usize {
         self.combinations.iter().filter(|c| c.trial.is_ok()).count()
     }
 
     /// Number of combinations that hold as planned, and whose risk has this verdict.
-    pub fn with_risk(&self, verdict: Verdict) -> usize {
+    pub fn count_with_risk(&self, verdict: Verdict) -> usize {
         let has = |c: &&Combination| {
             c.trial.is_ok_and(|trial| trial.risk.is_some_and(|risk| risk.verdict == verdict))
         };
@@ -146,14 +146,14 @@ impl Sizing {
     }
 
     /// Number of combinations that were not tried for reason `why`.
-    pub fn untried(&self, why: Untried) -> usize {
+    pub fn count_untried(&self, why: Untried) -> usize {
         self.combinations.iter().filter(|c| c.trial.is_err_and(|untried| untried == why)).count()
     }
 }
 
 /// What is asked of every combination.
 #[derive(Clone, Copy)]
-struct Question<'q> {
+struct SizingTask<'q> {
     plan: &'q Plan,
     demand: &'q Demand,
     compute: &'q ComputeSettings,
@@ -169,21 +169,21 @@ pub fn size(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Finding<Sizing> {
-    let question = Question { plan, demand, compute, progress };
-    let mut tried = try_all(&question)?;
+    let task = SizingTask { plan, demand, compute, progress };
+    let mut tried = try_all(&task)?;
     tried.sort_by(|(a, _), (b, _)| {
         let strength = |c: &Combination| c.rope.breaking_force_kn;
         a.total_mass.total_cmp(&b.total_mass).then(strength(a).total_cmp(&strength(b)))
     });
-    choose(&question, &mut tried, sampling)?;
+    choose(&task, &mut tried, sampling)?;
     let sizing = Sizing { combinations: tried.into_iter().map(|(combination, _)| combination).collect() };
-    let partial = sizing.untried(Untried::OutOfTime) > 0;
+    let partial = sizing.count_untried(Untried::OutOfTime) > 0;
     Ok(Found { value: sizing, partial })
 }
 
 /// Tries every combination with its shots as planned.
-fn try_all(question: &Question<'_>) -> Result<Vec<(Combination, Hardest)>, NoResult> {
-    let plan = question.plan;
+fn try_all(task: &SizingTask<'_>) -> Result<Vec<(Combination, Hardest)>, NoResult> {
+    let plan = task.plan;
     let own_mass = [plan.tire.mass_kg];
     let masses = if plan.size.tire_mass_kg.is_empty() { &own_mass[..] } else { &plan.size.tire_mass_kg };
     let most_border = if matches!(plan.layout, Layout::List { .. }) { 0 } else { plan.size.most_border_rows };
@@ -195,9 +195,9 @@ fn try_all(question: &Question<'_>) -> Result<Vec<(Combination, Hardest)>, NoRes
     {
         let mut stronger_holds = true;
         for rope in ropes {
-            let candidate = Candidate::new(question, rope, tire_mass, border_rows);
+            let candidate = Candidate::new(task, rope, tire_mass, border_rows);
             let (mut hardest, mut trial) = (Hardest::new(), Err(Untried::StrongerRopeDoesNotHold));
-            if question.progress.expired() {
+            if task.progress.expired() {
                 trial = Err(Untried::OutOfTime);
             } else if stronger_holds {
                 match candidate.try_as_planned(&mut likeliest) {
@@ -235,7 +235,7 @@ fn ropes_by_stiffness(plan: &Plan) -> Vec<Vec<&'static Rope>> {
 
 /// Marks the choices among combinations that are sorted by mass: samples those that could be one.
 fn choose(
-    question: &Question<'_>,
+    task: &SizingTask<'_>,
     tried: &mut [(Combination, Hardest)],
     sampling: Option<&Sampling>,
 ) -> Result<(), NoResult> {
@@ -249,7 +249,7 @@ fn choose(
         if let Some(sampling) = sampling {
             attempt += 1;
             let Combination { rope, tire_mass, border_rows, .. } = *combination;
-            let candidate = Candidate::new(question, rope, tire_mass, border_rows);
+            let candidate = Candidate::new(task, rope, tire_mass, border_rows);
             let Some(risk) = candidate.sample(hardest, &Sampling { least: 0, attempt, ..*sampling })? else {
                 combination.trial = Err(Untried::OutOfTime);
                 continue;

@@ -4,14 +4,14 @@ use std::ops::ControlFlow;
 
 use itertools::Itertools;
 
-use super::{Combination, Demand, Question, SampledRisk, Trial, Untried};
+use super::{Combination, Demand, SampledRisk, SizingTask, Trial, Untried};
 use crate::ropes::Rope;
 use crate::scene::Shot;
 use crate::study::batch::judge_shots;
 use crate::study::failure_bounds::FailureBounds;
 use crate::study::risk::Risk;
 use crate::study::sampling::{Sampling, ShotToSample, find_risks_watched};
-use crate::study::{Bounded, Case, Envelope, Found, NoResult};
+use crate::study::{Case, Found, JudgedShot, NoResult, ValueWithError};
 use crate::verdict::Verdict;
 
 /// Number of orders, the hardest ones, that are sampled.
@@ -21,11 +21,11 @@ const HARDEST: usize = 8;
 const AT_ONCE: usize = 32;
 
 /// The shots that a combination is sampled with, hardest first: the index of each and what it is as planned.
-pub(super) type Hardest = Vec<(usize, Envelope)>;
+pub(super) type Hardest = Vec<(usize, JudgedShot)>;
 
 /// A combination made ready to run.
 pub(super) struct Candidate<'q> {
-    question: &'q Question<'q>,
+    task: &'q SizingTask<'q>,
     rope: &'static Rope,
     tire_mass: f64,
     border_rows: usize,
@@ -35,17 +35,17 @@ pub(super) struct Candidate<'q> {
 
 impl<'q> Candidate<'q> {
     pub(super) fn new(
-        question: &'q Question<'q>,
+        task: &'q SizingTask<'q>,
         rope: &'static Rope,
         tire_mass: f64,
         border_rows: usize,
     ) -> Self {
-        let case = Case::new(question.plan.with(rope, tire_mass, border_rows));
-        let shots = match question.demand {
+        let case = Case::new(task.plan.with(rope, tire_mass, border_rows));
+        let shots = match task.demand {
             Demand::Options(options) => options.iter().map(|&option| case.shots[option].clone()).collect(),
             Demand::AnyOrder(intervals) => all_orders(&case, intervals),
         };
-        Self { question, rope, tire_mass, border_rows, case, shots }
+        Self { task, rope, tire_mass, border_rows, case, shots }
     }
 
     /// The combination with the result of its trial.
@@ -65,31 +65,33 @@ impl<'q> Candidate<'q> {
     /// Judges the shots as planned, that of index `likeliest` first, up to those judged together with one that does not pass;
     /// `None` where the time was up. `likeliest` becomes the index of the shot that does not pass.
     pub(super) fn try_as_planned(&self, likeliest: &mut usize) -> Result<Option<(Trial, Hardest)>, NoResult> {
-        let (case, Question { compute, progress, demand, .. }) = (&self.case, self.question);
+        let (case, SizingTask { compute, progress, demand, .. }) = (&self.case, self.task);
         let mut order: Vec<usize> = (0..self.shots.len()).collect();
         if *likeliest < order.len() {
             order.swap(0, *likeliest);
         }
-        let mut judged: Vec<Envelope> = Vec::new();
+        let mut judged: Vec<JudgedShot> = Vec::new();
         let mut holds = true;
         for chunk in order.chunks(AT_ONCE) {
             let part: Vec<Shot> = chunk.iter().map(|&n| self.shots[n].clone()).collect();
-            let envelopes = judge_shots(case, &part, compute, progress)?;
-            let Some(envelopes) = envelopes.into_iter().collect::<Option<Vec<_>>>() else { return Ok(None) };
-            let failed = envelopes.iter().position(|envelope| envelope.verdict != Verdict::Pass);
-            judged.extend(envelopes);
+            let chunk_judged = judge_shots(case, &part, compute, progress)?;
+            let Some(chunk_judged) = chunk_judged.into_iter().collect::<Option<Vec<_>>>() else {
+                return Ok(None);
+            };
+            let failed = chunk_judged.iter().position(|judged| judged.verdict != Verdict::Pass);
+            judged.extend(chunk_judged);
             if let Some(failed) = failed {
                 *likeliest = chunk[failed];
                 holds = false;
                 break;
             }
         }
-        let utilization = |envelope: &Envelope| envelope.utilization(&case.limits);
+        let utilization = |judged: &JudgedShot| judged.utilization(&case.limits);
         let by_utilization =
             |a: &usize, b: &usize| utilization(&judged[*b]).total_cmp(&utilization(&judged[*a]));
         let hardest: Vec<usize> = (0..judged.len()).sorted_by(by_utilization).collect();
-        let zero = Bounded::default();
-        let nothing = Envelope { verdict: Verdict::Pass, height: zero, force: zero, drift: zero };
+        let zero = ValueWithError::default();
+        let nothing = JudgedShot { verdict: Verdict::Pass, height: zero, force: zero, drift: zero };
         let worst = hardest.first().map_or(nothing, |&n| judged[n]);
         let trial = Trial {
             holds,
@@ -109,8 +111,8 @@ impl<'q> Candidate<'q> {
         hardest: &Hardest,
         sampling: &Sampling,
     ) -> Result<Option<SampledRisk>, NoResult> {
-        let compute = self.question.compute;
-        let target = |&(n, planned): &(usize, Envelope)| {
+        let compute = self.task.compute;
+        let target = |&(n, planned): &(usize, JudgedShot)| {
             ShotToSample::new(&self.case, &self.shots[n], *compute, *sampling).planned(planned)
         };
         let targets: Vec<ShotToSample<'_>> = hardest.iter().map(target).collect();
@@ -119,7 +121,7 @@ impl<'q> Candidate<'q> {
             Verdict::Pass | Verdict::Undecided => ControlFlow::Continue(()),
         };
         let Found { value: risks, partial } =
-            find_risks_watched(&targets, self.question.progress, until_one_fails)?;
+            find_risks_watched(&targets, self.task.progress, until_one_fails)?;
         let worst = risks.iter().map(|risk| {
             let FailureBounds { samples, failures, interval: [_, most], .. } = risk.bounds;
             SampledRisk { verdict: risk.verdict(), samples, failures, most }

@@ -15,7 +15,7 @@ use crate::study::batch::{judge_shot, or_unknown};
 use crate::study::risk_summary::{RiskSummary, sample_shots};
 use crate::study::sampled::Sampled;
 use crate::study::sampling::Sampling;
-use crate::study::{Case, ComputeSettings, Envelope, Finding, Found, NoResult, Progress};
+use crate::study::{Case, ComputeSettings, Finding, Found, JudgedShot, NoResult, Progress};
 use crate::verdict::Verdict;
 
 /// Most intervals that get a full verdict.
@@ -31,7 +31,7 @@ pub fn add_risk(
     progress: &Progress,
 ) -> Finding<Sweep> {
     let Found { value: mut swept, mut partial } = nominal;
-    let shot = |point: &Point| (case.shot(&swept.order, point.interval), point.envelope);
+    let shot = |point: &Point| (case.shot(&swept.order, point.interval), point.as_planned);
     let chosen = choose(&swept.points, &swept.nominal_windows, own);
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
     let sampled = sample_shots(case, &shots, &sampling.first_look(), compute, progress)?;
@@ -59,9 +59,9 @@ pub fn add_risk(
         let own = sampling.with_fresh_draws(tried.len());
         match judge(case, case.shot(&swept.order, candidate.interval), &own, compute, progress)? {
             None => partial = true,
-            Some((envelope, risk)) => {
+            Some((as_planned, risk)) => {
                 let point = &mut swept.points[n];
-                point.envelope = envelope;
+                point.as_planned = as_planned;
                 point.risk = risk.map_or(point.risk, Sampled::Drawn);
                 if point.verdict() == Verdict::Pass {
                     swept.recommended = Some(candidate);
@@ -81,16 +81,16 @@ fn judge(
     sampling: &Sampling,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Option<(Envelope, Option<RiskSummary>)>, NoResult> {
-    let envelope = match or_unknown(judge_shot(case, &shot, compute, progress)) {
+) -> Result<Option<(JudgedShot, Option<RiskSummary>)>, NoResult> {
+    let as_planned = match or_unknown(judge_shot(case, &shot, compute, progress)) {
         Err(NoResult::OutOfTime) => return Ok(None),
         judged => judged?,
     };
-    if envelope.verdict != Verdict::Pass {
-        return Ok(Some((envelope, None)));
+    if as_planned.verdict != Verdict::Pass {
+        return Ok(Some((as_planned, None)));
     }
-    let sampled = sample_shots(case, &[(shot, envelope)], sampling, compute, progress)?.remove(0);
-    Ok(sampled.map(|sampled| (envelope, Some(sampled))))
+    let sampled = sample_shots(case, &[(shot, as_planned)], sampling, compute, progress)?.remove(0);
+    Ok(sampled.map(|sampled| (as_planned, Some(sampled))))
 }
 
 /// Indices of the points to sample: the plan's own intervals, both ends of each window, and points between them at most

@@ -17,12 +17,12 @@ mod accepted;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::batch::{envelopes, envelopes_or_unknown, judge_shot};
+use super::batch::{judge_all, judge_all_or_unknown, judge_shot};
 use super::risk_summary::RiskSummary;
 use super::sampled::{self, Sampled};
 use super::sampling::Sampling;
 use super::screen::screen;
-use super::{Case, ComputeSettings, Envelope, Finding, Found, Intervals, NoResult, Progress};
+use super::{Case, ComputeSettings, Finding, Found, Intervals, JudgedShot, NoResult, Progress};
 use crate::plan::Timing;
 use crate::scene::seconds;
 use crate::verdict::Verdict;
@@ -33,7 +33,7 @@ pub struct Point {
     /// Interval between successive rows [s].
     pub interval: f64,
     /// Verdict, height, force and drift of the shot as planned.
-    pub envelope: Envelope,
+    pub as_planned: JudgedShot,
     /// What the samples tell.
     pub risk: Sampled<RiskSummary>,
 }
@@ -41,7 +41,7 @@ pub struct Point {
 impl Point {
     /// The verdict: of the shot as planned, and of its samples where they were asked for.
     pub fn verdict(&self) -> Verdict {
-        sampled::verdict(self.envelope.verdict, self.risk.map(|risk| risk.verdict))
+        sampled::verdict(self.as_planned.verdict, self.risk.map(|risk| risk.verdict))
     }
 
     /// Whether samples were drawn.
@@ -135,7 +135,7 @@ fn sweep_nominal(
     let [from, to] = [intervals.from, intervals.to].map(nanoseconds);
     let mut next: BTreeSet<i64> = intervals.values().into_iter().map(nanoseconds).collect();
     next.extend(exact.range(from..=to));
-    let mut tried: BTreeMap<i64, Envelope> = BTreeMap::new();
+    let mut tried: BTreeMap<i64, JudgedShot> = BTreeMap::new();
     loop {
         let jobs: Vec<i64> = next.iter().copied().collect();
         let work = |&at: &i64| {
@@ -147,15 +147,15 @@ fn sweep_nominal(
         };
         // Of the points between points that are known, all may fail.
         let judged = match tried.is_empty() {
-            true => envelopes(&jobs, progress, work)?,
-            false => envelopes_or_unknown(&jobs, progress, work)?,
+            true => judge_all(&jobs, progress, work)?,
+            false => judge_all_or_unknown(&jobs, progress, work)?,
         };
         // Out of time: gaps keep the width they have, and windows end there.
         let partial = judged.contains(&None);
-        tried.extend(jobs.into_iter().zip(judged).filter_map(|(at, envelope)| Some((at, envelope?))));
+        tried.extend(jobs.into_iter().zip(judged).filter_map(|(at, as_planned)| Some((at, as_planned?))));
         let points: Vec<Point> = tried
             .iter()
-            .map(|(&at, &envelope)| Point { interval: in_seconds(at), envelope, risk: Sampled::NotAsked })
+            .map(|(&at, &as_planned)| Point { interval: in_seconds(at), as_planned, risk: Sampled::NotAsked })
             .collect();
         next = if partial { BTreeSet::new() } else { middles(case, &points).into_iter().collect() };
         if !next.is_empty() {
@@ -200,7 +200,7 @@ fn in_seconds(nanoseconds: i64) -> f64 {
 }
 
 fn passes(point: &Point) -> bool {
-    point.envelope.verdict == Verdict::Pass
+    point.as_planned.verdict == Verdict::Pass
 }
 
 /// Middles of the gaps to be halved [ns].
@@ -229,17 +229,17 @@ fn is_calm(case: &Case, points: &[Point], n: usize) -> bool {
     let near = &points[n.saturating_sub(1)..points.len().min(n + 3)];
     let steepest = near.windows(2).map(slope).fold(0.0, f64::max);
     let width = points[n + 1].interval - points[n].interval;
-    let highest = |point: &Point| point.envelope.with_errors(CALM).utilization(&case.limits);
+    let highest = |point: &Point| point.as_planned.with_errors(CALM).utilization(&case.limits);
     highest(&points[n]).max(highest(&points[n + 1])) + steepest * width <= 1.0
 }
 
 fn utilization(case: &Case, point: &Point) -> f64 {
-    point.envelope.utilization(&case.limits)
+    point.as_planned.utilization(&case.limits)
 }
 
 /// Utilization with the errors added.
 fn upper(case: &Case, point: &Point) -> f64 {
-    point.envelope.with_errors(1.0).utilization(&case.limits)
+    point.as_planned.with_errors(1.0).utilization(&case.limits)
 }
 
 fn windows(case: &Case, points: &[Point]) -> Vec<[f64; 2]> {
@@ -343,7 +343,7 @@ impl Sweep {
 mod tests {
     use super::*;
     use crate::plan::Plan;
-    use crate::study::Bounded;
+    use crate::study::ValueWithError;
 
     /// Tries a shelter whose height is `height` [m] at an interval [ms], limit 1 m, at first every `step` [ms] up to 20 ms.
     fn tried(step: f64, height: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
@@ -353,9 +353,14 @@ mod tests {
         let point = |at: i64| {
             let value = height(at as f64 * 1e-6);
             let verdict = if value > 1.0 { Verdict::Fail } else { Verdict::Pass };
-            let height = Bounded { value, error: 0.0 };
-            let envelope = Envelope { verdict, height, force: Bounded::default(), drift: Bounded::default() };
-            Point { interval: in_seconds(at), envelope, risk: Sampled::NotAsked }
+            let height = ValueWithError { value, error: 0.0 };
+            let as_planned = JudgedShot {
+                verdict,
+                height,
+                force: ValueWithError::default(),
+                drift: ValueWithError::default(),
+            };
+            Point { interval: in_seconds(at), as_planned, risk: Sampled::NotAsked }
         };
         let count = (20.0 / step) as i64;
         let mut points: Vec<Point> = (0..=count).map(|n| point((n as f64 * step * 1e6) as i64)).collect();
@@ -406,10 +411,14 @@ mod tests {
             .map(|n| {
                 let value = height(0.1 * f64::from(n));
                 let verdict = if value > 1.0 { Verdict::Fail } else { Verdict::Pass };
-                let height = Bounded { value, error: 0.0 };
-                let envelope =
-                    Envelope { verdict, height, force: Bounded::default(), drift: Bounded::default() };
-                Point { interval: in_seconds(i64::from(n) * 100_000), envelope, risk: Sampled::NotAsked }
+                let height = ValueWithError { value, error: 0.0 };
+                let as_planned = JudgedShot {
+                    verdict,
+                    height,
+                    force: ValueWithError::default(),
+                    drift: ValueWithError::default(),
+                };
+                Point { interval: in_seconds(i64::from(n) * 100_000), as_planned, risk: Sampled::NotAsked }
             })
             .collect();
         let windows = windows(&case, &points);

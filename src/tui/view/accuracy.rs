@@ -11,7 +11,7 @@ use crate::choice::Method;
 use crate::jobs::{StudyKind, StudyResult};
 use crate::report::charts::work_and_error;
 use crate::report::no_result;
-use crate::study::accuracy::{AccuracyTable, Measured};
+use crate::study::accuracy::{AccuracyTable, LevelStep, Measured};
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
@@ -51,8 +51,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
                     Layout::vertical([Constraint::Length(lines.len() as u16 + 1), Constraint::Min(0)])
                         .areas(inside);
                 frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: false }), table);
-                let level = study.levels.iter().find(|(level, _)| *level == app.compute.accuracy);
-                let chosen = level.and_then(|(_, step)| work_and_error(&measured(study, *step)?));
+                let start = study.levels.iter().find(|start| start.level == app.compute.accuracy);
+                let chosen = start.and_then(|start| work_and_error(&measured(study, start.step)?));
                 let mark = chosen.map(|(time, error)| Mark::Point(time, error));
                 for chart in finished.report.charts() {
                     chart::draw(app, chart, mark, frame, plot);
@@ -70,8 +70,8 @@ fn levels<'l>(app: &App, study: &AccuracyTable) -> Vec<Line<'l>> {
         "level", "1st step", "height err", "force err", "drift err", "one run"
     );
     let mut lines = vec![Line::styled(head, app.theme.quiet())];
-    let base = measured(study, study.levels[0].1);
-    for (level, step) in study.levels {
+    let base = measured(study, study.levels[0].step);
+    for LevelStep { level, step } in study.levels {
         let chosen = level == app.compute.accuracy && app.compute.step.is_none();
         let start = format!(
             "{} {:9} {:>9} ",

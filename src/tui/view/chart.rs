@@ -108,7 +108,7 @@ pub fn draw(app: &App, chart: &Chart, mark: Option<Mark>, frame: &mut Frame, are
             .labels(labels.into_iter().map(|coordinate| label(axis, coordinate)))
             .style(theme.quiet())
     };
-    let [x, y] = [(&chart.x, 3), (&chart.y, 2)].map(|(of, count)| axis(of, labelled(of, count)));
+    let [x, y] = [(&chart.x, 3), (&chart.y, 2)].map(|(side, count)| axis(side, labelled(side, count)));
     let drawn = widgets::Chart::new(sets.collect())
         .block(Block::new().title(Line::styled(title(chart, area.width), theme.quiet()).centered()))
         .style(theme.base())

@@ -89,11 +89,11 @@ fn draw_charts(app: &App, history: [Chart; 2], risk: Option<&Risk>, frame: &mut 
 
 fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     let (case, theme, checked) = (&app.case, app.theme, &judged.nominal);
-    let of = checked.reasons.iter().map(|of| Detail { verdict: of.verdict(), text: reason(of) });
+    let as_planned = checked.reasons.iter().map(|why| Detail { verdict: why.verdict(), text: reason(why) });
     // As long as samples come, how many there are says more than that they do not suffice.
     let open = app.options[app.selected].is_sampling()
         && sampled::verdict(Verdict::Pass, judged.risk.map(Risk::verdict)) == Verdict::Undecided;
-    let mut lines: Vec<Line> = of
+    let mut lines: Vec<Line> = as_planned
         .chain(risk_detail(case, judged).filter(|_| !open))
         .map(|Detail { verdict, text }| {
             let sign = theme::label(verdict).chars().next().unwrap_or(' ');

@@ -140,7 +140,7 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
 
 /// State of the whole plan: options judged as planned, options that need more samples, or options that pass.
 fn summary(app: &App) -> String {
-    let count = |of: fn(&OptionState) -> bool| app.options.iter().filter(|state| of(state)).count();
+    let count = |has: fn(&OptionState) -> bool| app.options.iter().filter(|state| has(state)).count();
     let all = app.options.len();
     if app.checking() {
         format!("computing {}/{all}", count(|state| !state.is_computing()))

@@ -122,11 +122,13 @@ fn band(judged: &Judgement, quantity: Quantity, unit: Unit) -> String {
 }
 
 /// A quantity of the shot as planned, or its difference from the baseline.
-fn against(app: &App, option: usize, of: fn(&Checked) -> f64, unit: Unit) -> String {
-    let Some(mine) = app.judgement(option).map(|judged| of(&judged.nominal)) else { return String::new() };
+fn against(app: &App, option: usize, quantity: fn(&Checked) -> f64, unit: Unit) -> String {
+    let Some(mine) = app.judgement(option).map(|judged| quantity(&judged.nominal)) else {
+        return String::new();
+    };
     match app.baseline() {
         Some((other, base)) if other != option => {
-            let difference = mine - of(&base.nominal);
+            let difference = mine - quantity(&base.nominal);
             let sign = if difference >= 0.0 { "+" } else { "" };
             format!("{sign}{}", units::value(difference, unit))
         }

@@ -7,7 +7,7 @@ use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
 /// A computed value and its estimated error, one-sided, both in the same SI unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Bounded {
+pub struct ValueWithError {
     /// The value.
     #[serde(deserialize_with = "or_infinite")]
     pub value: f64,
@@ -21,12 +21,12 @@ pub(super) fn or_infinite<'d, D: Deserializer<'d>>(from: D) -> Result<f64, D::Er
     Option::<f64>::deserialize(from).map(|value| value.unwrap_or(f64::INFINITY))
 }
 
-impl Bounded {
+impl ValueWithError {
     /// Value of a run that failed: unknown, so infinite.
     const UNKNOWN: Self = Self { value: f64::INFINITY, error: f64::INFINITY };
 }
 
-impl From<Estimate> for Bounded {
+impl From<Estimate> for ValueWithError {
     fn from(Estimate { value, error, .. }: Estimate) -> Self {
         Self { value, error }
     }
@@ -34,40 +34,43 @@ impl From<Estimate> for Bounded {
 
 /// Verdict and greatest values of a judged shot.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Envelope {
+pub struct JudgedShot {
     /// Pass, fail or undecided.
     pub verdict: Verdict,
     /// Greatest flight height [m].
-    pub height: Bounded,
+    pub height: ValueWithError,
     /// Greatest cable force [N].
-    pub force: Bounded,
+    pub force: ValueWithError,
     /// Greatest drift at the end [m].
-    pub drift: Bounded,
+    pub drift: ValueWithError,
 }
 
-impl Envelope {
-    /// Envelope of a run that failed: undecided, with infinite values.
+impl JudgedShot {
+    /// The shot of a run that failed: undecided, with infinite values.
     pub const UNKNOWN: Self = Self {
         verdict: Verdict::Undecided,
-        height: Bounded::UNKNOWN,
-        force: Bounded::UNKNOWN,
-        drift: Bounded::UNKNOWN,
+        height: ValueWithError::UNKNOWN,
+        force: ValueWithError::UNKNOWN,
+        drift: ValueWithError::UNKNOWN,
     };
 
-    /// Envelope of a checked shot.
+    /// The numbers of a checked shot.
     pub fn of(checked: &Checked) -> Self {
         Self::new(checked.verdict, [checked.height, checked.force, checked.drift])
     }
 
-    /// Envelope of a verdict and its height, force and drift, in this order.
+    /// A verdict with its height, force and drift, in this order.
     pub fn new(verdict: Verdict, estimates: [Estimate; 3]) -> Self {
-        let [height, force, drift] = estimates.map(Bounded::from);
+        let [height, force, drift] = estimates.map(ValueWithError::from);
         Self { verdict, height, force, drift }
     }
 
-    /// The same envelope with `times` every error added to its value, and no error left.
+    /// The same shot with `times` every error added to its value, and no error left.
     pub fn with_errors(&self, times: f64) -> Self {
-        let add = |of: Bounded| Bounded { value: of.value + times * of.error, error: 0.0 };
+        let add = |quantity: ValueWithError| ValueWithError {
+            value: quantity.value + times * quantity.error,
+            error: 0.0,
+        };
         Self { height: add(self.height), force: add(self.force), drift: add(self.drift), ..*self }
     }
 
@@ -77,7 +80,7 @@ impl Envelope {
     }
 
     /// The value of a quantity and its error.
-    pub fn get(&self, quantity: Quantity) -> Bounded {
+    pub fn get(&self, quantity: Quantity) -> ValueWithError {
         match quantity {
             Quantity::Height => self.height,
             Quantity::Force => self.force,
@@ -92,7 +95,7 @@ mod tests {
 
     #[test]
     fn values_that_are_unknown_survive_a_file() {
-        let text = serde_json::to_string(&Envelope::UNKNOWN).expect("JSON");
-        assert_eq!(serde_json::from_str::<Envelope>(&text).expect("read again"), Envelope::UNKNOWN);
+        let text = serde_json::to_string(&JudgedShot::UNKNOWN).expect("JSON");
+        assert_eq!(serde_json::from_str::<JudgedShot>(&text).expect("read again"), JudgedShot::UNKNOWN);
     }
 }
