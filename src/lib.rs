@@ -34,8 +34,8 @@
 //! One way in, one way through:
 //!
 //! ```text
-//! TOML ─▶ Plan ─▶ Scene, Shot ─▶ simulate ─▶ Outcome ─▶ Verdict ─▶ text / JSON / CSV / terminal UI
-//!         plan     scene          simulation   outcome     study      report, tui
+//! TOML ─▶ Plan ─▶ Scene, Shot ─▶ Model::run ─▶ Outcome ─▶ Verdict ─▶ text / JSON / CSV / terminal UI
+//!         plan     scene          simulation    outcome     study      report, tui
 //! ```
 //!
 //! | module | what comes in | what goes out | what it must not know |
@@ -49,7 +49,7 @@
 //! | [`outcome`] | | peaks, ledger, histories of a run | any other module |
 //! | [`simulation`] | scene, shot, step | an [`Outcome`](outcome::Outcome) or a [`Failure`](simulation::Failure) | [`plan`], [`ropes`], [`file`], [`units`]; options, limits, screens |
 //! | [`verdict`] | value, error, limit | pass, fail, undecided | any other module |
-//! | [`study`] | a plan made ready | verdicts refined until sure, on the shot as planned and on what may come of it; sweeps, orders, sizes; accuracy tables, traces, flights | formats, except that of a share (`study::merge`) |
+//! | [`study`] | a plan made ready | verdicts refined until sure, on the shot as planned and on what may come of it; sweeps, orders, sizes, effects; accuracy tables, traces, flights | formats, except that of a shard (`study::merge`) |
 //! | [`report`] | study results | text, JSON, CSV, a page of HTML | terminals |
 //! | [`jobs`] | a check or a study to begin | news: progress, results; the newest request of a kind wins | [`report`]; screens |
 //! | [`tui`] | keys and events | a screen | physics |
@@ -81,7 +81,7 @@
 //!
 //! *Nominal* is as planned, nothing varied. *Undecided* reads OPEN on screens. A *screen* in `study` is a coarse check of one shot
 //! among thousands. An *audit* runs some samples again at a finer step. A *shard* is one machine's part of a study; `--shard`
-//! writes it, and messages call it a share.
+//! writes it. A word in brackets behind a field, such as (`n_tires`), is its length.
 
 pub mod choice;
 #[cfg(feature = "cli")]

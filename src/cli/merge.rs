@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{FormatArg, LookArguments};
-use super::print_findings::{print_orders, print_risks};
+use super::print_sharded::{print_orders, print_risks};
 use super::status::{Status, failed, wrong};
 use crate::plan::PlanSource;
 use crate::study::check_all::judge_drawn;

@@ -2,7 +2,7 @@
 //!
 //! One file per command, and no command uses another. They share [`arguments`], [`load_plans`], [`run_study`] (threads,
 //! progress, signals), [`print`](mod@print) (formats) and [`status`] (exit status). Results that several commands print are
-//! in [`check_plans`] and [`print_findings`].
+//! in [`check_plans`] and [`print_sharded`].
 
 mod accuracy;
 mod arguments;
@@ -18,7 +18,7 @@ mod merge;
 mod open_terminal;
 mod orders;
 mod print;
-mod print_findings;
+mod print_sharded;
 mod report;
 mod risk;
 mod ropes;

@@ -8,7 +8,7 @@ use clap::Args;
 use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments, intervals, shard};
 use super::load_plans::open;
 use super::print::print_text;
-use super::print_findings::print_orders;
+use super::print_sharded::print_orders;
 use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::report::notes;

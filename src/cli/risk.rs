@@ -8,7 +8,7 @@ use clap::Args;
 use super::arguments::{Compute, FormatArg, LookArguments, SamplingArguments, shard};
 use super::load_plans::open;
 use super::print::print_text;
-use super::print_findings::print_risks;
+use super::print_sharded::print_risks;
 use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::report::notes;

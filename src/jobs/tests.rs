@@ -150,7 +150,7 @@ fn a_panic_is_the_result_of_its_option_or_study_alone() {
 }
 
 #[test]
-fn dropping_the_runner_ends_every_job() {
+fn dropping_the_jobs_ends_each_of_them() {
     let (case, mut jobs) = (case(), Jobs::new(1));
     jobs.check(&case, endless(&case));
     StudyKind::ALL.into_iter().for_each(|kind| jobs.study(kind, &case, 0, endless(&case)));

@@ -195,11 +195,13 @@ fn run_pairs(
     Ok(pairs)
 }
 
-/// Runs a ladder of steps, the coarsest first: the coarser neighbours of `first`, then `first`, then finer steps.
+/// Runs a ladder of steps, from the coarsest to the finest; no step is run twice.
 ///
-/// After each run with at least one neighbour, `is_sure` gets all runs so far, the run that gives the values last, and whether
-/// no finer run can follow. The ladder ends when `is_sure` returns true. Where `fixed`, the ladder ends at `first`; if every
-/// coarser neighbour failed, one finer run gives the error, and the values stay at `first`. No step is run twice.
+/// 1. The coarser neighbours of `first` are run, then `first`, then finer steps.
+/// 2. Once there are two runs, `is_sure` is asked after each. It gets all runs so far, and whether no finer run can follow; the last
+///    run gives the values, the others give the errors. The ladder ends when `is_sure` returns true.
+/// 3. Where `fixed`, the ladder ends at `first`. If every coarser neighbour failed, one finer run gives the error; it then stands
+///    before `first` among the runs, so that the values stay at `first`.
 fn climb<R>(
     first: f64,
     fixed: bool,

@@ -22,8 +22,9 @@ pub fn estimates(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
     ]
 }
 
-/// Height, force and drift of the last of `runs`. The runs before it, each at a coarser step than the next, and `pairs` of
-/// nearby shots at the step of the coarsest of the [`nearest`] runs give the errors.
+/// Height, force and drift of the last of `runs`, which stand in order from the coarsest step to the finest.
+///
+/// The errors come from the [`nearest`] runs, and from `pairs` of nearby shots, run at the coarsest step of those.
 pub fn peaks(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
     let near = &runs[nearest(runs.len())];
     let last = runs[runs.len() - 1];
@@ -37,7 +38,7 @@ pub fn peaks(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
     [estimate_of(|run| run.height), estimate_of(|run| run.force), estimate_of(|run| run.drift)]
 }
 
-/// Which of `count` runs give the errors of the last.
+/// Indices of the runs that give the errors of the last of `count` runs: the runs just before it, [`NEIGHBOURS`] at most.
 pub fn nearest(count: usize) -> Range<usize> {
     count.saturating_sub(1 + NEIGHBOURS)..count - 1
 }

@@ -1,5 +1,13 @@
 //! Studies: which shots of a plan are run, how often and how finely, to answer one question of the user.
 //!
+//! | what | where |
+//! |---|---|
+//! | questions of the user, one file each | [`mod@check_all`] (`shelter check`, and `risk`), [`sweep`], [`orders`], [`size`], [`effects`], [`accuracy`], [`paper_table`], [`flight`], [`trace`] |
+//! | one shot as planned, judged | [`check`], `ladder`, [`step_error`], [`reason`], [`margin`]; coarsely: `screen`; what a study keeps of it: `judged_shot` |
+//! | the shots that are possible | [`random_shot`], [`sample`], [`sampling`], [`risk`], [`risk_summary`], [`failure_bounds`], [`influence`], [`swaps`] |
+//! | both together | [`judgement`], and the rule of the verdict: [`sampled`] |
+//! | how work runs | [`batch`], `compute`, `progress`, `found`, `no_result`, `intervals`; on many machines: `shard`, [`merge`] |
+//!
 //! A [`Case`] is a plan made ready to run. A study takes a case and returns plain data, which every face draws; `size` takes a
 //! plan and makes a case of each combination.
 //! Studies do not print and do not compute physics. Only `merge` reads and writes a file format: that of shards.
@@ -14,6 +22,7 @@ pub mod failure_bounds;
 pub mod flight;
 mod found;
 pub mod influence;
+mod intervals;
 mod judged_shot;
 pub mod judgement;
 mod ladder;
@@ -31,6 +40,7 @@ pub mod sample;
 pub mod sampled;
 pub mod sampling;
 mod screen;
+mod shard;
 pub mod size;
 pub mod step_error;
 pub mod swaps;
@@ -42,10 +52,11 @@ use std::path::Path;
 pub use batch::thread_pool;
 pub use compute::ComputeSettings;
 pub use found::{Finding, Found};
+pub use intervals::Intervals;
 pub use judged_shot::{JudgedShot, ValueWithError};
 pub use no_result::{NoResult, guarded};
 pub use progress::Progress;
-use serde::{Deserialize, Serialize};
+pub use shard::Shard;
 
 use crate::choice::Method;
 use crate::plan::{Diagnostics, Plan, PlanSource, Timing};
@@ -131,43 +142,5 @@ impl Case {
     /// smaller than the number of tires.
     pub fn modelled_tires(&self, method: Method) -> usize {
         self.shots.iter().map(|shot| self.model.modelled_tires(method, shot)).max().unwrap_or(0)
-    }
-}
-
-/// Evenly spaced intervals between rows.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Intervals {
-    /// First interval [s].
-    pub from: f64,
-    /// Last interval [s].
-    pub to: f64,
-    /// Distance between neighbours [s].
-    pub step: f64,
-}
-
-impl Intervals {
-    /// All intervals [s].
-    pub fn values(&self) -> Vec<f64> {
-        let count = ((self.to - self.from) / self.step + 1e-9).floor() as usize;
-        (0..=count).map(|n| self.from + n as f64 * self.step).collect()
-    }
-}
-
-/// The shard of one machine in a study spread over several machines.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Shard {
-    /// Number of the shard, from 0.
-    pub index: usize,
-    /// Number of shards.
-    pub of: usize,
-}
-
-impl Shard {
-    /// The whole study.
-    pub const WHOLE: Shard = Shard { index: 0, of: 1 };
-
-    /// Whether the shard holds piece `number` of the work.
-    pub fn has(self, number: usize) -> bool {
-        number % self.of == self.index
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! 1. Up to [`MOST_ROWS`] rows all orders are judged by a screen, at coarse steps. Where the shelter is its own mirror image,
 //!    an order and its mirrored order are judged once.
-//! 2. The hardest orders are judged as `check` does, then every order whose screened utilization plus [`REACH`] times its
-//!    error is above the worst utilization found so far, until none is left; in the same way for the best.
+//! 2. The hardest orders are checked first. An order stays in question while its screened utilization + [`REACH`] x its error is
+//!    above the greatest checked so far; this goes on until none is left. Likewise for the best, with the signs reversed.
 //!
 //! The orders are ranked by the shots as planned. The [`ENDS`] worst and the [`ENDS`] best of them are sampled; the best gets a
 //! full verdict.

@@ -78,8 +78,8 @@ impl Risk {
         self.audit_differs() || self.is_biased() || self.planned_exceeds_samples()
     }
 
-    /// Whether the shot as planned, which is refined, lies so far above every sample that samples moved up by twice as much
-    /// would go past a limit, though they pass: the error of their step is then greater than what is not known.
+    /// Whether the samples pass only because their step is too long: the shot as planned, computed more finely, exceeds the
+    /// greatest sample by d, and that sample + 2 d is past a limit.
     pub fn planned_exceeds_samples(&self) -> bool {
         let Some(planned) = self.planned else { return false };
         let would_fail = |quantity: Quantity| {

@@ -26,8 +26,8 @@ pub struct Sampling {
     pub most: usize,
     /// Seed of the random numbers.
     pub seed: u64,
-    /// 0 for a verdict that was asked for. Where shots are sampled one after the other until one passes, the number of the
-    /// shot, from 1: the n-th may be wrong with 1/(n (n + 1)) of the usual probability, so that all together keep to it.
+    /// Which attempt at a verdict this is. 0: the only one. n >= 1: the n-th candidate of a search that stops at its first pass; it
+    /// may be wrong with probability ERROR/(n (n + 1)), which sums to ERROR at most.
     pub attempt: usize,
 }
 

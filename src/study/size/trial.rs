@@ -62,8 +62,8 @@ impl<'q> Candidate<'q> {
         }
     }
 
-    /// Judges the shots as planned, that of index `likeliest` first, up to those judged together with one that does not pass;
-    /// `None` where the time was up. `likeliest` becomes the index of the shot that does not pass.
+    /// Judges the shots as planned in chunks of [`AT_ONCE`], beginning with index `likeliest`. Stops after the first chunk with a
+    /// shot that does not pass, and puts that shot's index into `likeliest`. `None` where the time was up.
     pub(super) fn try_as_planned(&self, likeliest: &mut usize) -> Result<Option<(Trial, Hardest)>, NoResult> {
         let (case, SizingTask { compute, progress, demand, .. }) = (&self.case, self.task);
         let mut order: Vec<usize> = (0..self.shots.len()).collect();

@@ -94,7 +94,8 @@ fn judge(
 }
 
 /// Indices of the points to sample: the plan's own intervals, both ends of each window, and points between them at most
-/// [`APART`] apart. Of a window narrower than that its first point, where that is as far from the last one chosen.
+/// [`APART`] apart. A window narrower than [`APART`] gives its first point only, and only if that is at least [`APART`] from the
+/// last point chosen.
 fn choose(points: &[Point], windows: &[[f64; 2]], own: &BTreeSet<i64>) -> Vec<usize> {
     let mut chosen: Vec<usize> = Vec::new();
     for &[from, to] in windows {

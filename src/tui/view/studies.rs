@@ -1,7 +1,7 @@
-//! The studies of the whole plan: sweep, orders, risk and size, one shown at a time.
+//! The studies of the whole plan: sweep, orders, risk, size and effects, one shown at a time.
 //!
 //! ```text
-//!  Sweep   Orders   Risk   Size
+//!  Sweep   Orders   Risk   Size   Effects
 //! ─ settings ────────────────────────
 //! conclusion, notes, tables
 //! charts

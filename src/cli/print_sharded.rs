@@ -1,4 +1,4 @@
-//! Printing what studies found that several machines can share.
+//! Prints orders and risks, for `orders`, `risk` and `merge`.
 
 use std::io;
 
