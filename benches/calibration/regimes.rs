@@ -90,6 +90,7 @@ impl Regime {
             friction: if self == Self::Friction { random.scale(0.05, 2.0) } else { random.between(0.2, 0.7) },
             downhill: nalgebra::Vector2::zeros(),
             restitution: 0.0,
+            damping: 0.0,
             gravity: 9.81,
             breaking_force: None,
             strength: Vec::new(),

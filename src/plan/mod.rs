@@ -225,6 +225,8 @@ pub struct CableSpec {
     pub termination_percent: f64,
     /// Stiffness of tie and tire at each end of a cable [kN/m]; `None`: stiff ends.
     pub end_stiffness_kn_m: Option<f64>,
+    /// Damping of a cable with its two tires over critical damping [%].
+    pub damping_percent: f64,
     /// Effect of a force past the breaking force.
     pub on_overload: OnOverload,
 }

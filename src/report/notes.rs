@@ -35,6 +35,10 @@ pub fn effects(plan: &Plan) -> Option<String> {
             ),
         ),
         told(tire.restitution > 0.0, format!("landings rebound with {} of their speed", tire.restitution)),
+        told(
+            cable.damping_percent > 0.0,
+            format!("cables damped with {} % of critical", cable.damping_percent),
+        ),
         cable.end_stiffness_kn_m.map(|end| format!("ends of cables yield, {end} kN/m each")),
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();

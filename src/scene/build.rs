@@ -80,6 +80,7 @@ impl Scene {
             gravity: plan.simulation.gravity_m_s2 * level,
             downhill: plan.simulation.gravity_m_s2 * fall * level * azimuth(plan.ground.slope_toward_deg),
             restitution: plan.tire.restitution,
+            damping: plan.cable.damping_percent * 1e-2,
             breaking_force: (plan.cable.on_overload == OnOverload::Break)
                 .then_some(plan.cable.breaking_force_kn * 1e3),
             strength: Vec::new(),

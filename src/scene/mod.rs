@@ -32,6 +32,8 @@ pub struct Scene {
     pub downhill: Vector2<f64>,
     /// Normal speed of a tire after its landing over normal speed before.
     pub restitution: f64,
+    /// Damping of each cable over its critical damping ζ: the viscosity of a cable is [`Scene::viscosity`].
+    pub damping: f64,
     /// Force above which a cable breaks [N]; `None`: cables never break.
     pub breaking_force: Option<f64>,
     /// Breaking force of each cable over that of the plan (`n_cables`); empty where all are equal.
@@ -156,14 +158,24 @@ impl Scene {
     ///
     /// This is Gershgorin's bound on M⁻¹K with every cable taut and in line.
     pub fn frequency_bound(&self) -> f64 {
-        let mut stiffness = vec![0.0; self.mass.len()];
+        self.rate_bound(|cable| cable.stiffness).sqrt()
+    }
+
+    /// Greatest 2/m Σ of `value` over the cables of a tire.
+    fn rate_bound(&self, value: impl Fn(&Cable) -> f64) -> f64 {
+        let mut sums = vec![0.0; self.mass.len()];
         for cable in &self.cables {
             for end in cable.ends {
-                stiffness[end] += cable.stiffness;
+                sums[end] += value(cable);
             }
         }
-        let squared = stiffness.iter().zip(&self.mass).map(|(k, m)| 2.0 * k / m);
-        squared.fold(0.0, f64::max).sqrt()
+        sums.iter().zip(&self.mass).map(|(sum, mass)| 2.0 * sum / mass).fold(0.0, f64::max)
+    }
+
+    /// Force of a cable over the speed at which it lengthens, c = 2ζ √(k μ), with the reduced mass μ of its two tires [N s/m].
+    pub fn viscosity(&self, cable: &Cable) -> f64 {
+        let [a, b] = cable.ends.map(|end| self.mass[end]);
+        2.0 * self.damping * (cable.stiffness * a * b / (a + b)).sqrt()
     }
 
     /// Least and greatest coordinate of the tires at rest along an axis [m]; axis 0 is x, 1 is y.
@@ -172,8 +184,13 @@ impl Scene {
         coordinates.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
     }
 
-    /// Critical step of explicit central differences, 2/ω [s]; infinite without cables.
+    /// Critical step of explicit central differences [s]; infinite without cables.
+    ///
+    /// Without damping it is 2/ω. With a damping force whose rate is extrapolated from the two steps before, a swing of frequency
+    /// ω that is damped with the rate γ = c/μ stays bounded for h² ω² + 4 γ h ≤ 4, where its fastest root is −1.
     pub fn critical_step(&self) -> f64 {
-        2.0 / self.frequency_bound()
+        let frequency = self.frequency_bound();
+        let rate = if self.damping > 0.0 { self.rate_bound(|cable| self.viscosity(cable)) } else { 0.0 };
+        2.0 / (frequency.hypot(rate) + rate)
     }
 }

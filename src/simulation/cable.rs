@@ -89,6 +89,11 @@ impl Blocks {
         layout
     }
 
+    /// A number of every cable, by element; 0 for an empty slot (`n_elements`).
+    pub fn by_element(&self, number: impl Fn(usize) -> f64) -> Vec<f64> {
+        self.cable.iter().map(|&cable| if cable == NONE { 0.0 } else { number(cable as usize) }).collect()
+    }
+
     /// Index in the scene of the cable in a slot of a block.
     pub fn cable(&self, block: usize, slot: usize) -> usize {
         self.cable[self.blocks[block].memory + slot] as usize

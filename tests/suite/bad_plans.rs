@@ -119,6 +119,7 @@ pub const BAD: &[(&str, &str)] = &[
     ("mass_kg = 280", "mass_kg = 280\nrestitution = 0.3\n[simulation]\nmethod = \"newmark\""),
     ("mass_kg = 280", "mass_kg = 280\nrestitution = 1"),
     ("[[blast_row]]", "[simulation]\nmethod = \"newmark\"\n[[blast_row]]\npush_ms = 20"),
+    ("[cable]", "[simulation]\nmethod = \"newmark\"\n[cable]\ndamping_percent = 5"),
     ("launch_m_s = 6.0\n[[blast_row]]", "launch_m_s = 6.0\npush_ms = 500\n[[blast_row]]"),
     ("launch_m_s = 6.0\n[[blast_row]]", "[[blast_row]]"),
     ("launch_m_s = 6.0\n[[blast_row]]", "launch_m_s = 6\nfree_flight_height_m = 1.8\n[[blast_row]]"),

@@ -13,7 +13,9 @@ use shelter::study::sampling::{Sampling, ShotToSample, draw_shard};
 use shelter::study::{Case, ComputeSettings, Progress, Shard};
 use shelter::verdict::{Quantity, Verdict};
 
-use super::scenes::{GRAVITY, METHODS, close, fire, fire_rows, grid, run, settings, tires, try_run, watch};
+use super::scenes::{
+    GRAVITY, METHODS, close, fire, fire_rows, grid, run, settings, tie, tires, try_run, watch,
+};
 
 const LAUNCH: f64 = 6.0;
 
@@ -141,7 +143,12 @@ fn newmark_refuses_what_it_lacks_by_name() {
     let mut scene = tires(&[(0.0, 0.0)], 280.0);
     let pushed = try_run(&scene, &pushes(&[(0.0, 0.02)]), settings(Method::Newmark, 1e-3, None));
     assert_eq!(pushed, refused("push"));
-    scene.restitution = 0.3;
+    scene.damping = 0.05;
+    assert_eq!(
+        try_run(&scene, &fire(&[0], LAUNCH), settings(Method::Newmark, 1e-3, None)),
+        refused("damping")
+    );
+    (scene.damping, scene.restitution) = (0.0, 0.3);
     let rebounding = try_run(&scene, &fire(&[0], LAUNCH), settings(Method::Newmark, 1e-3, None));
     assert_eq!(rebounding, refused("restitution"));
 }
@@ -188,6 +195,58 @@ fn validates_pushes_that_overlap() {
         let out = run(&scene, &shot, settings(Method::Verlet, h, None));
         close(out.height.value, height, 1e-9, "height");
         assert!(out.ledger.residual() < 1e-9, "{:e}", out.ledger.residual());
+    }
+}
+
+/// Two free masses on a cable of damping ζ that is just taut, parting at v, pull with N(t) = v e^(−ζω₀t) (A cos ω_d t + B sin ω_d t)
+/// until N is 0; A = c, B = (k − c ζ ω₀)/ω_d. The greatest force, and the speed at which they then meet, are within the
+/// (ωh)²/8 = 0.02 % of undamped swings, and a little more.
+#[test]
+fn validates_two_masses_on_a_damped_cable() {
+    let (mass, speed) = (280.0, 2.0);
+    for damping in [0.02, 0.05, 0.2, 0.7_f64] {
+        let mut scene = tires(&[(0.0, 0.0), (2.0, 0.0)], mass);
+        (scene.gravity, scene.friction, scene.damping) = (0.0, 0.0, damping);
+        tie(&mut scene, 0, 1, 2e6, 1.0);
+        let (k, reduced) = (scene.cables[0].stiffness, 0.5 * mass);
+        let free = (k / reduced).sqrt();
+        let (damped, c) = (free * (1.0 - damping * damping).sqrt(), 2.0 * damping * (k * reduced).sqrt());
+        let (a, b) = (c, (k - c * damping * free) / damped);
+        let force =
+            |t: f64| speed * (-damping * free * t).exp() * (a * (damped * t).cos() + b * (damped * t).sin());
+        let top = (damped * b - damping * free * a).atan2(damped * a + damping * free * b) / damped;
+        let greatest = if damping >= 0.5 { c * speed } else { force(top) };
+        let end = (std::f64::consts::PI - (a / b).atan()) / damped;
+        // What the force leaves of the impulse, by Simpson's rule.
+        let n = 2000;
+        let weight = |i: usize| {
+            if i == 0 || i == n {
+                1.0
+            } else if i % 2 == 1 {
+                4.0
+            } else {
+                2.0
+            }
+        };
+        let impulse: f64 = (0..=n).map(|i| weight(i) * force(end * i as f64 / n as f64)).sum::<f64>() * end
+            / (3.0 * n as f64);
+        let after = speed - impulse / reduced;
+        for step in [0.04 / free, 0.02 / free] {
+            let launch = Vector3::x() * (0.5 * speed);
+            let firing = |tire: usize, launch| Firing { at: 0.0, tire, launch, push: 0.0 };
+            let shot = Shot::from_firings(vec![firing(0, -launch), firing(1, launch)]);
+            let mut path = Vec::new();
+            let out = watch(&scene, &shot, settings(Method::Verlet, step, Some(1.5 * end)), |motion| {
+                path.push((motion.time(), motion.displacement(1).x - motion.displacement(0).x));
+            });
+            let [(before, from), (later, to)] = [path[path.len() - 2], path[path.len() - 1]];
+            let parted = (to - from) / (later - before);
+            close(out.force.value, greatest, 5e-4 * greatest, &format!("{damping}: force"));
+            close(parted, after, 5e-4 * speed, &format!("{damping}: speed after"));
+            let dissipated = 0.5 * reduced * (speed * speed - after * after);
+            close(out.ledger.dissipated, dissipated, 5e-3 * out.ledger.put_in, "dissipated");
+            assert!(out.ledger.residual() < 1e-2, "{damping}: {:e}", out.ledger.residual());
+        }
     }
 }
 
@@ -290,6 +349,9 @@ fn effects_are_those_of_an_independent_prototype() {
             1.6488,
             112.07,
         ),
+        ("damping 2 %", three_rows("", "", ", damping_percent = 2", ""), 1.7505, 59.89),
+        ("damping 5 %", three_rows("", "", ", damping_percent = 5", ""), 1.7552, 54.97),
+        ("damping 20 %", three_rows("", "", ", damping_percent = 20", ""), 1.7589, 39.70),
         ("push over 10 ms", three_rows("", "", "", "push_ms = 10"), 1.7165, 63.31),
         ("push over 30 ms", three_rows("", "", "", "push_ms = 30"), 1.6625, 62.03),
         ("restitution 0.3", three_rows("", ", restitution = 0.3", "", ""), 1.7435, 63.95),

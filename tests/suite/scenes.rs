@@ -22,6 +22,7 @@ pub fn tires(places: &[(f64, f64)], mass: f64) -> Scene {
         gravity: GRAVITY,
         downhill: Vector2::zeros(),
         restitution: 0.0,
+        damping: 0.0,
         breaking_force: None,
         strength: Vec::new(),
         mirrors: Vec::new(),

@@ -116,6 +116,8 @@ sections! {
             .edit("slack, %").offered();
         AXIAL_STIFFNESS_KN = key("axial_stiffness_kn", CABLE_FORCE, "1519", "EA").edit("axial stiffness EA, kN");
         BREAKING_FORCE_KN = key("breaking_force_kn", CABLE_FORCE, "20.9", "").edit("breaking force, kN");
+        DAMPING_PERCENT = key("damping_percent", number("%", 0.0..=100.0), "5", "of critical damping, of two tires on a cable")
+            .default(0.0).edit("damping, %").offered();
         END_STIFFNESS_KN_M = key("end_stiffness_kn_m", number("kN/m", 1e-3..=1e12), "2000",
             "of tie and tire at each end, in line with the rope").described("stiff ends").edit("stiffness of ends, kN/m")
             .offered();

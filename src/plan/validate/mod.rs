@@ -48,7 +48,7 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
     let simulation = read_simulation(root.section_or_empty(&SIMULATION));
     let tire = root.section(&TIRE).map(|section| read_tire(section, simulation.method));
     let layout = root.section(&SHELTER).and_then(|section| read_layout(section, mistakes));
-    let cable = root.section(&CABLE).map(|section| read_cable(section, mistakes));
+    let cable = root.section(&CABLE).map(|section| read_cable(section, simulation.method, mistakes));
     let ground = root.section(&GROUND).map(read_ground);
     if let (Some(layout), Some(tire)) = (&layout, &tire) {
         check_gaps(layout, tire, root, mistakes);
@@ -141,7 +141,7 @@ fn read_limits(section: SectionReader<'_>) -> LimitsSpec {
     spec
 }
 
-fn read_cable(section: SectionReader<'_>, mistakes: &Mistakes) -> CableSpec {
+fn read_cable(section: SectionReader<'_>, method: Method, mistakes: &Mistakes) -> CableSpec {
     let rope = section.text_if(&cable::ROPE);
     let (axial_stiffness_kn, breaking_force_kn) = read_rope(&section, rope.as_ref(), mistakes);
     let termination = read_termination(&section, rope.as_ref(), mistakes);
@@ -153,10 +153,15 @@ fn read_cable(section: SectionReader<'_>, mistakes: &Mistakes) -> CableSpec {
         breaking_force_kn: breaking_force_kn * termination_percent * 1e-2,
         slack_percent: section.number(&cable::SLACK_PERCENT),
         end_stiffness_kn_m: section.number_if(&cable::END_STIFFNESS_KN_M),
+        damping_percent: section.number(&cable::DAMPING_PERCENT),
         termination: termination.map(|known| known.name.clone()),
         termination_percent,
         on_overload: section.choice(&cable::ON_OVERLOAD, OnOverload::DEFAULT),
     };
+    if spec.damping_percent > 0.0 && method == Method::Newmark {
+        let message = "newmark has no damping";
+        section.wrong(&cable::DAMPING_PERCENT, message, "leave it out, or choose method \"verlet\"");
+    }
     section.finish();
     spec
 }

@@ -59,6 +59,9 @@ impl NewmarkCache {
         if scene.restitution > 0.0 {
             return Err(Failure::Effect { effect: "restitution", method: Method::Newmark });
         }
+        if scene.damping > 0.0 {
+            return Err(Failure::Effect { effect: "damping", method: Method::Newmark });
+        }
         if shot.firings.iter().any(|firing| firing.push > 0.0) {
             return Err(Failure::Effect { effect: "push", method: Method::Newmark });
         }

@@ -11,8 +11,9 @@
 //! ([`TireStep::integrate`](super::contact::TireStep::integrate)), so that landing and launch have their own time. A cable
 //! that becomes taut or slack within the step gets a force that gives the right amplitude
 //! ([`Slices::evaluate`](tension::Slices::evaluate)). The method is of second order, symplectic between events, and
-//! stable for h < 2/ω with ω² ≤ max (2/m) Σ k ([`Scene::frequency_bound`](crate::scene::Scene::frequency_bound)). Cables
-//! have no damping.
+//! stable for h < 2/ω with ω² ≤ max (2/m) Σ k ([`Scene::frequency_bound`](crate::scene::Scene::frequency_bound)). The damping of
+//! cables and what it costs in stability: [`Slices::evaluate`](tension::Slices::evaluate),
+//! [`Scene::critical_step`](crate::scene::Scene::critical_step).
 
 mod kick;
 mod reduction;
@@ -49,6 +50,8 @@ pub struct Part {
     mass: Vec<f64>,
     /// One over the mass of each tire; 0 for an image [1/kg] (`n_tires` + [`LANES`]).
     inverse: Vec<f64>,
+    /// Viscosity of each element [N s/m]; empty without damping.
+    viscosity: Vec<f64>,
     /// Longest stable step [s].
     critical_step: f64,
 }
@@ -137,11 +140,13 @@ impl Part {
         // Spare lanes behind the last tire have no energy.
         let spare = |value: f64| std::iter::repeat_n(value, LANES);
         // Images are not kicked, because only some of their cables are modelled.
+        let viscosity = |cable: usize| scene.viscosity(&scene.cables[reduction.cable(cable)]);
         let inverse = |(mass, weight)| if weight > 0.0 { 1.0 / mass } else { 0.0 };
         Self {
             mass: weighted().map(|(mass, weight)| mass * weight).chain(spare(0.0)).collect(),
             inverse: weighted().map(inverse).chain(spare(1.0)).collect(),
             critical_step: scene.critical_step(),
+            viscosity: if scene.damping > 0.0 { blocks.by_element(viscosity) } else { Vec::new() },
             blocks,
             ties,
             reduction,
@@ -159,14 +164,19 @@ mod tests {
     #[test]
     fn tires_asleep_would_not_have_moved() {
         let (scene, shots) = scenes();
-        let mut part = Part::new(&scene, &[]);
+        asleep_like_awake(&scene, &shots);
+        asleep_like_awake(&Scene { damping: 0.1, ..scene }, &shots);
+    }
+
+    fn asleep_like_awake(scene: &Scene, shots: &[Shot]) {
+        let mut part = Part::new(scene, &[]);
         part.ties = Arc::new(Ties::of_blocks(&part.blocks, scene.mass.len()).with_everything());
         let (some, mut all) = (VerletCache::default(), VerletCache::default());
         all.parts[0] = part.into();
         for shot in shots {
             let settings = Settings { method: Method::Verlet, step: 2e-3, duration: None };
             let [some, all] = [&some, &all].map(|cache| {
-                cache.run(&scene, &shot, &settings, &mut |_| ControlFlow::Continue(())).expect("a run")
+                cache.run(scene, shot, &settings, &mut |_| ControlFlow::Continue(())).expect("a run")
             });
             assert_eq!(exact(&some), exact(&all));
         }

@@ -113,6 +113,7 @@ impl Reduction {
             gravity: scene.gravity,
             downhill: scene.downhill,
             restitution: scene.restitution,
+            damping: scene.damping,
             breaking_force: scene.breaking_force,
             strength: Vec::new(),
             mirrors: Vec::new(),

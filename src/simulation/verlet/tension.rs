@@ -18,6 +18,20 @@ pub struct Tension<'a> {
     force: Field,
     /// State of the cables in each register, at the first element of the register (`n_elements`).
     state: Vec<CableState>,
+    /// What only damped cables have; empty without damping.
+    damped: Damped<'a>,
+}
+
+/// What damped cables keep from step to step (all `n_elements`).
+#[derive(Debug)]
+struct Damped<'a> {
+    /// Viscosity c [N s/m].
+    viscosity: &'a [f64],
+    /// Change of L² over the step before [m²].
+    change: Aligned,
+    /// Force N at the last evaluation, and at the evaluation before [N]; the latter is infinite where the cable became taut, so
+    /// that no parabola is laid through a jump.
+    force: [Aligned; 2],
 }
 
 /// State of the cables in one register at the last evaluation.
@@ -38,29 +52,34 @@ pub struct Stress {
     pub energy: Pack,
     /// Greatest force [N].
     pub force: Pack,
+    /// Energy that damping dissipates over the step, half before and half after the evaluation [J].
+    pub dissipated: Pack,
 }
 
 impl<'a> Tension<'a> {
-    /// Cables at rest.
-    pub fn new(blocks: &'a Blocks) -> Self {
+    /// Cables at rest; `viscosity` is c of each element [N s/m], or empty without damping.
+    pub fn new(blocks: &'a Blocks, viscosity: &'a [f64]) -> Self {
         let elements = blocks.weight.len();
+        let zeros = || Aligned::zeros(viscosity.len());
         Self {
             weight: Cow::Borrowed(&blocks.weight),
             change: Aligned::zeros(elements),
             force: Field::zeros(elements),
             state: vec![CableState::Slack; elements],
+            damped: Damped { viscosity, change: zeros(), force: [zeros(), zeros()] },
         }
     }
 
     /// All arrays as slices of one length (`n_elements`).
     #[inline(always)]
-    pub fn slices(&mut self) -> Slices<'_> {
+    pub fn slices(&mut self) -> Slices<'_, 'a> {
         let n = self.weight.len();
         Slices {
             weight: &self.weight[..n],
             change: &mut self.change[..n],
             force: self.force.slices_mut(),
             state: &mut self.state[..n],
+            damped: &mut self.damped,
         }
     }
 
@@ -73,7 +92,15 @@ impl<'a> Tension<'a> {
 
     /// Force of the cable in a slot of a block at the last evaluation [N]; 0 for an empty slot.
     pub fn slot_force(&self, block: &Block, slot: usize) -> f64 {
-        self.length(block, slot).map_or(0.0, |length| block.first.force(length))
+        match self.damped.viscosity {
+            [] => self.length(block, slot).map_or(0.0, |length| block.first.force(length)),
+            _ => self.damped.force[0][block.memory + slot],
+        }
+    }
+
+    /// Force of a damped cable at the evaluation before the last [N]; `None` without damping.
+    pub fn slot_force_before(&self, block: &Block, slot: usize) -> Option<f64> {
+        (!self.damped.viscosity.is_empty()).then(|| self.damped.force[1][block.memory + slot])
     }
 
     /// Removes the cable in a slot of a block; returns the elastic energy lost with the cable [J].
@@ -95,15 +122,17 @@ impl<'a> Tension<'a> {
 }
 
 /// [`Tension`] during the evaluation of many blocks.
-pub struct Slices<'a> {
+pub struct Slices<'a, 'b> {
     weight: &'a [f64],
     change: &'a mut [f64],
     force: [&'a mut [f64]; 3],
     state: &'a mut [CableState],
+    damped: &'a mut Damped<'b>,
 }
 
-impl Slices<'_> {
-    /// Evaluates every cable of `block` at displacements `u` [m].
+impl Slices<'_, '_> {
+    /// Evaluates every cable of `block` at displacements `u` [m], one `step` [s] after the last evaluation. `DAMPED`: the cables
+    /// are damped.
     ///
     /// A cable has the force N = k (L − L0), or 0 if L < L0. Only a cable that becomes taut or slack within the step has the
     /// force F of line 7: without F, the amplitude of its swing depends on the time of the switch within the step.
@@ -127,11 +156,22 @@ impl Slices<'_> {
     /// "Geometric numerical integration illustrated by the Störmer–Verlet method", Acta Numerica 12, 2003); lines 3 to 7
     /// are derived here. The test `a_cable_pulls_alike_wherever_in_a_step_it_becomes_taut` holds the result.
     ///
+    /// A damped cable has the force N = k s + c ṡ while it is taut and N is positive. The rate 2 L ṡ of L² at the end of the step is
+    /// extrapolated from its means over this step and the one before, which is exact for motion under no force. In the step in
+    /// which the cable becomes taut, the part q of it before, N jumps to c ṡ: the mean over this step serves alone, and the force
+    /// counts for the half step after and the part of the half step before that is left, 1 + (½ − q) in all.
+    ///
     /// Only registers without a taut cable leave early. There is no other branch, since the processor could not predict it.
     #[inline(always)]
-    pub fn evaluate<S: Simd>(&mut self, simd: S, block: &Block, u: [&[f64]; 3]) -> Stress {
-        let (zero, half) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5));
-        let tiny = Wide::splat(simd, f64::MIN_POSITIVE);
+    pub fn evaluate<S: Simd, const DAMPED: bool>(
+        &mut self,
+        simd: S,
+        block: &Block,
+        u: [&[f64]; 3],
+        step: f64,
+    ) -> Stress {
+        let (zero, half, one) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5), Wide::splat(simd, 1.0));
+        let (tiny, infinite) = (Wide::splat(simd, f64::MIN_POSITIVE), Wide::splat(simd, f64::INFINITY));
         let Block { first: cable, len, memory } = block;
         let rest_length = Wide::splat(simd, cable.rest_length);
         let stiffness = Wide::splat(simd, cable.stiffness);
@@ -149,8 +189,15 @@ impl Slices<'_> {
         let changes = &mut self.change[elements.clone()];
         let [x, y, z] = &mut self.force;
         let forces = [&mut x[elements.clone()], &mut y[elements.clone()], &mut z[elements.clone()]];
-        let states = &mut self.state[elements];
-        let (mut energy, mut greatest) = ([0.0; LANES], [0.0; LANES]);
+        let states = &mut self.state[elements.clone()];
+        let damped_elements = if DAMPED { elements } else { 0..0 };
+        let Damped { viscosity, change: old_changes, force: [samples, samples_before] } = &mut *self.damped;
+        let viscosities = &viscosity[damped_elements.clone()];
+        let old_changes = &mut old_changes[damped_elements.clone()];
+        let samples = &mut samples[damped_elements.clone()];
+        let samples_before = &mut samples_before[damped_elements];
+        let (mut energy, mut greatest, mut dissipated) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let per_step = Wide::splat(simd, 1.0 / step);
         for at in (0..room).step_by(Wide::<S>::LEN) {
             let mut d = between(simd, at_ends, at);
             for c in 0..3 {
@@ -182,10 +229,34 @@ impl Slices<'_> {
             let length = length2.sqrt();
             // Empty slots count as slack.
             let stretch = exists.select(length - rest_length, zero).max(zero);
-            let force = stiffness * stretch;
-            (half * weight * force * stretch).add_to(&mut energy, at % LANES);
-            force.max(Wide::load(simd, &greatest, at % LANES)).store(&mut greatest, at % LANES);
-            let switches = taut.differs(zero.less(before).and(exists));
+            let elastic = stiffness * stretch;
+            (half * weight * elastic * stretch).add_to(&mut energy, at % LANES);
+            let mut switches = taut.differs(zero.less(before).and(exists));
+            let (mut force, mut sample) = (elastic, elastic);
+            if DAMPED {
+                // The end of a pull is where N is 0, while the cable is still longer than at rest: no switch.
+                switches = switches.and(taut);
+                let change = excess - before;
+                let old = Wide::load(simd, old_changes, at);
+                change.store(old_changes, at);
+                let extrapolated = change + half * (change - old);
+                let rate = switches.select(change, extrapolated);
+                // Where nothing moves, nothing that moved before counts.
+                let rate = zero.less(change.abs()).select(rate, zero);
+                let lengthening = half * rate / length.max(tiny);
+                let viscous = Wide::load(simd, viscosities, at) * lengthening * per_step;
+                let whole = taut.select((elastic + viscous).max(zero), zero);
+                let after = half + before / change;
+                let counted = switches.select((whole - elastic) * (one + after), whole - elastic);
+                force = (elastic + counted).max(zero);
+                sample = switches.select(viscous.max(zero), whole);
+                (weight * taut.select(force - elastic, zero) * lengthening)
+                    .add_to(&mut dissipated, at % LANES);
+                let before = switches.select(infinite, Wide::load(simd, samples, at));
+                before.store(samples_before, at);
+                sample.store(samples, at);
+            }
+            sample.max(Wide::load(simd, &greatest, at % LANES)).store(&mut greatest, at % LANES);
             let apart = (excess - before).abs() * (length + rest_length);
             let sum = excess + before;
             let above = switches.select(force.times_plus(apart, eighth * sum * sum), force);
@@ -195,7 +266,7 @@ impl Slices<'_> {
                 (per_length * d[c]).store(forces[c], at);
             }
         }
-        Stress { energy, force: greatest }
+        Stress { energy, force: greatest, dissipated }
     }
 }
 

@@ -18,6 +18,8 @@ pub enum Effect {
     Slope,
     /// Landings that rebound.
     Restitution,
+    /// Cables that are damped.
+    Damping,
     /// Ends of cables that yield.
     Ends,
     /// Friction on the ground.
@@ -32,11 +34,12 @@ pub enum Effect {
 
 impl Effect {
     /// All effects.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Tilt,
         Self::Push,
         Self::Slope,
         Self::Restitution,
+        Self::Damping,
         Self::Ends,
         Self::Friction,
         Self::Slack,
@@ -51,6 +54,7 @@ impl Effect {
             Self::Push => &keys::blast_row::PUSH_MS,
             Self::Slope => &keys::ground::SLOPE_PERCENT,
             Self::Restitution => &keys::tire::RESTITUTION,
+            Self::Damping => &keys::cable::DAMPING_PERCENT,
             Self::Ends => &keys::cable::END_STIFFNESS_KN_M,
             Self::Friction => &keys::ground::FRICTION,
             Self::Slack => &keys::cable::SLACK_PERCENT,
@@ -66,6 +70,7 @@ impl Effect {
             Self::Push => "push over a time",
             Self::Slope => "slope",
             Self::Restitution => "rebound of landings",
+            Self::Damping => "damping of cables",
             Self::Ends => "yielding ends",
             Self::Friction => "friction",
             Self::Slack => "slack",
@@ -82,6 +87,7 @@ impl Effect {
             Self::Push => some(plan.launches().map(|launch| launch.push_ms).fold(0.0, f64::max)),
             Self::Slope => some(plan.ground.slope_percent),
             Self::Restitution => some(plan.tire.restitution),
+            Self::Damping => some(plan.cable.damping_percent),
             Self::Ends => plan.cable.end_stiffness_kn_m,
             Self::Friction => some(plan.ground.friction),
             Self::Slack => some(plan.cable.slack_percent),
@@ -100,6 +106,7 @@ impl Effect {
             Self::Push => Some(20.0),
             Self::Slope => Some(10.0),
             Self::Restitution => Some(0.3),
+            Self::Damping => Some(5.0),
             Self::Ends => Some(2000.0),
             Self::Friction | Self::Slack | Self::Rims | Self::Ballast => None,
         }
@@ -107,7 +114,7 @@ impl Effect {
 
     /// Whether a method has the effect.
     pub(super) fn is_in(self, method: Method) -> bool {
-        !matches!(self, Self::Push | Self::Restitution) || method == Method::Verlet
+        !matches!(self, Self::Push | Self::Restitution | Self::Damping) || method == Method::Verlet
     }
 
     /// Azimuths at which the effect is probed [°].
@@ -128,6 +135,7 @@ impl Effect {
                 (plan.ground.slope_percent, plan.ground.slope_toward_deg) = (value_or_zero, toward)
             }
             Self::Restitution => plan.tire.restitution = value_or_zero,
+            Self::Damping => plan.cable.damping_percent = value_or_zero,
             Self::Ends => plan.cable.end_stiffness_kn_m = value,
             Self::Friction => {
                 plan.ground.friction = value_or_zero;

@@ -86,10 +86,10 @@ impl Stepper<'_> {
         let totals = events.totals;
         for j in 0..LANES {
             totals.energy[j] += energy[j];
+            totals.dissipated[j] += dissipated[j];
             totals.height[j] = totals.height[j].max(height[j]);
             totals.motion[j] = totals.motion[j].max(motion[j]);
         }
-        totals.dissipated = dissipated;
     }
 
     /// Copies the reflected displacements of kept tires to their images, and keeps tires on a mirror plane in the plane.

@@ -7,32 +7,35 @@ use super::{PeakCable, StepTotals, Stepper};
 use crate::outcome::{Broken, Peak};
 use crate::simulation::pack::{LANES, Wide};
 
-/// First pass; compiled for each instruction set and chosen at run time.
-pub(super) struct EvaluateCables<'s, 'a>(pub &'s mut Stepper<'a>);
+/// First pass; compiled for each instruction set and chosen at run time. `DAMPED`: the cables are damped.
+pub(super) struct EvaluateCables<'s, 'a, const DAMPED: bool>(pub &'s mut Stepper<'a>);
 
-impl pulp::WithSimd for EvaluateCables<'_, '_> {
+impl<const DAMPED: bool> pulp::WithSimd for EvaluateCables<'_, '_, DAMPED> {
     type Output = StepTotals;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> StepTotals {
-        self.0.evaluate_cables(simd)
+        self.0.evaluate_cables::<S, DAMPED>(simd)
     }
 }
 
 impl Stepper<'_> {
     /// Evaluates the cables of all blocks that are awake; returns their energy and greatest force.
     #[inline(always)]
-    fn evaluate_cables<S: Simd>(&mut self, simd: S) -> StepTotals {
+    fn evaluate_cables<S: Simd, const DAMPED: bool>(&mut self, simd: S) -> StepTotals {
         self.interpolate_peak();
-        let Self { part, wake, tension, u, stored, candidates, strengths, .. } = self;
+        let Self { part, wake, tension, u, stored, candidates, strengths, step, .. } = self;
         let [weakest, strongest] = *strengths;
         let (blocks, stored) = (&part.blocks.blocks[..], &mut stored[..part.blocks.blocks.len()]);
         let (u, mut tension) = (u.slices(), tension.slices());
-        let (mut energy, mut force) = (self.asleep, [0.0; LANES]);
+        let (mut energy, mut force, mut dissipated) = (self.asleep, [0.0; LANES], [0.0; LANES]);
         let mut greatest = Wide::splat(simd, weakest * self.record.force.value);
         for &n in &wake.blocks {
-            let stress = tension.evaluate(simd, &blocks[n], u);
+            let stress = tension.evaluate::<S, DAMPED>(simd, &blocks[n], u, *step);
             stored[n] = stress.energy;
+            if DAMPED {
+                (0..LANES).for_each(|j| dissipated[j] += stress.dissipated[j]);
+            }
             let mut is_greater = false;
             for lane in (0..LANES).step_by(Wide::<S>::LEN) {
                 Wide::load(simd, &stress.energy, lane).add_to(&mut energy, lane);
@@ -46,7 +49,7 @@ impl Stepper<'_> {
                 candidates.push(n);
             }
         }
-        let mut totals = StepTotals { energy, force, ..StepTotals::default() };
+        let mut totals = StepTotals { energy, force, dissipated, ..StepTotals::default() };
         if !self.candidates.is_empty() {
             self.copy_velocities();
             while let Some(block) = self.candidates.pop() {
@@ -67,7 +70,10 @@ impl Stepper<'_> {
             if force > self.record.force.value {
                 let index = self.part.reduction.cable(self.part.blocks.cable(n, slot));
                 self.record.force = Peak { value: force, at: self.clock.now(), index };
-                let before = self.stretch_over_strength(n, slot, -self.step);
+                let before = match self.tension.slot_force_before(block, slot) {
+                    Some(force) => force / self.strength(n, slot),
+                    None => self.stretch_over_strength(n, slot, -self.step),
+                };
                 self.sampled = Some(PeakCable { block: n, slot, before });
             }
         }
@@ -109,7 +115,11 @@ impl Stepper<'_> {
     /// Moves the greatest force to the top of the parabola through the samples around it, one step after it was sampled.
     fn interpolate_peak(&mut self) {
         if let Some(PeakCable { block, slot, before }) = self.sampled.take() {
-            let after = self.stretch_over_strength(block, slot, 0.0);
+            let damped = self.tension.slot_force_before(&self.part.blocks.blocks[block], slot).is_some();
+            let after = match damped {
+                true => self.force_over_strength(block, slot),
+                false => self.stretch_over_strength(block, slot, 0.0),
+            };
             self.record.interpolate_force(before, after);
         }
     }

@@ -124,7 +124,7 @@ impl<'a> Stepper<'a> {
             firings,
             integrated: Vec::with_capacity(LANES),
             wake,
-            tension: Tension::new(&part.blocks),
+            tension: Tension::new(&part.blocks, &part.viscosity),
             u,
             v,
             stored: vec![[0.0; LANES]; part.blocks.blocks.len()],
@@ -146,7 +146,10 @@ impl<'a> Stepper<'a> {
                 self.move_stored_energy();
                 self.move_energy_on_slope();
             }
-            let mut totals = arch.dispatch(EvaluateCables(&mut self));
+            let mut totals = match self.scene.damping > 0.0 {
+                false => arch.dispatch(EvaluateCables::<false>(&mut self)),
+                true => arch.dispatch(EvaluateCables::<true>(&mut self)),
+            };
             if watch(&Snapshot { stepper: &self }).is_break() {
                 return Err(Failure::Stopped { at: self.clock.now() });
             }
@@ -213,6 +216,14 @@ struct Snapshot<'s, 'a> {
     stepper: &'s Stepper<'a>,
 }
 
+impl Snapshot<'_, '_> {
+    /// Velocity of a tire of the scene at mid-step [m/s].
+    fn velocity(&self, tire: usize) -> Vector3<f64> {
+        let (kept, [x, y]) = self.stepper.part.reduction.kept(tire);
+        self.stepper.v.vector(kept).component_mul(&Vector3::new(x, y, 1.0))
+    }
+}
+
 impl Motion for Snapshot<'_, '_> {
     fn time(&self) -> f64 {
         self.stepper.clock.now()
@@ -229,7 +240,11 @@ impl Motion for Snapshot<'_, '_> {
             return 0.0;
         }
         let cable = &scene.cables[cable];
-        cable.force(cable.between(cable.ends.map(|end| self.displacement(end))).norm())
+        let between = cable.between(cable.ends.map(|end| self.displacement(end)));
+        let length = between.norm();
+        let [first, second] = cable.ends.map(|end| self.velocity(end));
+        let viscous = scene.viscosity(cable) * between.dot(&(second - first)) / length;
+        if length > cable.rest_length { (cable.force(length) + viscous).max(0.0) } else { 0.0 }
     }
 
     fn friction(&self, tire: usize) -> (f64, f64) {
