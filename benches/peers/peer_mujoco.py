@@ -1,5 +1,6 @@
 """The shelter in MuJoCo: slide joints, one-sided spatial tendons, soft contact with a plane."""
 
+import math
 import os
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
@@ -18,7 +19,8 @@ RADIUS = 0.1
 def build_model(scene, options):
     spec = mujoco.MjSpec()
     spec.option.timestep = options.step
-    spec.option.gravity = [0, 0, -GRAVITY]
+    fall = math.atan(options.slope_percent / 100)
+    spec.option.gravity = [0, -GRAVITY * math.sin(fall), -GRAVITY * math.cos(fall)]
     spec.option.cone = getattr(mujoco.mjtCone, "mjCONE_" + options.cone.upper())
     spec.option.solver = getattr(mujoco.mjtSolver, "mjSOL_" + options.solver.upper())
     spec.option.integrator = getattr(mujoco.mjtIntegrator, "mjINT_" + options.integrator.upper())
@@ -81,12 +83,14 @@ def simulate(model, scene, options):
     lengths = numpy.array([cable[2] for cable in scene.cables])
     stiffness = numpy.array([cable[3] for cable in scene.cables])
     launch = LAUNCH + (GRAVITY * options.step / 2 if options.half_step_launch else 0)
+    tilt = math.radians(options.tilt)
     height, height_step, force, force_step = 0.0, 0, 0.0, 0
 
     start = time.perf_counter()
     for step in range(step_count(options)):
         for tire in launches.get(step, ()):
-            data.qvel[3 * tire + 2] += launch
+            data.qvel[3 * tire] += launch * math.sin(tilt)
+            data.qvel[3 * tire + 2] += launch * math.cos(tilt)
         if user_tension:
             greatest = user_tension.apply(data)
         mujoco.mj_step(model, data)

@@ -2,6 +2,7 @@
 
     python run.py            speed at a given accuracy, on the 20 x 20 grid
     python run.py validate   heights and forces of three scenes, each peer at a fine step
+    python run.py effects    the same on a slope and with tilted launches, for the peer that has them
 """
 
 import argparse
@@ -10,7 +11,7 @@ import json
 import os
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 HERE = Path(__file__).parent
@@ -26,6 +27,7 @@ class Case:
     options: list
     height: float
     force: float
+    keys: tuple = ()  # (section or key of the plan, what takes its place)
 
 
 GRID = Case("20 × 20, rows 6 to 15", HERE / "20x20.toml", [], 1.82570, 26750.4)
@@ -37,6 +39,14 @@ QUINCUNX = Case(
     "quincunx 2 × 2, diagonal 1 m", HERE / "quincunx.toml",
     ["--layout", "quincunx", "--rows", "2", "--columns", "2", "--spacing", "1.4142135623730951",
      "--blast-rows", "1.5", "--axial-stiffness", "1.519e6"], 0.75741, 17735.7,
+)
+SLOPED = replace(
+    SMALL_GRID, title="5 × 10 on a slope of 20 %", options=[*SMALL_GRID.options, "--slope-percent", "20"],
+    keys=(("[ground]", "[ground]\nslope_percent = 20\nslope_toward_deg = 270"),), height=1.795402, force=10185.07,
+)
+TILTED = replace(
+    SMALL_GRID, title="5 × 10, launches tilted by 10°", options=[*SMALL_GRID.options, "--tilt", "10"],
+    keys=(("under_row", "tilt_deg = 10\nunder_row"),), height=1.730562, force=17957.50,
 )
 
 
@@ -138,6 +148,8 @@ SHELTER_REPEATS = 200  # take about as long as the five of a peer, so that both 
 def run_shelter(binary, case, step_ms, repeats):
     """`shelter check` at a fixed step of a plan with as many equal options as repeats, in the form the peers print."""
     plan = case.plan.read_text()
+    for key, text in case.keys:
+        plan = plan.replace(key, text)
     for number in range(1, repeats):
         plan += f'\n[[delay]]\nname = "again {number}"\ninterval_ms = 20\n'
     command = [binary, "check", "-", "--dt", repr(step_ms / 1000), "--threads", "1", "--format", "json"]
@@ -231,15 +243,16 @@ def milliseconds(seconds):
     return f"{value:.0f}" if value >= 100 else f"{value:.3g}"
 
 
-def print_validation(options):
+def print_validation(options, cases, titles=None):
+    peers = [peer for peer in all_peers() if titles is None or peer.title in titles]
     print("| scene | program | step, ms | height, m | at, s | error | force, N | at, s | error |")
     print("|---|---|---|---|---|---|---|---|---|")
-    for case in [QUINCUNX, SMALL_GRID, GRID]:
+    for case in cases:
         print(f"| {case.title} | reference | | {case.height:.5f} | | | {case.force:.1f} | | |")
         rows = []
         if options.shelter:
             rows.append(("shelter", run_shelter(options.shelter, case, 0.1, 1), "run failed"))
-        for peer in all_peers():
+        for peer in peers:
             run = None
             if not peer.missing:
                 run = run_peer(peer, case, peer.validation_settings, peer.validation_step_ms, 1)
@@ -255,13 +268,15 @@ def print_validation(options):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", nargs="?", choices=["speed", "validate"], default="speed")
+    parser.add_argument("what", nargs="?", choices=["speed", "validate", "effects"], default="speed")
     parser.add_argument("--shelter", metavar="PATH", help="the shelter binary to compare with")
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--all", action="store_true", help="list every run on stderr")
     options = parser.parse_args()
     if options.what == "validate":
-        print_validation(options)
+        print_validation(options, [QUINCUNX, SMALL_GRID, GRID])
+    elif options.what == "effects":
+        print_validation(options, [SLOPED, TILTED], ["MuJoCo"])
     else:
         print_speed(options)
 

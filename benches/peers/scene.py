@@ -37,6 +37,8 @@ def options_parser(peer):
     parser.add_argument("--columns", type=int, default=20)
     parser.add_argument("--spacing", type=float, default=1.5, help="m")
     parser.add_argument("--blast-rows", type=blast_rows, default="6-15", help="6-15, 2,3,4 or 1.5")
+    parser.add_argument("--slope-percent", type=float, default=0, help="fall of the ground, toward -y")
+    parser.add_argument("--tilt", type=float, default=0, help="of launches toward +x, degrees")
     parser.add_argument("--delay", type=float, default=0.02, help="between rows, s")
     parser.add_argument("--axial-stiffness", type=float, default=1.4e6, help="EA, N")
     parser.add_argument("--duration", type=float, default=1.0, help="s")
