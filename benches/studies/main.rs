@@ -48,9 +48,9 @@ fn checked(case: &Case, order: &[usize], interval: f64) -> JudgedShot {
 
 fn compare_windows(random: u64) {
     println!(
-        "| plan | points tried | windows, wider than a point | together, ms | widest gap, ms | checked inside | do not pass | sweep, s |"
+        "| plan | points tried | windows, wider than a point | together, ms | widest gap, ms | checked inside | do not pass | of these open | farthest past a limit | sweep, s |"
     );
-    println!("|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|---|");
     let shipped = ["amur-three-rows", "point-blasting", "large-50x50"].map(|name| {
         let case = Case::load(format!("plans/{name}.toml").as_ref());
         (name.to_owned(), case.unwrap_or_else(|mistakes| panic!("{mistakes}")))
@@ -66,20 +66,23 @@ fn compare_windows(random: u64) {
         let close = (0..=10_000).map(|n| n as f64 * CLOSE);
         let close: Vec<f64> =
             close.filter(|at| swept.windows.iter().any(|[from, to]| (*from..=*to).contains(at))).collect();
-        let bad = |at: &&f64| checked(&case, &order, **at).verdict != Verdict::Pass;
-        let bad = close.par_iter().filter(bad).count();
+        let judged = close.par_iter().map(|&at| checked(&case, &order, at));
+        let bad: Vec<Envelope> = judged.filter(|judged| judged.verdict != Verdict::Pass).collect();
+        let open = bad.iter().filter(|judged| judged.verdict == Verdict::Undecided).count();
+        let farthest = bad.iter().map(|judged| judged.utilization(&case.limits)).fold(0.0, f64::max);
         let wide: Vec<f64> =
             swept.windows.iter().map(|[from, to]| to - from).filter(|wide| *wide > 0.0).collect();
         println!(
-            "| {name} | {} | {}, {} | {:.1} | {:.3} | {} | {bad} | {wall:.2} |",
+            "| {name} | {} | {}, {} | {:.1} | {:.3} | {} | {} | {open} | {farthest:.3} | {wall:.2} |",
             swept.points.len(),
             swept.windows.len(),
             wide.len(),
             1e3 * wide.iter().sum::<f64>(),
             1e3 * swept.largest_gap(),
             close.len(),
+            bad.len(),
         );
-        (inside, failures) = (inside + close.len(), failures + bad);
+        (inside, failures) = (inside + close.len(), failures + bad.len());
     }
     println!("\n{failures} of {inside} do not pass: {:.2} %", 100.0 * failures as f64 / inside as f64);
 }
