@@ -67,7 +67,7 @@ fn compare_windows(random: u64) {
         let close: Vec<f64> =
             close.filter(|at| swept.windows.iter().any(|[from, to]| (*from..=*to).contains(at))).collect();
         let judged = close.par_iter().map(|&at| checked(&case, &order, at));
-        let bad: Vec<Envelope> = judged.filter(|judged| judged.verdict != Verdict::Pass).collect();
+        let bad: Vec<JudgedShot> = judged.filter(|judged| judged.verdict != Verdict::Pass).collect();
         let open = bad.iter().filter(|judged| judged.verdict == Verdict::Undecided).count();
         let farthest = bad.iter().map(|judged| judged.utilization(&case.limits)).fold(0.0, f64::max);
         let wide: Vec<f64> =

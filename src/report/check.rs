@@ -33,7 +33,7 @@ fn firing(row: &OptionRow<'_>) -> String {
     format!("{} ms", times.join(", "))
 }
 
-fn fields<'a>() -> [Field<OptionRow<'a>>; 28] {
+fn fields<'a>() -> [Field<OptionRow<'a>>; 31] {
     let words = |heading| Column::words(&[], heading).shown(Shown::Text);
     [
         Field::new(Column::scripts(&["plan"]), |row| Cell::Text(row.case.source.path.clone())),
@@ -95,6 +95,15 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 28] {
         }),
         Field::new(Column::scripts(&["broken_cables"]), |row| {
             row.planned(|checked| Cell::Count(checked.broken.len()))
+        }),
+        Field::new(Column::scripts(&["holes_uncovered"]), |row| {
+            row.planned(|checked| Cell::Count(checked.cover.uncovered))
+        }),
+        Field::new(Column::scripts(&["cover_height_m"]), |row| {
+            row.planned(|checked| Cell::Number(checked.cover.height))
+        }),
+        Field::new(Column::scripts(&["cover_shift_m"]), |row| {
+            row.planned(|checked| Cell::Number(checked.cover.shift))
         }),
         Field::new(Column::scripts(&["dt_s"]), |row| row.planned(|checked| Cell::Number(checked.step))),
         Field::new(Column::scripts(&["energy_residual"]), |row| {

@@ -7,6 +7,7 @@ use std::cell::{Cell, RefCell};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
+use super::cover::{Cover, CoverWatch};
 use super::ladder::{estimates, nearest};
 use super::reason::{Reason, closes, find_reasons, with_limits};
 use super::{Case, ComputeSettings, step_error};
@@ -35,6 +36,8 @@ pub struct Checked {
     pub broken: Vec<Broken>,
     /// Height and force over time.
     pub history: History,
+    /// The cover over each hole as it fires.
+    pub cover: Cover,
     /// Method and accuracy that were asked for.
     pub compute: ComputeSettings,
     /// Step of the run that gave the values [s].
@@ -127,12 +130,15 @@ pub fn check_shot(
     let run = |shot: &Shot, step: f64| {
         let settings = case.settings(compute.method, step);
         let start = Instant::now();
-        let look =
-            |motion: &dyn Motion| (watch.borrow_mut())(CheckStep { runs: done.get(), time: motion.time() });
+        let mut cover = CoverWatch::new(case, &shot.firings, step);
+        let look = |motion: &dyn Motion| {
+            cover.see(motion);
+            (watch.borrow_mut())(CheckStep { runs: done.get(), time: motion.time() })
+        };
         let outcome = case.model.run(shot, &settings, &mut { look })?;
         done.set(done.get() + 1);
         steps.set(steps.get() + outcome.steps);
-        Ok(Run { outcome, wall: start.elapsed() })
+        Ok(Run { outcome, cover: cover.cover(), wall: start.elapsed() })
     };
     let mut checked = None;
     climb(
@@ -158,6 +164,7 @@ pub fn check_shot(
 /// A finished run and its computing time.
 struct Run {
     outcome: Outcome,
+    cover: Cover,
     wall: Duration,
 }
 
@@ -258,6 +265,7 @@ fn judge(
         safety_factor: case.limits.breaking_force / force.value,
         broken: outcome.broken.clone(),
         history: outcome.history.clone(),
+        cover: last.cover,
         compute: *compute,
         step: outcome.step,
         steps: outcome.steps,

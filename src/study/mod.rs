@@ -17,6 +17,7 @@ pub mod batch;
 pub mod check;
 pub mod check_all;
 mod compute;
+pub mod cover;
 pub mod effects;
 pub mod failure_bounds;
 pub mod flight;

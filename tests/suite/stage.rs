@@ -13,6 +13,7 @@ use shelter::outcome::{EndReason, History, RunEnd};
 use shelter::ropes::catalogue;
 use shelter::study::accuracy::{AccuracyTable, LevelStep, Measured, StepRow};
 use shelter::study::check::Checked;
+use shelter::study::cover::Cover;
 use shelter::study::judgement::Judgement;
 use shelter::study::orders::{Orders, TriedOrder};
 use shelter::study::reason::Reason;
@@ -54,6 +55,7 @@ pub fn checked(verdict: Verdict) -> Checked {
         force,
         drift: estimate(0.321, 0.01, 1.3, 9),
         safety_factor: 1.49,
+        cover: Cover::default(),
         history: History {
             width: 0.005,
             height: (0..200).map(wave).collect(),

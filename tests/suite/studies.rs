@@ -427,6 +427,25 @@ fn the_lightest_shelter_is_that_of_brute_force() {
     assert!(margins.windows(2).all(|pair| pair[1] < pair[0]), "{margins:?}");
 }
 
+/// A row fired twice, 0.3 s apart, with tires that fly apart from each other: at the second hole each is V₀ t − g t²/2 high.
+#[test]
+fn holes_under_tires_in_the_air_are_counted() {
+    let text = "shelter = { layout = \"grid\", rows = 1, columns = 2, spacing_m = 2 }\ntire = { mass_kg = 280 }\n\
+                cable = { axial_stiffness_kn = 1000, breaking_force_kn = 60, slack_percent = 3 }\n\
+                ground = { friction = 0.5 }\nlimits = { flight_height_m = 9, cable_safety_factor = 1 }\n\
+                blast_row = [{ name = \"1\", under_row = 1, launch_m_s = 6 }, \
+                             { name = \"2\", under_row = 1, launch_m_s = 1, tilt_deg = 30 }]\n\
+                delay = [{ name = \"again\", interval_ms = 300 }, { name = \"late\", interval_ms = 3000 }]\n";
+    let case = Case::new(Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+    let compute = ComputeSettings::of(&case.plan);
+    let [again, late] = [0, 1].map(|option| case.check_as_planned(option, &compute).expect("a result"));
+    assert_eq!((again.cover.holes, again.cover.uncovered, again.cover.shift), (4, 2, 0.0));
+    let height = 6.0 * 0.3 - 0.5 * 9.81 * 0.09;
+    // The tires fly for up to a step longer.
+    assert!((again.cover.height - height).abs() <= 3.1 * again.step, "{:?}", again.cover);
+    assert_eq!((late.cover.uncovered, late.cover.height), (0, 0.0));
+}
+
 /// Two rows 20 ms apart: the gap between them scatters by 10 ms, and so does each hole: with √3 × 10 ms the probability is
 /// 1 − Φ(20 / 17.32) = 0.1241, and for 45 ms it is 0.0047.
 #[test]

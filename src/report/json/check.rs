@@ -60,6 +60,7 @@ struct OptionValues {
     drift_m: AtTire,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     broken: Vec<BrokenCable>,
+    cover: CoverAtFirings,
     method: &'static str,
     dt_s: f64,
     steps: usize,
@@ -67,6 +68,16 @@ struct OptionValues {
     wall_s: f64,
     total_wall_s: f64,
     runs: usize,
+}
+
+/// The cover over the holes of the shot as planned, each at its firing time: holes under a tire in the air or aside, and the
+/// greatest height and shift of a tire over a hole.
+#[derive(Serialize)]
+struct CoverAtFirings {
+    holes: usize,
+    uncovered: usize,
+    height_m: f64,
+    shift_m: f64,
 }
 
 /// Bounds of the failure probability, and the samples behind them.
@@ -175,6 +186,12 @@ impl OptionValues {
             cable_safety_factor: Some(checked.safety_factor).filter(|factor| factor.is_finite()),
             drift_m: AtTire::new(scene, &checked.drift, Percentiles::of(drift_is_judged, Quantity::Drift)),
             broken: checked.broken.iter().map(|broken| BrokenCable::new(scene, broken)).collect(),
+            cover: CoverAtFirings {
+                holes: checked.cover.holes,
+                uncovered: checked.cover.uncovered,
+                height_m: checked.cover.height,
+                shift_m: checked.cover.shift,
+            },
             method: checked.compute.method.name(),
             dt_s: checked.step,
             steps: checked.steps,
