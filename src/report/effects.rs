@@ -1,37 +1,62 @@
 //! `effects` as a report: one row an effect, and what the scene requires.
 
-use super::model::{Block, Cell, Column, Conclusion, Report, Shown, Table};
+use super::model::{Block, Cell, Column, Conclusion, Field, Report, Shown, Table};
 use super::report_head;
 use crate::study::Case;
 use crate::study::effects::{Effect, EffectOnOption, EffectsOnOptions, REQUIRED};
 use crate::units;
 use crate::verdict::{Quantity, Verdict};
 
-const FOR_PEOPLE: [Column; 8] = [
-    Column::words(&[], "effect"),
-    Column::words(&[], "required"),
-    Column::words(&[], "height"),
-    Column::words(&[], "force"),
-    Column::words(&[], "drift"),
-    Column::words(&[], "verdicts change"),
-    Column::words(&[], "value"),
-    Column::words(&[], "run time"),
-];
+/// One effect on every option, for people.
+fn for_people<'a>() -> [Field<&'a Vec<&'a EffectOnOption>>; 8] {
+    fn words(heading: &'static str) -> Column {
+        Column::words(&[], heading).shown(Shown::People)
+    }
+    [
+        Field::new(words("effect"), |all| Cell::Text(all[0].effect.name().to_owned())),
+        Field::new(words("required"), |all| {
+            let required = all.iter().filter(|row| row.is_required()).count();
+            Cell::Text(if required > 0 { format!("by {required} of {}", all.len()) } else { "no".to_owned() })
+        }),
+        Field::new(words("height"), |all| Cell::Text(changes(all, Quantity::Height))),
+        Field::new(words("force"), |all| Cell::Text(changes(all, Quantity::Force))),
+        Field::new(words("drift"), |all| Cell::Text(changes(all, Quantity::Drift))),
+        Field::new(words("verdicts change"), |all| {
+            let changed = all.iter().filter(|row| row.verdict_changes()).count();
+            Cell::Text(format!("{changed} of {}", all.len()))
+        }),
+        Field::new(words("value"), |all| Cell::Text(value(all[0]))),
+        Field::new(words("run time"), |all| {
+            Cell::Text(format!("x {}", units::short(median(all.iter().map(|row| row.cost)))))
+        }),
+    ]
+}
 
-const FOR_SCRIPTS: [Column; 12] = [
-    Column::scripts(&["option"]),
-    Column::scripts(&["name"]),
-    Column::scripts(&["value"]),
-    Column::scripts(&["unit"]),
-    Column::scripts(&["flight_height_change"]),
-    Column::scripts(&["cable_force_change"]),
-    Column::scripts(&["drift_change"]),
-    Column::scripts(&["verdict"]),
-    Column::scripts(&["verdict_without"]),
-    Column::scripts(&["required"]),
-    Column::scripts(&["source"]),
-    Column::scripts(&["cost"]),
-];
+/// One effect on one option, with the name of the option, for scripts.
+fn for_scripts<'a>() -> [Field<(&'a str, &'a EffectOnOption)>; 12] {
+    [
+        Field::new(Column::scripts(&["option"]), |(option, _)| Cell::Text((*option).to_owned())),
+        Field::new(Column::scripts(&["name"]), |(_, row)| Cell::Text(row.effect.key().name.to_owned())),
+        Field::new(Column::scripts(&["value"]), |(_, row)| Cell::Number(row.value)),
+        Field::new(Column::scripts(&["unit"]), |(_, row)| {
+            Cell::Text(row.effect.key().kind.unit().to_owned())
+        }),
+        Field::new(Column::scripts(&["flight_height_change"]), |(_, row)| {
+            Cell::Number(row.change(Quantity::Height))
+        }),
+        Field::new(Column::scripts(&["cable_force_change"]), |(_, row)| {
+            Cell::Number(row.change(Quantity::Force))
+        }),
+        Field::new(Column::scripts(&["drift_change"]), |(_, row)| Cell::Number(row.change(Quantity::Drift))),
+        Field::new(Column::scripts(&["verdict"]), |(_, row)| Cell::Verdict(row.verdict_with)),
+        Field::new(Column::scripts(&["verdict_without"]), |(_, row)| Cell::Verdict(row.verdict_without)),
+        Field::new(Column::scripts(&["required"]), |(_, row)| Cell::Flag(row.is_required())),
+        Field::new(Column::scripts(&["source"]), |(_, row)| {
+            Cell::Text(if row.assumed { "assumed" } else { "plan" }.to_owned())
+        }),
+        Field::new(Column::scripts(&["cost"]), |(_, row)| Cell::Rounded(row.cost, 2)),
+    ]
+}
 
 /// The report of all effects, which is partial where the time was up.
 pub fn report(case: &Case, effects: &EffectsOnOptions, partial: bool) -> Report {
@@ -40,50 +65,13 @@ pub fn report(case: &Case, effects: &EffectsOnOptions, partial: bool) -> Report 
     };
     let tried: Vec<Vec<&EffectOnOption>> =
         Effect::ALL.into_iter().map(rows_of).filter(|all| !all.is_empty()).collect();
-    let row = |all: &Vec<&EffectOnOption>| {
-        let first = all[0];
-        let changed = all.iter().filter(|row| row.verdict_changes()).count();
-        let required = all.iter().filter(|row| row.is_required()).count();
-        let words = [
-            first.effect.name().to_owned(),
-            if required > 0 { format!("by {required} of {}", all.len()) } else { "no".to_owned() },
-            changes(all, Quantity::Height),
-            changes(all, Quantity::Force),
-            changes(all, Quantity::Drift),
-            format!("{changed} of {}", all.len()),
-            value(first),
-            format!("x {}", units::short(median(all.iter().map(|row| row.cost)))),
-        ];
-        words.map(Cell::Text).to_vec()
-    };
     let options = case.plan.delays.iter().zip(effects);
-    let scripts = options.flat_map(|(delay, all)| {
-        all.iter().flatten().map(|row| {
-            let (key, source) = (row.effect.key(), if row.assumed { "assumed" } else { "plan" });
-            vec![
-                Cell::Text(delay.name.clone()),
-                Cell::Text(key.name.to_owned()),
-                Cell::Number(row.value),
-                Cell::Text(key.kind.unit().to_owned()),
-                Cell::Number(row.change(Quantity::Height)),
-                Cell::Number(row.change(Quantity::Force)),
-                Cell::Number(row.change(Quantity::Drift)),
-                Cell::Verdict(row.verdict_with),
-                Cell::Verdict(row.verdict_without),
-                Cell::Flag(row.is_required()),
-                Cell::Text(source.to_owned()),
-                Cell::Rounded(row.cost, 2),
-            ]
-        })
-    });
+    let scripts = options.flat_map(|(delay, all)| all.iter().flatten().map(|row| (delay.name.as_str(), row)));
     let blocks = vec![
         Block::Text(vec![MEANING.to_owned()]),
-        Block::Table(Table::new(
-            &FOR_PEOPLE.map(|column| column.shown(Shown::People)),
-            tried.iter().map(row),
-        )),
+        Block::Table(Table::of(&for_people(), &tried)),
         Block::Text(sentences(&tried)),
-        Block::Table(Table::new(&FOR_SCRIPTS, scripts)),
+        Block::Table(Table::of(&for_scripts(), scripts)),
     ];
     let conclusion = partial.then(|| Conclusion {
         verdict: Verdict::Undecided,

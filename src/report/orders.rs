@@ -1,24 +1,58 @@
 //! `orders` as a report: one row an order, from the worst to the best.
 
 use super::charts;
-use super::model::{Block, Cell, Column, Conclusion, Report, Table};
+use super::model::{Block, Cell, Column, Conclusion, Field, Report, Table};
 use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
     probability, sampled,
 };
 use super::{report_head, row_names};
 use crate::study::Case;
-use crate::study::orders::Orders;
+use crate::study::orders::{Orders, TriedOrder};
+use crate::study::risk_summary::RiskSummary;
 use crate::verdict::Verdict;
 
-const COLUMNS: [Column; 5] = [Column::words(&["order"], "order"), INTERVAL, VERDICT, HEIGHT, FORCE];
+/// An order and its place in the ranking.
+struct RankedOrder<'a> {
+    case: &'a Case,
+    orders: &'a Orders,
+    n: usize,
+}
+
+impl<'a> RankedOrder<'a> {
+    fn tried(&self) -> &'a TriedOrder {
+        &self.orders.ranked[self.n]
+    }
+
+    fn risk(&self) -> Option<&'a RiskSummary> {
+        self.orders.risk(self.n).drawn().copied()
+    }
+}
+
+fn fields<'a>() -> [Field<RankedOrder<'a>>; 5] {
+    [
+        Field::new(Column::words(&["order"], "order"), |row| {
+            Cell::Text(row_names(row.case, &row.tried().order).join(" "))
+        }),
+        Field::new(INTERVAL, |row| Cell::Interval(row.tried().interval)),
+        Field::new(VERDICT, |row| Cell::Verdict(row.orders.verdict_on(row.n))),
+        Field::new(HEIGHT, |row| height(row.tried().as_planned.height)),
+        Field::new(FORCE, |row| force(row.tried().as_planned.force)),
+    ]
+}
+
+/// What samples add.
+fn sampled_fields<'a>() -> [Field<RankedOrder<'a>>; 3] {
+    [
+        Field::new(FAILURES, |row| failures(row.risk())),
+        Field::new(PROBABILITY, |row| probability(row.risk())),
+        Field::new(NOMINAL_VERDICT, |row| Cell::Verdict(row.tried().as_planned.verdict)),
+    ]
+}
 
 /// How far the samples reach.
 const RANKING: &str =
     "ranked as planned; the worst and the best are sampled a little, the very best until its verdict is sure";
-
-/// With samples.
-const SAMPLED: [Column; 3] = [FAILURES, PROBABILITY, NOMINAL_VERDICT];
 
 /// The report of all orders tried, which is partial where the time was up.
 pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
@@ -31,23 +65,12 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
     if orders.has_risk() {
         heads.push(RANKING.to_owned());
     }
-    let row = |n: usize| {
-        let tried = &orders.ranked[n];
-        let mut cells = vec![
-            Cell::Text(row_names(case, &tried.order).join(" ")),
-            Cell::Interval(tried.interval),
-            Cell::Verdict(orders.verdict_on(n)),
-            height(tried.as_planned.height),
-            force(tried.as_planned.force),
-        ];
-        if orders.has_risk() {
-            let risk = orders.risk(n).drawn().copied();
-            cells.extend([failures(risk), probability(risk), Cell::Verdict(tried.as_planned.verdict)]);
-        }
-        cells
-    };
-    let columns = [&COLUMNS[..], if orders.has_risk() { &SAMPLED } else { &[] }].concat();
-    let table = Table { ranked: true, ..Table::new(&columns, (0..all).map(row)) };
+    let mut fields = Vec::from(fields());
+    if orders.has_risk() {
+        fields.extend(sampled_fields());
+    }
+    let rows = (0..all).map(|n| RankedOrder { case, orders, n });
+    let table = Table { ranked: true, ..Table::of(&fields, rows) };
     let verdict = match orders.verdict() {
         Verdict::Pass if partial => Verdict::Undecided,
         verdict => verdict,

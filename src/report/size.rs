@@ -2,7 +2,7 @@
 
 use super::charts;
 use super::limits::limits_of_any_rope;
-use super::model::{Block, Cell, Column, Conclusion, Report, Table};
+use super::model::{Block, Cell, Column, Conclusion, Field, Report, Table};
 use super::no_result::FINER;
 use super::shared_columns::{FORCE, HEIGHT, force, height};
 use super::{accepted_risk, title};
@@ -12,29 +12,52 @@ use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
 /// Combinations that hold with more margin than any lighter one, for people.
-const FRONTIER: [Column; 8] = [
-    Column::words(&[], "rope"),
-    Column::numbers(&[], "tire, kg", Unit::One),
-    Column::numbers(&[], "border rows", Unit::One),
-    Column::numbers(&[], "tires", Unit::One),
-    Column::numbers(&[], "total", Unit::Tonne),
-    Column::numbers(&[], "of limit", Unit::One),
-    HEIGHT.unread(),
-    FORCE.unread(),
-];
+fn frontier<'a>() -> [Field<(&'a Combination, Trial)>; 8] {
+    [
+        Field::new(Column::words(&[], "rope"), |(tried, _)| rope(tried)),
+        Field::new(Column::numbers(&[], "tire, kg", Unit::One), |(tried, _)| Cell::Number(tried.tire_mass)),
+        Field::new(Column::numbers(&[], "border rows", Unit::One), |(tried, _)| {
+            Cell::Count(tried.border_rows)
+        }),
+        Field::new(Column::numbers(&[], "tires", Unit::One), |(tried, _)| Cell::Count(tried.tires)),
+        Field::new(Column::numbers(&[], "total", Unit::Tonne), |(tried, _)| total(tried)),
+        Field::new(Column::numbers(&[], "of limit", Unit::One), |(_, trial)| {
+            Cell::Utilization(trial.utilization)
+        }),
+        Field::new(HEIGHT.unread(), |(_, trial)| height(trial.worst.height)),
+        Field::new(FORCE.unread(), |(_, trial)| force(trial.worst.force)),
+    ]
+}
 
 /// Every combination, for scripts.
-const COMBINATIONS: [Column; 9] = [
-    Column::scripts(&["rope"]),
-    Column::scripts(&["tire_mass_kg"]),
-    Column::scripts(&["border_rows"]),
-    Column::scripts(&["tires"]),
-    Column::scripts(&["total_mass_kg"]),
-    Column::scripts(&["holds"]),
-    Column::scripts(&["tried"]),
-    Column::scripts(&["use_of_limits"]),
-    Column::scripts(&["failures"]),
-];
+fn combinations<'a>() -> [Field<&'a Combination>; 9] {
+    [
+        Field::new(Column::scripts(&["rope"]), |tried| rope(tried)),
+        Field::new(Column::scripts(&["tire_mass_kg"]), |tried| Cell::Number(tried.tire_mass)),
+        Field::new(Column::scripts(&["border_rows"]), |tried| Cell::Count(tried.border_rows)),
+        Field::new(Column::scripts(&["tires"]), |tried| Cell::Count(tried.tires)),
+        Field::new(Column::scripts(&["total_mass_kg"]), |tried| total(tried)),
+        Field::new(Column::scripts(&["holds"]), |tried| {
+            Cell::Flag(tried.trial.is_ok_and(|trial| trial.holds))
+        }),
+        Field::new(Column::scripts(&["tried"]), |tried| Cell::Flag(tried.trial.is_ok())),
+        Field::new(Column::scripts(&["use_of_limits"]), |tried| {
+            tried.trial.map_or(Cell::Nothing, |trial| Cell::Utilization(trial.utilization))
+        }),
+        Field::new(Column::scripts(&["failures"]), |tried| {
+            let risk = tried.trial.ok().and_then(|trial| trial.risk);
+            risk.map_or(Cell::Nothing, |risk| Cell::Count(risk.failures))
+        }),
+    ]
+}
+
+fn rope(combination: &Combination) -> Cell {
+    Cell::Text(combination.rope.name.clone())
+}
+
+fn total(combination: &Combination) -> Cell {
+    Cell::Value(combination.total_mass, Unit::Tonne)
+}
 
 /// The report of all combinations.
 pub fn report(case: &Case, sizing: &Sizing) -> Report {
@@ -47,45 +70,17 @@ pub fn report(case: &Case, sizing: &Sizing) -> Report {
     facts.push(
         "a lighter tire leaves faster, a heavier one slower: the holes give the same momentum".to_owned(),
     );
-    let choices: Vec<&Combination> = sizing.choices().collect();
-    let rows = choices.iter().filter_map(|combination| {
-        let trial = combination.trial.ok()?;
-        let used =
-            [Cell::Utilization(trial.utilization), height(trial.worst.height), force(trial.worst.force)];
-        Some(parts(combination).into_iter().chain(used).collect())
-    });
+    let choices: Vec<(&Combination, Trial)> =
+        sizing.choices().filter_map(|combination| Some((combination, combination.trial.ok()?))).collect();
     let mut blocks = vec![Block::Text(tried(sizing))];
     if !choices.is_empty() {
-        blocks.push(Block::Table(Table::new(&FRONTIER, rows)));
+        blocks.push(Block::Table(Table::of(&frontier(), choices)));
     } else if let Some((combination, trial)) = nearest(sizing) {
         blocks.push(Block::Text(vec![format!("nearest: {}", sentence(combination, &trial))]));
     }
-    let all = sizing.combinations.iter().map(|combination| {
-        let trial = combination.trial.ok();
-        let used = trial.map_or(Cell::Nothing, |trial| Cell::Utilization(trial.utilization));
-        let risk = trial.and_then(|trial| trial.risk);
-        let told = [
-            Cell::Flag(trial.is_some_and(|trial| trial.holds)),
-            Cell::Flag(trial.is_some()),
-            used,
-            risk.map_or(Cell::Nothing, |risk| Cell::Count(risk.failures)),
-        ];
-        parts(combination).into_iter().chain(told).collect()
-    });
-    blocks.push(Block::Table(Table::new(&COMBINATIONS, all)));
+    blocks.push(Block::Table(Table::of(&combinations(), &sizing.combinations)));
     blocks.push(Block::Picture(charts::size(sizing)));
     Report { title: title(case), facts, blocks, conclusion: Some(conclusion(sizing)) }
-}
-
-/// Rope, mass of a tire, border rows, tires and total mass.
-fn parts(combination: &Combination) -> [Cell; 5] {
-    [
-        Cell::Text(combination.rope.name.clone()),
-        Cell::Number(combination.tire_mass),
-        Cell::Count(combination.border_rows),
-        Cell::Count(combination.tires),
-        Cell::Value(combination.total_mass, Unit::Tonne),
-    ]
 }
 
 /// How many combinations were tried, and why the others were not.

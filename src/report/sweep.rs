@@ -1,7 +1,7 @@
 //! `sweep` as a report: charts against the interval, the windows, the worst and the recommended interval.
 
 use super::charts;
-use super::model::{Block, Cell, Column, Conclusion, Report, Shown, Table};
+use super::model::{Block, Cell, Column, Conclusion, Field, Report, Shown, Table};
 use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
     probability, sampled,
@@ -13,25 +13,29 @@ use crate::units;
 use crate::verdict::Verdict;
 
 /// Every interval tried, for scripts.
-const POINTS: [Column; 7] = [
-    INTERVAL.shown(Shown::Scripts),
-    HEIGHT.shown(Shown::Scripts),
-    FORCE.shown(Shown::Scripts),
-    VERDICT.shown(Shown::Scripts),
-    NOMINAL_VERDICT,
-    PROBABILITY,
-    FAILURES.shown(Shown::Scripts),
-];
+fn points<'a>() -> [Field<&'a Point>; 7] {
+    [
+        Field::new(INTERVAL.shown(Shown::Scripts), |point| Cell::Interval(point.interval)),
+        Field::new(HEIGHT.shown(Shown::Scripts), |point| height(point.as_planned.height)),
+        Field::new(FORCE.shown(Shown::Scripts), |point| force(point.as_planned.force)),
+        Field::new(VERDICT.shown(Shown::Scripts), |point| Cell::Verdict(point.verdict())),
+        Field::new(NOMINAL_VERDICT, |point| Cell::Verdict(point.as_planned.verdict)),
+        Field::new(PROBABILITY, |point| probability(point.risk.drawn())),
+        Field::new(FAILURES.shown(Shown::Scripts), |point| failures(point.risk.drawn())),
+    ]
+}
 
-/// The worst and the recommended interval, for people.
-const ENDS: [Column; 6] = [
-    Column::words(&[], ""),
-    INTERVAL.unread(),
-    VERDICT.unread(),
-    HEIGHT.unread(),
-    FORCE.unread(),
-    FAILURES.unread(),
-];
+/// The worst and the recommended interval, each with its name, for people.
+fn ends<'a>() -> [Field<(&'static str, &'a Point)>; 6] {
+    [
+        Field::new(Column::words(&[], ""), |(name, _)| Cell::Text((*name).to_owned())),
+        Field::new(INTERVAL.unread(), |(_, point)| Cell::Interval(point.interval)),
+        Field::new(VERDICT.unread(), |(_, point)| Cell::Verdict(point.verdict())),
+        Field::new(HEIGHT.unread(), |(_, point)| height(point.as_planned.height)),
+        Field::new(FORCE.unread(), |(_, point)| force(point.as_planned.force)),
+        Field::new(FAILURES.unread(), |(_, point)| failures(point.risk.drawn())),
+    ]
+}
 
 /// The report of a sweep, which is partial where the time was up.
 pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
@@ -42,41 +46,19 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
     if !sweep.points.is_empty() {
         blocks.push(Block::Text(vec![head]));
         blocks.extend(charts::sweep(case, sweep).into_iter().map(Block::Chart));
-        blocks.push(Block::Table(ends(case, sweep)));
+        blocks.push(Block::Table(table_of_ends(case, sweep)));
         blocks.push(Block::Text(windows(case, sweep, partial)));
     }
-    let point = |point: &Point| {
-        let Point { interval, as_planned, risk } = point;
-        vec![
-            Cell::Interval(*interval),
-            height(as_planned.height),
-            force(as_planned.force),
-            Cell::Verdict(point.verdict()),
-            Cell::Verdict(as_planned.verdict),
-            probability(risk.drawn()),
-            failures(risk.drawn()),
-        ]
-    };
-    blocks.push(Block::Table(Table::new(&POINTS, sweep.points.iter().map(point))));
+    blocks.push(Block::Table(Table::of(&points(), &sweep.points)));
     Report { blocks, conclusion: Some(conclusion(sweep, partial)), ..report_head(case, sweep.has_risk()) }
 }
 
-fn ends(case: &Case, sweep: &Sweep) -> Table {
-    let ends = [("worst", sweep.worst(case)), ("recommended", sweep.best())];
-    let end = |(name, point): (&str, Option<&Point>)| {
-        let point = point?;
-        let Point { interval, as_planned, risk } = point;
-        let name = [Cell::Text(name.to_owned()), Cell::Interval(*interval), Cell::Verdict(point.verdict())];
-        let values = [height(as_planned.height), force(as_planned.force), failures(risk.drawn())];
-        Some([name, values].concat())
-    };
-    // A column without any cell is left out.
-    let columns = if sweep.points.iter().any(Point::is_sampled) { &ENDS[..] } else { &ENDS[..5] };
-    let cut = |mut cells: Vec<Cell>| {
-        cells.truncate(columns.len());
-        cells
-    };
-    Table::new(columns, ends.into_iter().filter_map(end).map(cut))
+fn table_of_ends(case: &Case, sweep: &Sweep) -> Table {
+    let named = [("worst", sweep.worst(case)), ("recommended", sweep.best())];
+    let named = named.into_iter().filter_map(|(name, point)| Some((name, point?)));
+    // Without any sample the last column has no cell.
+    let (fields, is_sampled) = (ends(), sweep.points.iter().any(Point::is_sampled));
+    Table::of(if is_sampled { &fields[..] } else { &fields[..5] }, named)
 }
 
 /// Windows narrower than this are counted, not listed [s].
