@@ -25,6 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         gravity: 9.81,
         downhill: Vector2::zeros(),
         restitution: 0.0,
+        damping: 0.0,
         breaking_force: None,
         strength: Vec::new(),
         mirrors: Vec::new(),
