@@ -26,8 +26,8 @@
 //! ```
 //!
 //! The library alone, without command line, terminal and charts: `default-features = false`. The programs in `examples/`
-//! check a plan, sweep an interval and step through a motion. The library may change between any two versions; what stays is said
-//! in CHANGELOG.md.
+//! check a plan, sweep an interval, step through a motion and build a shelter without a plan. The library may change between any two
+//! versions; what stays is said in CHANGELOG.md.
 //!
 //! # Map of the modules
 //!

@@ -165,7 +165,7 @@ pub fn risk(case: &Case, name: &str, risk: &Risk) -> Chart {
 pub fn size(sizing: &Sizing) -> Chart {
     let point =
         |combination: &Combination| Some((combination.total_mass, combination.trial.ok()?.utilization));
-    let lightest = sizing.choices().into_iter().filter_map(point).collect();
+    let lightest = sizing.choices().filter_map(point).collect();
     let all = sizing.combinations.iter().filter_map(point).collect();
     utilization("against mass (line: lightest that hold)", ("mass", Unit::Tonne), lightest, all)
 }

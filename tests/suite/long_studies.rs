@@ -208,7 +208,7 @@ fn size_writes_its_choice() {
 }
 
 #[test]
-fn mistaken_ranges_and_shares_are_explained() {
+fn mistaken_ranges_and_shards_are_explained() {
     let plan = shipped("amur-three-rows.toml");
     for (arguments, words) in [
         (&["sweep", &plan, "--interval", "0-500"][..], "FROM..TO:STEP"),
