@@ -11,7 +11,6 @@ use super::status::{FINER, Status};
 use crate::report::check::report;
 use crate::report::json::CheckDocument;
 use crate::report::model::Report;
-use crate::report::notes::covers;
 use crate::study::check_all::{OptionResults, check_all, find_launch_margins};
 use crate::study::sampling::Sampling;
 use crate::study::{Case, Finding, Found, NoResult};
@@ -61,7 +60,6 @@ pub fn print_checks(
         }
     };
     let status = print(&reports, documents, format, look)?;
-    pairs().flat_map(|(case, results)| covers(case, results)).for_each(|warning| eprintln!("{warning}"));
     let needs_finer_step =
         |failed: &NoResult| matches!(failed, NoResult::Failed(failure) if failure.needs_finer_step());
     if checked.iter().flatten().any(|result| result.as_ref().is_err_and(needs_finer_step)) {

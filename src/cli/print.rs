@@ -22,10 +22,14 @@ pub fn print<D: Serialize>(
         FormatArg::Json => json::text(&document())?,
         FormatArg::Csv => csv::csv(reports)?,
     };
-    let printed = print_text(&text);
-    // A reader that has gone away changes nothing about the verdict.
-    printed.or_else(|error| if error.kind() == io::ErrorKind::BrokenPipe { Ok(()) } else { Err(error) })?;
+    print_beside_verdict(&text)?;
     Ok(Status::of(reports))
+}
+
+/// Prints a text beside a verdict: a reader that has gone away changes nothing about the verdict.
+pub fn print_beside_verdict(text: &str) -> io::Result<()> {
+    let printed = print_text(text);
+    printed.or_else(|error| if error.kind() == io::ErrorKind::BrokenPipe { Ok(()) } else { Err(error) })
 }
 
 /// Prints a finished text.

@@ -8,7 +8,7 @@ use clap::Args;
 use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments};
 use super::check_plans::{check_plans, print_checks};
 use super::load_plans::open;
-use super::print::print_text;
+use super::print::print_beside_verdict;
 use super::status::{Status, failed, wrong};
 use crate::file;
 use crate::report::{check, html};
@@ -47,7 +47,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     };
     let page = html::page(&cases[0], &checked.value[0], checked.partial, sampling.as_ref(), &html::today());
     if output.as_os_str() == "-" {
-        print_text(&page)?;
+        print_beside_verdict(&page)?;
     } else {
         file::save(output, &page)?;
         eprintln!("wrote {}", output.display());

@@ -1,5 +1,8 @@
 //! `check` as a report: one row a delay option.
 
+use std::iter;
+
+use super::cover::covers;
 use super::explain::{broken, compute_label, launch_margin, reason, risk_detail};
 use super::model::{Block, Cell, Column, Conclusion, Detail, Field, Report, Shown, Table};
 use super::option_row::{OptionRow, option_rows};
@@ -155,8 +158,10 @@ pub fn report(case: &Case, results: &OptionResults, any: bool, partial: bool) ->
     if let Some(judged) = results.iter().flatten().next() {
         text += &format!(" · {}", compute_label(&judged.nominal.compute));
     }
+    let warnings = covers(case, results);
+    let warnings = (!warnings.is_empty()).then_some(Block::Text(warnings));
     Report {
-        blocks: vec![Block::Table(table)],
+        blocks: iter::once(Block::Table(table)).chain(warnings).collect(),
         conclusion: Some(Conclusion { verdict: verdict(results, any), text }),
         ..report_head(case, sampled)
     }

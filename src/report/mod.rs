@@ -4,7 +4,7 @@
 //! |---|---|
 //! | what a report is | [`model`] |
 //! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`effects`], [`accuracy`], [`ropes`], [`trace`] |
-//! | words, charts and columns that reports share | [`explain`], [`limits`], [`no_result`], [`notes`], [`charts`], [`shared_columns`], rows of options |
+//! | words, charts and columns that reports share | [`explain`], [`limits`], [`no_result`], [`notes`], [`cover`], [`charts`], [`shared_columns`], rows of options |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |
 //! | what faces share | [`palette`], [`ascii`], [`spark`], labels of cells |
 //!
@@ -14,6 +14,7 @@ pub mod accuracy;
 pub mod ascii;
 pub mod charts;
 pub mod check;
+pub mod cover;
 pub mod csv;
 pub mod effects;
 pub mod explain;

@@ -89,6 +89,11 @@ impl Blocks {
         layout
     }
 
+    /// Index in the scene of the cable of an element that holds one.
+    pub fn cable_of(&self, element: usize) -> usize {
+        self.cable[element] as usize
+    }
+
     /// A number of every cable, by element; 0 for an empty slot (`n_elements`).
     pub fn by_element(&self, number: impl Fn(usize) -> f64) -> Vec<f64> {
         self.cable.iter().map(|&cable| if cable == NONE { 0.0 } else { number(cable as usize) }).collect()

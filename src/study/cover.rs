@@ -7,7 +7,7 @@ use crate::simulation::Motion;
 
 /// Height above which a tire counts as being in the air [m].
 const IN_AIR: f64 = 0.01;
-/// Shift over the spacing of tires from which a tire counts as no longer over its hole.
+/// Shift over the widest distance of tied tires from which a tire counts as no longer over its hole.
 const ASIDE: f64 = 0.5;
 
 /// The cover over the holes of a shot, each at its firing time.

@@ -179,7 +179,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Show(Screen::Plan), "plan", &["1"], "", "the plan and its values", ALL),
     bind(Action::Show(Screen::Compare), "compare", &["2"], "", "the delay options side by side", ALL),
     bind(Action::Show(Screen::Flight), "flight", &["3"], "", "the selected option in motion", ALL),
-    bind(Action::Show(Screen::Studies), "studies", &["4"], "", "sweep, orders, risk, size", ALL),
+    bind(Action::Show(Screen::Studies), "studies", &["4"], "", "sweep, orders, risk, size, effects", ALL),
     bind(Action::Show(Screen::Accuracy), "accuracy", &["5"], "", "what accuracy costs on this plan", ALL),
     bind(Action::NextScreen, "next-screen", &["tab"], "", "the next screen", ALL),
     bind(Action::PreviousScreen, "previous-screen", &["backtab"], "", "the screen before", ALL),

@@ -250,10 +250,45 @@ fn validates_two_masses_on_a_damped_cable() {
     }
 }
 
-/// With each effect by itself the displacements of five tires after 0.1 s, of which one is thrown up and four slide round corners,
-/// differ from those of a run 32 times finer by O(h²).
+/// A hole fires under a tire on a cable that is already taut: the force jumps by c Δv at once, and no greater one is invented beside it.
+/// Three tires in a row, no slack; the reference is an independent integrator at steps of 1 to 8 µs. Of such jumps the error is of
+/// first order: 2.5 % at the first of these steps, 0.25 % at the last.
 #[test]
-fn every_effect_keeps_the_second_order() {
+fn a_launch_under_a_damped_taut_cable_invents_no_peak() {
+    for (damping, force) in [(0.4, 36_765.0), (0.8, 62_720.0), (1.0, 76_720.0)] {
+        let mut scene = tires(&[(0.0, 0.0), (2.0, 0.0), (4.0, 0.0)], 280.0);
+        scene.damping = damping;
+        tie(&mut scene, 0, 1, 1.519e6, 1.0);
+        tie(&mut scene, 1, 2, 1.519e6, 1.0);
+        let tilted = LAUNCH * std::f64::consts::FRAC_1_SQRT_2 * Vector3::new(1.0, 0.0, 1.0);
+        let later = Firing { at: 0.06, tire: 2, launch: tilted, push: 0.0 };
+        let shot = Shot::from_firings(vec![Firing::up(0.0, 1, LAUNCH), later]);
+        for step in [1e-3, 2.5e-4, 6e-5] {
+            let out = run(&scene, &shot, settings(Method::Verlet, step, None));
+            close(out.force.value, force, (25.0 * step + 3e-3) * force, &format!("{damping} at {step} s"));
+            assert!(out.ledger.residual() < 5e-3, "{damping}: {:e}", out.ledger.residual());
+        }
+    }
+}
+
+/// A tire under a push on the ground that a cable pulls: the greatest force is that of an independent integrator, 1003.045 N,
+/// and converges with the second order.
+#[test]
+fn pushes_on_the_ground_are_of_second_order() {
+    let mut scene = tires(&[(0.0, 0.0), (2.0, 0.0)], 280.0);
+    tie(&mut scene, 0, 1, 1.519e6, 1.0);
+    let launch = Vector3::new(-1.2 * 60.0_f64.to_radians().sin(), 0.0, 1.2 * 60.0_f64.to_radians().cos());
+    let shot = Shot::from_firings(vec![Firing { at: 0.0, tire: 0, launch, push: 0.2 }]);
+    for (step, tolerance) in [(1e-3, 1e-2), (2.5e-4, 1e-3)] {
+        let out = run(&scene, &shot, settings(Method::Verlet, step, None));
+        close(out.force.value, 1003.045, tolerance, &format!("force at {step} s"));
+    }
+}
+
+/// With each effect by itself, and with all, the displacements of five tires after 0.1 s, of which one is thrown up and four slide
+/// round corners, differ from those of a run 32 times finer by O(h²) with `verlet`, by O(h) with `newmark`.
+#[test]
+fn every_effect_keeps_the_order_of_its_method() {
     let up = Firing::up(0.0, 4, LAUNCH);
     let tilted = Firing { launch: Vector3::new(1.5, 0.7, 5.8), ..up };
     let level = Vector2::zeros();
@@ -286,8 +321,9 @@ fn every_effect_keeps_the_second_order() {
             };
             let errors = steps.map(error);
             let order = 0.5 * (errors[0] / errors[2]).log2();
-            println!("{name} {method:?} {order:.2} {errors:?}");
-            assert!(order > 1.6, "{name}, {method:?}: order {order} from {errors:?}");
+            // A cable that becomes taut within a step of `newmark` pulls from the start of the step or from its end.
+            let least = if method == Method::Verlet { 1.6 } else { 0.9 };
+            assert!(order > least, "{name}, {method:?}: order {order} from {errors:?}");
         }
     }
 }

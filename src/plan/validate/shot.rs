@@ -144,6 +144,9 @@ fn check_row(section: &SectionReader<'_>, layout: Option<&Layout>, row: f64) {
     }
 }
 
+/// Upward part of a push over the weight of the tire, from which it is a push that lifts: more than launches vary.
+const LEAST_LIFT: f64 = 1.5;
+
 fn read_launch(section: &SectionReader<'_>, simulation: &SimulationSpec) -> Launch {
     if section.has(&blast_row::TILT_TOWARD_DEG) && !section.has(&blast_row::TILT_DEG) {
         let message = "`tilt_toward_deg` stands without `tilt_deg`";
@@ -154,8 +157,31 @@ fn read_launch(section: &SectionReader<'_>, simulation: &SimulationSpec) -> Laun
         let message = "newmark has no push over a time";
         section.wrong(&blast_row::PUSH_MS, message, "leave it out, or choose method \"verlet\"");
     }
+    if section.has(&blast_row::FREE_FLIGHT_HEIGHT_M) {
+        for key in [&blast_row::PUSH_MS, &blast_row::TILT_DEG] {
+            if section.number(key) > 0.0 {
+                let message = format!(
+                    "`{}` stands beside `free_flight_height_m`, from which a launch straight up at once follows",
+                    key.name
+                );
+                section.wrong(key, message, "give launch_m_s instead of free_flight_height_m");
+            }
+        }
+    }
+    let speed_m_s = read_speed(section, simulation);
+    let upward = speed_m_s * section.number(&blast_row::TILT_DEG).to_radians().cos();
+    if push_ms > 0.0 && upward <= LEAST_LIFT * simulation.gravity_m_s2 * push_ms * 1e-3 {
+        let message = format!(
+            "a push of {upward:.1} m/s upward over {push_ms} ms hardly lifts a tire: gravity takes as much"
+        );
+        section.wrong(
+            &blast_row::PUSH_MS,
+            message,
+            "shorten push_ms, or give the launch velocity without gravity",
+        );
+    }
     Launch {
-        speed_m_s: read_speed(section, simulation),
+        speed_m_s,
         tilt_deg: section.number(&blast_row::TILT_DEG),
         tilt_toward_deg: section.number(&blast_row::TILT_TOWARD_DEG),
         push_ms,

@@ -87,6 +87,7 @@ pub fn page(
                     }
                     @for block in &report.blocks {
                         @if let Block::Table(options) = block { (table::table(options)) }
+                        @if let Block::Text(warnings) = block { @for warning in warnings { p { (warning) } } }
                     }
                 }
                 @for (delay, result) in plan.delays.iter().zip(results) {

@@ -22,6 +22,8 @@ mod tension;
 
 use std::sync::{Arc, OnceLock};
 
+use nalgebra::Vector3;
+
 use self::reduction::Reduction;
 use self::stepper::Stepper;
 use super::cable::Blocks;
@@ -31,7 +33,7 @@ use super::wake::Ties;
 use super::{Failure, Settings, Watcher};
 use crate::choice::Method;
 use crate::outcome::Outcome;
-use crate::scene::{Mirror, Scene, Shot};
+use crate::scene::{Cable, Mirror, Scene, Shot};
 
 /// Parts of one scene, each made at its first use and kept for later runs.
 #[derive(Debug, Default)]
@@ -52,6 +54,8 @@ pub struct Part {
     inverse: Vec<f64>,
     /// Viscosity of each element [N s/m]; empty without damping.
     viscosity: Vec<f64>,
+    /// Cable of each element, between tires of the part; empty without damping.
+    cables: Vec<Cable>,
     /// Longest stable step [s].
     critical_step: f64,
 }
@@ -146,12 +150,26 @@ impl Part {
             mass: weighted().map(|(mass, weight)| mass * weight).chain(spare(0.0)).collect(),
             inverse: weighted().map(inverse).chain(spare(1.0)).collect(),
             critical_step: scene.critical_step(),
+            cables: if scene.damping > 0.0 { cables(&blocks) } else { Vec::new() },
             viscosity: if scene.damping > 0.0 { blocks.by_element(viscosity) } else { Vec::new() },
             blocks,
             ties,
             reduction,
         }
     }
+}
+
+/// Cable of each element, between tires of the part (`n_elements`); that of an empty slot has no meaning.
+fn cables(blocks: &Blocks) -> Vec<Cable> {
+    let nothing = Cable { ends: [0; 2], rest_length: 1.0, stiffness: 0.0, span: Vector3::x() };
+    let mut all = vec![nothing; blocks.weight.len()];
+    for block in &blocks.blocks {
+        for slot in 0..block.len {
+            let ends = block.first.ends.map(|end| end + slot);
+            all[block.memory + slot] = Cable { ends, ..block.first };
+        }
+    }
+    all
 }
 
 #[cfg(test)]

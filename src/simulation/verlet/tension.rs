@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use nalgebra::Vector3;
 use pulp::Simd;
 
 use crate::simulation::cable::{Block, Blocks};
@@ -29,8 +30,8 @@ struct Damped<'a> {
     viscosity: &'a [f64],
     /// Change of L² over the step before [m²].
     change: Aligned,
-    /// Force N at the last evaluation, and at the evaluation before [N]; the latter is infinite where the cable became taut, so
-    /// that no parabola is laid through a jump.
+    /// Force N at the last evaluation, negative where its motion is forgotten since, and at the evaluation before [N]; the latter is
+    /// infinite where the force jumps, so that no parabola is laid through the jump.
     force: [Aligned; 2],
 }
 
@@ -96,6 +97,26 @@ impl<'a> Tension<'a> {
             [] => self.length(block, slot).map_or(0.0, |length| block.first.force(length)),
             _ => self.damped.force[0][block.memory + slot],
         }
+    }
+
+    /// Whether an element holds a cable.
+    pub fn exists(&self, element: usize) -> bool {
+        self.weight[element] != 0.0
+    }
+
+    /// Forgets how a damped cable moved until now, because one of its tires was launched or has landed: as if its ends had always
+    /// moved apart like `apart` [m/s], and been `between` one another now, a vector from rest and one over a `step` [m].
+    pub fn forget_motion(
+        &mut self,
+        element: usize,
+        span: Vector3<f64>,
+        between: Vector3<f64>,
+        per_step: Vector3<f64>,
+    ) {
+        let change = |steps: f64| (span + between - per_step * steps).norm_squared() - span.norm_squared();
+        self.change[element] = change(1.0);
+        self.damped.change[element] = change(1.0) - change(2.0);
+        self.damped.force[0][element] = -1.0;
     }
 
     /// Force of a damped cable at the evaluation before the last [N]; `None` without damping.
@@ -252,8 +273,9 @@ impl Slices<'_, '_> {
                 sample = switches.select(viscous.max(zero), whole);
                 (weight * taut.select(force - elastic, zero) * lengthening)
                     .add_to(&mut dissipated, at % LANES);
-                let before = switches.select(infinite, Wide::load(simd, samples, at));
-                before.store(samples_before, at);
+                let before = Wide::load(simd, samples, at);
+                let jumps = switches.select(infinite, zero.at_most(before).select(before, infinite));
+                jumps.store(samples_before, at);
                 sample.store(samples, at);
             }
             sample.max(Wide::load(simd, &greatest, at % LANES)).store(&mut greatest, at % LANES);

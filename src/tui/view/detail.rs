@@ -19,7 +19,7 @@ use super::chart;
 use crate::outcome::EndReason;
 use crate::report::explain::{bands, broken, inputs, launch_limit, peaks, reason, risk_detail};
 use crate::report::model::{Chart, Detail};
-use crate::report::{charts, no_result, notes};
+use crate::report::{charts, cover, no_result};
 use crate::scene::fire_at_s;
 use crate::study::judgement::Judgement;
 use crate::study::risk::Risk;
@@ -103,7 +103,7 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     if !checked.broken.is_empty() {
         lines.push(Line::styled(broken(case.scene(), checked), theme.limit()));
     }
-    lines.extend(notes::cover(checked).map(|cover| Line::styled(format!("! {cover}"), theme.firing())));
+    lines.extend(cover::cover(checked).map(|cover| Line::styled(format!("! {cover}"), theme.firing())));
     let risk = judged.risk.drawn().filter(|risk| !risk.samples.is_empty());
     if open {
         let samples = risk.map_or(0, |risk| risk.samples.len());

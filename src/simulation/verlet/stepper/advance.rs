@@ -3,8 +3,10 @@
 use pulp::Simd;
 
 use super::events::{Events, Integrated, State};
-use super::{StepTotals, Stepper};
+use super::{Jump, StepTotals, Stepper};
+use crate::outcome::Peak;
 use crate::simulation::pack::{LANES, Wide};
+
 use crate::simulation::verlet::reduction::Image;
 
 /// Second pass; compiled for each instruction set and chosen at run time.
@@ -35,6 +37,7 @@ impl Stepper<'_> {
             totals,
             integrated: &mut self.integrated,
             pushes: &mut self.pushes,
+            jumped: &mut self.jumped,
         };
         let Self { part, wake, tension, u, v, due, .. } = self;
         let (u, v, forces) = (u.slices_mut(), v.slices_mut(), tension.forces());
@@ -89,6 +92,34 @@ impl Stepper<'_> {
             totals.dissipated[j] += dissipated[j];
             totals.height[j] = totals.height[j].max(height[j]);
             totals.motion[j] = totals.motion[j].max(motion[j]);
+        }
+    }
+
+    /// Lets damped cables forget how the tires moved that were launched or landed in this step. The force of a cable that is taut
+    /// at a launch is greatest at the launch, between two samples.
+    pub(super) fn forget_jumps(&mut self) {
+        let Self { part, tension, u, v, jumped, step, clock, record, scene, sampled, .. } = self;
+        let end = clock.now() + *step;
+        for Jump { tire, since_launch } in jumped.drain(..) {
+            for &element in part.blocks.ends.of(tire / LANES).into_iter().flatten() {
+                let element = element as usize + tire % LANES;
+                let (Some(cable), true) = (part.cables.get(element), tension.exists(element)) else {
+                    continue;
+                };
+                let [first, second] = cable.ends;
+                let [between, apart] = [&*u, &*v].map(|of| of.vector(second) - of.vector(first));
+                tension.forget_motion(element, cable.span, between, apart * *step);
+                let Some(since) = since_launch else { continue };
+                let then = cable.span + between - apart * since;
+                let (length, viscosity) = (then.norm(), part.viscosity[element]);
+                let force = cable.stretch_force(length) + viscosity * then.dot(&apart) / length;
+                let index = part.reduction.cable(part.blocks.cable_of(element));
+                let value = force / scene.strength(index);
+                if length > cable.rest_length && value > record.force.value {
+                    record.force = Peak { value, at: end - since, index };
+                    *sampled = None;
+                }
+            }
         }
     }
 

@@ -5,11 +5,11 @@ use std::ops::Range;
 use nalgebra::Vector3;
 use pulp::{Scalar, Simd};
 
-use super::impulses::{DueImpulse, Pushes};
-use super::{Part, StepTotals};
+use super::impulses::{DueImpulse, PushedTire, Pushes, push_at_start};
+use super::{Jump, Part, StepTotals};
 use crate::outcome::Peak;
 use crate::scene::Scene;
-use crate::simulation::contact::TireStep;
+use crate::simulation::contact::{TireStep, support};
 use crate::simulation::pack::{LANES, Pack, Wide};
 use crate::simulation::record::Record;
 use crate::simulation::verlet::kick::Tires;
@@ -70,6 +70,8 @@ pub struct Events<'e> {
     pub totals: &'e mut StepTotals,
     /// Tires of the present register that were integrated by themselves.
     pub integrated: &'e mut Vec<Integrated>,
+    /// Tires of this step that were integrated by themselves, where cables are damped.
+    pub jumped: &'e mut Vec<Jump>,
     /// Pushes that began in an earlier step or go on after this one.
     pub pushes: &'e mut Pushes,
 }
@@ -121,21 +123,26 @@ impl Events<'_> {
             let vector = |of: [Wide<Scalar>; 3]| Vector3::from(of.map(number));
             let (displacement, inverse) = (vector(alone.u), number(alone.inverse));
             let unpushed = 0.5 * (vector(alone.v) + vector(kicked.v));
-            let pushed_on_ground = self.pushes.velocity_on_ground(tire);
-            let velocity = pushed_on_ground.unwrap_or(unpushed);
             let free = vector(alone.f) * inverse + self.scene.gravity();
+            let pushed = push_at_start(here, tire);
+            let pushed_on_ground = self.pushes.on_ground(tire);
+            let velocity = pushed_on_ground.map_or(unpushed, |before| {
+                support(before.velocity + (free + before.push) * (0.5 * self.step), self.friction).0
+            });
             if displacement.z > self.record.height.value {
                 let index = self.part.reduction.tire(tire);
                 let sample = Peak { value: displacement.z, at: self.now, index };
-                let pushed: f64 =
-                    here.iter().filter(|due| due.impulse.after <= 0.0).map(|due| due.impulse.push.z).sum();
-                self.record.note_height(sample, velocity.z, free.z + pushed);
+                self.record.note_height(sample, velocity.z, free.z + pushed.z);
             }
             if has_event {
                 let missing = velocity.norm_squared() - unpushed.norm_squared();
                 self.totals.energy[0] += 0.5 * self.part.mass[tire] * missing;
-                // Half of what the kick dissipates lies before this step, where a push has not counted it already.
-                let undone = if pushed_on_ground.is_some() { 1.0 } else { 0.5 } * number(kicked.dissipated);
+                // Half of what the kick dissipates lies before this step. Under a push it dissipates nothing: the tire does.
+                let mut undone = 0.5 * number(kicked.dissipated);
+                if pushed_on_ground.is_some() {
+                    self.totals.dissipated[0] -= 2.0 * undone;
+                    undone = 0.0;
+                }
                 let step = TireStep::new(displacement, velocity, free, self.friction, self.scene.restitution);
                 self.integrate(step, free, tire, here, undone);
             }
@@ -167,7 +174,7 @@ impl Events<'_> {
         // Friction of the whole step is counted here. The kicks before and after count half a step each, and are taken off.
         let next_half = if goes_on {
             if !in_air {
-                self.pushes.keep(tire, motion.velocity);
+                self.pushes.keep(PushedTire { tire, velocity, push: motion.push });
             }
             0.0
         } else {
@@ -176,6 +183,11 @@ impl Events<'_> {
         let mass = self.part.mass[tire];
         self.totals.lost += mass * (motion.lost - next_half) - undone;
         self.totals.put_in += mass * motion.put_in;
+        let last = due.iter().rev().find(|due| due.impulse.launch != Vector3::zeros());
+        if self.scene.damping > 0.0 && (last.is_some() || due.is_empty()) {
+            let since_launch = last.map(|due| self.step - due.impulse.after);
+            self.jumped.push(Jump { tire, since_launch });
+        }
         self.integrated.push(Integrated { tire, displacement: motion.displacement, velocity });
     }
 }

@@ -23,7 +23,9 @@ impl Stepper<'_> {
     /// Evaluates the cables of all blocks that are awake; returns their energy and greatest force.
     #[inline(always)]
     fn evaluate_cables<S: Simd, const DAMPED: bool>(&mut self, simd: S) -> StepTotals {
-        self.interpolate_peak();
+        if !DAMPED {
+            self.interpolate_peak();
+        }
         let Self { part, wake, tension, u, stored, candidates, strengths, step, .. } = self;
         let [weakest, strongest] = *strengths;
         let (blocks, stored) = (&part.blocks.blocks[..], &mut stored[..part.blocks.blocks.len()]);
@@ -48,6 +50,9 @@ impl Stepper<'_> {
                 greatest = Wide::splat(simd, weakest * over_strength.max(self.record.force.value));
                 candidates.push(n);
             }
+        }
+        if DAMPED {
+            self.interpolate_peak();
         }
         let mut totals = StepTotals { energy, force, dissipated, ..StepTotals::default() };
         if !self.candidates.is_empty() {

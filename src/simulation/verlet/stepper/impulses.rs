@@ -2,7 +2,8 @@
 //!
 //! A tire under a push is integrated by itself in every step of the push. Its velocity at mid-step holds what the push has
 //! added until the step ends, so that the kick of a whole register, which knows nothing of pushes, gives the velocity at the
-//! start of the next step. On the ground that kick has another friction than the tire: its velocity is kept beside it.
+//! start of the next step. On the ground that kick has another friction than the tire: there the velocity is worked out from the
+//! velocity at mid-step with the push.
 
 use nalgebra::Vector3;
 
@@ -41,10 +42,13 @@ struct Push {
 
 /// A tire on the ground that is under a push as a step begins.
 #[derive(Clone, Copy, Debug)]
-struct PushedTire {
-    tire: usize,
-    /// Velocity as the step begins [m/s].
-    velocity: Vector3<f64>,
+pub struct PushedTire {
+    /// Index of the tire in the part.
+    pub tire: usize,
+    /// Velocity at mid-step before [m/s].
+    pub velocity: Vector3<f64>,
+    /// Acceleration by its pushes until then [m/s²].
+    pub push: Vector3<f64>,
 }
 
 impl Pushes {
@@ -54,9 +58,9 @@ impl Pushes {
         Self { active: Vec::with_capacity(count), began, next }
     }
 
-    /// Velocity of a tire on the ground that was under a push as the step began [m/s].
-    pub fn velocity_on_ground(&self, tire: usize) -> Option<Vector3<f64>> {
-        self.began.iter().find(|pushed| pushed.tire == tire).map(|pushed| pushed.velocity)
+    /// A tire on the ground that was under a push until the step began.
+    pub fn on_ground(&self, tire: usize) -> Option<PushedTire> {
+        self.began.iter().find(|pushed| pushed.tire == tire).copied()
     }
 
     /// Whether a push on a tire goes on after the present step.
@@ -64,10 +68,16 @@ impl Pushes {
         self.active.iter().any(|push| push.tire == tire)
     }
 
-    /// Keeps the velocity of a tire on the ground, under a push, at the end of the present step [m/s].
-    pub fn keep(&mut self, tire: usize, velocity: Vector3<f64>) {
-        self.next.push(PushedTire { tire, velocity });
+    /// Keeps a tire on the ground under a push that goes on.
+    pub fn keep(&mut self, pushed: PushedTire) {
+        self.next.push(pushed);
     }
+}
+
+/// Acceleration of a tire by pushes as the step begins [m/s²]; `due` are the impulses of the step.
+pub fn push_at_start(due: &[DueImpulse], tire: usize) -> Vector3<f64> {
+    let here = due.iter().filter(|due| due.tire == tire && due.impulse.after <= 0.0);
+    here.map(|due| due.impulse.push).sum()
 }
 
 impl Stepper<'_> {

@@ -10,7 +10,7 @@ use nalgebra::{Vector2, Vector3};
 use self::advance::MoveTires;
 use self::events::Integrated;
 use self::forces::EvaluateCables;
-use self::impulses::{DueImpulse, Pushes};
+use self::impulses::{DueImpulse, Pushes, push_at_start};
 use super::Part;
 use crate::outcome::{EndReason, Outcome};
 use crate::scene::{Firing, Scene, Shot};
@@ -21,6 +21,15 @@ use crate::simulation::record::Record;
 use crate::simulation::verlet::tension::Tension;
 use crate::simulation::wake::Wake;
 use crate::simulation::{Failure, Motion, Settings, Watcher};
+
+/// A tire whose velocity jumped within the present step.
+#[derive(Clone, Copy, Debug)]
+struct Jump {
+    /// Index of the tire in the part.
+    tire: usize,
+    /// Time from its last launch to the end of the step [s]; `None` for a landing.
+    since_launch: Option<f64>,
+}
 
 /// Cable in which the greatest force was sampled.
 #[derive(Clone, Copy, Debug)]
@@ -73,6 +82,8 @@ pub(super) struct Stepper<'a> {
     /// Impulses of the present step, in order of tires, then of time.
     due: Vec<DueImpulse>,
     pushes: Pushes,
+    /// Tires that were launched or landed in the present step; empty without damping.
+    jumped: Vec<Jump>,
     /// Tires of the present register that were integrated by themselves.
     integrated: Vec<Integrated>,
     wake: Wake<'a>,
@@ -121,6 +132,7 @@ impl<'a> Stepper<'a> {
             sampled: None,
             due: Vec::with_capacity(2 * firings.len()),
             pushes: Pushes::with_capacity(firings.len()),
+            jumped: Vec::with_capacity(if scene.damping > 0.0 { tires } else { 0 }),
             firings,
             integrated: Vec::with_capacity(LANES),
             wake,
@@ -156,6 +168,10 @@ impl<'a> Stepper<'a> {
             match self.scene.downhill == Vector2::zeros() {
                 true => arch.dispatch(MoveTires::<false>(&mut self, &mut totals)),
                 false => arch.dispatch(MoveTires::<true>(&mut self, &mut totals)),
+            }
+            if self.scene.damping > 0.0 {
+                self.copy_velocities();
+                self.forget_jumps();
             }
             self.end_step(&totals)?;
         }
@@ -251,13 +267,13 @@ impl Motion for Snapshot<'_, '_> {
         if self.displacement(tire).z > 0.0 {
             return (0.0, 0.0);
         }
-        let Stepper { part, tension, step, .. } = self.stepper;
+        let Stepper { part, tension, step, due, .. } = self.stepper;
         let (tire, _) = part.reduction.kept(tire);
         let ends = part.blocks.ends.of(tire / LANES);
         let forces = tension.forces().sum_at(pulp::Scalar::new(), ends, tire % LANES);
         let force = Vector3::from(forces.map(|force| force.pack()[0]));
         let (inverse, impulse_to_force) = (part.inverse[tire], 1.0 / (part.inverse[tire] * step));
-        let acceleration = force * inverse + self.stepper.scene.gravity();
+        let acceleration = force * inverse + self.stepper.scene.gravity() + push_at_start(due, tire);
         let free = self.stepper.v.vector(tire) + acceleration * *step;
         let (after, normal) = support(free, self.stepper.friction);
         ((free - after).xy().norm() * impulse_to_force, self.stepper.friction * normal * impulse_to_force)
