@@ -53,7 +53,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
             return frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inside);
         }
         OptionState::Waiting | OptionState::Running { .. } => {
-            let fires: Vec<_> = fire_at_s(&delay.timing).into_iter().map(units::milliseconds).collect();
+            let fires: Vec<_> = fire_at_s(&delay.timing).into_iter().map(units::exact_milliseconds).collect();
             let text = format!("Rows fire at {}. Computing…", fires.join(", "));
             return frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inside);
         }
