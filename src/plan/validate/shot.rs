@@ -152,24 +152,23 @@ fn read_launch(section: &SectionReader<'_>, simulation: &SimulationSpec) -> Laun
         let message = "`tilt_toward_deg` stands without `tilt_deg`";
         section.wrong(&blast_row::TILT_TOWARD_DEG, message, "add tilt_deg, or remove it");
     }
-    let push_ms = section.number(&blast_row::PUSH_MS);
+    let [push_ms, tilt_deg] = [&blast_row::PUSH_MS, &blast_row::TILT_DEG].map(|key| section.number(key));
+    let tilt_toward_deg = section.number(&blast_row::TILT_TOWARD_DEG);
     if push_ms > 0.0 && simulation.method == Method::Newmark {
         let message = "newmark has no push over a time";
         section.wrong(&blast_row::PUSH_MS, message, "leave it out, or choose method \"verlet\"");
     }
-    if section.has(&blast_row::FREE_FLIGHT_HEIGHT_M) {
-        for key in [&blast_row::PUSH_MS, &blast_row::TILT_DEG] {
-            if section.number(key) > 0.0 {
-                let message = format!(
-                    "`{}` stands beside `free_flight_height_m`, from which a launch straight up at once follows",
-                    key.name
-                );
-                section.wrong(key, message, "give launch_m_s instead of free_flight_height_m");
-            }
+    for (key, value) in [(&blast_row::PUSH_MS, push_ms), (&blast_row::TILT_DEG, tilt_deg)] {
+        if value > 0.0 && section.has(&blast_row::FREE_FLIGHT_HEIGHT_M) {
+            let message = format!(
+                "`{}` stands beside `free_flight_height_m`, from which a launch straight up at once follows",
+                key.name
+            );
+            section.wrong(key, message, "give launch_m_s instead of free_flight_height_m");
         }
     }
     let speed_m_s = read_speed(section, simulation);
-    let upward = speed_m_s * section.number(&blast_row::TILT_DEG).to_radians().cos();
+    let upward = speed_m_s * tilt_deg.to_radians().cos();
     if push_ms > 0.0 && upward <= LEAST_LIFT * simulation.gravity_m_s2 * push_ms * 1e-3 {
         let message = format!(
             "a push of {upward:.1} m/s upward over {push_ms} ms hardly lifts a tire: gravity takes as much"
@@ -180,12 +179,7 @@ fn read_launch(section: &SectionReader<'_>, simulation: &SimulationSpec) -> Laun
             "shorten push_ms, or give the launch velocity without gravity",
         );
     }
-    Launch {
-        speed_m_s,
-        tilt_deg: section.number(&blast_row::TILT_DEG),
-        tilt_toward_deg: section.number(&blast_row::TILT_TOWARD_DEG),
-        push_ms,
-    }
+    Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms }
 }
 
 /// Launch speed [m/s].
