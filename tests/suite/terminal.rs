@@ -21,7 +21,7 @@ struct Watched {
 }
 
 /// Generous: machines under load are slow, and nothing here measures speed.
-const PATIENCE: Duration = Duration::from_secs(120);
+const PATIENCE: Duration = Duration::from_secs(300);
 
 impl Watched {
     fn open(plan: &str, arguments: &[&str], columns: u16, rows: u16) -> Self {
