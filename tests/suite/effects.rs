@@ -271,6 +271,26 @@ fn a_launch_under_a_damped_taut_cable_invents_no_peak() {
     }
 }
 
+/// A damped cable between a tire and its mirror image forgets the motion of both.
+#[test]
+fn a_launch_beside_a_mirror_plane_is_that_of_the_whole_shelter() {
+    let text = "shelter = { layout = \"grid\", rows = 3, columns = 4, spacing_m = 2 }\ntire = { mass_kg = 280 }\n\
+                cable = { axial_stiffness_kn = 1500, breaking_force_kn = 900, damping_percent = 40 }\n\
+                ground = { friction = 0.5 }\nlimits = { flight_height_m = 9, cable_safety_factor = 1 }\n\
+                delay = [{ name = \"a\", interval_ms = 60 }]\n\
+                [[blast_row]]\nname = \"1\"\nholes = [{ x_m = 0, y_m = 0, launch_m_s = 6 }, { x_m = 6, y_m = 0, launch_m_s = 6 }]\n\
+                [[blast_row]]\nname = \"2\"\nholes = [{ x_m = 2, y_m = 0, launch_m_s = 6, tilt_deg = 45, tilt_toward_deg = 180 }, \
+                { x_m = 4, y_m = 0, launch_m_s = 6, tilt_deg = 45, tilt_toward_deg = 0 }]\n";
+    let half = Case::new(Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+    let mut whole = half.scene().clone();
+    whole.mirrors.clear();
+    assert!(half.model.modelled_tires(Method::Verlet, &half.shots[0]) < whole.mass.len());
+    let [half, whole] =
+        [half.scene(), &whole].map(|scene| run(scene, &half.shots[0], settings(Method::Verlet, 5e-4, None)));
+    close(half.height.value, whole.height.value, 1e-9, "height");
+    close(half.force.value, whole.force.value, 1e-6 * whole.force.value, "force");
+}
+
 /// A tire under a push on the ground that a cable pulls: the greatest force is that of an independent integrator, 1003.045 N,
 /// and converges with the second order.
 #[test]

@@ -98,6 +98,15 @@ impl Stepper<'_> {
     /// Lets damped cables forget how the tires moved that were launched or landed in this step. The force of a cable that is taut
     /// at a launch is greatest at the launch, between two samples.
     pub(super) fn forget_jumps(&mut self) {
+        // Images still stand where the step began, and jump with their kept tires.
+        self.copy_images();
+        self.copy_velocities();
+        for n in 0..self.jumped.len() {
+            let jump = self.jumped[n];
+            let images = self.part.reduction.images.iter();
+            let of_jump = images.filter(|image| image.from == jump.tire && image.to != jump.tire);
+            self.jumped.extend(of_jump.map(|image| Jump { tire: image.to, ..jump }));
+        }
         let Self { part, tension, u, v, jumped, step, clock, record, scene, sampled, .. } = self;
         let end = clock.now() + *step;
         for Jump { tire, since_launch } in jumped.drain(..) {

@@ -169,8 +169,7 @@ impl<'a> Stepper<'a> {
                 true => arch.dispatch(MoveTires::<false>(&mut self, &mut totals)),
                 false => arch.dispatch(MoveTires::<true>(&mut self, &mut totals)),
             }
-            if self.scene.damping > 0.0 {
-                self.copy_velocities();
+            if !self.jumped.is_empty() {
                 self.forget_jumps();
             }
             self.end_step(&totals)?;
