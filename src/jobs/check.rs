@@ -36,16 +36,16 @@ impl Job {
                         self.tell(News::Checking { option, runs: step.runs, time: step.time });
                     }
                 }
-                CheckEvent::Nominal(result) => {
+                CheckEvent::AsPlanned(result) => {
                     self.tell(News::Checked { option, result: result.clone().map(Box::new) });
                 }
-                CheckEvent::Sampled(risk) => {
+                CheckEvent::SampledSoFar(risk) => {
                     if last.sampled.is_none_or(|told| told.elapsed() >= SAMPLED_EVERY) {
                         last.sampled = Some(Instant::now());
                         self.tell(News::Sampled { option, risk: Box::new(risk.clone()), more: true });
                     }
                 }
-                CheckEvent::Risk(risk) => {
+                CheckEvent::SampledFully(risk) => {
                     self.tell(News::Sampled { option, risk: Box::new(risk.clone()), more: false });
                 }
                 CheckEvent::Margin(margin) => self.tell(News::Margin { option, margin }),

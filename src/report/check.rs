@@ -10,7 +10,7 @@ use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
 use super::{no_result, report_head};
 use crate::study::Case;
 use crate::study::check::Checked;
-use crate::study::check_all::{OptionResults, verdict};
+use crate::study::check_all::{OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
 use crate::study::reason::Reason;
 use crate::units::{self, Unit};
@@ -51,30 +51,30 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 31] {
                 .map_or(Cell::Nothing, |judged| Cell::Text(judged_by(row.case, judged).to_owned()))
         }),
         Field::new(Column::scripts(&["nominal_verdict"]), |row| {
-            row.planned(|checked| Cell::Verdict(checked.verdict))
+            row.as_planned(|checked| Cell::Verdict(checked.verdict))
         }),
         Field::new(FAILURES, |row| row.sampled(|risk| Cell::Probability(risk.bounds.interval))),
-        Field::new(HEIGHT, |row| row.planned(|checked| height(checked.height.into()))),
-        Field::new(NOMINAL_HEIGHT, |row| row.planned(|checked| planned(checked.height, Unit::Metre))),
+        Field::new(HEIGHT, |row| row.as_planned(|checked| height(checked.height.into()))),
+        Field::new(NOMINAL_HEIGHT, |row| row.as_planned(|checked| planned(checked.height, Unit::Metre))),
         Field::new(HEIGHT_BAND, |row| band(row, Quantity::Height, Unit::Metre)),
         Field::new(Column::scripts(&["flight_height_at_s"]), |row| {
-            row.planned(|checked| Cell::Number(checked.height.at))
+            row.as_planned(|checked| Cell::Number(checked.height.at))
         }),
         Field::new(Column::scripts(&["flight_height_tire"]), |row| {
-            row.planned(|checked| Cell::Text(row.case.scene().tire[checked.height.index].to_string()))
+            row.as_planned(|checked| Cell::Text(row.case.scene().tire[checked.height.index].to_string()))
         }),
-        Field::new(FORCE, |row| row.planned(|checked| force(checked.force.into()))),
-        Field::new(NOMINAL_FORCE, |row| row.planned(|checked| planned(checked.force, Unit::Kilonewton))),
+        Field::new(FORCE, |row| row.as_planned(|checked| force(checked.force.into()))),
+        Field::new(NOMINAL_FORCE, |row| row.as_planned(|checked| planned(checked.force, Unit::Kilonewton))),
         Field::new(FORCE_BAND, |row| band(row, Quantity::Force, Unit::Kilonewton)),
         Field::new(Column::scripts(&["cable_force_at_s"]), |row| {
-            row.planned(|checked| Cell::Number(checked.force.at))
+            row.as_planned(|checked| Cell::Number(checked.force.at))
         }),
         Field::new(Column::scripts(&["cable_force_cable"]), |row| {
-            row.planned(|checked| Cell::Text(row.case.scene().cable_name(checked.force.index)))
+            row.as_planned(|checked| Cell::Text(row.case.scene().cable_name(checked.force.index)))
         }),
         Field::new(
             Column::numbers(&["cable_safety_factor"], "factor", Unit::One).under("as planned"),
-            |row| row.planned(|checked| Cell::Factor(checked.safety_factor)),
+            |row| row.as_planned(|checked| Cell::Factor(checked.safety_factor)),
         ),
         Field::new(Column::scripts(&["low_95_any_cable_breaks", "high_95_any_cable_breaks"]), |row| {
             row.sampled(|risk| Cell::Probability(risk.breaks.interval))
@@ -85,39 +85,39 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 31] {
         }),
         Field::new(LAUNCH_MARGIN, |row| {
             let judged = row.result.as_ref().ok();
-            let passes = judged.filter(|judged| judged.nominal.verdict == Verdict::Pass);
+            let passes = judged.filter(|judged| judged.as_planned.verdict == Verdict::Pass);
             let margin = passes.and_then(|judged| judged.launch_margin);
             margin.map_or(Cell::Nothing, |margin| Cell::Text(launch_margin(margin)))
         }),
         Field::new(DRIFT, |row| {
-            row.planned(|Checked { drift, .. }| Cell::Estimate {
+            row.as_planned(|Checked { drift, .. }| Cell::Estimate {
                 value: drift.value,
                 error: drift.error,
                 unit: Unit::Metre,
             })
         }),
         Field::new(Column::scripts(&["broken_cables"]), |row| {
-            row.planned(|checked| Cell::Count(checked.broken.len()))
+            row.as_planned(|checked| Cell::Count(checked.broken.len()))
         }),
         Field::new(Column::scripts(&["holes_uncovered"]), |row| {
-            row.planned(|checked| Cell::Count(checked.cover.uncovered))
+            row.as_planned(|checked| Cell::Count(checked.cover.uncovered))
         }),
         Field::new(Column::scripts(&["cover_height_m"]), |row| {
-            row.planned(|checked| Cell::Number(checked.cover.height))
+            row.as_planned(|checked| Cell::Number(checked.cover.height))
         }),
         Field::new(Column::scripts(&["cover_shift_m"]), |row| {
-            row.planned(|checked| Cell::Number(checked.cover.shift))
+            row.as_planned(|checked| Cell::Number(checked.cover.shift))
         }),
-        Field::new(Column::scripts(&["dt_s"]), |row| row.planned(|checked| Cell::Number(checked.step))),
+        Field::new(Column::scripts(&["dt_s"]), |row| row.as_planned(|checked| Cell::Number(checked.step))),
         Field::new(Column::scripts(&["energy_residual"]), |row| {
-            row.planned(|checked| Cell::Number(checked.energy_residual))
+            row.as_planned(|checked| Cell::Number(checked.energy_residual))
         }),
         Field::new(Column::scripts(&["reasons"]), |row| Cell::Text(all_reasons(row))),
         Field::new(words("height over time"), |row| {
-            row.planned(|checked| bars(&checked.history.height, row.case.limits.height))
+            row.as_planned(|checked| bars(&checked.history.height, row.case.limits.height))
         }),
         Field::new(words("force over time"), |row| {
-            row.planned(|checked| bars(&checked.history.force, row.case.limits.force))
+            row.as_planned(|checked| bars(&checked.history.force, row.case.limits.force))
         }),
     ]
 }
@@ -156,13 +156,13 @@ pub fn report(case: &Case, results: &OptionResults, any: bool, partial: bool) ->
     let so_far = if partial { " so far, the time was up" } else { "" };
     let mut text = format!("{passed} of {} options pass{so_far}{}", results.len(), meaning(case, sampled));
     if let Some(judged) = results.iter().flatten().next() {
-        text += &format!(" · {}", compute_label(&judged.nominal.compute));
+        text += &format!(" · {}", compute_label(&judged.as_planned.compute));
     }
     let warnings = covers(case, results);
     let warnings = (!warnings.is_empty()).then_some(Block::Text(warnings));
     Report {
         blocks: iter::once(Block::Table(table)).chain(warnings).collect(),
-        conclusion: Some(Conclusion { verdict: verdict(results, any), text }),
+        conclusion: Some(Conclusion { verdict: verdict_on_plan(results, any), text }),
         ..report_head(case, sampled)
     }
 }
@@ -205,7 +205,7 @@ pub fn texts(case: &Case, judged: &Judgement) -> Vec<String> {
 
 fn reasons<'a>(case: &'a Case, judged: &'a Judgement) -> impl Iterator<Item = Detail> + 'a {
     let detail = |why: &Reason| Detail { verdict: why.verdict(), text: reason(why) };
-    judged.nominal.reasons.iter().map(detail).chain(risk_detail(case, judged))
+    judged.as_planned.reasons.iter().map(detail).chain(risk_detail(case, judged))
 }
 
 /// Adds to the row of each option why it does not pass, or has no result.
@@ -219,7 +219,7 @@ pub(super) fn complete_rows(table: &mut Table, case: &Case, results: &OptionResu
 }
 
 fn details(case: &Case, judged: &Judgement) -> Vec<Detail> {
-    let checked = &judged.nominal;
+    let checked = &judged.as_planned;
     let mut details: Vec<Detail> = reasons(case, judged).collect();
     if !checked.broken.is_empty() {
         details.push(Detail { verdict: Verdict::Fail, text: broken(case.scene(), checked) });

@@ -23,7 +23,7 @@ pub fn cover(checked: &Checked) -> Option<String> {
 /// The same for every option of a plan.
 pub fn covers(case: &Case, results: &OptionResults) -> Vec<String> {
     let warning = |(delay, result): (&DelayOption, &Result<Judgement, NoResult>)| {
-        let cover = cover(&result.as_ref().ok()?.nominal)?;
+        let cover = cover(&result.as_ref().ok()?.as_planned)?;
         Some(format!("warning: option {}: {cover}", delay.name))
     };
     case.plan.delays.iter().zip(results).filter_map(warning).collect()

@@ -66,7 +66,7 @@ pub fn risk_detail(case: &Case, judged: &Judgement) -> Option<Detail> {
     let (failures, samples) = (risk.bounds.failures, risk.bounds.samples);
     let shots = format!("{failures} of {samples} possible shots fail{}", limits_exceeded(case, risk));
     let verdict = risk.verdict();
-    let ComputeSettings { accuracy, step, .. } = judged.nominal.compute;
+    let ComputeSettings { accuracy, step, .. } = judged.as_planned.compute;
     let can_be_finer = step.is_none() && accuracy != Accuracy::Reference;
     let finer = if can_be_finer { "; choose accuracy \"reference\"" } else { "" };
     let text = match verdict {

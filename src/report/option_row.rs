@@ -27,8 +27,8 @@ pub fn option_rows<'a>(
 
 impl OptionRow<'_> {
     /// A cell of the shot as planned; nothing where there is no result.
-    pub fn planned(&self, cell: impl FnOnce(&Checked) -> Cell) -> Cell {
-        self.result.as_ref().map_or(Cell::Nothing, |judged| cell(&judged.nominal))
+    pub fn as_planned(&self, cell: impl FnOnce(&Checked) -> Cell) -> Cell {
+        self.result.as_ref().map_or(Cell::Nothing, |judged| cell(&judged.as_planned))
     }
 
     /// A cell of the samples; nothing where there are none.

@@ -8,7 +8,7 @@ use super::option_row::{OptionRow, option_rows};
 use super::report_head;
 use super::shared_columns::{FAILURES, VERDICT};
 use crate::study::Case;
-use crate::study::check_all::{OptionResults, verdict};
+use crate::study::check_all::{OptionResults, verdict_on_plan};
 use crate::study::sampling::Sampling;
 use crate::study::swaps::Swap;
 use crate::units::{self, Unit};
@@ -70,9 +70,9 @@ pub fn report(case: &Case, results: &OptionResults, sampling: &Sampling, partial
     let mut text =
         format!("{passed} of {} options pass{}", results.len(), if partial { " so far" } else { "" });
     if let Some(judged) = results.iter().flatten().next() {
-        text += &format!(" · {}", compute_label(&judged.nominal.compute));
+        text += &format!(" · {}", compute_label(&judged.as_planned.compute));
     }
-    let conclusion = Some(Conclusion { verdict: verdict(results, false), text });
+    let conclusion = Some(Conclusion { verdict: verdict_on_plan(results, false), text });
     Report { blocks, conclusion, ..report_head(case, true) }
 }
 

@@ -66,7 +66,7 @@ const NARROW: f64 = 1e-3;
 
 /// The windows, how closely they were tried, and how the recommended interval was chosen.
 fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
-    if sweep.nominal_windows.is_empty() {
+    if sweep.windows_as_planned.is_empty() {
         return vec!["no interval tried passes".to_owned()];
     }
     let so_far = if partial { " so far" } else { "" };
@@ -92,7 +92,10 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
             lines
                 .push(format!("{few} samples cannot prove {risk}: `check` an interval before you choose it"));
         }
-        lines.extend(listed(&format!("windows as planned, nothing varied{so_far}"), &sweep.nominal_windows));
+        lines.extend(listed(
+            &format!("windows as planned, nothing varied{so_far}"),
+            &sweep.windows_as_planned,
+        ));
     } else {
         lines.extend(listed(&format!("windows that pass{so_far}"), &sweep.windows));
         let inside =
@@ -212,7 +215,7 @@ mod tests {
                 &Sweep {
                     order: vec![0, 1],
                     points,
-                    nominal_windows: Vec::new(),
+                    windows_as_planned: Vec::new(),
                     windows: Vec::new(),
                     recommended: None,
                     refuted: 0,

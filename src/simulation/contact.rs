@@ -102,7 +102,7 @@ impl TireStep {
     /// [m/s²].
     fn integrate_between(&mut self, left: f64, h: f64) -> Vector3<f64> {
         let before = self.displacement;
-        let acceleration = self.integrate_unfired(left, h);
+        let acceleration = self.integrate_phases(left, h);
         self.put_in += self.push.dot(&(self.displacement - before));
         acceleration
     }
@@ -112,7 +112,7 @@ impl TireStep {
     }
 
     /// The same without the work of pushes.
-    fn integrate_unfired(&mut self, mut left: f64, h: f64) -> Vector3<f64> {
+    fn integrate_phases(&mut self, mut left: f64, h: f64) -> Vector3<f64> {
         while !(self.on_ground() && self.free.z <= 0.0) {
             match self.landing().filter(|&landing| landing <= left) {
                 None => {

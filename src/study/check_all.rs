@@ -32,11 +32,11 @@ pub enum CheckEvent<'r> {
     /// A run of the shot as planned has gone on by [`STEPS_PER_EVENT`] steps.
     Running(CheckStep),
     /// The shot as planned is judged, or has no result.
-    Nominal(&'r Result<Checked, NoResult>),
+    AsPlanned(&'r Result<Checked, NoResult>),
     /// A round of samples was drawn.
-    Sampled(&'r Risk),
+    SampledSoFar(&'r Risk),
     /// All samples were drawn.
-    Risk(&'r Risk),
+    SampledFully(&'r Risk),
     /// The launch margin is known.
     Margin(LaunchMargin),
 }
@@ -80,9 +80,9 @@ pub fn check_all_watched(
     let of_case = |case: usize| (0..cases[case].0.shots.len()).map(move |option| CaseOption { case, option });
     let options: Vec<CaseOption> = (0..cases.len()).flat_map(of_case).collect();
     let checked = run_jobs(&options, progress, |&at| {
-        let nominal = guarded(|| check_nominal(cases, at, progress, watch));
-        watch(at, CheckEvent::Nominal(&nominal));
-        match nominal {
+        let as_planned = guarded(|| check_one_as_planned(cases, at, progress, watch));
+        watch(at, CheckEvent::AsPlanned(&as_planned));
+        match as_planned {
             Err(ended @ (NoResult::Stopped | NoResult::OutOfTime)) => Err(ended),
             // An option without a result is no reason for the others to have none.
             result => Ok(result),
@@ -90,9 +90,9 @@ pub fn check_all_watched(
     })?;
     let mut partial = checked.iter().any(Option::is_none);
     let mut results: Vec<OptionResults> = vec![Vec::new(); cases.len()];
-    for (at, nominal) in options.into_iter().zip(checked) {
-        let nominal = nominal.unwrap_or(Err(NoResult::OutOfTime));
-        results[at.case].push(nominal.map(Judgement::nominal));
+    for (at, as_planned) in options.into_iter().zip(checked) {
+        let as_planned = as_planned.unwrap_or(Err(NoResult::OutOfTime));
+        results[at.case].push(as_planned.map(Judgement::of_planned_alone));
     }
     if let Some(sampling) = sampling {
         partial |= add_risks(cases, &mut results, sampling, progress, watch)?.partial;
@@ -100,7 +100,7 @@ pub fn check_all_watched(
     Ok(Found { value: results, partial })
 }
 
-fn check_nominal(
+fn check_one_as_planned(
     cases: &[(&Case, ComputeSettings)],
     at: CaseOption,
     progress: &Progress,
@@ -138,32 +138,32 @@ fn add_risks(
     let mut judged = judged(results);
     let target = |(at, judgement): &(CaseOption, &mut Judgement)| {
         let (case, compute) = cases[at.case];
-        target(case, at.option, &JudgedShot::of(&judgement.nominal), sampling, compute)
+        target(case, at.option, &JudgedShot::of(&judgement.as_planned), sampling, compute)
     };
     let targets: Vec<ShotToSample<'_>> = judged.iter().map(target).collect();
     let mut sampled = |n: usize, risk: &Risk| {
-        watch(judged[n].0, CheckEvent::Sampled(risk));
+        watch(judged[n].0, CheckEvent::SampledSoFar(risk));
         ControlFlow::Continue(())
     };
     let Found { value: risks, partial } = find_risks_watched(&targets, progress, &mut sampled)?;
     for ((at, judgement), risk) in judged.iter_mut().zip(risks) {
-        watch(*at, CheckEvent::Risk(&risk));
+        watch(*at, CheckEvent::SampledFully(&risk));
         judgement.risk = Sampled::Drawn(risk);
     }
     Ok(Found { value: (), partial })
 }
 
-/// An option to be sampled, judged as `planned`; one that fails is sampled only to show by how much.
+/// An option to be sampled, judged `as_planned`; one that fails is sampled only to show by how much.
 fn target<'c>(
     case: &'c Case,
     option: usize,
-    planned: &JudgedShot,
+    as_planned: &JudgedShot,
     sampling: &Sampling,
     compute: ComputeSettings,
 ) -> ShotToSample<'c> {
-    let fails = planned.verdict == Verdict::Fail;
+    let fails = as_planned.verdict == Verdict::Fail;
     let sampling = if fails { sampling.least_only() } else { *sampling };
-    ShotToSample::new(case, &case.shots[option], compute, sampling).planned(*planned)
+    ShotToSample::new(case, &case.shots[option], compute, sampling).as_planned(*as_planned)
 }
 
 /// Finds the launch margin of every option of every case that has a result.
@@ -174,10 +174,10 @@ pub fn find_launch_margins(
     watch: Watch<'_>,
 ) -> Finding<()> {
     let judged = judged(results);
-    let jobs: Vec<_> = judged.iter().map(|(at, judgement)| (*at, judgement.nominal.verdict)).collect();
-    let margins = run_jobs(&jobs, progress, |&(at, nominal)| {
+    let jobs: Vec<_> = judged.iter().map(|(at, judgement)| (*at, judgement.as_planned.verdict)).collect();
+    let margins = run_jobs(&jobs, progress, |&(at, as_planned)| {
         let (case, compute) = &cases[at.case];
-        match guarded(|| launch_margin(case, &case.shots[at.option], nominal, compute, progress)) {
+        match guarded(|| launch_margin(case, &case.shots[at.option], as_planned, compute, progress)) {
             // The verdicts stand without it.
             Err(NoResult::Panicked(_)) => Ok(None),
             margin => margin.map(Some).inspect(|margin| {
@@ -205,8 +205,8 @@ pub fn judge_drawn(
         if let Ok(judged) = result {
             let of_option = samples.iter().filter(|drawn| drawn.option == option);
             let drawn: Vec<Sample> = of_option.map(|drawn| drawn.sample).collect();
-            let planned = JudgedShot::of(&judged.nominal);
-            let target = target(case, option, &planned, sampling, *compute).precomputed(&drawn);
+            let as_planned = JudgedShot::of(&judged.as_planned);
+            let target = target(case, option, &as_planned, sampling, *compute).precomputed(&drawn);
             judged.risk = Sampled::Drawn(find_risks(&[target], progress)?.value.remove(0));
         }
     }
@@ -214,7 +214,7 @@ pub fn judge_drawn(
 }
 
 /// The verdict on a plan: the worst of its options, or the best where one passing option is enough.
-pub fn verdict(results: &OptionResults, any: bool) -> Verdict {
+pub fn verdict_on_plan(results: &OptionResults, any: bool) -> Verdict {
     let each = results.iter().map(|result| result.as_ref().map_or(Verdict::Undecided, Judgement::verdict));
     if any { each.min().unwrap_or(Verdict::Pass) } else { Verdict::worst(each) }
 }

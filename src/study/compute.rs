@@ -18,7 +18,7 @@ pub struct ComputeSettings {
 }
 
 /// Factor on the step of a run by `method`: `newmark` errs more at the same step.
-pub(super) fn of_method(method: Method) -> f64 {
+pub(super) fn step_factor(method: Method) -> f64 {
     match method {
         Method::Verlet => 1.0,
         Method::Newmark => 0.25,
@@ -54,6 +54,6 @@ impl ComputeSettings {
             Accuracy::Field => (0.1, 1e-3),
             Accuracy::Reference => (0.025, 2.5e-4),
         };
-        of_method(self.method) * longest.min(fraction * case.scene().critical_step())
+        step_factor(self.method) * longest.min(fraction * case.scene().critical_step())
     }
 }

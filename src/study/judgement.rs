@@ -10,7 +10,7 @@ use crate::verdict::Verdict;
 #[derive(Clone, Debug)]
 pub struct Judgement {
     /// The shot as planned.
-    pub nominal: Checked,
+    pub as_planned: Checked,
     /// The shots that `[uncertainty]` describes. Of a sampling that the time cut short there may be no sample.
     pub risk: Sampled<Risk>,
     /// How much faster than planned the tires may leave; `None` where it was not asked for, or the time was up.
@@ -24,19 +24,19 @@ impl Judgement {
         match self.launch_margin {
             Some(LaunchMargin::UpTo { rise, .. }) => Some(rise),
             Some(LaunchMargin::Wide) => None,
-            None if !self.risk.is_asked() && self.nominal.verdict == Verdict::Pass => None,
+            None if !self.risk.is_asked() && self.as_planned.verdict == Verdict::Pass => None,
             Some(LaunchMargin::NotPassing) | None => Some(0.0),
         }
     }
 
     /// The judgement of the shot as planned alone.
-    pub fn nominal(nominal: Checked) -> Self {
-        Self { nominal, risk: Sampled::NotAsked, launch_margin: None }
+    pub fn of_planned_alone(as_planned: Checked) -> Self {
+        Self { as_planned, risk: Sampled::NotAsked, launch_margin: None }
     }
 
     /// Pass where the shot as planned passes and surely fewer shots than accepted fail; fail where the shot as planned
     /// fails, or surely more shots than accepted.
     pub fn verdict(&self) -> Verdict {
-        sampled::verdict(self.nominal.verdict, self.risk.map(Risk::verdict))
+        sampled::verdict_of_both(self.as_planned.verdict, self.risk.map(Risk::verdict))
     }
 }

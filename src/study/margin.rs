@@ -25,15 +25,15 @@ pub enum LaunchMargin {
 /// Greatest rise of launches tried [%].
 const MOST_PERCENT: usize = 100;
 
-/// Raises the launches of a shot by 1 % at a time until it does not pass; `nominal` is its verdict as planned.
+/// Raises the launches of a shot by 1 % at a time until it does not pass; `as_planned` is its verdict as planned.
 pub fn launch_margin(
     case: &Case,
     shot: &Shot,
-    nominal: Verdict,
+    as_planned: Verdict,
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<LaunchMargin, NoResult> {
-    if nominal != Verdict::Pass {
+    if as_planned != Verdict::Pass {
         return Ok(LaunchMargin::NotPassing);
     }
     for percent in 1..=MOST_PERCENT {

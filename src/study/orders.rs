@@ -121,7 +121,7 @@ impl Orders {
 
     /// The verdict on the order ranked `n`: as planned, and of its samples where samples were asked for.
     pub fn verdict_on(&self, n: usize) -> Verdict {
-        sampled::verdict(self.ranked[n].as_planned.verdict, self.risk(n).map(|risk| risk.verdict))
+        sampled::verdict_of_both(self.ranked[n].as_planned.verdict, self.risk(n).map(|risk| risk.verdict))
     }
 
     /// The verdict on all orders; undecided where none was tried.

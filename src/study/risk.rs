@@ -34,18 +34,18 @@ pub struct Risk {
     pub halvings: u32,
     /// Whether samples are audited: not where the user fixed the step.
     is_audited: bool,
-    planned: Option<JudgedShot>,
+    as_planned: Option<JudgedShot>,
     limits: Limits,
 }
 
 impl Risk {
     /// No sample yet of a shot that was judged as `planned`; the plan of `case` names the accepted risk.
     /// For `attempt` see [`Sampling`](super::sampling::Sampling).
-    pub fn new(case: &Case, planned: Option<JudgedShot>, attempt: usize, is_audited: bool) -> Self {
+    pub fn new(case: &Case, as_planned: Option<JudgedShot>, attempt: usize, is_audited: bool) -> Self {
         let accepted = case.plan.limits.accepted_risk_percent * 1e-2;
         let bounds = FailureBounds::new(accepted, attempt);
         let limits = case.limits;
-        Self { samples: Vec::new(), bounds, breaks: bounds, halvings: 0, is_audited, planned, limits }
+        Self { samples: Vec::new(), bounds, breaks: bounds, halvings: 0, is_audited, as_planned, limits }
     }
 
     /// Takes the next sample; one of the audit counts as it is at the finer step.
@@ -81,7 +81,7 @@ impl Risk {
     /// Whether the samples pass only because their step is too long: the shot as planned, computed more finely, exceeds the
     /// greatest sample by d, and that sample + 2 d is past a limit.
     pub fn planned_exceeds_samples(&self) -> bool {
-        let Some(planned) = self.planned else { return false };
+        let Some(planned) = self.as_planned else { return false };
         let would_fail = |quantity: Quantity| {
             let (refined, values) =
                 (planned.get(quantity).value, self.decided().map(|s| s.run.get(quantity)));

@@ -53,7 +53,7 @@ pub fn sample_shots<'c>(
     let mut all = Vec::with_capacity(shots.len());
     for shots in shots.chunks(AT_ONCE) {
         let target = |(shot, planned): &'c (Shot, JudgedShot)| {
-            ShotToSample::new(case, shot, *compute, *sampling).planned(*planned)
+            ShotToSample::new(case, shot, *compute, *sampling).as_planned(*planned)
         };
         let targets: Vec<_> = shots.iter().map(target).collect();
         let risks = find_risks(&targets, progress)?.value;

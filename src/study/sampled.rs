@@ -39,7 +39,7 @@ impl<R> Sampled<R> {
 
 /// The verdict on a shot, from the verdicts on the shot as planned and on its samples: the worse of both. Where samples were asked
 /// for and none was drawn, the verdict is no pass.
-pub fn verdict(as_planned: Verdict, samples: Sampled<Verdict>) -> Verdict {
+pub fn verdict_of_both(as_planned: Verdict, samples: Sampled<Verdict>) -> Verdict {
     match samples {
         Sampled::NotAsked => as_planned,
         Sampled::NotDrawn => as_planned.max(Verdict::Undecided),
@@ -55,13 +55,13 @@ mod tests {
     fn only_a_pass_of_all_that_was_asked_for_is_a_pass() {
         use Verdict::{Fail, Pass, Undecided};
         for as_planned in [Pass, Undecided, Fail] {
-            assert_eq!(verdict(as_planned, Sampled::NotAsked), as_planned);
-            assert_eq!(verdict(as_planned, Sampled::Drawn(Pass)), as_planned);
-            assert_eq!(verdict(as_planned, Sampled::Drawn(Fail)), Fail);
+            assert_eq!(verdict_of_both(as_planned, Sampled::NotAsked), as_planned);
+            assert_eq!(verdict_of_both(as_planned, Sampled::Drawn(Pass)), as_planned);
+            assert_eq!(verdict_of_both(as_planned, Sampled::Drawn(Fail)), Fail);
         }
         for samples in [Sampled::NotDrawn, Sampled::Drawn(Undecided)] {
             assert_eq!(
-                [Pass, Undecided, Fail].map(|planned| verdict(planned, samples)),
+                [Pass, Undecided, Fail].map(|planned| verdict_of_both(planned, samples)),
                 [Undecided, Undecided, Fail]
             );
         }

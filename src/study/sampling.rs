@@ -6,7 +6,7 @@ use std::ops::{ControlFlow, Range};
 use serde::{Deserialize, Serialize};
 
 use super::batch::run_jobs;
-use super::compute::of_method;
+use super::compute::step_factor;
 use super::influence::SAMPLES_FOR_SHARES;
 use super::random_shot::{Input, RandomShot, draw};
 use super::reason::closes;
@@ -79,7 +79,7 @@ pub struct ShotToSample<'c> {
     /// The shot as planned.
     pub shot: &'c Shot,
     /// The shot as planned, judged by finer runs; `None` where it is not known.
-    pub planned: Option<JudgedShot>,
+    pub as_planned: Option<JudgedShot>,
     /// Method and accuracy.
     pub compute: ComputeSettings,
     /// Number of samples and seed.
@@ -91,12 +91,12 @@ pub struct ShotToSample<'c> {
 impl<'c> ShotToSample<'c> {
     /// A shot that nobody has judged or sampled yet.
     pub fn new(case: &'c Case, shot: &'c Shot, compute: ComputeSettings, sampling: Sampling) -> Self {
-        Self { case, shot, planned: None, compute, sampling, precomputed: &[] }
+        Self { case, shot, as_planned: None, compute, sampling, precomputed: &[] }
     }
 
     /// The same shot, judged as `planned`.
-    pub fn planned(self, planned: JudgedShot) -> Self {
-        Self { planned: Some(planned), ..self }
+    pub fn as_planned(self, as_planned: JudgedShot) -> Self {
+        Self { as_planned: Some(as_planned), ..self }
     }
 
     /// The same shot, of which other machines drew samples at the usual step, in order of their numbers.
@@ -111,7 +111,7 @@ impl<'c> ShotToSample<'c> {
     }
 
     fn no_samples(&self) -> Risk {
-        Risk::new(self.case, self.planned, self.sampling.attempt, self.compute.step.is_none())
+        Risk::new(self.case, self.as_planned, self.sampling.attempt, self.compute.step.is_none())
     }
 }
 
@@ -228,7 +228,7 @@ const OF_REFERENCE: f64 = 0.25;
 fn step(compute: &ComputeSettings, scene: &Scene) -> f64 {
     let level = if compute.accuracy == Accuracy::Reference { OF_REFERENCE } else { 1.0 };
     let usual = LONGEST_STEP.min(OF_CRITICAL_STEP * scene.critical_step());
-    compute.step.unwrap_or(of_method(compute.method) * level * usual)
+    compute.step.unwrap_or(step_factor(compute.method) * level * usual)
 }
 
 fn try_sample(

@@ -306,7 +306,7 @@ impl App {
                 let state = result.map_or_else(OptionState::Failed, |checked| {
                     // Nobody takes its verdict as planned for the verdict.
                     let risk = Sampled::NotDrawn;
-                    let judgement = Box::new(Judgement { risk, ..Judgement::nominal(*checked) });
+                    let judgement = Box::new(Judgement { risk, ..Judgement::of_planned_alone(*checked) });
                     OptionState::Done { judgement, sampling: true }
                 });
                 self.set_option(option, state);

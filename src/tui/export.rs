@@ -43,7 +43,7 @@ fn svg(app: &App) -> Result<String, String> {
         Screen::Compare => {
             let judged = app.judgement(app.selected).ok_or("the selected option has no result yet")?;
             let firings = fire_at_s(&app.case.plan.delays[app.selected].timing);
-            let history = charts::history(&app.case, &judged.nominal.history, &firings);
+            let history = charts::history(&app.case, &judged.as_planned.history, &firings);
             let samples = judged.risk.drawn().into_iter().flat_map(|risk| charts::samples(&app.case, risk));
             history
                 .iter()

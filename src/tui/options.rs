@@ -89,7 +89,7 @@ impl SortBy {
 
     /// The number that orders results by this key; `Plan` and `Name` need none.
     fn value(self, judgement: &Judgement) -> f64 {
-        let Judgement { nominal, risk, .. } = judgement;
+        let Judgement { as_planned, risk, .. } = judgement;
         match self {
             SortBy::Plan | SortBy::Name => 0.0,
             SortBy::Verdict => match judgement.verdict() {
@@ -98,9 +98,9 @@ impl SortBy {
                 Verdict::Fail => 2.0,
             },
             SortBy::Risk => risk.drawn().map_or(1.0, |risk| risk.bounds.interval[1]),
-            SortBy::Height => nominal.height.value,
-            SortBy::Force => nominal.force.value,
-            SortBy::Drift => nominal.drift.value,
+            SortBy::Height => as_planned.height.value,
+            SortBy::Force => as_planned.force.value,
+            SortBy::Drift => as_planned.drift.value,
         }
     }
 }

@@ -14,7 +14,7 @@ use shelter::scene::{Firing, Scene, Shot};
 use super::scenes::{GRAVITY, run, settings, tie, tires};
 
 /// Greatest height [m], greatest cable force [N], greatest horizontal shift at the end [m].
-type JudgedShot = [f64; 3];
+type Extremes = [f64; 3];
 
 /// Simulated [s].
 const DURATION: f64 = 0.5;
@@ -24,7 +24,7 @@ const STEPS: usize = 10_000;
 /// Rest length [m] and stiffness [N/m] of the cable between two tires, and its vector at rest [m].
 type Tie = Option<(f64, f64, Vector3<f64>)>;
 
-fn simple(scene: &Scene, shot: &Shot, steps: usize) -> JudgedShot {
+fn simple(scene: &Scene, shot: &Shot, steps: usize) -> Extremes {
     let count = scene.mass.len();
     let mut cables: Vec<Vec<Tie>> = vec![vec![None; count]; count];
     for cable in &scene.cables {

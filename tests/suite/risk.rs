@@ -129,7 +129,7 @@ fn a_shot_that_passes_as_planned_fails_by_its_risk() {
     };
     assert_eq!(judged(None).verdict(), Verdict::Pass);
     let both = judged(Some(&Sampling::OF_VERDICT));
-    assert_eq!((both.nominal.verdict, both.verdict()), (Verdict::Pass, Verdict::Fail));
+    assert_eq!((both.as_planned.verdict, both.verdict()), (Verdict::Pass, Verdict::Fail));
 }
 
 /// A lone tire launched with 6 m/s under a limit that 6.27 m/s reach: it passes up to +4 %. One that fails as planned has no
@@ -173,11 +173,11 @@ fn samples_whose_step_is_too_long_pass_nothing() {
         check_all(&cases, Some(&Sampling::OF_VERDICT), &Progress::default()).expect("a result").value;
     let judged = found.remove(0).remove(0).expect("a result");
     let risk = judged.risk.drawn().expect("samples");
-    assert_eq!((judged.nominal.verdict, risk.bounds.verdict()), (Verdict::Pass, Verdict::Pass));
+    assert_eq!((judged.as_planned.verdict, risk.bounds.verdict()), (Verdict::Pass, Verdict::Pass));
     assert_eq!(judged.verdict(), Verdict::Undecided, "{:?}", risk.samples[0]);
     assert!(risk.halvings > 0, "the audit saw it, too");
     // Sweeps and orders sample shots this way.
-    let shots = [(case.shots[0].clone(), JudgedShot::of(&judged.nominal))];
+    let shots = [(case.shots[0].clone(), JudgedShot::of(&judged.as_planned))];
     let sampled = sample_shots(&case, &shots, &Sampling::OF_VERDICT, &cases[0].1, &Progress::default());
     let sampled = sampled.expect("a result").remove(0).expect("samples");
     assert_eq!((sampled.bounds.verdict(), sampled.verdict), (Verdict::Pass, Verdict::Undecided));

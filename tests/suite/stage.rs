@@ -99,7 +99,7 @@ pub fn samples(case: &Case, count: usize, some_fail: bool) -> Risk {
 pub fn judgement(case: &Case, option: usize) -> Judgement {
     let verdict = if option.is_multiple_of(3) { Verdict::Fail } else { Verdict::Pass };
     let risk = samples(case, 200, option.is_multiple_of(2));
-    Judgement { risk: Sampled::Drawn(risk), ..Judgement::nominal(checked(verdict)) }
+    Judgement { risk: Sampled::Drawn(risk), ..Judgement::of_planned_alone(checked(verdict)) }
 }
 
 /// A judged option.
@@ -113,7 +113,7 @@ pub fn finished() -> App {
     let verdicts = [Verdict::Fail, Verdict::Pass, Verdict::Undecided];
     for (n, row) in app.options.iter_mut().enumerate() {
         let risk = if n == 4 { samples(&app.case, 500, false) } else { samples(&app.case, 200, n % 2 == 0) };
-        let nominal = Judgement::nominal(checked(verdicts[n % 3]));
+        let nominal = Judgement::of_planned_alone(checked(verdicts[n % 3]));
         *row = done(Judgement { risk: Sampled::Drawn(risk), ..nominal }, false);
     }
     app
@@ -170,7 +170,7 @@ pub fn swept() -> StudyResult {
     StudyResult::Sweep(Sweep {
         order: vec![0, 1, 2],
         points: (0..51).map(point).collect(),
-        nominal_windows: windows.clone(),
+        windows_as_planned: windows.clone(),
         windows,
         recommended,
         refuted: 0,

@@ -138,7 +138,7 @@ fn windows_of_accepted_risk_are_those_of_the_samples() {
     let sampled: Vec<&Point> = swept.points.iter().filter(|point| point.is_sampled()).collect();
     let (mut accepted, mut refused) = (0, 0);
     for point in &sampled {
-        assert!(inside(&swept.nominal_windows, point.interval));
+        assert!(inside(&swept.windows_as_planned, point.interval));
         let bounds = point.risk.drawn().expect("sampled").bounds;
         // More samples have the few intervals that got a full verdict.
         if bounds.samples <= 100 {
@@ -417,7 +417,7 @@ fn the_lightest_shelter_is_that_of_brute_force() {
             lightest = total;
             break;
         }
-        let passes_as_planned = |judged: &Judgement| judged.nominal.verdict == Verdict::Pass;
+        let passes_as_planned = |judged: &Judgement| judged.as_planned.verdict == Verdict::Pass;
         fragile += usize::from(results.iter().flatten().all(passes_as_planned));
     }
     let found = sizing.lightest_choice().map_or(f64::INFINITY, |found| found.total_mass);

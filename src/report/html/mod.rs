@@ -94,9 +94,9 @@ pub fn page(
                     @if let Ok(judged) = result {
                         section {
                             h2 { (delay.name) " " (word(judged.verdict())) }
-                            p.quiet { (explain::computation(case.scene(), &judged.nominal)) }
+                            p.quiet { (explain::computation(case.scene(), &judged.as_planned)) }
                             div.charts {
-                                @for chart in charts::history(case, &judged.nominal.history, &fire_at_s(&delay.timing)) {
+                                @for chart in charts::history(case, &judged.as_planned.history, &fire_at_s(&delay.timing)) {
                                     div { (PreEscaped(svg(&chart).unwrap_or_default())) }
                                 }
                             }

@@ -10,7 +10,7 @@ use crate::report::check::{judged_by, texts};
 use crate::report::no_result;
 use crate::scene::{Scene, TireId, fire_at_s};
 use crate::study::Case;
-use crate::study::check_all::{OptionResults, verdict};
+use crate::study::check_all::{OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
 use crate::study::risk::Risk;
 use crate::verdict::{Estimate, Quantity, Verdict};
@@ -168,7 +168,7 @@ impl AtCable {
 
 impl OptionValues {
     fn new(case: &Case, judged: &Judgement) -> Self {
-        let (scene, checked, risk) = (case.scene(), &judged.nominal, judged.risk.drawn());
+        let (scene, checked, risk) = (case.scene(), &judged.as_planned, judged.risk.drawn());
         let failures = |risk: &Risk| Failures {
             bounds: risk.bounds.interval.into(),
             samples: risk.bounds.samples,
@@ -212,7 +212,7 @@ impl CheckDocument {
             .iter()
             .flatten()
             .next()
-            .map_or(plan.simulation.method, |judged| judged.nominal.compute.method);
+            .map_or(plan.simulation.method, |judged| judged.as_planned.compute.method);
         let options = plan.delays.iter().zip(results).map(|(delay, result)| CheckedOption {
             name: delay.name.clone(),
             fire_at_s: fire_at_s(&delay.timing),
@@ -229,7 +229,7 @@ impl CheckDocument {
             title: case.title().to_owned(),
             judged: results.iter().flatten().next().map_or("nominal", |judged| judged_by(case, judged)),
             accepted_risk_percent: plan.limits.accepted_risk_percent,
-            verdict: verdict(results, any).name(),
+            verdict: verdict_on_plan(results, any).name(),
             partial,
             scene: SceneSize {
                 tires: scene.mass.len(),

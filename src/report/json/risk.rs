@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::LimitsObject;
 use crate::report::risk::swap_warning;
-use crate::study::check_all::{OptionResults, verdict};
+use crate::study::check_all::{OptionResults, verdict_on_plan};
 use crate::study::influence;
 use crate::study::judgement::Judgement;
 use crate::study::risk::Risk;
@@ -104,7 +104,7 @@ impl RiskDocument {
             schema: "shelter.risk/1",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
-            verdict: verdict(results, false).name(),
+            verdict: verdict_on_plan(results, false).name(),
             partial,
             limits: LimitsObject::of(case),
             samples: sampling.most,

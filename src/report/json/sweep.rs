@@ -54,7 +54,7 @@ impl SweepDocument {
             order: row_names(case, &sweep.order),
             limits: LimitsObject::of(case),
             points: sweep.points.iter().map(IntervalResult::of).collect(),
-            nominal_windows_s: sweep.nominal_windows.clone(),
+            nominal_windows_s: sweep.windows_as_planned.clone(),
             windows_s: sweep.windows.clone(),
             largest_gap_s: sweep.largest_gap(),
             recommended_s: sweep.recommended.map(|recommended| recommended.interval),

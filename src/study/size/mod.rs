@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 use itertools::Itertools;
 
 use self::trial::{Candidate, Hardest};
-use super::sampled::{Sampled, verdict};
+use super::sampled::{Sampled, verdict_of_both};
 use super::sampling::Sampling;
 use super::{ComputeSettings, Finding, Found, JudgedShot, NoResult, Progress};
 use crate::plan::{Layout, Plan};
@@ -257,7 +257,7 @@ fn choose(
             sampled = Sampled::Drawn(risk);
         }
         trial.risk = sampled.drawn().copied();
-        trial.is_choice = verdict(Verdict::Pass, sampled.map(|risk| risk.verdict)) == Verdict::Pass;
+        trial.is_choice = verdict_of_both(Verdict::Pass, sampled.map(|risk| risk.verdict)) == Verdict::Pass;
         least = if trial.is_choice { trial.utilization } else { least };
         combination.trial = Ok(trial);
     }

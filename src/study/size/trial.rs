@@ -113,7 +113,7 @@ impl<'q> Candidate<'q> {
     ) -> Result<Option<SampledRisk>, NoResult> {
         let compute = self.task.compute;
         let target = |&(n, planned): &(usize, JudgedShot)| {
-            ShotToSample::new(&self.case, &self.shots[n], *compute, *sampling).planned(planned)
+            ShotToSample::new(&self.case, &self.shots[n], *compute, *sampling).as_planned(planned)
         };
         let targets: Vec<ShotToSample<'_>> = hardest.iter().map(target).collect();
         let until_one_fails = &mut |_, risk: &Risk| match risk.verdict() {

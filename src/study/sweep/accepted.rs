@@ -32,7 +32,7 @@ pub fn add_risk(
 ) -> Finding<Sweep> {
     let Found { value: mut swept, mut partial } = nominal;
     let shot = |point: &Point| (case.shot(&swept.order, point.interval), point.as_planned);
-    let chosen = choose(&swept.points, &swept.nominal_windows, own);
+    let chosen = choose(&swept.points, &swept.windows_as_planned, own);
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
     let sampled = sample_shots(case, &shots, &sampling.first_look(), compute, progress)?;
     partial |= sampled.contains(&None);
@@ -43,8 +43,8 @@ pub fn add_risk(
     swept.recommended = None;
     let mut tried = BTreeSet::new();
     loop {
-        swept.nominal_windows = windows(case, &swept.points);
-        swept.windows = accepted_windows(&swept.points, &swept.nominal_windows);
+        swept.windows_as_planned = windows(case, &swept.points);
+        swept.windows = accepted_windows(&swept.points, &swept.windows_as_planned);
         if tried.len() == TRIES || partial {
             break;
         }

@@ -41,7 +41,7 @@ pub struct Point {
 impl Point {
     /// The verdict: of the shot as planned, and of its samples where they were asked for.
     pub fn verdict(&self) -> Verdict {
-        sampled::verdict(self.as_planned.verdict, self.risk.map(|risk| risk.verdict))
+        sampled::verdict_of_both(self.as_planned.verdict, self.risk.map(|risk| risk.verdict))
     }
 
     /// Whether samples were drawn.
@@ -63,7 +63,7 @@ pub struct Sweep {
     /// Points in ascending order of the interval.
     pub points: Vec<Point>,
     /// Ranges of intervals [s] in which every interval tried passes as planned; the ends were tried.
-    pub nominal_windows: Vec<[f64; 2]>,
+    pub windows_as_planned: Vec<[f64; 2]>,
     /// Windows of accepted risk: ranges of intervals [s] in which every interval sampled is accepted; the ends were sampled.
     /// Where only the shots as planned were asked for, the nominal windows.
     pub windows: Vec<[f64; 2]>,
@@ -117,14 +117,14 @@ pub fn sweep(
     if case.plan.blast_rows.len() < 2 {
         return Err(NoResult::SingleRow);
     }
-    let nominal = sweep_nominal(case, order, intervals, compute, progress)?;
+    let nominal = sweep_as_planned(case, order, intervals, compute, progress)?;
     let Some(sampling) = sampling else { return Ok(nominal) };
     let own = own_intervals(case, order).into_iter().map(nanoseconds).collect();
     accepted::add_risk(case, nominal, &own, sampling, compute, progress)
 }
 
 /// Sweeps the shots as planned.
-fn sweep_nominal(
+fn sweep_as_planned(
     case: &Case,
     order: &[usize],
     intervals: &Intervals,
@@ -167,9 +167,9 @@ fn sweep_nominal(
         let told = wide.copied().chain(recommended.map(|recommended| recommended.interval)).map(nanoseconds);
         next = told.filter(|at| !exact.contains(at)).collect();
         if partial || next.is_empty() {
-            let nominal_windows = windows.clone();
+            let windows_as_planned = windows.clone();
             let order = order.to_vec();
-            let value = Sweep { order, points, nominal_windows, windows, recommended, refuted: 0 };
+            let value = Sweep { order, points, windows_as_planned, windows, recommended, refuted: 0 };
             return Ok(Found { value, partial });
         }
         exact.extend(&next);

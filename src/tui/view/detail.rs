@@ -65,7 +65,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let [text, rest] =
         Layout::vertical([Constraint::Length(lines.min(most)), Constraint::Min(0)]).areas(inside);
     frame.render_widget(Paragraph::new(facts).wrap(Wrap { trim: true }), text);
-    let history = charts::history(&app.case, &judged.nominal.history, &fire_at_s(&delay.timing));
+    let history = charts::history(&app.case, &judged.as_planned.history, &fire_at_s(&delay.timing));
     let risk = judged.risk.drawn().filter(|risk| !risk.samples.is_empty());
     draw_charts(app, history, risk, frame, rest);
 }
@@ -88,11 +88,11 @@ fn draw_charts(app: &App, history: [Chart; 2], risk: Option<&Risk>, frame: &mut 
 }
 
 fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
-    let (case, theme, checked) = (&app.case, app.theme, &judged.nominal);
+    let (case, theme, checked) = (&app.case, app.theme, &judged.as_planned);
     let as_planned = checked.reasons.iter().map(|why| Detail { verdict: why.verdict(), text: reason(why) });
     // As long as samples come, how many there are says more than that they do not suffice.
     let open = app.options[app.selected].is_sampling()
-        && sampled::verdict(Verdict::Pass, judged.risk.map(Risk::verdict)) == Verdict::Undecided;
+        && sampled::verdict_of_both(Verdict::Pass, judged.risk.map(Risk::verdict)) == Verdict::Undecided;
     let mut lines: Vec<Line> = as_planned
         .chain(risk_detail(case, judged).filter(|_| !open))
         .map(|Detail { verdict, text }| {

@@ -15,11 +15,11 @@ mod command_palette;
 mod detail;
 mod flight;
 mod help;
+mod options;
 mod parts;
 mod plan;
 mod report;
 mod studies;
-mod table;
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Position, Rect};
@@ -81,7 +81,7 @@ fn draw_options(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let table = if app.zoom { 0 } else { rows.min(area.height / 2) };
     let [list, rest] = Layout::vertical([Constraint::Length(table), Constraint::Min(0)]).areas(area);
     if !app.zoom {
-        table::draw(app, frame, list, areas);
+        options::draw(app, frame, list, areas);
     }
     detail::draw(app, frame, rest);
 }

@@ -8,8 +8,8 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::canvas::{Canvas, Points};
 use ratatui::widgets::{Block, Borders, Clear, List, ListState, Paragraph, Wrap};
 
+use super::options;
 use super::parts::color;
-use super::table;
 use crate::scene::fire_at_s;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::editor::Order;
@@ -28,7 +28,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let [shelter, verdicts] =
         Layout::vertical([Constraint::Min(0), Constraint::Length(options)]).areas(right);
     draw_shelter(app, frame, shelter);
-    table::draw(app, frame, verdicts, areas);
+    options::draw(app, frame, verdicts, areas);
 }
 
 fn draw_fields(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {

@@ -69,21 +69,23 @@ const COLUMNS: &[Column] = &[
         sort: SortBy::Force,
         width: 6,
         from: 70,
-        cell: |_, _, judged| units::factor(judged.nominal.safety_factor),
+        cell: |_, _, judged| units::factor(judged.as_planned.safety_factor),
     },
     Column {
         head: "left m",
         sort: SortBy::Height,
         width: 7,
         from: SPARKS,
-        cell: |app, _, judged| percent(margin_percent(judged.nominal.height.value, app.case.limits.height)),
+        cell: |app, _, judged| {
+            percent(margin_percent(judged.as_planned.height.value, app.case.limits.height))
+        },
     },
     Column {
         head: "left kN",
         sort: SortBy::Force,
         width: 7,
         from: SPARKS,
-        cell: |app, _, judged| percent(margin_percent(judged.nominal.force.value, app.case.limits.force)),
+        cell: |app, _, judged| percent(margin_percent(judged.as_planned.force.value, app.case.limits.force)),
     },
     Column {
         head: "drift, m",
@@ -123,12 +125,12 @@ fn band(judged: &Judgement, quantity: Quantity, unit: Unit) -> String {
 
 /// A quantity of the shot as planned, or its difference from the baseline.
 fn against(app: &App, option: usize, quantity: fn(&Checked) -> f64, unit: Unit) -> String {
-    let Some(mine) = app.judgement(option).map(|judged| quantity(&judged.nominal)) else {
+    let Some(mine) = app.judgement(option).map(|judged| quantity(&judged.as_planned)) else {
         return String::new();
     };
     match app.baseline() {
         Some((other, base)) if other != option => {
-            let difference = mine - quantity(&base.nominal);
+            let difference = mine - quantity(&base.as_planned);
             let sign = if difference >= 0.0 { "+" } else { "" };
             format!("{sign}{}", units::value(difference, unit))
         }
@@ -201,7 +203,7 @@ fn row<'r>(app: &'r App, option: usize, columns: &[&Column], (name, spark): (u16
             let cell = |column: &&Column| Line::from((column.cell)(app, option, judgement)).right_aligned();
             cells.extend(columns.iter().map(cell));
             let width = usize::from(spark);
-            let (history, limits) = (&judgement.nominal.history, &app.case.limits);
+            let (history, limits) = (&judgement.as_planned.history, &app.case.limits);
             let spark = |series, limit| Line::styled(sparkline(series, width, limit), app.theme.curve());
             cells.push(spark(&history.height, limits.height));
             cells.push(spark(&history.force, limits.force));
