@@ -117,6 +117,20 @@ choice! {
 }
 
 choice! {
+    /// Order in which the holes of a blast row fire, where they do not fire together.
+    HoleOrder, default Left {
+        /// From the smallest x on; in a row along y, from the smallest y on.
+        Left = "left",
+        /// The other way.
+        Right = "right",
+        /// From the middle of the row outward; holes at equal distances fire together.
+        Centre = "centre",
+        /// From both ends inward; holes at equal distances fire together.
+        Ends = "ends",
+    }
+}
+
+choice! {
     /// Effect of a force past the breaking force of a cable.
     OnOverload, default Report {
         /// The cable is reported and pulls on.

@@ -36,7 +36,7 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
-    let Some((case, option)) = open_option(&arguments.plan, arguments.option.as_deref(), look) else {
+    let Some((mut case, option)) = open_option(&arguments.plan, arguments.option.as_deref(), look) else {
         return Ok(Status::Wrong);
     };
     let order = match (&arguments.option, &case.plan.delays[option].timing) {
@@ -46,6 +46,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             return wrong(&format!("option '{name}' has firing times of its own, no interval to sweep"));
         }
     };
+    if arguments.option.is_some() {
+        case.holes = case.plan.delays[option].holes;
+    }
     let settings = arguments.compute.settings(&case.plan);
     let sampling = arguments.verdict.sampling();
     let swept = run_study(&arguments.compute, |progress| {

@@ -24,7 +24,7 @@ pub use read::nearest;
 pub use source::PlanSource;
 pub use uncertainty::{DelayScatter, Uncertainty};
 
-use crate::choice::{Accuracy, Link, Method, OnOverload};
+use crate::choice::{Accuracy, HoleOrder, Link, Method, OnOverload};
 
 /// A blast row, the shelter over it, and the delay options to choose from.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,6 +73,13 @@ impl Plan {
     /// Validates the text of a plan; messages name the file `path`.
     pub fn parse(path: &str, text: &str) -> Result<Self, Diagnostics> {
         validate::parse(path, text)
+    }
+
+    /// How the holes of each row fire in every delay option; `None` where options differ.
+    pub fn shared_hole_timing(&self) -> Option<HoleTiming> {
+        let mut all = self.delays.iter().map(|delay| delay.holes);
+        let first = all.next()?;
+        all.all(|holes| holes == first).then_some(first)
     }
 
     /// Launch velocities of all blast rows and holes.
@@ -279,7 +286,7 @@ pub struct Hole {
     pub launch: Launch,
 }
 
-/// A launch velocity.
+/// What a hole does to its tire.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Launch {
     /// Speed [m/s].
@@ -290,6 +297,8 @@ pub struct Launch {
     pub tilt_toward_deg: f64,
     /// Time over which the hole pushes [ms]; 0: at once.
     pub push_ms: f64,
+    /// Explosive in the hole [kg]; all holes of a plan have a charge, or none has.
+    pub charge_kg: Option<f64>,
 }
 
 /// Limits of a passing option.
@@ -301,6 +310,10 @@ pub struct LimitsSpec {
     pub cable_safety_factor: f64,
     /// Greatest horizontal shift of any tire at the end [m].
     pub drift_m: Option<f64>,
+    /// Most holes that fire within any 8 ms.
+    pub holes_in_8_ms: Option<usize>,
+    /// Heaviest charge within any 8 ms [kg].
+    pub charge_in_8_ms_kg: Option<f64>,
     /// Share of the shots that `[uncertainty]` describes that may go past a limit [%].
     pub accepted_risk_percent: f64,
 }
@@ -310,8 +323,24 @@ pub struct LimitsSpec {
 pub struct DelayOption {
     /// Name in every view; unique.
     pub name: String,
-    /// Firing times of the rows.
+    /// Firing times of the rows: of the first hole of each.
     pub timing: Timing,
+    /// Firing times of the holes of each row.
+    pub holes: HoleTiming,
+}
+
+/// How the holes of each row fire, from the firing time of the row on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HoleTiming {
+    /// Time between successive holes [ms]; 0: together.
+    pub interval_ms: f64,
+    /// Where the holes begin.
+    pub order: HoleOrder,
+}
+
+impl HoleTiming {
+    /// The holes of a row fire together.
+    pub const TOGETHER: Self = Self { interval_ms: 0.0, order: HoleOrder::DEFAULT };
 }
 
 /// Firing times of the blast rows.

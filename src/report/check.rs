@@ -3,7 +3,7 @@
 use std::iter;
 
 use super::cover::covers;
-use super::explain::{broken, compute_label, launch_margin, reason, risk_detail};
+use super::explain::{self, broken, compute_label, launch_margin, reason, risk_detail};
 use super::model::{Block, Cell, Column, Conclusion, Detail, Field, Report, Shown, Table};
 use super::option_row::{OptionRow, option_rows};
 use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
@@ -36,7 +36,7 @@ fn firing(row: &OptionRow<'_>) -> String {
     format!("{} ms", times.join(", "))
 }
 
-fn fields<'a>() -> [Field<OptionRow<'a>>; 31] {
+fn fields<'a>() -> [Field<OptionRow<'a>>; 34] {
     let words = |heading| Column::words(&[], heading).shown(Shown::Text);
     [
         Field::new(Column::scripts(&["plan"]), |row| Cell::Text(row.case.source.path.clone())),
@@ -88,6 +88,11 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 31] {
             let passes = judged.filter(|judged| judged.as_planned.verdict == Verdict::Pass);
             let margin = passes.and_then(|judged| judged.launch_margin);
             margin.map_or(Cell::Nothing, |margin| Cell::Text(launch_margin(margin)))
+        }),
+        Field::new(Column::words(&[], "in 8 ms"), |row| Cell::Text(explain::together(row.together()))),
+        Field::new(Column::scripts(&["holes_in_8_ms"]), |row| Cell::Count(row.together().holes)),
+        Field::new(Column::scripts(&["charge_in_8_ms_kg"]), |row| {
+            row.together().charge.map_or(Cell::Nothing, Cell::Number)
         }),
         Field::new(DRIFT, |row| {
             row.as_planned(|Checked { drift, .. }| Cell::Estimate {

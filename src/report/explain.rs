@@ -14,6 +14,7 @@ use crate::study::random_shot::Input;
 use crate::study::reason::{EarlyEnd, Reason};
 use crate::study::risk::Risk;
 use crate::study::sample::SampleRun;
+use crate::study::together::Together;
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
@@ -24,12 +25,32 @@ pub const VERDICTS: [&str; 3] = [
     "OPEN: neither, with the finest step and the most samples allowed; surely means 95 %, however often the samples are looked at.",
 ];
 
+/// What fires within any 8 ms: the heaviest charge, or the most holes where the plan names no charges.
+pub fn together(Together { holes, charge }: Together) -> String {
+    match charge {
+        Some(charge) => format!("{} kg", grams(charge)),
+        None if holes == 1 => "1 hole".to_owned(),
+        None => format!("{holes} holes"),
+    }
+}
+
+/// A sum of charges [kg] to the gram, without the digits of its rounding.
+fn grams(charge: f64) -> f64 {
+    (charge * 1e3).round() / 1e3
+}
+
 /// Why an option did not pass, in words.
 pub fn reason(reason: &Reason) -> String {
     let (quantity, verdict, estimate, limit) = match reason {
         Reason::Limit { quantity, verdict, estimate, limit } => (quantity, verdict, estimate, limit),
         Reason::Broken(1) => return "a cable breaks".to_owned(),
         Reason::Broken(count) => return format!("{count} cables break"),
+        Reason::HolesTogether { holes, limit } => {
+            return format!("{holes} holes fire within 8 ms, the limit is {limit}");
+        }
+        Reason::ChargeTogether { charge, limit } => {
+            return format!("{} kg fire within 8 ms, the limit is {limit} kg", grams(*charge));
+        }
         Reason::EnergyResidual(residual) => {
             let residual = units::percent(*residual, 1);
             return format!("the energy balance is off by {residual}: the step is too long for this motion");

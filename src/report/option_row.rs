@@ -2,10 +2,12 @@
 
 use super::model::Cell;
 use crate::plan::DelayOption;
+use crate::scene::Shot;
 use crate::study::check::Checked;
 use crate::study::check_all::OptionResults;
 use crate::study::judgement::Judgement;
 use crate::study::risk::Risk;
+use crate::study::together::Together;
 use crate::study::{Case, NoResult};
 use crate::verdict::Verdict;
 
@@ -13,6 +15,7 @@ use crate::verdict::Verdict;
 pub struct OptionRow<'a> {
     pub case: &'a Case,
     pub delay: &'a DelayOption,
+    pub shot: &'a Shot,
     pub result: &'a Result<Judgement, NoResult>,
 }
 
@@ -21,8 +24,8 @@ pub fn option_rows<'a>(
     case: &'a Case,
     results: &'a OptionResults,
 ) -> impl Iterator<Item = OptionRow<'a>> + Clone {
-    let options = case.plan.delays.iter().zip(results);
-    options.map(move |(delay, result)| OptionRow { case, delay, result })
+    let options = case.plan.delays.iter().zip(&case.shots).zip(results);
+    options.map(move |((delay, shot), result)| OptionRow { case, delay, shot, result })
 }
 
 impl OptionRow<'_> {
@@ -35,6 +38,11 @@ impl OptionRow<'_> {
     pub fn sampled(&self, cell: impl FnOnce(&Risk) -> Cell) -> Cell {
         let risk = self.result.as_ref().ok().and_then(|judged| judged.risk.drawn());
         risk.map_or(Cell::Nothing, cell)
+    }
+
+    /// What fires together in the shot as planned.
+    pub fn together(&self) -> Together {
+        Together::of(self.case, self.shot)
     }
 
     pub fn verdict(&self) -> Verdict {

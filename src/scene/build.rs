@@ -3,8 +3,10 @@
 use nalgebra::{Vector2, Vector3};
 
 use super::{Cable, Firing, Scene, Shot, TireId, with_ends};
-use crate::choice::{Link, OnOverload};
-use crate::plan::{BlastRow, Launch, LaunchTargets, Layout, Mesh, Plan, Timing, fire_in_turn};
+use crate::choice::{HoleOrder, Link, OnOverload};
+use crate::plan::{
+    BlastRow, DelayOption, HoleTiming, Launch, LaunchTargets, Layout, Mesh, Plan, Timing, fire_in_turn,
+};
 
 /// Firing time of each blast row [s] (`n_blast_rows`).
 pub fn fire_at_s(timing: &Timing) -> Vec<f64> {
@@ -18,32 +20,86 @@ pub fn seconds(ms: f64) -> f64 {
 }
 
 impl Shot {
-    /// Shot of blast rows fired at `timing` under `scene`.
-    pub fn new(scene: &Scene, rows: &[BlastRow], timing: &Timing) -> Self {
-        Self::of_rows(scene, rows, &fire_at_s(timing))
+    /// Shot of blast rows fired as a delay option says, under `scene`.
+    pub fn new(scene: &Scene, rows: &[BlastRow], delay: &DelayOption) -> Self {
+        let (row_at_ms, DelayOption { holes, .. }) = (delay.timing.fire_at_ms(), delay);
+        let at = |row: usize, turn: f64| seconds(row_at_ms[row] + turn * holes.interval_ms);
+        Self::of_rows(scene, rows, holes, at)
     }
 
-    /// Shot of blast rows fired in `order` under `scene`, `interval` [s] apart.
-    pub fn in_order(scene: &Scene, rows: &[BlastRow], order: &[usize], interval: f64) -> Self {
-        Self::of_rows(scene, rows, &fire_in_turn(order, interval))
+    /// Shot of blast rows fired in `order` under `scene`, `interval` [s] apart, each with its holes as `holes` says.
+    pub fn in_order(
+        scene: &Scene,
+        rows: &[BlastRow],
+        order: &[usize],
+        interval: f64,
+        holes: &HoleTiming,
+    ) -> Self {
+        let row_at = fire_in_turn(order, interval);
+        let at = |row: usize, turn: f64| row_at[row] + turn * seconds(holes.interval_ms);
+        // Whole nanoseconds, so that the shot is that of the plan which says the same in milliseconds.
+        Self::of_rows(scene, rows, holes, |row, turn| (at(row, turn) * 1e9).round() / 1e9)
     }
 
-    /// Shot of blast rows fired at the times `at` [s] under `scene` (`n_blast_rows`).
-    fn of_rows(scene: &Scene, rows: &[BlastRow], at: &[f64]) -> Self {
-        let fire = |(row, &at): (&BlastRow, &f64)| {
-            let firings = scene.firings(&row.targets).into_iter();
-            firings.map(move |firing| Firing { at, ..firing }).collect::<Vec<_>>()
-        };
-        Self::from_firings(rows.iter().zip(at).flat_map(fire).collect())
+    /// Shot of blast rows under `scene`, whose holes fire `at` a time [s] that follows from the row and the turn of the hole in it.
+    fn of_rows(scene: &Scene, rows: &[BlastRow], holes: &HoleTiming, at: impl Fn(usize, f64) -> f64) -> Self {
+        let mut firings = Vec::new();
+        for (row, BlastRow { targets, .. }) in rows.iter().enumerate() {
+            let under = scene.firings(targets);
+            let turns = match holes.interval_ms > 0.0 {
+                true => hole_turns(&scene.hole_places(targets, &under), holes.order),
+                false => vec![0; under.len()],
+            };
+            let fire = |(firing, turn): (Firing, usize)| Firing { at: at(row, turn as f64), row, ..firing };
+            firings.extend(under.into_iter().zip(turns).map(fire));
+        }
+        Self::from_firings(firings)
     }
+}
+
+/// Distance below which two holes lie equally far from the middle of their row [m].
+const EQUALLY_FAR: f64 = 1e-3;
+
+/// Turn of each hole of a row at these places [m], from 0 (`n_holes`). A row runs along the axis on which it is longer.
+fn hole_turns(places: &[[f64; 2]], order: HoleOrder) -> Vec<usize> {
+    let ends = |axis: usize| {
+        let along = || places.iter().map(|place| place[axis]);
+        [along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max)]
+    };
+    let length = |axis: usize| ends(axis)[1] - ends(axis)[0];
+    let axis = usize::from(length(1) > length(0));
+    let [first, last] = ends(axis);
+    let from_middle = |hole: usize| (places[hole][axis] - 0.5 * (first + last)).abs();
+    let mut by_turn: Vec<usize> = (0..places.len()).collect();
+    let place = |hole: usize| (places[hole][axis], places[hole][1 - axis]);
+    let by_place = |a: &usize, b: &usize| {
+        let ((a, beside_a), (b, beside_b)) = (place(*a), place(*b));
+        a.total_cmp(&b).then(beside_a.total_cmp(&beside_b))
+    };
+    match order {
+        HoleOrder::Left => by_turn.sort_by(by_place),
+        HoleOrder::Right => by_turn.sort_by(|a, b| by_place(b, a)),
+        HoleOrder::Centre => by_turn.sort_by(|&a, &b| from_middle(a).total_cmp(&from_middle(b))),
+        HoleOrder::Ends => by_turn.sort_by(|&a, &b| from_middle(b).total_cmp(&from_middle(a))),
+    }
+    let together = |a: usize, b: usize| match order {
+        HoleOrder::Left | HoleOrder::Right => false,
+        HoleOrder::Centre | HoleOrder::Ends => (from_middle(a) - from_middle(b)).abs() < EQUALLY_FAR,
+    };
+    let mut turns = vec![0; places.len()];
+    for pair in by_turn.windows(2) {
+        turns[pair[1]] = turns[pair[0]] + usize::from(!together(pair[0], pair[1]));
+    }
+    turns
 }
 
 /// Firing at time 0 under a tire.
 fn firing(tire: usize, launch: &Launch) -> Firing {
-    let Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms } = *launch;
+    let Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms, charge_kg } = *launch;
     let sideways = azimuth(tilt_toward_deg).push(0.0);
     let launch = speed_m_s * (cosine(tilt_deg - 90.0) * sideways + cosine(tilt_deg) * Vector3::z());
-    Firing { at: 0.0, tire, launch, push: seconds(push_ms) }
+    let charge = charge_kg.unwrap_or(0.0);
+    Firing { push: seconds(push_ms), charge, ..Firing::at_once(0.0, tire, launch) }
 }
 
 /// Direction along the ground at an azimuth [°] from +x toward +y.
@@ -204,6 +260,17 @@ impl Scene {
                 .iter()
                 .filter_map(|hole| Some(firing(self.nearest(hole.x_m, hole.y_m)?, &hole.launch)))
                 .collect(),
+        }
+    }
+
+    /// Places of the holes of a blast row [m], of which `firings` are the firings (`n_holes`): a row under tires has each hole under
+    /// the middle of its tire.
+    fn hole_places(&self, targets: &LaunchTargets, firings: &[Firing]) -> Vec<[f64; 2]> {
+        match targets {
+            LaunchTargets::Holes(holes) => holes.iter().map(|hole| [hole.x_m, hole.y_m]).collect(),
+            LaunchTargets::UnderRow { .. } | LaunchTargets::UnderTires { .. } => {
+                firings.iter().map(|firing| self.position[firing.tire].xy().into()).collect()
+            }
         }
     }
 

@@ -17,12 +17,21 @@ pub struct Firing {
     pub launch: Vector3<f64>,
     /// Time over which the impulse acts, as a constant force [s]; 0: at once.
     pub push: f64,
+    /// Index of the blast row.
+    pub row: usize,
+    /// Explosive in the hole [kg]; 0 where the plan says nothing.
+    pub charge: f64,
 }
 
 impl Firing {
     /// Firing at time `at` [s] that launches a tire straight up with `speed` [m/s].
     pub fn up(at: f64, tire: usize, speed: f64) -> Self {
-        Self { at, tire, launch: Vector3::z() * speed, push: 0.0 }
+        Self::at_once(at, tire, Vector3::z() * speed)
+    }
+
+    /// Firing at time `at` [s] that gives a tire the velocity `launch` [m/s] at once.
+    pub fn at_once(at: f64, tire: usize, launch: Vector3<f64>) -> Self {
+        Self { at, tire, launch, push: 0.0, row: 0, charge: 0.0 }
     }
 
     /// Its image in a mirror plane.
@@ -81,8 +90,33 @@ impl Shot {
 
     /// Whether the shot is its own image in a mirror plane.
     pub fn is_mirrored(&self, mirror: &Mirror) -> bool {
-        let image = self.firings.iter().map(|firing| firing.mirrored(mirror));
-        Self::from_firings(image.collect()).firings == self.firings
+        // Neither the row nor the charge moves a tire.
+        let plain = |firing: Firing| Firing { row: 0, charge: 0.0, ..firing };
+        let own = self.firings.iter().copied().map(plain);
+        let image = self.firings.iter().map(|firing| plain(firing.mirrored(mirror)));
+        own.eq(Self::from_firings(image.collect()).firings)
+    }
+
+    /// Most holes that fire within any `window` [s], its end left out.
+    pub fn most_holes_within(&self, window: f64) -> usize {
+        self.most_within(window, |_| 1.0) as usize
+    }
+
+    /// Heaviest charge that fires within any `window` [s], its end left out [kg].
+    pub fn heaviest_charge_within(&self, window: f64) -> f64 {
+        self.most_within(window, |firing| firing.charge)
+    }
+
+    /// Greatest sum of `weight` over the firings within any `window` [s], its end left out; times are rounded to 1 µs, so that holes
+    /// planned a window apart do not count together.
+    fn most_within(&self, window: f64, weight: impl Fn(&Firing) -> f64) -> f64 {
+        let microseconds = |time: f64| (time * 1e6).round();
+        let from = |first: usize| {
+            let end = microseconds(self.firings[first].at) + microseconds(window);
+            let within = self.firings[first..].iter().take_while(|firing| microseconds(firing.at) < end);
+            within.map(&weight).sum::<f64>()
+        };
+        (0..self.firings.len()).map(from).fold(0.0, f64::max)
     }
 }
 

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use super::cover::{Cover, CoverWatch};
 use super::ladder::{estimates, nearest};
-use super::reason::{Reason, closes, find_reasons, with_limits};
+use super::reason::{Reason, closes, find_reasons_as_planned, with_limits};
 use super::{Case, ComputeSettings, step_error};
 use crate::choice::Accuracy;
 use crate::outcome::{Broken, History, Outcome, RunEnd};
@@ -255,7 +255,7 @@ fn judge(
         pairs.iter().map(|pair| pair.each_ref().map(|run| &run.outcome)).collect();
     let [height, force, drift] = estimates(&outcomes, &pairs);
     let outcome = &last.outcome;
-    let reasons = find_reasons(case, shot, outcome, [height, force, drift]);
+    let reasons = find_reasons_as_planned(case, shot, outcome, [height, force, drift]);
     Checked {
         verdict: Verdict::worst(reasons.iter().map(Reason::verdict)),
         reasons,

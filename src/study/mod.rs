@@ -3,7 +3,7 @@
 //! | what | where |
 //! |---|---|
 //! | questions of the user, one file each | [`mod@check_all`] (`shelter check`, and `risk`), [`sweep`], [`orders`], [`size`], [`effects`], [`accuracy`], [`paper_table`], [`flight`], [`trace`] |
-//! | one shot as planned, judged | [`check`], `ladder`, [`step_error`], [`reason`], [`margin`]; coarsely: `screen`; what a study keeps of it: `judged_shot` |
+//! | one shot as planned, judged | [`check`], `ladder`, [`step_error`], [`reason`], [`together`], [`margin`]; coarsely: `screen`; what a study keeps of it: `judged_shot` |
 //! | the shots that are possible | [`random_shot`], [`sample`], [`sampling`], [`risk`], [`risk_summary`], [`failure_bounds`], [`influence`], [`swaps`] |
 //! | both together | [`judgement`], and the rule of the verdict: [`sampled`] |
 //! | how work runs | [`batch`], `compute`, `progress`, `found`, `no_result`, `intervals`; on many machines: `shard`, [`merge`] |
@@ -46,6 +46,7 @@ pub mod size;
 pub mod step_error;
 pub mod swaps;
 pub mod sweep;
+pub mod together;
 pub mod trace;
 
 use std::path::Path;
@@ -60,7 +61,7 @@ pub use progress::Progress;
 pub use shard::Shard;
 
 use crate::choice::Method;
-use crate::plan::{Diagnostics, Plan, PlanSource, Timing};
+use crate::plan::{DelayOption, Diagnostics, HoleTiming, Plan, PlanSource, Timing};
 use crate::scene::{Scene, Shot, seconds};
 use crate::simulation::{Model, Settings};
 use crate::verdict::Limits;
@@ -78,6 +79,9 @@ pub struct Case {
     pub shots: Vec<Shot>,
     /// Limits in SI units.
     pub limits: Limits,
+    /// How the holes of each row fire in studies that vary order and interval: as in all options of the plan, and together where
+    /// the options differ.
+    pub holes: HoleTiming,
 }
 
 impl Case {
@@ -95,8 +99,8 @@ impl Case {
     /// Builds scene, shots and limits of a plan that has no file.
     pub fn new(plan: Plan) -> Self {
         let scene = Scene::build(&plan);
-        let shots =
-            plan.delays.iter().map(|delay| Shot::new(&scene, &plan.blast_rows, &delay.timing)).collect();
+        let shots = plan.delays.iter().map(|delay| Shot::new(&scene, &plan.blast_rows, delay)).collect();
+        let holes = plan.shared_hole_timing().unwrap_or(HoleTiming::TOGETHER);
         let breaking_force = plan.cable.breaking_force_kn * 1e3;
         let limits = Limits {
             height: plan.limits.flight_height_m,
@@ -104,7 +108,7 @@ impl Case {
             drift: plan.limits.drift_m,
             breaking_force,
         };
-        Self { source: PlanSource::default(), plan, model: Model::new(scene), shots, limits }
+        Self { source: PlanSource::default(), plan, model: Model::new(scene), shots, limits, holes }
     }
 
     /// Title of the plan; the path of its file where the plan has no title.
@@ -114,16 +118,16 @@ impl Case {
 
     /// The shot of blast rows fired in `order`, `interval` [s] apart.
     pub fn shot(&self, order: &[usize], interval: f64) -> Shot {
-        Shot::in_order(self.scene(), &self.plan.blast_rows, order, interval)
+        Shot::in_order(self.scene(), &self.plan.blast_rows, order, interval, &self.holes)
     }
 
-    /// Intervals of the delay options [s], ascending, without repetitions.
+    /// Intervals of the delay options whose holes fire as [`Case::holes`] says [s], ascending, without repetitions.
     pub fn intervals(&self) -> Vec<f64> {
-        let interval = |timing: &Timing| match timing {
-            Timing::Interval { interval_ms, .. } => Some(seconds(*interval_ms)),
-            Timing::At(_) => None,
+        let interval = |delay: &DelayOption| match delay.timing {
+            Timing::Interval { interval_ms, .. } if delay.holes == self.holes => Some(seconds(interval_ms)),
+            Timing::Interval { .. } | Timing::At(_) => None,
         };
-        let mut all: Vec<f64> = self.plan.delays.iter().filter_map(|delay| interval(&delay.timing)).collect();
+        let mut all: Vec<f64> = self.plan.delays.iter().filter_map(interval).collect();
         all.sort_by(f64::total_cmp);
         all.dedup();
         all

@@ -1,12 +1,12 @@
 //! Draws the shots that `[uncertainty]` describes.
 //!
 //! A sample is a variant of the scene and a shot. Every draw follows from the seed, the number of the sample, and its place:
-//! an input of the whole shot, a gap between blast rows, a tire, or a cable. So a sample does not depend on threads, shards,
+//! an input of the whole shot, a gap between blast rows, a blast row, a tire, or a cable. So a sample does not depend on threads, shards,
 //! accuracy or the order of options, and the options of a plan are compared on the same draws.
 //!
 //! Factors on launch velocities, masses and breaking forces are lognormal with mean 1. A hole's launch velocity belongs to a
 //! tire of the plan's mass: a tire of another mass leaves with the same momentum. Each gap between blast rows scatters by itself
-//! and shifts all later rows.
+//! and shifts all later rows; so does each gap between the holes of a row, and shifts its later holes.
 
 use nalgebra::{Rotation3, Vector3};
 use rand::{Rng, SeedableRng};
@@ -65,6 +65,7 @@ struct Random(ChaCha8Rng);
 enum Place {
     WholeShot,
     Gaps,
+    BlastRow(usize),
     Tire(usize),
     Cable(usize),
 }
@@ -81,6 +82,7 @@ impl Random {
         let word = match place {
             Place::WholeShot => 0,
             Place::Gaps => 1 << 32,
+            Place::BlastRow(row) => (1 << 40) + ((row as u128) << 20),
             Place::Tire(tire) => (1 << 44) + ((tire as u128) << 20),
             Place::Cable(cable) => (1 << 60) + ((cable as u128) << 6),
         };
@@ -111,7 +113,7 @@ pub fn draw(case: &Case, nominal: &Shot, seed: u64, number: usize) -> RandomShot
     let stiffness = 1.0 + 1e-2 * between(unknown.axial_stiffness_percent);
 
     let mut firings = nominal.firings.clone();
-    scatter_gaps(&mut firings, unknown, random.at(Place::Gaps));
+    scatter_gaps(&mut firings, unknown, &mut random);
     let mut scene = case.scene().clone();
     scatter_tires(&mut scene, &mut firings, unknown, launch_common, &mut random);
     let length = (1.0 + 1e-2 * slack_percent) / (1.0 + 1e-2 * case.plan.cable.slack_percent);
@@ -135,19 +137,37 @@ pub fn draw(case: &Case, nominal: &Shot, seed: u64, number: usize) -> RandomShot
     RandomShot { scene, shot, inputs: [launch_common, friction, slack_percent, stiffness] }
 }
 
-/// Shifts the firings [s], which are in order of time, by the scatter of the gaps before them. A gap stays a delay: it is
-/// never negative.
-fn scatter_gaps(firings: &mut [Firing], unknown: &Uncertainty, random: &mut ChaCha8Rng) {
-    let mut last: Option<[f64; 2]> = None;
-    for together in firings.chunk_by_mut(|a, b| a.at == b.at) {
-        let planned = together[0].at;
-        let at = last.map_or(planned, |[last_planned, last_at]| {
-            let gap = planned - last_planned;
-            last_at + (gap + unknown.delay.deviation(gap) * normal(random)).max(0.0)
-        });
-        together.iter_mut().for_each(|firing| firing.at = at);
-        last = Some([planned, at]);
+/// Shifts the firings [s], which are in order of time, by the scatter of the gaps before them: of the gaps between the rows, and
+/// of those between the holes of their row.
+fn scatter_gaps(firings: &mut [Firing], unknown: &Uncertainty, random: &mut Random) {
+    let rows = firings.iter().map(|firing| firing.row + 1).max().unwrap_or(0);
+    let mut holes: Vec<Vec<usize>> = vec![Vec::new(); rows];
+    firings.iter().enumerate().for_each(|(n, firing)| holes[firing.row].push(n));
+    let mut by_start: Vec<&[usize]> = holes.iter().map(Vec::as_slice).filter(|row| !row.is_empty()).collect();
+    by_start.sort_by(|a, b| firings[a[0]].at.total_cmp(&firings[b[0]].at));
+    let starts: Vec<f64> = by_start.iter().map(|row| firings[row[0]].at).collect();
+    let scattered_starts = scatter_chain(&starts, unknown, random.at(Place::Gaps));
+    for (row, start) in by_start.into_iter().zip(scattered_starts) {
+        let planned: Vec<f64> = row.iter().map(|&n| firings[n].at).collect();
+        let scattered = scatter_chain(&planned, unknown, random.at(Place::BlastRow(firings[row[0]].row)));
+        for (&n, at) in row.iter().zip(scattered) {
+            firings[n].at = at - planned[0] + start;
+        }
     }
+}
+
+/// Firing times [s] of which each fires the next: every gap between `planned` times, which are in order, scatters and shifts all
+/// that follow. A gap stays a delay: it is never negative.
+fn scatter_chain(planned: &[f64], unknown: &Uncertainty, random: &mut ChaCha8Rng) -> Vec<f64> {
+    let mut at = planned.to_vec();
+    for n in 1..planned.len() {
+        let gap = planned[n] - planned[n - 1];
+        at[n] = match gap > 0.0 {
+            true => at[n - 1] + (gap + unknown.delay.deviation(gap) * normal(random)).max(0.0),
+            false => at[n - 1],
+        };
+    }
+    at
 }
 
 /// Scatters masses tire by tire, and launches and in-hole delays hole by hole.

@@ -2,6 +2,7 @@
 //! words in `report::explain`.
 
 use super::Case;
+use super::together::Together;
 use crate::outcome::{EndReason, Outcome};
 use crate::scene::Shot;
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
@@ -26,6 +27,20 @@ pub enum Reason {
     },
     /// Cables break; their number.
     Broken(usize),
+    /// More holes fire within 8 ms than the plan allows.
+    HolesTogether {
+        /// Most holes within any 8 ms.
+        holes: usize,
+        /// The limit.
+        limit: usize,
+    },
+    /// More explosive fires within 8 ms than the plan allows.
+    ChargeTogether {
+        /// Heaviest charge within any 8 ms [kg].
+        charge: f64,
+        /// The limit [kg].
+        limit: f64,
+    },
     /// The energy residual over the energy put in is greater than [`MOST_RESIDUAL`].
     EnergyResidual(f64),
     /// The run ends too early for a verdict.
@@ -42,7 +57,7 @@ impl Reason {
     pub fn verdict(&self) -> Verdict {
         match self {
             Reason::Limit { verdict, .. } => *verdict,
-            Reason::Broken(_) => Verdict::Fail,
+            Reason::Broken(_) | Reason::HolesTogether { .. } | Reason::ChargeTogether { .. } => Verdict::Fail,
             Reason::EnergyResidual(_) | Reason::EndsEarly { .. } => Verdict::Undecided,
         }
     }
@@ -78,6 +93,26 @@ fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<EarlyEnd> {
         return Some(EarlyEnd::ForceGrowing);
     }
     Some(EarlyEnd::TiresMoving)
+}
+
+/// Why a shot as planned does not pass, by one of its runs and by what fires together in it; see [`find_reasons`].
+pub fn find_reasons_as_planned(
+    case: &Case,
+    shot: &Shot,
+    outcome: &Outcome,
+    estimates: [Estimate; 3],
+) -> Vec<Reason> {
+    let of_run = find_reasons(case, shot, outcome, estimates);
+    of_run.into_iter().chain(too_much_together(case, Together::of(case, shot))).collect()
+}
+
+/// Which limits are exceeded by what fires together.
+fn too_much_together(case: &Case, Together { holes, charge }: Together) -> impl Iterator<Item = Reason> {
+    let limits = &case.plan.limits;
+    let most = limits.holes_in_8_ms.filter(|&limit| holes > limit);
+    let heaviest = charge.zip(limits.charge_in_8_ms_kg).filter(|(charge, limit)| charge > limit);
+    let holes = most.map(|limit| Reason::HolesTogether { holes, limit });
+    holes.into_iter().chain(heaviest.map(|(charge, limit)| Reason::ChargeTogether { charge, limit }))
 }
 
 /// Why a run of a shot does not pass, given its height, force and drift with their errors; empty for a pass.

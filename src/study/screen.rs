@@ -7,7 +7,7 @@
 
 use super::batch::judge_shot;
 use super::ladder::peaks;
-use super::reason::{Reason, find_reasons};
+use super::reason::{Reason, find_reasons_as_planned};
 use super::{Case, ComputeSettings, JudgedShot, NoResult, Progress, step_error};
 use crate::choice::Accuracy;
 use crate::outcome::Outcome;
@@ -73,7 +73,7 @@ pub fn screen_until(
 fn judge(case: &Case, shot: &Shot, runs: &[Outcome]) -> JudgedShot {
     let all: Vec<&Outcome> = runs.iter().collect();
     let estimates = peaks(&all, &[]);
-    let reasons = find_reasons(case, shot, all[all.len() - 1], estimates);
+    let reasons = find_reasons_as_planned(case, shot, all[all.len() - 1], estimates);
     JudgedShot::new(Verdict::worst(reasons.iter().map(Reason::verdict)), estimates)
 }
 

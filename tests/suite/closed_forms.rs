@@ -35,7 +35,7 @@ fn validates_a_tilted_launch_flies_a_parabola_and_slides_on() {
         let (tilt, toward) = (tilt.to_radians(), toward.to_radians());
         let sideways = Vector3::new(toward.cos(), toward.sin(), 0.0) * (LAUNCH * tilt.sin());
         let launch = sideways + Vector3::z() * (LAUNCH * tilt.cos());
-        let shot = Shot::from_firings(vec![Firing { at: 0.0, tire: 0, launch, push: 0.0 }]);
+        let shot = Shot::from_firings(vec![Firing::at_once(0.0, 0, launch)]);
         let flight = LAUNCH * LAUNCH * (2.0 * tilt).sin() / GRAVITY;
         let left = (LAUNCH * tilt.sin() - 0.5 * LAUNCH * tilt.cos()).max(0.0);
         let slide = left * left / (2.0 * 0.5 * GRAVITY);

@@ -74,7 +74,7 @@ fn validates_a_tire_rests_where_friction_holds_it() {
 #[test]
 fn validates_a_slide_uphill() {
     let scene = on_slope(tires(&[(0.0, 0.0)], 280.0), 0.3, 180.0);
-    let shot = Shot::from_firings(vec![Firing { at: 0.0, tire: 0, launch: Vector3::x() * 4.0, push: 0.0 }]);
+    let shot = Shot::from_firings(vec![Firing::at_once(0.0, 0, Vector3::x() * 4.0)]);
     let way = 16.0 / (2.0 * (scene.downhill.norm() + 0.5 * scene.gravity));
     for method in METHODS {
         for h in [1e-2, 1e-3] {
@@ -124,7 +124,7 @@ fn a_bounce_rubs_with_its_whole_impulse() {
     let mut scene = tires(&[(0.0, 0.0)], 280.0);
     (scene.restitution, scene.friction) = (0.5, 0.1);
     let launch = Vector3::new(3.0, 0.0, 4.0);
-    let shot = Shot::from_firings(vec![Firing { at: 0.0, tire: 0, launch, push: 0.0 }]);
+    let shot = Shot::from_firings(vec![Firing::at_once(0.0, 0, launch)]);
     let flight = 2.0 * 4.0 / GRAVITY;
     let mut path = Vec::new();
     watch(&scene, &shot, settings(Method::Verlet, 1e-3, Some(1.1)), |motion| {
@@ -233,7 +233,7 @@ fn validates_two_masses_on_a_damped_cable() {
         let after = speed - impulse / reduced;
         for step in [0.04 / free, 0.02 / free] {
             let launch = Vector3::x() * (0.5 * speed);
-            let firing = |tire: usize, launch| Firing { at: 0.0, tire, launch, push: 0.0 };
+            let firing = |tire: usize, launch| Firing::at_once(0.0, tire, launch);
             let shot = Shot::from_firings(vec![firing(0, -launch), firing(1, launch)]);
             let mut path = Vec::new();
             let out = watch(&scene, &shot, settings(Method::Verlet, step, Some(1.5 * end)), |motion| {
@@ -261,7 +261,7 @@ fn a_launch_under_a_damped_taut_cable_invents_no_peak() {
         tie(&mut scene, 0, 1, 1.519e6, 1.0);
         tie(&mut scene, 1, 2, 1.519e6, 1.0);
         let tilted = LAUNCH * std::f64::consts::FRAC_1_SQRT_2 * Vector3::new(1.0, 0.0, 1.0);
-        let later = Firing { at: 0.06, tire: 2, launch: tilted, push: 0.0 };
+        let later = Firing::at_once(0.06, 2, tilted);
         let shot = Shot::from_firings(vec![Firing::up(0.0, 1, LAUNCH), later]);
         for step in [1e-3, 2.5e-4, 6e-5] {
             let out = run(&scene, &shot, settings(Method::Verlet, step, None));
@@ -298,7 +298,7 @@ fn pushes_on_the_ground_are_of_second_order() {
     let mut scene = tires(&[(0.0, 0.0), (2.0, 0.0)], 280.0);
     tie(&mut scene, 0, 1, 1.519e6, 1.0);
     let launch = Vector3::new(-1.2 * 60.0_f64.to_radians().sin(), 0.0, 1.2 * 60.0_f64.to_radians().cos());
-    let shot = Shot::from_firings(vec![Firing { at: 0.0, tire: 0, launch, push: 0.2 }]);
+    let shot = Shot::from_firings(vec![Firing { push: 0.2, ..Firing::at_once(0.0, 0, launch) }]);
     for (step, tolerance) in [(1e-3, 1e-2), (2.5e-4, 1e-3)] {
         let out = run(&scene, &shot, settings(Method::Verlet, step, None));
         close(out.force.value, 1003.045, tolerance, &format!("force at {step} s"));
@@ -353,7 +353,7 @@ fn every_effect_keeps_the_order_of_its_method() {
 #[test]
 fn validates_a_push_along_the_ground() {
     let (push, launch) = (0.5, Vector3::new(4.0, 0.0, 2.0));
-    let shot = Shot::from_firings(vec![Firing { at: 0.0, tire: 0, launch, push }]);
+    let shot = Shot::from_firings(vec![Firing { push, ..Firing::at_once(0.0, 0, launch) }]);
     let out = run(&tires(&[(0.0, 0.0)], 280.0), &shot, settings(Method::Verlet, 1e-3, None));
     let force = launch / push;
     let acceleration = force.x - 0.5 * (GRAVITY - force.z);

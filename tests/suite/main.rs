@@ -11,6 +11,7 @@ mod effects;
 mod extremes;
 mod faults;
 mod flight;
+mod hole_by_hole;
 mod hostile;
 mod import;
 mod keys;

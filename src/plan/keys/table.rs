@@ -8,7 +8,7 @@
 use std::ops::RangeInclusive;
 
 use super::{Key, Kind, Section, key, number, section};
-use crate::choice::{Accuracy, Detonator, LayoutKind, Link, Method, OnOverload};
+use crate::choice::{Accuracy, Detonator, HoleOrder, LayoutKind, Link, Method, OnOverload};
 use crate::ropes::catalogue;
 
 /// Sections of a plan with a name of old, each with the section that took its place.
@@ -149,11 +149,12 @@ sections! {
             .offered_beside(TILT_DEG.name);
         PUSH_MS = key("push_ms", number("ms", 0.0..=200.0), "20", "time over which the launch acts, as a constant force")
             .default(0.0).edit("push, ms");
+        CHARGE_KG = key("charge_kg", number("kg", 1e-6..=1e6), "25", "explosive in each hole").edit("charge, kg");
         UNDER_ROW = key("under_row", Kind::ShelterRow(0.0..=1e7), "2", "launches every tire of this shelter row")
             .edit("under row");
         UNDER_TIRES = key("under_tires", Kind::List(&TIRE_NUMBER), "[3, 4]", "launches these tires of a list");
         HOLES = key("holes", Kind::Sections(&hole::SECTION), "[{ x_m = 1.5, y_m = 4.5, launch_m_s = 6.0 }]",
-            "one by one; each hole has its own launch_m_s or free_flight_height_m, tilt_deg with tilt_toward_deg, and push_ms");
+            "one by one; each hole has its own launch_m_s or free_flight_height_m, tilt_deg with tilt_toward_deg, push_ms, and charge_kg");
     }
 
     hole "a hole" "one hole; it launches the nearest tire" {
@@ -164,6 +165,7 @@ sections! {
         TILT_DEG = blast_row::TILT_DEG;
         TILT_TOWARD_DEG = blast_row::TILT_TOWARD_DEG;
         PUSH_MS = blast_row::PUSH_MS;
+        CHARGE_KG = blast_row::CHARGE_KG;
     }
 
     limits "[limits]" "what an option must keep to pass" {
@@ -173,6 +175,10 @@ sections! {
             "breaking force / greatest force").required().edit("cable safety factor");
         DRIFT_M = key("drift_m", LIMIT, "0.5", "greatest horizontal shift of any tire at the end")
             .edit("limit of drift, m").offered();
+        HOLES_IN_8_MS = key("holes_in_8_ms", Kind::Whole(1..=MOST_TIRES), "20", "most holes that fire within any 8 ms")
+            .edit("limit of holes in 8 ms").offered();
+        CHARGE_IN_8_MS_KG = key("charge_in_8_ms_kg", number("kg", 1e-6..=1e9), "200",
+            "heaviest charge within any 8 ms; every hole then needs charge_kg").edit("limit of charge in 8 ms, kg").offered();
         ACCEPTED_RISK_PERCENT = key("accepted_risk_percent", number("%", 1e-6..=50.0), "1",
             "share of the shots that may go past a limit").default(1.0).edit("accepted risk, %").offered();
     }
@@ -184,6 +190,11 @@ sections! {
             .edit("at, ms");
         ORDER = key("order", Kind::RowNames, "[\"2\", \"1\"]", "names of the blast rows as they fire")
             .described("as listed").edit("order").offered_beside(INTERVAL_MS.name);
+        HOLE_INTERVAL_MS = key("hole_interval_ms", TIME, "17", "between successive holes of each row; 0: rows fire at once")
+            .default(0.0).edit("hole interval, ms").offered();
+        HOLE_ORDER = key("hole_order", Kind::Choice(HoleOrder::NAMES), "\"left\"",
+            "where the holes of each row begin; from centre or ends, holes at equal distances fire together")
+            .named(HoleOrder::DEFAULT.name()).edit("hole order").offered_beside(HOLE_INTERVAL_MS.name);
     }
 
     simulation "[simulation]" "how to compute" {

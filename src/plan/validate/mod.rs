@@ -7,7 +7,7 @@ mod study;
 use toml::de::DeTable;
 
 use self::layout::{check_gaps, read_layout};
-use self::shot::{read_blast_rows, read_delays};
+use self::shot::{check_charges, read_blast_rows, read_delays};
 use self::study::{read_size, read_uncertainty};
 use super::diagnostic::Diagnostics;
 use super::keys::{self, cable, ground, limits, simulation, tire};
@@ -79,6 +79,7 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
         size,
     };
     check_slope(&plan, root, mistakes);
+    check_charges(&plan, root);
     Some(plan)
 }
 
@@ -135,6 +136,8 @@ fn read_limits(section: SectionReader<'_>) -> LimitsSpec {
         flight_height_m: section.number(&limits::FLIGHT_HEIGHT_M),
         cable_safety_factor: section.number(&limits::CABLE_SAFETY_FACTOR),
         drift_m: section.number_if(&limits::DRIFT_M),
+        holes_in_8_ms: section.has(&limits::HOLES_IN_8_MS).then(|| section.whole(&limits::HOLES_IN_8_MS)),
+        charge_in_8_ms_kg: section.number_if(&limits::CHARGE_IN_8_MS_KG),
         accepted_risk_percent: section.number(&limits::ACCEPTED_RISK_PERCENT),
     };
     section.finish();

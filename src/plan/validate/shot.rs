@@ -2,10 +2,12 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::choice::Method;
+use crate::choice::{HoleOrder, Method};
 use crate::plan::keys::{blast_row, delay, hole, plan};
 use crate::plan::read::{Mistakes, SectionReader, nearest};
-use crate::plan::{BlastRow, DelayOption, Hole, Launch, LaunchTargets, Layout, SimulationSpec, Timing};
+use crate::plan::{
+    BlastRow, DelayOption, Hole, HoleTiming, Launch, LaunchTargets, Layout, Plan, SimulationSpec, Timing,
+};
 
 pub fn read_blast_rows(
     root: &SectionReader<'_>,
@@ -25,6 +27,22 @@ pub fn read_blast_rows(
         section.finish();
     }
     rows
+}
+
+/// Notes a mistake where some holes have a charge and others have none, or a limit of charges has no charge to judge.
+pub fn check_charges(plan: &Plan, root: &SectionReader<'_>) {
+    let (stated, absent): (Vec<&Launch>, Vec<&Launch>) =
+        plan.launches().partition(|launch| launch.charge_kg.is_some());
+    if absent.is_empty() {
+        return;
+    }
+    if !stated.is_empty() {
+        let message = "some holes have `charge_kg`, others have none";
+        root.wrong(&plan::BLAST_ROW, message, "give every row or hole its charge_kg, or none of them");
+    } else if plan.limits.charge_in_8_ms_kg.is_some() {
+        let message = "`charge_in_8_ms_kg` of [limits] has no charge to judge";
+        root.wrong(&plan::BLAST_ROW, message, "give every row or hole its charge_kg");
+    }
 }
 
 fn read_targets(
@@ -51,6 +69,7 @@ fn read_targets(
             &blast_row::TILT_DEG,
             &blast_row::TILT_TOWARD_DEG,
             &blast_row::PUSH_MS,
+            &blast_row::CHARGE_KG,
         ] {
             if section.has(key) {
                 let message = format!("`{}` stands beside `holes`", key.name);
@@ -179,7 +198,8 @@ fn read_launch(section: &SectionReader<'_>, simulation: &SimulationSpec) -> Laun
             "shorten push_ms, or give the launch velocity without gravity",
         );
     }
-    Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms }
+    let charge_kg = section.number_if(&blast_row::CHARGE_KG);
+    Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms, charge_kg }
 }
 
 /// Launch speed [m/s].
@@ -214,10 +234,22 @@ pub fn read_delays(root: &SectionReader<'_>, rows: &[BlastRow], mistakes: &Mista
             mistakes.add(name.span.clone(), message, "give each its own name");
         }
         let timing = read_timing(&section, rows, mistakes);
-        delays.push(DelayOption { name: name.value.to_owned(), timing });
+        let holes = read_hole_timing(&section);
+        delays.push(DelayOption { name: name.value.to_owned(), timing, holes });
         section.finish();
     }
     delays
+}
+
+fn read_hole_timing(section: &SectionReader<'_>) -> HoleTiming {
+    if section.has(&delay::HOLE_ORDER) && !section.has(&delay::HOLE_INTERVAL_MS) {
+        let message = "`hole_order` stands without `hole_interval_ms`";
+        section.wrong(&delay::HOLE_ORDER, message, "add hole_interval_ms, or remove it");
+    }
+    HoleTiming {
+        interval_ms: section.number(&delay::HOLE_INTERVAL_MS),
+        order: section.choice(&delay::HOLE_ORDER, HoleOrder::DEFAULT),
+    }
 }
 
 fn read_timing(section: &SectionReader<'_>, rows: &[BlastRow], mistakes: &Mistakes) -> Timing {

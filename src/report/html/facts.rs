@@ -118,13 +118,16 @@ fn launched(targets: &LaunchTargets) -> String {
 }
 
 fn speed(launch: &Launch) -> String {
-    let Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms } = *launch;
+    let Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms, charge_kg } = *launch;
     let mut text = format!("{speed_m_s} m/s");
     if tilt_deg > 0.0 {
         text += &format!(", tilted by {tilt_deg}° toward {tilt_toward_deg}° from +x");
     }
     if push_ms > 0.0 {
         text += &format!(", pushed over {push_ms} ms");
+    }
+    if let Some(charge_kg) = charge_kg {
+        text += &format!(", {charge_kg} kg");
     }
     text
 }

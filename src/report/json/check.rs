@@ -5,15 +5,18 @@ use serde_json::Number;
 
 use super::LimitsObject;
 use super::risk::{Share, input_shares};
+use crate::choice::HoleOrder;
 use crate::outcome::Broken;
 use crate::report::check::{judged_by, texts};
 use crate::report::no_result;
-use crate::scene::{Scene, TireId, fire_at_s};
+use crate::report::option_row::option_rows;
+use crate::scene::{Scene, TireId, fire_at_s, seconds};
 use crate::study::Case;
 use crate::study::check_all::{OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
 use crate::study::risk::Risk;
-use crate::verdict::{Estimate, Quantity, Verdict};
+use crate::study::together::Together;
+use crate::verdict::{Estimate, Quantity};
 
 /// The document of one plan.
 #[derive(Serialize)]
@@ -41,6 +44,11 @@ struct SceneSize {
 struct CheckedOption {
     name: String,
     fire_at_s: Vec<f64>,
+    hole_interval_s: f64,
+    hole_order: HoleOrder,
+    holes_in_8_ms: usize,
+    /// Null where the plan names no charges.
+    charge_in_8_ms_kg: Option<f64>,
     verdict: &'static str,
     reasons: Vec<String>,
     #[serde(flatten)]
@@ -213,15 +221,22 @@ impl CheckDocument {
             .flatten()
             .next()
             .map_or(plan.simulation.method, |judged| judged.as_planned.compute.method);
-        let options = plan.delays.iter().zip(results).map(|(delay, result)| CheckedOption {
-            name: delay.name.clone(),
-            fire_at_s: fire_at_s(&delay.timing),
-            verdict: result.as_ref().map_or(Verdict::Undecided, Judgement::verdict).name(),
-            reasons: match result {
-                Ok(judged) => texts(case, judged),
-                Err(reason) => vec![no_result::message(reason)],
-            },
-            values: result.as_ref().ok().map(|judged| OptionValues::new(case, judged)),
+        let options = option_rows(case, results).map(|row| {
+            let Together { holes, charge } = row.together();
+            CheckedOption {
+                name: row.delay.name.clone(),
+                fire_at_s: fire_at_s(&row.delay.timing),
+                hole_interval_s: seconds(row.delay.holes.interval_ms),
+                hole_order: row.delay.holes.order,
+                holes_in_8_ms: holes,
+                charge_in_8_ms_kg: charge,
+                verdict: row.verdict().name(),
+                reasons: match row.result {
+                    Ok(judged) => texts(case, judged),
+                    Err(reason) => vec![no_result::message(reason)],
+                },
+                values: row.result.as_ref().ok().map(|judged| OptionValues::new(case, judged)),
+            }
         });
         Self {
             schema: "shelter.check/2",

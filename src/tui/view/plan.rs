@@ -5,12 +5,13 @@ use ratatui::layout::{Constraint, Layout, Position, Rect};
 use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::canvas::{Canvas, Points};
+use ratatui::widgets::canvas::{self, Canvas, Points};
 use ratatui::widgets::{Block, Borders, Clear, List, ListState, Paragraph, Wrap};
 
 use super::options;
 use super::parts::color;
 use crate::scene::fire_at_s;
+use crate::study::Case;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::editor::Order;
 use crate::tui::keymap::Action;
@@ -129,7 +130,8 @@ fn draw_message(app: &App, frame: &mut Frame, area: Rect) {
     frame.render_widget(Paragraph::new(line).wrap(Wrap { trim: true }), area);
 }
 
-/// Draws the shelter from above: a point per tire, a sign per hole. The colour of a hole says its turn in the selected option.
+/// Draws the shelter from above: a point per tire, the firing time of each hole in ms, or the sign of its turn where times have no
+/// room, and lines of equal time. The colour of a hole says its turn in the selected option.
 fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
     let (case, theme) = (&app.case, app.theme);
     let Some(delay) = case.plan.delays.get(app.selected) else { return };
@@ -163,6 +165,14 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
     let inside = block.inner(area);
     let half = |length: f64, cells: u16| 0.5 * (length + 2.0 * margin) / f64::from(cells.max(2) - 1);
     let (right_by, down_by) = (half(right - left, inside.width), half(top - bottom, inside.height));
+    let lines = equal_time_lines(case, app.selected);
+    let times: Vec<String> = turns.iter().map(|(at, _)| (at * 1e3).round().to_string()).collect();
+    let widest = times.iter().map(String::len).max().unwrap_or(0);
+    let room = apart_along_x(&turns) / (2.0 * right_by);
+    let label = |turn: usize| match widest as f64 + 1.0 <= room {
+        true => times[turn].clone(),
+        false => sign(turn),
+    };
     let canvas = Canvas::default()
         .block(block)
         .background_color(theme.base().bg.unwrap_or(Color::Reset))
@@ -172,14 +182,67 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
         .paint(|context| {
             context.draw(&Points { coords: &others, color: color(theme.quiet()) });
             context.layer();
+            context.marker(Marker::Braille);
+            for &[(x1, y1), (x2, y2)] in &lines {
+                context.draw(&canvas::Line { x1, y1, x2, y2, color: color(theme.title()) });
+            }
+            context.layer();
             for (turn, (_, holes)) in turns.iter().enumerate() {
                 let style = Style::new().fg(turn_color(app, turn, turns.len())).add_modifier(Modifier::BOLD);
                 for &(x, y) in holes {
-                    context.print(x + right_by, y - down_by, Span::styled(sign(turn), style));
+                    context.print(x + right_by, y - down_by, Span::styled(label(turn), style));
                 }
             }
         });
     frame.render_widget(canvas, area);
+}
+
+/// Number of lines of equal time between the first and the last hole.
+const LINES: usize = 6;
+
+/// A place [m].
+type Place = (f64, f64);
+
+/// Lines of equal firing time between neighbouring blast rows, as pairs of places; rows that fire at once have none.
+fn equal_time_lines(case: &Case, option: usize) -> Vec<[Place; 2]> {
+    let Some(shot) = case.shots.get(option) else { return Vec::new() };
+    let mut rows: Vec<Vec<(Place, f64)>> = vec![Vec::new(); case.plan.blast_rows.len()];
+    for firing in &shot.firings {
+        let place = case.scene().position[firing.tire];
+        rows[firing.row].push(((place.x, place.y), firing.at));
+    }
+    rows.retain(|row| !row.is_empty());
+    rows.iter_mut().for_each(|row| row.sort_by(|a, b| a.0.0.total_cmp(&b.0.0).then(a.0.1.total_cmp(&b.0.1))));
+    rows.sort_by(|a, b| a[0].0.1.total_cmp(&b[0].0.1));
+    let last = shot.firings.last().map_or(0.0, |firing| firing.at);
+    let mut lines = Vec::new();
+    for n in 1..=LINES {
+        let level = last * n as f64 / (LINES + 1) as f64;
+        let crossings: Vec<Vec<Place>> = rows.iter().map(|row| places_at(row, level)).collect();
+        for pair in crossings.windows(2).filter(|pair| pair[0].len() == pair[1].len()) {
+            lines.extend(pair[0].iter().zip(&pair[1]).map(|(&a, &b)| [a, b]));
+        }
+    }
+    lines
+}
+
+/// Places along a row at which the firing time is `level` [s], interpolated between its holes.
+fn places_at(row: &[(Place, f64)], level: f64) -> Vec<Place> {
+    let between = |pair: &[(Place, f64)]| {
+        let [(a, from), (b, to)] = [pair[0], pair[1]];
+        let part = (level - from) / (to - from);
+        let is_between = (from < level) != (to < level);
+        is_between.then(|| (a.0 + part * (b.0 - a.0), a.1 + part * (b.1 - a.1)))
+    };
+    row.windows(2).filter_map(between).collect()
+}
+
+/// Least distance along x between two holes [m], those of one column left out.
+fn apart_along_x(turns: &[(f64, Vec<(f64, f64)>)]) -> f64 {
+    let mut along: Vec<f64> = turns.iter().flat_map(|(_, holes)| holes.iter().map(|(x, _)| *x)).collect();
+    along.sort_by(f64::total_cmp);
+    let apart = along.windows(2).map(|pair| pair[1] - pair[0]);
+    apart.filter(|&apart| apart > 1e-3).fold(f64::INFINITY, f64::min)
 }
 
 /// Sign of a turn: 1 to 9, then letters.
