@@ -131,6 +131,18 @@ choice! {
 }
 
 choice! {
+    /// Orders of the blast rows that `search` may choose from.
+    SearchedOrders, default All {
+        /// Every order.
+        All = "all",
+        /// The order in which the plan lists the rows.
+        Listed = "listed",
+        /// Orders in which a row fires first, or beside a row that has fired.
+        Adjacent = "adjacent",
+    }
+}
+
+choice! {
     /// Effect of a force past the breaking force of a cable.
     OnOverload, default Report {
         /// The cable is reported and pulls on.

@@ -24,6 +24,7 @@ mod risk;
 mod ropes;
 mod run_study;
 mod schema;
+mod search;
 mod size;
 mod status;
 mod sweep;
@@ -69,6 +70,8 @@ enum Command {
     Orders(orders::Arguments),
     /// How likely each option fails when what is not known varies, and what decides it
     Risk(risk::Arguments),
+    /// The firing schedules with the least risk: orders, intervals, holes one after another
+    Search(search::Arguments),
     /// Which physical effects this scene requires: each switched on or taken away
     Effects(effects::Arguments),
     /// The lightest rope, tires and border with which every option passes
@@ -123,6 +126,7 @@ pub fn run() -> ExitCode {
         (Some(Command::Sweep(arguments)), _) => sweep::run(&arguments, &cli.look),
         (Some(Command::Orders(arguments)), _) => orders::run(&arguments, &cli.look),
         (Some(Command::Risk(arguments)), _) => risk::run(&arguments, &cli.look),
+        (Some(Command::Search(arguments)), _) => search::run(&arguments, &cli.look),
         (Some(Command::Effects(arguments)), _) => effects::run(&arguments, &cli.look),
         (Some(Command::Size(arguments)), _) => size::run(&arguments, &cli.look),
         (Some(Command::Merge(arguments)), _) => merge::run(&arguments, &cli.look),

@@ -1,13 +1,13 @@
 //! Changes to the text of a plan. Everything else in the text stays, comments and formatting too.
 
-use toml_edit::{DocumentMut, Item, Table, TableLike, Value, value};
+use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike, Value, value};
 
-use super::Plan;
 use super::keys::blast_row::{FREE_FLIGHT_HEIGHT_M, HOLES, LAUNCH_M_S};
 use super::keys::cable::{AXIAL_STIFFNESS_KN, BREAKING_FORCE_KN, ROPE};
 use super::keys::shelter::BORDER_ROWS;
 use super::keys::tire::MASS_KG;
-use super::keys::{Key, plan};
+use super::keys::{self, Key, plan};
+use super::{BlastRow, DelayOption, Plan, Timing};
 use crate::ropes::Rope;
 
 impl Plan {
@@ -67,6 +67,60 @@ pub fn write_sizes(
         }
     });
     Ok(with_line_ends_of(text, &document))
+}
+
+/// The text of a plan with more delay options behind its own. An option whose name is taken gets another.
+pub fn add_delays(text: &str, plan: &Plan, delays: &[&DelayOption]) -> Result<String, toml_edit::TomlError> {
+    let mut document: DocumentMut = text.parse()?;
+    let mut names: Vec<String> = plan.delays.iter().map(|delay| delay.name.clone()).collect();
+    for &delay in delays {
+        let free = |name: &String| !names.contains(name);
+        let numbered = (2..).map(|n| format!("{} ({n})", delay.name));
+        let name = std::iter::once(delay.name.clone()).chain(numbered).find(free).unwrap_or_default();
+        let entries = delay_entries(delay, &name, &plan.blast_rows);
+        names.push(name);
+        match document.entry(keys::plan::DELAY.name).or_insert(Item::ArrayOfTables(ArrayOfTables::new())) {
+            Item::Value(Value::Array(list)) => list.push(entries.into_iter().collect::<InlineTable>()),
+            item => {
+                if let Some(tables) = item.as_array_of_tables_mut() {
+                    let mut table = entries.into_iter().map(|(key, new)| (key, value(new))).collect::<Table>();
+                    table.decor_mut().set_prefix("\n");
+                    let last = tables.iter().filter_map(Table::position).max();
+                    table.set_position(last);
+                    tables.push(table);
+                }
+            }
+        }
+    }
+    Ok(with_line_ends_of(text, &document))
+}
+
+/// Keys and values of a delay option.
+fn delay_entries(delay: &DelayOption, name: &str, rows: &[BlastRow]) -> Vec<(&'static str, Value)> {
+    let mut entries = vec![(keys::delay::NAME.name, Value::from(name))];
+    match &delay.timing {
+        Timing::Interval { order, interval_ms } => {
+            if !order.is_sorted() {
+                let names = order.iter().map(|&row| rows[row].name.as_str());
+                entries.push((keys::delay::ORDER.name, Value::from_iter(names)));
+            }
+            entries.push((keys::delay::INTERVAL_MS.name, plain(*interval_ms)));
+        }
+        Timing::At(at_ms) => {
+            let times = Value::from_iter(at_ms.iter().map(|&time| plain(time)));
+            entries.push((keys::delay::AT_MS.name, times));
+        }
+    }
+    if delay.holes.interval_ms > 0.0 {
+        entries.push((keys::delay::HOLE_INTERVAL_MS.name, plain(delay.holes.interval_ms)));
+        entries.push((keys::delay::HOLE_ORDER.name, delay.holes.order.name().into()));
+    }
+    entries
+}
+
+/// A number as a person writes it: 42, not 42.0.
+fn plain(number: f64) -> Value {
+    if number.fract() == 0.0 && number.abs() < 1e15 { Value::from(number as i64) } else { Value::from(number) }
 }
 
 /// The number of a key, whole or not.

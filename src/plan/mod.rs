@@ -24,7 +24,7 @@ pub use read::nearest;
 pub use source::PlanSource;
 pub use uncertainty::{DelayScatter, Uncertainty};
 
-use crate::choice::{Accuracy, HoleOrder, Link, Method, OnOverload};
+use crate::choice::{Accuracy, HoleOrder, Link, Method, OnOverload, SearchedOrders};
 
 /// A blast row, the shelter over it, and the delay options to choose from.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,6 +51,25 @@ pub struct Plan {
     pub uncertainty: Uncertainty,
     /// Choices of `shelter size`.
     pub size: SizeSpec,
+    /// Choices of `shelter search`.
+    pub search: SearchSpec,
+}
+
+/// Choices of `shelter search`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SearchSpec {
+    /// Intervals between successive rows [ms], ascending; empty: those of the delay options.
+    pub intervals_ms: Vec<f64>,
+    /// Whether all rows of a schedule follow one another at one interval.
+    pub equal_intervals: bool,
+    /// Orders of the rows.
+    pub orders: SearchedOrders,
+    /// Intervals and orders of the holes of a row; never empty.
+    pub holes: Vec<HoleTiming>,
+    /// Greatest time from the first hole to the last [ms].
+    pub longest_ms: Option<f64>,
+    /// Most holes that fire within any 8 ms.
+    pub most_holes_in_8_ms: Option<usize>,
 }
 
 /// Choices of `shelter size`.

@@ -38,6 +38,9 @@ fn property(key: &Key) -> Value {
             schema["default"] = json!(number as usize);
         }
         Some(DefaultValue::Number(number)) => schema["default"] = json!(number),
+        Some(DefaultValue::Name(name)) if matches!(key.kind, Kind::Flag) => {
+            schema["default"] = json!(name == "true");
+        }
         Some(DefaultValue::Name(name)) => schema["default"] = json!(name),
         Some(DefaultValue::Described(default)) => description += &format!("; default: {default}"),
         None => {}
@@ -65,5 +68,9 @@ fn value(kind: &Kind) -> Value {
         Kind::Section(section) => object(section),
         Kind::Sections(section) => json!({ "type": "array", "items": object(section) }),
         Kind::NumberOrSection(number, section) => json!({ "oneOf": [value(number), object(section)] }),
+        Kind::ListOrSection(number, section) => {
+            json!({ "oneOf": [value(&Kind::List(number)), object(section)] })
+        }
+        Kind::Flag => json!({ "type": "boolean" }),
     }
 }

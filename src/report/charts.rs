@@ -6,6 +6,7 @@ use crate::outcome::History;
 use crate::study::accuracy::{AccuracyTable, Measured};
 use crate::study::orders::Orders;
 use crate::study::risk::Risk;
+use crate::study::search::FrontPoint;
 use crate::study::size::{Combination, Sizing};
 use crate::study::sweep::{Point, Sweep};
 use crate::study::{Case, JudgedShot};
@@ -61,6 +62,15 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
         charts.push(Chart { title, y, windows: sweep.windows.clone(), ..chart });
     }
     charts
+}
+
+/// Failing share against duration: the schedules of which no shorter one judged fails less.
+pub fn front(case: &Case, front: &[FrontPoint]) -> Chart {
+    let longest = front.iter().map(|point| point.duration).fold(0.0, f64::max);
+    let duration = axis("duration", Unit::Millisecond, [0.0, longest * HEADROOM]);
+    let points = front.iter().map(|point| (point.duration, point.share.value())).collect();
+    let accepted = 1e-2 * case.plan.limits.accepted_risk_percent;
+    quantity_chart(duration, ("failing share", Unit::Percent), points, accepted)
 }
 
 /// A quantity with its limit.

@@ -16,7 +16,7 @@ use crate::study::reason::Reason;
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Quantity, Verdict};
 
-fn band(row: &OptionRow<'_>, quantity: Quantity, unit: Unit) -> Cell {
+pub(super) fn band(row: &OptionRow<'_>, quantity: Quantity, unit: Unit) -> Cell {
     row.sampled(|risk| {
         risk.band(quantity).map_or(Cell::Nothing, |[p05, _, p95, _]| Cell::Band([p05, p95], unit))
     })
@@ -128,19 +128,19 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 34] {
 }
 
 /// Greatest height of the shot as planned.
-const NOMINAL_HEIGHT: Column = Column::numbers(&[], "height", Unit::Metre).under("as planned");
+pub(super) const NOMINAL_HEIGHT: Column = Column::numbers(&[], "height", Unit::Metre).under("as planned");
 /// Band of the greatest height of the possible shots.
-const HEIGHT_BAND: Column =
+pub(super) const HEIGHT_BAND: Column =
     Column::numbers(&["flight_height_p05_m", "flight_height_p95_m"], "height", Unit::Metre)
         .under("5 to 95 %");
 /// Greatest force of the shot as planned.
-const NOMINAL_FORCE: Column = Column::numbers(&[], "force", Unit::Kilonewton).under("as planned");
+pub(super) const NOMINAL_FORCE: Column = Column::numbers(&[], "force", Unit::Kilonewton).under("as planned");
 /// Band of the greatest force of the possible shots.
-const FORCE_BAND: Column =
+pub(super) const FORCE_BAND: Column =
     Column::numbers(&["cable_force_p05_n", "cable_force_p95_n"], "force", Unit::Kilonewton)
         .under("5 to 95 %");
 /// How much faster the tires may leave.
-const LAUNCH_MARGIN: Column = Column::words(&[], "launches").under("as planned");
+pub(super) const LAUNCH_MARGIN: Column = Column::words(&[], "launches").under("as planned");
 /// Greatest drift and its error.
 const DRIFT: Column = Column::numbers(&["drift_m", "drift_error_m"], "drift", Unit::Metre);
 
@@ -173,7 +173,7 @@ pub fn report(case: &Case, results: &OptionResults, any: bool, partial: bool) ->
 }
 
 /// A value of the shot as planned, with no more digits than its error leaves.
-fn planned(peak: Estimate, unit: Unit) -> Cell {
+pub(super) fn planned(peak: Estimate, unit: Unit) -> Cell {
     Cell::Text(units::known(peak.value, peak.error, unit))
 }
 

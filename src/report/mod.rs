@@ -3,7 +3,7 @@
 //! | what | where |
 //! |---|---|
 //! | what a report is | [`model`] |
-//! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`effects`], [`accuracy`], [`ropes`], [`trace`] |
+//! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`accuracy`], [`ropes`], [`trace`] |
 //! | words, charts and columns that reports share | [`explain`], [`limits`], [`no_result`], [`notes`], [`cover`], [`charts`], [`shared_columns`], rows of options |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |
 //! | what faces share | [`palette`], [`ascii`], [`spark`], labels of cells |
@@ -32,6 +32,7 @@ pub mod palette;
 mod paper_table;
 pub mod risk;
 pub mod ropes;
+pub mod search;
 pub mod shared_columns;
 pub mod size;
 pub mod spark;

@@ -2,7 +2,7 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | questions of the user, one file each | [`mod@check_all`] (`shelter check`, and `risk`), [`sweep`], [`orders`], [`size`], [`effects`], [`accuracy`], [`paper_table`], [`flight`], [`trace`] |
+//! | questions of the user, one file each | [`mod@check_all`] (`shelter check`, and `risk`), [`sweep`], [`orders`], [`size`], [`search`], [`effects`], [`accuracy`], [`paper_table`], [`flight`], [`trace`] |
 //! | one shot as planned, judged | [`check`], `ladder`, [`step_error`], [`reason`], [`together`], [`margin`]; coarsely: `screen`; what a study keeps of it: `judged_shot` |
 //! | the shots that are possible | [`random_shot`], [`sample`], [`sampling`], [`risk`], [`risk_summary`], [`failure_bounds`], [`influence`], [`swaps`] |
 //! | both together | [`judgement`], and the rule of the verdict: [`sampled`] |
@@ -41,6 +41,7 @@ pub mod sample;
 pub mod sampled;
 pub mod sampling;
 mod screen;
+pub mod search;
 mod shard;
 pub mod size;
 pub mod step_error;

@@ -184,14 +184,23 @@ pub fn find_risks_watched(
     }
 }
 
-/// Draws one sample and runs it, at a step halved `halvings` times.
+/// Draws one sample and runs it once, without an audit: for a first look at a shot among many.
+pub(super) fn run_sample_once(
+    target: &ShotToSample<'_>,
+    number: usize,
+    progress: &Progress,
+) -> Result<Sample, NoResult> {
+    undecided_if_panicked(guarded(|| try_sample(target, number, 0, false, progress)), number)
+}
+
+/// Draws one sample and runs it, at a step halved `halvings` times; where the sample is one of the audit, also at a finer step.
 pub(super) fn run_sample(
     target: &ShotToSample<'_>,
     number: usize,
     halvings: u32,
     progress: &Progress,
 ) -> Result<Sample, NoResult> {
-    undecided_if_panicked(guarded(|| try_sample(target, number, halvings, progress)), number)
+    undecided_if_panicked(guarded(|| try_sample(target, number, halvings, true, progress)), number)
 }
 
 /// A sample in which the program panicked shows nothing; the others go on.
@@ -235,6 +244,7 @@ fn try_sample(
     target: &ShotToSample<'_>,
     number: usize,
     halvings: u32,
+    may_audit: bool,
     progress: &Progress,
 ) -> Result<Sample, NoResult> {
     let ShotToSample { case, shot, compute, sampling, .. } = *target;
@@ -256,7 +266,7 @@ fn try_sample(
         return Ok(Sample { number, run: coarse, finer: None, inputs });
     }
     let every = if number < FIRST_SAMPLES { AUDIT_EVERY_AT_FIRST } else { AUDIT_EVERY };
-    let is_audited = number % every == every / 2;
+    let is_audited = may_audit && number % every == every / 2;
     let fine = if shows_nothing || is_audited { Some(run(step / AUDIT_FINER)?.0) } else { None };
     let best = fine.filter(|_| shows_nothing).unwrap_or(coarse);
     Ok(Sample { number, run: best, finer: fine.filter(|_| is_audited), inputs })

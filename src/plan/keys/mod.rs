@@ -71,6 +71,10 @@ pub enum Kind {
     Sections(&'static Section),
     /// A number, or a section with a number for each direction.
     NumberOrSection(&'static Kind, &'static Section),
+    /// A list of numbers, or a section that says which.
+    ListOrSection(&'static Kind, &'static Section),
+    /// Yes or no.
+    Flag,
 }
 
 /// The value of a key that the plan leaves out.
@@ -111,7 +115,10 @@ impl Kind {
     pub fn range(&self) -> &RangeInclusive<f64> {
         match self {
             Self::Number { range, .. } | Self::ShelterRow(range) => range,
-            Self::List(number) | Self::Range(number) | Self::NumberOrSection(number, _) => number.range(),
+            Self::List(number)
+            | Self::Range(number)
+            | Self::NumberOrSection(number, _)
+            | Self::ListOrSection(number, _) => number.range(),
             _ => UNBOUNDED,
         }
     }
@@ -135,7 +142,10 @@ impl Kind {
     pub fn unit(&self) -> &'static str {
         match self {
             Self::Number { unit, .. } => unit,
-            Self::List(number) | Self::Range(number) | Self::NumberOrSection(number, _) => number.unit(),
+            Self::List(number)
+            | Self::Range(number)
+            | Self::NumberOrSection(number, _)
+            | Self::ListOrSection(number, _) => number.unit(),
             _ => "",
         }
     }
@@ -143,9 +153,10 @@ impl Kind {
     /// The section or sections that the key holds.
     pub fn section(&self) -> Option<&'static Section> {
         match self {
-            Self::Section(section) | Self::Sections(section) | Self::NumberOrSection(_, section) => {
-                Some(section)
-            }
+            Self::Section(section)
+            | Self::Sections(section)
+            | Self::NumberOrSection(_, section)
+            | Self::ListOrSection(_, section) => Some(section),
             _ => None,
         }
     }
@@ -161,7 +172,8 @@ impl Kind {
             Self::Number { .. } | Self::ShelterRow(_) | Self::NumberOrSection(..) => "a number",
             Self::Whole(_) => "a whole number of 0 or more",
             Self::Text | Self::Choice(_) | Self::Catalogue(_) => "a text in quotes",
-            Self::List(_) | Self::RowNames | Self::Range(_) => "a list",
+            Self::List(_) | Self::RowNames | Self::Range(_) | Self::ListOrSection(..) => "a list",
+            Self::Flag => "true or false",
             Self::Section(_) => "one table",
             Self::Sections(_) => "a list of tables",
         }

@@ -8,7 +8,7 @@
 use std::ops::RangeInclusive;
 
 use super::{Key, Kind, Section, key, number, section};
-use crate::choice::{Accuracy, Detonator, HoleOrder, LayoutKind, Link, Method, OnOverload};
+use crate::choice::{Accuracy, Detonator, HoleOrder, LayoutKind, Link, Method, OnOverload, SearchedOrders};
 use crate::ropes::catalogue;
 
 /// Sections of a plan with a name of old, each with the section that took its place.
@@ -64,6 +64,7 @@ sections! {
         SIMULATION = section("simulation", &simulation::SECTION, "accuracy = \"field\"");
         UNCERTAINTY = section("uncertainty", &uncertainty::SECTION, "detonator = \"electronic\"");
         SIZE = section("size", &size::SECTION, "most_border_rows = 1");
+        SEARCH = section("search", &search::SECTION, "intervals_ms = [17, 25, 42]");
     }
 
     shelter "[shelter]" "tires and the ties between them" {
@@ -237,6 +238,28 @@ sections! {
             .edit("tire masses, %").offered();
         BREAKING_FORCE_CV_PERCENT = key("breaking_force_cv_percent", PERCENT, "3", "of breaking forces, cable by cable")
             .default(0.0).edit("breaking forces, %").offered();
+    }
+
+    search "[search]" "what `shelter search` may choose from" {
+        INTERVALS_MS = key("intervals_ms", Kind::ListOrSection(&TIME, &intervals::SECTION), "[17, 25, 42]",
+            "between successive blast rows").described("those of the delay options");
+        EQUAL_INTERVALS = key("equal_intervals", Kind::Flag, "false",
+            "whether all rows follow one another at one interval; false: every gap is chosen by itself").named("true");
+        ORDERS = key("orders", Kind::Choice(SearchedOrders::NAMES), "\"adjacent\"", "in which rows may fire")
+            .named(SearchedOrders::DEFAULT.name());
+        HOLE_INTERVALS_MS = key("hole_intervals_ms", Kind::List(&TIME), "[0, 17, 25]",
+            "between successive holes of a row; 0: rows fire at once").described("[0]");
+        HOLE_ORDERS = key("hole_orders", Kind::List(&Kind::Choice(HoleOrder::NAMES)), "[\"left\", \"centre\"]",
+            "where the holes of each row begin").described("[\"left\"]");
+        LONGEST_MS = key("longest_ms", TIME, "500", "from the first hole to the last").described("any duration");
+        MOST_HOLES_IN_8_MS = key("most_holes_in_8_ms", Kind::Whole(1..=MOST_TIRES), "20", "holes that fire within any 8 ms")
+            .described("holes_in_8_ms of [limits]");
+    }
+
+    intervals "[search.intervals_ms]" "evenly spaced intervals" {
+        FROM = key("from", TIME, "8", "shortest").required();
+        TO = key("to", TIME, "150", "longest").required();
+        STEP = key("step", number("ms", 1e-3..=1e6), "1", "between neighbours").required();
     }
 
     size "[size]" "what `shelter size` may choose from" {

@@ -165,6 +165,15 @@ impl<'s> SectionReader<'s> {
         low
     }
 
+    /// Yes or no; `default` where the plan leaves the key out.
+    pub fn flag(&self, key: &Key, default: bool) -> bool {
+        let Some(value) = self.get(key) else { return default };
+        value.get_ref().as_bool().unwrap_or_else(|| {
+            self.mistyped(key, value, key.kind.wanted());
+            default
+        })
+    }
+
     /// A text, if the plan has the key.
     pub fn text_if(&self, key: &Key) -> Option<At<&'s str>> {
         let value = self.get(key)?;

@@ -8,7 +8,7 @@ use toml::de::DeTable;
 
 use self::layout::{check_gaps, read_layout};
 use self::shot::{check_charges, read_blast_rows, read_delays};
-use self::study::{read_size, read_uncertainty};
+use self::study::{read_search, read_size, read_uncertainty};
 use super::diagnostic::Diagnostics;
 use super::keys::{self, cable, ground, limits, simulation, tire};
 use super::read::{At, Mistakes, SectionReader};
@@ -43,7 +43,7 @@ pub fn parse(path: &str, text: &str) -> Result<Plan, Diagnostics> {
 }
 
 fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
-    use keys::plan::{CABLE, GROUND, LIMITS, SHELTER, SIMULATION, SIZE, TIRE, TITLE, UNCERTAINTY};
+    use keys::plan::{CABLE, GROUND, LIMITS, SEARCH, SHELTER, SIMULATION, SIZE, TIRE, TITLE, UNCERTAINTY};
     let title = root.text_if(&TITLE).map(|title| title.value.to_owned());
     let simulation = read_simulation(root.section_or_empty(&SIMULATION));
     let tire = root.section(&TIRE).map(|section| read_tire(section, simulation.method));
@@ -65,6 +65,7 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
     let termination = cable.as_ref().and_then(|cable| cable.termination.as_deref());
     let own_masses = matches!(&layout, Some(Layout::List { tires, .. }) if tires.iter().any(|tire| tire.mass_kg.is_some()));
     let size = read_size(root.section_or_empty(&SIZE), termination, own_masses);
+    let search = read_search(root.section_or_empty(&SEARCH));
     let plan = Plan {
         title,
         layout: layout?,
@@ -77,6 +78,7 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
         simulation,
         uncertainty,
         size,
+        search,
     };
     check_slope(&plan, root, mistakes);
     check_charges(&plan, root);

@@ -111,14 +111,14 @@ impl From<[f64; 2]> for Bounds {
 
 /// Percentiles of the samples; null for too few samples.
 #[derive(Serialize)]
-struct Percentiles {
+pub(super) struct Percentiles {
     p05: Option<f64>,
     p50: Option<f64>,
     p95: Option<f64>,
 }
 
 impl Percentiles {
-    fn of(risk: Option<&Risk>, quantity: Quantity) -> Self {
+    pub(super) fn of(risk: Option<&Risk>, quantity: Quantity) -> Self {
         let band = risk.and_then(|risk| risk.band(quantity)).map(|band| band.map(Some));
         let [p05, p50, p95, _] = band.unwrap_or_default();
         Self { p05, p50, p95 }
@@ -126,7 +126,7 @@ impl Percentiles {
 }
 
 #[derive(Serialize)]
-struct AtTire {
+pub(super) struct AtTire {
     value: f64,
     error: f64,
     #[serde(flatten)]
@@ -136,7 +136,7 @@ struct AtTire {
 }
 
 #[derive(Serialize)]
-struct AtCable {
+pub(super) struct AtCable {
     value: f64,
     error: f64,
     #[serde(flatten)]
@@ -160,14 +160,14 @@ impl BrokenCable {
 }
 
 impl AtTire {
-    fn new(scene: &Scene, estimate: &Estimate, band: Percentiles) -> Self {
+    pub(super) fn new(scene: &Scene, estimate: &Estimate, band: Percentiles) -> Self {
         let Estimate { value, error, at, index } = *estimate;
         Self { value, error, band, at_s: at, tire: scene.tire.get(index).map(address).unwrap_or_default() }
     }
 }
 
 impl AtCable {
-    fn new(scene: &Scene, estimate: &Estimate, band: Percentiles) -> Self {
+    pub(super) fn new(scene: &Scene, estimate: &Estimate, band: Percentiles) -> Self {
         let Estimate { value, error, at, index } = *estimate;
         let ends = |cable: &crate::scene::Cable| cable.ends.map(|end| address(&scene.tire[end]));
         Self { value, error, band, at_s: at, cable: scene.cables.get(index).map(ends) }

@@ -17,7 +17,7 @@ pub use self::effect::Effect;
 use super::batch::{or_unknown, run_jobs};
 use super::risk::percentiles;
 use super::sample::Sample;
-use super::sampling::{Sampling, ShotToSample, run_sample};
+use super::sampling::{Sampling, ShotToSample, run_sample_once};
 use super::screen::screen;
 use super::{Case, ComputeSettings, Finding, Found, JudgedShot, NoResult, Progress, guarded};
 use crate::plan::Plan;
@@ -258,7 +258,7 @@ fn measure_option(
     let target = ShotToSample::new(case, shot, *compute, *sampling);
     let timed_sample = |number: usize| -> Result<(Sample, f64), NoResult> {
         let begun = Instant::now();
-        Ok((run_sample(&target, number, 0, progress)?, begun.elapsed().as_secs_f64()))
+        Ok((run_sample_once(&target, number, progress)?, begun.elapsed().as_secs_f64()))
     };
     let samples = (0..sampling.most).map(timed_sample).collect::<Result<Vec<_>, _>>()?;
     let spread = |values: &mut dyn Iterator<Item = f64>| {

@@ -1,0 +1,71 @@
+//! `shelter search`: the firing schedules with the least risk.
+
+use std::io;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments};
+use super::load_plans::open;
+use super::print::print;
+use super::run_study::run_study;
+use super::status::{Status, failed, wrong};
+use crate::file;
+use crate::plan::edit;
+use crate::report::json::SearchDocument;
+use crate::report::search::report;
+use crate::study::search::{Search, search};
+use crate::study::{Case, Found};
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Plan to search; its section [search] says what may be chosen
+    plan: PathBuf,
+    /// Write the best schedules that pass into the plan, as delay options
+    #[arg(long, value_name = "COUNT", num_args = 0..=1, default_missing_value = "1", value_parser = clap::value_parser!(u8).range(1..=10))]
+    write: Option<u8>,
+    #[command(flatten)]
+    verdict: VerdictArguments,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    format: FormatArg,
+    #[command(flatten)]
+    compute: Compute,
+}
+
+pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
+    let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
+    if arguments.write.is_some() && case.source.path == "-" {
+        return wrong("--write has no file to write into: give the plan by its name");
+    }
+    let settings = arguments.compute.settings(&case.plan);
+    let sampling = arguments.verdict.sampling();
+    match run_study(&arguments.compute, |progress| search(&case, sampling.as_ref(), &settings, progress)) {
+        Err(reason) => failed(&reason),
+        Ok(Found { value: found, partial }) => {
+            let document = || SearchDocument::new(&case, &found, partial);
+            let status = print(&[report(&case, &found, partial)], document, arguments.format, look)?;
+            if let Some(count) = arguments.write {
+                write(arguments, &case, &found, count.into())?;
+            }
+            Ok(status)
+        }
+    }
+}
+
+/// Adds the best schedules that pass to the plan, unless an option fires like them.
+fn write(arguments: &Arguments, case: &Case, found: &Search, count: usize) -> io::Result<()> {
+    if std::fs::read_to_string(&arguments.plan)? != case.source.text {
+        return Err(io::Error::other("the plan has changed meanwhile; nothing was written"));
+    }
+    let delays: Vec<_> = found.passing().take(count).collect();
+    if delays.is_empty() {
+        eprintln!("nothing was written: no schedule found passes");
+        return Ok(());
+    }
+    let text = edit::add_delays(&case.source.text, &case.plan, &delays).map_err(io::Error::other)?;
+    file::save(&arguments.plan, &text)?;
+    let names: Vec<&str> = delays.iter().map(|delay| delay.name.as_str()).collect();
+    eprintln!("written: {}: {}", arguments.plan.display(), names.join("; "));
+    Ok(())
+}

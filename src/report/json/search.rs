@@ -1,0 +1,147 @@
+//! Schema `shelter.search/1`.
+
+use serde::Serialize;
+
+use super::LimitsObject;
+use super::check::{AtCable, AtTire, Percentiles};
+use crate::choice::HoleOrder;
+use crate::report::check::texts;
+use crate::report::no_result;
+use crate::report::option_row::{OptionRow, option_rows};
+use crate::report::row_names;
+use crate::scene::{fire_at_s, seconds};
+use crate::study::Case;
+use crate::study::judgement::Judgement;
+use crate::study::search::{FrontPoint, Schedule, Search, duration};
+use crate::study::together::Together;
+use crate::verdict::Quantity;
+
+/// The document of a search.
+#[derive(Serialize)]
+pub struct SearchDocument {
+    schema: &'static str,
+    plan: String,
+    title: String,
+    partial: bool,
+    limits: LimitsObject,
+    /// Schedules judged.
+    count: usize,
+    /// Schedules there are, before limits and mirror images.
+    possible: usize,
+    complete: bool,
+    /// Best first.
+    found: Vec<FoundSchedule>,
+    front: Vec<FrontSchedule>,
+}
+
+#[derive(Serialize)]
+struct FoundSchedule {
+    name: String,
+    #[serde(flatten)]
+    schedule: ScheduleObject,
+    fire_at_s: Vec<f64>,
+    verdict: &'static str,
+    reasons: Vec<String>,
+    /// Failures over decided samples; null without samples.
+    probability: Option<f64>,
+    interval_95: Option<[f64; 2]>,
+    duration_s: f64,
+    holes_in_8_ms: usize,
+    charge_in_8_ms_kg: Option<f64>,
+    #[serde(flatten)]
+    values: Option<FoundValues>,
+}
+
+#[derive(Serialize)]
+struct FoundValues {
+    nominal_verdict: &'static str,
+    launch_margin: Option<f64>,
+    flight_height_m: AtTire,
+    cable_force_n: AtCable,
+}
+
+#[derive(Serialize)]
+struct ScheduleObject {
+    order: Vec<String>,
+    intervals_s: Vec<f64>,
+    hole_interval_s: f64,
+    hole_order: HoleOrder,
+}
+
+/// A schedule of which no shorter one judged fails less, by the samples that chose it.
+#[derive(Serialize)]
+struct FrontSchedule {
+    #[serde(flatten)]
+    schedule: ScheduleObject,
+    duration_s: f64,
+    failures: usize,
+    samples: usize,
+}
+
+impl ScheduleObject {
+    fn of(case: &Case, schedule: &Schedule) -> Self {
+        Self {
+            order: row_names(case, &schedule.order),
+            intervals_s: schedule.gaps_ms.iter().copied().map(seconds).collect(),
+            hole_interval_s: seconds(schedule.holes.interval_ms),
+            hole_order: schedule.holes.order,
+        }
+    }
+}
+
+impl FoundValues {
+    fn of(case: &Case, judged: &Judgement) -> Self {
+        let (scene, checked, risk) = (case.scene(), &judged.as_planned, judged.risk.drawn());
+        Self {
+            nominal_verdict: checked.verdict.name(),
+            launch_margin: judged.known_launch_margin(),
+            flight_height_m: AtTire::new(scene, &checked.height, Percentiles::of(risk, Quantity::Height)),
+            cable_force_n: AtCable::new(scene, &checked.force, Percentiles::of(risk, Quantity::Force)),
+        }
+    }
+}
+
+impl SearchDocument {
+    /// The document of a search, which is partial where the time was up.
+    pub fn new(case: &Case, search: &Search, partial: bool) -> Self {
+        let found = |(row, schedule): (OptionRow<'_>, &Schedule)| {
+            let Together { holes, charge } = row.together();
+            let judged = row.result.as_ref().ok();
+            let risk = judged.and_then(|judged| judged.risk.drawn());
+            FoundSchedule {
+                name: row.delay.name.clone(),
+                schedule: ScheduleObject::of(case, schedule),
+                fire_at_s: fire_at_s(&row.delay.timing),
+                verdict: row.verdict().name(),
+                reasons: match row.result {
+                    Ok(judged) => texts(row.case, judged),
+                    Err(reason) => vec![no_result::message(reason)],
+                },
+                probability: risk.and_then(|risk| risk.bounds.probability()),
+                interval_95: risk.map(|risk| risk.bounds.interval),
+                duration_s: duration(row.shot),
+                holes_in_8_ms: holes,
+                charge_in_8_ms_kg: charge,
+                values: judged.map(|judged| FoundValues::of(row.case, judged)),
+            }
+        };
+        let front = |point: &FrontPoint| FrontSchedule {
+            schedule: ScheduleObject::of(case, &point.schedule),
+            duration_s: point.duration,
+            failures: point.share.failures,
+            samples: point.share.samples,
+        };
+        Self {
+            schema: "shelter.search/1",
+            plan: case.source.path.clone(),
+            title: case.title().to_owned(),
+            partial,
+            limits: LimitsObject::of(case),
+            count: search.judged,
+            possible: search.possible,
+            complete: search.complete,
+            found: option_rows(&search.case, &search.results).zip(&search.schedules).map(found).collect(),
+            front: search.front.iter().map(front).collect(),
+        }
+    }
+}

@@ -1,0 +1,298 @@
+//! The firing schedules with the least risk, among those that `[search]` allows.
+//!
+//! 1. Candidates: all schedules, up to [`MOST_JUDGED`]; where there are more, [`START`] at random, then the neighbours of the best,
+//!    the neighbours of these, and so on. Mirror images are one; schedules past the longest duration or the most holes within 8 ms
+//!    are left out.
+//! 2. A race ([`race`]): a few samples of each, twice as many of the better half, and so on.
+//! 3. The best that differ from one another become delay options, which are judged as `check` judges options, with draws of their
+//!    own: the draws that chose them flatter them.
+
+mod race;
+mod schedule;
+
+use std::cmp::Ordering;
+use std::collections::HashSet;
+
+use itertools::Itertools;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+use self::race::{Contender, Race};
+pub use self::schedule::{Schedule, duration};
+use self::schedule::{Candidate, Choices, KnownShots};
+use super::check_all::{OptionResults, check_all, find_launch_margins};
+use super::judgement::Judgement;
+use super::margin::LaunchMargin;
+use super::risk::Risk;
+use super::sampling::Sampling;
+use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress};
+use crate::plan::{DelayOption, Plan};
+use crate::verdict::Verdict;
+
+/// Greatest number of schedules that are all judged.
+pub const MOST_JUDGED: usize = 4000;
+/// Schedules that a search begins with.
+const START: usize = 2000;
+/// Of the best schedules of a search, so many are looked around at a time.
+const CLIMBERS: usize = 24;
+/// First samples of each schedule, where all are judged; and of each of a search.
+const FIRST_OF_ALL: usize = 16;
+const FIRST_OF_SEARCH: usize = 8;
+/// Schedules that are told.
+const FOUND: usize = 10;
+/// The full verdicts of twelve schedules share the probability of an error: each may be wrong with 1/(3 × 4) of it.
+const JUDGED_IN_FULL: usize = 12;
+const ATTEMPT: usize = 3;
+/// Samples of a schedule without which it does not stand in the front of risk against duration.
+const SAMPLES_OF_FRONT: usize = 64;
+
+/// What a search found.
+#[derive(Clone, Debug)]
+pub struct Search {
+    /// The plan with the schedules found as its delay options, the best first.
+    pub case: Case,
+    /// The schedules (`n_options` of the case).
+    pub schedules: Vec<Schedule>,
+    /// Their results, as those of delay options.
+    pub results: OptionResults,
+    /// Their shares among the samples that chose them.
+    pub rough: Vec<RoughShare>,
+    /// Schedules that `[search]` describes, mirror images and all.
+    pub possible: usize,
+    /// Schedules judged.
+    pub judged: usize,
+    /// Whether all that keep the limits of `[search]` were judged.
+    pub complete: bool,
+    /// Schedules judged that were not judged in full, and of whose samples none failed.
+    pub without_failure: usize,
+    /// The schedules of which no shorter one judged fails less, the shortest first.
+    pub front: Vec<FrontPoint>,
+}
+
+/// Failing share of the samples that chose a schedule.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RoughShare {
+    /// Number of samples.
+    pub samples: usize,
+    /// Samples that fail, or are undecided.
+    pub failures: usize,
+}
+
+/// A schedule of which no shorter one fails less.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrontPoint {
+    /// The schedule.
+    pub schedule: Schedule,
+    /// Time from the first hole to the last [s].
+    pub duration: f64,
+    /// Failing share of its samples.
+    pub share: RoughShare,
+}
+
+/// Searches the schedules of a plan. Without a `sampling` only the shots as planned count.
+pub fn search(
+    case: &Case,
+    sampling: Option<&Sampling>,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Finding<Search> {
+    let choices = Choices::new(case)?;
+    let race =
+        Race { case, compute: *compute, sampling: sampling.map(|sampling| sampling.with_fresh_draws(0)) };
+    let possible = choices.count();
+    let complete = possible <= MOST_JUDGED;
+    let mut field = Field { case, choices: &choices, known: KnownShots::default(), contenders: Vec::new() };
+    let mut out_of_time = false;
+    if complete {
+        field.add(choices.all());
+    } else {
+        out_of_time = field.explore(&race, progress)?;
+    }
+    let mut contenders = field.contenders;
+    let first = if complete { FIRST_OF_ALL } else { FIRST_OF_SEARCH };
+    out_of_time |= race.run(&mut contenders, first, progress)?;
+    let finalists = apart(&choices, &contenders);
+    let left = contenders.iter().filter(|one| !finalists.iter().any(|(_, other)| other.shot == one.shot));
+    let without_failure = left.filter(|one| one.samples > 0 && one.failures == 0).count();
+    let front = front(&choices, &contenders);
+    let schedules = finalists.iter().map(|(schedule, _)| schedule.clone()).collect();
+    let rough = finalists.iter().map(|(_, contender)| RoughShare::of(contender)).collect();
+    let (case, Found { value: results, partial }) = judge(case, &schedules, sampling, compute, progress)?;
+    let judged = contenders.iter().filter(|one| one.samples > 0).count();
+    let complete = complete && judged == contenders.len();
+    let mut found =
+        Search { case, schedules, results, rough, possible, judged, complete, without_failure, front };
+    found.rank();
+    Ok(Found { value: found, partial: partial || out_of_time })
+}
+
+/// The schedules that are judged.
+struct Field<'c> {
+    case: &'c Case,
+    choices: &'c Choices<'c>,
+    known: KnownShots,
+    contenders: Vec<Contender>,
+}
+
+impl Field<'_> {
+    /// Adds the candidates that are allowed, and not known yet.
+    fn add(&mut self, candidates: impl IntoIterator<Item = Candidate>) {
+        for candidate in candidates {
+            let shot = self.choices.schedule(&candidate).shot(self.case);
+            if self.choices.allows(&shot) && self.known.insert(self.case, &shot) {
+                self.contenders.push(Contender::new(candidate, shot));
+            }
+        }
+    }
+
+    /// Searches where not all schedules can be judged; returns whether the time was up.
+    fn explore(&mut self, race: &Race<'_>, progress: &Progress) -> Result<bool, NoResult> {
+        let mut random = ChaCha8Rng::seed_from_u64(race.sampling.map_or(0, |sampling| sampling.seed));
+        self.add((0..START).map(|_| self.choices.random(&mut random)).collect::<Vec<_>>());
+        let mut seen: HashSet<Candidate> = HashSet::new();
+        loop {
+            if race.draw(&mut self.contenders, FIRST_OF_SEARCH, progress)? {
+                return Ok(true);
+            }
+            let unseen = self.contenders.iter().filter(|one| !seen.contains(&one.candidate));
+            let best = unseen.sorted_by(|a, b| a.score().total_cmp(&b.score())).take(CLIMBERS);
+            let best: Vec<Candidate> = best.map(|one| one.candidate.clone()).collect();
+            let room = MOST_JUDGED.saturating_sub(self.contenders.len());
+            if best.is_empty() || room == 0 {
+                return Ok(false);
+            }
+            let near = best.iter().flat_map(|one| self.choices.neighbours(one)).unique().take(room);
+            self.add(near.collect::<Vec<_>>());
+            seen.extend(best);
+        }
+    }
+}
+
+impl RoughShare {
+    fn of(contender: &Contender) -> Self {
+        Self { samples: contender.samples, failures: contender.failures }
+    }
+
+    /// Failures over samples.
+    pub fn value(self) -> f64 {
+        self.failures as f64 / self.samples.max(1) as f64
+    }
+}
+
+/// The best of the sorted contenders that differ from one another, to be judged in full.
+fn apart<'r>(choices: &Choices<'_>, contenders: &'r [Contender]) -> Vec<(Schedule, &'r Contender)> {
+    let mut chosen: Vec<(Schedule, &Contender)> = Vec::new();
+    for contender in contenders.iter().filter(|one| one.samples > 0) {
+        let schedule = choices.schedule(&contender.candidate);
+        if chosen.len() < JUDGED_IN_FULL && !chosen.iter().any(|(other, _)| other.is_near(&schedule)) {
+            chosen.push((schedule, contender));
+        }
+    }
+    chosen
+}
+
+/// The contenders of which no shorter one fails less.
+fn front(choices: &Choices<'_>, contenders: &[Contender]) -> Vec<FrontPoint> {
+    let known = contenders.iter().filter(|one| one.samples >= SAMPLES_OF_FRONT);
+    let point = |contender: &Contender| FrontPoint {
+        schedule: choices.schedule(&contender.candidate),
+        duration: duration(&contender.shot),
+        share: RoughShare::of(contender),
+    };
+    let in_turn = known.map(point).sorted_by(|a, b| {
+        a.duration.total_cmp(&b.duration).then(a.share.value().total_cmp(&b.share.value()))
+    });
+    let mut front: Vec<FrontPoint> = Vec::new();
+    for point in in_turn {
+        if front.last().is_none_or(|last| point.share.value() < last.share.value()) {
+            front.push(point);
+        }
+    }
+    front
+}
+
+/// Judges schedules as delay options of their own plan.
+fn judge(
+    case: &Case,
+    schedules: &Vec<Schedule>,
+    sampling: Option<&Sampling>,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<(Case, Found<OptionResults>), NoResult> {
+    let name = |schedule: &Schedule| schedule.name(&case.plan.blast_rows);
+    let delays = schedules.iter().map(|schedule| schedule.delay_option(name(schedule))).collect();
+    let plan = Plan { delays, ..case.plan.clone() };
+    let case = Case { source: case.source.clone(), ..Case::new(plan) };
+    let sampling = sampling.map(|sampling| Sampling { attempt: ATTEMPT, ..*sampling });
+    let cases = [(&case, *compute)];
+    let Found { value: mut results, mut partial } = check_all(&cases, sampling.as_ref(), progress)?;
+    partial |= find_launch_margins(&cases, &mut results, progress, &|_, _| {})?.partial;
+    let results = results.remove(0);
+    Ok((case, Found { value: results, partial }))
+}
+
+impl Search {
+    /// Puts the schedules in order, the best first, and keeps [`FOUND`] of them. Of schedules whose bounds overlap with those of the
+    /// best, none surely fails less: the one with the larger launch margin stands first, then the shorter.
+    fn rank(&mut self) {
+        let place = |n: &usize| {
+            let judged = self.results[*n].as_ref().ok();
+            let verdict = judged.map_or(Verdict::Undecided, |judged| judged.as_planned.verdict);
+            let shares = judged.and_then(|judged| judged.risk.drawn()).and_then(|risk| risk.bounds.probability());
+            (verdict, shares.unwrap_or_else(|| self.rough[*n].value()))
+        };
+        let mut waiting: Vec<usize> = (0..self.schedules.len())
+            .sorted_by(|a, b| place(a).partial_cmp(&place(b)).unwrap_or(Ordering::Equal))
+            .collect();
+        let mut ranked = Vec::new();
+        while let Some(&best) = waiting.first() {
+            let high = self.bounds(best)[1];
+            let is_tie = |n: &usize| self.bounds(*n)[0] <= high && place(n).0 == place(&best).0;
+            let (mut ties, others): (Vec<usize>, Vec<usize>) = waiting.into_iter().partition(is_tie);
+            ties.sort_by(|&a, &b| {
+                let [duration_a, duration_b] = [a, b].map(|n| duration(&self.case.shots[n]));
+                self.margin(b).total_cmp(&self.margin(a)).then(duration_a.total_cmp(&duration_b))
+            });
+            ranked.extend(ties);
+            waiting = others;
+        }
+        ranked.truncate(FOUND);
+        let delays = ranked.iter().map(|&n| self.case.plan.delays[n].clone()).collect();
+        self.case.plan.delays = delays;
+        self.case.shots = ranked.iter().map(|&n| self.case.shots[n].clone()).collect();
+        self.schedules = ranked.iter().map(|&n| self.schedules[n].clone()).collect();
+        self.results = ranked.iter().map(|&n| self.results[n].clone()).collect();
+        self.rough = ranked.iter().map(|&n| self.rough[n]).collect();
+    }
+
+    /// Bounds of the failure probability of a schedule; everything is possible where no sample tells.
+    fn bounds(&self, n: usize) -> [f64; 2] {
+        let risk = self.results[n].as_ref().ok().and_then(|judged| judged.risk.drawn());
+        risk.map_or([0.0, 1.0], |risk: &Risk| risk.bounds.interval)
+    }
+
+    fn margin(&self, n: usize) -> f64 {
+        match self.results[n].as_ref().ok().and_then(|judged| judged.launch_margin) {
+            Some(LaunchMargin::Wide) => f64::INFINITY,
+            Some(LaunchMargin::UpTo { rise, .. }) => rise,
+            Some(LaunchMargin::NotPassing) | None => 0.0,
+        }
+    }
+
+    /// The schedules that pass, as delay options, the best first.
+    pub fn passing(&self) -> impl Iterator<Item = &DelayOption> {
+        let passes = |result: &Result<Judgement, NoResult>| {
+            result.as_ref().is_ok_and(|judged| judged.verdict() == Verdict::Pass)
+        };
+        let all = self.case.plan.delays.iter().zip(&self.results);
+        all.filter(move |(_, result)| passes(result)).map(|(delay, _)| delay)
+    }
+
+    /// The verdict on the best schedule: fail where there is none.
+    pub fn verdict(&self) -> Verdict {
+        match self.results.first() {
+            None => Verdict::Fail,
+            Some(best) => best.as_ref().map_or(Verdict::Undecided, Judgement::verdict),
+        }
+    }
+}

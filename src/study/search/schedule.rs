@@ -1,0 +1,305 @@
+//! The firing schedules that `[search]` allows.
+
+use std::collections::HashSet;
+
+use itertools::Itertools;
+use rand::seq::SliceRandom;
+use rand::Rng;
+use rand_chacha::ChaCha8Rng;
+
+use crate::choice::SearchedOrders;
+use crate::plan::{BlastRow, DelayOption, HoleTiming, Timing};
+use crate::scene::{Firing, Shot, seconds};
+use crate::study::together::Together;
+use crate::study::{Case, NoResult};
+
+/// A firing schedule.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Schedule {
+    /// Blast rows in firing order.
+    pub order: Vec<usize>,
+    /// Times between successive rows [ms] (`n_blast_rows` − 1).
+    pub gaps_ms: Vec<f64>,
+    /// Firing times of the holes of each row.
+    pub holes: HoleTiming,
+}
+
+/// Gaps that differ by less than this share of the greater, or by less than [`NEAR_MS`], make no other schedule.
+const NEAR: f64 = 0.1;
+/// See [`NEAR`] [ms].
+const NEAR_MS: f64 = 2.5;
+
+impl Schedule {
+    /// The schedule as a delay option.
+    pub fn delay_option(&self, name: String) -> DelayOption {
+        let (order, holes) = (self.order.clone(), self.holes);
+        let timing = match self.gaps_ms.as_slice() {
+            [] => Timing::Interval { order, interval_ms: 0.0 },
+            [interval_ms, others @ ..] if others.iter().all(|gap| gap == interval_ms) => {
+                Timing::Interval { order, interval_ms: *interval_ms }
+            }
+            gaps => {
+                let mut at_ms = vec![0.0; order.len()];
+                let mut now = 0.0;
+                for (&row, gap) in order[1..].iter().zip(gaps) {
+                    now += gap;
+                    // Whole nanoseconds, so that 0.1 + 0.2 is 0.3.
+                    at_ms[row] = (now * 1e6).round() / 1e6;
+                }
+                Timing::At(at_ms)
+            }
+        };
+        DelayOption { name, timing, holes }
+    }
+
+    /// A telling name: `3-1-2 42-67 ms, holes 17 ms centre`; the order is left out where it is that of the plan.
+    pub fn name(&self, rows: &[BlastRow]) -> String {
+        let joined = |parts: Vec<String>| parts.join("-");
+        let mut parts = Vec::new();
+        if !self.order.is_sorted() {
+            parts.push(joined(self.order.iter().map(|&row| rows[row].name.clone()).collect()));
+        }
+        let mut gaps: Vec<String> = self.gaps_ms.iter().map(f64::to_string).collect();
+        if self.gaps_ms.iter().all_equal() {
+            gaps.truncate(1);
+        }
+        if !gaps.is_empty() {
+            parts.push(format!("{} ms", joined(gaps)));
+        }
+        let HoleTiming { interval_ms, order } = self.holes;
+        let holes = (interval_ms > 0.0).then(|| format!("holes {interval_ms} ms {order}"));
+        let rows = Some(parts.join(" ")).filter(|rows| !rows.is_empty());
+        let all: Vec<String> = rows.into_iter().chain(holes).collect();
+        if all.is_empty() { "all at once".to_owned() } else { all.join(", ") }
+    }
+
+    /// The shot of the schedule under the shelter of a case.
+    pub fn shot(&self, case: &Case) -> Shot {
+        Shot::new(case.scene(), &case.plan.blast_rows, &self.delay_option(String::new()))
+    }
+
+    /// Whether two schedules differ so little that nobody needs both.
+    pub fn is_near(&self, other: &Self) -> bool {
+        let near = |(a, b): (&f64, &f64)| (a - b).abs() < NEAR_MS.max(NEAR * a.max(*b));
+        self.order == other.order
+            && self.holes == other.holes
+            && self.gaps_ms.iter().zip(&other.gaps_ms).all(near)
+    }
+}
+
+/// Time from the first hole to the last [s].
+pub fn duration(shot: &Shot) -> f64 {
+    let ends = shot.firings.first().zip(shot.firings.last());
+    ends.map_or(0.0, |(first, last)| last.at - first.at)
+}
+
+/// A schedule by the positions of its parts in the lists of [`Choices`].
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Candidate {
+    order: Vec<usize>,
+    gaps: Vec<usize>,
+    holes: usize,
+}
+
+/// What schedules are made of.
+pub struct Choices<'c> {
+    case: &'c Case,
+    intervals_ms: Vec<f64>,
+    /// Number of gaps chosen by themselves.
+    free_gaps: usize,
+    /// Place of each blast row among all, across the rows (`n_blast_rows`).
+    place: Vec<usize>,
+}
+
+impl<'c> Choices<'c> {
+    /// The choices of a plan.
+    pub fn new(case: &'c Case) -> Result<Self, NoResult> {
+        let (spec, rows) = (&case.plan.search, case.plan.blast_rows.len());
+        let own = || case.intervals().into_iter().map(|interval| (interval * 1e9).round() / 1e6);
+        let intervals_ms = match spec.intervals_ms.as_slice() {
+            [] => own().collect(),
+            given => given.to_vec(),
+        };
+        if intervals_ms.is_empty() && rows > 1 {
+            return Err(NoResult::NoInterval);
+        }
+        let gaps = rows - 1;
+        let free_gaps = if spec.equal_intervals { gaps.min(1) } else { gaps };
+        Ok(Self { case, intervals_ms, free_gaps, place: places(case) })
+    }
+
+    /// Number of schedules, before limits and mirror images; `usize::MAX` where there are more.
+    pub fn count(&self) -> usize {
+        let rows = self.place.len();
+        let orders = match self.case.plan.search.orders {
+            SearchedOrders::All => (1..=rows).fold(1, usize::saturating_mul),
+            SearchedOrders::Listed => 1,
+            SearchedOrders::Adjacent => 2_usize.saturating_pow(rows as u32 - 1),
+        };
+        let gaps = self.intervals_ms.len().saturating_pow(self.free_gaps as u32);
+        orders.saturating_mul(gaps).saturating_mul(self.case.plan.search.holes.len())
+    }
+
+    /// All of them.
+    pub fn all(&self) -> Vec<Candidate> {
+        let rows = self.place.len();
+        let orders: Vec<Vec<usize>> = match self.case.plan.search.orders {
+            SearchedOrders::Listed => vec![(0..rows).collect()],
+            SearchedOrders::All | SearchedOrders::Adjacent => {
+                (0..rows).permutations(rows).filter(|order| self.may_fire_in(order)).collect()
+            }
+        };
+        let gaps: Vec<Vec<usize>> = match self.free_gaps {
+            0 => vec![Vec::new()],
+            free => (0..free).map(|_| 0..self.intervals_ms.len()).multi_cartesian_product().collect(),
+        };
+        let holes = 0..self.case.plan.search.holes.len();
+        itertools::iproduct!(orders, gaps, holes)
+            .map(|(order, gaps, holes)| Candidate { order, gaps, holes })
+            .collect()
+    }
+
+    /// Any one of them.
+    pub fn random(&self, random: &mut ChaCha8Rng) -> Candidate {
+        let rows = self.place.len();
+        let mut order: Vec<usize> = (0..rows).collect();
+        match self.case.plan.search.orders {
+            SearchedOrders::Listed => {}
+            SearchedOrders::All => order.shuffle(random),
+            SearchedOrders::Adjacent => {
+                let by_place: Vec<usize> = (0..rows).sorted_by_key(|&row| self.place[row]).collect();
+                let first = random.random_range(0..rows);
+                // The rows that have fired lie between these places.
+                let (mut low, mut high) = (first, first + 1);
+                order = vec![by_place[first]];
+                while order.len() < rows {
+                    if low > 0 && (high == rows || random.random()) {
+                        low -= 1;
+                        order.push(by_place[low]);
+                    } else {
+                        order.push(by_place[high]);
+                        high += 1;
+                    }
+                }
+            }
+        }
+        let gaps = (0..self.free_gaps).map(|_| random.random_range(0..self.intervals_ms.len())).collect();
+        Candidate { order, gaps, holes: random.random_range(0..self.case.plan.search.holes.len()) }
+    }
+
+    /// Those that differ in one gap, by an exchange of two successive rows, or in the holes.
+    pub fn neighbours(&self, candidate: &Candidate) -> Vec<Candidate> {
+        let mut all = Vec::new();
+        for gap in 0..candidate.gaps.len() {
+            for by in STRIDES {
+                let index = candidate.gaps[gap].checked_add_signed(by);
+                if let Some(index) = index.filter(|&index| index < self.intervals_ms.len()) {
+                    let mut near = candidate.clone();
+                    near.gaps[gap] = index;
+                    all.push(near);
+                }
+            }
+        }
+        if self.case.plan.search.orders != SearchedOrders::Listed {
+            for row in 1..candidate.order.len() {
+                let mut near = candidate.clone();
+                near.order.swap(row - 1, row);
+                if self.may_fire_in(&near.order) {
+                    all.push(near);
+                }
+            }
+        }
+        let others = (0..self.case.plan.search.holes.len()).filter(|&holes| holes != candidate.holes);
+        all.extend(others.map(|holes| Candidate { holes, ..candidate.clone() }));
+        all
+    }
+
+    /// The schedule of a candidate.
+    pub fn schedule(&self, candidate: &Candidate) -> Schedule {
+        let gap = |n: usize| {
+            // All gaps are equal, or each has its own.
+            let index = candidate.gaps.get(n).or(candidate.gaps.first());
+            index.map_or(0.0, |&index| self.intervals_ms[index])
+        };
+        Schedule {
+            order: candidate.order.clone(),
+            gaps_ms: (0..candidate.order.len() - 1).map(gap).collect(),
+            holes: self.case.plan.search.holes[candidate.holes],
+        }
+    }
+
+    /// Whether a shot keeps the longest duration and the most holes within 8 ms.
+    pub fn allows(&self, shot: &Shot) -> bool {
+        let spec = &self.case.plan.search;
+        let most_holes = spec.most_holes_in_8_ms.or(self.case.plan.limits.holes_in_8_ms);
+        let Together { holes, charge } = Together::of(self.case, shot);
+        let heaviest = self.case.plan.limits.charge_in_8_ms_kg;
+        spec.longest_ms.is_none_or(|longest| duration(shot) <= seconds(longest) + 1e-9)
+            && most_holes.is_none_or(|most| holes <= most)
+            && charge.zip(heaviest).is_none_or(|(charge, heaviest)| charge <= heaviest)
+    }
+
+    fn may_fire_in(&self, order: &[usize]) -> bool {
+        let is_beside = |n: usize| {
+            let place = self.place[order[n]];
+            order[..n].iter().any(|&fired| self.place[fired].abs_diff(place) == 1)
+        };
+        self.case.plan.search.orders != SearchedOrders::Adjacent || (1..order.len()).all(is_beside)
+    }
+}
+
+/// Steps in the list of intervals between neighbours of a search.
+const STRIDES: [isize; 6] = [-9, -3, -1, 1, 3, 9];
+
+/// Place of each blast row among all (`n_blast_rows`), along the axis on which they lie farther apart.
+fn places(case: &Case) -> Vec<usize> {
+    let scene = case.scene();
+    let middle = |axis: usize| -> Vec<f64> {
+        let of_row = |row: &BlastRow| {
+            let firings = scene.firings(&row.targets);
+            let sum: f64 = firings.iter().map(|firing| scene.position[firing.tire][axis]).sum();
+            sum / firings.len().max(1) as f64
+        };
+        case.plan.blast_rows.iter().map(of_row).collect()
+    };
+    let spread = |middles: &[f64]| {
+        let ends = middles.iter().copied().minmax().into_option();
+        ends.map_or(0.0, |(low, high)| high - low)
+    };
+    let [along_x, along_y] = [middle(0), middle(1)];
+    let along = if spread(&along_x) > spread(&along_y) { along_x } else { along_y };
+    let mut place = vec![0; along.len()];
+    let in_turn = (0..along.len()).sorted_by(|&a, &b| along[a].total_cmp(&along[b]));
+    in_turn.enumerate().for_each(|(at, row)| place[row] = at);
+    place
+}
+
+/// Shots that are known, each as one with its mirror images.
+#[derive(Default)]
+pub struct KnownShots(HashSet<Vec<FiringKey>>);
+
+/// Time, tire and launch of a firing, to be compared to the bit.
+type FiringKey = (u64, usize, [u64; 4]);
+
+fn key(firing: &Firing) -> FiringKey {
+    // 0.0 and −0.0 are one.
+    let bits = |number: f64| (number + 0.0).to_bits();
+    let Firing { at, tire, launch, push, .. } = *firing;
+    (bits(at), tire, [launch.x, launch.y, launch.z, push].map(bits))
+}
+
+impl KnownShots {
+    /// Adds a shot; returns whether neither it nor a mirror image was known.
+    pub fn insert(&mut self, case: &Case, shot: &Shot) -> bool {
+        let mut images = vec![shot.clone()];
+        for mirror in &case.scene().mirrors {
+            let image = |shot: &Shot| {
+                Shot::from_firings(shot.firings.iter().map(|firing| firing.mirrored(mirror)).collect())
+            };
+            let reflected: Vec<Shot> = images.iter().map(image).collect();
+            images.extend(reflected);
+        }
+        let keys = images.iter().map(|shot| shot.firings.iter().map(key).collect::<Vec<_>>());
+        keys.min().is_some_and(|key| self.0.insert(key))
+    }
+}
