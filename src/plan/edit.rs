@@ -83,7 +83,8 @@ pub fn add_delays(text: &str, plan: &Plan, delays: &[&DelayOption]) -> Result<St
             Item::Value(Value::Array(list)) => list.push(entries.into_iter().collect::<InlineTable>()),
             item => {
                 if let Some(tables) = item.as_array_of_tables_mut() {
-                    let mut table = entries.into_iter().map(|(key, new)| (key, value(new))).collect::<Table>();
+                    let mut table =
+                        entries.into_iter().map(|(key, new)| (key, value(new))).collect::<Table>();
                     table.decor_mut().set_prefix("\n");
                     let last = tables.iter().filter_map(Table::position).max();
                     table.set_position(last);
@@ -120,7 +121,11 @@ fn delay_entries(delay: &DelayOption, name: &str, rows: &[BlastRow]) -> Vec<(&'s
 
 /// A number as a person writes it: 42, not 42.0.
 fn plain(number: f64) -> Value {
-    if number.fract() == 0.0 && number.abs() < 1e15 { Value::from(number as i64) } else { Value::from(number) }
+    if number.fract() == 0.0 && number.abs() < 1e15 {
+        Value::from(number as i64)
+    } else {
+        Value::from(number)
+    }
 }
 
 /// The number of a key, whole or not.

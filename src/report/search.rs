@@ -30,7 +30,9 @@ fn fields<'a>() -> [Field<FoundRow<'a>>; 18] {
             let gaps: Vec<String> = row.schedule.gaps_ms.iter().map(f64::to_string).collect();
             Cell::Text(gaps.join(" "))
         }),
-        Field::new(Column::scripts(&["hole_interval_ms"]), |row| Cell::Number(row.schedule.holes.interval_ms)),
+        Field::new(Column::scripts(&["hole_interval_ms"]), |row| {
+            Cell::Number(row.schedule.holes.interval_ms)
+        }),
         Field::new(Column::scripts(&["hole_order"]), |row| Cell::Text(row.schedule.holes.order.to_string())),
         Field::new(VERDICT, |row| Cell::Verdict(row.option.verdict())),
         Field::new(FAILURES, |row| row.option.sampled(|risk| Cell::Probability(risk.bounds.interval))),
@@ -113,7 +115,9 @@ fn reach(search: &Search, sampled: bool) -> Vec<String> {
         lines.push(match without_failure {
             0 => "of every schedule judged and not listed a sample failed".to_owned(),
             1 => "1 more had no failing sample among the few drawn of it: it may be as good".to_owned(),
-            more => format!("{more} more had no failing sample among the few drawn of each: some may be as good"),
+            more => {
+                format!("{more} more had no failing sample among the few drawn of each: some may be as good")
+            }
         });
         lines.push(
             "schedules whose bounds overlap are ties: the larger launch margin stands first, then the shorter"

@@ -28,6 +28,7 @@ mod risk;
 mod scenes;
 mod schema;
 mod screens;
+mod search;
 #[cfg(feature = "shotplus")]
 mod shotplus;
 mod stage;

@@ -18,8 +18,8 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use self::race::{Contender, Race};
-pub use self::schedule::{Schedule, duration};
 use self::schedule::{Candidate, Choices, KnownShots};
+pub use self::schedule::{Schedule, duration};
 use super::check_all::{OptionResults, check_all, find_launch_margins};
 use super::judgement::Judgement;
 use super::margin::LaunchMargin;
@@ -232,14 +232,16 @@ fn judge(
 }
 
 impl Search {
-    /// Puts the schedules in order, the best first, and keeps [`FOUND`] of them. Of schedules whose bounds overlap with those of the
-    /// best, none surely fails less: the one with the larger launch margin stands first, then the shorter.
+    /// Puts the schedules in order, the best first, and keeps [`FOUND`] of them: by verdict, then by the failing share. Of schedules
+    /// whose bounds overlap with those of the best, none surely fails less: the one with the larger launch margin stands first,
+    /// then the shorter.
     fn rank(&mut self) {
         let place = |n: &usize| {
             let judged = self.results[*n].as_ref().ok();
-            let verdict = judged.map_or(Verdict::Undecided, |judged| judged.as_planned.verdict);
-            let shares = judged.and_then(|judged| judged.risk.drawn()).and_then(|risk| risk.bounds.probability());
-            (verdict, shares.unwrap_or_else(|| self.rough[*n].value()))
+            let share =
+                judged.and_then(|judged| judged.risk.drawn()).and_then(|risk| risk.bounds.probability());
+            let share = share.unwrap_or_else(|| self.rough[*n].value());
+            (judged.map_or(Verdict::Undecided, Judgement::verdict), share)
         };
         let mut waiting: Vec<usize> = (0..self.schedules.len())
             .sorted_by(|a, b| place(a).partial_cmp(&place(b)).unwrap_or(Ordering::Equal))

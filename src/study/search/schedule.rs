@@ -3,8 +3,8 @@
 use std::collections::HashSet;
 
 use itertools::Itertools;
-use rand::seq::SliceRandom;
 use rand::Rng;
+use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 
 use crate::choice::SearchedOrders;

@@ -1,0 +1,253 @@
+//! The search of firing schedules, against all schedules judged one by one.
+
+use shelter::plan::{Plan, PlanSource, edit};
+use shelter::study::check_all::OptionResults;
+use shelter::study::sampling::Sampling;
+use shelter::study::search::{MOST_JUDGED, Search, duration, search};
+use shelter::study::together::Together;
+use shelter::study::{Case, ComputeSettings, NoResult, Progress};
+use shelter::verdict::Verdict;
+
+use super::support::{json, shelter, text};
+
+/// A shelter of 5 × 3 tires over three rows; `choices` are the keys of `[search]`.
+fn plan(choices: &str) -> String {
+    format!(
+        "# by hand\nshelter = {{ layout = \"grid\", rows = 5, columns = 3, spacing_m = 2 }}\ntire = {{ mass_kg = 280 }}\n\
+         cable = {{ axial_stiffness_kn = 1519, breaking_force_kn = 90, slack_percent = 2 }}\nground = {{ friction = 0.5 }}\n\
+         limits = {{ flight_height_m = 2.2, cable_safety_factor = 1.2, accepted_risk_percent = 5 }}\n\
+         search = {{ {choices} }}\n\
+         [[blast_row]]\nname = \"1\"\nunder_row = 2\nlaunch_m_s = 6\n\
+         [[blast_row]]\nname = \"2\"\nunder_row = 3\nlaunch_m_s = 6.2\n\
+         [[blast_row]]\nname = \"3\"\nunder_row = 4\nlaunch_m_s = 6.1\n\
+         [[delay]]\nname = \"20 ms\" # ours\ninterval_ms = 20\n"
+    )
+}
+
+fn case(text: &str) -> Case {
+    let source = PlanSource { path: "plan.toml".to_owned(), text: text.to_owned() };
+    Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"))
+}
+
+const FEW: Sampling = Sampling { least: 0, most: 200, seed: 1, attempt: 0 };
+
+fn searched(case: &Case, sampling: Option<&Sampling>) -> Search {
+    let compute = ComputeSettings::of(&case.plan);
+    search(case, sampling, &compute, &Progress::default()).expect("a result").value
+}
+
+/// Every gap by itself, every order, with and without holes one after another: 6 × 3² × 3.
+#[test]
+fn all_schedules_are_counted_and_judged() {
+    let choices = "intervals_ms = [9, 42, 67], equal_intervals = false, hole_intervals_ms = [17, 0], hole_orders = [\"left\", \"ends\"]";
+    let found = searched(&case(&plan(choices)), None);
+    assert_eq!((found.possible, found.complete), (6 * 9 * 3, true));
+    // The shelter is its own image from left to right, but no two schedules are images of one another: a row from the left and one
+    // from the right would be.
+    assert_eq!(found.judged, found.possible);
+    let both = choices.replace("\"ends\"", "\"right\"");
+    let found = searched(&case(&plan(&both)), None);
+    assert_eq!(
+        (found.possible, found.judged),
+        (6 * 9 * 3, 6 * 9 * 2),
+        "from the right is the image of from the left"
+    );
+    let equal = searched(&case(&plan("intervals_ms = { from = 8, to = 10, step = 0.5 }")), None);
+    assert_eq!((equal.possible, equal.judged), (6 * 5, 6 * 5));
+}
+
+/// As planned, the best is the best of all schedules checked one by one.
+#[test]
+fn as_planned_the_best_of_all_is_found() {
+    let case = case(&plan("intervals_ms = [9, 25, 42, 109], equal_intervals = false"));
+    let found = searched(&case, None);
+    let compute = ComputeSettings::of(&case.plan);
+    let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+    let mut delays = Vec::new();
+    for order in orders {
+        for gaps_ms in itertools::iproduct!([9.0, 25.0, 42.0, 109.0], [9.0, 25.0, 42.0, 109.0]) {
+            let schedule = shelter::study::search::Schedule {
+                order: order.to_vec(),
+                gaps_ms: vec![gaps_ms.0, gaps_ms.1],
+                holes: shelter::plan::HoleTiming::TOGETHER,
+            };
+            delays.push(schedule.delay_option(schedule.name(&case.plan.blast_rows)));
+        }
+    }
+    let all = Case::new(Plan { delays, ..case.plan.clone() });
+    let results: OptionResults =
+        all.judge_options(&compute, None, &Progress::default()).expect("a result").value;
+    let utilization = |results: &OptionResults| -> f64 {
+        let of = results.iter().flatten().map(|judged| {
+            let checked = &judged.as_planned;
+            (checked.height.value / all.limits.height).max(checked.force.value / all.limits.force)
+        });
+        of.fold(f64::INFINITY, f64::min)
+    };
+    // The race ranks by coarse runs, whose errors are some 1 %.
+    assert!(utilization(&found.results) <= 1.01 * utilization(&results));
+}
+
+/// With samples, the least risk found is that of all schedules sampled one by one, within what 400 samples can tell.
+#[test]
+fn the_least_risk_of_all_is_found() {
+    let case = case(&plan("intervals_ms = [9, 25, 42, 67], equal_intervals = false"));
+    let all_at_once = Sampling { least: 400, most: 400, seed: 9, attempt: 0 };
+    let found = searched(&case, Some(&FEW));
+    let share = |results: &OptionResults, n: usize| {
+        let risk = results[n].as_ref().ok().and_then(|judged| judged.risk.drawn());
+        risk.and_then(|risk| risk.bounds.probability()).unwrap_or(1.0)
+    };
+    let compute = ComputeSettings::of(&case.plan);
+    let mut delays = Vec::new();
+    for order in itertools::Itertools::permutations(0..3, 3) {
+        for (first, second) in itertools::iproduct!([9.0, 25.0, 42.0, 67.0], [9.0, 25.0, 42.0, 67.0]) {
+            let schedule = shelter::study::search::Schedule {
+                order: order.clone(),
+                gaps_ms: vec![first, second],
+                holes: shelter::plan::HoleTiming::TOGETHER,
+            };
+            delays.push(schedule.delay_option(schedule.name(&case.plan.blast_rows)));
+        }
+    }
+    let all = Case::new(Plan { delays, ..case.plan.clone() });
+    let results =
+        all.judge_options(&compute, Some(&all_at_once), &Progress::default()).expect("a result").value;
+    let least = (0..results.len()).map(|n| share(&results, n)).fold(1.0, f64::min);
+    let best = found.case.plan.delays.iter().map(|delay| {
+        let at = all.plan.delays.iter().position(|other| other.timing == delay.timing);
+        share(&results, at.expect("one of all"))
+    });
+    let best = best.fold(1.0, f64::min);
+    assert!(best <= least + 0.005, "{best} found, {least} is the least");
+}
+
+#[test]
+fn what_is_found_keeps_the_limits_of_the_search() {
+    let choices = "intervals_ms = [9, 42, 67], equal_intervals = false, hole_intervals_ms = [0, 5, 9], longest_ms = 80, \
+                   most_holes_in_8_ms = 2";
+    let case = case(&plan(choices));
+    let found = searched(&case, None);
+    assert!(found.judged > 0 && found.judged < found.possible);
+    for shot in &found.case.shots {
+        assert!(duration(shot) <= 0.08 + 1e-9);
+        assert!(Together::of(&case, shot).holes <= 2);
+    }
+    let none = searched(&self::case(&plan("intervals_ms = [67], longest_ms = 80")), None);
+    assert_eq!((none.judged, none.verdict(), none.results.len()), (0, Verdict::Fail, 0));
+}
+
+/// Rows 1, 2 and 3 lie in this order across the shelter: beside those that fired, 2³⁻¹ orders; one order where they are listed.
+#[test]
+fn rows_fire_beside_rows_that_have_fired() {
+    let found = searched(&case(&plan("intervals_ms = [42], orders = \"adjacent\"")), None);
+    assert_eq!((found.possible, found.judged), (4, 4));
+    for schedule in &found.schedules {
+        assert!(schedule.order != [0, 2, 1] && schedule.order != [2, 0, 1], "{:?}", schedule.order);
+    }
+    let found = searched(&case(&plan("intervals_ms = [42], orders = \"listed\"")), None);
+    assert_eq!((found.possible, found.judged, &found.schedules[0].order[..]), (1, 1, &[0, 1, 2][..]));
+}
+
+/// Where there are too many, a search finds no worse than the best of those that it begins with, and says that it is a search.
+#[test]
+fn too_many_schedules_are_searched() {
+    let choices = "intervals_ms = { from = 8, to = 150, step = 1 }, equal_intervals = false";
+    let case = case(&plan(choices));
+    let found = searched(&case, None);
+    assert_eq!((found.possible, found.complete), (6 * 143 * 143, false));
+    assert!(found.judged <= MOST_JUDGED && found.judged > 2000, "{}", found.judged);
+    let again = searched(&case, None);
+    assert_eq!(found.schedules, again.schedules, "the same every time");
+    for (n, schedule) in found.schedules.iter().enumerate() {
+        assert!(found.schedules[..n].iter().all(|other| !other.is_near(schedule)), "told apart");
+    }
+}
+
+/// Verdicts found are those of `check` on the plan with the schedules written into it, but for the stricter bounds of several
+/// verdicts at once; comments stay, names are free.
+#[test]
+fn schedules_are_written_as_options_that_check_judges_alike() {
+    let text = plan("intervals_ms = [9, 42, 67], equal_intervals = false, hole_intervals_ms = [0, 17.5]");
+    let case = case(&text);
+    let found = searched(&case, Some(&FEW));
+    let delays: Vec<_> = found.case.plan.delays.iter().collect();
+    let inline = text
+        .replace("[[delay]]\nname = \"20 ms\" # ours\ninterval_ms = 20\n", "")
+        .replace("# by hand\n", "# by hand\ndelay = [{ name = \"20 ms\", interval_ms = 20 }]\n");
+    for text in [text.clone(), text.replace('\n', "\r\n"), inline] {
+        let written = edit::add_delays(&text, &case.plan, &delays).expect("TOML");
+        assert!(written.contains("# by hand"));
+        let again = self::case(&written);
+        assert_eq!(again.plan.delays.len(), 1 + delays.len());
+        assert_eq!(&again.shots[1..], &found.case.shots[..]);
+        let twice = edit::add_delays(&written, &again.plan, &delays).expect("TOML");
+        assert_eq!(self::case(&twice).plan.delays.len(), 1 + 2 * delays.len(), "names are free");
+    }
+    let again = self::case(&edit::add_delays(&text, &case.plan, &delays).expect("TOML"));
+    let compute = ComputeSettings::of(&again.plan);
+    let checked = again.judge_options(&compute, Some(&FEW), &Progress::default()).expect("a result").value;
+    for (found, checked) in found.results.iter().zip(&checked[1..]) {
+        let [found, checked] = [found, checked].map(|result| result.as_ref().expect("a result"));
+        assert_eq!(found.as_planned.height, checked.as_planned.height);
+        let shared = |judged: &shelter::study::judgement::Judgement| {
+            let samples = &judged.risk.drawn().expect("samples").samples;
+            samples[..50.min(samples.len())].to_vec()
+        };
+        assert_eq!(shared(found), shared(checked), "the draws of `check`");
+    }
+}
+
+#[test]
+fn the_command_prints_writes_and_refuses() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plan.toml");
+    let path = path.to_str().expect("UTF-8");
+    std::fs::write(path, plan("intervals_ms = [42, 109]")).expect("written");
+    let out = shelter(&["search", path, "--samples", "300", "--format", "json", "--write"]);
+    let document = json(&out);
+    assert_eq!(document["schema"], "shelter.search/1");
+    assert_eq!((document["count"].as_u64(), document["possible"].as_u64()), (Some(12), Some(12)));
+    let best = &document["found"][0];
+    for key in [
+        "order",
+        "intervals_s",
+        "hole_interval_s",
+        "hole_order",
+        "fire_at_s",
+        "verdict",
+        "probability",
+        "interval_95",
+        "launch_margin",
+        "flight_height_m",
+        "cable_force_n",
+        "duration_s",
+        "holes_in_8_ms",
+    ] {
+        assert!(!best[key].is_null(), "{key}: {best}");
+    }
+    assert!(text(&out.stderr).contains("written"), "{}", text(&out.stderr));
+    let written = std::fs::read_to_string(path).expect("read");
+    assert_eq!(case(&written).plan.delays[1].name, best["name"].as_str().expect("a name"));
+    let csv = shelter(&["search", path, "--nominal", "--format", "csv"]);
+    assert!(text(&csv.stdout).starts_with("name,order,intervals_ms,"), "{}", text(&csv.stdout));
+    std::fs::write(path, plan("intervals_ms = []")).expect("written");
+    assert_eq!(shelter(&["search", path]).status.code(), Some(2));
+    std::fs::write(path, plan("intervals_ms = { from = 9, to = 8, step = 1 }")).expect("written");
+    assert_eq!(shelter(&["search", path]).status.code(), Some(2));
+}
+
+/// Stopped, a search has no result; without time it is partial and says so.
+#[test]
+fn a_search_can_end_early() {
+    let case = case(&plan("intervals_ms = [9, 42], equal_intervals = false"));
+    let compute = ComputeSettings::of(&case.plan);
+    let stopped = Progress::default();
+    stopped.stop();
+    assert!(matches!(search(&case, Some(&FEW), &compute, &stopped), Err(NoResult::Stopped)));
+    let expired = Progress::default();
+    expired.expire();
+    let found = search(&case, Some(&FEW), &compute, &expired).expect("partial");
+    assert!(found.partial && found.value.judged == 0 && !found.value.complete);
+    assert_ne!(found.value.verdict(), Verdict::Pass);
+}
