@@ -1,14 +1,16 @@
-//! Do windows hold between their points, and do orders find the worst? Compares both with brute force over `check`.
+//! Do windows hold between their points, do orders find the worst, and a search the least risk? Compares all with brute force.
 //!
 //! `cargo bench --bench studies -- sweep` checks intervals [`CLOSE`] apart inside the windows of the shipped plans and of ten
 //! random ones, rim to rim. `cargo bench --bench studies -- orders 6 10` checks all orders of 6 rows of 10 random plans, rim to
 //! rim and centre to centre in turn, at three intervals. Of more than [`MOST_CHECKED_ROWS`] rows every order is run once at the
-//! step of the level, and the [`ENDS`] worst and best by that run are checked.
+//! step of the level, and the [`ENDS`] worst and best by that run are checked. `cargo bench --bench studies -- search 20` samples every
+//! schedule of 20 random plans 2,000 times.
 
 mod plans;
 #[allow(dead_code)]
 #[path = "../calibration/random.rs"]
 mod random;
+mod schedules;
 
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -35,6 +37,7 @@ fn main() {
     let number =
         |n: usize, default: usize| words.get(n).and_then(|word| word.parse().ok()).unwrap_or(default);
     match words.first().map(String::as_str) {
+        Some("search") => schedules::compare(number(1, 20) as u64),
         Some("orders") => compare_orders(number(1, 6), number(2, 10) as u64),
         _ => compare_windows(number(1, 10) as u64),
     }
