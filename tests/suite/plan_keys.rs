@@ -36,6 +36,8 @@ at_ms = [0]
 [simulation]
 [uncertainty]
 [size]
+[search]
+intervals_ms = { from = 8, to = 150, step = 1 }
 "#;
 
 const LIST: &str = r#"[shelter]

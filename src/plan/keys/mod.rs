@@ -133,6 +133,7 @@ impl Kind {
         match self {
             Self::Choice(names) => names.to_vec(),
             Self::Catalogue(names) => names(),
+            Self::Flag => vec!["true", "false"],
             Self::List(item) => item.names(),
             _ => Vec::new(),
         }
