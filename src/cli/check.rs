@@ -27,11 +27,14 @@ pub struct Arguments {
     /// One passing option is enough
     #[arg(long)]
     any: bool,
+    /// For each option that does not pass: the nearest changes of the plan with which it would
+    #[arg(long)]
+    why: bool,
 }
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(cases) = open_all(&arguments.plans, look) else { return Ok(Status::Wrong) };
-    match check_plans(&cases, arguments.verdict.sampling(), &arguments.compute) {
+    match check_plans(&cases, arguments.verdict.sampling(), &arguments.compute, arguments.why) {
         Ok(checked) => print_checks(&cases, &checked, arguments.any, arguments.format, look),
         Err(reason) => failed(&reason),
     }

@@ -11,23 +11,46 @@ use super::status::{FINER, Status};
 use crate::report::check::report;
 use crate::report::json::CheckDocument;
 use crate::report::model::Report;
+use crate::report::why;
 use crate::study::check_all::{OptionResults, check_all, find_launch_margins};
 use crate::study::sampling::Sampling;
+use crate::study::why::{WouldPass, find_all_changes, not_passing};
 use crate::study::{Case, Finding, Found, NoResult};
 
-/// Checks all options of all cases in parallel; the results stand in the order of plans and options.
+/// The results of one plan.
+pub struct CheckedPlan {
+    /// The results of its options.
+    pub results: OptionResults,
+    /// The changes that were tried for options that do not pass; `None` where nobody asked.
+    pub would_pass: Option<Vec<WouldPass>>,
+}
+
+/// Checks all options of all cases in parallel; the results stand in the order of plans and options. With `why` the changes of the
+/// plans are found with which failing options would pass.
 pub fn check_plans(
     cases: &[Case],
     sampling: Option<Sampling>,
     compute: &Compute,
-) -> Finding<Vec<OptionResults>> {
+    why: bool,
+) -> Finding<Vec<CheckedPlan>> {
     let cases: Vec<_> = cases.iter().map(|case| (case, compute.settings(&case.plan))).collect();
     run_study(compute, |progress| {
-        let mut found = check_all(&cases, sampling.as_ref(), progress)?;
+        let Found { value: mut results, mut partial } = check_all(&cases, sampling.as_ref(), progress)?;
         if sampling.is_some() {
-            found.partial |= find_launch_margins(&cases, &mut found.value, progress, &|_, _| {})?.partial;
+            partial |= find_launch_margins(&cases, &mut results, progress, &|_, _| {})?.partial;
         }
-        Ok(found)
+        let mut checked = Vec::new();
+        for (results, (case, compute)) in results.into_iter().zip(&cases) {
+            let mut would_pass = None;
+            if why {
+                let options = not_passing(&results);
+                let found = find_all_changes(case, &options, sampling.as_ref(), compute, progress)?;
+                partial |= found.partial;
+                would_pass = Some(found.value);
+            }
+            checked.push(CheckedPlan { results, would_pass });
+        }
+        Ok(Found { value: checked, partial })
     })
 }
 
@@ -42,17 +65,27 @@ enum Documents {
 /// Prints the results of all cases; with `any` one passing option is enough.
 pub fn print_checks(
     cases: &[Case],
-    checked: &Found<Vec<OptionResults>>,
+    checked: &Found<Vec<CheckedPlan>>,
     any: bool,
     format: FormatArg,
     look: &LookArguments,
 ) -> io::Result<Status> {
     let Found { value: checked, partial } = checked;
     let pairs = || cases.iter().zip(checked);
-    let reports: Vec<Report> = pairs().map(|(case, results)| report(case, results, any, *partial)).collect();
+    let reported = |(case, CheckedPlan { results, would_pass }): (&Case, &CheckedPlan)| {
+        let mut report = report(case, results, any, *partial);
+        report.blocks.extend(would_pass.iter().flat_map(|changes| why::blocks(case, changes)));
+        report
+    };
+    let reports: Vec<Report> = pairs().map(reported).collect();
     let documents = || {
-        let document =
-            |(case, results): (&Case, &OptionResults)| CheckDocument::new(case, results, any, *partial);
+        let document = |(case, CheckedPlan { results, would_pass }): (&Case, &CheckedPlan)| {
+            let document = CheckDocument::new(case, results, any, *partial);
+            match would_pass {
+                Some(changes) => document.with_changes(case, changes),
+                None => document,
+            }
+        };
         let mut all: Vec<_> = pairs().map(document).collect();
         match all.len() {
             1 => Documents::One(Box::new(all.remove(0))),
@@ -62,7 +95,11 @@ pub fn print_checks(
     let status = print(&reports, documents, format, look)?;
     let needs_finer_step =
         |failed: &NoResult| matches!(failed, NoResult::Failed(failure) if failure.needs_finer_step());
-    if checked.iter().flatten().any(|result| result.as_ref().is_err_and(needs_finer_step)) {
+    if checked
+        .iter()
+        .flat_map(|checked| &checked.results)
+        .any(|result| result.as_ref().is_err_and(needs_finer_step))
+    {
         eprintln!("a run failed: {FINER}");
     }
     Ok(status)

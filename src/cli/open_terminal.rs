@@ -21,7 +21,7 @@ pub fn plan(plan: &Path, compute: &Compute, look: &LookArguments) -> io::Result<
     let Some(case) = load_plans::open(plan, look) else { return Ok(Status::Wrong) };
     if !io::stdout().is_terminal() {
         let cases = [case];
-        return match check_plans(&cases, Some(Sampling::OF_VERDICT), compute) {
+        return match check_plans(&cases, Some(Sampling::OF_VERDICT), compute, false) {
             Ok(checked) => print_checks(&cases, &checked, false, FormatArg::Text, look),
             Err(reason) => failed(&reason),
         };

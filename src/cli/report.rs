@@ -41,11 +41,12 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     }
     let cases = [case];
     let sampling = arguments.verdict.sampling();
-    let checked = match check_plans(&cases, sampling, &arguments.compute) {
+    let checked = match check_plans(&cases, sampling, &arguments.compute, false) {
         Ok(checked) => checked,
         Err(reason) => return failed(&reason),
     };
-    let page = html::page(&cases[0], &checked.value[0], checked.partial, sampling.as_ref(), &html::today());
+    let page =
+        html::page(&cases[0], &checked.value[0].results, checked.partial, sampling.as_ref(), &html::today());
     if output.as_os_str() == "-" {
         print_beside_verdict(&page)?;
     } else {
@@ -54,6 +55,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     }
     match arguments.format {
         Some(format) => print_checks(&cases, &checked, false, format, look),
-        None => Ok(Status::of(&[check::report(&cases[0], &checked.value[0], false, checked.partial)])),
+        None => {
+            Ok(Status::of(&[check::report(&cases[0], &checked.value[0].results, false, checked.partial)]))
+        }
     }
 }

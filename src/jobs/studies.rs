@@ -10,6 +10,7 @@ use crate::study::orders::{Orders, orders};
 use crate::study::sampling::Sampling;
 use crate::study::size::{Demand, Sizing, size};
 use crate::study::sweep::{GAP, Sweep, sweep};
+use crate::study::why::{WouldPass, find_changes};
 use crate::study::{Intervals, NoResult, accuracy};
 
 /// Declares the kinds of studies and the list of all of them, in one order.
@@ -43,6 +44,8 @@ study_kinds! {
     Flight,
     /// The cost of accuracy, measured on one option.
     Accuracy,
+    /// The changes of the plan with which one option would pass.
+    Why,
 }
 
 impl StudyKind {
@@ -68,6 +71,8 @@ pub enum StudyResult {
     Flight(Flight),
     /// Result of [`StudyKind::Accuracy`].
     Accuracy(accuracy::AccuracyTable),
+    /// Result of [`StudyKind::Why`].
+    Why(WouldPass),
 }
 
 /// Samples of every option.
@@ -109,6 +114,11 @@ impl Job {
             StudyKind::Flight => record(case, option, compute, progress).map(StudyResult::Flight),
             StudyKind::Accuracy => {
                 Ok(StudyResult::Accuracy(accuracy::measure(case, option, LONGEST_RUN, progress)?.value))
+            }
+            StudyKind::Why => {
+                let sampling = Some(&Sampling::OF_VERDICT);
+                let found = find_changes(case, option, sampling, compute, progress)?;
+                Ok(StudyResult::Why(found.value))
             }
         }
     }

@@ -37,31 +37,21 @@ pub fn write_sizes(
     border_rows: usize,
 ) -> Result<String, toml_edit::TomlError> {
     let mut document: DocumentMut = text.parse()?;
-    let section = |document: &mut DocumentMut, key: &Key, change: &dyn Fn(&mut dyn TableLike)| {
-        let item = document.entry(key.name).or_insert(Item::Table(Table::new()));
-        if let Some(table) = item.as_table_like_mut() {
-            change(table);
-        }
-    };
-    section(&mut document, &plan::CABLE, &|cable| {
-        let first = cable.key(AXIAL_STIFFNESS_KN.name);
-        let comment = first.and_then(|key| key.leaf_decor().prefix().cloned());
-        cable.remove(AXIAL_STIFFNESS_KN.name);
-        cable.remove(BREAKING_FORCE_KN.name);
-        set(cable, ROPE.name, rope.into());
-        if let (Some(comment), Some(mut key)) = (comment, cable.key_mut(ROPE.name)) {
-            key.leaf_decor_mut().set_prefix(comment);
-        }
+    change_section(&mut document, &plan::CABLE, |cable| {
+        replace_keys(cable, &[&AXIAL_STIFFNESS_KN, &BREAKING_FORCE_KN], &ROPE, rope.into());
     });
     let old = document
         .get(plan::TIRE.name)
         .and_then(Item::as_table_like)
         .and_then(|tire| number(tire, MASS_KG.name));
     if let Some(old) = old.filter(|&old| old != tire_mass_kg) {
-        section(&mut document, &plan::TIRE, &|tire| set(tire, MASS_KG.name, tire_mass_kg.into()));
-        scale_launches(&mut document, [old, tire_mass_kg]);
+        change_section(&mut document, &plan::TIRE, |tire| set(tire, MASS_KG.name, tire_mass_kg.into()));
+        // By the same momentum; a height grows with the square of its velocity.
+        change_launches(&mut document, &|speed| speed * old / tire_mass_kg, &|height| {
+            height * (old / tire_mass_kg).powi(2)
+        });
     }
-    section(&mut document, &plan::SHELTER, &|shelter| {
+    change_section(&mut document, &plan::SHELTER, |shelter| {
         if border_rows > 0 || shelter.contains_key(BORDER_ROWS.name) {
             set(shelter, BORDER_ROWS.name, (border_rows as i64).into());
         }
@@ -128,14 +118,39 @@ fn plain(number: f64) -> Value {
     }
 }
 
+/// Changes a section of the plan; a section that the plan leaves out is added.
+pub(super) fn change_section(document: &mut DocumentMut, key: &Key, change: impl FnOnce(&mut dyn TableLike)) {
+    let item = document.entry(key.name).or_insert(Item::Table(Table::new()));
+    if let Some(table) = item.as_table_like_mut() {
+        change(table);
+    }
+}
+
+/// Sets `key` in place of the keys `old`; the comment above the first of them stays.
+pub(super) fn replace_keys(table: &mut dyn TableLike, old: &[&Key], key: &Key, new: Value) {
+    let first = old.first().and_then(|first| table.key(first.name));
+    let comment = first.and_then(|first| first.leaf_decor().prefix().cloned());
+    for old in old {
+        table.remove(old.name);
+    }
+    set(table, key.name, new);
+    if let (Some(comment), Some(mut key)) = (comment, table.key_mut(key.name)) {
+        key.leaf_decor_mut().set_prefix(comment);
+    }
+}
+
 /// The number of a key, whole or not.
 fn number(table: &dyn TableLike, key: &str) -> Option<f64> {
     let value = table.get(key)?;
     value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }
 
-/// Changes the launches of all blast rows from tires of one mass [kg] to tires of another, by the same momentum.
-fn scale_launches(document: &mut DocumentMut, [from, to]: [f64; 2]) {
+/// Changes the launches of all blast rows and holes: each by `speed` [m/s], or by `height` [m] where the plan gives that.
+pub(super) fn change_launches(
+    document: &mut DocumentMut,
+    speed: &dyn Fn(f64) -> f64,
+    height: &dyn Fn(f64) -> f64,
+) {
     fn each(item: Option<&mut Item>, change: &dyn Fn(&mut dyn TableLike)) {
         match item {
             Some(Item::ArrayOfTables(tables)) => tables.iter_mut().for_each(|table| change(table)),
@@ -146,11 +161,10 @@ fn scale_launches(document: &mut DocumentMut, [from, to]: [f64; 2]) {
         }
     }
     let change = |table: &mut dyn TableLike| {
-        if let Some(speed) = number(table, LAUNCH_M_S.name) {
-            set(table, LAUNCH_M_S.name, (speed * from / to).into());
-        }
-        if let Some(height) = number(table, FREE_FLIGHT_HEIGHT_M.name) {
-            set(table, FREE_FLIGHT_HEIGHT_M.name, (height * (from / to).powi(2)).into());
+        for (key, new) in [(LAUNCH_M_S, speed), (FREE_FLIGHT_HEIGHT_M, height)] {
+            if let Some(old) = number(table, key.name) {
+                set(table, key.name, new(old).into());
+            }
         }
     };
     each(document.get_mut(plan::BLAST_ROW.name), &|row| {

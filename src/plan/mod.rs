@@ -5,6 +5,7 @@
 //! This module does not know how a shelter moves, and no units except those of the keys. Keys that say the same in two ways become
 //! one value as they are read: the free flight height h of a test tire becomes its launch velocity √(2 g h).
 
+pub mod change;
 mod diagnostic;
 pub mod edit;
 pub mod fields;

@@ -3,7 +3,7 @@
 //! | what | where |
 //! |---|---|
 //! | what a report is | [`model`] |
-//! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`accuracy`], [`ropes`], [`trace`] |
+//! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`why`], [`accuracy`], [`ropes`], [`trace`] |
 //! | words, charts and columns that reports share | [`explain`], [`limits`], [`no_result`], [`notes`], [`cover`], [`charts`], [`shared_columns`], rows of options |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |
 //! | what faces share | [`palette`], [`ascii`], [`spark`], labels of cells |
@@ -39,6 +39,7 @@ pub mod spark;
 pub mod sweep;
 pub mod text;
 pub mod trace;
+pub mod why;
 
 use self::model::Report;
 use crate::study::Case;

@@ -100,6 +100,14 @@ impl FailureBounds {
         }
     }
 
+    /// Whether the bounds come to a pass within `most` samples in all if no further sample fails.
+    pub fn can_pass(&self, most: usize) -> bool {
+        let last_look = most - most % LOOK_EVERY;
+        let mut best = Self { samples: last_look.max(self.samples), ..*self };
+        best.look();
+        best.verdict() == Verdict::Pass
+    }
+
     /// Failures over decided samples; `None` without a decided sample.
     pub fn probability(&self) -> Option<f64> {
         let decided = self.samples - self.undecided;
@@ -138,6 +146,24 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
 
     use super::*;
+
+    /// At an accepted risk of 1 % some 430 samples without a failure pass.
+    #[test]
+    fn a_pass_is_out_of_reach_with_few_samples_or_many_failures() {
+        let new = FailureBounds::new(0.01, 0);
+        assert!(!new.can_pass(400) && new.can_pass(450));
+        let mut bounds = new;
+        (0..400).for_each(|_| bounds.push(Verdict::Pass));
+        let mut reached = Vec::new();
+        for _ in 0..20 {
+            let mut best = bounds;
+            (bounds.samples..2000).for_each(|_| best.push(Verdict::Pass));
+            assert_eq!(bounds.can_pass(2000), best.verdict() == Verdict::Pass, "{}", bounds.failures);
+            reached.push(bounds.can_pass(2000));
+            bounds.push(Verdict::Fail);
+        }
+        assert!(reached[5] && !reached[15]);
+    }
 
     fn drawn(random: &mut ChaCha8Rng, p: f64) -> Verdict {
         if random.random::<f64>() < p { Verdict::Fail } else { Verdict::Pass }

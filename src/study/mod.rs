@@ -2,14 +2,14 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | questions of the user, one file each | [`mod@check_all`] (`shelter check`, and `risk`), [`sweep`], [`orders`], [`size`], [`search`], [`effects`], [`accuracy`], [`paper_table`], [`flight`], [`trace`] |
+//! | questions of the user, one file each | [`mod@check_all`] (`shelter check`, and `risk`), [`sweep`], [`orders`], [`size`], [`search`], [`why`], [`effects`], [`accuracy`], [`paper_table`], [`flight`], [`trace`] |
 //! | one shot as planned, judged | [`check`], `ladder`, [`step_error`], [`reason`], [`together`], [`margin`]; coarsely: `screen`; what a study keeps of it: `judged_shot` |
 //! | the shots that are possible | [`random_shot`], [`sample`], [`sampling`], [`risk`], [`risk_summary`], [`failure_bounds`], [`influence`], [`swaps`] |
 //! | both together | [`judgement`], and the rule of the verdict: [`sampled`] |
 //! | how work runs | [`batch`], `compute`, `progress`, `found`, `no_result`, `intervals`; on many machines: `shard`, [`merge`] |
 //!
 //! A [`Case`] is a plan made ready to run. A study takes a case and returns plain data, which every face draws; `size` takes a
-//! plan and makes a case of each combination.
+//! plan and makes a case of each combination, `why` one of each change.
 //! Studies do not print and do not compute physics. Only `merge` reads and writes a file format: that of shards.
 
 pub mod accuracy;
@@ -49,6 +49,7 @@ pub mod swaps;
 pub mod sweep;
 pub mod together;
 pub mod trace;
+pub mod why;
 
 use std::path::Path;
 

@@ -86,12 +86,14 @@ pub struct ShotToSample<'c> {
     pub sampling: Sampling,
     /// Samples at the usual step that other machines drew, in order of their numbers.
     pub precomputed: &'c [Sample],
+    /// Whether only a pass is of interest: sampling ends where none can come.
+    pub only_pass: bool,
 }
 
 impl<'c> ShotToSample<'c> {
     /// A shot that nobody has judged or sampled yet.
     pub fn new(case: &'c Case, shot: &'c Shot, compute: ComputeSettings, sampling: Sampling) -> Self {
-        Self { case, shot, as_planned: None, compute, sampling, precomputed: &[] }
+        Self { case, shot, as_planned: None, compute, sampling, precomputed: &[], only_pass: false }
     }
 
     /// The same shot, judged as `planned`.
@@ -102,6 +104,20 @@ impl<'c> ShotToSample<'c> {
     /// The same shot, of which other machines drew samples at the usual step, in order of their numbers.
     pub fn precomputed(self, precomputed: &'c [Sample]) -> Self {
         Self { precomputed, ..self }
+    }
+
+    /// The same shot, of which only a pass is of interest. A pass has the samples that it has otherwise.
+    pub fn only_pass(self) -> Self {
+        Self { only_pass: true, ..self }
+    }
+
+    /// Numbers of the samples to draw next.
+    fn next_round(&self, risk: &Risk) -> Range<usize> {
+        let drawn = risk.samples.len();
+        if self.only_pass && !risk.bounds.can_pass(self.sampling.most) {
+            return drawn..drawn;
+        }
+        self.sampling.next_round(risk)
     }
 
     /// The sample of a number, where another machine drew it.
@@ -145,7 +161,7 @@ pub fn find_risks_watched(
     let mut risks: Vec<Risk> = targets.iter().map(ShotToSample::no_samples).collect();
     loop {
         let round = |(n, risk): (usize, &Risk)| {
-            let (numbers, halvings) = (targets[n].sampling.next_round(risk), risk.halvings);
+            let (numbers, halvings) = (targets[n].next_round(risk), risk.halvings);
             numbers.map(move |number| (n, number, halvings))
         };
         let jobs: Vec<(usize, usize, u32)> = risks.iter().enumerate().flat_map(round).collect();

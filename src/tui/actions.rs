@@ -198,7 +198,7 @@ impl App {
         self.edited(edit)
     }
 
-    fn edited(&mut self, edit: Edit) -> Request {
+    pub(super) fn edited(&mut self, edit: Edit) -> Request {
         match edit {
             Edit::None => Request::None,
             Edit::Changed(plan) => self.take_edited(*plan),
@@ -224,6 +224,9 @@ impl App {
     }
 
     fn act_on_options(&mut self, action: Action) -> Request {
+        if let Some(request) = self.act_on_changes(action) {
+            return request;
+        }
         let page = PAGE as isize;
         match action {
             Action::Up => self.select_listed(-1),
@@ -238,6 +241,7 @@ impl App {
                 self.listing.reversed = false;
             }
             Action::Reverse => self.listing.reversed = !self.listing.reversed,
+            Action::Why => return self.ask_for_changes(),
             Action::Baseline => {
                 let same = self.listing.baseline == Some(self.selected);
                 self.listing.baseline = (!same).then_some(self.selected);
@@ -299,6 +303,8 @@ impl App {
             self.help = false;
         } else if let Some(kind) = self.cancellable() {
             return self.cancel_study(kind);
+        } else if self.screen == Screen::Compare && self.studies.changes.take().is_some() {
+            return Request::None;
         } else if !self.listing.filter.is_empty() || !self.studies.filter.is_empty() {
             self.listing.filter.clear();
             self.studies.filter.clear();
@@ -317,7 +323,8 @@ impl App {
         let kind = match self.screen {
             Screen::Studies => self.studies.shown,
             Screen::Accuracy => StudyKind::Accuracy,
-            Screen::Plan | Screen::Compare | Screen::Flight => return None,
+            Screen::Compare => StudyKind::Why,
+            Screen::Plan | Screen::Flight => return None,
         };
         self.studies.is_running(kind).then_some(kind)
     }
@@ -336,6 +343,7 @@ impl App {
     /// Asks to check every option at an accuracy.
     fn rerun(&mut self, accuracy: Accuracy) -> Request {
         self.compute.accuracy = accuracy;
+        self.studies.changes = None;
         self.options.fill(OptionState::Waiting);
         self.player.option = None;
         Request::Check

@@ -272,6 +272,11 @@ impl Editor {
         self.settle(changed)
     }
 
+    /// Takes a changed text, or keeps its mistake as the problem.
+    pub fn take(&mut self, changed: Result<String, String>) -> Edit {
+        self.settle(changed.and_then(Self::checked))
+    }
+
     /// Copies a delay option.
     pub fn copy_option(&mut self, option: usize) -> Edit {
         self.with_option(option, fields::copy_delay)

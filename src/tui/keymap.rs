@@ -44,6 +44,8 @@ pub enum Action {
     Reverse,
     /// Compare with the selected option.
     Baseline,
+    /// Find what would make the selected option pass.
+    Why,
     /// Play or pause.
     Play,
     /// Play faster.
@@ -168,6 +170,7 @@ pub const BINDINGS: &[Binding] = &[
         "show differences from the selected option",
         COMPARE,
     ),
+    bind(Action::Why, "why", &["w"], "why", "what would make the option pass; Enter makes a change", COMPARE),
     bind(Action::Finer, "finer", &["+", "="], "finer", "finer accuracy: draft, field, reference", ALL),
     bind(Action::Coarser, "coarser", &["-"], "coarser", "coarser accuracy", ALL),
     bind(Action::Rerun, "rerun", &["r"], "", "compute again", ALL),

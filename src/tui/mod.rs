@@ -5,6 +5,7 @@
 
 mod actions;
 pub mod app;
+pub mod changes;
 pub mod config;
 pub mod editor;
 mod export;

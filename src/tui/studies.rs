@@ -8,6 +8,7 @@ use crate::report::model::{Block, Report};
 use crate::report::{self, charts, notes};
 use crate::scene::fire_at_s;
 use crate::study::flight::Flight;
+use crate::study::why::WouldPass;
 use crate::study::{Case, ComputeSettings, NoResult};
 
 /// State of one study.
@@ -55,6 +56,10 @@ impl ShownStudy {
             }
             StudyResult::Effects(effects) => (report::effects::report(case, effects, false), Vec::new()),
             StudyResult::Size(sizing) => (report::size::report(case, sizing), Vec::new()),
+            StudyResult::Why(would_pass) => {
+                let blocks = report::why::blocks(case, std::slice::from_ref(would_pass));
+                (Report { blocks, ..Report::default() }, Vec::new())
+            }
             StudyResult::Accuracy(study) => (report::accuracy::report(case, study, &[]), Vec::new()),
             StudyResult::Flight(flight) => {
                 let firings = fire_at_s(&case.plan.delays[flight.option].timing);
@@ -79,6 +84,15 @@ impl fmt::Display for StudyState {
     }
 }
 
+/// The open list of changes with which an option would pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ChangeList {
+    /// Index of the option.
+    pub option: usize,
+    /// Line selected.
+    pub selected: usize,
+}
+
 /// Every study, and which is shown.
 #[derive(Clone, Debug)]
 pub struct Studies {
@@ -88,12 +102,15 @@ pub struct Studies {
     pub scroll: u16,
     /// Only lines that contain this text are shown.
     pub filter: String,
+    /// The list of [`StudyKind::Why`]; `None` while it is closed.
+    pub changes: Option<ChangeList>,
     states: [StudyState; StudyKind::ALL.len()],
 }
 
 impl Default for Studies {
     fn default() -> Self {
-        Self { shown: StudyKind::Sweep, scroll: 0, filter: String::new(), states: Default::default() }
+        let states = Default::default();
+        Self { shown: StudyKind::Sweep, scroll: 0, filter: String::new(), changes: None, states }
     }
 }
 
@@ -130,6 +147,15 @@ impl Studies {
     pub fn flight(&self, option: usize) -> Option<&Flight> {
         match &*self.finished(StudyKind::Flight)?.found {
             StudyResult::Flight(flight) if flight.option == option => Some(flight),
+            _ => None,
+        }
+    }
+
+    /// The changes with which an option would pass, as found by a computation with these settings.
+    pub fn would_pass(&self, option: usize, compute: &ComputeSettings) -> Option<&WouldPass> {
+        let finished = self.finished(StudyKind::Why).filter(|finished| finished.compute == *compute)?;
+        match &*finished.found {
+            StudyResult::Why(would_pass) if would_pass.option == option => Some(would_pass),
             _ => None,
         }
     }

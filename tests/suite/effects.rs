@@ -470,7 +470,7 @@ const FEW: Sampling = Sampling::exactly(SAMPLES, Sampling::OF_VERDICT.seed);
 /// Median of the greatest force of 49 samples of the only option [N].
 fn median_force(case: &Case, compute: ComputeSettings) -> f64 {
     let (shot, sampling) = (&case.shots[0], FEW);
-    let target = ShotToSample { case, shot, as_planned: None, compute, sampling, precomputed: &[] };
+    let target = ShotToSample::new(case, shot, compute, sampling);
     let drawn = draw_shard(&[target], Shard::WHOLE, &Progress::default()).expect("samples");
     let mut forces: Vec<f64> =
         drawn.into_iter().map(|(_, sample)| sample.expect("time for all").run.force).collect();

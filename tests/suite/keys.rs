@@ -201,16 +201,16 @@ fn the_start_screen_uses_the_keys_of_the_configuration() {
 
 #[test]
 fn the_order_editor_uses_the_keys_of_the_configuration() {
-    let config = Config::parse("[keys]\ndown = [\"n\"]\nleft = [\"w\"]").expect("right");
+    let config = Config::parse("[keys]\ndown = [\"n\"]\nleft = [\"z\"]").expect("right");
     let mut app = App::new(finished().case, finished().compute, &config);
     press(&mut app, "1/20 ms: order");
     key(&mut app, KeyCode::Enter);
     key(&mut app, KeyCode::Enter);
     let names = |app: &App| app.editor.order.as_ref().expect("in order").names.clone();
-    assert!(text(&draw(&app, 100, 30)).contains("Firing order: w earlier, Right later"));
+    assert!(text(&draw(&app, 100, 30)).contains("Firing order: z earlier, Right later"));
     press(&mut app, "jh");
     assert_eq!(names(&app), ["1", "2", "3"], "keys without an action do nothing");
-    press(&mut app, "nw");
+    press(&mut app, "nz");
     assert_eq!(names(&app), ["2", "1", "3"]);
     assert_eq!(key(&mut app, KeyCode::Enter), Request::CheckNewPlan);
     assert_eq!(app.case.plan.delays[2].timing.fire_at_ms(), [20.0, 0.0, 40.0]);

@@ -3,8 +3,9 @@
 use serde::Serialize;
 use serde_json::Number;
 
-use super::LimitsObject;
 use super::risk::{Share, input_shares};
+use super::why::{PassingChange, RefusedKind};
+use super::{Bounds, Failures, LimitsObject};
 use crate::choice::HoleOrder;
 use crate::outcome::Broken;
 use crate::report::check::{judged_by, texts};
@@ -16,6 +17,7 @@ use crate::study::check_all::{OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
 use crate::study::risk::Risk;
 use crate::study::together::Together;
+use crate::study::why::WouldPass;
 use crate::verdict::{Estimate, Quantity};
 
 /// The document of one plan.
@@ -51,6 +53,8 @@ struct CheckedOption {
     charge_in_8_ms_kg: Option<f64>,
     verdict: &'static str,
     reasons: Vec<String>,
+    would_pass: Option<Vec<PassingChange>>,
+    would_not_pass: Option<Vec<RefusedKind>>,
     #[serde(flatten)]
     values: Option<OptionValues>,
 }
@@ -86,27 +90,6 @@ struct CoverAtFirings {
     uncovered: usize,
     height_m: f64,
     shift_m: f64,
-}
-
-/// Bounds of the failure probability, and the samples behind them.
-#[derive(Serialize)]
-struct Failures {
-    #[serde(flatten)]
-    bounds: Bounds,
-    samples: usize,
-    undecided: usize,
-}
-
-#[derive(Serialize)]
-struct Bounds {
-    low: f64,
-    high: f64,
-}
-
-impl From<[f64; 2]> for Bounds {
-    fn from([low, high]: [f64; 2]) -> Self {
-        Self { low, high }
-    }
 }
 
 /// Percentiles of the samples; null for too few samples.
@@ -177,15 +160,10 @@ impl AtCable {
 impl OptionValues {
     fn new(case: &Case, judged: &Judgement) -> Self {
         let (scene, checked, risk) = (case.scene(), &judged.as_planned, judged.risk.drawn());
-        let failures = |risk: &Risk| Failures {
-            bounds: risk.bounds.interval.into(),
-            samples: risk.bounds.samples,
-            undecided: risk.bounds.undecided,
-        };
         let drift_is_judged = risk.filter(|_| case.limits.drift.is_some());
         Self {
             nominal_verdict: checked.verdict.name(),
-            failure_probability: risk.map(failures),
+            failure_probability: risk.map(Failures::of),
             any_cable_breaks: risk.map(|risk| risk.breaks.interval.into()),
             launch_margin: judged.known_launch_margin(),
             inputs: risk.and_then(|risk| input_shares(risk, &case.limits)),
@@ -235,6 +213,8 @@ impl CheckDocument {
                     Ok(judged) => texts(case, judged),
                     Err(reason) => vec![no_result::message(reason)],
                 },
+                would_pass: None,
+                would_not_pass: None,
                 values: row.result.as_ref().ok().map(|judged| OptionValues::new(case, judged)),
             }
         });
@@ -254,6 +234,16 @@ impl CheckDocument {
             limits: LimitsObject::of(case),
             options: options.collect(),
         }
+    }
+
+    /// The document with the changes that were tried for options that do not pass: none for the other options.
+    pub fn with_changes(mut self, case: &Case, all: &[WouldPass]) -> Self {
+        for (n, option) in self.options.iter_mut().enumerate() {
+            let tried = all.iter().find(|would_pass| would_pass.option == n);
+            option.would_pass = Some(tried.map_or_else(Vec::new, |tried| PassingChange::all(case, tried)));
+            option.would_not_pass = Some(tried.map_or_else(Vec::new, RefusedKind::all));
+        }
+        self
     }
 }
 

@@ -10,6 +10,7 @@ mod search;
 mod size;
 mod sweep;
 mod trace;
+mod why;
 
 use std::io;
 
@@ -25,6 +26,7 @@ pub use self::search::SearchDocument;
 pub use self::size::SizeDocument;
 pub use self::sweep::SweepDocument;
 pub use self::trace::TraceDocument;
+use crate::study::risk::Risk;
 use crate::study::risk_summary::RiskSummary;
 use crate::study::{Case, JudgedShot};
 use crate::verdict::Verdict;
@@ -95,5 +97,34 @@ impl SampledValues {
             probability: drawn.and_then(|drawn| drawn.probability()),
             interval_95: drawn.map(|drawn| drawn.interval),
         }
+    }
+}
+
+/// Bounds of the failure probability, and the samples behind them.
+#[derive(Serialize)]
+struct Failures {
+    #[serde(flatten)]
+    bounds: Bounds,
+    samples: usize,
+    undecided: usize,
+}
+
+impl Failures {
+    /// What the samples tell.
+    fn of(risk: &Risk) -> Self {
+        let bounds = &risk.bounds;
+        Self { bounds: bounds.interval.into(), samples: bounds.samples, undecided: bounds.undecided }
+    }
+}
+
+#[derive(Serialize)]
+struct Bounds {
+    low: f64,
+    high: f64,
+}
+
+impl From<[f64; 2]> for Bounds {
+    fn from([low, high]: [f64; 2]) -> Self {
+        Self { low, high }
     }
 }

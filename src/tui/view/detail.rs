@@ -3,6 +3,7 @@
 //! ```text
 //! ── 20 ms ───────────────────────────────────────
 //! ✗ cable force … is over the limit of …
+//! > launches 5 % lower … (what would make it pass)
 //! as planned it fails from +5 % launch · decided by launch 60 %, …
 //! as planned: height 1.741 ± 0.001 m, tire 3:1, 0.602 s …
 //! 5 to 95 % of 200 samples: height …
@@ -16,16 +17,20 @@ use ratatui::text::Line;
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::chart;
+use crate::jobs::StudyKind;
 use crate::outcome::EndReason;
 use crate::report::explain::{bands, broken, inputs, launch_limit, peaks, reason, risk_detail};
 use crate::report::model::{Chart, Detail};
+use crate::report::why::{sentence, without_pass};
 use crate::report::{charts, cover, no_result};
 use crate::scene::fire_at_s;
 use crate::study::judgement::Judgement;
 use crate::study::risk::Risk;
 use crate::study::sampled;
 use crate::tui::app::App;
+use crate::tui::keymap::Action;
 use crate::tui::options::OptionState;
+use crate::tui::studies::StudyState;
 use crate::tui::theme;
 use crate::units;
 use crate::verdict::Verdict;
@@ -61,7 +66,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let facts = fact_lines(app, judged);
     let lines: u16 =
         facts.iter().map(|line| (line.width() as u16).div_ceil(inside.width.max(1)).max(1)).sum();
-    let most = inside.height.saturating_sub(LEAST_CHART);
+    // An open list is worth more than charts.
+    let charts = if is_listed(app) { 0 } else { LEAST_CHART };
+    let most = inside.height.saturating_sub(charts);
     let [text, rest] =
         Layout::vertical([Constraint::Length(lines.min(most)), Constraint::Min(0)]).areas(inside);
     frame.render_widget(Paragraph::new(facts).wrap(Wrap { trim: true }), text);
@@ -87,6 +94,35 @@ fn draw_charts(app: &App, history: [Chart; 2], risk: Option<&Risk>, frame: &mut 
     }
 }
 
+/// Whether the list of changes of the selected option is open.
+fn is_listed(app: &App) -> bool {
+    app.studies.changes.is_some_and(|list| list.option == app.selected)
+}
+
+/// The changes with which the selected option would pass, the selected one marked; or how far their study is.
+fn change_lines<'a>(app: &App) -> Vec<Line<'a>> {
+    let (case, theme) = (&app.case, app.theme);
+    let Some((would_pass, selected)) = app.open_changes() else {
+        let text = match app.studies.state(StudyKind::Why) {
+            StudyState::Failed(failed) => no_result::message(failed),
+            state => format!("looking for changes with which it would pass… {state}"),
+        };
+        return vec![Line::styled(text, theme.firing())];
+    };
+    let mut lines = Vec::new();
+    if would_pass.passing().next().is_some() {
+        let enter = app.keymap.hint(Action::Open);
+        let head = format!("it would pass with any one of these changes; {enter} makes the selected one:");
+        lines.push(Line::styled(head, theme.title()));
+    }
+    lines.extend(would_pass.passing().enumerate().map(|(n, passing)| {
+        let (mark, style) = if n == selected { ("> ", theme.selected()) } else { ("· ", theme.base()) };
+        Line::styled(format!("{mark}{}", sentence(case, passing)), style)
+    }));
+    lines.extend(without_pass(would_pass).into_iter().map(|line| Line::styled(line, theme.quiet())));
+    lines
+}
+
 fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     let (case, theme, checked) = (&app.case, app.theme, &judged.as_planned);
     let as_planned = checked.reasons.iter().map(|why| Detail { verdict: why.verdict(), text: reason(why) });
@@ -102,6 +138,9 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
         .collect();
     if !checked.broken.is_empty() {
         lines.push(Line::styled(broken(case.scene(), checked), theme.limit()));
+    }
+    if is_listed(app) {
+        lines.extend(change_lines(app));
     }
     lines.extend(cover::cover(checked).map(|cover| Line::styled(format!("! {cover}"), theme.firing())));
     let risk = judged.risk.drawn().filter(|risk| !risk.samples.is_empty());

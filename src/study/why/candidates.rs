@@ -1,0 +1,84 @@
+//! The changes that are tried for a delay option.
+
+use crate::plan::change::Change;
+use crate::plan::{Layout, Plan, Timing};
+use crate::ropes::catalogue;
+
+/// More rows of ballast.
+const MORE_BORDER_ROWS: [usize; 3] = [1, 2, 3];
+/// Distances from the plan's slack [percentage points].
+const OTHER_SLACK: [f64; 3] = [0.5, 1.0, 2.0];
+/// Lower launches, as factors.
+const LOWER_LAUNCHES: [f64; 6] = [0.98, 0.95, 0.9, 0.85, 0.8, 0.7];
+/// Distances from an option's interval [ms].
+const OTHER_INTERVALS_MS: [f64; 8] = [1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 17.0, 25.0];
+
+/// The changes of a plan that may make an option pass, by kind, each from the smallest up.
+pub(super) fn candidates(plan: &Plan, option: usize) -> Vec<Vec<Change>> {
+    let (slack, interval) = (plan.cable.slack_percent, interval_ms(plan, option));
+    let slacks = around(slack, &OTHER_SLACK).map(Change::Slack);
+    let intervals = interval.into_iter().flat_map(|interval| around(interval, &OTHER_INTERVALS_MS));
+    let intervals = intervals.map(|interval_ms| Change::Interval { option, interval_ms });
+    vec![
+        stronger_ropes(plan),
+        stronger_terminations(plan),
+        more_border_rows(plan),
+        slacks.collect(),
+        LOWER_LAUNCHES.map(Change::Launch).to_vec(),
+        intervals.collect(),
+    ]
+}
+
+/// The stronger ropes of the family and grade of the plan's rope, in order of strength; none where the plan names no rope.
+fn stronger_ropes(plan: &Plan) -> Vec<Change> {
+    let Some(own) = plan.cable.rope.as_ref().and_then(|name| catalogue().find(name)) else {
+        return Vec::new();
+    };
+    let alike = catalogue().ropes.iter().filter(|rope| rope.family == own.family && rope.grade == own.grade);
+    let mut ropes: Vec<_> = alike.filter(|rope| rope.breaking_force_kn > own.breaking_force_kn).collect();
+    ropes.sort_by(|a, b| a.breaking_force_kn.total_cmp(&b.breaking_force_kn));
+    ropes.into_iter().map(Change::Rope).collect()
+}
+
+/// The terminations that hold more than the plan's, in order of strength: those that fit the plan's rope. Where the plan names no
+/// rope, those that fit every rope that its own termination fits.
+fn stronger_terminations(plan: &Plan) -> Vec<Change> {
+    let rope = plan.cable.rope.as_ref().and_then(|name| catalogue().find(name));
+    let own = plan.cable.termination.as_ref().and_then(|name| catalogue().termination(name));
+    let must_fit = match (rope, own) {
+        (Some(rope), _) => vec![rope.kind],
+        (None, Some(own)) => own.fits.clone(),
+        (None, None) => return Vec::new(),
+    };
+    let fits =
+        catalogue().terminations.iter().filter(|known| must_fit.iter().all(|kind| known.fits.contains(kind)));
+    let mut stronger: Vec<_> =
+        fits.filter(|known| known.efficiency_percent > plan.cable.termination_percent).collect();
+    stronger.sort_by(|a, b| a.efficiency_percent.total_cmp(&b.efficiency_percent));
+    stronger.into_iter().map(Change::Termination).collect()
+}
+
+/// More rows of ballast around a mesh.
+fn more_border_rows(plan: &Plan) -> Vec<Change> {
+    match &plan.layout {
+        Layout::Grid(mesh) | Layout::Quincunx(mesh) => {
+            MORE_BORDER_ROWS.map(|more| Change::BorderRows(mesh.border_rows + more)).to_vec()
+        }
+        Layout::List { .. } => Vec::new(),
+    }
+}
+
+/// The interval of an option [ms]; `None` where its rows have firing times of their own, or there is one row.
+fn interval_ms(plan: &Plan, option: usize) -> Option<f64> {
+    match plan.delays[option].timing {
+        Timing::Interval { interval_ms, .. } if plan.blast_rows.len() > 1 => Some(interval_ms),
+        Timing::Interval { .. } | Timing::At(_) => None,
+    }
+}
+
+/// Numbers beside `own`, at each distance below and above, not below 0.
+fn around(own: f64, distances: &[f64]) -> impl Iterator<Item = f64> {
+    let beside = distances.iter().flat_map(move |distance| [own - distance, own + distance]);
+    // 2.3 - 0.5 is 1.8, and the plan will say so.
+    beside.filter(|&number| number >= 0.0).map(|number| (number * 1e6).round() / 1e6)
+}
