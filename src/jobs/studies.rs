@@ -8,6 +8,7 @@ use crate::study::effects::{EffectsOnOptions, SAMPLES, effects};
 use crate::study::flight::{Flight, record};
 use crate::study::orders::{Orders, orders};
 use crate::study::sampling::Sampling;
+use crate::study::search::{Search, search};
 use crate::study::size::{Demand, Sizing, size};
 use crate::study::sweep::{GAP, Sweep, sweep};
 use crate::study::why::{WouldPass, find_changes};
@@ -36,6 +37,8 @@ study_kinds! {
     Orders,
     /// Two thousand samples of every option.
     Risk,
+    /// The schedules with the least risk.
+    Search,
     /// The lightest shelter under which every option passes.
     Size,
     /// Which effects the scene requires.
@@ -50,8 +53,14 @@ study_kinds! {
 
 impl StudyKind {
     /// The kinds that answer a question about the whole plan, in the order of their tabs.
-    pub const OF_PLAN: [StudyKind; 5] =
-        [StudyKind::Sweep, StudyKind::Orders, StudyKind::Risk, StudyKind::Size, StudyKind::Effects];
+    pub const OF_PLAN: [StudyKind; 6] = [
+        StudyKind::Sweep,
+        StudyKind::Orders,
+        StudyKind::Risk,
+        StudyKind::Search,
+        StudyKind::Size,
+        StudyKind::Effects,
+    ];
 }
 
 /// Result of a study.
@@ -63,6 +72,8 @@ pub enum StudyResult {
     Orders(Orders),
     /// Result of [`StudyKind::Risk`].
     Risk(Sampling, OptionResults),
+    /// Result of [`StudyKind::Search`].
+    Search(Search),
     /// Result of [`StudyKind::Size`].
     Size(Sizing),
     /// Result of [`StudyKind::Effects`].
@@ -101,6 +112,10 @@ impl Job {
             StudyKind::Risk => {
                 let results = case.judge_options(compute, Some(&SAMPLING), progress)?.value;
                 Ok(StudyResult::Risk(SAMPLING, results))
+            }
+            StudyKind::Search => {
+                let sampling = Some(&Sampling::OF_VERDICT);
+                Ok(StudyResult::Search(search(case, sampling, compute, progress)?.value))
             }
             StudyKind::Size => {
                 let demand = Demand::Options((0..case.shots.len()).collect());

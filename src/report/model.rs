@@ -3,6 +3,7 @@
 //! Numbers stay numbers, SI, beside the unit in which people read them. A report holds no widths, colours, escapes or
 //! rounded numbers: faces choose the first three, [`units`](crate::units) words the last.
 
+use crate::plan::DelayOption;
 use crate::units::Unit;
 use crate::verdict::Verdict;
 
@@ -114,6 +115,16 @@ impl Table {
     }
 }
 
+impl Table {
+    /// The same table, whose rows offer these changes of the plan, in their order.
+    pub fn offering(mut self, offers: impl IntoIterator<Item = Offer>) -> Self {
+        for (row, offer) in self.rows.iter_mut().zip(offers) {
+            row.offer = Some(offer);
+        }
+        self
+    }
+}
+
 impl Column {
     /// A column of words.
     pub const fn words(keys: &'static [&'static str], heading: &'static str) -> Self {
@@ -177,6 +188,24 @@ pub struct Row {
     pub missing: Option<String>,
     /// Sentences below the row.
     pub details: Vec<Detail>,
+    /// What the row offers to do with the plan.
+    pub offer: Option<Offer>,
+}
+
+/// A change of the plan that a row offers.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Offer {
+    /// A delay option to add.
+    Option(DelayOption),
+    /// A shelter to use.
+    Sizes {
+        /// Name of the rope.
+        rope: String,
+        /// Mass of a tire [kg].
+        tire_mass: f64,
+        /// Rows of ballast on each side.
+        border_rows: usize,
+    },
 }
 
 /// A sentence below a row.

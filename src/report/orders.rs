@@ -1,7 +1,7 @@
 //! `orders` as a report: one row an order, from the worst to the best.
 
 use super::charts;
-use super::model::{Block, Cell, Column, Conclusion, Field, Report, Table};
+use super::model::{Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
 use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
     probability, sampled,
@@ -10,6 +10,7 @@ use super::{report_head, row_names};
 use crate::study::Case;
 use crate::study::orders::{Orders, TriedOrder};
 use crate::study::risk_summary::RiskSummary;
+use crate::study::search::Schedule;
 use crate::verdict::Verdict;
 
 /// An order and its place in the ranking.
@@ -70,7 +71,12 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
         fields.extend(sampled_fields());
     }
     let rows = (0..all).map(|n| RankedOrder { case, orders, n });
+    let offer = |tried: &TriedOrder| {
+        let schedule = Schedule::at_interval(case, &tried.order, tried.interval);
+        Offer::Option(schedule.named_option(&case.plan.blast_rows))
+    };
     let table = Table { ranked: true, ..Table::of(&fields, rows) };
+    let table = table.offering(orders.ranked.iter().map(offer));
     let verdict = match orders.verdict() {
         Verdict::Pass if partial => Verdict::Undecided,
         verdict => verdict,

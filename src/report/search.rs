@@ -4,7 +4,7 @@ use super::check::{
     FORCE_BAND, HEIGHT_BAND, LAUNCH_MARGIN, NOMINAL_FORCE, NOMINAL_HEIGHT, band, complete_rows, planned,
 };
 use super::explain::{compute_label, launch_margin, together};
-use super::model::{Block, Cell, Column, Conclusion, Field, Report, Shown, Table};
+use super::model::{Block, Cell, Column, Conclusion, Field, Offer, Report, Shown, Table};
 use super::option_row::{OptionRow, option_rows};
 use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
 use super::{charts, report_head, row_names};
@@ -78,6 +78,7 @@ pub fn report(case: &Case, search: &Search, partial: bool) -> Report {
         *column = column.shown(Shown::Scripts);
     }
     complete_rows(&mut table, &search.case, &search.results);
+    table = table.offering(search.case.plan.delays.iter().cloned().map(Offer::Option));
     let mut blocks = vec![Block::Text(reach(search, sampled)), Block::Table(table)];
     if search.front.len() > 1 {
         blocks.push(Block::Text(front(case, &search.front)));

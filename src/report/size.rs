@@ -2,7 +2,7 @@
 
 use super::charts;
 use super::limits::limits_of_any_rope;
-use super::model::{Block, Cell, Column, Conclusion, Field, Report, Table};
+use super::model::{Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
 use super::no_result::FINER;
 use super::shared_columns::{FORCE, HEIGHT, force, height};
 use super::{accepted_risk, title};
@@ -74,7 +74,13 @@ pub fn report(case: &Case, sizing: &Sizing) -> Report {
         sizing.choices().filter_map(|combination| Some((combination, combination.trial.ok()?))).collect();
     let mut blocks = vec![Block::Text(tried(sizing))];
     if !choices.is_empty() {
-        blocks.push(Block::Table(Table::of(&frontier(), choices)));
+        let offer = |(combination, _): &(&Combination, Trial)| Offer::Sizes {
+            rope: combination.rope.name.clone(),
+            tire_mass: combination.tire_mass,
+            border_rows: combination.border_rows,
+        };
+        let offers: Vec<Offer> = choices.iter().map(offer).collect();
+        blocks.push(Block::Table(Table::of(&frontier(), choices).offering(offers)));
     } else if let Some((combination, trial)) = nearest(sizing) {
         blocks.push(Block::Text(vec![format!("nearest: {}", sentence(combination, &trial))]));
     }

@@ -1,15 +1,16 @@
 //! `sweep` as a report: charts against the interval, the windows, the worst and the recommended interval.
 
 use super::charts;
-use super::model::{Block, Cell, Column, Conclusion, Field, Report, Shown, Table};
+use super::model::{Block, Cell, Column, Conclusion, Field, Offer, Report, Shown, Table};
 use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
     probability, sampled,
 };
 use super::{report_head, row_names};
 use crate::study::Case;
+use crate::study::search::Schedule;
 use crate::study::sweep::{Point, Recommended, Sweep};
-use crate::units;
+use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
 /// Every interval tried, for scripts.
@@ -48,6 +49,7 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
         blocks.extend(charts::sweep(case, sweep).into_iter().map(Block::Chart));
         blocks.push(Block::Table(table_of_ends(case, sweep)));
         blocks.push(Block::Text(windows(case, sweep, partial)));
+        blocks.push(Block::Table(table_of_windows(case, sweep)));
     }
     blocks.push(Block::Table(Table::of(&points(), &sweep.points)));
     Report { blocks, conclusion: Some(conclusion(sweep, partial)), ..report_head(case, sweep.has_risk()) }
@@ -58,7 +60,38 @@ fn table_of_ends(case: &Case, sweep: &Sweep) -> Table {
     let named = named.into_iter().filter_map(|(name, point)| Some((name, point?)));
     // Without any sample the last column has no cell.
     let (fields, is_sampled) = (ends(), sweep.points.iter().any(Point::is_sampled));
-    Table::of(if is_sampled { &fields[..] } else { &fields[..5] }, named)
+    let offers: Vec<Offer> =
+        named.clone().map(|(_, point)| offer(case, &sweep.order, point.interval)).collect();
+    Table::of(if is_sampled { &fields[..] } else { &fields[..5] }, named).offering(offers)
+}
+
+/// The option that fires the rows of `order` at an interval [s].
+fn offer(case: &Case, order: &[usize], interval: f64) -> Offer {
+    Offer::Option(Schedule::at_interval(case, order, interval).named_option(&case.plan.blast_rows))
+}
+
+/// The wide windows, one a row; each offers the interval tried that is nearest to its middle.
+fn table_of_windows(case: &Case, sweep: &Sweep) -> Table {
+    let named = |name: &'static str, windows: &[[f64; 2]]| {
+        wide(windows).into_iter().map(move |window| (name, window)).collect::<Vec<_>>()
+    };
+    let (all, as_planned) = match sweep.has_risk() {
+        true => (named("of accepted risk", &sweep.windows), named("as planned", &sweep.windows_as_planned)),
+        false => (named("that pass", &sweep.windows), Vec::new()),
+    };
+    let all = [all, as_planned].concat();
+    let middle = |&(_, [from, to]): &(&str, [f64; 2])| {
+        let distance = |point: &&Point| (point.interval - 0.5 * (from + to)).abs();
+        let inside = sweep.points.iter().filter(|point| (from..=to).contains(&point.interval));
+        inside.min_by(|a, b| distance(a).total_cmp(&distance(b))).map_or(from, |point| point.interval)
+    };
+    let offers: Vec<Offer> = all.iter().map(|window| offer(case, &sweep.order, middle(window))).collect();
+    let fields: [Field<(&str, [f64; 2])>; 3] = [
+        Field::new(Column::words(&[], "windows"), |(name, _)| Cell::Text((*name).to_owned())),
+        Field::new(Column::numbers(&[], "from", Unit::One), |(_, [from, _])| Cell::Interval(*from)),
+        Field::new(Column::numbers(&[], "to", Unit::One), |(_, [_, to])| Cell::Interval(*to)),
+    ];
+    Table::of(&fields, all).offering(offers)
 }
 
 /// Windows narrower than this are counted, not listed [s].

@@ -12,8 +12,11 @@ use super::options::OptionState;
 use super::player::Player;
 use super::prompt::{Prompt, Purpose, Typed};
 use super::screen::Screen;
+use super::view::report::lines;
 use crate::choice::Accuracy;
 use crate::jobs::StudyKind;
+use crate::plan::edit;
+use crate::report::model::Offer;
 
 /// Lines that a page key moves.
 const PAGE: usize = 10;
@@ -69,6 +72,8 @@ impl App {
             }
             ClickTarget::Lines(_) => {}
             ClickTarget::Study(kind) => self.studies.show(kind),
+            ClickTarget::Offer(n) if n == self.studies.selected => return self.act(Action::Open),
+            ClickTarget::Offer(n) => self.studies.selected = n,
             ClickTarget::Time(end) => {
                 let share = f64::from(at.x - area.x) / f64::from(area.width.saturating_sub(1).max(1));
                 self.player.seek(share * end, end);
@@ -207,6 +212,9 @@ impl App {
 
     fn act_on_studies(&mut self, action: Action) -> Request {
         let kind = self.studies.shown;
+        if let Some(request) = self.act_on_offers(action) {
+            return request;
+        }
         match action {
             Action::Up => self.studies.scroll(-1),
             Action::Down => self.studies.scroll(1),
@@ -221,6 +229,61 @@ impl App {
             other => return self.act_anywhere(other),
         }
         Request::None
+    }
+
+    /// Moves among the rows of the study shown that offer a change of the plan, and makes the change of the selected one; `None`
+    /// where there are no such rows, or the action is another.
+    fn act_on_offers(&mut self, action: Action) -> Option<Request> {
+        let finished = self.studies.finished(self.studies.shown)?;
+        let found = lines(&finished.report, &[], &self.studies.filter, self.theme, u16::MAX);
+        let count = found.offers.len().max(1);
+        let at = self.studies.selected.min(count - 1);
+        let to = match action {
+            Action::Up => at.saturating_sub(1),
+            Action::Down => at + 1,
+            Action::PageUp => at.saturating_sub(PAGE),
+            Action::PageDown => at + PAGE,
+            Action::First => 0,
+            Action::Last => count - 1,
+            Action::Open => {
+                let offer = found.offers.get(at)?.1.clone();
+                return Some(self.take_offer(&offer));
+            }
+            _ => return None,
+        };
+        if found.offers.is_empty() {
+            return None;
+        }
+        self.studies.selected = to.min(count - 1);
+        Some(Request::None)
+    }
+
+    /// Makes a change that a row offers; it can be taken back.
+    fn take_offer(&mut self, offer: &Offer) -> Request {
+        let (text, plan) = (self.editor.text.as_str(), &self.case.plan);
+        let (changed, told) = match offer {
+            Offer::Option(delay) => {
+                (edit::add_delays(text, plan, &[delay]), format!("added: {}", delay.name))
+            }
+            Offer::Sizes { rope, tire_mass, border_rows } => (
+                edit::write_sizes(text, rope, *tire_mass, *border_rows),
+                format!("used: {rope}, tires of {tire_mass} kg, {border_rows} border rows"),
+            ),
+        };
+        let edit = self.editor.take(changed.map_err(|error| error.to_string()));
+        if matches!(edit, Edit::None) {
+            self.notice = self.editor.problem.clone();
+            return Request::None;
+        }
+        let undo = self.keymap.hint(Action::Undo);
+        let request = self.edited(edit);
+        // Its verdict stands there.
+        self.screen = Screen::Compare;
+        if matches!(offer, Offer::Option(_)) {
+            self.selected = self.options.len().saturating_sub(1);
+        }
+        self.notice = Some(format!("{told} · {undo} takes it back"));
+        request
     }
 
     fn act_on_options(&mut self, action: Action) -> Request {

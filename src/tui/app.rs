@@ -65,6 +65,8 @@ pub enum ClickTarget {
     Field(usize),
     /// Shows a study.
     Study(StudyKind),
+    /// A row of a study that offers a change of the plan, by its index among these.
+    Offer(usize),
     /// No click: the greatest number of lines the area can be scrolled.
     Lines(u16),
     /// Shows a time: 0 at the left end of the area, this time [s] at the right end.

@@ -54,6 +54,7 @@ impl ShownStudy {
             StudyResult::Risk(sampling, results) => {
                 (report::risk::report(case, results, sampling, false), notes::swaps(case))
             }
+            StudyResult::Search(search) => (report::search::report(case, search, false), Vec::new()),
             StudyResult::Effects(effects) => (report::effects::report(case, effects, false), Vec::new()),
             StudyResult::Size(sizing) => (report::size::report(case, sizing), Vec::new()),
             StudyResult::Why(would_pass) => {
@@ -102,6 +103,8 @@ pub struct Studies {
     pub scroll: u16,
     /// Only lines that contain this text are shown.
     pub filter: String,
+    /// Index of the selected row among those that offer a change of the plan.
+    pub selected: usize,
     /// The list of [`StudyKind::Why`]; `None` while it is closed.
     pub changes: Option<ChangeList>,
     states: [StudyState; StudyKind::ALL.len()],
@@ -109,8 +112,14 @@ pub struct Studies {
 
 impl Default for Studies {
     fn default() -> Self {
-        let states = Default::default();
-        Self { shown: StudyKind::Sweep, scroll: 0, filter: String::new(), changes: None, states }
+        Self {
+            shown: StudyKind::Sweep,
+            scroll: 0,
+            filter: String::new(),
+            selected: 0,
+            changes: None,
+            states: Default::default(),
+        }
     }
 }
 
@@ -176,6 +185,7 @@ impl Studies {
     pub fn show(&mut self, kind: StudyKind) {
         self.shown = kind;
         self.scroll = 0;
+        self.selected = 0;
     }
 
     /// Scrolls down by `lines`; negative: up.

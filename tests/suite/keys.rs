@@ -14,7 +14,7 @@ use shelter::tui::screen::Screen;
 use shelter::tui::start::{EXAMPLES, Next, Opened, Start};
 use shelter::tui::update;
 
-use super::stage::{draw, draw_areas, finished, key, recorded, study_ends, swept, text};
+use super::stage::{draw, draw_areas, finished, key, recorded, spreads, study_ends, swept, text};
 
 fn press(app: &mut App, keys: &str) -> Request {
     keys.chars().fold(Request::None, |_, letter| key(app, KeyCode::Char(letter)))
@@ -305,4 +305,67 @@ proptest::proptest! {
             app.request_flight();
         }
     }
+}
+
+/// Enter on a row of a study adds its option, or uses its shelter; undo takes it back.
+#[test]
+fn rows_of_studies_change_the_plan() {
+    let mut app = finished();
+    let options = app.case.plan.delays.len();
+    app.screen = Screen::Studies;
+    app.studies.show(StudyKind::Sweep);
+    study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
+    key(&mut app, KeyCode::Down);
+    assert_eq!(app.studies.selected, 1, "the recommended interval, below the worst");
+    let asked = key(&mut app, KeyCode::Enter);
+    assert!(matches!(asked, Request::CheckNewPlan), "{asked:?}");
+    assert_eq!(app.case.plan.delays.len(), options + 1);
+    let added = &app.case.plan.delays[options];
+    assert_eq!((added.name.as_str(), added.timing.fire_at_ms()), ("210 ms", vec![0.0, 210.0, 420.0]));
+    assert_eq!((app.screen, app.selected), (Screen::Compare, options));
+    press(&mut app, "u");
+    assert_eq!(app.case.plan.delays.len(), options);
+
+    let [(orders, ranked), _, (size, sizes)] = spreads(&app);
+    app.screen = Screen::Studies;
+    app.studies.show(orders);
+    study_ends(&mut app, orders, Ok(ranked));
+    key(&mut app, KeyCode::End);
+    assert_eq!(app.studies.selected, 5);
+    key(&mut app, KeyCode::Enter);
+    let added = &app.case.plan.delays[options];
+    assert_eq!((added.name.as_str(), added.timing.fire_at_ms()), ("3-2-1 20 ms", vec![40.0, 20.0, 0.0]));
+    press(&mut app, "u");
+
+    app.screen = Screen::Studies;
+    app.studies.show(size);
+    study_ends(&mut app, size, Ok(sizes));
+    key(&mut app, KeyCode::Down);
+    key(&mut app, KeyCode::Enter);
+    let rope = app.case.plan.cable.rope.clone().expect("a rope");
+    assert!(app.notice.as_ref().is_some_and(|notice| notice.contains(&rope)), "{:?}", app.notice);
+    assert_ne!(rope, "GOST 2688-80 14 1960");
+    press(&mut app, "u");
+    assert_eq!(app.case.plan.cable.rope.as_deref(), Some("GOST 2688-80 14 1960"));
+}
+
+/// The selected row of a long ranking is always on the screen, and a click selects, then changes.
+#[test]
+fn the_selected_row_is_in_sight() {
+    let mut app = finished();
+    let [(orders, ranked), ..] = spreads(&app);
+    app.screen = Screen::Studies;
+    app.studies.show(orders);
+    study_ends(&mut app, orders, Ok(ranked));
+    for _ in 0..5 {
+        key(&mut app, KeyCode::Down);
+        let shown = text(&draw(&app, 80, 18));
+        let row = ["1 2 3", "1 3 2", "2 1 3", "2 3 1", "3 1 2", "3 2 1"][app.studies.selected];
+        assert!(shown.contains(row), "{row}:\n{shown}");
+    }
+    app.studies.selected = 0;
+    click(&mut app, "2 3 1");
+    assert_eq!(app.studies.selected, 3);
+    click(&mut app, "2 3 1");
+    assert_eq!(app.case.plan.delays.last().map(|delay| delay.name.as_str()), Some("2-3-1 20 ms"));
 }

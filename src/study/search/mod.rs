@@ -219,8 +219,7 @@ fn judge(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<(Case, Found<OptionResults>), NoResult> {
-    let name = |schedule: &Schedule| schedule.name(&case.plan.blast_rows);
-    let delays = schedules.iter().map(|schedule| schedule.delay_option(name(schedule))).collect();
+    let delays = schedules.iter().map(|schedule| schedule.named_option(&case.plan.blast_rows)).collect();
     let plan = Plan { delays, ..case.plan.clone() };
     let case = Case { source: case.source.clone(), ..Case::new(plan) };
     let sampling = sampling.map(|sampling| Sampling { attempt: ATTEMPT, ..*sampling });

@@ -30,6 +30,17 @@ const NEAR: f64 = 0.1;
 const NEAR_MS: f64 = 2.5;
 
 impl Schedule {
+    /// Rows fired in `order` at one interval [s], their holes as in all options of the plan.
+    pub fn at_interval(case: &Case, order: &[usize], interval: f64) -> Self {
+        let gap_ms = (interval * 1e9).round() / 1e6;
+        Self { order: order.to_vec(), gaps_ms: vec![gap_ms; order.len() - 1], holes: case.holes }
+    }
+
+    /// The schedule as a delay option with a telling name.
+    pub fn named_option(&self, rows: &[BlastRow]) -> DelayOption {
+        self.delay_option(self.name(rows))
+    }
+
     /// The schedule as a delay option.
     pub fn delay_option(&self, name: String) -> DelayOption {
         let (order, holes) = (self.order.clone(), self.holes);

@@ -18,7 +18,7 @@ mod help;
 mod options;
 mod parts;
 mod plan;
-mod report;
+pub(super) mod report;
 mod studies;
 
 use ratatui::Frame;

@@ -3,7 +3,7 @@
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
-use crate::report::model::{Align, Block, Cell, Column, Report, Row, Shown, Table};
+use crate::report::model::{Align, Block, Cell, Column, Offer, Report, Row, Shown, Table};
 use crate::tui::theme::Theme;
 
 /// Bars of a sparkline.
@@ -13,19 +13,27 @@ const RANKED: usize = 100;
 /// Blank columns between two columns of a table.
 const GAP: usize = 2;
 
+/// A report as lines.
+pub struct ReportLines<'r> {
+    /// From top to bottom.
+    pub lines: Vec<Line<'static>>,
+    /// The changes of the plan that rows offer, each with the index of its line.
+    pub offers: Vec<(usize, &'r Offer)>,
+}
+
 /// The lines of a report, `width` columns wide at most: first the conclusion, then notes, sentences and tables. Of the
 /// sentences and rows only those that contain `filter` are kept.
-pub fn lines(
-    report: &Report,
+pub fn lines<'r>(
+    report: &'r Report,
     notes: &[String],
     filter: &str,
     theme: Theme,
     width: u16,
-) -> Vec<Line<'static>> {
+) -> ReportLines<'r> {
     let width = usize::from(width.max(1));
     let filter = filter.to_lowercase();
     let kept = |text: &str| text.to_lowercase().contains(&filter);
-    let mut lines = Vec::new();
+    let (mut lines, mut offers) = (Vec::new(), Vec::new());
     if let Some(conclusion) = &report.conclusion {
         let label = conclusion.verdict.label();
         let mut wrapped = wrapped(&format!("{label}: {}", conclusion.text), width).into_iter();
@@ -43,16 +51,18 @@ pub fn lines(
                 lines.extend(sentences.flat_map(|sentence| wrapped(sentence, width)).map(Line::raw));
             }
             Block::Table(table) => {
-                lines.extend(table_lines(table, &kept, theme).into_iter().map(|line| cut(line, width)));
+                let table = table_lines(table, &kept, theme);
+                offers.extend(table.offers.into_iter().map(|(line, offer)| (lines.len() + line, offer)));
+                lines.extend(table.lines.into_iter().map(|line| cut(line, width)));
             }
             Block::Chart(_) | Block::Picture(_) => {}
         }
     }
-    lines
+    ReportLines { lines, offers }
 }
 
 /// Heading and rows of a table, with a blank line above; none where people see no column or no row is kept.
-fn table_lines(table: &Table, kept: &impl Fn(&str) -> bool, theme: Theme) -> Vec<Line<'static>> {
+fn table_lines<'r>(table: &'r Table, kept: &impl Fn(&str) -> bool, theme: Theme) -> ReportLines<'r> {
     let seen = |column: &Column| matches!(column.shown, Shown::People | Shown::Text);
     let columns: Vec<usize> = (0..table.columns.len()).filter(|&n| seen(&table.columns[n])).collect();
     let (rows, left_out) = match table.rows.split_at(table.rows.len().min(RANKED)) {
@@ -62,8 +72,9 @@ fn table_lines(table: &Table, kept: &impl Fn(&str) -> bool, theme: Theme) -> Vec
         }
         _ => (vec![&table.rows[..]], 0),
     };
+    let (mut lines, mut offers) = (Vec::new(), Vec::new());
     if columns.is_empty() {
-        return Vec::new();
+        return ReportLines { lines, offers };
     }
     let label = |row: &Row, n: usize| row.cells[n].label(BARS);
     let headings = [|column: &Column| column.label(), |column: &Column| column.subheading.to_owned()];
@@ -88,7 +99,7 @@ fn table_lines(table: &Table, kept: &impl Fn(&str) -> bool, theme: Theme) -> Vec
             Align::Right => [Span::raw(blank), Span::styled(text + &gap, style)],
         }
     };
-    let mut lines = vec![Line::default()];
+    lines.push(Line::default());
     for heading in headings {
         let cells = heading.into_iter().enumerate();
         lines.push(Line::from_iter(cells.flat_map(|(n, text)| padded(text, n, theme.quiet()))));
@@ -109,6 +120,7 @@ fn table_lines(table: &Table, kept: &impl Fn(&str) -> bool, theme: Theme) -> Vec
             );
             line.extend(row.missing.clone().map(Span::raw));
             if kept(&line.to_string()) {
+                offers.extend(row.offer.as_ref().map(|offer| (lines.len(), offer)));
                 lines.push(line);
                 let details = row.details.iter();
                 lines.extend(details.map(|detail| {
@@ -117,7 +129,10 @@ fn table_lines(table: &Table, kept: &impl Fn(&str) -> bool, theme: Theme) -> Vec
             }
         }
     }
-    if lines.len() == count { Vec::new() } else { lines }
+    if lines.len() == count {
+        lines.clear();
+    }
+    ReportLines { lines, offers }
 }
 
 /// Style of a cell by the type of its value.

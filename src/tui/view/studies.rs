@@ -1,7 +1,7 @@
-//! The studies of the whole plan: sweep, orders, risk, size and effects, one shown at a time.
+//! The studies of the whole plan: sweep, orders, risk, search, size and effects, one shown at a time.
 //!
 //! ```text
-//!  Sweep   Orders   Risk   Size   Effects
+//!  Sweep   Orders   Risk   Search   Size   Effects
 //! ─ settings ────────────────────────
 //! conclusion, notes, tables
 //! charts
@@ -14,7 +14,7 @@ use ratatui::widgets::{Block, Borders, Paragraph};
 
 use super::chart;
 use super::parts::{draw_message, draw_progress, draw_row};
-use super::report::lines;
+use super::report::{ReportLines, lines};
 use crate::jobs::StudyKind;
 use crate::report::explain::compute_label;
 use crate::report::no_result;
@@ -37,6 +37,9 @@ fn about(kind: StudyKind) -> (&'static str, &'static str) {
         ),
         StudyKind::Risk => {
             ("Risk", "How likely does each option fail when what is not known varies? 2000 samples each.")
+        }
+        StudyKind::Search => {
+            ("Search", "Which schedules fail least? Orders, intervals and holes that [search] allows.")
         }
         StudyKind::Size => {
             ("Size", "What is the lightest rope, tire and border with which every option passes?")
@@ -95,7 +98,12 @@ fn settings(app: &App, finished: &ShownStudy) -> Line<'static> {
 
 /// Draws the notes and the report of a study. The text may be scrolled; the charts take the rest of the area.
 fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect, areas: &mut Areas) {
-    let mut all = lines(&finished.report, &finished.notes, &app.studies.filter, app.theme, area.width);
+    let ReportLines { lines: mut all, offers } =
+        lines(&finished.report, &finished.notes, &app.studies.filter, app.theme, area.width);
+    let selected = offers.get(app.studies.selected).map(|(line, _)| *line);
+    if let Some(line) = selected {
+        all[line] = std::mem::take(&mut all[line]).patch_style(app.theme.selected());
+    }
     let charts = finished.report.charts();
     let charts: Vec<_> = match app.studies.shown {
         // One chart per option: the chart of the selected option.
@@ -111,7 +119,16 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
     let [text, pictures] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(area);
     let beyond = (all.len() as u16).saturating_sub(height);
     areas.push((text, ClickTarget::Lines(beyond)));
-    let scrolled = usize::from(app.studies.scroll.min(beyond));
-    frame.render_widget(Paragraph::new(all.split_off(scrolled)), text);
+    // The selected row stays in the middle, where there is room above it.
+    let scrolled = match selected {
+        Some(line) => (line as u16).saturating_sub(height / 2).min(beyond),
+        None => app.studies.scroll.min(beyond),
+    };
+    for (n, (line, _)) in offers.iter().enumerate() {
+        let y = (*line as u16).checked_sub(scrolled).filter(|&y| y < height);
+        let row = y.map(|y| Rect { y: text.y + y, height: 1, ..text });
+        areas.extend(row.map(|row| (row, ClickTarget::Offer(n))));
+    }
+    frame.render_widget(Paragraph::new(all.split_off(usize::from(scrolled))), text);
     chart::draw_all(app, &charts, frame, pictures);
 }
