@@ -248,15 +248,18 @@ fn write(
         text += "# Launch directions are assumed: each launch points against the way down of its hole, by its angle and bearing.\n";
     }
     text += &shelter.sections(&format!("Holes of {name}"), &remark);
+    // Some charges alone are no key: a plan names all or none.
+    let all_charged = all_charged(holes);
     for group in groups {
         text += &header(&blast_row::SECTION);
         text += &line(&blast_row::NAME, quoted(&group.name));
         let _ = writeln!(text, "{} = [", blast_row::HOLES.name);
         for &hole in &group.holes {
             let hole = &holes[hole];
+            let charge = hole.charge_kg;
             let _ = writeln!(
                 text,
-                "    {{ {} = {:.3}, {} = {:.3}, {} = {:?}{} }}, # {}{}",
+                "    {{ {} = {:.3}, {} = {:.3}, {} = {:?}{}{} }}, # {}{}",
                 hole::X_M.name,
                 hole.x_m - origin[0],
                 hole::Y_M.name,
@@ -264,8 +267,9 @@ fn write(
                 hole::LAUNCH_M_S.name,
                 hole.launch_m_s.unwrap_or(LAUNCH_M_S),
                 hole.tilt.map_or(String::new(), tilt_keys),
+                charge.filter(|_| all_charged).map_or(String::new(), charge_key),
                 hole.id,
-                hole.charge_kg.map_or(String::new(), |mass| format!(", {mass:.1} kg")),
+                charge.filter(|_| !all_charged).map_or(String::new(), |mass| format!(", {mass:.1} kg")),
             );
         }
         text += "]\n";
@@ -283,6 +287,16 @@ fn write(
         None => INTERVALS_MS.into_iter().for_each(|interval| text += &starter::delay(interval)),
     }
     text + &starter::uncertainty()
+}
+
+/// Whether every hole has a charge.
+fn all_charged(holes: &[ListedHole]) -> bool {
+    holes.iter().all(|hole| hole.charge_kg.is_some())
+}
+
+/// The key of a charge [kg], to the gram, behind the others of its hole.
+fn charge_key(charge_kg: f64) -> String {
+    format!(", {} = {:?}", hole::CHARGE_KG.name, (charge_kg * 1e3).round() / 1e3)
 }
 
 /// The keys of a tilt, behind the others of its hole.

@@ -87,8 +87,12 @@ pub fn read(xml: &str, directions: Directions) -> Result<Holes, Vec<Mistake>> {
     }
     let charges: Vec<f64> = list.holes.iter().filter_map(|hole| hole.charge_kg).collect();
     if !charges.is_empty() {
+        let how = match charges.len() == list.holes.len() {
+            true => "written as charge_kg",
+            false => "written beside the holes as remarks: a plan names all charges or none",
+        };
         list.notes.push(format!(
-            "{} of {} holes hold {:.1} kg of explosive, written beside the holes as remarks",
+            "{} of {} holes hold {:.1} kg of explosive, {how}",
             charges.len(),
             list.holes.len(),
             charges.iter().sum::<f64>()
