@@ -73,7 +73,7 @@ pub enum StudyResult {
     /// Result of [`StudyKind::Risk`].
     Risk(Sampling, OptionResults),
     /// Result of [`StudyKind::Search`].
-    Search(Search),
+    Search(Box<Search>),
     /// Result of [`StudyKind::Size`].
     Size(Sizing),
     /// Result of [`StudyKind::Effects`].
@@ -115,7 +115,8 @@ impl Job {
             }
             StudyKind::Search => {
                 let sampling = Some(&Sampling::OF_VERDICT);
-                Ok(StudyResult::Search(search(case, sampling, compute, progress)?.value))
+                let found = search(case, sampling, compute, progress)?.value;
+                Ok(StudyResult::Search(Box::new(found)))
             }
             StudyKind::Size => {
                 let demand = Demand::Options((0..case.shots.len()).collect());

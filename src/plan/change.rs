@@ -156,7 +156,11 @@ mod tests {
             (Change::Rope(rope), "\"GOST 2688-80 14 1960\"", "\"GOST 2688-80 15 1960\""),
             (Change::Termination(spelter), "\"mechanical sleeve\"", "\"spelter socket\""),
             (Change::Launch(0.95), "launch_m_s = 6.0", "launch_m_s = 5.7"),
-            (Change::Interval { option: 2, interval_ms: 22.0 }, "interval_ms = 20", "interval_ms = 22"),
+            (
+                Change::Interval { option: 2, interval_ms: 22.0 },
+                "\"20 ms\"\ninterval_ms = 20",
+                "\"22 ms\"\ninterval_ms = 22",
+            ),
             (Change::BorderRows(2), "\"diagonal\"]\n", "\"diagonal\"]\nborder_rows = 2\n"),
         ] {
             let new_text = PLAN.replace(old, new);

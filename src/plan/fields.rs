@@ -141,6 +141,7 @@ pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
         }
         document.insert(path.section, Item::Table(Table::new()));
     }
+    let names = names(&document, path.section);
     let table =
         table_mut(&mut document, path).ok_or_else(|| format!("the plan has no [{}]", path.section))?;
     if new.trim().is_empty() {
@@ -157,8 +158,38 @@ pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
         _ if textual => Value::from(new.trim()),
         _ => return Err(format!("'{}' is no value: write it as the plan does", new.trim())),
     };
+    if path.section == plan::DELAY.name && path.key.name == delay::INTERVAL_MS.name {
+        rename_with_interval(table, &value, &names);
+    }
     super::edit::set(table, path.key.name, value);
     Ok(with_line_ends_of(text, &document))
+}
+
+/// Names of all sections of one kind.
+fn names(document: &DocumentMut, section: &str) -> Vec<String> {
+    let name = |table: &dyn TableLike| table.get("name").and_then(Item::as_str).map(str::to_owned);
+    tables(document, section).filter_map(name).collect()
+}
+
+/// Lets the name of a delay option that is its interval, or begins with it, follow the interval: `25 ms, middle first` would be a lie
+/// about 30 ms. `names` are those of all options.
+fn rename_with_interval(table: &mut dyn TableLike, interval: &Value, names: &[String]) {
+    let written = |value: &Value| {
+        let number = value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));
+        number.map(|number| format!("{number} ms"))
+    };
+    let old = table.get(delay::INTERVAL_MS.name).and_then(Item::as_value).and_then(written);
+    let name = table.get(delay::NAME.name).and_then(Item::as_str);
+    let (Some(old), Some(new), Some(name)) = (old, written(interval), name) else { return };
+    let Some(rest) = name.strip_prefix(&old).filter(|rest| !rest.starts_with(char::is_alphanumeric)) else {
+        return;
+    };
+    let new = format!("{new}{rest}");
+    let is_free = |new: &String| new == name || !names.contains(new);
+    let numbered = (2..).map(|n| format!("{new} ({n})"));
+    if let Some(free) = std::iter::once(new.clone()).chain(numbered).find(is_free) {
+        super::edit::set(table, delay::NAME.name, free.into());
+    }
 }
 
 fn table_mut<'d>(document: &'d mut DocumentMut, path: &Path) -> Option<&'d mut dyn TableLike> {
@@ -224,14 +255,33 @@ mod tests {
         let field = find(PLAN, "delay", Some(1), "interval_ms");
         assert_eq!(field.value, "9");
         let new = set(PLAN, &field.path, "12.5").expect("a value");
-        assert_eq!(new, PLAN.replace("interval_ms = 9", "interval_ms = 12.5"));
+        let renamed =
+            PLAN.replace("\"9 ms\"", "\"12.5 ms\"").replace("interval_ms = 9", "interval_ms = 12.5");
+        assert_eq!(new, renamed);
         let rope = find(PLAN, "cable", None, "rope");
         let new = set(PLAN, &rope.path, "GOST 2688-80 15").expect("a value");
         assert_eq!(new, PLAN.replace("\"GOST 2688-80 14 1960\"", "\"GOST 2688-80 15\""));
         assert!(set(PLAN, &field.path, "nine").is_err());
         let windows = PLAN.replace('\n', "\r\n");
         let new = set(&windows, &field.path, "12.5").expect("a value");
-        assert_eq!(new, windows.replace("interval_ms = 9", "interval_ms = 12.5"));
+        assert_eq!(new, renamed.replace('\n', "\r\n"));
+    }
+
+    #[test]
+    fn a_name_that_is_the_interval_follows_it() {
+        let renamed = |name: &str, new: &str| {
+            let text =
+                format!("[[delay]]\nname = \"{name}\"\ninterval_ms = 25\n[[delay]]\nname = \"42 ms\"\n");
+            let field = find(&text, "delay", Some(0), "interval_ms");
+            let text = set(&text, &field.path, new).expect("a value");
+            find(&text, "delay", Some(0), "name").value
+        };
+        assert_eq!(renamed("25 ms, middle first", "30.5"), "\"30.5 ms, middle first\"");
+        assert_eq!(renamed("25 ms", "42"), "\"42 ms (2)\"", "names differ");
+        assert_eq!(renamed("25 ms", "25"), "\"25 ms\"");
+        for name in ["25 msec", "middle first", "125 ms"] {
+            assert_eq!(renamed(name, "30"), format!("\"{name}\""));
+        }
     }
 
     #[test]

@@ -115,7 +115,7 @@ pub fn search(
     let left = contenders.iter().filter(|one| !finalists.iter().any(|(_, other)| other.shot == one.shot));
     let without_failure = left.filter(|one| one.samples > 0 && one.failures == 0).count();
     let front = front(&choices, &contenders);
-    let schedules = finalists.iter().map(|(schedule, _)| schedule.clone()).collect();
+    let schedules: Vec<Schedule> = finalists.iter().map(|(schedule, _)| schedule.clone()).collect();
     let rough = finalists.iter().map(|(_, contender)| RoughShare::of(contender)).collect();
     let (case, Found { value: results, partial }) = judge(case, &schedules, sampling, compute, progress)?;
     let judged = contenders.iter().filter(|one| one.samples > 0).count();
@@ -214,7 +214,7 @@ fn front(choices: &Choices<'_>, contenders: &[Contender]) -> Vec<FrontPoint> {
 /// Judges schedules as delay options of their own plan.
 fn judge(
     case: &Case,
-    schedules: &Vec<Schedule>,
+    schedules: &[Schedule],
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
     progress: &Progress,

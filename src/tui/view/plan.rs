@@ -232,7 +232,7 @@ fn places_at(row: &[(Place, f64)], level: f64) -> Vec<Place> {
         let [(a, from), (b, to)] = [pair[0], pair[1]];
         let part = (level - from) / (to - from);
         let is_between = (from < level) != (to < level);
-        is_between.then(|| (a.0 + part * (b.0 - a.0), a.1 + part * (b.1 - a.1)))
+        is_between.then_some((a.0 + part * (b.0 - a.0), a.1 + part * (b.1 - a.1)))
     };
     row.windows(2).filter_map(between).collect()
 }
