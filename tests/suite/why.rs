@@ -143,10 +143,16 @@ fn expected(plan: &Plan, change: &Change) -> Plan {
             plan.uncertainty.slack_percent = usual.unwrap_or(range).map(|end| end.max(0.0));
         }
         Change::Launch(factor) => plan.launches_mut().for_each(|launch| launch.speed_m_s *= factor),
-        Change::Interval { option, interval_ms: new } => match &mut plan.delays[option].timing {
-            Timing::Interval { interval_ms, .. } => *interval_ms = new,
-            Timing::At(_) => panic!("no interval"),
-        },
+        Change::Interval { option, interval_ms: new } => {
+            let Timing::Interval { interval_ms, .. } = &mut plan.delays[option].timing else {
+                panic!("no interval")
+            };
+            let named = format!("{interval_ms} ms");
+            *interval_ms = new;
+            if plan.delays[option].name == named {
+                plan.delays[option].name = format!("{new} ms");
+            }
+        }
     }
     plan
 }
