@@ -361,6 +361,12 @@ pub struct HoleTiming {
 impl HoleTiming {
     /// The holes of a row fire together.
     pub const TOGETHER: Self = Self { interval_ms: 0.0, order: HoleOrder::DEFAULT };
+
+    /// In words, such as `holes 17 ms left`; `None` where they fire together.
+    pub fn words(&self) -> Option<String> {
+        let Self { interval_ms, order } = self;
+        (*interval_ms > 0.0).then(|| format!("holes {interval_ms} ms {order}"))
+    }
 }
 
 /// Firing times of the blast rows.

@@ -33,7 +33,8 @@ fn all_reasons(row: &OptionRow<'_>) -> String {
 /// Firing times of the rows in the order of the plan: `0, 20, 40 ms`.
 fn firing(row: &OptionRow<'_>) -> String {
     let times: Vec<String> = row.delay.timing.fire_at_ms().iter().map(f64::to_string).collect();
-    format!("{} ms", times.join(", "))
+    let rows = format!("{} ms", times.join(", "));
+    [rows].into_iter().chain(row.delay.holes.words()).collect::<Vec<_>>().join(" · ")
 }
 
 fn fields<'a>() -> [Field<OptionRow<'a>>; 34] {

@@ -17,6 +17,17 @@ pub fn orders(case: &Case) -> Option<String> {
         .then(|| format!("note: without an interval of their own, and left out: {}", names.join("; ")))
 }
 
+/// How the holes of a row fire in a study that varies order and interval; `None` where every row fires at once in all options.
+pub fn holes(case: &Case) -> Option<String> {
+    match (case.holes.words(), case.plan.shared_hole_timing()) {
+        (Some(holes), _) => Some(format!("in every row: {holes}")),
+        (None, Some(_)) => None,
+        (None, None) => {
+            Some("the options differ in how the holes of a row fire: here every row fires at once".to_owned())
+        }
+    }
+}
+
 /// What the plan adds to the source paper's model, in one line; `None` where it adds nothing.
 pub fn effects(plan: &Plan) -> Option<String> {
     let (ground, tire, cable) = (&plan.ground, &plan.tire, &plan.cable);

@@ -6,7 +6,7 @@ use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
     probability, sampled,
 };
-use super::{report_head, row_names};
+use super::{notes, report_head, row_names};
 use crate::study::Case;
 use crate::study::orders::{Orders, TriedOrder};
 use crate::study::risk_summary::RiskSummary;
@@ -62,7 +62,7 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
         true => format!("{all} orders and intervals, all there are, worst first"),
         false => format!("{all} orders searched: the worst may not be among them, worst first"),
     };
-    let mut heads = vec![head];
+    let mut heads: Vec<String> = [head].into_iter().chain(notes::holes(case)).collect();
     if orders.has_risk() {
         heads.push(RANKING.to_owned());
     }

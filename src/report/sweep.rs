@@ -6,7 +6,7 @@ use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
     probability, sampled,
 };
-use super::{report_head, row_names};
+use super::{notes, report_head, row_names};
 use crate::study::Case;
 use crate::study::search::Schedule;
 use crate::study::sweep::{Point, Recommended, Sweep};
@@ -45,7 +45,7 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
     let head = format!("interval between rows {names}: {from} to {to}, {} tried", sweep.points.len());
     let mut blocks = Vec::new();
     if !sweep.points.is_empty() {
-        blocks.push(Block::Text(vec![head]));
+        blocks.push(Block::Text([head].into_iter().chain(notes::holes(case)).collect()));
         blocks.extend(charts::sweep(case, sweep).into_iter().map(Block::Chart));
         blocks.push(Block::Table(table_of_ends(case, sweep)));
         blocks.push(Block::Text(windows(case, sweep, partial)));

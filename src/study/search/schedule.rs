@@ -77,10 +77,8 @@ impl Schedule {
         if !gaps.is_empty() {
             parts.push(format!("{} ms", joined(gaps)));
         }
-        let HoleTiming { interval_ms, order } = self.holes;
-        let holes = (interval_ms > 0.0).then(|| format!("holes {interval_ms} ms {order}"));
         let rows = Some(parts.join(" ")).filter(|rows| !rows.is_empty());
-        let all: Vec<String> = rows.into_iter().chain(holes).collect();
+        let all: Vec<String> = rows.into_iter().chain(self.holes.words()).collect();
         if all.is_empty() { "all at once".to_owned() } else { all.join(", ") }
     }
 
