@@ -26,8 +26,8 @@
 //! ```
 //!
 //! The library alone, without command line, terminal and charts: `default-features = false`. The programs in `examples/`
-//! check a plan, sweep an interval, step through a motion and build a shelter without a plan. The library may change between any two
-//! versions; what stays is said in CHANGELOG.md.
+//! check a plan, sweep an interval, step through a motion and build a shelter without a plan. The library may change between any
+//! two versions; what stays is said in CHANGELOG.md.
 //!
 //! # Map of the modules
 //!
@@ -62,8 +62,8 @@
 //! # Rules
 //!
 //! - A [`Scene`](scene::Scene) is never changed once built; everything that moves lives in a stepper.
-//! - Plan units become SI where a plan becomes a [`Case`]: scene, shots and limits. Only `[uncertainty]` keeps the units of its keys
-//!   until samples are drawn. SI becomes words in `units`.
+//! - Plan units become SI where a plan becomes a [`Case`]: scene, shots and limits. Only `[uncertainty]` keeps the units of its
+//!   keys until samples are drawn. SI becomes words in `units`.
 //! - What goes wrong in a run is a value, never a panic and never a pass. Functions that take the index of an option panic where
 //!   there is no such option.
 //! - The same plan gives the same numbers for any number of threads.
@@ -75,9 +75,9 @@
 //! *taut* or *slack*; a tire on the ground *sticks* or *slips*.
 //!
 //! The *utilization* of a shot is its greatest value over its limit. A *judged shot* is its verdict with height, force and drift,
-//! each with its error ([`JudgedShot`](study::JudgedShot)). A check climbs a *ladder* of steps, each a fixed ratio finer than the one
-//! before. A *sampling* says how many samples are drawn, from which seed, and when to stop. A *face* is one way to show a report:
-//! text, CSV, JSON, page or terminal.
+//! each with its error ([`JudgedShot`](study::JudgedShot)). A check climbs a *ladder* of steps, each a fixed ratio finer than the
+//! one before. A *sampling* says how many samples are drawn, from which seed, and when to stop. A *face* is one way to show a
+//! report: text, CSV, JSON, page or terminal.
 //!
 //! *Nominal* is as planned, nothing varied. *Undecided* reads OPEN on screens. A *screen* in `study` is a coarse check of one shot
 //! among thousands. An *audit* runs some samples again at a finer step. A *shard* is one machine's part of a study; `--shard`

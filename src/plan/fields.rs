@@ -131,7 +131,8 @@ fn value_text(item: &Item) -> String {
 
 /// The text of the plan with another value at `path`, or a message that says why `new` is no value.
 ///
-/// An empty `new` removes the key. A section that the plan leaves out is added. A text may be typed without quotes, a list without brackets. Comments and formatting stay.
+/// An empty `new` removes the key. A section that the plan leaves out is added. A text may be typed without quotes, a list without
+/// brackets. Comments and formatting stay.
 pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
     let mut document: DocumentMut =
         text.parse().map_err(|error: toml_edit::TomlError| error.message().to_owned())?;
@@ -171,8 +172,8 @@ fn names(document: &DocumentMut, section: &str) -> Vec<String> {
     tables(document, section).filter_map(name).collect()
 }
 
-/// Lets the name of a delay option that is its interval, or begins with it, follow the interval: `25 ms, middle first` would be a lie
-/// about 30 ms. `names` are those of all options.
+/// Lets the name of a delay option that is its interval, or begins with it, follow the interval: `25 ms, middle first` would be a
+/// lie about 30 ms. `names` are those of all options.
 fn rename_with_interval(table: &mut dyn TableLike, interval: &Value, names: &[String]) {
     let written = |value: &Value| {
         let number = value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));

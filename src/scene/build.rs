@@ -263,8 +263,8 @@ impl Scene {
         }
     }
 
-    /// Places of the holes of a blast row [m], of which `firings` are the firings (`n_holes`): a row under tires has each hole under
-    /// the middle of its tire.
+    /// Places of the holes of a blast row [m], of which `firings` are the firings (`n_holes`): a row under tires has each hole
+    /// under the middle of its tire.
     fn hole_places(&self, targets: &LaunchTargets, firings: &[Firing]) -> Vec<[f64; 2]> {
         match targets {
             LaunchTargets::Holes(holes) => holes.iter().map(|hole| [hole.x_m, hole.y_m]).collect(),

@@ -107,8 +107,8 @@ impl Shot {
         self.most_within(window, |firing| firing.charge)
     }
 
-    /// Greatest sum of `weight` over the firings within any `window` [s], its end left out; times are rounded to 1 µs, so that holes
-    /// planned a window apart do not count together.
+    /// Greatest sum of `weight` over the firings within any `window` [s], its end left out; times are rounded to 1 µs, so that
+    /// holes planned a window apart do not count together.
     fn most_within(&self, window: f64, weight: impl Fn(&Firing) -> f64) -> f64 {
         let microseconds = |time: f64| (time * 1e6).round();
         let from = |first: usize| {

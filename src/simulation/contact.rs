@@ -5,8 +5,9 @@
 //! then stops sideways if |v*ₜ| ≤ μp/m; otherwise it loses μp/m of its sideways speed. This is the exact solution at the
 //! tire, without iteration and without penalty stiffness.
 //!
-//! [`TireStep::integrate`] moves one tire through a step in which the tire lands, is fired at, or is pushed. Forces are constant over the
-//! step, so every phase (flight, slide under friction of one direction, stick) is a parabola, and every event has its own time.
+//! [`TireStep::integrate`] moves one tire through a step in which the tire lands, is fired at, or is pushed. Forces are constant
+//! over the step, so every phase (flight, slide under friction of one direction, stick) is a parabola, and every event has its own
+//! time.
 
 use nalgebra::{Vector2, Vector3};
 

@@ -107,8 +107,8 @@ pub fn check_as_planned(
 }
 
 impl Case {
-    /// Judges the shot as planned of one delay option, which alone makes no shot safe: [`Case::judge_options`] also samples what the
-    /// plan does not know. [`check_as_planned`] is the same with a watcher.
+    /// Judges the shot as planned of one delay option, which alone makes no shot safe: [`Case::judge_options`] also samples what
+    /// the plan does not know. [`check_as_planned`] is the same with a watcher.
     ///
     /// # Panics
     ///
@@ -205,8 +205,8 @@ fn run_pairs(
 /// Runs a ladder of steps, from the coarsest to the finest; no step is run twice.
 ///
 /// 1. The coarser neighbours of `first` are run, then `first`, then finer steps.
-/// 2. Once there are two runs, `is_sure` is asked after each. It gets all runs so far, and whether no finer run can follow; the last
-///    run gives the values, the others give the errors. The ladder ends when `is_sure` returns true.
+/// 2. Once there are two runs, `is_sure` is asked after each. It gets all runs so far, and whether no finer run can follow; the
+///    last run gives the values, the others give the errors. The ladder ends when `is_sure` returns true.
 /// 3. Where `fixed`, the ladder ends at `first`. If every coarser neighbour failed, one finer run gives the error; it then stands
 ///    before `first` among the runs, so that the values stay at `first`.
 fn climb<R>(

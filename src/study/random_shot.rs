@@ -1,8 +1,8 @@
 //! Draws the shots that `[uncertainty]` describes.
 //!
 //! A sample is a variant of the scene and a shot. Every draw follows from the seed, the number of the sample, and its place:
-//! an input of the whole shot, a gap between blast rows, a blast row, a tire, or a cable. So a sample does not depend on threads, shards,
-//! accuracy or the order of options, and the options of a plan are compared on the same draws.
+//! an input of the whole shot, a gap between blast rows, a blast row, a tire, or a cable. So a sample does not depend on threads,
+//! shards, accuracy or the order of options, and the options of a plan are compared on the same draws.
 //!
 //! Factors on launch velocities, masses and breaking forces are lognormal with mean 1. A hole's launch velocity belongs to a
 //! tire of the plan's mass: a tire of another mass leaves with the same momentum. Each gap between blast rows scatters by itself

@@ -198,8 +198,8 @@ fn validates_pushes_that_overlap() {
     }
 }
 
-/// Two free masses on a cable of damping ζ that is just taut, parting at v, pull with N(t) = v e^(−ζω₀t) (A cos ω_d t + B sin ω_d t)
-/// until N is 0; A = c, B = (k − c ζ ω₀)/ω_d. The greatest force, and the speed at which they then meet, are within the
+/// Two free masses on a cable of damping ζ that is just taut, parting at v, pull with N(t) = v e^(−ζω₀t) (A cos ω_d t + B sin ω_d
+/// t) until N is 0; A = c, B = (k − c ζ ω₀)/ω_d. The greatest force, and the speed at which they then meet, are within the
 /// (ωh)²/8 = 0.02 % of undamped swings, and a little more.
 #[test]
 fn validates_two_masses_on_a_damped_cable() {
@@ -250,9 +250,9 @@ fn validates_two_masses_on_a_damped_cable() {
     }
 }
 
-/// A hole fires under a tire on a cable that is already taut: the force jumps by c Δv at once, and no greater one is invented beside it.
-/// Three tires in a row, no slack; the reference is an independent integrator at steps of 1 to 8 µs. Of such jumps the error is of
-/// first order: 2.5 % at the first of these steps, 0.25 % at the last.
+/// A hole fires under a tire on a cable that is already taut: the force jumps by c Δv at once, and no greater one is invented
+/// beside it. Three tires in a row, no slack; the reference is an independent integrator at steps of 1 to 8 µs. Of such jumps the
+/// error is of first order: 2.5 % at the first of these steps, 0.25 % at the last.
 #[test]
 fn a_launch_under_a_damped_taut_cable_invents_no_peak() {
     for (damping, force) in [(0.4, 36_765.0), (0.8, 62_720.0), (1.0, 76_720.0)] {
@@ -560,7 +560,8 @@ fn effects_of_the_shot_as_planned_alone() {
     assert!(change < -0.02, "{change}");
 }
 
-/// A slope under two tires that never pull at their cable moves hardly more than their drift; where that has a limit, the slope is required.
+/// A slope under two tires that never pull at their cable moves hardly more than their drift; where that has a limit, the slope is
+/// required.
 #[test]
 fn drift_counts_where_it_has_a_limit() {
     let case = |drift: &str| {

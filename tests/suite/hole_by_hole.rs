@@ -160,9 +160,9 @@ fn what_cannot_be_meant_is_a_mistake() {
     assert!(said.contains("holes_in_8_ms"), "{said}");
 }
 
-/// Gaps between rows and gaps between the holes of a row scatter by themselves: with 2 % of each gap, the n-th hole of the second row
-/// of gaps of 17 ms after a gap of 42 ms has the variance (0.84² + n 0.34²) ms². Of 4,000 samples the standard deviation is within
-/// 5 % (2.2 standard errors are 2.5 %).
+/// Gaps between rows and gaps between the holes of a row scatter by themselves: with 2 % of each gap, the n-th hole of the second
+/// row of gaps of 17 ms after a gap of 42 ms has the variance (0.84² + n 0.34²) ms². Of 4,000 samples the standard deviation is
+/// within 5 % (2.2 standard errors are 2.5 %).
 #[test]
 fn each_gap_scatters_by_itself_and_shifts_what_follows() {
     let text = plan(5, "", "", "interval_ms = 42, hole_interval_ms = 17");

@@ -3,8 +3,8 @@
 //! Velocities are those at mid-step. One step of length h from time tₙ:
 //!
 //! 1. forces: f = Σ N over the taut cables at uₙ;
-//! 2. kick: v* = v + h (f/m + g) with the vector g of gravity, then on the ground p = −m v*₃ ≥ 0 and friction up to μp ([`super::contact`]), against
-//!    the velocity at tₙ, which is parallel to v + (h/2) (f/m + g) along the ground;
+//! 2. kick: v* = v + h (f/m + g) with the vector g of gravity, then on the ground p = −m v*₃ ≥ 0 and friction up to μp
+//!    ([`super::contact`]), against the velocity at tₙ, which is parallel to v + (h/2) (f/m + g) along the ground;
 //! 3. drift: uₙ₊₁ = uₙ + h v.
 //!
 //! A tire that lands or is fired at within the step is integrated phase by phase instead

@@ -30,8 +30,8 @@ struct Damped<'a> {
     viscosity: &'a [f64],
     /// Change of L² over the step before [m²].
     change: Aligned,
-    /// Force N at the last evaluation, negative where its motion is forgotten since, and at the evaluation before [N]; the latter is
-    /// infinite where the force jumps, so that no parabola is laid through the jump.
+    /// Force N at the last evaluation, negative where its motion is forgotten since, and at the evaluation before [N]; the latter
+    /// is infinite where the force jumps, so that no parabola is laid through the jump.
     force: [Aligned; 2],
 }
 
@@ -177,8 +177,8 @@ impl Slices<'_, '_> {
     /// "Geometric numerical integration illustrated by the Störmer–Verlet method", Acta Numerica 12, 2003); lines 3 to 7
     /// are derived here. The test `a_cable_pulls_alike_wherever_in_a_step_it_becomes_taut` holds the result.
     ///
-    /// A damped cable has the force N = k s + c ṡ while it is taut and N is positive. The rate 2 L ṡ of L² at the end of the step is
-    /// extrapolated from its means over this step and the one before, which is exact for motion under no force. In the step in
+    /// A damped cable has the force N = k s + c ṡ while it is taut and N is positive. The rate 2 L ṡ of L² at the end of the step
+    /// is extrapolated from its means over this step and the one before, which is exact for motion under no force. In the step in
     /// which the cable becomes taut, the part q of it before, N jumps to c ṡ: the mean over this step serves alone, and the force
     /// counts for the half step after and the part of the half step before that is left, 1 + (½ − q) in all.
     ///

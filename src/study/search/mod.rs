@@ -231,9 +231,9 @@ fn judge(
 }
 
 impl Search {
-    /// Puts the schedules in order, the best first, and keeps [`FOUND`] of them: by verdict, then by the failing share. Of schedules
-    /// whose bounds overlap with those of the best, none surely fails less: the one with the larger launch margin stands first,
-    /// then the shorter.
+    /// Puts the schedules in order, the best first, and keeps [`FOUND`] of them: by verdict, then by the failing share. Of
+    /// schedules whose bounds overlap with those of the best, none surely fails less: the one with the larger launch margin stands
+    /// first, then the shorter.
     fn rank(&mut self) {
         let place = |n: &usize| {
             let judged = self.results[*n].as_ref().ok();

@@ -98,8 +98,8 @@ impl Events<'_> {
     /// Returns whether any tire was integrated.
     ///
     /// `ahead` is the height of each tire at the end of the step [m]; a tire with a negative height lands. `due` are the
-    /// impulses on this register. Kick and forces of these few tires are computed a second time: to keep the values of the registers
-    /// would cost memory accesses at every step.
+    /// impulses on this register. Kick and forces of these few tires are computed a second time: to keep the values of the
+    /// registers would cost memory accesses at every step.
     #[cold]
     #[inline(never)]
     pub fn integrate_single_tires<const SLOPED: bool>(
