@@ -119,13 +119,13 @@ choice! {
 choice! {
     /// Order in which the holes of a blast row fire, where they do not fire together.
     HoleOrder, default Left {
-        /// From the smallest x on; in a row along y, from the smallest y on.
+        /// From the hole with the smallest x; in a row along y, from that with the smallest y. Later rows begin on the same side.
         Left = "left",
         /// The other way.
         Right = "right",
-        /// From the middle of the row outward; holes at equal distances fire together.
+        /// From the middle of the row outward; the n-th holes of both sides fire together.
         Centre = "centre",
-        /// From both ends inward; holes at equal distances fire together.
+        /// From both ends inward; the n-th holes of both sides fire together.
         Ends = "ends",
     }
 }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments, intervals, shard};
-use super::load_plans::open;
+use super::load_plans::open_option;
 use super::print::print_text;
 use super::print_sharded::print_orders;
 use super::run_study::run_study;
@@ -23,6 +23,9 @@ pub struct Arguments {
     /// Intervals in ms; default: those of the delay options
     #[arg(long, value_name = "FROM..TO:STEP", value_parser = intervals, allow_hyphen_values = true)]
     interval: Option<Intervals>,
+    /// Delay option whose holes fire as in every order; needed where the options differ in that
+    #[arg(long, value_name = "NAME")]
+    option: Option<String>,
     /// This machine's shard; `shelter merge` joins the shards
     #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with_all = ["timeout", "format"])]
     shard: Option<Shard>,
@@ -39,7 +42,12 @@ pub struct Arguments {
 const MOST_ORDERS: usize = 5_000_000;
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
-    let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
+    let Some((mut case, option)) = open_option(&arguments.plan, arguments.option.as_deref(), look) else {
+        return Ok(Status::Wrong);
+    };
+    if arguments.option.is_some() {
+        case.holes = Some(case.plan.delays[option].holes);
+    }
     let intervals_s = arguments.interval.map_or_else(|| case.intervals(), |interval| interval.values());
     if arguments.interval.is_none() {
         notes::orders(&case).iter().for_each(|note| eprintln!("{note}"));

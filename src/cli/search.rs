@@ -11,7 +11,7 @@ use super::print::print;
 use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::file;
-use crate::plan::edit;
+use crate::plan::{DelayOption, edit};
 use crate::report::json::SearchDocument;
 use crate::report::search::report;
 use crate::study::search::{Search, search};
@@ -53,14 +53,20 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     }
 }
 
-/// Adds the best schedules that pass to the plan, unless an option fires like them.
+/// Adds the best schedules that pass to the plan, but for those that an option of the plan fires already.
 fn write(arguments: &Arguments, case: &Case, found: &Search, count: usize) -> io::Result<()> {
     if std::fs::read_to_string(&arguments.plan)? != case.source.text {
         return Err(io::Error::other("the plan has changed meanwhile; nothing was written"));
     }
-    let delays: Vec<_> = found.passing().take(count).collect();
-    if delays.is_empty() {
+    let best: Vec<_> = found.passing().take(count).collect();
+    if best.is_empty() {
         eprintln!("nothing was written: no schedule found passes");
+        return Ok(());
+    }
+    let is_known = |delay: &&&DelayOption| case.plan.delays.iter().any(|own| own.name == delay.name);
+    let (known, delays): (Vec<&DelayOption>, Vec<&DelayOption>) = best.iter().partition(is_known);
+    known.iter().for_each(|delay| eprintln!("in the plan already: {}", delay.name));
+    if delays.is_empty() {
         return Ok(());
     }
     let text = edit::add_delays(&case.source.text, &case.plan, &delays).map_err(io::Error::other)?;

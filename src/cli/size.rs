@@ -117,6 +117,7 @@ fn choose_demand(arguments: &Arguments, case: &Case) -> Result<Demand, String> {
     if !tries_all(case) {
         return Err(format!("--any-order tries all orders of at most {MOST_ROWS} blast rows"));
     }
+    case.needs_holes().map_err(|reason| format!("{reason} --any-order takes plans whose options agree"))?;
     let intervals = arguments.interval.map_or_else(|| case.intervals(), |interval| interval.values());
     if intervals.is_empty() {
         return Err(format!("{}: give --interval FROM..TO:STEP", NoResult::NoInterval));

@@ -71,6 +71,7 @@ pub fn failed(reason: &NoResult) -> io::Result<Status> {
             Ok(Status::Fail)
         }
         NoResult::NoInterval => wrong(&format!("{reason}: give --interval FROM..TO:STEP")),
+        NoResult::HolesDiffer => wrong(&format!("{reason} Give --option NAME")),
         NoResult::Failed(failure) if failure.needs_finer_step() => wrong(&format!("{reason}: {FINER}")),
         _ => wrong(&no_result::message(reason)),
     }

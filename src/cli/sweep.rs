@@ -47,7 +47,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         }
     };
     if arguments.option.is_some() {
-        case.holes = case.plan.delays[option].holes;
+        case.holes = Some(case.plan.delays[option].holes);
     }
     let settings = arguments.compute.settings(&case.plan);
     let sampling = arguments.verdict.sampling();

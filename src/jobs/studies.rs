@@ -98,6 +98,8 @@ const LONGEST_RUN: Duration = Duration::from_secs(1);
 impl Job {
     pub(super) fn study(&self, kind: StudyKind, option: usize) -> Result<StudyResult, NoResult> {
         let Self { case, compute, progress, .. } = self;
+        // Where the options differ in how the holes of a row fire, the selected one is meant.
+        let case = &case.with_holes_of(option);
         match kind {
             StudyKind::Sweep => {
                 let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();

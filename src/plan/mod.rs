@@ -99,7 +99,7 @@ impl Plan {
     pub fn shared_hole_timing(&self) -> Option<HoleTiming> {
         let mut all = self.delays.iter().map(|delay| delay.holes);
         let first = all.next()?;
-        all.all(|holes| holes == first).then_some(first)
+        all.all(|holes| holes.is_same(&first)).then_some(first)
     }
 
     /// Launch velocities of all blast rows and holes.
@@ -349,6 +349,13 @@ pub struct DelayOption {
     pub holes: HoleTiming,
 }
 
+impl DelayOption {
+    /// Whether two options fire every hole at the same time.
+    pub fn fires_like(&self, other: &Self) -> bool {
+        self.timing.fire_at_ms() == other.timing.fire_at_ms() && self.holes.is_same(&other.holes)
+    }
+}
+
 /// How the holes of each row fire, from the firing time of the row on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HoleTiming {
@@ -361,6 +368,11 @@ pub struct HoleTiming {
 impl HoleTiming {
     /// The holes of a row fire together.
     pub const TOGETHER: Self = Self { interval_ms: 0.0, order: HoleOrder::DEFAULT };
+
+    /// Whether the holes of every row fire alike: without an interval the order says nothing.
+    pub fn is_same(&self, other: &Self) -> bool {
+        self == other || self.interval_ms == 0.0 && other.interval_ms == 0.0
+    }
 
     /// In words, such as `holes 17 ms left`; `None` where they fire together.
     pub fn words(&self) -> Option<String> {

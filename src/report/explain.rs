@@ -25,13 +25,10 @@ pub const VERDICTS: [&str; 3] = [
     "OPEN: neither, with the finest step and the most samples allowed; surely means 95 %, however often the samples are looked at.",
 ];
 
-/// What fires within any 8 ms: the heaviest charge, or the most holes where the plan names no charges.
+/// What fires within any 8 ms: the most holes, and the heaviest charge where the plan names charges.
 pub fn together(Together { holes, charge }: Together) -> String {
-    match charge {
-        Some(charge) => format!("{} kg", grams(charge)),
-        None if holes == 1 => "1 hole".to_owned(),
-        None => format!("{holes} holes"),
-    }
+    let holes = if holes == 1 { "1 hole".to_owned() } else { format!("{holes} holes") };
+    charge.map_or(holes.clone(), |charge| format!("{holes}, {} kg", grams(charge)))
 }
 
 /// A sum of charges [kg] to the gram, without the digits of its rounding.

@@ -23,7 +23,10 @@ pub fn limits_of_any_rope(case: &Case) -> String {
 fn with_force(case: &Case, force: &str) -> String {
     let metres = |length: f64| format!("{} m", units::value(length, Unit::Metre));
     let drift = case.limits.drift.map_or_else(String::new, |drift| format!(", drift {}", metres(drift)));
-    format!("height {}, {force}{drift}", metres(case.limits.height))
+    let limits = &case.plan.limits;
+    let holes = limits.holes_in_8_ms.map_or_else(String::new, |most| format!(", {most} holes in 8 ms"));
+    let charge = limits.charge_in_8_ms_kg.map_or_else(String::new, |most| format!(", {most} kg in 8 ms"));
+    format!("height {}, {force}{drift}{holes}{charge}", metres(case.limits.height))
 }
 
 fn kilonewtons(force: f64) -> String {

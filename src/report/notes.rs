@@ -19,12 +19,10 @@ pub fn orders(case: &Case) -> Option<String> {
 
 /// How the holes of a row fire in a study that varies order and interval; `None` where every row fires at once in all options.
 pub fn holes(case: &Case) -> Option<String> {
-    match (case.holes.words(), case.plan.shared_hole_timing()) {
-        (Some(holes), _) => Some(format!("in every row: {holes}")),
-        (None, Some(_)) => None,
-        (None, None) => {
-            Some("the options differ in how the holes of a row fire: here every row fires at once".to_owned())
-        }
+    let differ = case.plan.shared_hole_timing().is_none();
+    match case.holes.and_then(|holes| holes.words()) {
+        Some(holes) => Some(format!("in every row: {holes}")),
+        None => differ.then(|| "here every row fires at once".to_owned()),
     }
 }
 

@@ -3,6 +3,7 @@
 use super::check::{
     FORCE_BAND, HEIGHT_BAND, LAUNCH_MARGIN, NOMINAL_FORCE, NOMINAL_HEIGHT, band, complete_rows, planned,
 };
+use super::cover::covers;
 use super::explain::{compute_label, launch_margin, together};
 use super::model::{Block, Cell, Column, Conclusion, Field, Offer, Report, Shown, Table};
 use super::option_row::{OptionRow, option_rows};
@@ -20,7 +21,7 @@ struct FoundRow<'a> {
     schedule: &'a Schedule,
 }
 
-fn fields<'a>() -> [Field<FoundRow<'a>>; 18] {
+fn fields<'a>() -> [Field<FoundRow<'a>>; 19] {
     [
         Field::new(Column::words(&["name"], "schedule"), |row| Cell::Text(row.option.delay.name.clone())),
         Field::new(Column::scripts(&["order"]), |row| {
@@ -36,6 +37,14 @@ fn fields<'a>() -> [Field<FoundRow<'a>>; 18] {
         Field::new(Column::scripts(&["hole_order"]), |row| Cell::Text(row.schedule.holes.order.to_string())),
         Field::new(VERDICT, |row| Cell::Verdict(row.option.verdict())),
         Field::new(FAILURES, |row| row.option.sampled(|risk| Cell::Probability(risk.bounds.interval))),
+        Field::new(Column::numbers(&["duration_s"], "lasts", Unit::One), |row| {
+            Cell::Interval(duration(row.option.shot))
+        }),
+        Field::new(Column::words(&[], "in 8 ms"), |row| Cell::Text(together(row.option.together()))),
+        Field::new(LAUNCH_MARGIN, |row| {
+            let margin = row.option.result.as_ref().ok().and_then(|judged| judged.launch_margin);
+            margin.map_or(Cell::Nothing, |margin| Cell::Text(launch_margin(margin)))
+        }),
         Field::new(HEIGHT.shown(Shown::Scripts), |row| {
             row.option.as_planned(|checked| height(checked.height.into()))
         }),
@@ -50,19 +59,14 @@ fn fields<'a>() -> [Field<FoundRow<'a>>; 18] {
             row.option.as_planned(|checked| planned(checked.force, Unit::Kilonewton))
         }),
         Field::new(FORCE_BAND, |row| band(&row.option, Quantity::Force, Unit::Kilonewton)),
-        Field::new(LAUNCH_MARGIN, |row| {
-            let margin = row.option.result.as_ref().ok().and_then(|judged| judged.launch_margin);
-            margin.map_or(Cell::Nothing, |margin| Cell::Text(launch_margin(margin)))
-        }),
         Field::new(Column::scripts(&["launch_margin"]), |row| {
             let margin = row.option.result.as_ref().ok().and_then(Judgement::known_launch_margin);
             margin.map_or(Cell::Nothing, Cell::Number)
         }),
-        Field::new(Column::numbers(&["duration_s"], "lasts", Unit::One), |row| {
-            Cell::Interval(duration(row.option.shot))
-        }),
-        Field::new(Column::words(&[], "in 8 ms"), |row| Cell::Text(together(row.option.together()))),
         Field::new(Column::scripts(&["holes_in_8_ms"]), |row| Cell::Count(row.option.together().holes)),
+        Field::new(Column::scripts(&["charge_in_8_ms_kg"]), |row| {
+            row.option.together().charge.map_or(Cell::Nothing, Cell::Number)
+        }),
     ]
 }
 
@@ -71,7 +75,7 @@ const OF_SAMPLES: [Column; 3] = [FAILURES, HEIGHT_BAND, FORCE_BAND];
 
 /// The report of a search of the plan of `case`, which is partial where the time was up.
 pub fn report(case: &Case, search: &Search, partial: bool) -> Report {
-    let sampled = search.results.iter().flatten().any(|judged| judged.risk.is_asked());
+    let sampled = search.sampled;
     let rows = option_rows(&search.case, &search.results).zip(&search.schedules);
     let mut table = Table::of(&fields(), rows.map(|(option, schedule)| FoundRow { option, schedule }));
     for column in table.columns.iter_mut().filter(|column| OF_SAMPLES.contains(column) && !sampled) {
@@ -79,14 +83,22 @@ pub fn report(case: &Case, search: &Search, partial: bool) -> Report {
     }
     complete_rows(&mut table, &search.case, &search.results);
     table = table.offering(search.case.plan.delays.iter().cloned().map(Offer::Option));
-    let mut blocks = vec![Block::Text(reach(search, sampled)), Block::Table(table)];
+    let mut blocks = vec![Block::Text(reach(case, search, sampled))];
+    if !search.results.is_empty() {
+        blocks.push(Block::Table(table));
+    }
+    let warnings = covers(&search.case, &search.results);
+    if !warnings.is_empty() {
+        blocks.push(Block::Text(warnings));
+    }
     if search.front.len() > 1 {
         blocks.push(Block::Text(front(case, &search.front)));
         blocks.push(Block::Picture(charts::front(case, &search.front)));
     }
     let so_far = if partial { " so far, the time was up" } else { "" };
     let mut text = match search.case.plan.delays.first() {
-        None => "no schedule keeps the longest duration and the most holes within 8 ms".to_owned(),
+        None if search.complete => "no schedule keeps the limits of the search".to_owned(),
+        None => format!("no schedule was judged{so_far}"),
         Some(best) => format!("the best schedule found{so_far}: {}", best.name),
     };
     if let Some(judged) = search.results.iter().flatten().next() {
@@ -100,31 +112,51 @@ pub fn report(case: &Case, search: &Search, partial: bool) -> Report {
 }
 
 /// How many schedules there are, how many were judged, and how sure it is that none better was missed.
-fn reach(search: &Search, sampled: bool) -> Vec<String> {
-    let Search { possible, judged, complete, without_failure, .. } = search;
+fn reach(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
+    let Search { possible, keeping, refused, judged, complete, without_failure, .. } = search;
     let possible = match *possible {
         usize::MAX => "more schedules than can be counted are possible".to_owned(),
         1 => "1 schedule is possible".to_owned(),
         count => format!("{count} schedules are possible"),
     };
+    let keeping = keeping.map_or(String::new(), |count| format!(", {count} keep the limits"));
     let how = match complete {
-        true => "all that keep the limits of [search], mirror images once",
+        true => "all of them, those that fire alike and mirror images once",
         false => "a search: a better one may have been missed",
     };
-    let mut lines = vec![format!("{possible}, {judged} were judged: {how}")];
-    if sampled {
-        lines.push(match without_failure {
-            0 => "of every schedule judged and not listed a sample failed".to_owned(),
+    let mut lines = vec![format!("{possible}{keeping}; {judged} were judged, {how}")];
+    let limits = &case.plan.limits;
+    let most_holes = case.plan.search.most_holes_in_8_ms.into_iter().chain(limits.holes_in_8_ms).min();
+    let refused = [
+        (
+            refused.longest,
+            case.plan.search.longest_ms.map(|longest| format!("last longer than {longest} ms")),
+        ),
+        (refused.holes, most_holes.map(|most| format!("fire more than {most} holes within 8 ms"))),
+        (
+            refused.charge,
+            limits.charge_in_8_ms_kg.map(|most| format!("fire more than {most} kg within 8 ms")),
+        ),
+    ];
+    let refused = refused.into_iter().filter(|(count, _)| *count > 0);
+    let refused: Vec<String> =
+        refused.filter_map(|(count, limit)| Some(format!("{count} {}", limit?))).collect();
+    if !refused.is_empty() {
+        lines.push(format!("left out: {}", refused.join(", ")));
+    }
+    if sampled && *judged > 0 {
+        lines.extend((*without_failure > 0).then(|| match without_failure {
             1 => "1 more had no failing sample among the few drawn of it: it may be as good".to_owned(),
             more => {
                 format!("{more} more had no failing sample among the few drawn of each: some may be as good")
             }
-        });
+        }));
+        lines.push("bounds are wider than those of `check`: several schedules are judged at once".to_owned());
         lines.push(
             "schedules whose bounds overlap are ties: the larger launch margin stands first, then the shorter"
                 .to_owned(),
         );
-    } else {
+    } else if !sampled {
         lines.push("ranked by the shots as planned only, nothing varied".to_owned());
     }
     lines
@@ -141,6 +173,6 @@ fn front(case: &Case, front: &[FrontPoint]) -> Vec<String> {
             schedule.name(&case.plan.blast_rows)
         )
     };
-    let head = "no shorter schedule judged fails less (by the samples that chose them):".to_owned();
+    let head = "least failing share for each duration, roughly, from the samples that chose them:".to_owned();
     [head].into_iter().chain(front.iter().map(line)).collect()
 }

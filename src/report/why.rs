@@ -5,6 +5,7 @@ use crate::plan::change::Change;
 use crate::plan::{Launch, Layout, Timing};
 use crate::study::Case;
 use crate::study::judgement::Judgement;
+use crate::study::reason::exceeds_together;
 use crate::study::why::{Passing, TriedKind, WouldPass};
 use crate::units::{self, Unit};
 use crate::verdict::Quantity;
@@ -24,7 +25,7 @@ fn lines(case: &Case, would_pass: &WouldPass) -> Vec<String> {
         1 => format!("{name} would pass with this change:"),
         _ => format!("{name} would pass with any one of these changes:"),
     };
-    let rest = without_pass(would_pass).into_iter().map(|line| format!("    {line}"));
+    let rest = without_pass(case, would_pass).into_iter().map(|line| format!("    {line}"));
     [head].into_iter().chain(passing).chain(rest).collect()
 }
 
@@ -130,10 +131,17 @@ fn result(judgement: &Judgement) -> String {
 }
 
 /// The kinds of which no change suffices, in one sentence, and whether all were tried; none where there is nothing to tell.
-pub fn without_pass(would_pass: &WouldPass) -> Vec<String> {
+pub fn without_pass(case: &Case, would_pass: &WouldPass) -> Vec<String> {
+    let too_much_together = exceeds_together(case, &case.shots[would_pass.option]);
     let failed = would_pass.kinds.iter().filter(|tried| tried.passing.is_none() && !tried.out_of_time);
     let sentences: Vec<String> = failed.filter_map(refusal).collect();
     let mut lines = Vec::new();
+    if too_much_together {
+        lines.push(
+            "too much fires within 8 ms: spread the holes, by hole_interval_ms or by `shelter search`"
+                .to_owned(),
+        );
+    }
     if !would_pass.enough_samples {
         lines.push("so few samples prove no pass: give more".to_owned());
     }

@@ -1,5 +1,6 @@
 //! From a plan to a scene and its shots: the one file of `scene` that knows plans, where plan units become SI.
 
+use itertools::Itertools;
 use nalgebra::{Vector2, Vector3};
 
 use super::{Cable, Firing, Scene, Shot, TireId, with_ends};
@@ -43,11 +44,14 @@ impl Shot {
 
     /// Shot of blast rows under `scene`, whose holes fire `at` a time [s] that follows from the row and the turn of the hole in it.
     fn of_rows(scene: &Scene, rows: &[BlastRow], holes: &HoleTiming, at: impl Fn(usize, f64) -> f64) -> Self {
-        let mut firings = Vec::new();
+        let (mut firings, mut along) = (Vec::new(), None);
         for (row, BlastRow { targets, .. }) in rows.iter().enumerate() {
             let under = scene.firings(targets);
+            let places = scene.hole_places(targets, &under);
+            let way = way_of_row(&places, along);
+            along = Some(way);
             let turns = match holes.interval_ms > 0.0 {
-                true => hole_turns(&scene.hole_places(targets, &under), holes.order),
+                true => hole_turns(&places, way, holes.order),
                 false => vec![0; under.len()],
             };
             let fire = |(firing, turn): (Firing, usize)| Firing { at: at(row, turn as f64), row, ..firing };
@@ -57,38 +61,53 @@ impl Shot {
     }
 }
 
-/// Distance below which two holes lie equally far from the middle of their row [m].
-const EQUALLY_FAR: f64 = 1e-3;
-
-/// Turn of each hole of a row at these places [m], from 0 (`n_holes`). A row runs along the axis on which it is longer.
-fn hole_turns(places: &[[f64; 2]], order: HoleOrder) -> Vec<usize> {
-    let ends = |axis: usize| {
-        let along = || places.iter().map(|place| place[axis]);
-        [along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max)]
+/// Direction in which the holes of a row at these places [m] lie, from left to right: the same way as that of the row `before`, so
+/// that neighbouring rows begin at the same side; of the first row toward +x, or +y where it runs along y.
+fn way_of_row(places: &[Vector2<f64>], before: Option<Vector2<f64>>) -> Vector2<f64> {
+    let middle = places.iter().sum::<Vector2<f64>>() / places.len().max(1) as f64;
+    let moment =
+        |a: usize, b: usize| places.iter().map(|p| (p[a] - middle[a]) * (p[b] - middle[b])).sum::<f64>();
+    let [xx, yy, xy] = [moment(0, 0), moment(1, 1), moment(0, 1)];
+    // Main axis of the moments; exactly along x or y where there is no other.
+    let way = match xy == 0.0 {
+        true if yy > xx => Vector2::y(),
+        true => Vector2::x(),
+        false => {
+            let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
+            Vector2::new(angle.cos(), angle.sin())
+        }
     };
-    let length = |axis: usize| ends(axis)[1] - ends(axis)[0];
-    let axis = usize::from(length(1) > length(0));
-    let [first, last] = ends(axis);
-    let from_middle = |hole: usize| (places[hole][axis] - 0.5 * (first + last)).abs();
-    let mut by_turn: Vec<usize> = (0..places.len()).collect();
-    let place = |hole: usize| (places[hole][axis], places[hole][1 - axis]);
+    let ahead = before.map_or(0.0, |before| way.dot(&before));
+    let turned = match ahead.abs() > SIDEWAYS {
+        true => ahead < 0.0,
+        false => way.x < -SIDEWAYS || way.x.abs() <= SIDEWAYS && way.y < 0.0,
+    };
+    if turned { -way } else { way }
+}
+
+/// Cosine below which two directions are at right angles.
+const SIDEWAYS: f64 = 1e-6;
+
+/// Turn of each hole of a row at these places [m], from 0 (`n_holes`); `way` points from left to right. From the middle and from
+/// the ends, the n-th holes of both sides fire together: a survey of the collars to the centimetre changes nothing.
+fn hole_turns(places: &[Vector2<f64>], way: Vector2<f64>, order: HoleOrder) -> Vec<usize> {
+    let across = Vector2::new(-way.y, way.x);
+    let place = |hole: &usize| (places[*hole].dot(&way), places[*hole].dot(&across));
     let by_place = |a: &usize, b: &usize| {
-        let ((a, beside_a), (b, beside_b)) = (place(*a), place(*b));
+        let ((a, beside_a), (b, beside_b)) = (place(a), place(b));
         a.total_cmp(&b).then(beside_a.total_cmp(&beside_b))
     };
-    match order {
-        HoleOrder::Left => by_turn.sort_by(by_place),
-        HoleOrder::Right => by_turn.sort_by(|a, b| by_place(b, a)),
-        HoleOrder::Centre => by_turn.sort_by(|&a, &b| from_middle(a).total_cmp(&from_middle(b))),
-        HoleOrder::Ends => by_turn.sort_by(|&a, &b| from_middle(b).total_cmp(&from_middle(a))),
-    }
-    let together = |a: usize, b: usize| match order {
-        HoleOrder::Left | HoleOrder::Right => false,
-        HoleOrder::Centre | HoleOrder::Ends => (from_middle(a) - from_middle(b)).abs() < EQUALLY_FAR,
-    };
+    let from_left = (0..places.len()).sorted_by(by_place);
+    let last = places.len().saturating_sub(1);
     let mut turns = vec![0; places.len()];
-    for pair in by_turn.windows(2) {
-        turns[pair[1]] = turns[pair[0]] + usize::from(!together(pair[0], pair[1]));
+    for (n, hole) in from_left.enumerate() {
+        let from_end = n.min(last - n);
+        turns[hole] = match order {
+            HoleOrder::Left => n,
+            HoleOrder::Right => last - n,
+            HoleOrder::Ends => from_end,
+            HoleOrder::Centre => last / 2 - from_end,
+        };
     }
     turns
 }
@@ -265,11 +284,13 @@ impl Scene {
 
     /// Places of the holes of a blast row [m], of which `firings` are the firings (`n_holes`): a row under tires has each hole
     /// under the middle of its tire.
-    fn hole_places(&self, targets: &LaunchTargets, firings: &[Firing]) -> Vec<[f64; 2]> {
+    fn hole_places(&self, targets: &LaunchTargets, firings: &[Firing]) -> Vec<Vector2<f64>> {
         match targets {
-            LaunchTargets::Holes(holes) => holes.iter().map(|hole| [hole.x_m, hole.y_m]).collect(),
+            LaunchTargets::Holes(holes) => {
+                holes.iter().map(|hole| Vector2::new(hole.x_m, hole.y_m)).collect()
+            }
             LaunchTargets::UnderRow { .. } | LaunchTargets::UnderTires { .. } => {
-                firings.iter().map(|firing| self.position[firing.tire].xy().into()).collect()
+                firings.iter().map(|firing| self.position[firing.tire].xy()).collect()
             }
         }
     }

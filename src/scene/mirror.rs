@@ -32,6 +32,11 @@ impl Scene {
         self.mirrors = [0, 1].into_iter().filter_map(|axis| self.mirror(axis)).collect();
     }
 
+    /// Mirror planes in which the slope is its own image, too: a shelter on a slope falls to one side only.
+    pub fn mirrors_with_slope(&self) -> impl Iterator<Item = &Mirror> {
+        self.mirrors.iter().filter(|mirror| self.downhill[mirror.axis] == 0.0)
+    }
+
     /// Mirror plane across `axis`, if the shelter has one.
     fn mirror(&self, axis: usize) -> Option<Mirror> {
         let extents = [0, 1].map(|axis| self.extent(axis));

@@ -38,6 +38,8 @@ pub struct FailureBounds {
     pub undecided: usize,
     /// Lower and upper bound of the failure probability.
     pub interval: [f64; 2],
+    /// Whether the bounds of different looks have excluded one another; then those of the last look stand, and decide nothing.
+    is_contradictory: bool,
     /// Probability of a wrong bound on one side, over all looks together.
     error: f64,
     upper_mixture: [Beta; 2],
@@ -55,6 +57,7 @@ impl FailureBounds {
             failures: 0,
             undecided: 0,
             interval: [0.0, 1.0],
+            is_contradictory: false,
             upper_mixture: [beta(0.9, 0.5, 2.0 / accepted), beta(0.1, 0.5, 0.5)],
             lower_mixture: [beta(0.5, 1.0, 1.0), beta(0.5, 0.5, 0.35 / accepted)],
         }
@@ -83,19 +86,22 @@ impl FailureBounds {
             ..
         } = *self;
         let most = failures + undecided;
-        self.interval = [
-            low.max(bound(&lower_mixture, failures, samples, error, 0.0)),
-            high.min(bound(&upper_mixture, most, samples, error, 1.0)),
+        let now = [
+            bound(&lower_mixture, failures, samples, error, 0.0),
+            bound(&upper_mixture, most, samples, error, 1.0),
         ];
+        let narrowed = [low.max(now[0]), high.min(now[1])];
+        self.is_contradictory |= narrowed[0] > narrowed[1];
+        self.interval = if self.is_contradictory { now } else { narrowed };
     }
 
     /// The verdict of the bounds: whether surely less than the accepted share of the shots fails, or surely more.
     pub fn verdict(&self) -> Verdict {
         let [low, high] = self.interval;
         match (high < self.accepted, low > self.accepted) {
+            _ if self.is_contradictory => Verdict::Undecided,
             (true, false) => Verdict::Pass,
             (false, true) => Verdict::Fail,
-            // The bounds of different looks contradict one another, or hold the accepted risk between them.
             _ => Verdict::Undecided,
         }
     }

@@ -81,9 +81,9 @@ pub struct Case {
     pub shots: Vec<Shot>,
     /// Limits in SI units.
     pub limits: Limits,
-    /// How the holes of each row fire in studies that vary order and interval: as in all options of the plan, and together where
-    /// the options differ.
-    pub holes: HoleTiming,
+    /// How the holes of each row fire in studies that vary order and interval: as in all options of the plan; `None` where the
+    /// options differ, and such a study needs to be told.
+    pub holes: Option<HoleTiming>,
 }
 
 impl Case {
@@ -102,7 +102,7 @@ impl Case {
     pub fn new(plan: Plan) -> Self {
         let scene = Scene::build(&plan);
         let shots = plan.delays.iter().map(|delay| Shot::new(&scene, &plan.blast_rows, delay)).collect();
-        let holes = plan.shared_hole_timing().unwrap_or(HoleTiming::TOGETHER);
+        let holes = plan.shared_hole_timing();
         let breaking_force = plan.cable.breaking_force_kn * 1e3;
         let limits = Limits {
             height: plan.limits.flight_height_m,
@@ -118,15 +118,29 @@ impl Case {
         self.plan.title.as_deref().unwrap_or(&self.source.path)
     }
 
-    /// The shot of blast rows fired in `order`, `interval` [s] apart.
+    /// The shot of blast rows fired in `order`, `interval` [s] apart. Studies refuse a case without [`Case::holes`] by
+    /// [`Case::needs_holes`] before they ask for shots; here its rows fire at once.
     pub fn shot(&self, order: &[usize], interval: f64) -> Shot {
-        Shot::in_order(self.scene(), &self.plan.blast_rows, order, interval, &self.holes)
+        let holes = self.holes.unwrap_or(HoleTiming::TOGETHER);
+        Shot::in_order(self.scene(), &self.plan.blast_rows, order, interval, &holes)
+    }
+
+    /// Refuses a study that varies order or interval, where the options differ in how the holes of a row fire.
+    pub fn needs_holes(&self) -> Result<(), NoResult> {
+        self.holes.map(|_| ()).ok_or(NoResult::HolesDiffer)
+    }
+
+    /// The case with the holes of each row fired as in a delay option, where the options differ.
+    pub fn with_holes_of(&self, option: usize) -> Self {
+        Self { holes: self.holes.or(Some(self.plan.delays[option].holes)), ..self.clone() }
     }
 
     /// Intervals of the delay options whose holes fire as [`Case::holes`] says [s], ascending, without repetitions.
     pub fn intervals(&self) -> Vec<f64> {
         let interval = |delay: &DelayOption| match delay.timing {
-            Timing::Interval { interval_ms, .. } if delay.holes == self.holes => Some(seconds(interval_ms)),
+            Timing::Interval { interval_ms, .. } if self.holes.is_none_or(|holes| delay.holes == holes) => {
+                Some(seconds(interval_ms))
+            }
             Timing::Interval { .. } | Timing::At(_) => None,
         };
         let mut all: Vec<f64> = self.plan.delays.iter().filter_map(interval).collect();

@@ -28,6 +28,9 @@ pub enum NoResult {
     /// A plan whose options have firing times of their own has no interval to try orders at.
     #[error("no delay option has an interval")]
     NoInterval,
+    /// A study of other intervals or orders does not know how the holes of a row are to fire.
+    #[error("the delay options differ in hole_interval_ms or hole_order: which of them is meant?")]
+    HolesDiffer,
 }
 
 /// Does one piece of work; turns a panic into [`NoResult::Panicked`], so that other work goes on.

@@ -186,6 +186,7 @@ pub fn try_orders(
     if intervals.is_empty() {
         return Err(NoResult::NoInterval);
     }
+    case.needs_holes()?;
     let rows = case.plan.blast_rows.len();
     // Where no run at all succeeds, the first order tells why.
     let known = |found: Found<Vec<TriedOrder>>| {
@@ -243,7 +244,7 @@ fn mirror_rows(case: &Case) -> Option<Vec<usize>> {
         case.plan.blast_rows.iter().map(row).collect()
     };
     let rows = holes(&Firing::clone);
-    case.scene().mirrors.iter().find_map(|mirror| {
+    case.scene().mirrors_with_slope().find_map(|mirror| {
         let images = holes(&|firing| firing.mirrored(mirror));
         let mirror_row: Vec<usize> =
             images.iter().map(|image| rows.iter().position(|row| row == image)).collect::<Option<_>>()?;

@@ -6,7 +6,8 @@
 //!
 //! Factors on launch velocities, masses and breaking forces are lognormal with mean 1. A hole's launch velocity belongs to a
 //! tire of the plan's mass: a tire of another mass leaves with the same momentum. Each gap between blast rows scatters by itself
-//! and shifts all later rows; so does each gap between the holes of a row, and shifts its later holes.
+//! and shifts all later rows; so does each gap between the holes
+//! of a row, which shifts the later holes of its side.
 
 use nalgebra::{Rotation3, Vector3};
 use rand::{Rng, SeedableRng};
@@ -148,12 +149,31 @@ fn scatter_gaps(firings: &mut [Firing], unknown: &Uncertainty, random: &mut Rand
     let starts: Vec<f64> = by_start.iter().map(|row| firings[row[0]].at).collect();
     let scattered_starts = scatter_chain(&starts, unknown, random.at(Place::Gaps));
     for (row, start) in by_start.into_iter().zip(scattered_starts) {
-        let planned: Vec<f64> = row.iter().map(|&n| firings[n].at).collect();
-        let scattered = scatter_chain(&planned, unknown, random.at(Place::BlastRow(firings[row[0]].row)));
-        for (&n, at) in row.iter().zip(scattered) {
-            firings[n].at = at - planned[0] + start;
+        let first = firings[row[0]].at;
+        let random = random.at(Place::BlastRow(firings[row[0]].row));
+        for side in sides(row, firings) {
+            let planned: Vec<f64> = [first].into_iter().chain(side.iter().map(|&n| firings[n].at)).collect();
+            let scattered = scatter_chain(&planned, unknown, random);
+            for (n, at) in side.into_iter().zip(&scattered[1..]) {
+                firings[n].at = at - first + start;
+            }
         }
     }
+}
+
+/// The chains in which the holes of a row fire one another, from its first hole on: of holes that are planned for one time, each
+/// belongs to a chain of its own, such as the two sides of a row fired from its middle.
+fn sides(row: &[usize], firings: &[Firing]) -> Vec<Vec<usize>> {
+    let mut sides: Vec<Vec<usize>> = Vec::new();
+    for together in row.chunk_by(|&a, &b| firings[a].at == firings[b].at) {
+        for (side, &hole) in together.iter().enumerate() {
+            if side == sides.len() {
+                sides.push(Vec::new());
+            }
+            sides[side].push(hole);
+        }
+    }
+    sides
 }
 
 /// Firing times [s] of which each fires the next: every gap between `planned` times, which are in order, scatters and shifts all

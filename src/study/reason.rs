@@ -106,6 +106,11 @@ pub fn find_reasons_as_planned(
     of_run.into_iter().chain(too_much_together(case, Together::of(case, shot))).collect()
 }
 
+/// Whether a shot fires more within 8 ms than the plan allows.
+pub fn exceeds_together(case: &Case, shot: &Shot) -> bool {
+    too_much_together(case, Together::of(case, shot)).next().is_some()
+}
+
 /// Which limits are exceeded by what fires together.
 fn too_much_together(case: &Case, Together { holes, charge }: Together) -> impl Iterator<Item = Reason> {
     let limits = &case.plan.limits;

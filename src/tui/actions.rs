@@ -261,10 +261,15 @@ impl App {
     /// Makes a change that a row offers; it can be taken back.
     fn take_offer(&mut self, offer: &Offer) -> Request {
         let (text, plan) = (self.editor.text.as_str(), &self.case.plan);
+        if let Offer::Option(delay) = offer
+            && let Some(own) = plan.delays.iter().position(|own| own.fires_like(delay))
+        {
+            self.notice = Some(format!("in the plan already: {}", plan.delays[own].name));
+            (self.screen, self.selected) = (Screen::Compare, own);
+            return Request::None;
+        }
         let (changed, told) = match offer {
-            Offer::Option(delay) => {
-                (edit::add_delays(text, plan, &[delay]), format!("added: {}", delay.name))
-            }
+            Offer::Option(delay) => (edit::add_delays(text, plan, &[delay]), "added".to_owned()),
             Offer::Sizes { rope, tire_mass, border_rows } => (
                 edit::write_sizes(text, rope, *tire_mass, *border_rows),
                 format!("used: {rope}, tires of {tire_mass} kg, {border_rows} border rows"),
@@ -276,12 +281,21 @@ impl App {
             return Request::None;
         }
         let undo = self.keymap.hint(Action::Undo);
+        // One more option changes nothing about what the study found.
+        let kept = self.studies.clone();
         let request = self.edited(edit);
+        if matches!(offer, Offer::Option(_)) {
+            self.studies.keep(kept);
+        }
         // Its verdict stands there.
         self.screen = Screen::Compare;
-        if matches!(offer, Offer::Option(_)) {
-            self.selected = self.options.len().saturating_sub(1);
-        }
+        let told = match (offer, self.case.plan.delays.last()) {
+            (Offer::Option(_), Some(added)) => {
+                self.selected = self.options.len().saturating_sub(1);
+                format!("{told}: {}", added.name)
+            }
+            _ => told,
+        };
         self.notice = Some(format!("{told} · {undo} takes it back"));
         request
     }

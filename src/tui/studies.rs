@@ -174,6 +174,13 @@ impl Studies {
         *self = Self { shown: self.shown, ..Self::default() };
     }
 
+    /// Takes back the result of the study that was shown before the plan changed.
+    pub fn keep(&mut self, before: Self) {
+        let kind = before.shown;
+        self.selected = before.selected;
+        self.states[kind as usize] = before.states[kind as usize].clone();
+    }
+
     /// Shows the study `by` tabs further; the first follows the last.
     pub fn turn(&mut self, by: isize) {
         let kinds = StudyKind::OF_PLAN;

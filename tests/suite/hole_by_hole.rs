@@ -2,11 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use shelter::plan::{HoleTiming, Plan};
+use shelter::plan::Plan;
 use shelter::scene::Firing;
+use shelter::study::orders::try_orders;
 use shelter::study::random_shot::draw;
+use shelter::study::sweep::sweep;
 use shelter::study::together::Together;
-use shelter::study::{Case, ComputeSettings};
+use shelter::study::{Case, ComputeSettings, Intervals, NoResult, Progress, Shard};
 use shelter::verdict::Verdict;
 
 /// A shelter of 3 × `columns` tires over two rows; `row` is added to each row, `limits` to the limits, and `option` is the delay
@@ -65,6 +67,61 @@ fn a_row_along_y_fires_along_y() {
     let at: Vec<(usize, f64)> =
         firings.iter().filter(|f| f.row == 0).map(|firing| (firing.tire, firing.at)).collect();
     assert_eq!(at, [(1, 0.0), (9, 0.017)]);
+}
+
+/// Two parallel rows at 45°, one collar 2 cm off, begin at the same side; so do rows of which one is surveyed from the other end.
+#[test]
+fn parallel_rows_begin_at_the_same_side() {
+    for off in [-0.02, 0.0, 0.02] {
+        let row = |y: f64, off: f64| {
+            let holes = (0..4).map(|n| {
+                let (x, y) =
+                    (f64::from(n) * 1.5, y + 4.5 - f64::from(n) * 1.5 + if n == 3 { off } else { 0.0 });
+                format!("{{ x_m = {x}, y_m = {y}, launch_m_s = 5 }}")
+            });
+            format!("holes = [{}]", holes.collect::<Vec<_>>().join(", "))
+        };
+        let text = plan(6, "", "", "interval_ms = 42, hole_interval_ms = 17")
+            .replace("rows = 3", "rows = 6")
+            .replace("under_row = 1, launch_m_s = 5", &row(0.0, off))
+            .replace("under_row = 2, launch_m_s = 6", &row(1.5, -off));
+        let case = case(&text);
+        for row in 0..2 {
+            let first = case.shots[0].firings.iter().find(|firing| firing.row == row).expect("a hole");
+            assert_eq!(first.tire % 6, 0, "row {row}, off by {off}: the smallest x");
+        }
+    }
+}
+
+/// A survey to the centimetre does not tear apart the two sides of a row fired from its middle.
+#[test]
+fn both_sides_fire_together_whatever_the_survey() {
+    for (order, expected) in [("centre", [2, 1, 0, 1, 2]), ("ends", [0, 1, 2, 1, 0])] {
+        let holes = [0.0, 1.51, 3.0, 4.48, 6.0].map(|x| format!("{{ x_m = {x}, y_m = 0, launch_m_s = 5 }}"));
+        let option = format!("interval_ms = 500, hole_interval_ms = 17, hole_order = \"{order}\"");
+        let text = plan(5, "", "", &option)
+            .replace("under_row = 1, launch_m_s = 5", &format!("holes = [{}]", holes.join(", ")));
+        assert_eq!(times_ms(&case(&text), 0), expected.map(|turn| 17.0 * f64::from(turn)), "{order}");
+    }
+}
+
+/// The two sides of a row fired from its middle have detonators of their own: their times differ in every sample, by what two
+/// chains of gaps with 4 % each scatter.
+#[test]
+fn the_sides_of_a_row_scatter_by_themselves() {
+    let text = plan(5, "", "", "interval_ms = 500, hole_interval_ms = 17, hole_order = \"centre\"");
+    let case = case(&format!("{text}\n[uncertainty]\ndelay_cv_percent = 4\n"));
+    let (samples, mut squares) = (4000, 0.0);
+    for number in 0..samples {
+        let shot = draw(&case, &case.shots[0], 1, number).shot;
+        let at =
+            |tire: usize| shot.firings.iter().find(|firing| firing.tire == tire).expect("a hole").at * 1e3;
+        assert!(at(0) != at(4));
+        squares += (at(0) - at(4)).powi(2);
+    }
+    // Two gaps of 17 ms on each side, 0.68 ms each.
+    let (deviation, expected) = ((squares / f64::from(samples as u32)).sqrt(), 0.68 * 2.0);
+    assert!((deviation / expected - 1.0).abs() < 0.05, "{deviation} {expected}");
 }
 
 /// The same schedule written out hole by hole has the same firings and the same results, to the bit.
@@ -203,7 +260,16 @@ fn studies_keep_the_holes_of_the_options() {
     assert_eq!(alike.intervals(), [0.042]);
     let both = text.replace("delay = [", "delay = [{ name = \"b\", interval_ms = 9 }, ");
     let differing = case(&both);
-    assert_eq!(differing.holes, HoleTiming::TOGETHER);
+    assert_eq!(differing.holes, None);
+    assert_eq!(differing.intervals(), [0.009, 0.042]);
+    let intervals = Intervals { from: 0.0, to: 0.01, step: 0.005 };
+    let compute = ComputeSettings::of(&differing.plan);
+    let swept = sweep(&differing, &[0, 1], &intervals, None, &compute, &Progress::default());
+    assert!(matches!(swept, Err(NoResult::HolesDiffer)), "which of them is meant?");
+    let tried = try_orders(&differing, &[0.009], Shard::WHOLE, &compute, &Progress::default());
+    assert!(matches!(tried, Err(NoResult::HolesDiffer)));
+    assert_eq!(differing.with_holes_of(1).shot(&[0, 1], 0.042), differing.shots[1]);
+    let differing = differing.with_holes_of(0);
     assert_eq!(differing.intervals(), [0.009], "the option whose rows fire together");
     let compute = ComputeSettings::of(&differing.plan);
     let flow = &mut |_: shelter::study::check::CheckStep| ControlFlow::Continue(());

@@ -1,11 +1,13 @@
 //! The search of firing schedules, against all schedules judged one by one.
 
 use shelter::plan::{Plan, PlanSource, edit};
+use shelter::study::check::check_shot;
 use shelter::study::check_all::OptionResults;
+use shelter::study::orders::try_orders;
 use shelter::study::sampling::Sampling;
 use shelter::study::search::{MOST_JUDGED, Search, duration, search};
 use shelter::study::together::Together;
-use shelter::study::{Case, ComputeSettings, NoResult, Progress};
+use shelter::study::{Case, ComputeSettings, NoResult, Progress, Shard};
 use shelter::verdict::Verdict;
 
 use super::support::{json, shelter, text};
@@ -229,6 +231,9 @@ fn the_command_prints_writes_and_refuses() {
     assert!(text(&out.stderr).contains("written"), "{}", text(&out.stderr));
     let written = std::fs::read_to_string(path).expect("read");
     assert_eq!(case(&written).plan.delays[1].name, best["name"].as_str().expect("a name"));
+    let again = shelter(&["search", path, "--samples", "300", "--write"]);
+    assert!(text(&again.stderr).contains("in the plan already"), "{}", text(&again.stderr));
+    assert_eq!(std::fs::read_to_string(path).expect("read"), written);
     let csv = shelter(&["search", path, "--nominal", "--format", "csv"]);
     assert!(text(&csv.stdout).starts_with("name,order,intervals_ms,"), "{}", text(&csv.stdout));
     std::fs::write(path, plan("intervals_ms = []")).expect("written");
@@ -250,4 +255,72 @@ fn a_search_can_end_early() {
     let found = search(&case, Some(&FEW), &compute, &expired).expect("partial");
     assert!(found.partial && found.value.judged == 0 && !found.value.complete);
     assert_ne!(found.value.verdict(), Verdict::Pass);
+}
+
+/// On level ground two orders are images of one another; on a slope that falls from one row to the next they are not.
+#[test]
+fn a_slope_takes_mirror_images_away() {
+    let alike = plan("intervals_ms = [42], orders = \"adjacent\"").replace("6.2", "6").replace("6.1", "6");
+    let on_slope = |toward: f64| {
+        case(&alike.replace(
+            "friction = 0.5",
+            &format!("friction = 0.5, slope_percent = 25, slope_toward_deg = {toward}"),
+        ))
+    };
+    assert_eq!(searched(&case(&alike), None).judged, 2);
+    assert_eq!(searched(&on_slope(0.0), None).judged, 2, "it falls along the rows");
+    let falling = on_slope(90.0);
+    assert_eq!(searched(&falling, None).judged, 4);
+    let compute = ComputeSettings::of(&falling.plan);
+    let tried = try_orders(&falling, &[0.042], Shard::WHOLE, &compute, &Progress::default());
+    let tried = tried.expect("a result").value;
+    let height = |order: [usize; 3]| {
+        let of_order = tried.iter().find(|tried| tried.order == order);
+        of_order.expect("every order").as_planned.height
+    };
+    for order in [[0, 1, 2], [2, 1, 0], [1, 0, 2], [1, 2, 0]] {
+        let flow = &mut |_: shelter::study::check::CheckStep| std::ops::ControlFlow::Continue(());
+        let checked = check_shot(&falling, &falling.shot(&order, 0.042), &compute, flow).expect("a result");
+        let apart = (checked.height.value - height(order).value).abs();
+        assert!(apart <= checked.height.error + height(order).error, "{order:?}");
+    }
+    assert!((height([0, 1, 2]).value - height([2, 1, 0]).value).abs() > 1e-3, "uphill is not downhill");
+}
+
+/// Limits that leave one schedule in a thousand leave all of these to the search; limits that leave none are named.
+#[test]
+fn tight_limits_leave_what_keeps_them() {
+    let choices = "intervals_ms = { from = 9, to = 60, step = 1 }, equal_intervals = false, hole_intervals_ms = [0, 9, 17, 25]";
+    let charged = plan(choices)
+        .replace("launch_m_s", "charge_kg = 25\nlaunch_m_s")
+        .replace("accepted_risk_percent = 5", "accepted_risk_percent = 5, charge_in_8_ms_kg = 25");
+    let tight = case(&charged.replace("equal_intervals", "longest_ms = 70, equal_intervals"));
+    let found = searched(&tight, None);
+    let keeping = found.keeping.expect("all were looked at");
+    assert!(keeping > 0 && keeping < found.possible / 30, "{keeping} of {}", found.possible);
+    assert!(found.complete && found.judged == keeping, "{} of {keeping}", found.judged);
+    let refused = found.refused;
+    assert_eq!(refused.longest + refused.holes + refused.charge + keeping, found.possible);
+    let none = searched(&case(&charged.replace("[0, 9, 17, 25]", "[0]")), None);
+    assert_eq!((none.judged, none.refused.charge), (0, none.possible));
+    assert_eq!(none.verdict(), Verdict::Fail);
+    // More than can be listed, and few of them short enough.
+    let many = "intervals_ms = { from = 9, to = 999, step = 1 }, equal_intervals = false, longest_ms = 100";
+    let found = searched(&case(&plan(many)), None);
+    assert!(found.keeping.is_none() && !found.complete && found.judged > 100, "{}", found.judged);
+}
+
+/// A schedule that an option fires already has the name of that option; a name that another has is not taken.
+#[test]
+fn names_tell_options_apart() {
+    let text = plan("intervals_ms = [42, 67], orders = \"listed\"");
+    let named = |own: &str| {
+        let case = case(&text.replace("name = \"20 ms\" # ours\ninterval_ms = 20", own));
+        let found = searched(&case, None);
+        let mut names: Vec<String> = found.case.plan.delays.iter().map(|delay| delay.name.clone()).collect();
+        names.sort();
+        names
+    };
+    assert_eq!(named("name = \"42 ms\"\ninterval_ms = 500"), ["42 ms (2)", "67 ms"]);
+    assert_eq!(named("name = \"ours\"\ninterval_ms = 42"), ["67 ms", "ours"]);
 }

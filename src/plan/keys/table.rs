@@ -194,7 +194,7 @@ sections! {
         HOLE_INTERVAL_MS = key("hole_interval_ms", TIME, "17", "between successive holes of each row; 0: rows fire at once")
             .default(0.0).edit("hole interval, ms").offered();
         HOLE_ORDER = key("hole_order", Kind::Choice(HoleOrder::NAMES), "\"left\"",
-            "where the holes of each row begin; from centre or ends, holes at equal distances fire together")
+            "where the holes of each row begin; from centre or ends, the n-th holes of both sides fire together")
             .named(HoleOrder::DEFAULT.name()).edit("hole order").offered_beside(HOLE_INTERVAL_MS.name);
     }
 

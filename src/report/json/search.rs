@@ -22,6 +22,7 @@ pub struct SearchDocument {
     schema: &'static str,
     plan: String,
     title: String,
+    verdict: &'static str,
     partial: bool,
     limits: LimitsObject,
     /// Schedules judged.
@@ -135,6 +136,7 @@ impl SearchDocument {
             schema: "shelter.search/1",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
+            verdict: search.verdict().name(),
             partial,
             limits: LimitsObject::of(case),
             count: search.judged,

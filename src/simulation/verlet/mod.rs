@@ -120,8 +120,7 @@ fn run(
 
 /// Mirror planes of the scene in which shot and slope are their own images.
 fn shared_planes<'s>(scene: &'s Scene, shot: &Shot) -> Vec<&'s Mirror> {
-    let is_shared = |mirror: &&Mirror| scene.downhill[mirror.axis] == 0.0 && shot.is_mirrored(mirror);
-    scene.mirrors.iter().filter(is_shared).collect()
+    scene.mirrors_with_slope().filter(|mirror| shot.is_mirrored(mirror)).collect()
 }
 
 impl Part {

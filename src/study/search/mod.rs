@@ -1,8 +1,8 @@
 //! The firing schedules with the least risk, among those that `[search]` allows.
 //!
-//! 1. Candidates: all schedules, up to [`MOST_JUDGED`]; where there are more, [`START`] at random, then the neighbours of the best,
-//!    the neighbours of these, and so on. Mirror images are one; schedules past the longest duration or the most holes within 8 ms
-//!    are left out.
+//! 1. Candidates: the schedules within the longest duration, and the most holes and the heaviest charge within 8 ms. Up to
+//!    [`MOST_LISTED`] possible schedules all are looked at. Up to [`MOST_JUDGED`] candidates all are judged; where there are more,
+//!    [`START`] at random, then the neighbours of the best, the neighbours of these, and so on. Mirror images are one.
 //! 2. A race ([`race`]): a few samples of each, twice as many of the better half, and so on.
 //! 3. The best that differ from one another become delay options, which are judged as `check` judges options, with draws of their
 //!    own: the draws that chose them flatter them.
@@ -14,10 +14,12 @@ use std::cmp::Ordering;
 use std::collections::HashSet;
 
 use itertools::Itertools;
-use rand::SeedableRng;
+use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
 
 use self::race::{Contender, Race};
+pub use self::schedule::{Broken, Refused};
 use self::schedule::{Candidate, Choices, KnownShots};
 pub use self::schedule::{Schedule, duration};
 use super::check_all::{OptionResults, check_all, find_launch_margins};
@@ -31,20 +33,23 @@ use crate::verdict::Verdict;
 
 /// Greatest number of schedules that are all judged.
 pub const MOST_JUDGED: usize = 4000;
-/// Schedules that a search begins with.
+/// Greatest number of schedules of which all are looked at, whether they keep the limits of the search.
+const MOST_LISTED: usize = 500_000;
+/// Schedules that a search begins with, and most random draws for them.
 const START: usize = 2000;
+const MOST_DRAWS: usize = 50 * START;
 /// Of the best schedules of a search, so many are looked around at a time.
 const CLIMBERS: usize = 24;
 /// First samples of each schedule, where all are judged; and of each of a search.
 const FIRST_OF_ALL: usize = 16;
 const FIRST_OF_SEARCH: usize = 8;
-/// Schedules that are told.
+/// Most schedules in the report.
 const FOUND: usize = 10;
 /// The full verdicts of twelve schedules share the probability of an error: each may be wrong with 1/(3 × 4) of it.
 const JUDGED_IN_FULL: usize = 12;
 const ATTEMPT: usize = 3;
-/// Samples of a schedule without which it does not stand in the front of risk against duration.
-const SAMPLES_OF_FRONT: usize = 64;
+/// A schedule with fewer samples is left out of the front of risk against duration.
+const SAMPLES_OF_FRONT: usize = 256;
 
 /// What a search found.
 #[derive(Clone, Debug)]
@@ -59,10 +64,16 @@ pub struct Search {
     pub rough: Vec<RoughShare>,
     /// Schedules that `[search]` describes, mirror images and all.
     pub possible: usize,
+    /// Schedules that keep the limits of the search; `None` where there are too many to look at all.
+    pub keeping: Option<usize>,
+    /// Schedules left out, by the limit that they break.
+    pub refused: Refused,
     /// Schedules judged.
     pub judged: usize,
     /// Whether all that keep the limits of `[search]` were judged.
     pub complete: bool,
+    /// Whether samples were asked for.
+    pub sampled: bool,
     /// Schedules judged that were not judged in full, and of whose samples none failed.
     pub without_failure: usize,
     /// The schedules of which no shorter one judged fails less, the shortest first.
@@ -100,18 +111,26 @@ pub fn search(
     let race =
         Race { case, compute: *compute, sampling: sampling.map(|sampling| sampling.with_fresh_draws(0)) };
     let possible = choices.count();
-    let complete = possible <= MOST_JUDGED;
+    let listed = (possible <= MOST_LISTED).then(|| choices.all());
     let mut field = Field { case, choices: &choices, known: KnownShots::default(), contenders: Vec::new() };
-    let mut out_of_time = false;
-    if complete {
-        field.add(choices.all());
-    } else {
-        out_of_time = field.explore(&race, progress)?;
+    let (mut out_of_time, mut refused) = (false, Refused::default());
+    let allowed = listed.map(|listed| {
+        let limits: Vec<Option<Broken>> =
+            listed.par_iter().map(|one| choices.broken(&choices.schedule(one).shot(case))).collect();
+        limits.iter().flatten().for_each(|limit| refused.count(*limit));
+        let all = listed.into_iter().zip(limits).filter(|(_, limit)| limit.is_none());
+        all.map(|(candidate, _)| candidate).collect::<Vec<_>>()
+    });
+    let complete = allowed.as_ref().is_some_and(|allowed| allowed.len() <= MOST_JUDGED);
+    let keeping = allowed.as_ref().map(Vec::len);
+    match allowed {
+        Some(allowed) if complete => field.add(allowed),
+        allowed => out_of_time = field.explore(allowed.as_deref(), &race, progress)?,
     }
     let mut contenders = field.contenders;
     let first = if complete { FIRST_OF_ALL } else { FIRST_OF_SEARCH };
     out_of_time |= race.run(&mut contenders, first, progress)?;
-    let finalists = apart(&choices, &contenders);
+    let finalists = choose_finalists(&choices, &contenders);
     let left = contenders.iter().filter(|one| !finalists.iter().any(|(_, other)| other.shot == one.shot));
     let without_failure = left.filter(|one| one.samples > 0 && one.failures == 0).count();
     let front = front(&choices, &contenders);
@@ -119,9 +138,21 @@ pub fn search(
     let rough = finalists.iter().map(|(_, contender)| RoughShare::of(contender)).collect();
     let (case, Found { value: results, partial }) = judge(case, &schedules, sampling, compute, progress)?;
     let judged = contenders.iter().filter(|one| one.samples > 0).count();
-    let complete = complete && judged == contenders.len();
-    let mut found =
-        Search { case, schedules, results, rough, possible, judged, complete, without_failure, front };
+    let (complete, sampled) = (complete && judged == contenders.len(), sampling.is_some());
+    let mut found = Search {
+        case,
+        schedules,
+        results,
+        rough,
+        possible,
+        keeping,
+        refused,
+        judged,
+        complete,
+        sampled,
+        without_failure,
+        front,
+    };
     found.rank();
     Ok(Found { value: found, partial: partial || out_of_time })
 }
@@ -139,16 +170,31 @@ impl Field<'_> {
     fn add(&mut self, candidates: impl IntoIterator<Item = Candidate>) {
         for candidate in candidates {
             let shot = self.choices.schedule(&candidate).shot(self.case);
-            if self.choices.allows(&shot) && self.known.insert(self.case, &shot) {
+            if self.choices.broken(&shot).is_none() && self.known.insert(self.case, &shot) {
                 self.contenders.push(Contender::new(candidate, shot));
             }
         }
     }
 
     /// Searches where not all schedules can be judged; returns whether the time was up.
-    fn explore(&mut self, race: &Race<'_>, progress: &Progress) -> Result<bool, NoResult> {
+    /// `allowed` are those that keep the limits, where all were looked at.
+    fn explore(
+        &mut self,
+        allowed: Option<&[Candidate]>,
+        race: &Race<'_>,
+        progress: &Progress,
+    ) -> Result<bool, NoResult> {
         let mut random = ChaCha8Rng::seed_from_u64(race.sampling.map_or(0, |sampling| sampling.seed));
-        self.add((0..START).map(|_| self.choices.random(&mut random)).collect::<Vec<_>>());
+        // Where the limits of the search leave few, more are drawn.
+        for _ in 0..MOST_DRAWS {
+            self.add([match allowed {
+                Some(allowed) => allowed[random.random_range(0..allowed.len())].clone(),
+                None => self.choices.random(&mut random),
+            }]);
+            if self.contenders.len() == START {
+                break;
+            }
+        }
         let mut seen: HashSet<Candidate> = HashSet::new();
         loop {
             if race.draw(&mut self.contenders, FIRST_OF_SEARCH, progress)? {
@@ -180,7 +226,10 @@ impl RoughShare {
 }
 
 /// The best of the sorted contenders that differ from one another, to be judged in full.
-fn apart<'r>(choices: &Choices<'_>, contenders: &'r [Contender]) -> Vec<(Schedule, &'r Contender)> {
+fn choose_finalists<'r>(
+    choices: &Choices<'_>,
+    contenders: &'r [Contender],
+) -> Vec<(Schedule, &'r Contender)> {
     let mut chosen: Vec<(Schedule, &Contender)> = Vec::new();
     for contender in contenders.iter().filter(|one| one.samples > 0) {
         let schedule = choices.schedule(&contender.candidate);
@@ -211,6 +260,18 @@ fn front(choices: &Choices<'_>, contenders: &[Contender]) -> Vec<FrontPoint> {
     front
 }
 
+/// The delay option of a schedule: that of the plan which fires alike, or one whose name no option of the plan has.
+fn free_name(case: &Case, schedule: &Schedule) -> DelayOption {
+    let new = schedule.named_option(&case.plan.blast_rows);
+    if let Some(old) = case.plan.delays.iter().find(|old| old.fires_like(&new)) {
+        return DelayOption { name: old.name.clone(), ..new };
+    }
+    let is_free = |name: &String| case.plan.delays.iter().all(|old| old.name != *name);
+    let numbered = (2..).map(|n| format!("{} ({n})", new.name));
+    let name = std::iter::once(new.name.clone()).chain(numbered).find(is_free);
+    DelayOption { name: name.unwrap_or_default(), ..new }
+}
+
 /// Judges schedules as delay options of their own plan.
 fn judge(
     case: &Case,
@@ -219,7 +280,7 @@ fn judge(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<(Case, Found<OptionResults>), NoResult> {
-    let delays = schedules.iter().map(|schedule| schedule.named_option(&case.plan.blast_rows)).collect();
+    let delays = schedules.iter().map(|schedule| free_name(case, schedule)).collect();
     let plan = Plan { delays, ..case.plan.clone() };
     let case = Case { source: case.source.clone(), ..Case::new(plan) };
     let sampling = sampling.map(|sampling| Sampling { attempt: ATTEMPT, ..*sampling });
@@ -248,7 +309,7 @@ impl Search {
         let mut ranked = Vec::new();
         while let Some(&best) = waiting.first() {
             let high = self.bounds(best)[1];
-            let is_tie = |n: &usize| self.bounds(*n)[0] <= high && place(n).0 == place(&best).0;
+            let is_tie = |n: &usize| *n == best || self.bounds(*n)[0] <= high && place(n).0 == place(&best).0;
             let (mut ties, others): (Vec<usize>, Vec<usize>) = waiting.into_iter().partition(is_tie);
             ties.sort_by(|&a, &b| {
                 let [duration_a, duration_b] = [a, b].map(|n| duration(&self.case.shots[n]));
@@ -289,10 +350,11 @@ impl Search {
         all.filter(move |(_, result)| passes(result)).map(|(delay, _)| delay)
     }
 
-    /// The verdict on the best schedule: fail where there is none.
+    /// The verdict on the best schedule; fail where all there are were looked at and none keeps the limits of the search.
     pub fn verdict(&self) -> Verdict {
         match self.results.first() {
-            None => Verdict::Fail,
+            None if self.complete => Verdict::Fail,
+            None => Verdict::Undecided,
             Some(best) => best.as_ref().map_or(Verdict::Undecided, Judgement::verdict),
         }
     }

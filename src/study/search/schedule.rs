@@ -33,7 +33,11 @@ impl Schedule {
     /// Rows fired in `order` at one interval [s], their holes as in all options of the plan.
     pub fn at_interval(case: &Case, order: &[usize], interval: f64) -> Self {
         let gap_ms = (interval * 1e9).round() / 1e6;
-        Self { order: order.to_vec(), gaps_ms: vec![gap_ms; order.len() - 1], holes: case.holes }
+        Self {
+            order: order.to_vec(),
+            gaps_ms: vec![gap_ms; order.len() - 1],
+            holes: case.holes.unwrap_or(HoleTiming::TOGETHER),
+        }
     }
 
     /// The schedule as a delay option with a telling name.
@@ -67,7 +71,11 @@ impl Schedule {
     pub fn name(&self, rows: &[BlastRow]) -> String {
         let joined = |parts: Vec<String>| parts.join("-");
         let mut parts = Vec::new();
-        if !self.order.is_sorted() {
+        let dashes = rows.iter().any(|row| row.name.contains('-'));
+        if !self.order.is_sorted() && dashes {
+            let names: Vec<&str> = self.order.iter().map(|&row| rows[row].name.as_str()).collect();
+            parts.push(names.join(" > "));
+        } else if !self.order.is_sorted() {
             parts.push(joined(self.order.iter().map(|&row| rows[row].name.clone()).collect()));
         }
         let mut gaps: Vec<String> = self.gaps_ms.iter().map(f64::to_string).collect();
@@ -110,6 +118,39 @@ pub struct Candidate {
     holes: usize,
 }
 
+/// A limit that a schedule of a search breaks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Broken {
+    /// The longest duration of `[search]`.
+    Longest,
+    /// The most holes within 8 ms of `[search]` or `[limits]`.
+    Holes,
+    /// The heaviest charge within 8 ms of `[limits]`.
+    Charge,
+}
+
+/// Numbers of schedules that break a limit; each is counted once.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Refused {
+    /// Longer than the longest duration.
+    pub longest: usize,
+    /// More holes within 8 ms.
+    pub holes: usize,
+    /// More charge within 8 ms.
+    pub charge: usize,
+}
+
+impl Refused {
+    /// Counts one more.
+    pub fn count(&mut self, broken: Broken) {
+        *match broken {
+            Broken::Longest => &mut self.longest,
+            Broken::Holes => &mut self.holes,
+            Broken::Charge => &mut self.charge,
+        } += 1;
+    }
+}
+
 /// What schedules are made of.
 pub struct Choices<'c> {
     case: &'c Case,
@@ -124,7 +165,8 @@ impl<'c> Choices<'c> {
     /// The choices of a plan.
     pub fn new(case: &'c Case) -> Result<Self, NoResult> {
         let (spec, rows) = (&case.plan.search, case.plan.blast_rows.len());
-        let own = || case.intervals().into_iter().map(|interval| (interval * 1e9).round() / 1e6);
+        let any_holes = || Case { holes: None, ..case.clone() };
+        let own = || any_holes().intervals().into_iter().map(|interval| (interval * 1e9).round() / 1e6);
         let intervals_ms = match spec.intervals_ms.as_slice() {
             [] => own().collect(),
             given => given.to_vec(),
@@ -192,7 +234,9 @@ impl<'c> Choices<'c> {
                 }
             }
         }
-        let gaps = (0..self.free_gaps).map(|_| random.random_range(0..self.intervals_ms.len())).collect();
+        // Of few short gaps as often as of long ones: a longest duration may leave no others.
+        let longest = random.random_range(0..self.intervals_ms.len().max(1));
+        let gaps = (0..self.free_gaps).map(|_| random.random_range(0..=longest)).collect();
         Candidate { order, gaps, holes: random.random_range(0..self.case.plan.search.holes.len()) }
     }
 
@@ -237,15 +281,20 @@ impl<'c> Choices<'c> {
         }
     }
 
-    /// Whether a shot keeps the longest duration and the most holes within 8 ms.
-    pub fn allows(&self, shot: &Shot) -> bool {
-        let spec = &self.case.plan.search;
-        let most_holes = spec.most_holes_in_8_ms.or(self.case.plan.limits.holes_in_8_ms);
+    /// The limit that a shot breaks, if any: the longest duration, the most holes, or the heaviest charge within 8 ms.
+    pub fn broken(&self, shot: &Shot) -> Option<Broken> {
+        let (spec, limits) = (&self.case.plan.search, &self.case.plan.limits);
+        if spec.longest_ms.is_some_and(|longest| duration(shot) > seconds(longest) + 1e-9) {
+            return Some(Broken::Longest);
+        }
+        // The stricter of both.
+        let most_holes = spec.most_holes_in_8_ms.into_iter().chain(limits.holes_in_8_ms).min();
         let Together { holes, charge } = Together::of(self.case, shot);
-        let heaviest = self.case.plan.limits.charge_in_8_ms_kg;
-        spec.longest_ms.is_none_or(|longest| duration(shot) <= seconds(longest) + 1e-9)
-            && most_holes.is_none_or(|most| holes <= most)
-            && charge.zip(heaviest).is_none_or(|(charge, heaviest)| charge <= heaviest)
+        if most_holes.is_some_and(|most| holes > most) {
+            return Some(Broken::Holes);
+        }
+        let too_heavy = charge.zip(limits.charge_in_8_ms_kg).is_some_and(|(charge, most)| charge > most);
+        too_heavy.then_some(Broken::Charge)
     }
 
     fn may_fire_in(&self, order: &[usize]) -> bool {
@@ -301,7 +350,7 @@ impl KnownShots {
     /// Adds a shot; returns whether neither it nor a mirror image was known.
     pub fn insert(&mut self, case: &Case, shot: &Shot) -> bool {
         let mut images = vec![shot.clone()];
-        for mirror in &case.scene().mirrors {
+        for mirror in case.scene().mirrors_with_slope() {
             let image = |shot: &Shot| {
                 Shot::from_firings(shot.firings.iter().map(|firing| firing.mirrored(mirror)).collect())
             };

@@ -117,6 +117,7 @@ pub fn sweep(
     if case.plan.blast_rows.len() < 2 {
         return Err(NoResult::SingleRow);
     }
+    case.needs_holes()?;
     let nominal = sweep_as_planned(case, order, intervals, compute, progress)?;
     let Some(sampling) = sampling else { return Ok(nominal) };
     let own = own_intervals(case, order).into_iter().map(nanoseconds).collect();

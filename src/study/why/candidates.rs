@@ -13,12 +13,17 @@ const LOWER_LAUNCHES: [f64; 6] = [0.98, 0.95, 0.9, 0.85, 0.8, 0.7];
 /// Distances from an option's interval [ms].
 const OTHER_INTERVALS_MS: [f64; 8] = [1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 17.0, 25.0];
 
-/// The changes of a plan that may make an option pass, by kind, each from the smallest up.
-pub(super) fn candidates(plan: &Plan, option: usize) -> Vec<Vec<Change>> {
+/// The changes of a plan that may make an option pass, by kind, each from the smallest up. `too_much_together`: more fires within
+/// 8 ms than the plan allows.
+pub(super) fn candidates(plan: &Plan, option: usize, too_much_together: bool) -> Vec<Vec<Change>> {
     let (slack, interval) = (plan.cable.slack_percent, interval_ms(plan, option));
     let slacks = around(slack, &OTHER_SLACK).map(Change::Slack);
     let intervals = interval.into_iter().flat_map(|interval| around(interval, &OTHER_INTERVALS_MS));
     let intervals = intervals.map(|interval_ms| Change::Interval { option, interval_ms });
+    if too_much_together {
+        // Nothing but other firing times helps.
+        return vec![intervals.collect()];
+    }
     vec![
         stronger_ropes(plan),
         stronger_terminations(plan),

@@ -20,6 +20,7 @@ use super::batch::run_jobs;
 use super::check::{Checked, check_as_planned};
 use super::check_all::OptionResults;
 use super::judgement::Judgement;
+use super::reason::exceeds_together;
 use super::risk::Risk;
 use super::sampled::Sampled;
 use super::sampling::{Sampling, ShotToSample, find_risks};
@@ -162,8 +163,10 @@ fn changed(case: &Case, change: &Change) -> Option<Case> {
 /// valid plan count as not tried; a kind without a candidate has no chain.
 fn screened(task: &Task<'_>, options: &[usize]) -> Result<Vec<Chain>, NoResult> {
     let Task { case, compute, progress, .. } = *task;
-    let kinds =
-        |&option: &usize| candidates(&case.plan, option).into_iter().map(move |changes| (option, changes));
+    let kinds = |&option: &usize| {
+        let crowded = exceeds_together(case, &case.shots[option]);
+        candidates(&case.plan, option, crowded).into_iter().map(move |changes| (option, changes))
+    };
     let all: Vec<(usize, Vec<Change>)> = options.iter().flat_map(kinds).collect();
     let jobs: Vec<(usize, Change)> =
         all.iter().flat_map(|(option, changes)| changes.iter().map(|&change| (*option, change))).collect();

@@ -119,7 +119,9 @@ fn change_lines<'a>(app: &App) -> Vec<Line<'a>> {
         let (mark, style) = if n == selected { ("> ", theme.selected()) } else { ("· ", theme.base()) };
         Line::styled(format!("{mark}{}", sentence(case, passing)), style)
     }));
-    lines.extend(without_pass(would_pass).into_iter().map(|line| Line::styled(line, theme.quiet())));
+    lines.extend(
+        without_pass(&app.case, would_pass).into_iter().map(|line| Line::styled(line, theme.quiet())),
+    );
     lines
 }
 

@@ -246,9 +246,9 @@ fn apart_along_x(turns: &[(f64, Vec<(f64, f64)>)]) -> f64 {
     apart.filter(|&apart| apart > 1e-3).fold(f64::INFINITY, f64::min)
 }
 
-/// Sign of a turn: 1 to 9, then letters.
+/// Sign of a turn: 1 to 9, then letters, then `+`.
 fn sign(turn: usize) -> String {
-    char::from_digit((turn as u32 + 1).min(35), 36).unwrap_or('+').to_string()
+    char::from_digit(turn as u32 + 1, 36).unwrap_or('+').to_string()
 }
 
 fn turn_color(app: &App, turn: usize, turns: usize) -> Color {
