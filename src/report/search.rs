@@ -153,7 +153,7 @@ fn reach(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
         }));
         lines.push("bounds are wider than those of `check`: several schedules are judged at once".to_owned());
         lines.push(
-            "schedules whose bounds overlap are ties: the larger launch margin stands first, then the shorter"
+            "of those that pass, overlapping bounds are ties: the larger launch margin stands first, then the shorter"
                 .to_owned(),
         );
     } else if !sampled {

@@ -292,11 +292,11 @@ fn judge(
 }
 
 impl Search {
-    /// Puts the schedules in order, the best first, and keeps [`FOUND`] of them: by verdict, then by the failing share. Of
-    /// schedules whose bounds overlap with those of the best, none surely fails less: the one with the larger launch margin stands
+    /// Puts the schedules in order, the best first, and keeps [`FOUND`] of them: by verdict, then by the failing share. Schedules
+    /// that pass, and whose bounds overlap with those of the best of them, are ties: the one with the larger launch margin stands
     /// first, then the shorter.
     fn rank(&mut self) {
-        let place = |n: &usize| {
+        let rank_key = |n: &usize| {
             let judged = self.results[*n].as_ref().ok();
             let share =
                 judged.and_then(|judged| judged.risk.drawn()).and_then(|risk| risk.bounds.probability());
@@ -304,12 +304,14 @@ impl Search {
             (judged.map_or(Verdict::Undecided, Judgement::verdict), share)
         };
         let mut waiting: Vec<usize> = (0..self.schedules.len())
-            .sorted_by(|a, b| place(a).partial_cmp(&place(b)).unwrap_or(Ordering::Equal))
+            .sorted_by(|a, b| rank_key(a).partial_cmp(&rank_key(b)).unwrap_or(Ordering::Equal))
             .collect();
         let mut ranked = Vec::new();
         while let Some(&best) = waiting.first() {
             let high = self.bounds(best)[1];
-            let is_tie = |n: &usize| *n == best || self.bounds(*n)[0] <= high && place(n).0 == place(&best).0;
+            let (passes, overlaps) =
+                (rank_key(&best).0 == Verdict::Pass, |n: usize| self.bounds(n)[0] <= high);
+            let is_tie = |n: &usize| *n == best || passes && rank_key(n).0 == Verdict::Pass && overlaps(*n);
             let (mut ties, others): (Vec<usize>, Vec<usize>) = waiting.into_iter().partition(is_tie);
             ties.sort_by(|&a, &b| {
                 let [duration_a, duration_b] = [a, b].map(|n| duration(&self.case.shots[n]));
