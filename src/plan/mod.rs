@@ -98,7 +98,7 @@ impl Plan {
     /// How the holes of each row fire in every delay option; `None` where options differ.
     pub fn shared_hole_timing(&self) -> Option<HoleTiming> {
         let mut all = self.delays.iter().map(|delay| delay.holes);
-        let first = all.next()?;
+        let first = all.next().unwrap_or(HoleTiming::TOGETHER);
         all.all(|holes| holes.is_same(&first)).then_some(first)
     }
 
