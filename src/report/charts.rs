@@ -3,6 +3,7 @@
 use super::model::{Axis, Chart, Scale, Series, SeriesKind};
 use crate::choice::Method;
 use crate::outcome::History;
+use crate::scene::Shot;
 use crate::study::accuracy::{AccuracyTable, Measured};
 use crate::study::orders::Orders;
 use crate::study::risk::Risk;
@@ -19,11 +20,12 @@ const HEADROOM: f64 = 1.08;
 const ROOM: f64 = 0.1;
 
 /// Greatest flight height and cable force over time, with the firing times [s].
-pub fn history(case: &Case, history: &History, firings: &[f64]) -> [Chart; 2] {
+pub fn history(case: &Case, history: &History, shot: &Shot) -> [Chart; 2] {
+    let firings = shot.times();
     let time = axis("time", Unit::Second, [0.0, history.width * history.height.len().max(1) as f64]);
     let middle = |(n, &value): (usize, &f64)| ((n as f64 + 0.5) * history.width, value);
     let chart = |name, unit, values: &[f64], limit| Chart {
-        firings: firings.to_vec(),
+        firings: firings.clone(),
         ..quantity_chart(time, (name, unit), values.iter().enumerate().map(middle).collect(), limit)
     };
     [

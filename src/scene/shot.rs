@@ -57,6 +57,13 @@ impl Shot {
         Self { firings, friction: None }
     }
 
+    /// Firing times [s], each once.
+    pub fn times(&self) -> Vec<f64> {
+        let mut times: Vec<f64> = self.firings.iter().map(|firing| firing.at).collect();
+        times.dedup();
+        times
+    }
+
     /// The same shot with all launch velocities times `factor`.
     pub fn with_launches(&self, factor: f64) -> Self {
         let faster = |firing: &Firing| Firing { launch: firing.launch * factor, ..*firing };

@@ -9,7 +9,6 @@ use super::studies::ShownStudy;
 use crate::file;
 use crate::jobs::{StudyKind, StudyResult};
 use crate::report::{self, charts, html};
-use crate::scene::fire_at_s;
 use crate::study::check_all::OptionResults;
 use crate::study::sampling::Sampling;
 
@@ -42,8 +41,8 @@ fn svg(app: &App) -> Result<String, String> {
         Screen::Plan => vec![html::top_view(&app.case, Some(app.selected))],
         Screen::Compare => {
             let judged = app.judgement(app.selected).ok_or("the selected option has no result yet")?;
-            let firings = fire_at_s(&app.case.plan.delays[app.selected].timing);
-            let history = charts::history(&app.case, &judged.as_planned.history, &firings);
+            let shot = &app.case.shots[app.selected];
+            let history = charts::history(&app.case, &judged.as_planned.history, shot);
             let samples = judged.risk.drawn().into_iter().flat_map(|risk| charts::samples(&app.case, risk));
             history
                 .iter()

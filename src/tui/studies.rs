@@ -6,7 +6,6 @@ use std::sync::Arc;
 use crate::jobs::{StudyKind, StudyResult};
 use crate::report::model::{Block, Report};
 use crate::report::{self, charts, notes};
-use crate::scene::fire_at_s;
 use crate::study::flight::Flight;
 use crate::study::why::WouldPass;
 use crate::study::{Case, ComputeSettings, NoResult};
@@ -63,10 +62,11 @@ impl ShownStudy {
             }
             StudyResult::Accuracy(study) => (report::accuracy::report(case, study, &[]), Vec::new()),
             StudyResult::Flight(flight) => {
-                let firings = fire_at_s(&case.plan.delays[flight.option].timing);
                 let history = &flight.outcome.history;
                 let mut report = report::trace::history(history);
-                report.blocks.extend(charts::history(case, history, &firings).map(Block::Picture));
+                report
+                    .blocks
+                    .extend(charts::history(case, history, &case.shots[flight.option]).map(Block::Picture));
                 (report, Vec::new())
             }
         };

@@ -17,7 +17,6 @@ use sha2::{Digest, Sha256};
 use super::model::Block;
 use super::palette::Role;
 use super::{charts, check, explain};
-use crate::scene::fire_at_s;
 use crate::study::Case;
 use crate::study::check_all::OptionResults;
 use crate::study::sampling::Sampling;
@@ -90,13 +89,13 @@ pub fn page(
                         @if let Block::Text(warnings) = block { @for warning in warnings { p { (warning) } } }
                     }
                 }
-                @for (delay, result) in plan.delays.iter().zip(results) {
+                @for ((delay, shot), result) in plan.delays.iter().zip(&case.shots).zip(results) {
                     @if let Ok(judged) = result {
                         section {
                             h2 { (delay.name) " " (word(judged.verdict())) }
                             p.quiet { (explain::computation(case.scene(), &judged.as_planned)) }
                             div.charts {
-                                @for chart in charts::history(case, &judged.as_planned.history, &fire_at_s(&delay.timing)) {
+                                @for chart in charts::history(case, &judged.as_planned.history, shot) {
                                     div { (PreEscaped(svg(&chart).unwrap_or_default())) }
                                 }
                             }

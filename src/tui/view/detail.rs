@@ -72,7 +72,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let [text, rest] =
         Layout::vertical([Constraint::Length(lines.min(most)), Constraint::Min(0)]).areas(inside);
     frame.render_widget(Paragraph::new(facts).wrap(Wrap { trim: true }), text);
-    let history = charts::history(&app.case, &judged.as_planned.history, &fire_at_s(&delay.timing));
+    let history = charts::history(&app.case, &judged.as_planned.history, &app.case.shots[app.selected]);
     let risk = judged.risk.drawn().filter(|risk| !risk.samples.is_empty());
     draw_charts(app, history, risk, frame, rest);
 }
