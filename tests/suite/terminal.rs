@@ -178,7 +178,7 @@ fn studies_run_are_cancelled_and_keep_their_result() {
     watched.until("x cancels");
     watched.press("x");
     watched.until("Enter starts it");
-    watched.press("l\r");
+    watched.press("ll\r");
     watched.until("combinations tried");
     watched.press("2");
     watched.until("samples  height, m");
