@@ -121,7 +121,7 @@ fn reach(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
     };
     let keeping = keeping.map_or(String::new(), |count| format!(", {count} keep the limits"));
     let how = match complete {
-        true => "all of them, those that fire alike and mirror images once",
+        true => "all of them; shots that fire alike or are mirror images count once",
         false => "a search: a better one may have been missed",
     };
     let mut lines = vec![format!("{possible}{keeping}; {judged} were judged, {how}")];
