@@ -63,7 +63,7 @@ fn write(arguments: &Arguments, case: &Case, found: &Search, count: usize) -> io
         eprintln!("nothing was written: no schedule found passes");
         return Ok(());
     }
-    let is_known = |delay: &&&DelayOption| case.plan.delays.iter().any(|own| own.name == delay.name);
+    let is_known = |delay: &&&DelayOption| case.plan.delays.iter().any(|own| own.fires_like(delay));
     let (known, delays): (Vec<&DelayOption>, Vec<&DelayOption>) = best.iter().partition(is_known);
     known.iter().for_each(|delay| eprintln!("in the plan already: {}", delay.name));
     if delays.is_empty() {

@@ -99,17 +99,19 @@ impl Job {
     pub(super) fn study(&self, kind: StudyKind, option: usize) -> Result<StudyResult, NoResult> {
         let Self { case, compute, progress, .. } = self;
         // Where the options differ in how the holes of a row fire, the selected one is meant.
-        let case = &case.with_holes_of(option);
+        let with_holes = || case.with_holes_of(option);
         match kind {
             StudyKind::Sweep => {
                 let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
                 Ok(StudyResult::Sweep(
-                    sweep(case, &order, &INTERVALS, Some(&Sampling::OF_VERDICT), compute, progress)?.value,
+                    sweep(&with_holes(), &order, &INTERVALS, Some(&Sampling::OF_VERDICT), compute, progress)?
+                        .value,
                 ))
             }
             StudyKind::Orders => {
                 let sampling = Some(&Sampling::OF_VERDICT);
-                Ok(StudyResult::Orders(orders(case, &case.intervals(), sampling, compute, progress)?.value))
+                let case = with_holes();
+                Ok(StudyResult::Orders(orders(&case, &case.intervals(), sampling, compute, progress)?.value))
             }
             StudyKind::Risk => {
                 let results = case.judge_options(compute, Some(&SAMPLING), progress)?.value;

@@ -188,7 +188,7 @@ pub fn judged_by(case: &Case, judged: &Judgement) -> &'static str {
 }
 
 /// What a pass is about, in brackets.
-fn meaning(case: &Case, sampled: bool) -> &'static str {
+pub(super) fn meaning(case: &Case, sampled: bool) -> &'static str {
     match (sampled, case.plan.uncertainty.assumed) {
         (false, _) => " (the plan's own numbers only)",
         (true, true) => " (inputs assumed known to 1 %)",

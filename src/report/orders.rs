@@ -51,6 +51,9 @@ fn sampled_fields<'a>() -> [Field<RankedOrder<'a>>; 3] {
     ]
 }
 
+/// Rows at each end that offer their order as an option: no face shows more, and there may be millions between.
+const OFFERED: usize = 100;
+
 /// How far the samples reach.
 const RANKING: &str =
     "ranked as planned; the worst and the best are sampled a little, the very best until its verdict is sure";
@@ -75,8 +78,10 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
         let schedule = Schedule::at_interval(case, &tried.order, tried.interval);
         Offer::Option(schedule.named_option(&case.plan.blast_rows))
     };
-    let table = Table { ranked: true, ..Table::of(&fields, rows) };
-    let table = table.offering(orders.ranked.iter().map(offer));
+    let mut table = Table { ranked: true, ..Table::of(&fields, rows) };
+    for n in (0..all).filter(|&n| n < OFFERED || n + OFFERED >= all) {
+        table.rows[n].offer = Some(offer(&orders.ranked[n]));
+    }
     let verdict = match orders.verdict() {
         Verdict::Pass if partial => Verdict::Undecided,
         verdict => verdict,

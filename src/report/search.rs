@@ -1,7 +1,8 @@
 //! `search` as a report: one row a schedule, the best first, and the front of risk against duration.
 
 use super::check::{
-    FORCE_BAND, HEIGHT_BAND, LAUNCH_MARGIN, NOMINAL_FORCE, NOMINAL_HEIGHT, band, complete_rows, planned,
+    FORCE_BAND, HEIGHT_BAND, LAUNCH_MARGIN, NOMINAL_FORCE, NOMINAL_HEIGHT, band, complete_rows, meaning,
+    planned,
 };
 use super::cover::covers;
 use super::explain::{compute_label, launch_margin, together};
@@ -101,6 +102,7 @@ pub fn report(case: &Case, search: &Search, partial: bool) -> Report {
         None => format!("no schedule was judged{so_far}"),
         Some(best) => format!("the best schedule found{so_far}: {}", best.name),
     };
+    text += meaning(case, sampled);
     if let Some(judged) = search.results.iter().flatten().next() {
         text += &format!(" · {}", compute_label(&judged.as_planned.compute));
     }

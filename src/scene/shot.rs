@@ -123,7 +123,9 @@ impl Shot {
             let within = self.firings[first..].iter().take_while(|firing| microseconds(firing.at) < end);
             within.map(&weight).sum::<f64>()
         };
-        (0..self.firings.len()).map(from).fold(0.0, f64::max)
+        // The first of those that fire together stands for all.
+        let is_first = |&n: &usize| n == 0 || self.firings[n - 1].at < self.firings[n].at;
+        (0..self.firings.len()).filter(is_first).map(from).fold(0.0, f64::max)
     }
 }
 

@@ -67,23 +67,21 @@ impl Schedule {
         DelayOption { name, timing, holes }
     }
 
-    /// A telling name: `3-1-2 42-67 ms, holes 17 ms centre`; the order is left out where it is that of the plan.
+    /// A telling name: `3-1-2 42+67 ms, holes 17 ms centre`; the order is left out where it is that of the plan. Gaps are joined by
+    /// a plus: `42-67 ms` could be read as anything between.
     pub fn name(&self, rows: &[BlastRow]) -> String {
-        let joined = |parts: Vec<String>| parts.join("-");
         let mut parts = Vec::new();
-        let dashes = rows.iter().any(|row| row.name.contains('-'));
-        if !self.order.is_sorted() && dashes {
+        if !self.order.is_sorted() {
+            let dashes = rows.iter().any(|row| row.name.contains('-'));
             let names: Vec<&str> = self.order.iter().map(|&row| rows[row].name.as_str()).collect();
-            parts.push(names.join(" > "));
-        } else if !self.order.is_sorted() {
-            parts.push(joined(self.order.iter().map(|&row| rows[row].name.clone()).collect()));
+            parts.push(names.join(if dashes { " > " } else { "-" }));
         }
         let mut gaps: Vec<String> = self.gaps_ms.iter().map(f64::to_string).collect();
         if self.gaps_ms.iter().all_equal() {
             gaps.truncate(1);
         }
         if !gaps.is_empty() {
-            parts.push(format!("{} ms", joined(gaps)));
+            parts.push(format!("{} ms", gaps.join("+")));
         }
         let rows = Some(parts.join(" ")).filter(|rows| !rows.is_empty());
         let all: Vec<String> = rows.into_iter().chain(self.holes.words()).collect();
