@@ -144,6 +144,18 @@ impl VerdictArguments {
     }
 }
 
+/// What every study of a plan takes.
+#[derive(Args, Clone)]
+pub struct StudyArguments {
+    #[command(flatten)]
+    pub verdict: VerdictArguments,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: FormatArg,
+    #[command(flatten)]
+    pub compute: Compute,
+}
+
 /// A parser that takes the names of a choice, and shows them in the help.
 fn named<T>(names: &'static [&'static str]) -> impl TypedValueParser<Value = T>
 where

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments};
+use super::arguments::{LookArguments, StudyArguments};
 use super::check_plans::{check_plans, print_checks};
 use super::load_plans::open_all;
 use super::status::{Status, failed};
@@ -18,12 +18,7 @@ pub struct Arguments {
     #[arg(value_name = "PLAN", required = true)]
     plans: Vec<PathBuf>,
     #[command(flatten)]
-    verdict: VerdictArguments,
-    #[command(flatten)]
-    compute: Compute,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: FormatArg,
+    study: StudyArguments,
     /// One passing option is enough
     #[arg(long)]
     any: bool,
@@ -34,8 +29,8 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(cases) = open_all(&arguments.plans, look) else { return Ok(Status::Wrong) };
-    match check_plans(&cases, arguments.verdict.sampling(), &arguments.compute, arguments.why) {
-        Ok(checked) => print_checks(&cases, &checked, arguments.any, arguments.format, look),
+    match check_plans(&cases, arguments.study.verdict.sampling(), &arguments.study.compute, arguments.why) {
+        Ok(checked) => print_checks(&cases, &checked, arguments.any, arguments.study.format, look),
         Err(reason) => failed(&reason),
     }
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments};
+use super::arguments::{LookArguments, StudyArguments};
 use super::load_plans::open;
 use super::print::print;
 use super::run_study::run_study;
@@ -20,23 +20,20 @@ pub struct Arguments {
     /// Plan to study; `-` reads standard input
     plan: PathBuf,
     #[command(flatten)]
-    verdict: VerdictArguments,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: FormatArg,
-    #[command(flatten)]
-    compute: Compute,
+    study: StudyArguments,
 }
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
-    let sampling = arguments.verdict.exactly(SAMPLES);
-    let settings = arguments.compute.settings(&case.plan);
-    match run_study(&arguments.compute, |progress| effects(&case, sampling.as_ref(), &settings, progress)) {
+    let sampling = arguments.study.verdict.exactly(SAMPLES);
+    let settings = arguments.study.compute.settings(&case.plan);
+    match run_study(&arguments.study.compute, |progress| {
+        effects(&case, sampling.as_ref(), &settings, progress)
+    }) {
         Err(reason) => failed(&reason),
         Ok(Found { value: found, partial }) => {
             let document = || EffectsDocument::new(&case, &found, partial);
-            print(&[report(&case, &found, partial)], document, arguments.format, look)
+            print(&[report(&case, &found, partial)], document, arguments.study.format, look)
         }
     }
 }

@@ -4,7 +4,6 @@ use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 
 use super::arguments::LookArguments;
-use crate::report::notes;
 use crate::study::Case;
 
 /// Opens plans. Prints every mistake of every plan; `None` where there is a mistake.
@@ -14,12 +13,11 @@ pub fn open_all<'a>(paths: impl IntoIterator<Item = &'a PathBuf>, look: &LookArg
     cases.into_iter().collect()
 }
 
-/// Opens a plan. Prints its mistakes and warnings; `None` where it has a mistake.
+/// Opens a plan. Prints its mistakes; `None` where it has one.
 pub fn open(path: &Path, look: &LookArguments) -> Option<Case> {
     let opened = Case::load(path);
-    match &opened {
-        Ok(case) => notes::ranges(case).iter().for_each(|warning| eprintln!("{warning}")),
-        Err(mistakes) => eprint!("{}", mistakes.render(look.colored(io::stderr().is_terminal()))),
+    if let Err(mistakes) = &opened {
+        eprint!("{}", mistakes.render(look.colored(io::stderr().is_terminal())));
     }
     opened.ok()
 }

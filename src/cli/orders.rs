@@ -5,13 +5,12 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments, intervals, shard};
+use super::arguments::{LookArguments, StudyArguments, intervals, shard};
 use super::load_plans::open_option;
 use super::print::print_text;
 use super::print_sharded::print_orders;
 use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
-use crate::report::notes;
 use crate::study::merge::{Question, ShardResults, write_shard};
 use crate::study::orders::{MOST_ROWS, count, orders, tries_all, try_orders};
 use crate::study::{Found, Intervals, Shard};
@@ -30,12 +29,7 @@ pub struct Arguments {
     #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with_all = ["timeout", "format"])]
     shard: Option<Shard>,
     #[command(flatten)]
-    verdict: VerdictArguments,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: FormatArg,
-    #[command(flatten)]
-    compute: Compute,
+    study: StudyArguments,
 }
 
 /// Orders and intervals together, some 200 bytes each.
@@ -49,9 +43,6 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         case.holes = Some(case.plan.delays[option].holes);
     }
     let intervals_s = arguments.interval.map_or_else(|| case.intervals(), |interval| interval.values());
-    if arguments.interval.is_none() {
-        notes::orders(&case).iter().for_each(|note| eprintln!("{note}"));
-    }
     if arguments.shard.is_some() && !tries_all(&case) {
         return wrong(&format!(
             "orders of more than {MOST_ROWS} rows are searched, not shared: leave out --shard"
@@ -63,10 +54,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         );
         return wrong(&message);
     }
-    let settings = arguments.compute.settings(&case.plan);
-    let sampling = arguments.verdict.sampling();
+    let settings = arguments.study.compute.settings(&case.plan);
+    let sampling = arguments.study.verdict.sampling();
     if let Some(shard) = arguments.shard {
-        let tried = run_study(&arguments.compute, |progress| {
+        let tried = run_study(&arguments.study.compute, |progress| {
             try_orders(&case, &intervals_s, shard, &settings, progress)
         });
         return match tried {
@@ -78,11 +69,13 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             }
         };
     }
-    let ranked = run_study(&arguments.compute, |progress| {
+    let ranked = run_study(&arguments.study.compute, |progress| {
         orders(&case, &intervals_s, sampling.as_ref(), &settings, progress)
     });
     match ranked {
         Err(reason) => failed(&reason),
-        Ok(Found { value: orders, partial }) => print_orders(&case, &orders, partial, arguments.format, look),
+        Ok(Found { value: orders, partial }) => {
+            print_orders(&case, &orders, partial, arguments.study.format, look)
+        }
     }
 }

@@ -9,14 +9,19 @@ use super::status::Status;
 use crate::report::model::Report;
 use crate::report::{csv, json, text};
 
-/// Prints reports, or the JSON document of the same results. Returns their status.
+/// Prints reports, or the JSON document of the same results. Returns their status. Warnings, which text holds, also go to
+/// standard error where nobody would read them else.
 pub fn print<D: Serialize>(
     reports: &[Report],
     document: impl FnOnce() -> D,
     format: FormatArg,
     look: &LookArguments,
 ) -> io::Result<Status> {
-    let style = look.style(io::stdout().is_terminal());
+    let to_terminal = io::stdout().is_terminal();
+    if !(to_terminal && matches!(format, FormatArg::Text)) {
+        print_warnings(reports);
+    }
+    let style = look.style(to_terminal);
     let text = match format {
         FormatArg::Text => reports.iter().map(|report| text::text(report, style)).collect(),
         FormatArg::Json => json::text(&document())?,
@@ -24,6 +29,14 @@ pub fn print<D: Serialize>(
     };
     print_beside_verdict(&text)?;
     Ok(Status::of(reports))
+}
+
+/// Prints the warnings of reports to standard error; of several reports each warning with the title of its report.
+pub fn print_warnings(reports: &[Report]) {
+    for report in reports {
+        let title = if reports.len() > 1 { format!("{}: ", report.title) } else { String::new() };
+        report.warnings.iter().for_each(|warning| eprintln!("warning: {title}{warning}"));
+    }
 }
 
 /// Prints a text beside a verdict: a reader that has gone away changes nothing about the verdict.

@@ -6,7 +6,7 @@ use super::arguments::{FormatArg, LookArguments};
 use super::print::print;
 use super::status::Status;
 use crate::report::json::{OrdersDocument, RiskDocument};
-use crate::report::notes::SWAP;
+use crate::report::warnings::SWAP;
 use crate::report::{orders, risk};
 use crate::study::Case;
 use crate::study::check_all::OptionResults;

@@ -8,7 +8,7 @@ use clap::Args;
 use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments};
 use super::check_plans::{check_plans, print_checks};
 use super::load_plans::open;
-use super::print::print_beside_verdict;
+use super::print::{print_beside_verdict, print_warnings};
 use super::status::{Status, failed, wrong};
 use crate::file;
 use crate::report::{check, html};
@@ -56,7 +56,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     match arguments.format {
         Some(format) => print_checks(&cases, &checked, false, format, look),
         None => {
-            Ok(Status::of(&[check::report(&cases[0], &checked.value[0].results, false, checked.partial)]))
+            let reports = [check::report(&cases[0], &checked.value[0].results, false, checked.partial)];
+            print_warnings(&reports);
+            Ok(Status::of(&reports))
         }
     }
 }

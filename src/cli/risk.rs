@@ -11,7 +11,6 @@ use super::print::print_text;
 use super::print_sharded::print_risks;
 use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
-use crate::report::notes;
 use crate::study::merge::{OptionSample, Question, ShardResults, write_shard};
 use crate::study::sampling::{Sampling, ShotToSample, draw_shard};
 use crate::study::{Case, Found, Shard};
@@ -39,7 +38,6 @@ const MOST_SAMPLES: usize = 20_000_000;
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
-    notes::swaps(&case).iter().for_each(|note| eprintln!("{note}"));
     let sampling = arguments.sampling.exactly(SAMPLES);
     if sampling.most.saturating_mul(case.shots.len()) > MOST_SAMPLES {
         let message =

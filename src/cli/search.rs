@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments};
+use super::arguments::{LookArguments, StudyArguments};
 use super::load_plans::open;
 use super::print::print;
 use super::run_study::run_study;
@@ -25,12 +25,7 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", num_args = 0..=1, default_missing_value = "1", value_parser = clap::value_parser!(u8).range(1..=10))]
     write: Option<u8>,
     #[command(flatten)]
-    verdict: VerdictArguments,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: FormatArg,
-    #[command(flatten)]
-    compute: Compute,
+    study: StudyArguments,
 }
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
@@ -38,13 +33,15 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if arguments.write.is_some() && case.source.path == "-" {
         return wrong("--write has no file to write into: give the plan by its name");
     }
-    let settings = arguments.compute.settings(&case.plan);
-    let sampling = arguments.verdict.sampling();
-    match run_study(&arguments.compute, |progress| search(&case, sampling.as_ref(), &settings, progress)) {
+    let settings = arguments.study.compute.settings(&case.plan);
+    let sampling = arguments.study.verdict.sampling();
+    match run_study(&arguments.study.compute, |progress| {
+        search(&case, sampling.as_ref(), &settings, progress)
+    }) {
         Err(reason) => failed(&reason),
         Ok(Found { value: found, partial }) => {
             let document = || SearchDocument::new(&case, &found, partial);
-            let status = print(&[report(&case, &found, partial)], document, arguments.format, look)?;
+            let status = print(&[report(&case, &found, partial)], document, arguments.study.format, look)?;
             if let Some(count) = arguments.write {
                 write(arguments, &case, &found, count.into())?;
             }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments, intervals};
+use super::arguments::{LookArguments, StudyArguments, intervals};
 use super::load_plans::open;
 use super::print::print;
 use super::run_study::run_study;
@@ -32,8 +32,6 @@ pub struct Arguments {
     /// Delay option that must pass, as often as wanted; default: all
     #[arg(long, value_name = "NAME", conflicts_with = "any_order")]
     option: Vec<String>,
-    #[command(flatten)]
-    verdict: VerdictArguments,
     /// Family of ropes; default: that of [size], else that of the plan's rope, else the whole catalogue
     #[arg(long, value_name = "FAMILY")]
     ropes: Option<String>,
@@ -43,11 +41,8 @@ pub struct Arguments {
     /// Write the choice into the plan
     #[arg(long)]
     write: bool,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: FormatArg,
     #[command(flatten)]
-    compute: Compute,
+    study: StudyArguments,
 }
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
@@ -63,9 +58,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Ok(demand) => demand,
         Err(message) => return wrong(&message),
     };
-    let settings = arguments.compute.settings(&case.plan);
-    let sampling = arguments.verdict.sampling();
-    let sized = run_study(&arguments.compute, |progress| {
+    let settings = arguments.study.compute.settings(&case.plan);
+    let sampling = arguments.study.verdict.sampling();
+    let sized = run_study(&arguments.study.compute, |progress| {
         size(&plan, &demand, sampling.as_ref(), &settings, progress)
     });
     let sizing = match sized {
@@ -73,7 +68,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(reason) => return failed(&reason),
     };
     let document = || SizeDocument::new(&case, &sizing);
-    let status = print(&[report(&case, &sizing)], document, arguments.format, look)?;
+    let status = print(&[report(&case, &sizing)], document, arguments.study.format, look)?;
     if let (Status::Pass, true, Some(found)) = (status, arguments.write, sizing.lightest_choice()) {
         write(arguments, &case, found)?;
     }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments, intervals};
+use super::arguments::{LookArguments, StudyArguments, intervals};
 use super::load_plans::open_option;
 use super::print::print;
 use super::run_study::run_study;
@@ -27,12 +27,7 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME")]
     option: Option<String>,
     #[command(flatten)]
-    verdict: VerdictArguments,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: FormatArg,
-    #[command(flatten)]
-    compute: Compute,
+    study: StudyArguments,
 }
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
@@ -49,16 +44,16 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if arguments.option.is_some() {
         case.holes = Some(case.plan.delays[option].holes);
     }
-    let settings = arguments.compute.settings(&case.plan);
-    let sampling = arguments.verdict.sampling();
-    let swept = run_study(&arguments.compute, |progress| {
+    let settings = arguments.study.compute.settings(&case.plan);
+    let sampling = arguments.study.verdict.sampling();
+    let swept = run_study(&arguments.study.compute, |progress| {
         sweep(&case, &order, &arguments.interval, sampling.as_ref(), &settings, progress)
     });
     match swept {
         Err(reason) => failed(&reason),
         Ok(Found { value: swept, partial }) => {
             let document = || SweepDocument::new(&case, &swept, partial);
-            print(&[report(&case, &swept, partial)], document, arguments.format, look)
+            print(&[report(&case, &swept, partial)], document, arguments.study.format, look)
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use toml_edit::{DocumentMut, Item, Value};
 
-use super::edit::{change_launches, change_section, replace_keys, set, with_line_ends_of};
+use super::edit::{as_number, change_launches, change_section, number, replace_keys, set, with_line_ends_of};
 use super::fields::{self, Path};
-use super::keys::{Key, cable, delay, plan, shelter, uncertainty};
+use super::keys::{cable, delay, plan, shelter, uncertainty};
 use crate::ropes::{Rope, Termination};
 use crate::units::{self, Unit};
 
@@ -110,11 +110,8 @@ impl Change {
 
 /// Sets the slack, and moves the range of slack by as much, not below 0. A range of `0` means exactly the plan's slack.
 fn change_slack(document: &mut DocumentMut, percent: f64) {
-    let read = |table: &Item, key: &Key| {
-        let value = table.get(key.name)?;
-        value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
-    };
-    let old = document.get(plan::CABLE.name).and_then(|cable| read(cable, &cable::SLACK_PERCENT));
+    let section = document.get(plan::CABLE.name).and_then(Item::as_table_like);
+    let old = section.and_then(|section| number(section, cable::SLACK_PERCENT.name));
     let moved = percent - old.unwrap_or(0.0);
     change_section(document, &plan::CABLE, |table| {
         set(table, cable::SLACK_PERCENT.name, rounded(percent).into());
@@ -122,8 +119,7 @@ fn change_slack(document: &mut DocumentMut, percent: f64) {
     let unknown = document.get_mut(plan::UNCERTAINTY.name).and_then(Item::as_table_like_mut);
     let range = unknown.and_then(|table| table.get_mut(uncertainty::SLACK_PERCENT.name));
     for end in range.and_then(Item::as_array_mut).into_iter().flat_map(|range| range.iter_mut()) {
-        let old = end.as_float().or_else(|| end.as_integer().map(|whole| whole as f64));
-        if let Some(old) = old {
+        if let Some(old) = as_number(end) {
             let mut new = Value::from(rounded((old + moved).max(0.0)));
             *new.decor_mut() = end.decor().clone();
             *end = new;

@@ -64,9 +64,7 @@ pub fn add_delays(text: &str, plan: &Plan, delays: &[&DelayOption]) -> Result<St
     let mut document: DocumentMut = text.parse()?;
     let mut names: Vec<String> = plan.delays.iter().map(|delay| delay.name.clone()).collect();
     for &delay in delays {
-        let free = |name: &String| !names.contains(name);
-        let numbered = (2..).map(|n| format!("{} ({n})", delay.name));
-        let name = std::iter::once(delay.name.clone()).chain(numbered).find(free).unwrap_or_default();
+        let name = free_name(&delay.name, |name| names.iter().any(|taken| taken == name));
         let entries = delay_entries(delay, &name, &plan.blast_rows);
         names.push(name);
         match document.entry(keys::plan::DELAY.name).or_insert(Item::ArrayOfTables(ArrayOfTables::new())) {
@@ -84,6 +82,13 @@ pub fn add_delays(text: &str, plan: &Plan, delays: &[&DelayOption]) -> Result<St
         }
     }
     Ok(with_line_ends_of(text, &document))
+}
+
+/// The name itself, or where it is taken `name (2)`, `name (3)`: the first that is not.
+pub fn free_name(name: &str, is_taken: impl Fn(&str) -> bool) -> String {
+    let numbered = (2..).map(|n| format!("{name} ({n})"));
+    let mut all = std::iter::once(name.to_owned()).chain(numbered);
+    all.find(|name| !is_taken(name)).unwrap_or_default()
 }
 
 /// Keys and values of a delay option.
@@ -139,9 +144,13 @@ pub(super) fn replace_keys(table: &mut dyn TableLike, old: &[&Key], key: &Key, n
     }
 }
 
-/// The number of a key, whole or not.
-fn number(table: &dyn TableLike, key: &str) -> Option<f64> {
-    let value = table.get(key)?;
+/// The number of a key.
+pub(super) fn number(table: &dyn TableLike, key: &str) -> Option<f64> {
+    as_number(table.get(key)?.as_value()?)
+}
+
+/// A number, whole or not.
+pub(super) fn as_number(value: &Value) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }
 

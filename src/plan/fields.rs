@@ -2,7 +2,7 @@
 
 use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
 
-use super::edit::with_line_ends_of;
+use super::edit::{as_number, free_name, with_line_ends_of};
 use super::keys::{DefaultValue, Key, Kind, Offered, delay, plan};
 
 /// One value of a plan's text.
@@ -175,22 +175,16 @@ fn names(document: &DocumentMut, section: &str) -> Vec<String> {
 /// Lets the name of a delay option that is its interval, or begins with it, follow the interval: `25 ms, middle first` would be a
 /// lie about 30 ms. `names` are those of all options.
 fn rename_with_interval(table: &mut dyn TableLike, interval: &Value, names: &[String]) {
-    let written = |value: &Value| {
-        let number = value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));
-        number.map(|number| format!("{number} ms"))
-    };
+    let written = |value: &Value| as_number(value).map(|number| format!("{number} ms"));
     let old = table.get(delay::INTERVAL_MS.name).and_then(Item::as_value).and_then(written);
     let name = table.get(delay::NAME.name).and_then(Item::as_str);
     let (Some(old), Some(new), Some(name)) = (old, written(interval), name) else { return };
     let Some(rest) = name.strip_prefix(&old).filter(|rest| !rest.starts_with(char::is_alphanumeric)) else {
         return;
     };
-    let new = format!("{new}{rest}");
-    let is_free = |new: &String| new == name || !names.contains(new);
-    let numbered = (2..).map(|n| format!("{new} ({n})"));
-    if let Some(free) = std::iter::once(new.clone()).chain(numbered).find(is_free) {
-        super::edit::set(table, delay::NAME.name, free.into());
-    }
+    let is_taken = |new: &str| new != name && names.iter().any(|taken| taken == new);
+    let new = free_name(&format!("{new}{rest}"), is_taken);
+    super::edit::set(table, delay::NAME.name, new.into());
 }
 
 fn table_mut<'d>(document: &'d mut DocumentMut, path: &Path) -> Option<&'d mut dyn TableLike> {
@@ -213,7 +207,7 @@ pub fn copy_delay(text: &str, index: usize) -> Option<String> {
     let name = |table: &Table| table.get("name").and_then(Item::as_str).unwrap_or_default().to_owned();
     let names: Vec<String> = all.iter().map(name).collect();
     let mut copy = all.get(index)?.clone();
-    let new = (2..).map(|n| format!("{} ({n})", names[index])).find(|new| !names.contains(new))?;
+    let new = free_name(&names[index], |new| names.iter().any(|taken| taken == new));
     super::edit::set(&mut copy, "name", Value::from(new));
     copy.decor_mut().set_prefix("\n");
     all.insert(index + 1, copy);

@@ -74,7 +74,7 @@ pub fn report(case: &Case, study: &AccuracyTable, paper: &[(Method, Vec<PaperRow
         title: format!("{}, option {}", case.title(), case.plan.delays[study.option].name),
         facts: vec![format!("errors against verlet at {reference}; times on this machine, one thread")],
         blocks,
-        conclusion: None,
+        ..Report::default()
     }
 }
 

@@ -1,13 +1,10 @@
 //! `check` as a report: one row a delay option.
 
-use std::iter;
-
-use super::cover::covers;
 use super::explain::{self, broken, compute_label, launch_margin, reason, risk_detail};
 use super::model::{Block, Cell, Column, Conclusion, Detail, Field, Report, Shown, Table};
 use super::option_row::{OptionRow, option_rows};
 use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
-use super::{no_result, report_head};
+use super::{no_result, report_head, warnings};
 use crate::study::Case;
 use crate::study::check::Checked;
 use crate::study::check_all::{OptionResults, verdict_on_plan};
@@ -164,13 +161,11 @@ pub fn report(case: &Case, results: &OptionResults, any: bool, partial: bool) ->
     if let Some(judged) = results.iter().flatten().next() {
         text += &format!(" · {}", compute_label(&judged.as_planned.compute));
     }
-    let warnings = covers(case, results);
-    let warnings = (!warnings.is_empty()).then_some(Block::Text(warnings));
-    Report {
-        blocks: iter::once(Block::Table(table)).chain(warnings).collect(),
-        conclusion: Some(Conclusion { verdict: verdict_on_plan(results, any), text }),
-        ..report_head(case, sampled)
-    }
+    let mut report = report_head(case, sampled);
+    report.blocks.push(Block::Table(table));
+    report.warnings.extend(warnings::of_options(case, results));
+    report.conclusion = Some(Conclusion { verdict: verdict_on_plan(results, any), text });
+    report
 }
 
 /// A value of the shot as planned, with no more digits than its error leaves.

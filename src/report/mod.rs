@@ -4,7 +4,7 @@
 //! |---|---|
 //! | what a report is | [`model`] |
 //! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`why`], [`accuracy`], [`ropes`], [`trace`] |
-//! | words, charts and columns that reports share | [`explain`], [`limits`], [`no_result`], [`notes`], [`cover`], [`charts`], [`shared_columns`], rows of options |
+//! | words, charts and columns that reports share | [`explain`], [`limits`], [`no_result`], [`notes`], [`warnings`], [`charts`], [`shared_columns`], rows of options |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |
 //! | what faces share | [`palette`], [`ascii`], [`spark`], labels of cells |
 //!
@@ -14,7 +14,6 @@ pub mod accuracy;
 pub mod ascii;
 pub mod charts;
 pub mod check;
-pub mod cover;
 pub mod csv;
 pub mod effects;
 pub mod explain;
@@ -39,6 +38,7 @@ pub mod spark;
 pub mod sweep;
 pub mod text;
 pub mod trace;
+pub mod warnings;
 pub mod why;
 
 use self::model::Report;
@@ -82,7 +82,8 @@ fn report_head(case: &Case, sampled: bool) -> Report {
     facts += &accepted_risk(case, sampled);
     Report {
         title: title(case),
-        facts: [facts].into_iter().chain(notes::effects(plan)).chain(notes::ranges(case)).collect(),
+        facts: [facts].into_iter().chain(notes::effects(plan)).collect(),
+        warnings: warnings::of_plan(case),
         ..Report::default()
     }
 }

@@ -16,6 +16,8 @@ pub struct Report {
     pub facts: Vec<String>,
     /// Results, from top to bottom.
     pub blocks: Vec<Block>,
+    /// What a reader must know beside the results, one sentence each.
+    pub warnings: Vec<String>,
     /// What the results come to; always the last line.
     pub conclusion: Option<Conclusion>,
 }

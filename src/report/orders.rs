@@ -6,7 +6,7 @@ use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
     probability, sampled,
 };
-use super::{notes, report_head, row_names};
+use super::{notes, report_head, row_names, warnings};
 use crate::study::Case;
 use crate::study::orders::{Orders, TriedOrder};
 use crate::study::risk_summary::RiskSummary;
@@ -66,6 +66,10 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
         false => format!("{all} orders searched: the worst may not be among them, worst first"),
     };
     let mut heads: Vec<String> = [head].into_iter().chain(notes::holes(case)).collect();
+    let own = case.intervals();
+    if orders.ranked.iter().all(|tried| own.contains(&tried.interval)) {
+        heads.extend(notes::orders(case));
+    }
     if orders.has_risk() {
         heads.push(RANKING.to_owned());
     }
@@ -93,9 +97,12 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
         text += &format!("; the best: {}, {}", orders.verdict_on(n).label(), sampled(risk));
     }
     let picture = charts::orders(case, orders);
-    Report {
-        blocks: vec![Block::Text(heads), Block::Table(table), Block::Picture(picture)],
-        conclusion: Some(Conclusion { verdict, text }),
-        ..report_head(case, orders.has_risk())
-    }
+    let tried = orders.ranked.iter().map(|tried| &tried.as_planned);
+    let best = orders.ranked.last().map(|best| &best.as_planned);
+    let mut report = report_head(case, orders.has_risk());
+    report.blocks = vec![Block::Text(heads), Block::Table(table), Block::Picture(picture)];
+    report.warnings.extend(warnings::count_uncovered("orders and intervals", tried));
+    report.warnings.extend(warnings::uncovered_shot("the best order", best));
+    report.conclusion = Some(Conclusion { verdict, text });
+    report
 }

@@ -5,13 +5,12 @@ use super::check::complete_rows;
 use super::explain::{compute_label, inputs};
 use super::model::{Block, Cell, Column, Conclusion, Field, Report, Table};
 use super::option_row::{OptionRow, option_rows};
-use super::report_head;
 use super::shared_columns::{FAILURES, VERDICT};
+use super::{report_head, warnings};
 use crate::study::Case;
 use crate::study::check_all::{OptionResults, verdict_on_plan};
 use crate::study::sampling::Sampling;
-use crate::study::swaps::Swap;
-use crate::units::{self, Unit};
+use crate::units::Unit;
 use crate::verdict::{Quantity, Verdict};
 
 const SPREAD: &str = "5 · 50 · 95 % · max";
@@ -72,17 +71,9 @@ pub fn report(case: &Case, results: &OptionResults, sampling: &Sampling, partial
     if let Some(judged) = results.iter().flatten().next() {
         text += &format!(" · {}", compute_label(&judged.as_planned.compute));
     }
-    let conclusion = Some(Conclusion { verdict: verdict_on_plan(results, false), text });
-    Report { blocks, conclusion, ..report_head(case, true) }
-}
-
-/// The warning that two blast rows may fire in the wrong order.
-pub fn swap_warning(case: &Case, swap: &Swap) -> String {
-    let [first, second] = swap.rows.map(|row| &case.plan.blast_rows[row].name);
-    format!(
-        "option {}: {} between rows {first} and {second} is short for the scatter of the detonators; a given hole of row {second} fires before a given hole of row {first} with a probability of {}",
-        case.plan.delays[swap.option].name,
-        units::exact_milliseconds(swap.interval),
-        units::percent(swap.probability, 2),
-    )
+    let mut report = report_head(case, true);
+    report.blocks = blocks;
+    report.warnings.extend(warnings::of_options(case, results));
+    report.conclusion = Some(Conclusion { verdict: verdict_on_plan(results, false), text });
+    report
 }

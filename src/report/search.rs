@@ -4,12 +4,11 @@ use super::check::{
     FORCE_BAND, HEIGHT_BAND, LAUNCH_MARGIN, NOMINAL_FORCE, NOMINAL_HEIGHT, band, complete_rows, meaning,
     planned,
 };
-use super::cover::covers;
 use super::explain::{compute_label, launch_margin, together};
 use super::model::{Block, Cell, Column, Conclusion, Field, Offer, Report, Shown, Table};
 use super::option_row::{OptionRow, option_rows};
 use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
-use super::{charts, report_head, row_names};
+use super::{charts, report_head, row_names, warnings};
 use crate::study::Case;
 use crate::study::judgement::Judgement;
 use crate::study::search::{FrontPoint, Schedule, Search, duration};
@@ -88,10 +87,6 @@ pub fn report(case: &Case, search: &Search, partial: bool) -> Report {
     if !search.results.is_empty() {
         blocks.push(Block::Table(table));
     }
-    let warnings = covers(&search.case, &search.results);
-    if !warnings.is_empty() {
-        blocks.push(Block::Text(warnings));
-    }
     if search.front.len() > 1 {
         blocks.push(Block::Text(front(case, &search.front)));
         blocks.push(Block::Picture(charts::front(case, &search.front)));
@@ -106,11 +101,11 @@ pub fn report(case: &Case, search: &Search, partial: bool) -> Report {
     if let Some(judged) = search.results.iter().flatten().next() {
         text += &format!(" · {}", compute_label(&judged.as_planned.compute));
     }
-    Report {
-        blocks,
-        conclusion: Some(Conclusion { verdict: search.verdict(), text }),
-        ..report_head(case, sampled)
-    }
+    let mut report = report_head(case, sampled);
+    report.blocks = blocks;
+    report.warnings.extend(warnings::of_options(&search.case, &search.results));
+    report.conclusion = Some(Conclusion { verdict: search.verdict(), text });
+    report
 }
 
 /// How many schedules there are, how many were judged, and how sure it is that none better was missed.

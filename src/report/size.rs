@@ -5,7 +5,7 @@ use super::limits::limits_of_any_rope;
 use super::model::{Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
 use super::no_result::FINER;
 use super::shared_columns::{FORCE, HEIGHT, force, height};
-use super::{accepted_risk, title};
+use super::{accepted_risk, title, warnings};
 use crate::study::Case;
 use crate::study::size::{Combination, SampledRisk, Sizing, Trial, Untried};
 use crate::units::{self, Unit};
@@ -84,9 +84,12 @@ pub fn report(case: &Case, sizing: &Sizing) -> Report {
     } else if let Some((combination, trial)) = nearest(sizing) {
         blocks.push(Block::Text(vec![format!("nearest: {}", sentence(combination, &trial))]));
     }
+    let lightest = sizing.lightest_choice().and_then(|found| found.trial.ok());
+    let mut warnings = warnings::of_plan(case);
+    warnings.extend(warnings::uncovered_shot("the lightest", lightest.as_ref().map(|trial| &trial.worst)));
     blocks.push(Block::Table(Table::of(&combinations(), &sizing.combinations)));
     blocks.push(Block::Picture(charts::size(sizing)));
-    Report { title: title(case), facts, blocks, conclusion: Some(conclusion(sizing)) }
+    Report { title: title(case), facts, blocks, warnings, conclusion: Some(conclusion(sizing)) }
 }
 
 /// How many combinations were tried, and why the others were not.

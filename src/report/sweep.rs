@@ -6,10 +6,10 @@ use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
     probability, sampled,
 };
-use super::{notes, report_head, row_names};
-use crate::study::Case;
+use super::{notes, report_head, row_names, warnings};
 use crate::study::search::Schedule;
 use crate::study::sweep::{Point, Recommended, Sweep};
+use crate::study::{Case, JudgedShot};
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
@@ -52,7 +52,15 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
         blocks.push(Block::Table(table_of_windows(case, sweep)));
     }
     blocks.push(Block::Table(Table::of(&points(), &sweep.points)));
-    Report { blocks, conclusion: Some(conclusion(sweep, partial)), ..report_head(case, sweep.has_risk()) }
+    let passing = sweep.points.iter().map(|point| &point.as_planned);
+    let passing: Vec<&JudgedShot> = passing.filter(|shot| shot.verdict == Verdict::Pass).collect();
+    let best = sweep.best().map(|point| &point.as_planned);
+    let mut report = report_head(case, sweep.has_risk());
+    report.blocks = blocks;
+    report.warnings.extend(warnings::count_uncovered("intervals that pass as planned", passing.into_iter()));
+    report.warnings.extend(warnings::uncovered_shot("the recommended interval", best));
+    report.conclusion = Some(conclusion(sweep, partial));
+    report
 }
 
 fn table_of_ends(case: &Case, sweep: &Sweep) -> Table {
@@ -231,7 +239,6 @@ fn conclusion(sweep: &Sweep, partial: bool) -> Conclusion {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::JudgedShot;
     use crate::study::sampled::Sampled;
 
     #[test]

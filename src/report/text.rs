@@ -47,6 +47,7 @@ pub fn text(report: &Report, style: Style) -> String {
         }
         after_chart = matches!(block, Block::Chart(_));
     }
+    paragraphs.push(report.warnings.iter().map(|warning| format!("warning: {warning}")).collect());
     if let Some(conclusion) = &report.conclusion {
         paragraphs.push(vec![format!("{}: {}", colored(conclusion.verdict, style), conclusion.text)]);
     }

@@ -1,6 +1,8 @@
 //! The state of the cover over each hole as it fires: a tire that is in the air then, or no longer over its hole, still gets
 //! the whole launch in the model.
 
+use serde::{Deserialize, Serialize};
+
 use super::Case;
 use crate::scene::Firing;
 use crate::simulation::Motion;
@@ -11,7 +13,7 @@ const IN_AIR: f64 = 0.01;
 const ASIDE: f64 = 0.5;
 
 /// The cover over the holes of a shot, each at its firing time.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cover {
     /// Number of holes.
     pub holes: usize,
@@ -21,6 +23,11 @@ pub struct Cover {
     pub height: f64,
     /// Greatest shift of a tire over a hole that fires [m].
     pub shift: f64,
+}
+
+impl Cover {
+    /// The cover over no hole.
+    pub const NONE: Self = Self { holes: 0, uncovered: 0, height: 0.0, shift: 0.0 };
 }
 
 /// Sees a run, and notes the cover over its holes.
@@ -35,7 +42,7 @@ impl<'s> CoverWatch<'s> {
     /// Watch of a run of `firings` at a `step` [s].
     pub fn new(case: &Case, firings: &'s [Firing], step: f64) -> Self {
         let aside = ASIDE * case.plan.layout.widest_tie();
-        Self { firings, step, aside, cover: Cover::default() }
+        Self { firings, step, aside, cover: Cover::NONE }
     }
 
     /// Notes the tires over the holes that fire within the step that begins now.

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::check::Checked;
+use super::cover::Cover;
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
 /// A computed value and its estimated error, one-sided, both in the same SI unit.
@@ -43,6 +44,8 @@ pub struct JudgedShot {
     pub force: ValueWithError,
     /// Greatest drift at the end [m].
     pub drift: ValueWithError,
+    /// The cover over each hole as it fires.
+    pub cover: Cover,
 }
 
 impl JudgedShot {
@@ -52,17 +55,18 @@ impl JudgedShot {
         height: ValueWithError::UNKNOWN,
         force: ValueWithError::UNKNOWN,
         drift: ValueWithError::UNKNOWN,
+        cover: Cover::NONE,
     };
 
     /// The numbers of a checked shot.
     pub fn of(checked: &Checked) -> Self {
-        Self::new(checked.verdict, [checked.height, checked.force, checked.drift])
+        Self::new(checked.verdict, [checked.height, checked.force, checked.drift], checked.cover)
     }
 
-    /// A verdict with its height, force and drift, in this order.
-    pub fn new(verdict: Verdict, estimates: [Estimate; 3]) -> Self {
+    /// A verdict with its height, force and drift, in this order, and the cover.
+    pub fn new(verdict: Verdict, estimates: [Estimate; 3], cover: Cover) -> Self {
         let [height, force, drift] = estimates.map(ValueWithError::from);
-        Self { verdict, height, force, drift }
+        Self { verdict, height, force, drift, cover }
     }
 
     /// The same shot with `times` every error added to its value, and no error left.

@@ -1,6 +1,6 @@
 //! Draws the shots that `[uncertainty]` describes.
 //!
-//! A sample is a variant of the scene and a shot. Every draw follows from the seed, the number of the sample, and its place:
+//! A sample is a variant of the scene and a shot. Every draw follows from the seed, the number of the sample, and what it is for:
 //! an input of the whole shot, a gap between blast rows, a blast row, a tire, or a cable. So a sample does not depend on threads,
 //! shards, accuracy or the order of options, and the options of a plan are compared on the same draws.
 //!
@@ -58,12 +58,12 @@ pub struct RandomShot {
     pub inputs: [f64; Input::ALL.len()],
 }
 
-/// The random numbers of one sample, kept apart by place.
+/// The random numbers of one sample, kept apart by what they are for.
 struct Random(ChaCha8Rng);
 
-/// A place of draws within a sample.
+/// What draws within a sample are for.
 #[derive(Clone, Copy)]
-enum Place {
+enum Draws {
     WholeShot,
     Gaps,
     BlastRow(usize),
@@ -78,14 +78,14 @@ impl Random {
         Self(random)
     }
 
-    /// Moves to the draws of a place. A tire has room for a hundred thousand holes.
-    fn at(&mut self, place: Place) -> &mut ChaCha8Rng {
-        let word = match place {
-            Place::WholeShot => 0,
-            Place::Gaps => 1 << 32,
-            Place::BlastRow(row) => (1 << 40) + ((row as u128) << 20),
-            Place::Tire(tire) => (1 << 44) + ((tire as u128) << 20),
-            Place::Cable(cable) => (1 << 60) + ((cable as u128) << 6),
+    /// Moves to the random numbers of these draws. A tire has room for a hundred thousand holes.
+    fn at(&mut self, draws: Draws) -> &mut ChaCha8Rng {
+        let word = match draws {
+            Draws::WholeShot => 0,
+            Draws::Gaps => 1 << 32,
+            Draws::BlastRow(row) => (1 << 40) + ((row as u128) << 20),
+            Draws::Tire(tire) => (1 << 44) + ((tire as u128) << 20),
+            Draws::Cable(cable) => (1 << 60) + ((cable as u128) << 6),
         };
         self.0.set_word_pos(word);
         &mut self.0
@@ -106,7 +106,7 @@ fn normal(random: &mut ChaCha8Rng) -> f64 {
 pub fn draw(case: &Case, nominal: &Shot, seed: u64, number: usize) -> RandomShot {
     let unknown = &case.plan.uncertainty;
     let mut random = Random::new(seed, number);
-    let whole = random.at(Place::WholeShot);
+    let whole = random.at(Draws::WholeShot);
     let launch_common = factor(whole, unknown.launch_common_percent);
     let mut between = |[low, high]: [f64; 2]| low + (high - low) * whole.random::<f64>();
     let friction = between(unknown.friction);
@@ -125,7 +125,7 @@ pub fn draw(case: &Case, nominal: &Shot, seed: u64, number: usize) -> RandomShot
         *cable = Cable { rest_length: cable.rest_length * length, stiffness, ..*cable };
     }
     if unknown.breaking_force_cv_percent > 0.0 {
-        let strength = |cable| factor(random.at(Place::Cable(cable)), unknown.breaking_force_cv_percent);
+        let strength = |cable| factor(random.at(Draws::Cable(cable)), unknown.breaking_force_cv_percent);
         scene.strength = (0..scene.cables.len()).map(strength).collect();
     }
     if unknown.tire_mass_cv_percent > 0.0 || unknown.breaking_force_cv_percent > 0.0 {
@@ -147,10 +147,10 @@ fn scatter_gaps(firings: &mut [Firing], unknown: &Uncertainty, random: &mut Rand
     let mut by_start: Vec<&[usize]> = holes.iter().map(Vec::as_slice).filter(|row| !row.is_empty()).collect();
     by_start.sort_by(|a, b| firings[a[0]].at.total_cmp(&firings[b[0]].at));
     let starts: Vec<f64> = by_start.iter().map(|row| firings[row[0]].at).collect();
-    let scattered_starts = scatter_chain(&starts, unknown, random.at(Place::Gaps));
+    let scattered_starts = scatter_chain(&starts, unknown, random.at(Draws::Gaps));
     for (row, start) in by_start.into_iter().zip(scattered_starts) {
         let first = firings[row[0]].at;
-        let random = random.at(Place::BlastRow(firings[row[0]].row));
+        let random = random.at(Draws::BlastRow(firings[row[0]].row));
         for side in sides(row, firings) {
             let planned: Vec<f64> = [first].into_iter().chain(side.iter().map(|&n| firings[n].at)).collect();
             let scattered = scatter_chain(&planned, unknown, random);
@@ -203,7 +203,7 @@ fn scatter_tires(
     let in_hole = unknown.in_hole_deviation();
     let tilt = unknown.launch_tilt_deg.to_radians();
     for (tire, mass) in scene.mass.iter_mut().enumerate() {
-        let random = random.at(Place::Tire(tire));
+        let random = random.at(Draws::Tire(tire));
         let heavier = factor(random, unknown.tire_mass_cv_percent);
         *mass *= heavier;
         for &hole in &above[tire] {

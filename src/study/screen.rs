@@ -6,12 +6,14 @@
 //! of the coarse runs succeed, the shot is checked instead.
 
 use super::batch::judge_shot;
+use super::cover::{Cover, CoverWatch};
 use super::ladder::peaks;
 use super::reason::{Reason, find_reasons_as_planned};
 use super::{Case, ComputeSettings, JudgedShot, NoResult, Progress, step_error};
 use crate::choice::Accuracy;
 use crate::outcome::Outcome;
 use crate::scene::Shot;
+use crate::simulation::Motion;
 use crate::verdict::Verdict;
 
 /// Number of steps above the first step of `field`: the coarsest is 8 times that, with `verlet` at most 0.8 of the critical
@@ -51,7 +53,12 @@ pub fn screen_until(
     let mut runs: Vec<Outcome> = Vec::new();
     loop {
         let is_last = step < 1.01 * last;
-        match case.model.run(shot, &case.settings(compute.method, step), &mut |_| progress.flow()) {
+        let mut cover = CoverWatch::new(case, &shot.firings, step);
+        let watch = &mut |motion: &dyn Motion| {
+            cover.see(motion);
+            progress.flow()
+        };
+        match case.model.run(shot, &case.settings(compute.method, step), watch) {
             Ok(outcome) => runs.push(outcome),
             Err(failure) if failure.needs_finer_step() && !is_last => {}
             Err(failure) => return Err(progress.no_result(failure)),
@@ -60,7 +67,7 @@ pub fn screen_until(
             return judge_shot(case, shot, compute, progress);
         }
         if runs.len() > 1 {
-            let screened = judge(case, shot, &runs);
+            let screened = judge(case, shot, &runs, cover.cover());
             if is_last || enough(&screened, runs.len()) {
                 return Ok(screened);
             }
@@ -69,12 +76,12 @@ pub fn screen_until(
     }
 }
 
-/// The last run judged, with the runs before as its neighbours.
-fn judge(case: &Case, shot: &Shot, runs: &[Outcome]) -> JudgedShot {
+/// The last run judged, with the runs before as its neighbours and the cover it saw.
+fn judge(case: &Case, shot: &Shot, runs: &[Outcome], cover: Cover) -> JudgedShot {
     let all: Vec<&Outcome> = runs.iter().collect();
     let estimates = peaks(&all, &[]);
     let reasons = find_reasons_as_planned(case, shot, all[all.len() - 1], estimates);
-    JudgedShot::new(Verdict::worst(reasons.iter().map(Reason::verdict)), estimates)
+    JudgedShot::new(Verdict::worst(reasons.iter().map(Reason::verdict)), estimates, cover)
 }
 
 /// Whether the values of a screen of `runs` runs lie so far from all limits that its verdict stands.

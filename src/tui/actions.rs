@@ -235,7 +235,7 @@ impl App {
     /// where there are no such rows, or the action is another.
     fn act_on_offers(&mut self, action: Action) -> Option<Request> {
         let finished = self.studies.finished(self.studies.shown)?;
-        let found = lines(&finished.report, &[], &self.studies.filter, self.theme, u16::MAX);
+        let found = lines(&finished.report, &self.studies.filter, self.theme, u16::MAX);
         let count = found.offers.len().max(1);
         let at = self.studies.selected.min(count - 1);
         let to = match action {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::jobs::{StudyKind, StudyResult};
 use crate::report::model::{Block, Report};
-use crate::report::{self, charts, notes};
+use crate::report::{self, charts};
 use crate::study::flight::Flight;
 use crate::study::why::WouldPass;
 use crate::study::{Case, ComputeSettings, NoResult};
@@ -38,39 +38,33 @@ pub struct ShownStudy {
     pub compute: ComputeSettings,
     /// The result as the screen draws it.
     pub report: Report,
-    /// Notes that commands print beside the report.
-    pub notes: Vec<String>,
 }
 
 impl ShownStudy {
     /// Makes the report of a result.
     pub fn new(case: &Case, compute: ComputeSettings, found: Box<StudyResult>) -> Self {
-        let (report, notes) = match &*found {
-            StudyResult::Sweep(sweep) => (report::sweep::report(case, sweep, false), Vec::new()),
-            StudyResult::Orders(orders) => {
-                (report::orders::report(case, orders, false), notes::orders(case).into_iter().collect())
-            }
-            StudyResult::Risk(sampling, results) => {
-                (report::risk::report(case, results, sampling, false), notes::swaps(case))
-            }
-            StudyResult::Search(search) => (report::search::report(case, search, false), Vec::new()),
-            StudyResult::Effects(effects) => (report::effects::report(case, effects, false), Vec::new()),
-            StudyResult::Size(sizing) => (report::size::report(case, sizing), Vec::new()),
+        let report = match &*found {
+            StudyResult::Sweep(sweep) => report::sweep::report(case, sweep, false),
+            StudyResult::Orders(orders) => report::orders::report(case, orders, false),
+            StudyResult::Risk(sampling, results) => report::risk::report(case, results, sampling, false),
+            StudyResult::Search(search) => report::search::report(case, search, false),
+            StudyResult::Effects(effects) => report::effects::report(case, effects, false),
+            StudyResult::Size(sizing) => report::size::report(case, sizing),
             StudyResult::Why(would_pass) => {
                 let blocks = report::why::blocks(case, std::slice::from_ref(would_pass));
-                (Report { blocks, ..Report::default() }, Vec::new())
+                Report { blocks, ..Report::default() }
             }
-            StudyResult::Accuracy(study) => (report::accuracy::report(case, study, &[]), Vec::new()),
+            StudyResult::Accuracy(study) => report::accuracy::report(case, study, &[]),
             StudyResult::Flight(flight) => {
                 let history = &flight.outcome.history;
                 let mut report = report::trace::history(history);
                 report
                     .blocks
                     .extend(charts::history(case, history, &case.shots[flight.option]).map(Block::Picture));
-                (report, Vec::new())
+                report
             }
         };
-        Self { found, compute, report, notes }
+        Self { found, compute, report }
     }
 }
 

@@ -55,7 +55,7 @@ pub fn checked(verdict: Verdict) -> Checked {
         force,
         drift: estimate(0.321, 0.01, 1.3, 9),
         safety_factor: 1.49,
-        cover: Cover::default(),
+        cover: Cover::NONE,
         history: History {
             width: 0.005,
             height: (0..200).map(wave).collect(),
@@ -161,7 +161,13 @@ pub fn swept() -> StudyResult {
         let force = ValueWithError { value: 76_000.0 * share, error: 250.0 };
         Point {
             interval: n as f64 * 0.01,
-            as_planned: JudgedShot { verdict, height, force, drift: ValueWithError::default() },
+            as_planned: JudgedShot {
+                verdict,
+                height,
+                force,
+                drift: ValueWithError::default(),
+                cover: Cover::NONE,
+            },
             risk: Sampled::NotAsked,
         }
     };
@@ -219,6 +225,7 @@ fn judged_shot(share: f64) -> JudgedShot {
         height: ValueWithError { value: 1.8 * share, error: 0.01 },
         force: ValueWithError { value: 61_000.0 * share, error: 250.0 },
         drift: ValueWithError::default(),
+        cover: Cover::NONE,
     }
 }
 

@@ -21,6 +21,8 @@ use shelter::study::{Case, ComputeSettings, Intervals, Shard};
 use shelter::study::{JudgedShot, Progress};
 use shelter::verdict::Verdict;
 
+use super::support::shelter;
+
 /// A shelter with `rows` blast rows in the middle of 6 × 4 tires, and more keys.
 fn plan(rows: usize, more: &str) -> Plan {
     let mut text = format!(
@@ -427,16 +429,18 @@ fn the_lightest_shelter_is_that_of_brute_force() {
     assert!(margins.windows(2).all(|pair| pair[1] < pair[0]), "{margins:?}");
 }
 
-/// A row fired twice, 0.3 s apart, with tires that fly apart from each other: at the second hole each is V₀ t − g t²/2 high.
-#[test]
-fn holes_under_tires_in_the_air_are_counted() {
-    let text = "shelter = { layout = \"grid\", rows = 1, columns = 2, spacing_m = 2 }\ntire = { mass_kg = 280 }\n\
+/// A row of two tires fired twice, 0.3 s apart or 3 s.
+const FIRED_TWICE: &str = "shelter = { layout = \"grid\", rows = 1, columns = 2, spacing_m = 2 }\ntire = { mass_kg = 280 }\n\
                 cable = { axial_stiffness_kn = 1000, breaking_force_kn = 60, slack_percent = 3 }\n\
                 ground = { friction = 0.5 }\nlimits = { flight_height_m = 9, cable_safety_factor = 1 }\n\
                 blast_row = [{ name = \"1\", under_row = 1, launch_m_s = 6 }, \
                              { name = \"2\", under_row = 1, launch_m_s = 1, tilt_deg = 30 }]\n\
                 delay = [{ name = \"again\", interval_ms = 300 }, { name = \"late\", interval_ms = 3000 }]\n";
-    let case = Case::new(Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+
+/// With tires that fly apart from each other: at the second hole each is V₀ t − g t²/2 high.
+#[test]
+fn holes_under_tires_in_the_air_are_counted() {
+    let case = Case::new(Plan::parse("", FIRED_TWICE).unwrap_or_else(|mistakes| panic!("{mistakes}")));
     let compute = ComputeSettings::of(&case.plan);
     let [again, late] = [0, 1].map(|option| case.check_as_planned(option, &compute).expect("a result"));
     assert_eq!((again.cover.holes, again.cover.uncovered, again.cover.shift), (4, 2, 0.0));
@@ -444,6 +448,29 @@ fn holes_under_tires_in_the_air_are_counted() {
     // The tires fly for up to a step longer.
     assert!((again.cover.height - height).abs() <= 3.1 * again.step, "{:?}", again.cover);
     assert_eq!((late.cover.uncovered, late.cover.height), (0, 0.0));
+}
+
+/// The model gives a tire in the air the whole launch: whoever reads a result of any study must learn that.
+#[test]
+fn every_study_warns_of_holes_under_tires_in_the_air() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("twice.toml");
+    let sizes = "size = { tire_mass_kg = [280], ropes = \"GOST 2688-80\" }\n";
+    std::fs::write(&path, format!("{FIRED_TWICE}{sizes}")).expect("written");
+    let path = path.to_str().expect("UTF-8");
+    for arguments in [
+        vec!["check", path],
+        vec!["sweep", path, "--interval", "280..300:20"],
+        vec!["orders", path, "--interval", "300..300:1"],
+        vec!["search", path],
+        vec!["size", path, "--option", "again"],
+        vec!["report", path, "--output", "-"],
+    ] {
+        let output = shelter(&[&arguments[..], &["--nominal", "--accuracy", "draft"]].concat());
+        let told = [&output.stdout, &output.stderr].map(|told| String::from_utf8_lossy(told).into_owned());
+        let told_of_holes = |told: &String| told.contains("fire under a tire in the air");
+        assert!(told.iter().all(told_of_holes), "{arguments:?}: {told:?}");
+    }
 }
 
 /// Two rows 20 ms apart: the gap between them scatters by 10 ms, and so does each hole: with √3 × 10 ms the probability is

@@ -86,8 +86,8 @@ pub fn page(
                     }
                     @for block in &report.blocks {
                         @if let Block::Table(options) = block { (table::table(options)) }
-                        @if let Block::Text(warnings) = block { @for warning in warnings { p { (warning) } } }
                     }
+                    @for warning in &report.warnings { p { strong { "Warning: " } (warning) } }
                 }
                 @for ((delay, shot), result) in plan.delays.iter().zip(&case.shots).zip(results) {
                     @if let Ok(judged) = result {

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::LimitsObject;
-use crate::report::risk::swap_warning;
+use crate::report::warnings;
 use crate::study::check_all::{OptionResults, verdict_on_plan};
 use crate::study::influence;
 use crate::study::judgement::Judgement;
@@ -110,7 +110,7 @@ impl RiskDocument {
             samples: sampling.most,
             seed: sampling.seed,
             options: options.map(|(delay, result)| SampledOption::new(case, &delay.name, result)).collect(),
-            warnings: swaps.iter().map(|swap| swap_warning(case, swap)).collect(),
+            warnings: swaps.iter().map(|swap| warnings::swap(case, swap)).collect(),
         }
     }
 }

@@ -28,7 +28,7 @@ use super::margin::LaunchMargin;
 use super::risk::Risk;
 use super::sampling::Sampling;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress};
-use crate::plan::{DelayOption, Plan};
+use crate::plan::{DelayOption, Plan, edit};
 use crate::verdict::Verdict;
 
 /// Greatest number of schedules that are all judged.
@@ -266,10 +266,8 @@ fn free_name(case: &Case, schedule: &Schedule) -> DelayOption {
     if let Some(old) = case.plan.delays.iter().find(|old| old.fires_like(&new)) {
         return DelayOption { name: old.name.clone(), ..new };
     }
-    let is_free = |name: &String| case.plan.delays.iter().all(|old| old.name != *name);
-    let numbered = (2..).map(|n| format!("{} ({n})", new.name));
-    let name = std::iter::once(new.name.clone()).chain(numbered).find(is_free);
-    DelayOption { name: name.unwrap_or_default(), ..new }
+    let name = edit::free_name(&new.name, |name| case.plan.delays.iter().any(|old| old.name == name));
+    DelayOption { name, ..new }
 }
 
 /// Judges schedules as delay options of their own plan.

@@ -155,8 +155,8 @@ pub struct Choices<'c> {
     intervals_ms: Vec<f64>,
     /// Number of gaps chosen by themselves.
     free_gaps: usize,
-    /// Place of each blast row among all, across the rows (`n_blast_rows`).
-    place: Vec<usize>,
+    /// Rank of each blast row among all, counted across the rows (`n_blast_rows`).
+    rank_across: Vec<usize>,
 }
 
 impl<'c> Choices<'c> {
@@ -174,12 +174,12 @@ impl<'c> Choices<'c> {
         }
         let gaps = rows - 1;
         let free_gaps = if spec.equal_intervals { gaps.min(1) } else { gaps };
-        Ok(Self { case, intervals_ms, free_gaps, place: places(case) })
+        Ok(Self { case, intervals_ms, free_gaps, rank_across: ranks_across(case) })
     }
 
     /// Number of schedules, before limits and mirror images; `usize::MAX` where there are more.
     pub fn count(&self) -> usize {
-        let rows = self.place.len();
+        let rows = self.rank_across.len();
         let orders = match self.case.plan.search.orders {
             SearchedOrders::All => (1..=rows).fold(1, usize::saturating_mul),
             SearchedOrders::Listed => 1,
@@ -191,7 +191,7 @@ impl<'c> Choices<'c> {
 
     /// All of them.
     pub fn all(&self) -> Vec<Candidate> {
-        let rows = self.place.len();
+        let rows = self.rank_across.len();
         let orders: Vec<Vec<usize>> = match self.case.plan.search.orders {
             SearchedOrders::Listed => vec![(0..rows).collect()],
             SearchedOrders::All | SearchedOrders::Adjacent => {
@@ -210,23 +210,23 @@ impl<'c> Choices<'c> {
 
     /// Any one of them.
     pub fn random(&self, random: &mut ChaCha8Rng) -> Candidate {
-        let rows = self.place.len();
+        let rows = self.rank_across.len();
         let mut order: Vec<usize> = (0..rows).collect();
         match self.case.plan.search.orders {
             SearchedOrders::Listed => {}
             SearchedOrders::All => order.shuffle(random),
             SearchedOrders::Adjacent => {
-                let by_place: Vec<usize> = (0..rows).sorted_by_key(|&row| self.place[row]).collect();
+                let from_first: Vec<usize> = (0..rows).sorted_by_key(|&row| self.rank_across[row]).collect();
                 let first = random.random_range(0..rows);
-                // The rows that have fired lie between these places.
+                // The rows that have fired lie between these ranks.
                 let (mut low, mut high) = (first, first + 1);
-                order = vec![by_place[first]];
+                order = vec![from_first[first]];
                 while order.len() < rows {
                     if low > 0 && (high == rows || random.random()) {
                         low -= 1;
-                        order.push(by_place[low]);
+                        order.push(from_first[low]);
                     } else {
-                        order.push(by_place[high]);
+                        order.push(from_first[high]);
                         high += 1;
                     }
                 }
@@ -297,8 +297,8 @@ impl<'c> Choices<'c> {
 
     fn may_fire_in(&self, order: &[usize]) -> bool {
         let is_beside = |n: usize| {
-            let place = self.place[order[n]];
-            order[..n].iter().any(|&fired| self.place[fired].abs_diff(place) == 1)
+            let rank = self.rank_across[order[n]];
+            order[..n].iter().any(|&fired| self.rank_across[fired].abs_diff(rank) == 1)
         };
         self.case.plan.search.orders != SearchedOrders::Adjacent || (1..order.len()).all(is_beside)
     }
@@ -307,8 +307,8 @@ impl<'c> Choices<'c> {
 /// Steps in the list of intervals between neighbours of a search.
 const STRIDES: [isize; 6] = [-9, -3, -1, 1, 3, 9];
 
-/// Place of each blast row among all (`n_blast_rows`), along the axis on which they lie farther apart.
-fn places(case: &Case) -> Vec<usize> {
+/// Rank of each blast row among all (`n_blast_rows`), counted along the axis on which they lie farther apart.
+fn ranks_across(case: &Case) -> Vec<usize> {
     let scene = case.scene();
     let middle = |axis: usize| -> Vec<f64> {
         let of_row = |row: &BlastRow| {
@@ -324,10 +324,10 @@ fn places(case: &Case) -> Vec<usize> {
     };
     let [along_x, along_y] = [middle(0), middle(1)];
     let along = if spread(&along_x) > spread(&along_y) { along_x } else { along_y };
-    let mut place = vec![0; along.len()];
+    let mut ranks = vec![0; along.len()];
     let in_turn = (0..along.len()).sorted_by(|&a, &b| along[a].total_cmp(&along[b]));
-    in_turn.enumerate().for_each(|(at, row)| place[row] = at);
-    place
+    in_turn.enumerate().for_each(|(rank, row)| ranks[row] = rank);
+    ranks
 }
 
 /// Shots that are known, each as one with its mirror images.

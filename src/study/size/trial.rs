@@ -8,6 +8,7 @@ use super::{Combination, Demand, SampledRisk, SizingTask, Trial, Untried};
 use crate::ropes::Rope;
 use crate::scene::Shot;
 use crate::study::batch::judge_shots;
+use crate::study::cover::Cover;
 use crate::study::failure_bounds::FailureBounds;
 use crate::study::risk::Risk;
 use crate::study::sampling::{Sampling, ShotToSample, find_risks_watched};
@@ -91,8 +92,11 @@ impl<'q> Candidate<'q> {
             |a: &usize, b: &usize| utilization(&judged[*b]).total_cmp(&utilization(&judged[*a]));
         let hardest: Vec<usize> = (0..judged.len()).sorted_by(by_utilization).collect();
         let zero = ValueWithError::default();
-        let nothing = JudgedShot { verdict: Verdict::Pass, height: zero, force: zero, drift: zero };
-        let worst = hardest.first().map_or(nothing, |&n| judged[n]);
+        let nothing =
+            JudgedShot { verdict: Verdict::Pass, height: zero, force: zero, drift: zero, cover: Cover::NONE };
+        let mut worst = hardest.first().map_or(nothing, |&n| judged[n]);
+        let covers = judged.iter().map(|judged| judged.cover);
+        worst.cover = covers.max_by_key(|cover| cover.uncovered).unwrap_or(Cover::NONE);
         let trial = Trial {
             holds,
             worst,

@@ -345,6 +345,7 @@ mod tests {
     use super::*;
     use crate::plan::Plan;
     use crate::study::ValueWithError;
+    use crate::study::cover::Cover;
 
     /// Tries a shelter whose height is `height` [m] at an interval [ms], limit 1 m, at first every `step` [ms] up to 20 ms.
     fn tried(step: f64, height: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
@@ -360,6 +361,7 @@ mod tests {
                 height,
                 force: ValueWithError::default(),
                 drift: ValueWithError::default(),
+                cover: Cover::NONE,
             };
             Point { interval: in_seconds(at), as_planned, risk: Sampled::NotAsked }
         };
@@ -418,6 +420,7 @@ mod tests {
                     height,
                     force: ValueWithError::default(),
                     drift: ValueWithError::default(),
+                    cover: Cover::NONE,
                 };
                 Point { interval: in_seconds(i64::from(n) * 100_000), as_planned, risk: Sampled::NotAsked }
             })

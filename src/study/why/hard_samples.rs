@@ -40,12 +40,13 @@ impl HardSamples {
         Self { bounds: FailureBounds::new(accepted, 0), most, failed: BTreeMap::new() }
     }
 
-    /// Whether a pass needs no more samples than were allowed.
+    /// Whether so many samples are allowed that a pass can come at all, where none of them fails.
     pub(super) fn enough_samples(&self) -> bool {
         self.can_pass(&[])
     }
 
-    /// Whether a pass can come, after however many samples, where those with these numbers, in order, fail.
+    /// Whether a pass can still come where the samples with the numbers `failing`, in order, fail and no other does. A pass comes at
+    /// any number of samples; just before the next failing sample, or at the end, the chance is best.
     fn can_pass(&self, failing: &[usize]) -> bool {
         let ends = failing.iter().copied().chain([self.most]);
         ends.enumerate().any(|(failures, end)| {

@@ -22,7 +22,7 @@ use crate::outcome::EndReason;
 use crate::report::explain::{bands, broken, inputs, launch_limit, peaks, reason, risk_detail};
 use crate::report::model::{Chart, Detail};
 use crate::report::why::{sentence, without_pass};
-use crate::report::{charts, cover, no_result};
+use crate::report::{charts, no_result, warnings};
 use crate::scene::fire_at_s;
 use crate::study::judgement::Judgement;
 use crate::study::risk::Risk;
@@ -144,7 +144,9 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     if is_listed(app) {
         lines.extend(change_lines(app));
     }
-    lines.extend(cover::cover(checked).map(|cover| Line::styled(format!("! {cover}"), theme.firing())));
+    lines.extend(
+        warnings::uncovered(&checked.cover).map(|cover| Line::styled(format!("! {cover}"), theme.firing())),
+    );
     let risk = judged.risk.drawn().filter(|risk| !risk.samples.is_empty());
     if open {
         let samples = risk.map_or(0, |risk| risk.samples.len());

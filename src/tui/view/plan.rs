@@ -149,19 +149,19 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
     let scene = case.scene();
     let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
     let margin = 0.05 * (right - left).max(top - bottom).max(1.0);
-    let tires: Vec<(f64, f64)> = scene.position.iter().map(|place| (place.x, place.y)).collect();
+    let tires: Vec<(f64, f64)> = scene.position.iter().map(|tire| (tire.x, tire.y)).collect();
     let mut fires = vec![false; tires.len()];
     let mut turns: Vec<(f64, Vec<(f64, f64)>)> = Vec::new();
     for firing in case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings) {
-        let place = tires[firing.tire];
+        let hole = tires[firing.tire];
         fires[firing.tire] = true;
         match turns.last_mut().filter(|(at, _)| *at == firing.at) {
-            Some((_, holes)) => holes.push(place),
-            None => turns.push((firing.at, vec![place])),
+            Some((_, holes)) => holes.push(hole),
+            None => turns.push((firing.at, vec![hole])),
         }
     }
     let others: Vec<(f64, f64)> =
-        tires.iter().zip(&fires).filter(|(_, fires)| !**fires).map(|(place, _)| *place).collect();
+        tires.iter().zip(&fires).filter(|(_, fires)| !**fires).map(|(tire, _)| *tire).collect();
     // The canvas puts a character half a cell left of and above a point with the same coordinates: move the characters.
     let inside = block.inner(area);
     let half = |length: f64, cells: u16| 0.5 * (length + 2.0 * margin) / f64::from(cells.max(2) - 1);
@@ -201,16 +201,16 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
 /// Number of lines of equal time between the first and the last hole.
 const LINES: usize = 6;
 
-/// A place [m].
-type Place = (f64, f64);
+/// A point of the map [m].
+type MapPoint = (f64, f64);
 
-/// Lines of equal firing time between neighbouring blast rows, as pairs of places; rows that fire at once have none.
-fn equal_time_lines(case: &Case, option: usize) -> Vec<[Place; 2]> {
+/// Lines of equal firing time between neighbouring blast rows, as pairs of points; rows that fire at once have none.
+fn equal_time_lines(case: &Case, option: usize) -> Vec<[MapPoint; 2]> {
     let Some(shot) = case.shots.get(option) else { return Vec::new() };
-    let mut rows: Vec<Vec<(Place, f64)>> = vec![Vec::new(); case.plan.blast_rows.len()];
+    let mut rows: Vec<Vec<(MapPoint, f64)>> = vec![Vec::new(); case.plan.blast_rows.len()];
     for firing in &shot.firings {
-        let place = case.scene().position[firing.tire];
-        rows[firing.row].push(((place.x, place.y), firing.at));
+        let hole = case.scene().position[firing.tire];
+        rows[firing.row].push(((hole.x, hole.y), firing.at));
     }
     rows.retain(|row| !row.is_empty());
     rows.iter_mut().for_each(|row| row.sort_by(|a, b| a.0.0.total_cmp(&b.0.0).then(a.0.1.total_cmp(&b.0.1))));
@@ -219,7 +219,7 @@ fn equal_time_lines(case: &Case, option: usize) -> Vec<[Place; 2]> {
     let mut lines = Vec::new();
     for n in 1..=LINES {
         let level = last * n as f64 / (LINES + 1) as f64;
-        let crossings: Vec<Vec<Place>> = rows.iter().map(|row| places_at(row, level)).collect();
+        let crossings: Vec<Vec<MapPoint>> = rows.iter().map(|row| points_at(row, level)).collect();
         for pair in crossings.windows(2).filter(|pair| pair[0].len() == pair[1].len()) {
             lines.extend(pair[0].iter().zip(&pair[1]).map(|(&a, &b)| [a, b]));
         }
@@ -227,9 +227,9 @@ fn equal_time_lines(case: &Case, option: usize) -> Vec<[Place; 2]> {
     lines
 }
 
-/// Places along a row at which the firing time is `level` [s], interpolated between its holes.
-fn places_at(row: &[(Place, f64)], level: f64) -> Vec<Place> {
-    let between = |pair: &[(Place, f64)]| {
+/// Points along a row at which the firing time is `level` [s], interpolated between its holes.
+fn points_at(row: &[(MapPoint, f64)], level: f64) -> Vec<MapPoint> {
+    let between = |pair: &[(MapPoint, f64)]| {
         let [(a, from), (b, to)] = [pair[0], pair[1]];
         let part = (level - from) / (to - from);
         let is_between = (from < level) != (to < level);

@@ -21,15 +21,9 @@ pub struct ReportLines<'r> {
     pub offers: Vec<(usize, &'r Offer)>,
 }
 
-/// The lines of a report, `width` columns wide at most: first the conclusion, then notes, sentences and tables. Of the
+/// The lines of a report, `width` columns wide at most: first the conclusion, then warnings, sentences and tables. Of the
 /// sentences and rows only those that contain `filter` are kept.
-pub fn lines<'r>(
-    report: &'r Report,
-    notes: &[String],
-    filter: &str,
-    theme: Theme,
-    width: u16,
-) -> ReportLines<'r> {
+pub fn lines<'r>(report: &'r Report, filter: &str, theme: Theme, width: u16) -> ReportLines<'r> {
     let width = usize::from(width.max(1));
     let filter = filter.to_lowercase();
     let kept = |text: &str| text.to_lowercase().contains(&filter);
@@ -42,8 +36,8 @@ pub fn lines<'r>(
         lines.push(Line::from(vec![Span::styled(label, theme.verdict(conclusion.verdict)), Span::raw(rest)]));
         lines.extend(wrapped.map(Line::raw));
     }
-    let notes = notes.iter().flat_map(|note| wrapped(note, width));
-    lines.extend(notes.map(|line| Line::styled(line, theme.firing())));
+    let warnings = report.warnings.iter().flat_map(|warning| wrapped(&format!("! {warning}"), width));
+    lines.extend(warnings.map(|line| Line::styled(line, theme.firing())));
     for block in &report.blocks {
         match block {
             Block::Text(sentences) => {

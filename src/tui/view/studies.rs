@@ -3,7 +3,7 @@
 //! ```text
 //!  Sweep   Orders   Risk   Search   Size   Effects
 //! ─ settings ────────────────────────
-//! conclusion, notes, tables
+//! conclusion, warnings, tables
 //! charts
 //! ```
 
@@ -96,10 +96,10 @@ fn settings(app: &App, finished: &ShownStudy) -> Line<'static> {
     Line::styled(format!(" computed with {label}; {again} computes again "), app.theme.limit())
 }
 
-/// Draws the notes and the report of a study. The text may be scrolled; the charts take the rest of the area.
+/// Draws the report of a study. The text may be scrolled; the charts take the rest of the area.
 fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let ReportLines { lines: mut all, offers } =
-        lines(&finished.report, &finished.notes, &app.studies.filter, app.theme, area.width);
+        lines(&finished.report, &app.studies.filter, app.theme, area.width);
     let selected = offers.get(app.studies.selected).map(|(line, _)| *line);
     if let Some(line) = selected {
         all[line] = std::mem::take(&mut all[line]).patch_style(app.theme.selected());

@@ -1,0 +1,76 @@
+//! Warnings: what a reader must know beside the results. Every face draws them; each says in one sentence what is wrong.
+
+use crate::plan::DelayOption;
+use crate::plan::keys::Key;
+use crate::study::check_all::OptionResults;
+use crate::study::cover::Cover;
+use crate::study::judgement::Judgement;
+use crate::study::swaps::{Swap, swaps};
+use crate::study::{Case, JudgedShot, NoResult};
+use crate::units;
+
+/// Least probability of a swap of blast rows that deserves a warning.
+pub const SWAP: f64 = 1e-4;
+
+/// Warnings of a plan, whatever is found: ranges of `[uncertainty]` that leave out what the plan itself says.
+pub fn of_plan(case: &Case) -> Vec<String> {
+    let warning = |(key, [low, high], own): (&Key, [f64; 2], f64)| {
+        let name = key.name;
+        format!(
+            "`{name} = [{low}, {high}]` of [uncertainty] leaves out {own}, the plan's own: no sample is like the nominal shot"
+        )
+    };
+    case.plan.ranges_beside_the_plan().into_iter().map(warning).collect()
+}
+
+/// Warnings of the options of a plan: blast rows that may fire in the wrong order, and holes that fire under no cover.
+pub fn of_options(case: &Case, results: &OptionResults) -> Vec<String> {
+    let sampled = results.iter().flatten().any(|judged| judged.risk.is_asked());
+    let swaps = if sampled { swaps(case, SWAP) } else { Vec::new() };
+    let swaps = swaps.iter().map(|found| swap(case, found));
+    let covers = |(delay, result): (&DelayOption, &Result<Judgement, NoResult>)| {
+        let cover = uncovered(&result.as_ref().ok()?.as_planned.cover)?;
+        Some(format!("option {}: {cover}", delay.name))
+    };
+    swaps.chain(case.plan.delays.iter().zip(results).filter_map(covers)).collect()
+}
+
+/// The warning that two blast rows may fire in the wrong order.
+pub fn swap(case: &Case, swap: &Swap) -> String {
+    let [first, second] = swap.rows.map(|row| &case.plan.blast_rows[row].name);
+    format!(
+        "option {}: {} between rows {first} and {second} is short for the scatter of the detonators; a given hole of row {second} fires before a given hole of row {first} with a probability of {}",
+        case.plan.delays[swap.option].name,
+        units::exact_milliseconds(swap.interval),
+        units::percent(swap.probability, 2),
+    )
+}
+
+/// The warning that holes fire under a tire in the air or aside; `None` where none does.
+pub fn uncovered(cover: &Cover) -> Option<String> {
+    let Cover { holes, uncovered, height, shift } = cover;
+    let [height, shift] = [height, shift].map(|value| units::rounded(*value, 2));
+    (*uncovered > 0).then(|| {
+        format!(
+            "{uncovered} of {holes} holes fire under a tire in the air or moved aside, up to {height} m high and {shift} m aside: \
+             the model gives it the whole launch"
+        )
+    })
+}
+
+/// The same for one of the shots of a study, called `name`.
+pub fn uncovered_shot(name: &str, shot: Option<&JudgedShot>) -> Option<String> {
+    Some(format!("{name}: {}", uncovered(&shot?.cover)?))
+}
+
+/// How many of the shots of a study have such holes; `what` they are, many of them: `intervals tried`.
+pub fn count_uncovered<'a>(
+    what: &str,
+    shots: impl ExactSizeIterator<Item = &'a JudgedShot>,
+) -> Option<String> {
+    let all = shots.len();
+    let some = shots.filter(|shot| shot.cover.uncovered > 0).count();
+    (some > 0).then(|| {
+        format!("of {all} {what} {some} have holes that fire under a tire in the air or moved aside: the model gives it the whole launch")
+    })
+}
