@@ -6,17 +6,18 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{FormatArg, LookArguments};
-use super::print_sharded::{print_orders, print_risks};
+use super::print_sharded::{print_orders, print_risks, print_search};
 use super::status::{Status, failed, wrong};
 use crate::plan::PlanSource;
 use crate::study::check_all::judge_drawn;
 use crate::study::merge::{Question, ShardResults, merge};
 use crate::study::orders::{rank, refine};
+use crate::study::search::search_after;
 use crate::study::{Case, Found, Progress};
 
 #[derive(Args)]
 pub struct Arguments {
-    /// Files that `orders` or `risk` wrote with --shard, all of them
+    /// Files that `orders`, `risk` or `search` wrote with --shard, all of them
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
     /// Output format
@@ -60,6 +61,13 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         (Question::Risk { sampling }, ShardResults::Risk(samples)) => {
             match judge_drawn(&case, &head.compute, &sampling, &samples, &Progress::default()) {
                 Ok(results) => print_risks(&case, &results, &sampling, false, arguments.format, look),
+                Err(reason) => failed(&reason),
+            }
+        }
+        (Question::Search { sampling }, ShardResults::Search(tried)) => {
+            let (compute, progress) = (&head.compute, Progress::default());
+            match search_after(&case, &tried, sampling.as_ref(), compute, &progress) {
+                Ok(Found { value: found, .. }) => print_search(&case, &found, false, arguments.format, look),
                 Err(reason) => failed(&reason),
             }
         }

@@ -1,17 +1,18 @@
-//! Prints orders and risks, for `orders`, `risk` and `merge`.
+//! Prints orders, risks and schedules, for the studies that can be shared, and for `merge`.
 
 use std::io;
 
 use super::arguments::{FormatArg, LookArguments};
 use super::print::print;
 use super::status::Status;
-use crate::report::json::{OrdersDocument, RiskDocument};
+use crate::report::json::{OrdersDocument, RiskDocument, SearchDocument};
 use crate::report::warnings::SWAP;
-use crate::report::{orders, risk};
+use crate::report::{orders, risk, search};
 use crate::study::Case;
 use crate::study::check_all::OptionResults;
 use crate::study::orders::Orders;
 use crate::study::sampling::Sampling;
+use crate::study::search::Search;
 use crate::study::swaps::swaps;
 
 /// Prints the orders tried; `partial` where the time was up before all were.
@@ -37,4 +38,16 @@ pub fn print_risks(
 ) -> io::Result<Status> {
     let document = || RiskDocument::new(case, results, sampling, &swaps(case, SWAP), partial);
     print(&[risk::report(case, results, sampling, partial)], document, format, look)
+}
+
+/// Prints the schedules found; `partial` where the time was up before all were judged.
+pub fn print_search(
+    case: &Case,
+    found: &Search,
+    partial: bool,
+    format: FormatArg,
+    look: &LookArguments,
+) -> io::Result<Status> {
+    let document = || SearchDocument::new(case, found, partial);
+    print(&[search::report(case, found, partial)], document, format, look)
 }

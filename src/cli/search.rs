@@ -5,17 +5,17 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{LookArguments, StudyArguments};
+use super::arguments::{LookArguments, StudyArguments, shard};
 use super::load_plans::open;
-use super::print::print;
+use super::print::print_text;
+use super::print_sharded::print_search;
 use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::file;
 use crate::plan::{DelayOption, edit};
-use crate::report::json::SearchDocument;
-use crate::report::search::report;
-use crate::study::search::{Search, search};
-use crate::study::{Case, Found};
+use crate::study::merge::{Question, ShardResults, write_shard};
+use crate::study::search::{MOST_JUDGED, Search, judges_all, search, try_schedules};
+use crate::study::{Case, Found, Shard};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -24,6 +24,9 @@ pub struct Arguments {
     /// Write the best schedules that pass into the plan, as delay options
     #[arg(long, value_name = "COUNT", num_args = 0..=1, default_missing_value = "1", value_parser = clap::value_parser!(u8).range(1..=10))]
     write: Option<u8>,
+    /// This machine's shard; `shelter merge` joins the shards
+    #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with_all = ["timeout", "format", "write"])]
+    shard: Option<Shard>,
     #[command(flatten)]
     study: StudyArguments,
 }
@@ -35,13 +38,34 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     }
     let settings = arguments.study.compute.settings(&case.plan);
     let sampling = arguments.study.verdict.sampling();
+    if let Some(shard) = arguments.shard {
+        match judges_all(&case) {
+            Ok(true) => {}
+            Ok(false) => {
+                return wrong(&format!(
+                    "of more than {MOST_JUDGED} schedules the best are searched, not shared: leave out --shard"
+                ));
+            }
+            Err(reason) => return failed(&reason),
+        }
+        let tried = run_study(&arguments.study.compute, |progress| {
+            try_schedules(&case, sampling.as_ref(), &settings, shard, progress)
+        });
+        return match tried {
+            Err(reason) => failed(&reason),
+            Ok(Found { value: tried, .. }) => {
+                let question = Question::Search { sampling };
+                print_text(&write_shard(&case, question, settings, shard, &ShardResults::Search(tried))?)?;
+                Ok(Status::Pass)
+            }
+        };
+    }
     match run_study(&arguments.study.compute, |progress| {
         search(&case, sampling.as_ref(), &settings, progress)
     }) {
         Err(reason) => failed(&reason),
         Ok(Found { value: found, partial }) => {
-            let document = || SearchDocument::new(&case, &found, partial);
-            let status = print(&[report(&case, &found, partial)], document, arguments.study.format, look)?;
+            let status = print_search(&case, &found, partial, arguments.study.format, look)?;
             if let Some(count) = arguments.write {
                 write(arguments, &case, &found, count.into())?;
             }

@@ -29,12 +29,16 @@ pub fn history(case: &Case, history: &History, shot: &Shot) -> [Chart; 2] {
         ..quantity_chart(time, (name, unit), values.iter().enumerate().map(middle).collect(), limit)
     };
     [
-        chart(HEIGHT, Unit::Metre, &history.height, case.limits.height),
+        chart(height_name(case), Unit::Metre, &history.height, case.limits.height),
         chart(FORCE, Unit::Kilonewton, &history.force, case.limits.force),
     ]
 }
 
-const HEIGHT: &str = "flight height";
+/// Name of the flight height: on a slope it is counted from the ground, not upright.
+fn height_name(case: &Case) -> &'static str {
+    if case.plan.ground.slope_percent > 0.0 { "flight height, normal to the slope" } else { "flight height" }
+}
+
 const FORCE: &str = "cable force";
 
 /// Greatest flight height and cable force against the interval between rows, with the windows; where there are samples, the
@@ -48,7 +52,7 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
         Chart { windows: sweep.windows.clone(), ..quantity_chart(interval, (name, unit), points, limit) }
     };
     let mut charts = vec![
-        chart(HEIGHT, Unit::Metre, |judged| judged.height.value, case.limits.height),
+        chart(height_name(case), Unit::Metre, |judged| judged.height.value, case.limits.height),
         chart(FORCE, Unit::Kilonewton, |judged| judged.force.value, case.limits.force),
     ];
     let failing = |point: &Point| match point.as_planned.verdict {
@@ -157,7 +161,7 @@ pub fn samples(case: &Case, risk: &Risk) -> [Chart; 2] {
         Chart { y: axis(name, unit, [(low - room).max(0.0), high + room]), ..chart }
     };
     [
-        chart(HEIGHT, Unit::Metre, Quantity::Height, case.limits.height),
+        chart(height_name(case), Unit::Metre, Quantity::Height, case.limits.height),
         chart(FORCE, Unit::Kilonewton, Quantity::Force, case.limits.force),
     ]
 }

@@ -70,7 +70,7 @@ pub fn report(case: &Case, effects: &EffectsOnOptions, partial: bool) -> Report 
     let blocks = vec![
         Block::Text(vec![MEANING.to_owned()]),
         Block::Table(Table::of(&for_people(), &tried)),
-        Block::Text(sentences(&tried)),
+        Block::Text([requirement(effects)].into_iter().chain(sentences(&tried)).collect()),
         Block::Table(Table::of(&for_scripts(), scripts)),
     ];
     let conclusion = partial.then(|| Conclusion {
@@ -78,6 +78,18 @@ pub fn report(case: &Case, effects: &EffectsOnOptions, partial: bool) -> Report 
         text: "the time was up: not every option was tried".to_owned(),
     });
     Report { blocks, conclusion, ..report_head(case, false) }
+}
+
+/// Which effects the scene requires, in one sentence.
+pub fn requirement(effects: &EffectsOnOptions) -> String {
+    let rows = || effects.iter().flatten().flatten();
+    let is_required = |effect: &Effect| rows().any(|row| row.effect == *effect && row.is_required());
+    let names: Vec<&str> = Effect::ALL.into_iter().filter(is_required).map(Effect::name).collect();
+    format!("this scene requires: {}", listed(&names))
+}
+
+fn listed(names: &[&str]) -> String {
+    if names.is_empty() { "none of these".to_owned() } else { names.join(", ") }
 }
 
 /// What the columns say.
@@ -111,21 +123,15 @@ fn median(values: impl Iterator<Item = f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// What the scene requires, what it does not, and on which side an effect errs that is left out.
+/// What the scene does not require, and on which side an effect errs that is left out.
 fn sentences(tried: &[Vec<&EffectOnOption>]) -> Vec<String> {
     let names = |is: &dyn Fn(&[&EffectOnOption]) -> bool| -> Vec<&'static str> {
         tried.iter().filter(|all| is(all)).map(|all| all[0].effect.name()).collect()
     };
     let is_required = |all: &[&EffectOnOption]| all.iter().any(|row| row.is_required());
     let is_unsafe = |all: &[&EffectOnOption]| all.iter().any(|row| row.is_missed_on_the_unsafe_side);
-    if tried.is_empty() {
-        return Vec::new();
-    }
-    let required = names(&is_required);
     let others = names(&|all| !is_required(all));
-    let listed =
-        |names: &[&str]| if names.is_empty() { "none of these".to_owned() } else { names.join(", ") };
-    let mut lines = vec![format!("this scene requires: {}", listed(&required))];
+    let mut lines = Vec::new();
     if !others.is_empty() {
         let most = units::percent(REQUIRED, 0);
         lines.push(format!(

@@ -11,6 +11,7 @@ use sha2::{Digest, Sha256};
 use super::orders::TriedOrder;
 use super::sample::Sample;
 use super::sampling::Sampling;
+use super::search::TriedSchedule;
 use super::{Case, ComputeSettings, Shard};
 
 /// The question that a study answers.
@@ -28,6 +29,11 @@ pub enum Question {
     Risk {
         /// Number of samples and seed.
         sampling: Sampling,
+    },
+    /// The schedules with the least risk.
+    Search {
+        /// Samples behind a verdict; `None` where only the shots as planned were asked for.
+        sampling: Option<Sampling>,
     },
 }
 
@@ -74,10 +80,12 @@ pub enum ShardResults {
     Orders(Vec<TriedOrder>),
     /// Of `risk`.
     Risk(Vec<OptionSample>),
+    /// Of `search`.
+    Search(Vec<TriedSchedule>),
 }
 
 /// Name of this format of shards.
-const SCHEMA: &str = "shelter.shard/8";
+const SCHEMA: &str = "shelter.shard/9";
 /// Version of this program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -95,6 +103,7 @@ impl ShardResults {
                 samples.iter().all(|sample| sample.option < case.shots.len())
                     && samples.iter().map(|sample| (sample.option, sample.sample.number)).all_unique()
             }
+            ShardResults::Search(tried) => tried.iter().map(|tried| tried.number).sorted().eq(0..tried.len()),
         }
     }
 
@@ -106,6 +115,7 @@ impl ShardResults {
         match self {
             ShardResults::Orders(tried) => lines(tried),
             ShardResults::Risk(samples) => lines(samples),
+            ShardResults::Search(tried) => lines(tried),
         }
     }
 }
@@ -140,7 +150,9 @@ fn checksum(text: &str) -> String {
 /// Reads a shard; says what is wrong with it. `name` stands for the file in messages.
 fn read_shard(name: &str, text: &str) -> Result<(Head, ShardResults), String> {
     let wrong = |line: usize, error: &dyn std::fmt::Display| {
-        format!("{name}:{line}: {error}; a shard is what `shelter orders` or `risk` wrote with --shard")
+        format!(
+            "{name}:{line}: {error}; a shard is what `shelter orders`, `risk` or `search` wrote with --shard"
+        )
     };
     let (first, rest) = text.split_once('\n').ok_or_else(|| wrong(1, &"the file has no second line"))?;
     let Origin { schema, version } = serde_json::from_str(first).map_err(|error| wrong(1, &error))?;
@@ -175,6 +187,7 @@ fn read_shard(name: &str, text: &str) -> Result<(Head, ShardResults), String> {
     let results = match head.question {
         Question::Orders { .. } => ShardResults::Orders(results(&lines, wrong)?),
         Question::Risk { .. } => ShardResults::Risk(results(&lines, wrong)?),
+        Question::Search { .. } => ShardResults::Search(results(&lines, wrong)?),
     };
     Ok((head, results))
 }
@@ -189,12 +202,13 @@ struct Origin {
 /// Joins shards, given as `(name, text)`; says what is wrong with them.
 pub fn merge(shards: &[(String, String)]) -> Result<(Head, ShardResults), String> {
     let mut heads: Vec<(&str, Head)> = Vec::new();
-    let (mut orders, mut samples) = (Vec::new(), Vec::new());
+    let (mut orders, mut samples, mut schedules) = (Vec::new(), Vec::new(), Vec::new());
     for (name, text) in shards {
         let (head, results) = read_shard(name, text)?;
         match results {
             ShardResults::Orders(tried) => orders.extend(tried),
             ShardResults::Risk(drawn) => samples.extend(drawn),
+            ShardResults::Search(tried) => schedules.extend(tried),
         }
         heads.push((name, head));
     }
@@ -221,6 +235,7 @@ pub fn merge(shards: &[(String, String)]) -> Result<(Head, ShardResults), String
     let results = match first.question {
         Question::Orders { .. } => ShardResults::Orders(orders),
         Question::Risk { .. } => ShardResults::Risk(samples),
+        Question::Search { .. } => ShardResults::Search(schedules),
     };
     Ok((first, results))
 }

@@ -115,7 +115,9 @@ fn shards_merge_into_the_whole_byte_for_byte() {
     let orders: &[&str] = &["orders", &plan, "--accuracy", "draft", "--nominal"];
     let sampled: &[&str] = &["orders", &plan, "--accuracy", "draft", "--samples", "150", "--seed", "3"];
     let risk: &[&str] = &["risk", &plan, "--accuracy", "draft", "--samples", "31", "--seed", "4"];
-    for command in [orders, sampled, risk] {
+    let search: &[&str] = &["search", &plan, "--accuracy", "draft", "--nominal"];
+    let searched: &[&str] = &["search", &plan, "--accuracy", "draft", "--samples", "20", "--seed", "5"];
+    for command in [orders, sampled, risk, search, searched] {
         let wholes = ["json", "csv", "text"]
             .map(|format| (format, shelter(&[command, &["--format", format, "--threads", "1"]].concat())));
         for of in [1, 3] {

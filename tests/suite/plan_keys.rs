@@ -153,6 +153,17 @@ fn examples_are_in_range_and_values_out_of_range_are_refused() {
     }
 }
 
+/// The fuzzer puts these words into plans, so that it reaches every effect.
+#[test]
+fn the_dictionary_of_the_fuzzer_has_every_key() {
+    let quoted = |key: &Key| format!("{:?}", format!("{} = {}\n", key.name, example(key)));
+    let expected: BTreeSet<String> =
+        all_keys(&plan::SECTION, &[]).iter().map(|(_, key)| quoted(key)).collect();
+    let dictionary: BTreeSet<String> =
+        include_str!("../../fuzz/plan.dict").lines().map(str::to_owned).collect();
+    assert_eq!(dictionary, expected);
+}
+
 #[test]
 fn a_default_is_a_right_value() {
     for (_, key) in all_keys(&plan::SECTION, &[]) {

@@ -1,6 +1,9 @@
 //! The shelter from above: tires, cables and holes, with the names of the blast rows or with the times at which one option
 //! fires them.
 
+use std::f64::consts::FRAC_PI_2;
+
+use nalgebra::Vector2;
 use plotters::prelude::*;
 
 use super::svg::color;
@@ -41,7 +44,21 @@ fn names(case: &Case) -> Vec<(usize, String)> {
     case.plan.blast_rows.iter().flat_map(row).collect()
 }
 
-/// Holes are marked at the labelled tires.
+/// Holes that launch their tires aside, and the direction along the ground, as long as the launch is tilted: 1 for 90°.
+fn directions(case: &Case) -> Vec<(usize, Vector2<f64>)> {
+    let scene = case.scene();
+    let firings = case.plan.blast_rows.iter().flat_map(|row| scene.firings(&row.targets));
+    let aside = firings.filter(|firing| firing.launch.xy().norm() > 0.0);
+    aside
+        .map(|firing| {
+            let tilt = firing.launch.xy().norm().atan2(firing.launch.z) / FRAC_PI_2;
+            // Even a slight tilt shows.
+            (firing.tire, firing.launch.xy().normalize() * (0.5 + 0.5 * tilt))
+        })
+        .collect()
+}
+
+/// Holes are marked at the labelled tires, with a stroke where the launch is tilted.
 fn draw(case: &Case, labels: &[(usize, String)]) -> Result<String, Box<dyn std::error::Error>> {
     let (scene, hole) = (case.scene(), color(Role::Fail));
     let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
@@ -67,6 +84,23 @@ fn draw(case: &Case, labels: &[(usize, String)]) -> Result<String, Box<dyn std::
         }
         for (tire, _) in labels {
             area.draw(&Circle::new(at(*tire), (radius / 2).max(1), hole.filled()))?;
+        }
+        for (tire, direction) in directions(case) {
+            let ((x, y), end) = (at(tire), direction * 0.6 * spacing);
+            let end = (x + end.x as i32, y - end.y as i32);
+            area.draw(&PathElement::new([(x, y), end], hole.stroke_width(2)))?;
+        }
+        if case.plan.ground.slope_percent > 0.0 {
+            let (x, y) = (WIDTH as i32 - 200, 14);
+            let down = scene.downhill.normalize() * 12.0;
+            let style = ("sans-serif", 11).into_font().color(&TIRE);
+            area.draw(&PathElement::new(
+                [(x, y), (x + down.x as i32, y - down.y as i32)],
+                TIRE.stroke_width(2),
+            ))?;
+            area.draw(&Circle::new((x, y), 3, TIRE.filled()))?;
+            let falls = format!("the ground falls {} % this way", case.plan.ground.slope_percent);
+            area.draw(&Text::new(falls, (x + 18, y - 6), style))?;
         }
         let written = || labels.iter().filter(|(_, label)| !label.is_empty());
         if written().count() <= MOST_LABELS {

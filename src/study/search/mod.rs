@@ -1,48 +1,38 @@
 //! The firing schedules with the least risk, among those that `[search]` allows.
 //!
 //! 1. Candidates: the schedules within the longest duration, and the most holes and the heaviest charge within 8 ms. Up to
-//!    [`MOST_LISTED`] possible schedules all are looked at. Up to [`MOST_JUDGED`] candidates all are judged; where there are more,
-//!    [`START`] at random, then the neighbours of the best, the neighbours of these, and so on. Mirror images are one.
+//!    500,000 possible schedules all are looked at. Up to [`MOST_JUDGED`] candidates all are judged; where there are more,
+//!    2,000 at random, then the neighbours of the best, the neighbours of these, and so on. Mirror images are one.
 //! 2. A race ([`race`]): a few samples of each, twice as many of the better half, and so on.
 //! 3. The best that differ from one another become delay options, which are judged as `check` judges options, with draws of their
 //!    own: the draws that chose them flatter them.
 
+mod field;
 mod race;
 mod schedule;
 
 use std::cmp::Ordering;
-use std::collections::HashSet;
 
 use itertools::Itertools;
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha8Rng;
-use rayon::prelude::*;
 
+pub use self::field::MOST_JUDGED;
+use self::field::{FIRST_OF_SEARCH, Field, Listed};
+pub use self::race::TriedSchedule;
 use self::race::{Contender, Race};
+use self::schedule::Choices;
 pub use self::schedule::{Broken, Refused};
-use self::schedule::{Candidate, Choices, KnownShots};
 pub use self::schedule::{Schedule, duration};
 use super::check_all::{OptionResults, check_all, find_launch_margins};
 use super::judgement::Judgement;
 use super::margin::LaunchMargin;
 use super::risk::Risk;
 use super::sampling::Sampling;
-use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress};
+use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, Shard};
 use crate::plan::{DelayOption, Plan, edit};
 use crate::verdict::Verdict;
 
-/// Greatest number of schedules that are all judged.
-pub const MOST_JUDGED: usize = 4000;
-/// Greatest number of schedules of which all are looked at, whether they keep the limits of the search.
-const MOST_LISTED: usize = 500_000;
-/// Schedules that a search begins with, and most random draws for them.
-const START: usize = 2000;
-const MOST_DRAWS: usize = 50 * START;
-/// Of the best schedules of a search, so many are looked around at a time.
-const CLIMBERS: usize = 24;
-/// First samples of each schedule, where all are judged; and of each of a search.
+/// First samples of each schedule, where all are judged.
 const FIRST_OF_ALL: usize = 16;
-const FIRST_OF_SEARCH: usize = 8;
 /// Most schedules in the report.
 const FOUND: usize = 10;
 /// The full verdicts of twelve schedules share the probability of an error: each may be wrong with 1/(3 × 4) of it.
@@ -107,49 +97,84 @@ pub fn search(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Finding<Search> {
+    search_after(case, &[], sampling, compute, progress)
+}
+
+/// Whether all schedules of a plan that keep the limits of its search are judged; only such a search can be shared.
+pub fn judges_all(case: &Case) -> Result<bool, NoResult> {
+    Ok(Listed::new(case, &Choices::new(case)?).are_all_judged())
+}
+
+/// Draws the first samples of the schedules of one shard, where all are judged.
+pub fn try_schedules(
+    case: &Case,
+    sampling: Option<&Sampling>,
+    compute: &ComputeSettings,
+    shard: Shard,
+    progress: &Progress,
+) -> Finding<Vec<TriedSchedule>> {
     let choices = Choices::new(case)?;
-    let race =
-        Race { case, compute: *compute, sampling: sampling.map(|sampling| sampling.with_fresh_draws(0)) };
-    let possible = choices.count();
-    let listed = (possible <= MOST_LISTED).then(|| choices.all());
-    let mut field = Field { case, choices: &choices, known: KnownShots::default(), contenders: Vec::new() };
-    let (mut out_of_time, mut refused) = (false, Refused::default());
-    let allowed = listed.map(|listed| {
-        let limits: Vec<Option<Broken>> =
-            listed.par_iter().map(|one| choices.broken(&choices.schedule(one).shot(case))).collect();
-        limits.iter().flatten().for_each(|limit| refused.count(*limit));
-        let all = listed.into_iter().zip(limits).filter(|(_, limit)| limit.is_none());
-        all.map(|(candidate, _)| candidate).collect::<Vec<_>>()
-    });
-    let complete = allowed.as_ref().is_some_and(|allowed| allowed.len() <= MOST_JUDGED);
-    let keeping = allowed.as_ref().map(Vec::len);
-    match allowed {
+    let mut field = Field::new(case, &choices);
+    field.add(Listed::new(case, &choices).allowed.unwrap_or_default());
+    let own = field.contenders.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
+    let (numbers, mut contenders): (Vec<usize>, Vec<Contender>) = own.unzip();
+    let partial = race(case, sampling, compute).draw(&mut contenders, FIRST_OF_ALL, progress)?;
+    let tried = numbers.into_iter().zip(contenders);
+    Ok(Found {
+        value: tried.map(|(number, one)| TriedSchedule { number, tally: one.tally }).collect(),
+        partial,
+    })
+}
+
+fn race<'c>(case: &'c Case, sampling: Option<&Sampling>, compute: &ComputeSettings) -> Race<'c> {
+    Race { case, compute: *compute, sampling: sampling.map(|sampling| sampling.with_fresh_draws(0)) }
+}
+
+/// Like [`search`], where the first samples of some schedules are drawn already.
+pub fn search_after(
+    case: &Case,
+    tried: &[TriedSchedule],
+    sampling: Option<&Sampling>,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Finding<Search> {
+    let choices = Choices::new(case)?;
+    let race = race(case, sampling, compute);
+    let listed = Listed::new(case, &choices);
+    let (complete, keeping) = (listed.are_all_judged(), listed.allowed.as_ref().map(Vec::len));
+    let mut field = Field::new(case, &choices);
+    let mut out_of_time = false;
+    match listed.allowed {
         Some(allowed) if complete => field.add(allowed),
         allowed => out_of_time = field.explore(allowed.as_deref(), &race, progress)?,
     }
     let mut contenders = field.contenders;
+    for TriedSchedule { number, tally } in tried {
+        if let Some(contender) = contenders.get_mut(*number) {
+            contender.tally = *tally;
+        }
+    }
     let first = if complete { FIRST_OF_ALL } else { FIRST_OF_SEARCH };
     out_of_time |= race.run(&mut contenders, first, progress)?;
     let finalists = choose_finalists(&choices, &contenders);
     let left = contenders.iter().filter(|one| !finalists.iter().any(|(_, other)| other.shot == one.shot));
-    let without_failure = left.filter(|one| one.samples > 0 && one.failures == 0).count();
+    let without_failure = left.filter(|one| one.tally.samples > 0 && one.tally.failures == 0).count();
     let front = front(&choices, &contenders);
     let schedules: Vec<Schedule> = finalists.iter().map(|(schedule, _)| schedule.clone()).collect();
     let rough = finalists.iter().map(|(_, contender)| RoughShare::of(contender)).collect();
     let (case, Found { value: results, partial }) = judge(case, &schedules, sampling, compute, progress)?;
-    let judged = contenders.iter().filter(|one| one.samples > 0).count();
-    let (complete, sampled) = (complete && judged == contenders.len(), sampling.is_some());
+    let judged = contenders.iter().filter(|one| one.tally.samples > 0).count();
     let mut found = Search {
         case,
         schedules,
         results,
         rough,
-        possible,
+        possible: choices.count(),
         keeping,
-        refused,
+        refused: listed.refused,
         judged,
-        complete,
-        sampled,
+        complete: complete && judged == contenders.len(),
+        sampled: sampling.is_some(),
         without_failure,
         front,
     };
@@ -157,66 +182,9 @@ pub fn search(
     Ok(Found { value: found, partial: partial || out_of_time })
 }
 
-/// The schedules that are judged.
-struct Field<'c> {
-    case: &'c Case,
-    choices: &'c Choices<'c>,
-    known: KnownShots,
-    contenders: Vec<Contender>,
-}
-
-impl Field<'_> {
-    /// Adds the candidates that are allowed, and not known yet.
-    fn add(&mut self, candidates: impl IntoIterator<Item = Candidate>) {
-        for candidate in candidates {
-            let shot = self.choices.schedule(&candidate).shot(self.case);
-            if self.choices.broken(&shot).is_none() && self.known.insert(self.case, &shot) {
-                self.contenders.push(Contender::new(candidate, shot));
-            }
-        }
-    }
-
-    /// Searches where not all schedules can be judged; returns whether the time was up.
-    /// `allowed` are those that keep the limits, where all were looked at.
-    fn explore(
-        &mut self,
-        allowed: Option<&[Candidate]>,
-        race: &Race<'_>,
-        progress: &Progress,
-    ) -> Result<bool, NoResult> {
-        let mut random = ChaCha8Rng::seed_from_u64(race.sampling.map_or(0, |sampling| sampling.seed));
-        // Where the limits of the search leave few, more are drawn.
-        for _ in 0..MOST_DRAWS {
-            self.add([match allowed {
-                Some(allowed) => allowed[random.random_range(0..allowed.len())].clone(),
-                None => self.choices.random(&mut random),
-            }]);
-            if self.contenders.len() == START {
-                break;
-            }
-        }
-        let mut seen: HashSet<Candidate> = HashSet::new();
-        loop {
-            if race.draw(&mut self.contenders, FIRST_OF_SEARCH, progress)? {
-                return Ok(true);
-            }
-            let unseen = self.contenders.iter().filter(|one| !seen.contains(&one.candidate));
-            let best = unseen.sorted_by(|a, b| a.score().total_cmp(&b.score())).take(CLIMBERS);
-            let best: Vec<Candidate> = best.map(|one| one.candidate.clone()).collect();
-            let room = MOST_JUDGED.saturating_sub(self.contenders.len());
-            if best.is_empty() || room == 0 {
-                return Ok(false);
-            }
-            let near = best.iter().flat_map(|one| self.choices.neighbours(one)).unique().take(room);
-            self.add(near.collect::<Vec<_>>());
-            seen.extend(best);
-        }
-    }
-}
-
 impl RoughShare {
     fn of(contender: &Contender) -> Self {
-        Self { samples: contender.samples, failures: contender.failures }
+        Self { samples: contender.tally.samples, failures: contender.tally.failures }
     }
 
     /// Failures over samples.
@@ -231,7 +199,7 @@ fn choose_finalists<'r>(
     contenders: &'r [Contender],
 ) -> Vec<(Schedule, &'r Contender)> {
     let mut chosen: Vec<(Schedule, &Contender)> = Vec::new();
-    for contender in contenders.iter().filter(|one| one.samples > 0) {
+    for contender in contenders.iter().filter(|one| one.tally.samples > 0) {
         let schedule = choices.schedule(&contender.candidate);
         if chosen.len() < JUDGED_IN_FULL && !chosen.iter().any(|(other, _)| other.is_near(&schedule)) {
             chosen.push((schedule, contender));
@@ -242,7 +210,7 @@ fn choose_finalists<'r>(
 
 /// The contenders of which no shorter one fails less.
 fn front(choices: &Choices<'_>, contenders: &[Contender]) -> Vec<FrontPoint> {
-    let known = contenders.iter().filter(|one| one.samples >= SAMPLES_OF_FRONT);
+    let known = contenders.iter().filter(|one| one.tally.samples >= SAMPLES_OF_FRONT);
     let point = |contender: &Contender| FrontPoint {
         schedule: choices.schedule(&contender.candidate),
         duration: duration(&contender.shot),

@@ -1,5 +1,7 @@
 //! Which of many schedules fail least: few samples of all, and ever more of ever fewer.
 
+use serde::{Deserialize, Serialize};
+
 use super::schedule::Candidate;
 use crate::scene::Shot;
 use crate::study::batch::run_jobs;
@@ -23,6 +25,30 @@ pub struct Contender {
     pub candidate: Candidate,
     /// The shot as planned.
     pub shot: Shot,
+    /// What its samples came to.
+    pub tally: Tally,
+}
+
+impl Contender {
+    /// A schedule without a sample.
+    pub fn new(candidate: Candidate, shot: Shot) -> Self {
+        Self { candidate, shot, tally: Tally::default() }
+    }
+}
+
+/// What the first samples of a schedule came to, by its number among all that are judged.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TriedSchedule {
+    /// Number of the schedule.
+    pub number: usize,
+    /// What its samples came to.
+    #[serde(flatten)]
+    pub tally: Tally,
+}
+
+/// What the samples of a schedule came to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Tally {
     /// Number of samples.
     pub samples: usize,
     /// Samples that fail, or are undecided.
@@ -31,12 +57,7 @@ pub struct Contender {
     utilization: [f64; 3],
 }
 
-impl Contender {
-    /// A schedule without a sample.
-    pub fn new(candidate: Candidate, shot: Shot) -> Self {
-        Self { candidate, shot, samples: 0, failures: 0, utilization: [0.0; 3] }
-    }
-
+impl Tally {
     fn push(&mut self, verdict: Verdict, utilization: f64) {
         self.samples += 1;
         self.failures += usize::from(verdict != Verdict::Pass);
@@ -86,13 +107,13 @@ impl Race<'_> {
     ) -> Result<bool, NoResult> {
         // A shot as planned is judged once.
         let samples = if self.sampling.is_some() { samples } else { 1 };
-        let jobs: Vec<&Contender> = contenders.iter().filter(|one| one.samples < samples).collect();
+        let jobs: Vec<&Contender> = contenders.iter().filter(|one| one.tally.samples < samples).collect();
         let drawn = run_jobs(&jobs, progress, |contender| self.runs(contender, samples, progress))?;
         let out_of_time = drawn.contains(&None);
-        let waiting = contenders.iter_mut().filter(|one| one.samples < samples);
+        let waiting = contenders.iter_mut().filter(|one| one.tally.samples < samples);
         for (contender, runs) in waiting.zip(drawn) {
             for (verdict, utilization) in runs.into_iter().flatten() {
-                contender.push(verdict, utilization);
+                contender.tally.push(verdict, utilization);
             }
         }
         Ok(out_of_time)
@@ -118,7 +139,7 @@ impl Race<'_> {
             let run: SampleRun = run_sample_once(&target, number, progress)?.run;
             Ok((run.verdict, run.utilization(&case.limits)))
         };
-        (contender.samples..samples).map(one).collect()
+        (contender.tally.samples..samples).map(one).collect()
     }
 
     /// Sorts the contenders, the best first, after twice as many samples of each better half as before, and so on; `first` samples
@@ -132,7 +153,7 @@ impl Race<'_> {
         let (mut samples, mut left) = (first, contenders.len());
         loop {
             let out_of_time = self.draw(&mut contenders[..left], samples, progress)?;
-            contenders[..left].sort_by(|a, b| a.score().total_cmp(&b.score()));
+            contenders[..left].sort_by(|a, b| a.tally.score().total_cmp(&b.tally.score()));
             if out_of_time || samples >= MOST_SAMPLES || self.sampling.is_none() {
                 return Ok(out_of_time);
             }
@@ -149,16 +170,16 @@ mod tests {
     /// Of utilizations 0.8 ± 0.1 a share of 2.3 % lies above 1, though none of 16 does.
     #[test]
     fn utilizations_tell_before_failures_do() {
-        let contender = |low: f64, high: f64, failures: usize| {
-            let mut contender = Contender::new(Candidate::default(), Shot::default());
+        let score = |low: f64, high: f64, failures: usize| {
+            let mut tally = Tally::default();
             for n in 0..16 {
                 let verdict = if n < failures { Verdict::Fail } else { Verdict::Pass };
-                contender.push(verdict, if n % 2 == 0 { low } else { high });
+                tally.push(verdict, if n % 2 == 0 { low } else { high });
             }
-            contender.score()
+            tally.score()
         };
-        assert!((contender(0.7, 0.9, 0) - 0.5 * 0.02275).abs() < 1e-4);
-        assert!(contender(0.5, 0.7, 0) < contender(0.7, 0.9, 0));
-        assert!(contender(0.7, 0.9, 0) < contender(0.5, 0.7, 1), "one failure of 16 outweighs a guess");
+        assert!((score(0.7, 0.9, 0) - 0.5 * 0.02275).abs() < 1e-4);
+        assert!(score(0.5, 0.7, 0) < score(0.7, 0.9, 0));
+        assert!(score(0.7, 0.9, 0) < score(0.5, 0.7, 1), "one failure of 16 outweighs a guess");
     }
 }

@@ -10,7 +10,7 @@ use super::parts::{draw_message, draw_progress};
 use crate::choice::Method;
 use crate::jobs::{StudyKind, StudyResult};
 use crate::report::charts::work_and_error;
-use crate::report::no_result;
+use crate::report::{effects, no_result};
 use crate::study::accuracy::{AccuracyTable, LevelStep, Measured};
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
@@ -83,7 +83,16 @@ fn levels<'l>(app: &App, study: &AccuracyTable) -> Vec<Line<'l>> {
         let style = if chosen { app.theme.selected() } else { app.theme.base() };
         lines.push(Line::from(Span::styled(start + &cost, style)));
     }
+    lines.push(Line::styled(required(app), app.theme.base()));
     lines
+}
+
+/// What the scene requires of the model, as the study of effects found it.
+fn required(app: &App) -> String {
+    match app.studies.finished(StudyKind::Effects).map(|finished| &*finished.found) {
+        Some(StudyResult::Effects(found)) => format!("effects: {}", effects::requirement(found)),
+        _ => "effects: which ones this scene requires, Studies → Effects computes".to_owned(),
+    }
 }
 
 /// The run at a step [s].

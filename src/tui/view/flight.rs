@@ -6,6 +6,9 @@
 //! flight height, m              │ cable force, kN          with a cursor at the time shown
 //! ```
 
+use std::f64::consts::FRAC_PI_4;
+
+use nalgebra::Vector2;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Color, Modifier, Style};
@@ -61,11 +64,17 @@ fn titled<'t>(app: &App, title: String) -> Block<'t> {
         .title(Line::styled(format!(" {title} "), app.theme.title()))
 }
 
-/// Draws the shelter from above: a sign per tire by height; of tires that share a cell, the highest.
+/// Draws the shelter from above: a sign per tire by height; of tires that share a cell, the highest. A hole that fires shows the
+/// direction of its launch.
 fn draw_above(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
     let (scene, theme) = (app.case.scene(), app.theme);
     let name = &app.case.plan.delays[app.selected].name;
-    let block = titled(app, format!("{name}, from above"));
+    let ground = &app.case.plan.ground;
+    let slope = match ground.slope_percent > 0.0 {
+        true => format!(", ground falls {} % {}", units::short(ground.slope_percent), arrow(scene.downhill)),
+        false => String::new(),
+    };
+    let block = titled(app, format!("{name}, from above{slope}"));
     let inside = block.inner(area);
     frame.render_widget(block, area);
     let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
@@ -76,20 +85,22 @@ fn draw_above(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
     // A cell of a terminal is about twice as high as wide.
     let width =
         ((right - left) / (columns - 1.0)).max((top - bottom) / (2.0 * (rows - 1.0).max(1.0))).max(1e-9);
-    let mut highest: Vec<Option<(f32, bool)>> =
+    let mut highest: Vec<Option<(f32, Option<&str>)>> =
         vec![None; usize::from(inside.width) * usize::from(inside.height)];
     let time = app.player.time;
-    let mut firing = vec![false; scene.mass.len()];
+    let mut firing = vec![None; scene.mass.len()];
     for fire in app.case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings) {
-        firing[fire.tire] |= (fire.at..fire.at + FLASH).contains(&time);
+        if (fire.at..fire.at + FLASH).contains(&time) {
+            firing[fire.tire] = Some(arrow(fire.launch.xy()));
+        }
     }
     for (tire, u) in flight.at(time).iter().enumerate() {
         let position = scene.position[tire];
         let x = ((position.x - left) / width).round().min(columns - 1.0) as usize;
         let y = ((top - position.y) / (2.0 * width)).round().min(rows - 1.0) as usize;
         let cell = &mut highest[y * usize::from(inside.width) + x];
-        let (height, fires) = cell.unwrap_or((f32::MIN, false));
-        *cell = Some((height.max(u[2]), fires || firing[tire]));
+        let (height, fires) = cell.unwrap_or((f32::MIN, None));
+        *cell = Some((height.max(u[2]), fires.or(firing[tire])));
     }
     let lines = highest.chunks(usize::from(inside.width)).map(|cells| {
         Line::from_iter(cells.iter().map(|cell| match cell {
@@ -97,11 +108,23 @@ fn draw_above(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
             Some((height, fires)) => {
                 let (sign, style) = sign(app, *height);
                 let fire = theme.firing().add_modifier(Modifier::REVERSED);
-                if *fires { Span::styled("*", fire) } else { Span::styled(sign, style) }
+                match fires {
+                    Some(direction) => Span::styled(*direction, fire),
+                    None => Span::styled(sign, style),
+                }
             }
         }))
     });
     frame.render_widget(Paragraph::new(lines.collect::<Vec<_>>()), inside);
+}
+
+/// The direction of a vector seen from above, x to the right and y up; a star where it has none.
+fn arrow(along: Vector2<f64>) -> &'static str {
+    if along.norm() == 0.0 {
+        return "*";
+    }
+    let eighths = (along.y.atan2(along.x) / FRAC_PI_4).round().rem_euclid(8.0) as usize;
+    ["→", "↗", "↑", "↖", "←", "↙", "↓", "↘"][eighths]
 }
 
 /// Sign and style of a height: a dot on the ground, a taller bar the higher, another colour past the limit.

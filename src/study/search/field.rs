@@ -1,0 +1,116 @@
+//! The schedules that are judged: all that keep the limits of the search, or those that a search comes upon.
+
+use std::collections::HashSet;
+
+use itertools::Itertools;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+
+use super::race::{Contender, Race};
+use super::schedule::{Broken, Candidate, Choices, KnownShots, Refused};
+use crate::study::{Case, NoResult, Progress};
+
+/// Greatest number of schedules that are all judged.
+pub const MOST_JUDGED: usize = 4000;
+/// Greatest number of schedules of which all are looked at, whether they keep the limits of the search.
+const MOST_LISTED: usize = 500_000;
+/// Schedules that a search begins with, and most random draws for them.
+const START: usize = 2000;
+const MOST_DRAWS: usize = 50 * START;
+/// Of the best schedules of a search, so many are looked around at a time.
+const CLIMBERS: usize = 24;
+/// First samples of each schedule of a search.
+pub const FIRST_OF_SEARCH: usize = 8;
+
+/// The schedules that keep the limits of the search.
+pub struct Listed {
+    /// In order; `None` where there are too many to look at all.
+    pub allowed: Option<Vec<Candidate>>,
+    /// Schedules left out, by the limit that they break.
+    pub refused: Refused,
+}
+
+impl Listed {
+    /// Looks at all schedules of a plan, unless there are too many.
+    pub fn new(case: &Case, choices: &Choices<'_>) -> Self {
+        let mut refused = Refused::default();
+        let listed = (choices.count() <= MOST_LISTED).then(|| choices.all());
+        let allowed = listed.map(|listed| {
+            let limits: Vec<Option<Broken>> =
+                listed.par_iter().map(|one| choices.broken(&choices.schedule(one).shot(case))).collect();
+            limits.iter().flatten().for_each(|limit| refused.count(*limit));
+            let all = listed.into_iter().zip(limits).filter(|(_, limit)| limit.is_none());
+            all.map(|(candidate, _)| candidate).collect()
+        });
+        Self { allowed, refused }
+    }
+
+    /// Whether they are so few that all are judged.
+    pub fn are_all_judged(&self) -> bool {
+        self.allowed.as_ref().is_some_and(|allowed| allowed.len() <= MOST_JUDGED)
+    }
+}
+
+/// The schedules that are judged.
+pub struct Field<'c> {
+    case: &'c Case,
+    choices: &'c Choices<'c>,
+    known: KnownShots,
+    /// In the order in which they were added.
+    pub contenders: Vec<Contender>,
+}
+
+impl<'c> Field<'c> {
+    /// No schedule.
+    pub fn new(case: &'c Case, choices: &'c Choices<'c>) -> Self {
+        Self { case, choices, known: KnownShots::default(), contenders: Vec::new() }
+    }
+
+    /// Adds the candidates that are allowed, and not known yet.
+    pub fn add(&mut self, candidates: impl IntoIterator<Item = Candidate>) {
+        for candidate in candidates {
+            let shot = self.choices.schedule(&candidate).shot(self.case);
+            if self.choices.broken(&shot).is_none() && self.known.insert(self.case, &shot) {
+                self.contenders.push(Contender::new(candidate, shot));
+            }
+        }
+    }
+
+    /// Searches where not all schedules can be judged; returns whether the time was up.
+    /// `allowed` are those that keep the limits, where all were looked at.
+    pub fn explore(
+        &mut self,
+        allowed: Option<&[Candidate]>,
+        race: &Race<'_>,
+        progress: &Progress,
+    ) -> Result<bool, NoResult> {
+        let mut random = ChaCha8Rng::seed_from_u64(race.sampling.map_or(0, |sampling| sampling.seed));
+        // Where the limits of the search leave few, more are drawn.
+        for _ in 0..MOST_DRAWS {
+            self.add([match allowed {
+                Some(allowed) => allowed[random.random_range(0..allowed.len())].clone(),
+                None => self.choices.random(&mut random),
+            }]);
+            if self.contenders.len() == START {
+                break;
+            }
+        }
+        let mut seen: HashSet<Candidate> = HashSet::new();
+        loop {
+            if race.draw(&mut self.contenders, FIRST_OF_SEARCH, progress)? {
+                return Ok(true);
+            }
+            let unseen = self.contenders.iter().filter(|one| !seen.contains(&one.candidate));
+            let best = unseen.sorted_by(|a, b| a.tally.score().total_cmp(&b.tally.score())).take(CLIMBERS);
+            let best: Vec<Candidate> = best.map(|one| one.candidate.clone()).collect();
+            let room = MOST_JUDGED.saturating_sub(self.contenders.len());
+            if best.is_empty() || room == 0 {
+                return Ok(false);
+            }
+            let near = best.iter().flat_map(|one| self.choices.neighbours(one)).unique().take(room);
+            self.add(near.collect::<Vec<_>>());
+            seen.extend(best);
+        }
+    }
+}
