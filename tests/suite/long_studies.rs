@@ -1,5 +1,7 @@
 //! `sweep`, `orders`, `risk`, `size` and `merge` as scripts use them.
 
+use std::path::Path;
+
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
@@ -11,6 +13,13 @@ fn json(arguments: &[&str]) -> Value {
     let told = support::text(&output.stderr);
     assert!(told.lines().all(|line| line.starts_with("warning: ")), "{told}");
     support::json(&output)
+}
+
+/// Path of a small plan, written into a folder.
+fn small_plan_in(folder: &Path) -> String {
+    let file = folder.join("plan.toml");
+    std::fs::write(&file, support::small_plan()).expect("written");
+    file.to_str().expect("UTF-8").to_owned()
 }
 
 #[test]
@@ -69,7 +78,7 @@ fn a_shard_that_is_not_as_it_was_written_is_refused() {
         // Values altered within their types: a fail that became a pass.
         (first.replace("\"fail\"", "\"pass\""), "its checksum differs"),
         (first.replacen("\"height\":1", "\"height\":3", 1), "its checksum differs"),
-        (signed_again(&first.replace("shelter.shard/8", "shelter.shard/1")), "with one version"),
+        (signed_again(&first.replace("shelter.shard/9", "shelter.shard/1")), "with one version"),
         (signed_again(&first.replacen("\"version\":\"", "\"version\":\"9", 1)), "with one version"),
         (signed_again(&first.replacen("\"seed\":1", "\"seed\":2", 1)), "another study"),
         (signed_again(&first.replacen("\"option\":0", "\"option\":99", 1)), "damaged"),
@@ -110,8 +119,8 @@ fn the_estimated_duration_is_for_terminals() {
 
 #[test]
 fn shards_merge_into_the_whole_byte_for_byte() {
-    let plan = shipped("amur-three-rows.toml");
     let folder = tempfile::tempdir().expect("a folder");
+    let plan = small_plan_in(folder.path());
     let orders: &[&str] = &["orders", &plan, "--accuracy", "draft", "--nominal"];
     let sampled: &[&str] = &["orders", &plan, "--accuracy", "draft", "--samples", "150", "--seed", "3"];
     let risk: &[&str] = &["risk", &plan, "--accuracy", "draft", "--samples", "31", "--seed", "4"];
@@ -145,7 +154,8 @@ fn shards_merge_into_the_whole_byte_for_byte() {
 
 #[test]
 fn the_number_of_threads_changes_nothing() {
-    let plan = shipped("amur-three-rows.toml");
+    let folder = tempfile::tempdir().expect("a folder");
+    let plan = small_plan_in(folder.path());
     for command in [
         &["risk", &plan, "--accuracy", "draft", "--samples", "60"][..],
         &["orders", &plan, "--accuracy", "draft", "--samples", "150"],

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
 
-use super::support::{PROGRAM, shipped};
+use super::support::{PROGRAM, shipped, small_plan};
 
 /// A shelter running in a terminal that is watched.
 struct Watched {
@@ -163,8 +163,7 @@ fn studies_run_are_cancelled_and_keep_their_result() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("plan.toml");
     // With the plan's other mass many more combinations are sampled.
-    let text = include_str!("../../plans/amur-three-rows.toml");
-    std::fs::write(&file, text.replace("tire_mass_kg = [280, 350]", "tire_mass_kg = [280]"))
+    std::fs::write(&file, small_plan().replace("tire_mass_kg = [280, 350]", "tire_mass_kg = [280]"))
         .expect("written");
     let mut watched = Watched::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 120, 36);
     watched.until(" of 7 pass");
@@ -286,8 +285,8 @@ fn ascii_screens_are_ascii() {
 fn a_walk_through_everything() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("plan.toml");
-    let text = include_str!("../../plans/amur-three-rows.toml");
-    std::fs::write(&file, text).expect("written");
+    let text = small_plan();
+    std::fs::write(&file, &text).expect("written");
     let mut watched = Watched::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 200, 60);
     watched.until(" of 7 pass");
     watched.press("oooo");
@@ -332,7 +331,7 @@ fn a_walk_through_everything() {
     watched.until("height over time");
     watched.press("o");
     watched.until("force, kN▲");
-    watched.press("\x1b[<0;3;6M\x1b[<0;3;6m");
+    watched.press("\x1b[<0;3;8M\x1b[<0;3;8m");
     watched.until("25 ms, middle first ─");
     watched.resize(60, 18);
     watched.until("? help");
