@@ -6,7 +6,7 @@ use divan::Bencher;
 use divan::counter::ItemsCount;
 use shelter::choice::Method;
 use shelter::plan::{DelayScatter, Plan, Uncertainty};
-use shelter::simulation::{Model, Motion, Settings};
+use shelter::simulation::{Model, Motion, RunSettings};
 use shelter::study::Progress;
 use shelter::study::batch::run_jobs;
 use shelter::study::random_shot::{RandomShot, draw};
@@ -48,7 +48,7 @@ fn whole(case: &Case) -> Model {
 }
 
 fn time(bencher: Bencher, model: &Model, case: &Case, method: Method, step: f64, duration: Option<f64>) {
-    let settings = Settings { method, step, duration };
+    let settings = RunSettings { method, step, duration };
     let run = || model.run(&case.shots[0], &settings, &mut |_| ControlFlow::Continue(()));
     let steps = run().expect("a result").steps;
     bencher.counter(ItemsCount::new(steps * model.scene().cables.len())).bench_local(run);
@@ -93,7 +93,7 @@ fn scattered(bencher: Bencher, (rows, columns, samples): (usize, usize, usize)) 
         ..case.plan.uncertainty
     };
     let drawn: Vec<_> = (0..samples).map(|number| draw(&case, &case.shots[0], 1, number)).collect();
-    let settings = Settings { method: Method::Verlet, step: 2e-3, duration: Some(1.5) };
+    let settings = RunSettings { method: Method::Verlet, step: 2e-3, duration: Some(1.5) };
     let run = || {
         run_jobs(&drawn, &Progress::default(), |RandomShot { scene, shot, .. }| {
             let watch = &mut |_: &dyn Motion| ControlFlow::Continue(());

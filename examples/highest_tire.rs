@@ -6,14 +6,14 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use shelter::choice::Method;
-use shelter::{Case, Settings};
+use shelter::{Case, RunSettings};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).unwrap_or_else(|| "plans/amur-three-rows.toml".to_owned());
     let case = Case::load(Path::new(&path))?;
     let scene = case.scene();
     let settings =
-        Settings { method: Method::Verlet, step: 0.1 * scene.critical_step(), duration: Some(1.0) };
+        RunSettings { method: Method::Verlet, step: 0.1 * scene.critical_step(), duration: Some(1.0) };
     let mut next = 0.0;
     let outcome = case.model.run(&case.shots[0], &settings, &mut |motion| {
         if motion.time() >= next {

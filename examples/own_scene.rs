@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use nalgebra::{Vector2, Vector3};
 use shelter::choice::Method;
 use shelter::scene::{Cable, Firing, Scene, Shot, TireId};
-use shelter::{Model, Settings};
+use shelter::{Model, RunSettings};
 
 /// Axial stiffness EA of every cable [N].
 const AXIAL_STIFFNESS: f64 = 1.4e6;
@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     // One hole under the centre, fired at 0 s, launches it straight up with 6 m/s.
     let shot = Shot::from_firings(vec![Firing::up(0.0, 4, 6.0)]);
-    let settings = Settings { method: Method::Verlet, step: 0.1 * scene.critical_step(), duration: None };
+    let settings = RunSettings { method: Method::Verlet, step: 0.1 * scene.critical_step(), duration: None };
     let model = Model::new(scene);
     let outcome = model.run(&shot, &settings, &mut |_| ControlFlow::Continue(()))?;
     let (height, force) = (outcome.height.value, outcome.force.value);

@@ -34,8 +34,9 @@
 //! One way in, one way through:
 //!
 //! ```text
-//! TOML ─▶ Plan ─▶ Scene, Shot ─▶ Model::run ─▶ Outcome ─▶ Verdict ─▶ text / JSON / CSV / terminal UI
-//!         plan     scene          simulation    outcome     study      report, tui
+//! TOML ─▶ Plan ─▶ Case (Scene, Shots) ─▶ Model::run ─▶ Outcome ─▶ CheckedShot ─▶ Judgement ─▶ Report ─▶ text, CSV, page, terminal
+//!         plan     study   scene          simulation    outcome    study          study  │     report    report, tui
+//!                                                                                        └─▶ JSON document
 //! ```
 //!
 //! | module | what comes in | what goes out | what it must not know |
@@ -74,12 +75,13 @@
 //! their *order*, makes a *delay option*. A *shelter* is tires (point masses) tied by *cables* that only pull. A cable is
 //! *taut* or *slack*; a tire on the ground *sticks* or *slips*.
 //!
-//! The *utilization* of a shot is its greatest value over its limit. A *judged shot* is its verdict with height, force and drift,
-//! each with its error ([`JudgedShot`](study::JudgedShot)). A check climbs a *ladder* of steps, each a fixed ratio finer than the
+//! The *utilization* of a shot is its greatest value over its limit. A *checked shot* was run at ever finer steps until its verdict
+//! was sure ([`CheckedShot`](study::check::CheckedShot)); its *summary* is the verdict with height, force and drift, each with its error
+//! ([`ShotSummary`](study::ShotSummary)). A *judgement* adds what samples tell. A check climbs a *ladder* of steps, each a fixed ratio finer than the
 //! one before. A *sampling* says how many samples are drawn, from which seed, and when to stop. A *face* is one way to show a
 //! report: text, CSV, JSON, page or terminal.
 //!
-//! *Nominal* is as planned, nothing varied. *Undecided* reads OPEN on screens. A *screen* in `study` is a coarse check of one shot
+//! *Nominal* is as planned, nothing varied. *Undecided* reads OPEN on screens. A *quick check* is a coarse check of one shot
 //! among thousands. An *audit* runs some samples again at a finer step. A *shard* is one machine's part of a study; `--shard`
 //! writes it. A word in brackets behind a field, such as (`n_tires`), is its length.
 
@@ -103,8 +105,8 @@ pub mod units;
 pub mod verdict;
 
 pub use plan::Plan;
-pub use simulation::{Model, Motion, Settings};
-pub use study::check::{Checked, check_as_planned};
+pub use simulation::{Model, Motion, RunSettings};
+pub use study::check::{CheckedShot, check_as_planned};
 pub use study::check_all::check_all;
 pub use study::judgement::Judgement;
 pub use study::sampling::Sampling;

@@ -51,7 +51,7 @@ impl Ledger {
 
 /// A cable that broke.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Broken {
+pub struct BrokenCable {
     /// Time of the break [s].
     pub at: f64,
     /// Index of the cable.
@@ -69,7 +69,7 @@ pub struct Outcome {
     /// Greatest horizontal shift of any tire at the end of the run [m].
     pub drift: Peak,
     /// Cables that broke, in order of time; empty unless the scene lets cables break.
-    pub broken: Vec<Broken>,
+    pub broken: Vec<BrokenCable>,
     /// Energies of the run.
     pub ledger: Ledger,
     /// Height and force over time.

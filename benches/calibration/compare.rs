@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use shelter::choice::{Accuracy, Method};
 use shelter::plan::Plan;
-use shelter::simulation::{Model, Settings};
-use shelter::study::check::{Checked, check_as_planned};
+use shelter::simulation::{Model, RunSettings};
+use shelter::study::check::{CheckedShot, check_as_planned};
 use shelter::study::{Case, ComputeSettings};
 use shelter::verdict::{Limits, Verdict};
 
@@ -52,10 +52,10 @@ pub fn compare(regime: Regime, n: u64, accuracy: Accuracy, limits: usize) -> Com
     (case.model, case.shots) = (Model::new(scene), vec![shot]);
     let at_level = |accuracy| ComputeSettings { method: Method::Verlet, accuracy, step: None };
     let field = at_level(Accuracy::Field).first_step(&case);
-    let settings = Settings { method: Method::Verlet, step: field / FINER, duration: None };
+    let settings = RunSettings { method: Method::Verlet, step: field / FINER, duration: None };
     let truth = case.model.run(&case.shots[0], &settings, &mut |_| ControlFlow::Continue(()));
     let truth = truth.unwrap_or_else(|failure| panic!("{regime:?} {n}: {failure}"));
-    let judge = |case: &Case, compute: &ComputeSettings| -> Checked {
+    let judge = |case: &Case, compute: &ComputeSettings| -> CheckedShot {
         check_as_planned(case, 0, compute, &mut |_| ControlFlow::Continue(()))
             .unwrap_or_else(|failure| panic!("{regime:?} {n}: {failure}"))
     };

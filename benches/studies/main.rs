@@ -20,7 +20,7 @@ use rayon::prelude::*;
 use shelter::study::check::check_shot;
 use shelter::study::orders::try_orders;
 use shelter::study::sweep::sweep;
-use shelter::study::{Case, ComputeSettings, Intervals, JudgedShot, Progress, Shard};
+use shelter::study::{Case, ComputeSettings, Intervals, Progress, Shard, ShotSummary};
 use shelter::verdict::Verdict;
 
 /// Distance between the intervals that are checked inside windows [s].
@@ -43,10 +43,10 @@ fn main() {
     }
 }
 
-fn checked(case: &Case, order: &[usize], interval: f64) -> JudgedShot {
+fn checked(case: &Case, order: &[usize], interval: f64) -> ShotSummary {
     let compute = ComputeSettings::of(&case.plan);
     let checked = check_shot(case, &case.shot(order, interval), &compute, &mut |_| ControlFlow::Continue(()));
-    checked.map_or(JudgedShot::UNKNOWN, |checked| JudgedShot::of(&checked))
+    checked.map_or(ShotSummary::UNKNOWN, |checked| ShotSummary::of(&checked))
 }
 
 fn compare_windows(random: u64) {
@@ -70,7 +70,7 @@ fn compare_windows(random: u64) {
         let close: Vec<f64> =
             close.filter(|at| swept.windows.iter().any(|[from, to]| (*from..=*to).contains(at))).collect();
         let judged = close.par_iter().map(|&at| checked(&case, &order, at));
-        let bad: Vec<JudgedShot> = judged.filter(|judged| judged.verdict != Verdict::Pass).collect();
+        let bad: Vec<ShotSummary> = judged.filter(|judged| judged.verdict != Verdict::Pass).collect();
         let open = bad.iter().filter(|judged| judged.verdict == Verdict::Undecided).count();
         let farthest = bad.iter().map(|judged| judged.utilization(&case.limits)).fold(0.0, f64::max);
         let wide: Vec<f64> =
@@ -99,7 +99,7 @@ fn compare_orders(rows: usize, random: u64) {
         let rim = n % 2 == 0;
         let case = plans::case(n, Some(rows), rim);
         let compute = ComputeSettings::of(&case.plan);
-        let ends = |all: &[JudgedShot]| {
+        let ends = |all: &[ShotSummary]| {
             let order = |a: &f64, b: &f64| a.total_cmp(b);
             let all = all.iter().map(|judged| judged.utilization(&case.limits));
             [all.clone().max_by(order), all.min_by(order)].map(|end| end.expect("an order"))
@@ -108,10 +108,10 @@ fn compare_orders(rows: usize, random: u64) {
             let begun = Instant::now();
             let found = try_orders(&case, &[interval], Shard::WHOLE, &compute, &Progress::default());
             let (found, wall) = (found.expect("a result").value, begun.elapsed().as_secs_f64());
-            let found: Vec<JudgedShot> = found.iter().map(|tried| tried.as_planned).collect();
+            let found: Vec<ShotSummary> = found.iter().map(|tried| tried.as_planned).collect();
             let begun = Instant::now();
             let compared = hardest_and_easiest(&case, rows, interval);
-            let brute: Vec<JudgedShot> =
+            let brute: Vec<ShotSummary> =
                 compared.par_iter().map(|order| checked(&case, order, interval)).collect();
             let ([worst, best], [high, low]) = (ends(&found), ends(&brute));
             let [upper, _] = ends(&brute.iter().map(|judged| judged.with_errors(1.0)).collect_vec());
@@ -135,7 +135,7 @@ fn hardest_and_easiest(case: &Case, rows: usize, interval: f64) -> Vec<Vec<usize
         return all;
     }
     let compute = ComputeSettings::of(&case.plan);
-    let settings = case.settings(compute.method, compute.first_step(case));
+    let settings = case.run_settings(compute.method, compute.first_step(case));
     let utilization = |order: &Vec<usize>| {
         let run = case.model.run(&case.shot(order, interval), &settings, &mut |_| ControlFlow::Continue(()));
         let run = run.expect("a run");

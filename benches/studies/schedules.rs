@@ -77,7 +77,7 @@ fn all() -> Vec<Schedule> {
     let schedule = |(order, (&first, second)): (Vec<usize>, (&f64, f64))| Schedule {
         order,
         gaps_ms: vec![first, second],
-        holes: HoleTiming::TOGETHER,
+        hole_timing: HoleTiming::TOGETHER,
     };
     orders.cartesian_product(gaps.collect_vec()).map(schedule).collect()
 }

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use libfuzzer_sys::fuzz_target;
 use shelter::choice::Method;
 use shelter::plan::{Layout, Plan};
-use shelter::simulation::{Failure, Settings};
+use shelter::simulation::{Failure, RunSettings};
 use shelter::study::Case;
 
 /// Tires of the largest shelter run; larger ones only take longer.
@@ -31,7 +31,7 @@ fuzz_target!(|text: &str| {
     for method in [Method::Verlet, Method::Newmark] {
         for shot in case.shots.iter().take(2) {
             let mut left = STEPS;
-            let outcome = case.model.run(shot, &Settings { method, step, duration: None }, &mut |motion| {
+            let outcome = case.model.run(shot, &RunSettings { method, step, duration: None }, &mut |motion| {
                 for tire in 0..tires {
                     let u = motion.displacement(tire);
                     assert!(u.iter().all(|x| x.is_finite()) && u.z >= 0.0, "{method:?}: tire {tire} at {u:?}");

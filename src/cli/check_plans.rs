@@ -11,8 +11,7 @@ use super::status::{FINER, Status};
 use crate::report::check::report;
 use crate::report::json::CheckDocument;
 use crate::report::model::Report;
-use crate::report::why;
-use crate::study::check_all::{OptionResults, check_all, find_launch_margins};
+use crate::study::check_all::{OptionResults, check_all, check_with_margins};
 use crate::study::sampling::Sampling;
 use crate::study::why::{WouldPass, find_all_changes, not_passing};
 use crate::study::{Case, Finding, Found, NoResult};
@@ -35,10 +34,10 @@ pub fn check_plans(
 ) -> Finding<Vec<CheckedPlan>> {
     let cases: Vec<_> = cases.iter().map(|case| (case, compute.settings(&case.plan))).collect();
     run_study(compute, |progress| {
-        let Found { value: mut results, mut partial } = check_all(&cases, sampling.as_ref(), progress)?;
-        if sampling.is_some() {
-            partial |= find_launch_margins(&cases, &mut results, progress, &|_, _| {})?.partial;
-        }
+        let Found { value: results, mut partial } = match &sampling {
+            Some(sampling) => check_with_margins(&cases, Some(sampling), progress, &|_, _| {})?,
+            None => check_all(&cases, None, progress)?,
+        };
         let mut checked = Vec::new();
         for (results, (case, compute)) in results.into_iter().zip(&cases) {
             let mut would_pass = None;
@@ -73,18 +72,12 @@ pub fn print_checks(
     let Found { value: checked, partial } = checked;
     let pairs = || cases.iter().zip(checked);
     let reported = |(case, CheckedPlan { results, would_pass }): (&Case, &CheckedPlan)| {
-        let mut report = report(case, results, any, *partial);
-        report.blocks.extend(would_pass.iter().flat_map(|changes| why::blocks(case, changes)));
-        report
+        report(case, results, would_pass.as_deref(), any, *partial)
     };
     let reports: Vec<Report> = pairs().map(reported).collect();
     let documents = || {
         let document = |(case, CheckedPlan { results, would_pass }): (&Case, &CheckedPlan)| {
-            let document = CheckDocument::new(case, results, any, *partial);
-            match would_pass {
-                Some(changes) => document.with_changes(case, changes),
-                None => document,
-            }
+            CheckDocument::new(case, results, would_pass.as_deref(), any, *partial)
         };
         let mut all: Vec<_> = pairs().map(document).collect();
         match all.len() {

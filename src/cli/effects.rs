@@ -26,9 +26,9 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
     let sampling = arguments.study.verdict.exactly(SAMPLES);
-    let settings = arguments.study.compute.settings(&case.plan);
+    let compute = arguments.study.compute.settings(&case.plan);
     match run_study(&arguments.study.compute, |progress| {
-        effects(&case, sampling.as_ref(), &settings, progress)
+        effects(&case, sampling.as_ref(), &compute, progress)
     }) {
         Err(reason) => failed(&reason),
         Ok(Found { value: found, partial }) => {

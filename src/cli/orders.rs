@@ -40,7 +40,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         return Ok(Status::Wrong);
     };
     if arguments.option.is_some() {
-        case.holes = Some(case.plan.delays[option].holes);
+        case.hole_timing = Some(case.plan.delays[option].hole_timing);
     }
     let intervals_s = arguments.interval.map_or_else(|| case.intervals(), |interval| interval.values());
     if arguments.shard.is_some() && !tries_all(&case) {
@@ -54,23 +54,23 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         );
         return wrong(&message);
     }
-    let settings = arguments.study.compute.settings(&case.plan);
+    let compute = arguments.study.compute.settings(&case.plan);
     let sampling = arguments.study.verdict.sampling();
     if let Some(shard) = arguments.shard {
         let tried = run_study(&arguments.study.compute, |progress| {
-            try_orders(&case, &intervals_s, shard, &settings, progress)
+            try_orders(&case, &intervals_s, shard, &compute, progress)
         });
         return match tried {
             Err(reason) => failed(&reason),
             Ok(Found { value: tried, .. }) => {
                 let question = Question::Orders { intervals_s, sampling };
-                print_text(&write_shard(&case, question, settings, shard, &ShardResults::Orders(tried))?)?;
+                print_text(&write_shard(&case, question, compute, shard, &ShardResults::Orders(tried))?)?;
                 Ok(Status::Pass)
             }
         };
     }
     let ranked = run_study(&arguments.study.compute, |progress| {
-        orders(&case, &intervals_s, sampling.as_ref(), &settings, progress)
+        orders(&case, &intervals_s, sampling.as_ref(), &compute, progress)
     });
     match ranked {
         Err(reason) => failed(&reason),

@@ -6,14 +6,12 @@ use super::arguments::{FormatArg, LookArguments};
 use super::print::print;
 use super::status::Status;
 use crate::report::json::{OrdersDocument, RiskDocument, SearchDocument};
-use crate::report::warnings::SWAP;
 use crate::report::{orders, risk, search};
 use crate::study::Case;
 use crate::study::check_all::OptionResults;
 use crate::study::orders::Orders;
 use crate::study::sampling::Sampling;
 use crate::study::search::Search;
-use crate::study::swaps::swaps;
 
 /// Prints the orders tried; `partial` where the time was up before all were.
 pub fn print_orders(
@@ -36,7 +34,7 @@ pub fn print_risks(
     format: FormatArg,
     look: &LookArguments,
 ) -> io::Result<Status> {
-    let document = || RiskDocument::new(case, results, sampling, &swaps(case, SWAP), partial);
+    let document = || RiskDocument::new(case, results, sampling, partial);
     print(&[risk::report(case, results, sampling, partial)], document, format, look)
 }
 

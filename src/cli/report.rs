@@ -56,7 +56,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     match arguments.format {
         Some(format) => print_checks(&cases, &checked, false, format, look),
         None => {
-            let reports = [check::report(&cases[0], &checked.value[0].results, false, checked.partial)];
+            let reports = [check::report(&cases[0], &checked.value[0].results, None, false, checked.partial)];
             print_warnings(&reports);
             Ok(Status::of(&reports))
         }

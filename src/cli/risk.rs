@@ -11,7 +11,8 @@ use super::print::print_text;
 use super::print_sharded::print_risks;
 use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
-use crate::study::merge::{OptionSample, Question, ShardResults, write_shard};
+use crate::study::merge::{Question, ShardResults, write_shard};
+use crate::study::sample::OptionSample;
 use crate::study::sampling::{Sampling, ShotToSample, draw_shard};
 use crate::study::{Case, Found, Shard};
 
@@ -47,8 +48,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if let Some(shard) = arguments.shard {
         return draw(arguments, &case, &sampling, shard);
     }
-    let settings = arguments.compute.settings(&case.plan);
-    let judge = |progress: &_| case.judge_options(&settings, Some(&sampling), progress);
+    let compute = arguments.compute.settings(&case.plan);
+    let judge = |progress: &_| case.judge_options(&compute, Some(&sampling), progress);
     match run_study(&arguments.compute, judge) {
         Err(reason) => failed(&reason),
         Ok(Found { value: results, partial }) => {
@@ -59,8 +60,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
 
 /// Draws and prints this machine's shard of the samples.
 fn draw(arguments: &Arguments, case: &Case, sampling: &Sampling, shard: Shard) -> io::Result<Status> {
-    let settings = arguments.compute.settings(&case.plan);
-    let target = |shot| ShotToSample::new(case, shot, settings, *sampling);
+    let compute = arguments.compute.settings(&case.plan);
+    let target = |shot| ShotToSample::new(case, shot, compute, *sampling);
     let targets: Vec<_> = case.shots.iter().map(target).collect();
     let drawn = run_study(&arguments.compute, |progress| {
         let drawn = draw_shard(&targets, shard, progress)?;
@@ -72,7 +73,7 @@ fn draw(arguments: &Arguments, case: &Case, sampling: &Sampling, shard: Shard) -
         Err(reason) => failed(&reason),
         Ok(Found { value: samples, .. }) => {
             let question = Question::Risk { sampling: *sampling };
-            print_text(&write_shard(case, question, settings, shard, &ShardResults::Risk(samples))?)?;
+            print_text(&write_shard(case, question, compute, shard, &ShardResults::Risk(samples))?)?;
             Ok(Status::Pass)
         }
     }

@@ -36,7 +36,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if arguments.write.is_some() && case.source.path == "-" {
         return wrong("--write has no file to write into: give the plan by its name");
     }
-    let settings = arguments.study.compute.settings(&case.plan);
+    let compute = arguments.study.compute.settings(&case.plan);
     let sampling = arguments.study.verdict.sampling();
     if let Some(shard) = arguments.shard {
         match judges_all(&case) {
@@ -49,20 +49,19 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             Err(reason) => return failed(&reason),
         }
         let tried = run_study(&arguments.study.compute, |progress| {
-            try_schedules(&case, sampling.as_ref(), &settings, shard, progress)
+            try_schedules(&case, sampling.as_ref(), &compute, shard, progress)
         });
         return match tried {
             Err(reason) => failed(&reason),
             Ok(Found { value: tried, .. }) => {
                 let question = Question::Search { sampling };
-                print_text(&write_shard(&case, question, settings, shard, &ShardResults::Search(tried))?)?;
+                print_text(&write_shard(&case, question, compute, shard, &ShardResults::Search(tried))?)?;
                 Ok(Status::Pass)
             }
         };
     }
-    match run_study(&arguments.study.compute, |progress| {
-        search(&case, sampling.as_ref(), &settings, progress)
-    }) {
+    match run_study(&arguments.study.compute, |progress| search(&case, sampling.as_ref(), &compute, progress))
+    {
         Err(reason) => failed(&reason),
         Ok(Found { value: found, partial }) => {
             let status = print_search(&case, &found, partial, arguments.study.format, look)?;

@@ -58,10 +58,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Ok(demand) => demand,
         Err(message) => return wrong(&message),
     };
-    let settings = arguments.study.compute.settings(&case.plan);
+    let compute = arguments.study.compute.settings(&case.plan);
     let sampling = arguments.study.verdict.sampling();
     let sized = run_study(&arguments.study.compute, |progress| {
-        size(&plan, &demand, sampling.as_ref(), &settings, progress)
+        size(&plan, &demand, sampling.as_ref(), &compute, progress)
     });
     let sizing = match sized {
         Ok(finished) => finished.value,
@@ -112,7 +112,8 @@ fn choose_demand(arguments: &Arguments, case: &Case) -> Result<Demand, String> {
     if !tries_all(case) {
         return Err(format!("--any-order tries all orders of at most {MOST_ROWS} blast rows"));
     }
-    case.needs_holes().map_err(|reason| format!("{reason} --any-order takes plans whose options agree"))?;
+    case.require_hole_timing()
+        .map_err(|reason| format!("{reason} --any-order takes plans whose options agree"))?;
     let intervals = arguments.interval.map_or_else(|| case.intervals(), |interval| interval.values());
     if intervals.is_empty() {
         return Err(format!("{}: give --interval FROM..TO:STEP", NoResult::NoInterval));

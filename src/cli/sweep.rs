@@ -42,12 +42,12 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         }
     };
     if arguments.option.is_some() {
-        case.holes = Some(case.plan.delays[option].holes);
+        case.hole_timing = Some(case.plan.delays[option].hole_timing);
     }
-    let settings = arguments.study.compute.settings(&case.plan);
+    let compute = arguments.study.compute.settings(&case.plan);
     let sampling = arguments.study.verdict.sampling();
     let swept = run_study(&arguments.study.compute, |progress| {
-        sweep(&case, &order, &arguments.interval, sampling.as_ref(), &settings, progress)
+        sweep(&case, &order, &arguments.interval, sampling.as_ref(), &compute, progress)
     });
     match swept {
         Err(reason) => failed(&reason),

@@ -49,7 +49,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(message) => return wrong(&message),
     };
     let compute = arguments.compute.settings(&case.plan);
-    let settings = case.settings(compute.method, compute.first_step(&case));
+    let settings = case.run_settings(compute.method, compute.first_step(&case));
     let (begun, timeout) = (Instant::now(), arguments.compute.timeout);
     let in_time = || match timeout {
         Some(timeout) if begun.elapsed().as_secs_f64() > timeout => ControlFlow::Break(()),

@@ -4,9 +4,9 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use super::{Job, News};
-use crate::study::check_all::{CaseOption, CheckEvent, check_all_watched, find_launch_margins};
+use crate::study::check_all::{CaseOption, CheckEvent, check_with_margins};
 use crate::study::sampling::Sampling;
-use crate::study::{Found, NoResult, guarded};
+use crate::study::{NoResult, guarded};
 
 /// Least time between two pieces of news about an option that computes.
 const CHECKING_EVERY: Duration = Duration::from_millis(50);
@@ -51,12 +51,8 @@ impl Job {
                 CheckEvent::Margin(margin) => self.tell(News::Margin { option, margin }),
             }
         };
-        let judged = guarded(|| {
-            let sampling = Some(&Sampling::OF_VERDICT);
-            let Found { value: mut results, .. } =
-                check_all_watched(&cases, sampling, &self.progress, &watch)?;
-            find_launch_margins(&cases, &mut results, &self.progress, &watch)
-        });
+        let judged =
+            guarded(|| check_with_margins(&cases, Some(&Sampling::OF_VERDICT), &self.progress, &watch));
         if let Err(none) = judged {
             self.tell_no_result(&none);
         }

@@ -13,7 +13,7 @@ use std::thread;
 
 pub use studies::{StudyKind, StudyResult};
 
-use crate::study::check::Checked;
+use crate::study::check::CheckedShot;
 use crate::study::margin::LaunchMargin;
 use crate::study::risk::Risk;
 use crate::study::{Case, ComputeSettings, NoResult, Progress, guarded, thread_pool};
@@ -35,7 +35,7 @@ pub enum News {
         /// Index of the option.
         option: usize,
         /// Its result.
-        result: Result<Box<Checked>, NoResult>,
+        result: Result<Box<CheckedShot>, NoResult>,
     },
     /// Samples of an option that is judged as planned.
     Sampled {

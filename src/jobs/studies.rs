@@ -99,7 +99,7 @@ impl Job {
     pub(super) fn study(&self, kind: StudyKind, option: usize) -> Result<StudyResult, NoResult> {
         let Self { case, compute, progress, .. } = self;
         // Where the options differ in how the holes of a row fire, the selected one is meant.
-        let with_holes = || case.with_holes_of(option);
+        let with_holes = || case.with_hole_timing_of(option);
         match kind {
             StudyKind::Sweep => {
                 let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();

@@ -33,7 +33,7 @@ fn wait<T>(mut look: impl FnMut() -> Option<T>) -> T {
 }
 
 /// Results of every option, by option.
-fn checked(jobs: &mut Jobs, options: usize) -> Vec<Result<Box<Checked>, NoResult>> {
+fn checked(jobs: &mut Jobs, options: usize) -> Vec<Result<Box<CheckedShot>, NoResult>> {
     let mut results = Vec::new();
     wait(|| {
         for news in jobs.news() {

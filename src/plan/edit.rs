@@ -13,7 +13,7 @@ use crate::ropes::Rope;
 impl Plan {
     /// The plan with another rope, tire mass and border. The holes give the same momentum: a tire of another mass leaves at
     /// another speed. All other values stay.
-    pub fn with(&self, rope: &Rope, tire_mass_kg: f64, border_rows: usize) -> Plan {
+    pub fn with_sizes(&self, rope: &Rope, tire_mass_kg: f64, border_rows: usize) -> Plan {
         let mut plan = self.clone();
         plan.cable.rope = Some(rope.name.clone());
         plan.cable.axial_stiffness_kn = rope.axial_stiffness_kn;
@@ -107,9 +107,9 @@ fn delay_entries(delay: &DelayOption, name: &str, rows: &[BlastRow]) -> Vec<(&'s
             entries.push((keys::delay::AT_MS.name, times));
         }
     }
-    if delay.holes.interval_ms > 0.0 {
-        entries.push((keys::delay::HOLE_INTERVAL_MS.name, plain(delay.holes.interval_ms)));
-        entries.push((keys::delay::HOLE_ORDER.name, delay.holes.order.name().into()));
+    if delay.hole_timing.interval_ms > 0.0 {
+        entries.push((keys::delay::HOLE_INTERVAL_MS.name, plain(delay.hole_timing.interval_ms)));
+        entries.push((keys::delay::HOLE_ORDER.name, delay.hole_timing.order.name().into()));
     }
     entries
 }

@@ -97,7 +97,7 @@ impl Plan {
 
     /// How the holes of each row fire in every delay option; `None` where options differ.
     pub fn shared_hole_timing(&self) -> Option<HoleTiming> {
-        let mut all = self.delays.iter().map(|delay| delay.holes);
+        let mut all = self.delays.iter().map(|delay| delay.hole_timing);
         let first = all.next().unwrap_or(HoleTiming::TOGETHER);
         all.all(|holes| holes.is_same(&first)).then_some(first)
     }
@@ -346,13 +346,13 @@ pub struct DelayOption {
     /// Firing times of the rows: of the first hole of each.
     pub timing: Timing,
     /// Firing times of the holes of each row.
-    pub holes: HoleTiming,
+    pub hole_timing: HoleTiming,
 }
 
 impl DelayOption {
     /// Whether two options fire every hole at the same time.
     pub fn fires_like(&self, other: &Self) -> bool {
-        self.timing.fire_at_ms() == other.timing.fire_at_ms() && self.holes.is_same(&other.holes)
+        self.timing.fire_at_ms() == other.timing.fire_at_ms() && self.hole_timing.is_same(&other.hole_timing)
     }
 }
 

@@ -10,7 +10,7 @@ use crate::study::risk::Risk;
 use crate::study::search::FrontPoint;
 use crate::study::size::{Combination, Sizing};
 use crate::study::sweep::{Point, Sweep};
-use crate::study::{Case, JudgedShot};
+use crate::study::{Case, ShotSummary};
 use crate::units::Unit;
 use crate::verdict::{Quantity, Verdict};
 
@@ -45,7 +45,7 @@ const FORCE: &str = "cable force";
 /// share that fails, too.
 pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
     let interval = axis("interval", Unit::Millisecond, sweep.range());
-    let chart = |name, unit, quantity: fn(&JudgedShot) -> f64, limit| {
+    let chart = |name, unit, quantity: fn(&ShotSummary) -> f64, limit| {
         let point = |point: &Point| (point.interval, quantity(&point.as_planned));
         // A run that failed has no value.
         let points = sweep.points.iter().map(point).filter(|(_, value)| value.is_finite()).collect();

@@ -4,12 +4,13 @@ use super::explain::{self, broken, compute_label, launch_margin, reason, risk_de
 use super::model::{Block, Cell, Column, Conclusion, Detail, Field, Report, Shown, Table};
 use super::option_row::{OptionRow, option_rows};
 use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
-use super::{no_result, report_head, warnings};
+use super::{no_result, report_head, warnings, why};
 use crate::study::Case;
-use crate::study::check::Checked;
+use crate::study::check::CheckedShot;
 use crate::study::check_all::{OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
 use crate::study::reason::Reason;
+use crate::study::why::WouldPass;
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Quantity, Verdict};
 
@@ -22,7 +23,7 @@ pub(super) fn band(row: &OptionRow<'_>, quantity: Quantity, unit: Unit) -> Cell 
 /// Why the option does not pass, or has no result.
 fn all_reasons(row: &OptionRow<'_>) -> String {
     match row.result {
-        Ok(judged) => texts(row.case, judged).join("; "),
+        Ok(judged) => reason_sentences(row.case, judged).join("; "),
         Err(reason) => no_result::message(reason),
     }
 }
@@ -31,7 +32,7 @@ fn all_reasons(row: &OptionRow<'_>) -> String {
 fn firing(row: &OptionRow<'_>) -> String {
     let times: Vec<String> = row.delay.timing.fire_at_ms().iter().map(f64::to_string).collect();
     let rows = format!("{} ms", times.join(", "));
-    [rows].into_iter().chain(row.delay.holes.words()).collect::<Vec<_>>().join(" · ")
+    [rows].into_iter().chain(row.delay.hole_timing.words()).collect::<Vec<_>>().join(" · ")
 }
 
 fn fields<'a>() -> [Field<OptionRow<'a>>; 34] {
@@ -46,7 +47,7 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 34] {
         Field::new(Column::scripts(&["judged"]), |row| {
             row.result
                 .as_ref()
-                .map_or(Cell::Nothing, |judged| Cell::Text(judged_by(row.case, judged).to_owned()))
+                .map_or(Cell::Nothing, |judged| Cell::Text(judged_inputs(row.case, judged).to_owned()))
         }),
         Field::new(Column::scripts(&["nominal_verdict"]), |row| {
             row.as_planned(|checked| Cell::Verdict(checked.verdict))
@@ -93,7 +94,7 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 34] {
             row.together().charge.map_or(Cell::Nothing, Cell::Number)
         }),
         Field::new(DRIFT, |row| {
-            row.as_planned(|Checked { drift, .. }| Cell::Estimate {
+            row.as_planned(|CheckedShot { drift, .. }| Cell::Estimate {
                 value: drift.value,
                 error: drift.error,
                 unit: Unit::Metre,
@@ -142,8 +143,15 @@ pub(super) const LAUNCH_MARGIN: Column = Column::words(&[], "launches").under("a
 /// Greatest drift and its error.
 const DRIFT: Column = Column::numbers(&["drift_m", "drift_error_m"], "drift", Unit::Metre);
 
-/// The report of one plan, which is partial where the time was up; with `any` one passing option is enough.
-pub fn report(case: &Case, results: &OptionResults, any: bool, partial: bool) -> Report {
+/// The report of one plan, which is partial where the time was up; with the changes with which options would pass, where they were
+/// asked for. With `any` one passing option is enough.
+pub fn report(
+    case: &Case,
+    results: &OptionResults,
+    would_pass: Option<&[WouldPass]>,
+    any: bool,
+    partial: bool,
+) -> Report {
     let sampled = results.iter().flatten().any(|judged| judged.risk.is_asked());
     let shown = |column: &Column| match column {
         column if [HEIGHT, FORCE].contains(column) && sampled => column.shown(Shown::Scripts),
@@ -157,12 +165,14 @@ pub fn report(case: &Case, results: &OptionResults, any: bool, partial: bool) ->
     complete_rows(&mut table, case, results);
     let passed = results.iter().flatten().filter(|judged| judged.verdict() == Verdict::Pass).count();
     let so_far = if partial { " so far, the time was up" } else { "" };
-    let mut text = format!("{passed} of {} options pass{so_far}{}", results.len(), meaning(case, sampled));
+    let mut text =
+        format!("{passed} of {} options pass{so_far}{}", results.len(), pass_caveat(case, sampled));
     if let Some(judged) = results.iter().flatten().next() {
         text += &format!(" · {}", compute_label(&judged.as_planned.compute));
     }
     let mut report = report_head(case, sampled);
     report.blocks.push(Block::Table(table));
+    report.blocks.extend(would_pass.iter().flat_map(|changes| why::blocks(case, changes)));
     report.warnings.extend(warnings::of_options(case, results));
     report.conclusion = Some(Conclusion { verdict: verdict_on_plan(results, any), text });
     report
@@ -174,7 +184,7 @@ pub(super) fn planned(peak: Estimate, unit: Unit) -> Cell {
 }
 
 /// What was judged, as scripts read it.
-pub fn judged_by(case: &Case, judged: &Judgement) -> &'static str {
+pub fn judged_inputs(case: &Case, judged: &Judgement) -> &'static str {
     match (judged.risk.is_asked(), case.plan.uncertainty.assumed) {
         (false, _) => "nominal",
         (true, true) => "default",
@@ -183,7 +193,7 @@ pub fn judged_by(case: &Case, judged: &Judgement) -> &'static str {
 }
 
 /// What a pass is about, in brackets.
-pub(super) fn meaning(case: &Case, sampled: bool) -> &'static str {
+pub(super) fn pass_caveat(case: &Case, sampled: bool) -> &'static str {
     match (sampled, case.plan.uncertainty.assumed) {
         (false, _) => " (the plan's own numbers only)",
         (true, true) => " (inputs assumed known to 1 %)",
@@ -200,7 +210,7 @@ fn bars(series: &[f64], top: f64) -> Cell {
 }
 
 /// Why an option does not pass, one sentence a reason.
-pub fn texts(case: &Case, judged: &Judgement) -> Vec<String> {
+pub fn reason_sentences(case: &Case, judged: &Judgement) -> Vec<String> {
     reasons(case, judged).map(|detail| detail.text).collect()
 }
 

@@ -39,7 +39,7 @@ fn write(tables: &[&Table]) -> Result<String, csv::Error> {
 /// What one name in the header stands for.
 #[derive(Clone, Serialize)]
 #[serde(untagged)]
-enum Field<'a> {
+enum CsvValue<'a> {
     Nothing,
     Text(&'a str),
     Flag(bool),
@@ -48,20 +48,20 @@ enum Field<'a> {
 }
 
 /// One field a key.
-fn fields<'a>(table: &Table, row: &'a Row) -> Vec<Field<'a>> {
+fn fields<'a>(table: &Table, row: &'a Row) -> Vec<CsvValue<'a>> {
     let mut fields = Vec::new();
     for (column, cell) in table.columns.iter().zip(&row.cells) {
         let written = match cell {
             Cell::Nothing | Cell::Sparkline { .. } => Vec::new(),
-            Cell::Text(text) => vec![Field::Text(text)],
-            Cell::Verdict(verdict) => vec![Field::Text(verdict.name())],
-            Cell::Flag(flag) => vec![Field::Flag(*flag)],
-            Cell::Count(count) => vec![Field::Count(*count)],
+            Cell::Text(text) => vec![CsvValue::Text(text)],
+            Cell::Verdict(verdict) => vec![CsvValue::Text(verdict.name())],
+            Cell::Flag(flag) => vec![CsvValue::Flag(*flag)],
+            Cell::Count(count) => vec![CsvValue::Count(*count)],
             Cell::Factor(factor) if factor.is_infinite() => Vec::new(),
-            Cell::Estimate { value, error, .. } => vec![Field::Number(*value), Field::Number(*error)],
-            Cell::Spread(values, _) => values.map(Field::Number).to_vec(),
-            Cell::Band(ends, _) => ends.map(Field::Number).to_vec(),
-            Cell::Probability(interval) => interval.map(Field::Number).to_vec(),
+            Cell::Estimate { value, error, .. } => vec![CsvValue::Number(*value), CsvValue::Number(*error)],
+            Cell::Spread(values, _) => values.map(CsvValue::Number).to_vec(),
+            Cell::Band(ends, _) => ends.map(CsvValue::Number).to_vec(),
+            Cell::Probability(interval) => interval.map(CsvValue::Number).to_vec(),
             Cell::Number(number)
             | Cell::Rounded(number, _)
             | Cell::Value(number, _)
@@ -70,13 +70,13 @@ fn fields<'a>(table: &Table, row: &'a Row) -> Vec<Field<'a>> {
             | Cell::Factor(number)
             | Cell::Utilization(number)
             | Cell::RelativeError(number)
-            | Cell::Residual(number) => vec![Field::Number(*number)],
+            | Cell::Residual(number) => vec![CsvValue::Number(*number)],
         };
         if column.keys.is_empty() {
             continue;
         }
         // A cell without a value leaves all its fields empty; any other cell has a number for each key.
-        let empty = vec![Field::Nothing; column.keys.len()];
+        let empty = vec![CsvValue::Nothing; column.keys.len()];
         let written = if written.is_empty() { empty } else { written };
         debug_assert_eq!(written.len(), column.keys.len(), "{:?}", column.keys);
         fields.extend(written);

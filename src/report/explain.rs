@@ -2,11 +2,11 @@
 
 use super::model::Detail;
 use crate::choice::Accuracy;
-use crate::outcome::Broken;
+use crate::outcome::BrokenCable;
 use crate::scene::{Scene, Shot};
 use crate::study::Case;
 use crate::study::ComputeSettings;
-use crate::study::check::Checked;
+use crate::study::check::CheckedShot;
 use crate::study::influence;
 use crate::study::judgement::Judgement;
 use crate::study::margin::LaunchMargin;
@@ -151,7 +151,7 @@ pub fn launch_margin(margin: LaunchMargin) -> String {
     match margin {
         LaunchMargin::NotPassing => "to +0 %".to_owned(),
         LaunchMargin::UpTo { rise, .. } => format!("to +{}", units::percent(rise, 0)),
-        LaunchMargin::Wide => "over +100 %".to_owned(),
+        LaunchMargin::BeyondTried => "over +100 %".to_owned(),
     }
 }
 
@@ -171,7 +171,7 @@ pub fn launch_limit(shot: &Shot, judged: &Judgement) -> Option<String> {
             let (share, becomes) = (rise + 0.01, if then == Verdict::Fail { "fails" } else { "open" });
             Some(format!("{becomes} from +{} launch{}", units::percent(share, 0), at(1.0 + share)))
         }
-        LaunchMargin::Wide => Some(format!("passes up to +100 % launch{}", at(2.0))),
+        LaunchMargin::BeyondTried => Some(format!("passes up to +100 % launch{}", at(2.0))),
     }
 }
 
@@ -223,8 +223,8 @@ pub fn compute_label(compute: &ComputeSettings) -> String {
 }
 
 /// Where and when height and force were greatest.
-fn peak(scene: &Scene, checked: &Checked) -> [String; 2] {
-    let Checked { height, force, .. } = checked;
+fn peak(scene: &Scene, checked: &CheckedShot) -> [String; 2] {
+    let CheckedShot { height, force, .. } = checked;
     let lifted = format!("tire {}, {}", scene.tire[height.index], units::seconds(height.at));
     let pulled = format!("cable {}, {}", scene.cable_name(force.index), units::seconds(force.at));
     [
@@ -237,9 +237,9 @@ fn peak(scene: &Scene, checked: &Checked) -> [String; 2] {
 const BROKEN: usize = 4;
 
 /// The cables that broke, the first ones by name.
-pub fn broken(scene: &Scene, checked: &Checked) -> String {
+pub fn broken(scene: &Scene, checked: &CheckedShot) -> String {
     let name =
-        |broken: &Broken| format!("{} at {}", scene.cable_name(broken.cable), units::seconds(broken.at));
+        |broken: &BrokenCable| format!("{} at {}", scene.cable_name(broken.cable), units::seconds(broken.at));
     let names: Vec<String> = checked.broken.iter().take(BROKEN).map(name).collect();
     let more = checked.broken.len().saturating_sub(BROKEN);
     let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
@@ -247,7 +247,7 @@ pub fn broken(scene: &Scene, checked: &Checked) -> String {
 }
 
 /// Greatest height, force and drift, with their errors, places and times.
-pub fn peaks(scene: &Scene, checked: &Checked) -> String {
+pub fn peaks(scene: &Scene, checked: &CheckedShot) -> String {
     let [highest, hardest] = peak(scene, checked);
     let value = |peak: &Estimate, unit: Unit| {
         format!("{} {}", value_and_error(peak.value, peak.error, unit), unit.symbol())
@@ -261,7 +261,7 @@ pub fn peaks(scene: &Scene, checked: &Checked) -> String {
 }
 
 /// How the values of an option were computed, and where its peaks are.
-pub fn computation(scene: &Scene, checked: &Checked) -> String {
+pub fn computation(scene: &Scene, checked: &CheckedShot) -> String {
     let [height, force] = peak(scene, checked);
     format!(
         "Highest: {height}; greatest force: {force}; {}, step {}, {} runs, energy residual {}",

@@ -1,6 +1,6 @@
 //! Words of cells, headings and axes, the same in text, page and terminal.
 
-use super::model::{Axis, Cell, Column, Scale};
+use super::model::{Axis, Block, Cell, Column, Offer, Report, Row, Scale, Shown};
 use super::spark::sparkline;
 use crate::units;
 
@@ -31,7 +31,35 @@ impl Cell {
     }
 }
 
+impl Row {
+    /// Whether the words of the row, in the columns that readers of text see, contain `filter`, whose letters are small.
+    pub fn contains(&self, columns: &[Column], filter: &str) -> bool {
+        let seen = columns.iter().zip(&self.cells).filter(|(column, _)| column.is_in_text());
+        let words = seen.map(|(_, cell)| cell.label(0)).chain(self.missing.clone());
+        words.collect::<Vec<_>>().join(" ").to_lowercase().contains(filter)
+    }
+}
+
+impl Report {
+    /// The changes of the plan that rows offer, of those that contain `filter`.
+    pub fn offers(&self, filter: &str) -> Vec<&Offer> {
+        let filter = filter.to_lowercase();
+        let tables = self.blocks.iter().filter_map(|block| match block {
+            Block::Table(table) => Some(table),
+            _ => None,
+        });
+        let rows = tables.flat_map(|table| table.rows.iter().map(move |row| (table, row)));
+        let kept = rows.filter(|(table, row)| row.contains(&table.columns, &filter));
+        kept.filter_map(|(_, row)| row.offer.as_ref()).collect()
+    }
+}
+
 impl Column {
+    /// Whether readers of text see it.
+    pub fn is_in_text(&self) -> bool {
+        matches!(self.shown, Shown::People | Shown::Text)
+    }
+
     /// Heading with unit: `height, m`.
     pub fn label(&self) -> String {
         with_unit(self.heading, self.unit)

@@ -82,7 +82,7 @@ fn report_head(case: &Case, sampled: bool) -> Report {
     facts += &accepted_risk(case, sampled);
     Report {
         title: title(case),
-        facts: [facts].into_iter().chain(notes::effects(plan)).collect(),
+        facts: [facts].into_iter().chain(notes::beyond_paper(plan)).collect(),
         warnings: warnings::of_plan(case),
         ..Report::default()
     }

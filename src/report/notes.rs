@@ -4,7 +4,7 @@ use crate::plan::{Launch, Plan, Timing};
 use crate::study::Case;
 
 /// The delay options that a study of orders leaves out at the intervals of the plan; `None` where there is no such option.
-pub fn orders(case: &Case) -> Option<String> {
+pub fn options_left_out(case: &Case) -> Option<String> {
     let own = case.plan.delays.iter().filter(|delay| matches!(delay.timing, Timing::At(_)));
     let names: Vec<&str> = own.map(|delay| delay.name.as_str()).collect();
     (!names.is_empty())
@@ -12,16 +12,16 @@ pub fn orders(case: &Case) -> Option<String> {
 }
 
 /// How the holes of a row fire in a study that varies order and interval; `None` where every row fires at once in all options.
-pub fn holes(case: &Case) -> Option<String> {
+pub fn hole_timing(case: &Case) -> Option<String> {
     let differ = case.plan.shared_hole_timing().is_none();
-    match case.holes.and_then(|holes| holes.words()) {
+    match case.hole_timing.and_then(|holes| holes.words()) {
         Some(holes) => Some(format!("in every row: {holes}")),
         None => differ.then(|| "here every row fires at once".to_owned()),
     }
 }
 
 /// What the plan adds to the source paper's model, in one line; `None` where it adds nothing.
-pub fn effects(plan: &Plan) -> Option<String> {
+pub fn beyond_paper(plan: &Plan) -> Option<String> {
     let (ground, tire, cable) = (&plan.ground, &plan.tire, &plan.cable);
     let told = |holds: bool, text: String| holds.then_some(text);
     let greatest = |quantity: fn(&Launch) -> f64| plan.launches().map(quantity).fold(0.0, f64::max);

@@ -3,7 +3,7 @@
 use super::model::Cell;
 use crate::plan::DelayOption;
 use crate::scene::Shot;
-use crate::study::check::Checked;
+use crate::study::check::CheckedShot;
 use crate::study::check_all::OptionResults;
 use crate::study::judgement::Judgement;
 use crate::study::risk::Risk;
@@ -30,7 +30,7 @@ pub fn option_rows<'a>(
 
 impl OptionRow<'_> {
     /// A cell of the shot as planned; nothing where there is no result.
-    pub fn as_planned(&self, cell: impl FnOnce(&Checked) -> Cell) -> Cell {
+    pub fn as_planned(&self, cell: impl FnOnce(&CheckedShot) -> Cell) -> Cell {
         self.result.as_ref().map_or(Cell::Nothing, |judged| cell(&judged.as_planned))
     }
 

@@ -65,10 +65,10 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
         true => format!("{all} orders and intervals, all there are, worst first"),
         false => format!("{all} orders searched: the worst may not be among them, worst first"),
     };
-    let mut heads: Vec<String> = [head].into_iter().chain(notes::holes(case)).collect();
+    let mut heads: Vec<String> = [head].into_iter().chain(notes::hole_timing(case)).collect();
     let own = case.intervals();
     if orders.ranked.iter().all(|tried| own.contains(&tried.interval)) {
-        heads.extend(notes::orders(case));
+        heads.extend(notes::options_left_out(case));
     }
     if orders.has_risk() {
         heads.push(RANKING.to_owned());

@@ -1,7 +1,7 @@
 //! `search` as a report: one row a schedule, the best first, and the front of risk against duration.
 
 use super::check::{
-    FORCE_BAND, HEIGHT_BAND, LAUNCH_MARGIN, NOMINAL_FORCE, NOMINAL_HEIGHT, band, complete_rows, meaning,
+    FORCE_BAND, HEIGHT_BAND, LAUNCH_MARGIN, NOMINAL_FORCE, NOMINAL_HEIGHT, band, complete_rows, pass_caveat,
     planned,
 };
 use super::explain::{compute_label, launch_margin, together};
@@ -32,9 +32,11 @@ fn fields<'a>() -> [Field<FoundRow<'a>>; 19] {
             Cell::Text(gaps.join(" "))
         }),
         Field::new(Column::scripts(&["hole_interval_ms"]), |row| {
-            Cell::Number(row.schedule.holes.interval_ms)
+            Cell::Number(row.schedule.hole_timing.interval_ms)
         }),
-        Field::new(Column::scripts(&["hole_order"]), |row| Cell::Text(row.schedule.holes.order.to_string())),
+        Field::new(Column::scripts(&["hole_order"]), |row| {
+            Cell::Text(row.schedule.hole_timing.order.to_string())
+        }),
         Field::new(VERDICT, |row| Cell::Verdict(row.option.verdict())),
         Field::new(FAILURES, |row| row.option.sampled(|risk| Cell::Probability(risk.bounds.interval))),
         Field::new(Column::numbers(&["duration_s"], "lasts", Unit::One), |row| {
@@ -97,7 +99,7 @@ pub fn report(case: &Case, search: &Search, partial: bool) -> Report {
         None => format!("no schedule was judged{so_far}"),
         Some(best) => format!("the best schedule found{so_far}: {}", best.name),
     };
-    text += meaning(case, sampled);
+    text += pass_caveat(case, sampled);
     if let Some(judged) = search.results.iter().flatten().next() {
         text += &format!(" · {}", compute_label(&judged.as_planned.compute));
     }
@@ -126,12 +128,12 @@ fn reach(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
     let most_holes = case.plan.search.most_holes_in_8_ms.into_iter().chain(limits.holes_in_8_ms).min();
     let refused = [
         (
-            refused.longest,
+            refused.too_long,
             case.plan.search.longest_ms.map(|longest| format!("last longer than {longest} ms")),
         ),
-        (refused.holes, most_holes.map(|most| format!("fire more than {most} holes within 8 ms"))),
+        (refused.too_many_holes, most_holes.map(|most| format!("fire more than {most} holes within 8 ms"))),
         (
-            refused.charge,
+            refused.too_heavy,
             limits.charge_in_8_ms_kg.map(|most| format!("fire more than {most} kg within 8 ms")),
         ),
     ];

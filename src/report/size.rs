@@ -7,7 +7,7 @@ use super::no_result::FINER;
 use super::shared_columns::{FORCE, HEIGHT, force, height};
 use super::{accepted_risk, title, warnings};
 use crate::study::Case;
-use crate::study::size::{Combination, SampledRisk, Sizing, Trial, Untried};
+use crate::study::size::{Combination, Sizing, Trial, Untried, WorstShotRisk};
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
@@ -149,7 +149,7 @@ pub(super) fn nearest(sizing: &Sizing) -> Option<(&Combination, Trial)> {
 fn sentence(combination: &Combination, trial: &Trial) -> String {
     let risk = match trial.risk {
         None => " (the plan's own numbers only)".to_owned(),
-        Some(SampledRisk { failures, samples, most, .. }) => {
+        Some(WorstShotRisk { failures, samples, most, .. }) => {
             format!(
                 ", at most {} of the possible shots fail ({failures} of {samples})",
                 units::percent(most, 2)

@@ -9,7 +9,7 @@ use super::shared_columns::{
 use super::{notes, report_head, row_names, warnings};
 use crate::study::search::Schedule;
 use crate::study::sweep::{Point, Recommended, Sweep};
-use crate::study::{Case, JudgedShot};
+use crate::study::{Case, ShotSummary};
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
@@ -27,7 +27,7 @@ fn points<'a>() -> [Field<&'a Point>; 7] {
 }
 
 /// The worst and the recommended interval, each with its name, for people.
-fn ends<'a>() -> [Field<(&'static str, &'a Point)>; 6] {
+fn highlights<'a>() -> [Field<(&'static str, &'a Point)>; 6] {
     [
         Field::new(Column::words(&[], ""), |(name, _)| Cell::Text((*name).to_owned())),
         Field::new(INTERVAL.unread(), |(_, point)| Cell::Interval(point.interval)),
@@ -45,15 +45,15 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
     let head = format!("interval between rows {names}: {from} to {to}, {} tried", sweep.points.len());
     let mut blocks = Vec::new();
     if !sweep.points.is_empty() {
-        blocks.push(Block::Text([head].into_iter().chain(notes::holes(case)).collect()));
+        blocks.push(Block::Text([head].into_iter().chain(notes::hole_timing(case)).collect()));
         blocks.extend(charts::sweep(case, sweep).into_iter().map(Block::Chart));
-        blocks.push(Block::Table(table_of_ends(case, sweep)));
+        blocks.push(Block::Table(table_of_highlights(case, sweep)));
         blocks.push(Block::Text(windows(case, sweep, partial)));
         blocks.push(Block::Table(table_of_windows(case, sweep)));
     }
     blocks.push(Block::Table(Table::of(&points(), &sweep.points)));
     let passing = sweep.points.iter().map(|point| &point.as_planned);
-    let passing: Vec<&JudgedShot> = passing.filter(|shot| shot.verdict == Verdict::Pass).collect();
+    let passing: Vec<&ShotSummary> = passing.filter(|shot| shot.verdict == Verdict::Pass).collect();
     let best = sweep.best().map(|point| &point.as_planned);
     let mut report = report_head(case, sweep.has_risk());
     report.blocks = blocks;
@@ -63,11 +63,11 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
     report
 }
 
-fn table_of_ends(case: &Case, sweep: &Sweep) -> Table {
+fn table_of_highlights(case: &Case, sweep: &Sweep) -> Table {
     let named = [("worst", sweep.worst(case)), ("recommended", sweep.best())];
     let named = named.into_iter().filter_map(|(name, point)| Some((name, point?)));
     // Without any sample the last column has no cell.
-    let (fields, is_sampled) = (ends(), sweep.points.iter().any(Point::is_sampled));
+    let (fields, is_sampled) = (highlights(), sweep.points.iter().any(Point::is_sampled));
     let offers: Vec<Offer> =
         named.clone().map(|(_, point)| offer(case, &sweep.order, point.interval)).collect();
     Table::of(if is_sampled { &fields[..] } else { &fields[..5] }, named).offering(offers)
@@ -244,7 +244,7 @@ mod tests {
     #[test]
     fn a_sweep_passes_only_where_every_interval_passes() {
         let said = |verdicts: &[Verdict], partial: bool| {
-            let as_planned = |verdict| JudgedShot { verdict, ..JudgedShot::UNKNOWN };
+            let as_planned = |verdict| ShotSummary { verdict, ..ShotSummary::UNKNOWN };
             let point = |(n, &verdict): (usize, &Verdict)| Point {
                 interval: n as f64,
                 as_planned: as_planned(verdict),

@@ -3,7 +3,7 @@
 use unicode_width::UnicodeWidthStr;
 
 use super::ascii::to_ascii;
-use super::model::{Align, Block, Cell, Chart, Column, Report, Row, Scale, SeriesKind, Shown, Table};
+use super::model::{Align, Block, Cell, Chart, Column, Report, Row, Scale, SeriesKind, Table};
 use super::palette::Role;
 use super::spark::sparkline;
 use crate::units;
@@ -36,8 +36,8 @@ pub fn text(report: &Report, style: Style) -> String {
     for block in &report.blocks {
         let lines = match block {
             Block::Text(lines) => lines.clone(),
-            Block::Table(table) => lines(table, style),
-            Block::Chart(chart) => draw(chart),
+            Block::Table(table) => table_lines(table, style),
+            Block::Chart(chart) => chart_lines(chart),
             Block::Picture(_) => continue,
         };
         match paragraphs.last_mut() {
@@ -91,10 +91,8 @@ impl Label {
 }
 
 /// Heading and rows of the columns that readers of text see; no line where they see no column.
-fn lines(table: &Table, style: Style) -> Vec<String> {
-    let seen: Vec<usize> = (0..table.columns.len())
-        .filter(|&n| matches!(table.columns[n].shown, Shown::People | Shown::Text))
-        .collect();
+fn table_lines(table: &Table, style: Style) -> Vec<String> {
+    let seen: Vec<usize> = (0..table.columns.len()).filter(|&n| table.columns[n].is_in_text()).collect();
     if seen.is_empty() {
         return Vec::new();
     }
@@ -133,7 +131,7 @@ fn lines(table: &Table, style: Style) -> Vec<String> {
 }
 
 /// A chart as bars, or as marks where its axes are logarithmic.
-fn draw(chart: &Chart) -> Vec<String> {
+fn chart_lines(chart: &Chart) -> Vec<String> {
     match chart.x.scale {
         Scale::Linear => chart.series.iter().map(|series| bars(chart, &series.points)).collect(),
         Scale::Logarithmic => plot(chart),

@@ -1,16 +1,17 @@
-//! Warnings: what a reader must know beside the results. Every face draws them; each says in one sentence what is wrong.
+//! Warnings: what a reader must know beside the results, one sentence each. Text, page and terminal draw them; where only numbers are
+//! printed, they go to standard error.
 
 use crate::plan::DelayOption;
 use crate::plan::keys::Key;
 use crate::study::check_all::OptionResults;
 use crate::study::cover::Cover;
 use crate::study::judgement::Judgement;
-use crate::study::swaps::{Swap, swaps};
-use crate::study::{Case, JudgedShot, NoResult};
+use crate::study::swaps::{self, Swap};
+use crate::study::{Case, NoResult, ShotSummary};
 use crate::units;
 
 /// Least probability of a swap of blast rows that deserves a warning.
-pub const SWAP: f64 = 1e-4;
+const SWAP: f64 = 1e-4;
 
 /// Warnings of a plan, whatever is found: ranges of `[uncertainty]` that leave out what the plan itself says.
 pub fn of_plan(case: &Case) -> Vec<String> {
@@ -26,17 +27,21 @@ pub fn of_plan(case: &Case) -> Vec<String> {
 /// Warnings of the options of a plan: blast rows that may fire in the wrong order, and holes that fire under no cover.
 pub fn of_options(case: &Case, results: &OptionResults) -> Vec<String> {
     let sampled = results.iter().flatten().any(|judged| judged.risk.is_asked());
-    let swaps = if sampled { swaps(case, SWAP) } else { Vec::new() };
-    let swaps = swaps.iter().map(|found| swap(case, found));
+    let swaps = if sampled { swaps(case) } else { Vec::new() };
     let covers = |(delay, result): (&DelayOption, &Result<Judgement, NoResult>)| {
         let cover = uncovered(&result.as_ref().ok()?.as_planned.cover)?;
         Some(format!("option {}: {cover}", delay.name))
     };
-    swaps.chain(case.plan.delays.iter().zip(results).filter_map(covers)).collect()
+    swaps.into_iter().chain(case.plan.delays.iter().zip(results).filter_map(covers)).collect()
+}
+
+/// Warnings of blast rows that may fire in the wrong order, of all options.
+pub fn swaps(case: &Case) -> Vec<String> {
+    swaps::swaps(case, SWAP).iter().map(|found| swap(case, found)).collect()
 }
 
 /// The warning that two blast rows may fire in the wrong order.
-pub fn swap(case: &Case, swap: &Swap) -> String {
+fn swap(case: &Case, swap: &Swap) -> String {
     let [first, second] = swap.rows.map(|row| &case.plan.blast_rows[row].name);
     format!(
         "option {}: {} between rows {first} and {second} is short for the scatter of the detonators; a given hole of row {second} fires before a given hole of row {first} with a probability of {}",
@@ -59,14 +64,14 @@ pub fn uncovered(cover: &Cover) -> Option<String> {
 }
 
 /// The same for one of the shots of a study, called `name`.
-pub fn uncovered_shot(name: &str, shot: Option<&JudgedShot>) -> Option<String> {
+pub fn uncovered_shot(name: &str, shot: Option<&ShotSummary>) -> Option<String> {
     Some(format!("{name}: {}", uncovered(&shot?.cover)?))
 }
 
 /// How many of the shots of a study have such holes; `what` they are, many of them: `intervals tried`.
 pub fn count_uncovered<'a>(
     what: &str,
-    shots: impl ExactSizeIterator<Item = &'a JudgedShot>,
+    shots: impl ExactSizeIterator<Item = &'a ShotSummary>,
 ) -> Option<String> {
     let all = shots.len();
     let some = shots.filter(|shot| shot.cover.uncovered > 0).count();

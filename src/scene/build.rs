@@ -23,9 +23,9 @@ pub fn seconds(ms: f64) -> f64 {
 impl Shot {
     /// Shot of blast rows fired as a delay option says, under `scene`.
     pub fn new(scene: &Scene, rows: &[BlastRow], delay: &DelayOption) -> Self {
-        let (row_at_ms, DelayOption { holes, .. }) = (delay.timing.fire_at_ms(), delay);
-        let at = |row: usize, turn: f64| seconds(row_at_ms[row] + turn * holes.interval_ms);
-        Self::of_rows(scene, rows, holes, at)
+        let (row_at_ms, DelayOption { hole_timing, .. }) = (delay.timing.fire_at_ms(), delay);
+        let at = |row: usize, turn: f64| seconds(row_at_ms[row] + turn * hole_timing.interval_ms);
+        Self::of_rows(scene, rows, hole_timing, at)
     }
 
     /// Shot of blast rows fired in `order` under `scene`, `interval` [s] apart, each with its holes as `holes` says.
@@ -118,7 +118,7 @@ fn firing(tire: usize, launch: &Launch) -> Firing {
     let sideways = azimuth(tilt_toward_deg).push(0.0);
     let launch = speed_m_s * (cosine(tilt_deg - 90.0) * sideways + cosine(tilt_deg) * Vector3::z());
     let charge = charge_kg.unwrap_or(0.0);
-    Firing { push: seconds(push_ms), charge, ..Firing::at_once(0.0, tire, launch) }
+    Firing { push_time: seconds(push_ms), charge, ..Firing::at_once(0.0, tire, launch) }
 }
 
 /// Direction along the ground at an azimuth [°] from +x toward +y.

@@ -16,7 +16,7 @@ pub struct Firing {
     /// Launch velocity: impulse of the hole over the mass of the tire [m/s].
     pub launch: Vector3<f64>,
     /// Time over which the impulse acts, as a constant force [s]; 0: at once.
-    pub push: f64,
+    pub push_time: f64,
     /// Index of the blast row.
     pub row: usize,
     /// Explosive in the hole [kg]; 0 where the plan says nothing.
@@ -31,7 +31,7 @@ impl Firing {
 
     /// Firing at time `at` [s] that gives a tire the velocity `launch` [m/s] at once.
     pub fn at_once(at: f64, tire: usize, launch: Vector3<f64>) -> Self {
-        Self { at, tire, launch, push: 0.0, row: 0, charge: 0.0 }
+        Self { at, tire, launch, push_time: 0.0, row: 0, charge: 0.0 }
     }
 
     /// Its image in a mirror plane.

@@ -1,6 +1,6 @@
 //! Time of one run: the present step, the next firing, and the decision when the run ends.
 
-use super::Settings;
+use super::RunSettings;
 use crate::outcome::{EndReason, RunEnd};
 use crate::scene::{Firing, Shot};
 
@@ -28,7 +28,7 @@ pub struct Clock {
 
 impl Clock {
     /// Clock at the first firing of `shot`, before which the shelter is at rest; at 0 where the shelter `slides`.
-    pub fn new(shot: &Shot, settings: &Settings, slides: bool) -> Self {
+    pub fn new(shot: &Shot, settings: &RunSettings, slides: bool) -> Self {
         let [first, last] =
             [shot.firings.first(), shot.firings.last()].map(|firing| firing.map_or(0.0, |firing| firing.at));
         let limit = settings.duration.unwrap_or(last + SETTLING_LIMIT);

@@ -34,7 +34,7 @@ pub struct Impulse {
     /// Velocity added at once [m/s].
     pub launch: Vector3<f64>,
     /// Acceleration added from then on [m/s²].
-    pub push: Vector3<f64>,
+    pub push_acceleration: Vector3<f64>,
 }
 
 /// Motion of one tire over one step under constant force.
@@ -47,7 +47,7 @@ pub struct TireStep {
     /// Acceleration by cables, gravity and pushes, without the ground [m/s²].
     free: Vector3<f64>,
     /// Acceleration by pushes [m/s²].
-    pub push: Vector3<f64>,
+    pub push_acceleration: Vector3<f64>,
     /// Coefficient of friction μ.
     friction: f64,
     /// Normal speed after a landing over normal speed before.
@@ -79,8 +79,19 @@ impl TireStep {
         restitution: f64,
     ) -> Self {
         let (lost, put_in, elapsed, top) = (0.0, 0.0, 0.0, (0.0, 0.0));
-        let push = Vector3::zeros();
-        Self { displacement, velocity, free, push, friction, restitution, lost, put_in, elapsed, top }
+        let push_acceleration = Vector3::zeros();
+        Self {
+            displacement,
+            velocity,
+            free,
+            push_acceleration,
+            friction,
+            restitution,
+            lost,
+            put_in,
+            elapsed,
+            top,
+        }
     }
 
     /// Integrates the motion over a step of length `h` [s], with landings and the `impulses` of holes, in order of time.
@@ -88,13 +99,13 @@ impl TireStep {
     /// Returns the acceleration a of the last phase [m/s²]: v − a h/2 is the mid-step velocity of central differences.
     pub fn integrate(&mut self, h: f64, impulses: impl Iterator<Item = Impulse>) -> Vector3<f64> {
         let mut now = 0.0;
-        for Impulse { after, launch, push } in impulses {
+        for Impulse { after, launch, push_acceleration } in impulses {
             self.integrate_between(after - now, h);
             now = after;
             self.put_in += launch.dot(&(self.velocity + 0.5 * launch));
             self.velocity += launch;
-            self.push += push;
-            self.free += push;
+            self.push_acceleration += push_acceleration;
+            self.free += push_acceleration;
         }
         self.integrate_between(h - now, h)
     }
@@ -104,7 +115,7 @@ impl TireStep {
     fn integrate_between(&mut self, left: f64, h: f64) -> Vector3<f64> {
         let before = self.displacement;
         let acceleration = self.integrate_phases(left, h);
-        self.put_in += self.push.dot(&(self.displacement - before));
+        self.put_in += self.push_acceleration.dot(&(self.displacement - before));
         acceleration
     }
 

@@ -35,7 +35,7 @@ use crate::scene::{Scene, Shot};
 
 /// How to integrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
+pub struct RunSettings {
     /// Time integration method.
     pub method: Method,
     /// Step [s].
@@ -79,7 +79,12 @@ impl Model {
     }
 
     /// Runs one shot; `watch` sees every step and may stop the run.
-    pub fn run(&self, shot: &Shot, settings: &Settings, watch: &mut Watcher<'_>) -> Result<Outcome, Failure> {
+    pub fn run(
+        &self,
+        shot: &Shot,
+        settings: &RunSettings,
+        watch: &mut Watcher<'_>,
+    ) -> Result<Outcome, Failure> {
         match settings.method {
             Method::Verlet => self.verlet.run(&self.scene, shot, settings, watch),
             Method::Newmark => self.newmark.run(&self.scene, shot, settings, watch),
@@ -92,7 +97,7 @@ impl Model {
         &self,
         variant: &Scene,
         shot: &Shot,
-        settings: &Settings,
+        settings: &RunSettings,
         watch: &mut Watcher<'_>,
     ) -> Result<Outcome, Failure> {
         match settings.method {

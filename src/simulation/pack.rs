@@ -60,26 +60,26 @@ impl DerefMut for Aligned {
 
 /// Components of a vector field over tires or cables.
 #[derive(Debug)]
-pub struct Field {
+pub struct VectorArrays {
     /// The x, y and z components, of one length.
-    pub part: [Aligned; 3],
+    pub components: [Aligned; 3],
 }
 
-impl Field {
+impl VectorArrays {
     /// `len` zero vectors.
     pub fn zeros(len: usize) -> Self {
-        Self { part: std::array::from_fn(|_| Aligned::zeros(len)) }
+        Self { components: std::array::from_fn(|_| Aligned::zeros(len)) }
     }
 
     /// Vector at `index`.
     pub fn vector(&self, index: usize) -> Vector3<f64> {
-        Vector3::from_fn(|c, _| self.part[c][index])
+        Vector3::from_fn(|c, _| self.components[c][index])
     }
 
     /// Components as slices whose lengths the compiler knows to be equal.
     #[inline(always)]
     pub fn slices(&self) -> [&[f64]; 3] {
-        let [x, y, z] = &self.part;
+        let [x, y, z] = &self.components;
         let n = x.len();
         [&x[..n], &y[..n], &z[..n]]
     }
@@ -87,7 +87,7 @@ impl Field {
     /// Components as slices to write, whose lengths the compiler knows to be equal.
     #[inline(always)]
     pub fn slices_mut(&mut self) -> [&mut [f64]; 3] {
-        let [x, y, z] = &mut self.part;
+        let [x, y, z] = &mut self.components;
         let n = x.len();
         [&mut x[..n], &mut y[..n], &mut z[..n]]
     }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::clock::Clock;
-use crate::outcome::{Broken, EndReason, History, Ledger, Outcome, Peak};
+use crate::outcome::{BrokenCable, EndReason, History, Ledger, Outcome, Peak};
 
 /// Record of a run that is under way.
 #[derive(Clone, Debug)]
@@ -13,7 +13,7 @@ pub struct Record {
     /// Greatest cable force so far [N].
     pub force: Peak,
     /// Cables that broke so far, in order of time.
-    pub broken: Vec<Broken>,
+    pub broken: Vec<BrokenCable>,
     /// Breaking force [N], time and cable of the first break.
     first_break: Option<Peak>,
     /// Energies so far [J].

@@ -156,7 +156,7 @@ fn run(
     step: f64,
     progress: &Progress,
 ) -> Result<Option<(Outcome, Duration)>, NoResult> {
-    let settings = case.settings(method, step);
+    let settings = case.run_settings(method, step);
     let mut best: Option<(Outcome, Duration)> = None;
     let begun = Instant::now();
     for _ in 0..5 {

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::check::check_shot;
-use super::judged_shot::JudgedShot;
+use super::shot_summary::ShotSummary;
 use super::{Case, ComputeSettings, NoResult, Progress};
 use crate::scene::Shot;
 use crate::simulation::Failure;
@@ -47,7 +47,7 @@ pub fn judge_shots(
     shots: &[Shot],
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Vec<Option<JudgedShot>>, NoResult> {
+) -> Result<Vec<Option<ShotSummary>>, NoResult> {
     judge_all(shots, progress, |shot| judge_shot(case, shot, compute, progress))
 }
 
@@ -57,18 +57,18 @@ pub fn judge_shot(
     shot: &Shot,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<JudgedShot, NoResult> {
+) -> Result<ShotSummary, NoResult> {
     let checked = check_shot(case, shot, compute, &mut |_| progress.flow());
-    checked.map(|checked| JudgedShot::of(&checked)).map_err(|failure| progress.no_result(failure))
+    checked.map(|checked| ShotSummary::of(&checked)).map_err(|failure| progress.no_result(failure))
 }
 
-/// Judges the shot of every job, like [`run_jobs`]. A job whose run fails has the result [`JudgedShot::UNKNOWN`]; where every run
+/// Judges the shot of every job, like [`run_jobs`]. A job whose run fails has the result [`ShotSummary::UNKNOWN`]; where every run
 /// fails, the study has no result.
 pub fn judge_all<J: Sync>(
     jobs: &[J],
     progress: &Progress,
-    work: impl Fn(&J) -> Result<JudgedShot, NoResult> + Sync,
-) -> Result<Vec<Option<JudgedShot>>, NoResult> {
+    work: impl Fn(&J) -> Result<ShotSummary, NoResult> + Sync,
+) -> Result<Vec<Option<ShotSummary>>, NoResult> {
     let done = run_jobs(jobs, progress, |job| match work(job) {
         Err(NoResult::Failed(failure)) => Ok(Err(failure)),
         result => result.map(Ok),
@@ -78,7 +78,7 @@ pub fn judge_all<J: Sync>(
     {
         return Err(NoResult::Failed(failure.clone()));
     }
-    let known = |result: Result<JudgedShot, Failure>| result.unwrap_or(JudgedShot::UNKNOWN);
+    let known = |result: Result<ShotSummary, Failure>| result.unwrap_or(ShotSummary::UNKNOWN);
     Ok(done.into_iter().map(|result| result.map(known)).collect())
 }
 
@@ -86,15 +86,15 @@ pub fn judge_all<J: Sync>(
 pub fn judge_all_or_unknown<J: Sync>(
     jobs: &[J],
     progress: &Progress,
-    work: impl Fn(&J) -> Result<JudgedShot, NoResult> + Sync,
-) -> Result<Vec<Option<JudgedShot>>, NoResult> {
+    work: impl Fn(&J) -> Result<ShotSummary, NoResult> + Sync,
+) -> Result<Vec<Option<ShotSummary>>, NoResult> {
     run_jobs(jobs, progress, |job| or_unknown(work(job)))
 }
 
 /// A run that failed is a shot of which nothing is known.
-pub fn or_unknown(judged: Result<JudgedShot, NoResult>) -> Result<JudgedShot, NoResult> {
+pub fn or_unknown(judged: Result<ShotSummary, NoResult>) -> Result<ShotSummary, NoResult> {
     match judged {
-        Err(NoResult::Failed(_)) => Ok(JudgedShot::UNKNOWN),
+        Err(NoResult::Failed(_)) => Ok(ShotSummary::UNKNOWN),
         judged => judged,
     }
 }
@@ -108,10 +108,10 @@ mod tests {
     #[test]
     fn a_run_that_fails_is_open_unless_all_fail() {
         let failure = NoResult::Failed(Failure::Diverged { at: 1.0 });
-        let good = JudgedShot { verdict: Verdict::Pass, ..JudgedShot::UNKNOWN };
+        let good = ShotSummary { verdict: Verdict::Pass, ..ShotSummary::UNKNOWN };
         let work = |&job: &i32| if job == 2 { Err(failure.clone()) } else { Ok(good) };
         let some = judge_all(&[1, 2], &Progress::default(), work).expect("one of them is good");
-        assert_eq!(some, [Some(good), Some(JudgedShot::UNKNOWN)]);
+        assert_eq!(some, [Some(good), Some(ShotSummary::UNKNOWN)]);
         assert_eq!(judge_all(&[2, 2], &Progress::default(), work), Err(failure.clone()));
     }
 

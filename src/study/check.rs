@@ -12,14 +12,14 @@ use super::ladder::{estimates, nearest};
 use super::reason::{Reason, closes, find_reasons_as_planned, with_limits};
 use super::{Case, ComputeSettings, step_error};
 use crate::choice::Accuracy;
-use crate::outcome::{Broken, History, Outcome, RunEnd};
+use crate::outcome::{BrokenCable, History, Outcome, RunEnd};
 use crate::scene::Shot;
 use crate::simulation::{Failure, Motion};
 use crate::verdict::{Estimate, Limits, Verdict};
 
 /// A shot as planned, judged by a ladder of runs.
 #[derive(Clone, Debug)]
-pub struct Checked {
+pub struct CheckedShot {
     /// Pass, fail, or undecided at the finest step allowed.
     pub verdict: Verdict,
     /// Why the verdict is not a pass; empty for a pass.
@@ -33,7 +33,7 @@ pub struct Checked {
     /// Breaking force over greatest force; infinite where no cable pulls.
     pub safety_factor: f64,
     /// Broken cables in order of time; empty where the plan lets no cable break.
-    pub broken: Vec<Broken>,
+    pub broken: Vec<BrokenCable>,
     /// Height and force over time.
     pub history: History,
     /// The cover over each hole as it fires.
@@ -74,7 +74,7 @@ const MOST_REFINEMENTS: i32 = 12;
 /// in more: with a factor of 2, 4 of 4,480 limits near true values were passed or failed wrongly.
 const SURE: f64 = 3.0;
 
-impl Checked {
+impl CheckedShot {
     /// Whether the verdict of the limits would stand with errors [`SURE`] times larger, and the energy balance closes for a pass.
     fn is_sure(&self, limits: &Limits) -> bool {
         let verdict = |times: f64| {
@@ -102,7 +102,7 @@ pub fn check_as_planned(
     option: usize,
     compute: &ComputeSettings,
     watch: &mut dyn FnMut(CheckStep) -> ControlFlow<()>,
-) -> Result<Checked, Failure> {
+) -> Result<CheckedShot, Failure> {
     check_shot(case, &case.shots[option], compute, watch)
 }
 
@@ -113,7 +113,7 @@ impl Case {
     /// # Panics
     ///
     /// Where the plan has no delay option with the index `option`.
-    pub fn check_as_planned(&self, option: usize, compute: &ComputeSettings) -> Result<Checked, Failure> {
+    pub fn check_as_planned(&self, option: usize, compute: &ComputeSettings) -> Result<CheckedShot, Failure> {
         check_as_planned(self, option, compute, &mut |_| ControlFlow::Continue(()))
     }
 }
@@ -124,11 +124,11 @@ pub fn check_shot(
     shot: &Shot,
     compute: &ComputeSettings,
     watch: &mut dyn FnMut(CheckStep) -> ControlFlow<()>,
-) -> Result<Checked, Failure> {
+) -> Result<CheckedShot, Failure> {
     let begun = Instant::now();
     let (done, steps, watch) = (Cell::new(0), Cell::new(0), RefCell::new(watch));
     let run = |shot: &Shot, step: f64| {
-        let settings = case.settings(compute.method, step);
+        let settings = case.run_settings(compute.method, step);
         let start = Instant::now();
         let mut cover = CoverWatch::new(case, &shot.firings, step);
         let look = |motion: &dyn Motion| {
@@ -248,7 +248,7 @@ fn judge(
     runs: &[Run],
     pairs: &[[Run; 2]],
     cost: Cost,
-) -> Checked {
+) -> CheckedShot {
     let last = &runs[runs.len() - 1];
     let outcomes: Vec<&Outcome> = runs.iter().map(|run| &run.outcome).collect();
     let pairs: Vec<[&Outcome; 2]> =
@@ -256,7 +256,7 @@ fn judge(
     let [height, force, drift] = estimates(&outcomes, &pairs);
     let outcome = &last.outcome;
     let reasons = find_reasons_as_planned(case, shot, outcome, [height, force, drift]);
-    Checked {
+    CheckedShot {
         verdict: Verdict::worst(reasons.iter().map(Reason::verdict)),
         reasons,
         height,

@@ -3,15 +3,14 @@
 use std::ops::ControlFlow;
 
 use super::batch::run_jobs;
-use super::check::{CheckStep, Checked, check_as_planned};
+use super::check::{CheckStep, CheckedShot, check_as_planned};
 use super::judgement::Judgement;
 use super::margin::{LaunchMargin, launch_margin};
-use super::merge::OptionSample;
 use super::risk::Risk;
-use super::sample::Sample;
+use super::sample::{OptionSample, Sample};
 use super::sampled::Sampled;
 use super::sampling::{Sampling, ShotToSample, find_risks, find_risks_watched};
-use super::{Case, ComputeSettings, Finding, Found, JudgedShot, NoResult, Progress, guarded};
+use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, guarded};
 use crate::verdict::Verdict;
 
 /// Results of the options of one plan, in their order (`n_options`).
@@ -32,7 +31,7 @@ pub enum CheckEvent<'r> {
     /// A run of the shot as planned has gone on by [`STEPS_PER_EVENT`] steps.
     Running(CheckStep),
     /// The shot as planned is judged, or has no result.
-    AsPlanned(&'r Result<Checked, NoResult>),
+    AsPlanned(&'r Result<CheckedShot, NoResult>),
     /// A round of samples was drawn.
     SampledSoFar(&'r Risk),
     /// All samples were drawn.
@@ -100,12 +99,24 @@ pub fn check_all_watched(
     Ok(Found { value: results, partial })
 }
 
+/// Judges every option of every case as the commands and the terminal show it: like [`check_all_watched`], with its launch margin.
+pub fn check_with_margins(
+    cases: &[(&Case, ComputeSettings)],
+    sampling: Option<&Sampling>,
+    progress: &Progress,
+    watch: Watch<'_>,
+) -> Finding<Vec<OptionResults>> {
+    let Found { value: mut results, partial } = check_all_watched(cases, sampling, progress, watch)?;
+    let margins = find_launch_margins(cases, &mut results, progress, watch)?;
+    Ok(Found { value: results, partial: partial || margins.partial })
+}
+
 fn check_one_as_planned(
     cases: &[(&Case, ComputeSettings)],
     at: CaseOption,
     progress: &Progress,
     watch: Watch<'_>,
-) -> Result<Checked, NoResult> {
+) -> Result<CheckedShot, NoResult> {
     let (case, compute) = &cases[at.case];
     let mut steps = 0_usize;
     let checked = check_as_planned(case, at.option, compute, &mut |step| {
@@ -138,7 +149,7 @@ fn add_risks(
     let mut judged = judged(results);
     let target = |(at, judgement): &(CaseOption, &mut Judgement)| {
         let (case, compute) = cases[at.case];
-        target(case, at.option, &JudgedShot::of(&judgement.as_planned), sampling, compute)
+        target(case, at.option, &ShotSummary::of(&judgement.as_planned), sampling, compute)
     };
     let targets: Vec<ShotToSample<'_>> = judged.iter().map(target).collect();
     let mut sampled = |n: usize, risk: &Risk| {
@@ -157,7 +168,7 @@ fn add_risks(
 fn target<'c>(
     case: &'c Case,
     option: usize,
-    as_planned: &JudgedShot,
+    as_planned: &ShotSummary,
     sampling: &Sampling,
     compute: ComputeSettings,
 ) -> ShotToSample<'c> {
@@ -205,7 +216,7 @@ pub fn judge_drawn(
         if let Ok(judged) = result {
             let of_option = samples.iter().filter(|drawn| drawn.option == option);
             let drawn: Vec<Sample> = of_option.map(|drawn| drawn.sample).collect();
-            let as_planned = JudgedShot::of(&judged.as_planned);
+            let as_planned = ShotSummary::of(&judged.as_planned);
             let target = target(case, option, &as_planned, sampling, *compute).precomputed(&drawn);
             judged.risk = Sampled::Drawn(find_risks(&[target], progress)?.value.remove(0));
         }

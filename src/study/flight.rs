@@ -39,7 +39,7 @@ pub fn record(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Flight, NoResult> {
-    let settings = case.settings(compute.method, compute.first_step(case));
+    let settings = case.run_settings(compute.method, compute.first_step(case));
     let tires = case.scene().mass.len();
     let most = (MOST_KEPT / tires.max(1)).clamp(FRAMES[0], FRAMES[1]) / 2 * 2;
     let (mut times, mut displacements) = (Vec::new(), Vec::new());

@@ -1,6 +1,6 @@
 //! The verdict on a delay option: on the shot as planned, and on the shots that `[uncertainty]` describes.
 
-use super::check::Checked;
+use super::check::CheckedShot;
 use super::margin::LaunchMargin;
 use super::risk::Risk;
 use super::sampled::{self, Sampled};
@@ -10,7 +10,7 @@ use crate::verdict::Verdict;
 #[derive(Clone, Debug)]
 pub struct Judgement {
     /// The shot as planned.
-    pub as_planned: Checked,
+    pub as_planned: CheckedShot,
     /// The shots that `[uncertainty]` describes. Of a sampling that the time cut short there may be no sample.
     pub risk: Sampled<Risk>,
     /// How much faster than planned the tires may leave; `None` where it was not asked for, or the time was up.
@@ -23,14 +23,14 @@ impl Judgement {
     pub fn known_launch_margin(&self) -> Option<f64> {
         match self.launch_margin {
             Some(LaunchMargin::UpTo { rise, .. }) => Some(rise),
-            Some(LaunchMargin::Wide) => None,
+            Some(LaunchMargin::BeyondTried) => None,
             None if !self.risk.is_asked() && self.as_planned.verdict == Verdict::Pass => None,
             Some(LaunchMargin::NotPassing) | None => Some(0.0),
         }
     }
 
     /// The judgement of the shot as planned alone.
-    pub fn of_planned_alone(as_planned: Checked) -> Self {
+    pub fn of_planned_alone(as_planned: CheckedShot) -> Self {
         Self { as_planned, risk: Sampled::NotAsked, launch_margin: None }
     }
 

@@ -1,7 +1,7 @@
 //! How much faster than planned the tires may leave before the shot as planned no longer passes.
 
 use super::batch::or_unknown;
-use super::screen::screen;
+use super::quick_check::quick_check;
 use super::{Case, ComputeSettings, NoResult, Progress};
 use crate::scene::Shot;
 use crate::verdict::Verdict;
@@ -19,7 +19,7 @@ pub enum LaunchMargin {
         then: Verdict,
     },
     /// The shot passes up to [`MOST_PERCENT`] more.
-    Wide,
+    BeyondTried,
 }
 
 /// Greatest rise of launches tried [%].
@@ -38,10 +38,10 @@ pub fn launch_margin(
     }
     for percent in 1..=MOST_PERCENT {
         let faster = shot.with_launches(1.0 + 1e-2 * percent as f64);
-        let then = or_unknown(screen(case, &faster, compute, progress))?.verdict;
+        let then = or_unknown(quick_check(case, &faster, compute, progress))?.verdict;
         if then != Verdict::Pass {
             return Ok(LaunchMargin::UpTo { rise: 1e-2 * (percent - 1) as f64, then });
         }
     }
-    Ok(LaunchMargin::Wide)
+    Ok(LaunchMargin::BeyondTried)
 }

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use super::orders::TriedOrder;
-use super::sample::Sample;
+use super::sample::OptionSample;
 use super::sampling::Sampling;
 use super::search::TriedSchedule;
 use super::{Case, ComputeSettings, Shard};
@@ -35,16 +35,6 @@ pub enum Question {
         /// Samples behind a verdict; `None` where only the shots as planned were asked for.
         sampling: Option<Sampling>,
     },
-}
-
-/// A sample of a delay option.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct OptionSample {
-    /// Index of the delay option.
-    pub option: usize,
-    /// The sample.
-    #[serde(flatten)]
-    pub sample: Sample,
 }
 
 /// The first line of a shard.

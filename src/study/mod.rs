@@ -3,7 +3,7 @@
 //! | what | where |
 //! |---|---|
 //! | questions of the user, one file each | [`mod@check_all`] (`shelter check`, and `risk`), [`sweep`], [`orders`], [`size`], [`search`], [`why`], [`effects`], [`accuracy`], [`paper_table`], [`flight`], [`trace`] |
-//! | one shot as planned, judged | [`check`], `ladder`, [`step_error`], [`reason`], [`together`], [`margin`]; coarsely: `screen`; what a study keeps of it: `judged_shot` |
+//! | one shot as planned, judged | [`check`], `ladder`, [`step_error`], [`reason`], [`together`], [`margin`]; coarsely: `screen`; what a study keeps of it: `shot_summary` |
 //! | the shots that are possible | [`random_shot`], [`sample`], [`sampling`], [`risk`], [`risk_summary`], [`failure_bounds`], [`influence`], [`swaps`] |
 //! | both together | [`judgement`], and the rule of the verdict: [`sampled`] |
 //! | how work runs | [`batch`], `compute`, `progress`, `found`, `no_result`, `intervals`; on many machines: `shard`, [`merge`] |
@@ -24,7 +24,6 @@ pub mod flight;
 mod found;
 pub mod influence;
 mod intervals;
-mod judged_shot;
 pub mod judgement;
 mod ladder;
 pub mod margin;
@@ -33,6 +32,7 @@ mod no_result;
 pub mod orders;
 pub mod paper_table;
 mod progress;
+mod quick_check;
 pub mod random_shot;
 pub mod reason;
 pub mod risk;
@@ -40,9 +40,9 @@ pub mod risk_summary;
 pub mod sample;
 pub mod sampled;
 pub mod sampling;
-mod screen;
 pub mod search;
 mod shard;
+mod shot_summary;
 pub mod size;
 pub mod step_error;
 pub mod swaps;
@@ -57,15 +57,15 @@ pub use batch::thread_pool;
 pub use compute::ComputeSettings;
 pub use found::{Finding, Found};
 pub use intervals::Intervals;
-pub use judged_shot::{JudgedShot, ValueWithError};
 pub use no_result::{NoResult, guarded};
 pub use progress::Progress;
 pub use shard::Shard;
+pub use shot_summary::{ShotSummary, ValueWithError};
 
 use crate::choice::Method;
 use crate::plan::{DelayOption, Diagnostics, HoleTiming, Plan, PlanSource, Timing};
 use crate::scene::{Scene, Shot, seconds};
-use crate::simulation::{Model, Settings};
+use crate::simulation::{Model, RunSettings};
 use crate::verdict::Limits;
 
 /// A plan made ready to run.
@@ -83,7 +83,7 @@ pub struct Case {
     pub limits: Limits,
     /// How the holes of each row fire in studies that vary order and interval: as in all options of the plan; `None` where the
     /// options differ, and such a study needs to be told.
-    pub holes: Option<HoleTiming>,
+    pub hole_timing: Option<HoleTiming>,
 }
 
 impl Case {
@@ -102,7 +102,7 @@ impl Case {
     pub fn new(plan: Plan) -> Self {
         let scene = Scene::build(&plan);
         let shots = plan.delays.iter().map(|delay| Shot::new(&scene, &plan.blast_rows, delay)).collect();
-        let holes = plan.shared_hole_timing();
+        let hole_timing = plan.shared_hole_timing();
         let breaking_force = plan.cable.breaking_force_kn * 1e3;
         let limits = Limits {
             height: plan.limits.flight_height_m,
@@ -110,7 +110,7 @@ impl Case {
             drift: plan.limits.drift_m,
             breaking_force,
         };
-        Self { source: PlanSource::default(), plan, model: Model::new(scene), shots, limits, holes }
+        Self { source: PlanSource::default(), plan, model: Model::new(scene), shots, limits, hole_timing }
     }
 
     /// Title of the plan; the path of its file where the plan has no title.
@@ -118,27 +118,29 @@ impl Case {
         self.plan.title.as_deref().unwrap_or(&self.source.path)
     }
 
-    /// The shot of blast rows fired in `order`, `interval` [s] apart. Studies refuse a case without [`Case::holes`] by
-    /// [`Case::needs_holes`] before they ask for shots; here its rows fire at once.
+    /// The shot of blast rows fired in `order`, `interval` [s] apart. Studies refuse a case without [`Case::hole_timing`] by
+    /// [`Case::require_hole_timing`] before they ask for shots; here its rows fire at once.
     pub fn shot(&self, order: &[usize], interval: f64) -> Shot {
-        let holes = self.holes.unwrap_or(HoleTiming::TOGETHER);
+        let holes = self.hole_timing.unwrap_or(HoleTiming::TOGETHER);
         Shot::in_order(self.scene(), &self.plan.blast_rows, order, interval, &holes)
     }
 
     /// Refuses a study that varies order or interval, where the options differ in how the holes of a row fire.
-    pub fn needs_holes(&self) -> Result<(), NoResult> {
-        self.holes.map(|_| ()).ok_or(NoResult::HolesDiffer)
+    pub fn require_hole_timing(&self) -> Result<(), NoResult> {
+        self.hole_timing.map(|_| ()).ok_or(NoResult::HolesDiffer)
     }
 
     /// The case with the holes of each row fired as in a delay option, where the options differ.
-    pub fn with_holes_of(&self, option: usize) -> Self {
-        Self { holes: self.holes.or(Some(self.plan.delays[option].holes)), ..self.clone() }
+    pub fn with_hole_timing_of(&self, option: usize) -> Self {
+        Self { hole_timing: self.hole_timing.or(Some(self.plan.delays[option].hole_timing)), ..self.clone() }
     }
 
-    /// Intervals of the delay options whose holes fire as [`Case::holes`] says [s], ascending, without repetitions.
+    /// Intervals of the delay options whose holes fire as [`Case::hole_timing`] says [s], ascending, without repetitions.
     pub fn intervals(&self) -> Vec<f64> {
         let interval = |delay: &DelayOption| match delay.timing {
-            Timing::Interval { interval_ms, .. } if self.holes.is_none_or(|holes| delay.holes == holes) => {
+            Timing::Interval { interval_ms, .. }
+                if self.hole_timing.is_none_or(|holes| delay.hole_timing == holes) =>
+            {
                 Some(seconds(interval_ms))
             }
             Timing::Interval { .. } | Timing::At(_) => None,
@@ -155,8 +157,8 @@ impl Case {
     }
 
     /// Settings of a run by `method` at `step` [s], which ends where the plan says.
-    pub fn settings(&self, method: Method, step: f64) -> Settings {
-        Settings { method, step, duration: self.plan.simulation.duration_s }
+    pub fn run_settings(&self, method: Method, step: f64) -> RunSettings {
+        RunSettings { method, step, duration: self.plan.simulation.duration_s }
     }
 
     /// Number of tires that `method` integrates: the greatest of all options. Mirror planes of shelter and shot make it

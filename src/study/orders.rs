@@ -20,11 +20,11 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
 use super::batch::{judge_all_or_unknown, judge_shot};
+use super::quick_check::{quick_check_is_sure, quick_check_until};
 use super::risk_summary::{RiskSummary, sample_shots};
 use super::sampled::{self, Sampled};
 use super::sampling::Sampling;
-use super::screen::{screen_is_sure, screen_until};
-use super::{Case, ComputeSettings, Finding, Found, JudgedShot, NoResult, Progress, Shard};
+use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, Shard, ShotSummary};
 use crate::plan::BlastRow;
 use crate::scene::{Firing, Shot};
 use crate::verdict::Verdict;
@@ -57,7 +57,7 @@ pub struct TriedOrder {
     /// Interval between successive rows [s].
     pub interval: f64,
     /// Verdict, height, force and drift.
-    pub as_planned: JudgedShot,
+    pub as_planned: ShotSummary,
 }
 
 /// Result of trying orders.
@@ -186,11 +186,11 @@ pub fn try_orders(
     if intervals.is_empty() {
         return Err(NoResult::NoInterval);
     }
-    case.needs_holes()?;
+    case.require_hole_timing()?;
     let rows = case.plan.blast_rows.len();
     // Where no run at all succeeds, the first order tells why.
     let known = |found: Found<Vec<TriedOrder>>| {
-        if found.value.iter().all(|tried| tried.as_planned == JudgedShot::UNKNOWN) {
+        if found.value.iter().all(|tried| tried.as_planned == ShotSummary::UNKNOWN) {
             for tried in found.value.iter().take(1) {
                 judge_shot(case, &case.shot(&tried.order, tried.interval), compute, progress)?;
             }
@@ -198,7 +198,7 @@ pub fn try_orders(
         Ok(found)
     };
     if !tries_all(case) {
-        return search(case, intervals, compute, progress).and_then(known);
+        return climb_orders(case, intervals, compute, progress).and_then(known);
     }
     let mirror_rows = mirror_rows(case);
     let all = intervals
@@ -287,7 +287,7 @@ pub fn refine(
     for (interval, sign) in itertools::iproduct!(intervals, [1.0, -1.0]) {
         loop {
             let mine = |n: &usize| tried[*n].interval == interval;
-            let is_known = |n: &usize| tried[*n].as_planned != JudgedShot::UNKNOWN;
+            let is_known = |n: &usize| tried[*n].as_planned != ShotSummary::UNKNOWN;
             let judged = (0..tried.len()).filter(|n| mine(n) && refined.contains(n) && is_known(n));
             let farthest =
                 judged.map(|n| sign * utilization(case, &tried[n])).fold(f64::NEG_INFINITY, f64::max);
@@ -327,20 +327,21 @@ fn screen_orders(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Finding<Vec<TriedOrder>> {
-    let enough = |screened: &JudgedShot, runs: usize| {
-        screen_is_sure(case, screened, runs) || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= RUNS
+    let enough = |screened: &ShotSummary, runs: usize| {
+        quick_check_is_sure(case, screened, runs)
+            || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= RUNS
     };
     let screened = judge_all_or_unknown(&orders, progress, |OrderToTry { order, interval, .. }| {
-        screen_until(case, &case.shot(order, *interval), compute, progress, enough)
+        quick_check_until(case, &case.shot(order, *interval), compute, progress, enough)
     })?;
-    let tried = |(OrderToTry { number, order, interval }, as_planned): (_, Option<JudgedShot>)| {
+    let tried = |(OrderToTry { number, order, interval }, as_planned): (_, Option<ShotSummary>)| {
         as_planned.map(|as_planned| TriedOrder { number, order, interval, as_planned })
     };
     let partial = screened.contains(&None);
     Ok(Found { value: orders.into_iter().zip(screened).filter_map(tried).collect(), partial })
 }
 
-fn search(
+fn climb_orders(
     case: &Case,
     intervals: &[f64],
     compute: &ComputeSettings,

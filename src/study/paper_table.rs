@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::Case;
 use crate::choice::Method;
 use crate::plan::Timing;
-use crate::simulation::Settings;
+use crate::simulation::RunSettings;
 
 /// A row of Table 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +49,7 @@ pub fn paper_table(case: &Case, method: Method) -> Option<Vec<PaperRow>> {
         .iter()
         .map(|row| row.step)
         .map(|step| {
-            let settings = Settings { method, step, duration: Some(1.0) };
+            let settings = RunSettings { method, step, duration: Some(1.0) };
             let (mut late, mut before) = (f64::NAN, (0.0, 0.0));
             let outcome = case.model.run(&case.shots[0], &settings, &mut |motion| {
                 let now = (motion.time(), motion.force(diagonal));

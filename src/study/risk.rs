@@ -7,7 +7,7 @@
 
 use super::failure_bounds::FailureBounds;
 use super::sample::{Sample, SampleRun};
-use super::{Case, JudgedShot};
+use super::{Case, ShotSummary};
 use crate::verdict::{Limits, Quantity, Verdict};
 
 /// Factor on a difference to one side, because the audit has an error of its own.
@@ -34,14 +34,14 @@ pub struct Risk {
     pub halvings: u32,
     /// Whether samples are audited: not where the user fixed the step.
     is_audited: bool,
-    as_planned: Option<JudgedShot>,
+    as_planned: Option<ShotSummary>,
     limits: Limits,
 }
 
 impl Risk {
-    /// No sample yet of a shot that was judged as `planned`; the plan of `case` names the accepted risk.
+    /// No sample yet of a shot that was judged `as_planned`; the plan of `case` names the accepted risk.
     /// For `attempt` see [`Sampling`](super::sampling::Sampling).
-    pub fn new(case: &Case, as_planned: Option<JudgedShot>, attempt: usize, is_audited: bool) -> Self {
+    pub fn new(case: &Case, as_planned: Option<ShotSummary>, attempt: usize, is_audited: bool) -> Self {
         let accepted = case.plan.limits.accepted_risk_percent * 1e-2;
         let bounds = FailureBounds::new(accepted, attempt);
         let limits = case.limits;

@@ -3,7 +3,7 @@
 use super::failure_bounds::FailureBounds;
 use super::risk::{Risk, percentiles};
 use super::sampling::{Sampling, ShotToSample, find_risks};
-use super::{Case, ComputeSettings, JudgedShot, NoResult, Progress};
+use super::{Case, ComputeSettings, NoResult, Progress, ShotSummary};
 use crate::scene::Shot;
 use crate::verdict::{Limits, Verdict};
 
@@ -45,14 +45,14 @@ impl RiskSummary {
 /// suffice for.
 pub fn sample_shots<'c>(
     case: &'c Case,
-    shots: &'c [(Shot, JudgedShot)],
+    shots: &'c [(Shot, ShotSummary)],
     sampling: &Sampling,
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Vec<Option<RiskSummary>>, NoResult> {
     let mut all = Vec::with_capacity(shots.len());
     for shots in shots.chunks(AT_ONCE) {
-        let target = |(shot, planned): &'c (Shot, JudgedShot)| {
+        let target = |(shot, planned): &'c (Shot, ShotSummary)| {
             ShotToSample::new(case, shot, *compute, *sampling).as_planned(*planned)
         };
         let targets: Vec<_> = shots.iter().map(target).collect();

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::Case;
-use super::judged_shot::or_infinite;
 use super::random_shot::Input;
 use super::reason::{Reason, closes, find_reasons};
+use super::shot_summary::or_infinite;
 use crate::outcome::{Outcome, Peak};
 use crate::scene::Shot;
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
@@ -92,4 +92,14 @@ impl SampleRun {
             Quantity::Drift => self.drift,
         }
     }
+}
+
+/// A sample of a delay option.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OptionSample {
+    /// Index of the delay option.
+    pub option: usize,
+    /// The sample.
+    #[serde(flatten)]
+    pub sample: Sample,
 }

@@ -12,7 +12,7 @@ use super::random_shot::{Input, RandomShot, draw};
 use super::reason::closes;
 use super::risk::{LEAST_AUDITS, Risk, SAMPLES_FOR_BANDS};
 use super::sample::{Sample, SampleRun};
-use super::{Case, ComputeSettings, Finding, Found, JudgedShot, NoResult, Progress, Shard, guarded};
+use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, Shard, ShotSummary, guarded};
 use crate::choice::Accuracy;
 use crate::scene::{Scene, Shot};
 use crate::verdict::Verdict;
@@ -79,7 +79,7 @@ pub struct ShotToSample<'c> {
     /// The shot as planned.
     pub shot: &'c Shot,
     /// The shot as planned, judged by finer runs; `None` where it is not known.
-    pub as_planned: Option<JudgedShot>,
+    pub as_planned: Option<ShotSummary>,
     /// Method and accuracy.
     pub compute: ComputeSettings,
     /// Number of samples and seed.
@@ -96,8 +96,8 @@ impl<'c> ShotToSample<'c> {
         Self { case, shot, as_planned: None, compute, sampling, precomputed: &[], only_pass: false }
     }
 
-    /// The same shot, judged as `planned`.
-    pub fn as_planned(self, as_planned: JudgedShot) -> Self {
+    /// The same shot, judged `as_planned`.
+    pub fn as_planned(self, as_planned: ShotSummary) -> Self {
         Self { as_planned: Some(as_planned), ..self }
     }
 
@@ -267,7 +267,7 @@ fn try_sample(
     let RandomShot { scene, shot, inputs } = draw(case, shot, sampling.seed, number);
     // The run, and whether it failed or has no energy balance.
     let run = |step: f64| {
-        let settings = case.settings(compute.method, step);
+        let settings = case.run_settings(compute.method, step);
         match case.model.run_variant(&scene, &shot, &settings, &mut |_| progress.flow()) {
             Ok(outcome) => Ok((SampleRun::new(case, &shot, &outcome), !closes(outcome.ledger.residual()))),
             Err(failure) => match progress.no_result(failure) {

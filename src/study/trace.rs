@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::Case;
 use crate::outcome::Outcome;
-use crate::simulation::{Failure, Motion, Settings};
+use crate::simulation::{Failure, Motion, RunSettings};
 
 /// Tires and cables to record.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -29,7 +29,7 @@ impl Chosen {
 pub fn trace(
     case: &Case,
     option: usize,
-    settings: &Settings,
+    settings: &RunSettings,
     chosen: &Chosen,
     every: f64,
     emit: &mut dyn FnMut(&[f64]) -> ControlFlow<()>,

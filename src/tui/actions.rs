@@ -6,13 +6,12 @@ use crossterm::event::{KeyCode, KeyEvent};
 use ratatui::layout::Position;
 
 use super::app::{App, ClickTarget, Request};
-use super::editor::Edit;
+use super::editor::EditOutcome;
 use super::keymap::{Action, BINDINGS};
 use super::options::OptionState;
 use super::player::Player;
 use super::prompt::{Prompt, Purpose, Typed};
 use super::screen::Screen;
-use super::view::report::lines;
 use crate::choice::Accuracy;
 use crate::jobs::StudyKind;
 use crate::plan::edit;
@@ -88,8 +87,8 @@ impl App {
         let typed = prompt.key(key);
         let text = prompt.input.value().to_owned();
         match (prompt.purpose, typed) {
-            (Purpose::Search, Typed::Cancelled) => self.find("", false),
-            (Purpose::Search, Typed::Changed) => self.find(&text, key.code == KeyCode::Down),
+            (Purpose::Find, Typed::Cancelled) => self.find("", false),
+            (Purpose::Find, Typed::Changed) => self.find(&text, key.code == KeyCode::Down),
             (Purpose::Palette, Typed::Done) => {
                 let Some(chosen) = prompt.commands().get(prompt.selected).copied() else {
                     return Request::None;
@@ -203,10 +202,10 @@ impl App {
         self.edited(edit)
     }
 
-    pub(super) fn edited(&mut self, edit: Edit) -> Request {
+    pub(super) fn edited(&mut self, edit: EditOutcome) -> Request {
         match edit {
-            Edit::None => Request::None,
-            Edit::Changed(plan) => self.take_edited(*plan),
+            EditOutcome::None => Request::None,
+            EditOutcome::Changed(plan) => self.take_edited(*plan),
         }
     }
 
@@ -235,8 +234,8 @@ impl App {
     /// where there are no such rows, or the action is another.
     fn act_on_offers(&mut self, action: Action) -> Option<Request> {
         let finished = self.studies.finished(self.studies.shown)?;
-        let found = lines(&finished.report, &self.studies.filter, self.theme, u16::MAX);
-        let count = found.offers.len().max(1);
+        let offers = finished.report.offers(&self.studies.filter);
+        let count = offers.len().max(1);
         let at = self.studies.selected.min(count - 1);
         let to = match action {
             Action::Up => at.saturating_sub(1),
@@ -246,12 +245,12 @@ impl App {
             Action::First => 0,
             Action::Last => count - 1,
             Action::Open => {
-                let offer = found.offers.get(at)?.1.clone();
+                let offer = (*offers.get(at)?).clone();
                 return Some(self.take_offer(&offer));
             }
             _ => return None,
         };
-        if found.offers.is_empty() {
+        if offers.is_empty() {
             return None;
         }
         self.studies.selected = to.min(count - 1);
@@ -276,7 +275,7 @@ impl App {
             ),
         };
         let edit = self.editor.take(changed.map_err(|error| error.to_string()));
-        if matches!(edit, Edit::None) {
+        if matches!(edit, EditOutcome::None) {
             self.notice = self.editor.problem.clone();
             return Request::None;
         }
@@ -343,7 +342,7 @@ impl App {
                 return self.edited(edit);
             }
             Action::Save => return Request::Save,
-            Action::Search => self.prompt = Some(Prompt::new(Purpose::Search, "")),
+            Action::Find => self.prompt = Some(Prompt::new(Purpose::Find, "")),
             Action::Palette => self.prompt = Some(Prompt::new(Purpose::Palette, "")),
             Action::Export => return self.name_export(),
             Action::Yank => return Request::Yank,

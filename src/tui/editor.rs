@@ -11,7 +11,7 @@ use crate::plan::{Layout, Plan};
 
 /// Outcome of an edit.
 #[derive(Clone, Debug)]
-pub enum Edit {
+pub enum EditOutcome {
     /// The plan stays.
     None,
     /// The plan after the edit.
@@ -131,11 +131,11 @@ impl Editor {
     }
 
     /// Handles a key while the user types; checks the value after every key.
-    pub fn type_key(&mut self, key: &KeyEvent) -> Edit {
+    pub fn type_key(&mut self, key: &KeyEvent) -> EditOutcome {
         match key.code {
             KeyCode::Esc => {
                 self.end_typing();
-                return Edit::None;
+                return EditOutcome::None;
             }
             KeyCode::Enter => return self.commit(),
             _ => {}
@@ -145,12 +145,12 @@ impl Editor {
         {
             self.problem = self.candidate().err();
         }
-        Edit::None
+        EditOutcome::None
     }
 
     /// Does an action while blast rows are put in order.
-    pub fn arrange(&mut self, action: Action) -> Edit {
-        let Some(order) = &mut self.order else { return Edit::None };
+    pub fn arrange(&mut self, action: Action) -> EditOutcome {
+        let Some(order) = &mut self.order else { return EditOutcome::None };
         match action {
             Action::Up => order.select(false),
             Action::Down => order.select(true),
@@ -159,7 +159,7 @@ impl Editor {
             Action::Open => return self.commit(),
             _ => {}
         }
-        Edit::None
+        EditOutcome::None
     }
 
     fn end_typing(&mut self) {
@@ -187,7 +187,7 @@ impl Editor {
         }
     }
 
-    fn commit(&mut self) -> Edit {
+    fn commit(&mut self) -> EditOutcome {
         let candidate = self.candidate();
         if candidate.is_ok() {
             self.end_typing();
@@ -196,24 +196,24 @@ impl Editor {
     }
 
     /// Takes a checked text, or keeps its mistake as the problem.
-    fn settle(&mut self, checked: Result<(String, Plan), String>) -> Edit {
+    fn settle(&mut self, checked: Result<(String, Plan), String>) -> EditOutcome {
         match checked {
             Ok((text, plan)) => self.replace(text, plan),
             Err(problem) => {
                 self.problem = Some(problem);
-                Edit::None
+                EditOutcome::None
             }
         }
     }
 
-    fn replace(&mut self, text: String, plan: Plan) -> Edit {
+    fn replace(&mut self, text: String, plan: Plan) -> EditOutcome {
         if text == self.text {
-            return Edit::None;
+            return EditOutcome::None;
         }
         self.done.push(std::mem::replace(&mut self.text, text));
         self.undone.clear();
         self.refresh();
-        Edit::Changed(Box::new(plan))
+        EditOutcome::Changed(Box::new(plan))
     }
 
     /// Takes the text of the file after another program changed the file; undo restores the text before.
@@ -231,28 +231,28 @@ impl Editor {
     }
 
     /// Undoes the last change.
-    pub fn undo(&mut self) -> Edit {
-        let Some(before) = self.done.pop() else { return Edit::None };
+    pub fn undo(&mut self) -> EditOutcome {
+        let Some(before) = self.done.pop() else { return EditOutcome::None };
         self.undone.push(std::mem::replace(&mut self.text, before));
         self.restored()
     }
 
     /// Redoes the last change undone.
-    pub fn redo(&mut self) -> Edit {
-        let Some(after) = self.undone.pop() else { return Edit::None };
+    pub fn redo(&mut self) -> EditOutcome {
+        let Some(after) = self.undone.pop() else { return EditOutcome::None };
         self.done.push(std::mem::replace(&mut self.text, after));
         self.restored()
     }
 
-    fn restored(&mut self) -> Edit {
+    fn restored(&mut self) -> EditOutcome {
         self.refresh();
-        Plan::parse("", &self.text).map_or(Edit::None, |plan| Edit::Changed(Box::new(plan)))
+        Plan::parse("", &self.text).map_or(EditOutcome::None, |plan| EditOutcome::Changed(Box::new(plan)))
     }
 
     /// Sets the selected value one step up or down: the next name of a list, the next whole number, or a number about a tenth
     /// away.
-    pub fn step(&mut self, up: bool) -> Edit {
-        let Some(field) = self.field() else { return Edit::None };
+    pub fn step(&mut self, up: bool) -> EditOutcome {
+        let Some(field) = self.field() else { return EditOutcome::None };
         let value = field.value.trim_matches('"');
         let next = match &field.path.key.kind {
             Kind::Whole(_) => moved(value, if up { 1.0 } else { -1.0 }),
@@ -267,27 +267,27 @@ impl Editor {
             }
             kind => beside(&kind.names(), value, up),
         };
-        let Some(next) = next else { return Edit::None };
+        let Some(next) = next else { return EditOutcome::None };
         let changed = fields::set(&self.text, &field.path, &next).and_then(Self::checked);
         self.settle(changed)
     }
 
     /// Takes a changed text, or keeps its mistake as the problem.
-    pub fn take(&mut self, changed: Result<String, String>) -> Edit {
+    pub fn take(&mut self, changed: Result<String, String>) -> EditOutcome {
         self.settle(changed.and_then(Self::checked))
     }
 
     /// Copies a delay option.
-    pub fn copy_option(&mut self, option: usize) -> Edit {
+    pub fn copy_option(&mut self, option: usize) -> EditOutcome {
         self.with_option(option, fields::copy_delay)
     }
 
     /// Removes a delay option.
-    pub fn remove_option(&mut self, option: usize) -> Edit {
+    pub fn remove_option(&mut self, option: usize) -> EditOutcome {
         self.with_option(option, fields::remove_delay)
     }
 
-    fn with_option(&mut self, option: usize, change: fn(&str, usize) -> Option<String>) -> Edit {
+    fn with_option(&mut self, option: usize, change: fn(&str, usize) -> Option<String>) -> EditOutcome {
         let changed = change(&self.text, option).ok_or_else(|| "the plan needs a delay option".to_owned());
         let changed = changed.and_then(Self::checked);
         self.settle(changed)
@@ -339,7 +339,7 @@ mod tests {
         editor.find("20 ms: order", false);
         editor.begin();
         for action in [Action::Down, Action::Left, Action::Open] {
-            if let Edit::Changed(plan) = editor.arrange(action) {
+            if let EditOutcome::Changed(plan) = editor.arrange(action) {
                 assert_eq!(plan.delays[2].timing.fire_at_ms(), [20.0, 0.0, 40.0]);
                 assert!(editor.text.contains("order = [\"2\", \"1\", \"3\"]"), "{}", editor.text);
                 return;
@@ -356,17 +356,17 @@ mod tests {
         type_text(&mut editor, "-2");
         assert!(editor.problem.is_some(), "checked while typing");
         let enter = KeyEvent::new(KeyCode::Enter, KeyModifiers::NONE);
-        assert!(matches!(editor.type_key(&enter), Edit::None), "a bad value is not taken");
+        assert!(matches!(editor.type_key(&enter), EditOutcome::None), "a bad value is not taken");
         editor.type_key(&KeyEvent::new(KeyCode::Char('u'), KeyModifiers::CONTROL));
         type_text(&mut editor, "2.5");
-        let Edit::Changed(plan) = editor.type_key(&enter) else { panic!("{:?}", editor.problem) };
+        let EditOutcome::Changed(plan) = editor.type_key(&enter) else { panic!("{:?}", editor.problem) };
         assert_eq!(plan.limits.flight_height_m, 2.5);
         assert!(editor.unsaved());
-        let Edit::Changed(plan) = editor.undo() else { panic!("nothing to undo") };
+        let EditOutcome::Changed(plan) = editor.undo() else { panic!("nothing to undo") };
         assert_eq!(plan.limits.flight_height_m, 2.35);
         assert!(!editor.unsaved());
-        assert!(matches!(editor.redo(), Edit::Changed(_)));
-        assert!(matches!(editor.redo(), Edit::None));
+        assert!(matches!(editor.redo(), EditOutcome::Changed(_)));
+        assert!(matches!(editor.redo(), EditOutcome::None));
     }
 
     #[test]
@@ -374,7 +374,7 @@ mod tests {
         let mut editor = editor();
         for (label, stepped) in [("shelter rows", "6"), ("row 1: under row", "2")] {
             editor.find(label, false);
-            assert!(matches!(editor.step(true), Edit::Changed(_)), "{:?}", editor.problem);
+            assert!(matches!(editor.step(true), EditOutcome::Changed(_)), "{:?}", editor.problem);
             assert_eq!(editor.field().map(|field| field.value.as_str()), Some(stepped));
         }
     }

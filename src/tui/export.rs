@@ -28,7 +28,7 @@ pub fn write(app: &App, path: &Path) -> Result<(), String> {
 pub fn csv(app: &App) -> Result<String, String> {
     let text = match app.screen {
         Screen::Plan | Screen::Compare => {
-            report::csv::csv(&[report::check::report(&app.case, &results(app)?, false, false)])
+            report::csv::csv(&[report::check::report(&app.case, &results(app)?, None, false, false)])
         }
         _ => report::csv::csv(std::slice::from_ref(&finished(app)?.report)),
     };

@@ -67,7 +67,7 @@ pub enum Action {
     /// Write the plan.
     Save,
     /// Find.
-    Search,
+    Find,
     /// Choose a command by name.
     Palette,
     /// Put the contents of the screen on the clipboard.
@@ -175,7 +175,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Finer, "finer", &["+", "="], "finer", "finer accuracy: draft, field, reference", ALL),
     bind(Action::Coarser, "coarser", &["-"], "coarser", "coarser accuracy", ALL),
     bind(Action::Rerun, "rerun", &["r"], "", "compute again", ALL),
-    bind(Action::Search, "search", &["/"], "find", "find: options by name or verdict, values, lines", ALL),
+    bind(Action::Find, "search", &["/"], "find", "find: options by name or verdict, values, lines", ALL),
     bind(Action::Export, "export", &["e"], "export", "write what is shown to a CSV, SVG or HTML file", ALL),
     bind(Action::Yank, "copy", &["y"], "", "copy what is shown to the clipboard", ALL),
     bind(Action::Palette, "commands", &[":"], "", "choose a command by name", ALL),

@@ -12,7 +12,7 @@ use super::keymap::{BINDINGS, Binding};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// A text to find.
-    Search,
+    Find,
     /// A command to choose by name.
     Palette,
     /// The file to write the contents of the screen to.

@@ -155,7 +155,7 @@ fn newmark_refuses_what_it_lacks_by_name() {
 
 /// Pushes of a lone tire: the time of each firing and of its push [s].
 fn pushes(times: &[(f64, f64)]) -> Shot {
-    let push = |&(at, push): &(f64, f64)| Firing { push, ..Firing::up(at, 0, LAUNCH) };
+    let push = |&(at, push): &(f64, f64)| Firing { push_time: push, ..Firing::up(at, 0, LAUNCH) };
     Shot::from_firings(times.iter().map(push).collect())
 }
 
@@ -298,7 +298,7 @@ fn pushes_on_the_ground_are_of_second_order() {
     let mut scene = tires(&[(0.0, 0.0), (2.0, 0.0)], 280.0);
     tie(&mut scene, 0, 1, 1.519e6, 1.0);
     let launch = Vector3::new(-1.2 * 60.0_f64.to_radians().sin(), 0.0, 1.2 * 60.0_f64.to_radians().cos());
-    let shot = Shot::from_firings(vec![Firing { push: 0.2, ..Firing::at_once(0.0, 0, launch) }]);
+    let shot = Shot::from_firings(vec![Firing { push_time: 0.2, ..Firing::at_once(0.0, 0, launch) }]);
     for (step, tolerance) in [(1e-3, 1e-2), (2.5e-4, 1e-3)] {
         let out = run(&scene, &shot, settings(Method::Verlet, step, None));
         close(out.force.value, 1003.045, tolerance, &format!("force at {step} s"));
@@ -316,9 +316,9 @@ fn every_effect_keeps_the_order_of_its_method() {
         ("none", &METHODS[..], up, level, 0.0),
         ("tilt", &METHODS[..], tilted, level, 0.0),
         ("slope", &METHODS[..], up, Vector2::new(1.1, -2.3), 0.0),
-        ("push", &METHODS[..1], Firing { push: 0.0231, ..up }, level, 0.0),
+        ("push", &METHODS[..1], Firing { push_time: 0.0231, ..up }, level, 0.0),
         ("damping", &METHODS[..1], up, level, 0.05),
-        ("all", &METHODS[..1], Firing { push: 0.0231, ..tilted }, Vector2::new(1.1, -2.3), 0.05),
+        ("all", &METHODS[..1], Firing { push_time: 0.0231, ..tilted }, Vector2::new(1.1, -2.3), 0.05),
     ] {
         for &method in methods {
             let ends = |h: f64| {
@@ -353,7 +353,7 @@ fn every_effect_keeps_the_order_of_its_method() {
 #[test]
 fn validates_a_push_along_the_ground() {
     let (push, launch) = (0.5, Vector3::new(4.0, 0.0, 2.0));
-    let shot = Shot::from_firings(vec![Firing { push, ..Firing::at_once(0.0, 0, launch) }]);
+    let shot = Shot::from_firings(vec![Firing { push_time: push, ..Firing::at_once(0.0, 0, launch) }]);
     let out = run(&tires(&[(0.0, 0.0)], 280.0), &shot, settings(Method::Verlet, 1e-3, None));
     let force = launch / push;
     let acceleration = force.x - 0.5 * (GRAVITY - force.z);

@@ -260,7 +260,7 @@ fn studies_keep_the_holes_of_the_options() {
     assert_eq!(alike.intervals(), [0.042]);
     let both = text.replace("delay = [", "delay = [{ name = \"b\", interval_ms = 9 }, ");
     let differing = case(&both);
-    assert_eq!(differing.holes, None);
+    assert_eq!(differing.hole_timing, None);
     assert_eq!(differing.intervals(), [0.009, 0.042]);
     let intervals = Intervals { from: 0.0, to: 0.01, step: 0.005 };
     let compute = ComputeSettings::of(&differing.plan);
@@ -268,8 +268,8 @@ fn studies_keep_the_holes_of_the_options() {
     assert!(matches!(swept, Err(NoResult::HolesDiffer)), "which of them is meant?");
     let tried = try_orders(&differing, &[0.009], Shard::WHOLE, &compute, &Progress::default());
     assert!(matches!(tried, Err(NoResult::HolesDiffer)));
-    assert_eq!(differing.with_holes_of(1).shot(&[0, 1], 0.042), differing.shots[1]);
-    let differing = differing.with_holes_of(0);
+    assert_eq!(differing.with_hole_timing_of(1).shot(&[0, 1], 0.042), differing.shots[1]);
+    let differing = differing.with_hole_timing_of(0);
     assert_eq!(differing.intervals(), [0.009], "the option whose rows fire together");
     let compute = ComputeSettings::of(&differing.plan);
     let flow = &mut |_: shelter::study::check::CheckStep| ControlFlow::Continue(());

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use proptest::prelude::*;
 use shelter::choice::Method;
 use shelter::plan::{Layout, Plan};
-use shelter::simulation::{Failure, Settings};
+use shelter::simulation::{Failure, RunSettings};
 use shelter::study::Case;
 use shelter::tui::config::{self, Config};
 
@@ -82,7 +82,7 @@ proptest! {
         let step = (0.2 * case.scene().critical_step()).min(1e-3);
         for method in [Method::Verlet, Method::Newmark] {
             let mut left = 20;
-            let outcome = case.model.run(&case.shots[0], &Settings { method, step, duration: None }, &mut |motion| {
+            let outcome = case.model.run(&case.shots[0], &RunSettings { method, step, duration: None }, &mut |motion| {
                 left -= 1;
                 let finite = (0..case.scene().mass.len()).all(|tire| motion.displacement(tire).norm().is_finite());
                 if left > 0 && finite { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }

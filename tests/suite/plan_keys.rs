@@ -156,7 +156,10 @@ fn examples_are_in_range_and_values_out_of_range_are_refused() {
 /// The fuzzer puts these words into plans, so that it reaches every effect.
 #[test]
 fn the_dictionary_of_the_fuzzer_has_every_key() {
-    let quoted = |key: &Key| format!("{:?}", format!("{} = {}\n", key.name, example(key)));
+    let quoted = |key: &Key| {
+        let line = format!("{} = {}\n", key.name, example(key));
+        format!("{line:?}").replace("\\n", "\\x0A")
+    };
     let expected: BTreeSet<String> =
         all_keys(&plan::SECTION, &[]).iter().map(|(_, key)| quoted(key)).collect();
     let dictionary: BTreeSet<String> =

@@ -21,8 +21,10 @@ fn shelter() -> impl Strategy<Value = (Scene, Shot)> {
         |((rows, columns), spacing, ea, mu, slack, ((held, toward), restitution, damping))| {
             let tires = rows * columns;
             let push = prop_oneof![3 => Just(0.0), 1 => 1e-3..0.05];
-            let firing = (0..tires, 0.0..0.3, 0.5..8.0, push)
-                .prop_map(|(tire, at, launch, push)| Firing { push, ..Firing::up(at, tire, launch) });
+            let firing = (0..tires, 0.0..0.3, 0.5..8.0, push).prop_map(|(tire, at, launch, push)| Firing {
+                push_time: push,
+                ..Firing::up(at, tire, launch)
+            });
             proptest::collection::vec(firing, 1..4).prop_map(move |firings| {
                 let mut scene = grid(rows, columns, spacing, 10_f64.powf(ea));
                 (scene.friction, scene.restitution, scene.damping) = (mu, restitution, damping);
@@ -39,7 +41,7 @@ fn shelter() -> impl Strategy<Value = (Scene, Shot)> {
 
 /// The methods that have the effects of a scene and a shot.
 fn methods(scene: &Scene, shot: &Shot) -> &'static [Method] {
-    let pushes = shot.firings.iter().any(|firing| firing.push > 0.0);
+    let pushes = shot.firings.iter().any(|firing| firing.push_time > 0.0);
     if scene.restitution > 0.0 || scene.damping > 0.0 || pushes { &METHODS[..1] } else { &METHODS }
 }
 
@@ -78,7 +80,8 @@ fn scaled(scene: &Scene, shot: &Shot, scale: f64) -> (Scene, Shot) {
         cable.rest_length *= scale;
         cable.stiffness /= scale;
     }
-    let firing = |f: &Firing| Firing { at: root * f.at, launch: root * f.launch, push: root * f.push, ..*f };
+    let firing =
+        |f: &Firing| Firing { at: root * f.at, launch: root * f.launch, push_time: root * f.push_time, ..*f };
     (large, Shot::from_firings(shot.firings.iter().map(firing).collect()))
 }
 

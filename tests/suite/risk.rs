@@ -6,18 +6,18 @@ use shelter::choice::{Accuracy, Method};
 use shelter::outcome::Outcome;
 use shelter::plan::{DelayScatter, Plan, Uncertainty};
 use shelter::scene::{Scene, Shot};
-use shelter::simulation::{Model, Settings};
+use shelter::simulation::{Model, RunSettings};
 use shelter::study::check_all::{check_all, find_launch_margins, judge_drawn};
 use shelter::study::influence::input_shares;
 use shelter::study::judgement::Judgement;
 use shelter::study::margin::LaunchMargin;
-use shelter::study::merge::OptionSample;
 use shelter::study::random_shot::{RandomShot, draw};
 use shelter::study::risk::Risk;
 use shelter::study::risk_summary::sample_shots;
+use shelter::study::sample::OptionSample;
 use shelter::study::sampled::Sampled;
 use shelter::study::sampling::{Sampling, ShotToSample, draw_shard, find_risks};
-use shelter::study::{Case, ComputeSettings, JudgedShot, Progress, Shard, thread_pool};
+use shelter::study::{Case, ComputeSettings, Progress, Shard, ShotSummary, thread_pool};
 use shelter::verdict::{Quantity, Verdict};
 
 use crate::scenes::{GRAVITY, METHODS, fire, tie, tires};
@@ -150,7 +150,7 @@ fn the_launch_margin_is_the_room_below_the_limit() {
         LaunchMargin::UpTo { rise: 0.04, then: Verdict::Fail }
     );
     assert_eq!(margin(5.9_f64.powi(2) / (2.0 * GRAVITY)), LaunchMargin::NotPassing);
-    assert_eq!(margin(12.1_f64.powi(2) / (2.0 * GRAVITY)), LaunchMargin::Wide);
+    assert_eq!(margin(12.1_f64.powi(2) / (2.0 * GRAVITY)), LaunchMargin::BeyondTried);
 }
 
 /// Rows 109 ms apart, in the plan of three rows with nothing unknown: the step of samples is far too long for this motion
@@ -177,7 +177,7 @@ fn samples_whose_step_is_too_long_pass_nothing() {
     assert_eq!(judged.verdict(), Verdict::Undecided, "{:?}", risk.samples[0]);
     assert!(risk.halvings > 0, "the audit saw it, too");
     // Sweeps and orders sample shots this way.
-    let shots = [(case.shots[0].clone(), JudgedShot::of(&judged.as_planned))];
+    let shots = [(case.shots[0].clone(), ShotSummary::of(&judged.as_planned))];
     let sampled = sample_shots(&case, &shots, &Sampling::OF_VERDICT, &cases[0].1, &Progress::default());
     let sampled = sampled.expect("a result").remove(0).expect("samples");
     assert_eq!((sampled.bounds.verdict(), sampled.verdict), (Verdict::Pass, Verdict::Undecided));
@@ -399,7 +399,7 @@ fn draws_are_the_same_for_every_option_and_accuracy() {
 }
 
 fn run_variant(model: &Model, scene: &Scene, shot: &Shot, method: Method) -> Outcome {
-    let settings = Settings { method, step: 1e-3, duration: None };
+    let settings = RunSettings { method, step: 1e-3, duration: None };
     model.run_variant(scene, shot, &settings, &mut |_| ControlFlow::Continue(())).expect("a run")
 }
 

@@ -6,7 +6,7 @@ use nalgebra::{Vector2, Vector3};
 use shelter::choice::Method;
 use shelter::outcome::Outcome;
 use shelter::scene::{Cable, Firing, Scene, Shot, TireId};
-use shelter::simulation::{Failure, Model, Motion, Settings};
+use shelter::simulation::{Failure, Model, Motion, RunSettings};
 
 pub const GRAVITY: f64 = 9.81;
 pub const METHODS: [Method; 2] = [Method::Verlet, Method::Newmark];
@@ -81,20 +81,20 @@ pub fn fire_rows(rows: &[usize], columns: usize, interval: f64) -> Shot {
     Shot::from_firings(rows.iter().enumerate().flat_map(row).collect())
 }
 
-pub fn settings(method: Method, step: f64, duration: Option<f64>) -> Settings {
-    Settings { method, step, duration }
+pub fn settings(method: Method, step: f64, duration: Option<f64>) -> RunSettings {
+    RunSettings { method, step, duration }
 }
 
-pub fn run(scene: &Scene, shot: &Shot, settings: Settings) -> Outcome {
+pub fn run(scene: &Scene, shot: &Shot, settings: RunSettings) -> Outcome {
     try_run(scene, shot, settings).expect("the run has an outcome")
 }
 
-pub fn try_run(scene: &Scene, shot: &Shot, settings: Settings) -> Result<Outcome, Failure> {
+pub fn try_run(scene: &Scene, shot: &Shot, settings: RunSettings) -> Result<Outcome, Failure> {
     Model::new(scene.clone()).run(shot, &settings, &mut |_| ControlFlow::Continue(()))
 }
 
 /// Runs and shows every step to `see`.
-pub fn watch(scene: &Scene, shot: &Shot, settings: Settings, mut see: impl FnMut(&dyn Motion)) -> Outcome {
+pub fn watch(scene: &Scene, shot: &Shot, settings: RunSettings, mut see: impl FnMut(&dyn Motion)) -> Outcome {
     let watched = Model::new(scene.clone()).run(shot, &settings, &mut |motion| {
         see(motion);
         ControlFlow::Continue(())

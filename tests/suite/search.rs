@@ -71,7 +71,7 @@ fn as_planned_the_best_of_all_is_found() {
             let schedule = shelter::study::search::Schedule {
                 order: order.to_vec(),
                 gaps_ms: vec![gaps_ms.0, gaps_ms.1],
-                holes: shelter::plan::HoleTiming::TOGETHER,
+                hole_timing: shelter::plan::HoleTiming::TOGETHER,
             };
             delays.push(schedule.delay_option(schedule.name(&case.plan.blast_rows)));
         }
@@ -107,7 +107,7 @@ fn the_least_risk_of_all_is_found() {
             let schedule = shelter::study::search::Schedule {
                 order: order.clone(),
                 gaps_ms: vec![first, second],
-                holes: shelter::plan::HoleTiming::TOGETHER,
+                hole_timing: shelter::plan::HoleTiming::TOGETHER,
             };
             delays.push(schedule.delay_option(schedule.name(&case.plan.blast_rows)));
         }
@@ -300,9 +300,9 @@ fn tight_limits_leave_what_keeps_them() {
     assert!(keeping > 0 && keeping < found.possible / 30, "{keeping} of {}", found.possible);
     assert!(found.complete && found.judged == keeping, "{} of {keeping}", found.judged);
     let refused = found.refused;
-    assert_eq!(refused.longest + refused.holes + refused.charge + keeping, found.possible);
+    assert_eq!(refused.too_long + refused.too_many_holes + refused.too_heavy + keeping, found.possible);
     let none = searched(&case(&charged.replace("[0, 9, 17, 25]", "[0]")), None);
-    assert_eq!((none.judged, none.refused.charge), (0, none.possible));
+    assert_eq!((none.judged, none.refused.too_heavy), (0, none.possible));
     assert_eq!(none.verdict(), Verdict::Fail);
     // More than can be listed, and few of them short enough.
     let many = "intervals_ms = { from = 9, to = 999, step = 1 }, equal_intervals = false, longest_ms = 100";

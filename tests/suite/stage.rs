@@ -12,7 +12,7 @@ use shelter::jobs::{News, StudyKind, StudyResult};
 use shelter::outcome::{EndReason, History, RunEnd};
 use shelter::ropes::catalogue;
 use shelter::study::accuracy::{AccuracyTable, LevelStep, Measured, StepRow};
-use shelter::study::check::Checked;
+use shelter::study::check::CheckedShot;
 use shelter::study::cover::Cover;
 use shelter::study::judgement::Judgement;
 use shelter::study::orders::{Orders, TriedOrder};
@@ -21,10 +21,10 @@ use shelter::study::risk::Risk;
 use shelter::study::sample::{Sample, SampleRun};
 use shelter::study::sampled::Sampled;
 use shelter::study::sampling::Sampling;
-use shelter::study::size::{Combination, SampledRisk, Sizing, Trial};
+use shelter::study::size::{Combination, Sizing, Trial, WorstShotRisk};
 use shelter::study::sweep::{Point, Recommended, Sweep};
 use shelter::study::{Case, ComputeSettings, NoResult, flight};
-use shelter::study::{JudgedShot, ValueWithError};
+use shelter::study::{ShotSummary, ValueWithError};
 use shelter::tui::app::{App, Areas, Request};
 use shelter::tui::config::Config;
 use shelter::tui::options::OptionState;
@@ -42,12 +42,12 @@ pub fn app() -> App {
 }
 
 /// A result with round numbers, so that a snapshot changes with the screen and not with the physics.
-pub fn checked(verdict: Verdict) -> Checked {
+pub fn checked(verdict: Verdict) -> CheckedShot {
     let wave = |n: usize| (n as f64 * 0.05).sin().abs();
     let estimate = |value, error, at, index| Estimate { value, error, at, index };
     let force = estimate(61_234.0, 45.0, 0.123, 3);
     let limit = Reason::Limit { quantity: Quantity::Force, verdict, estimate: force, limit: 61_019.0 };
-    Checked {
+    CheckedShot {
         broken: Vec::new(),
         verdict,
         reasons: if verdict == Verdict::Pass { Vec::new() } else { vec![limit] },
@@ -161,7 +161,7 @@ pub fn swept() -> StudyResult {
         let force = ValueWithError { value: 76_000.0 * share, error: 250.0 };
         Point {
             interval: n as f64 * 0.01,
-            as_planned: JudgedShot {
+            as_planned: ShotSummary {
                 verdict,
                 height,
                 force,
@@ -218,9 +218,9 @@ pub fn recorded(app: &App, option: usize) -> StudyResult {
 }
 
 /// What is kept of a shot that uses so much of its limits.
-fn judged_shot(share: f64) -> JudgedShot {
+fn shot_summary(share: f64) -> ShotSummary {
     let verdict = if share < 1.0 { Verdict::Pass } else { Verdict::Fail };
-    JudgedShot {
+    ShotSummary {
         verdict,
         height: ValueWithError { value: 1.8 * share, error: 0.01 },
         force: ValueWithError { value: 61_000.0 * share, error: 250.0 },
@@ -236,14 +236,14 @@ pub fn spreads(app: &App) -> [(StudyKind, StudyResult); 3] {
         number,
         order: order.to_vec(),
         interval: 0.02,
-        as_planned: judged_shot(1.5 - 0.2 * number as f64),
+        as_planned: shot_summary(1.5 - 0.2 * number as f64),
     });
     let judged = app.options.iter().enumerate().map(|(n, _)| Ok(judgement(&app.case, n)));
     let combinations = catalogue().ropes.iter().take(8).enumerate().map(|(n, rope)| {
         let share = 1.5 - 0.1 * n as f64;
-        let risk = Some(SampledRisk { verdict: Verdict::Pass, samples: 3045, failures: 2, most: 0.004 });
+        let risk = Some(WorstShotRisk { verdict: Verdict::Pass, samples: 3045, failures: 2, most: 0.004 });
         let holds = share < 1.0;
-        let worst = judged_shot(share);
+        let worst = shot_summary(share);
         let trial = Trial { holds, worst, utilization: share, shots: 7, risk, is_choice: holds };
         let (total_mass, trial) = (14_000.0 + 100.0 * n as f64, Ok(trial));
         Combination { rope, tire_mass: 280.0, border_rows: 0, tires: 50, total_mass, trial }

@@ -18,7 +18,7 @@ use shelter::study::size::{Demand, size};
 use shelter::study::swaps::swaps;
 use shelter::study::sweep::{GAP, Point, Sweep, sweep};
 use shelter::study::{Case, ComputeSettings, Intervals, Shard};
-use shelter::study::{JudgedShot, Progress};
+use shelter::study::{Progress, ShotSummary};
 use shelter::verdict::Verdict;
 
 use super::support::shelter;
@@ -49,11 +49,11 @@ fn case(rows: usize, more: &str) -> Case {
     Case::new(plan(rows, more))
 }
 
-fn judged(case: &Case, order: &[usize], interval: f64) -> JudgedShot {
+fn judged(case: &Case, order: &[usize], interval: f64) -> ShotSummary {
     let compute = ComputeSettings::of(&case.plan);
     let shot = case.shot(order, interval);
     let checked = check_shot(case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
-    JudgedShot::of(&checked.expect("a result"))
+    ShotSummary::of(&checked.expect("a result"))
 }
 
 /// Every point has the verdict of `check`; at the intervals of the plan's options it has the very numbers.
@@ -169,7 +169,7 @@ fn the_recommended_interval_has_a_full_verdict() {
     let checked = check_shot(&case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
     assert_eq!(
         (best.verdict(), best.as_planned),
-        (Verdict::Pass, JudgedShot::of(&checked.expect("a result")))
+        (Verdict::Pass, ShotSummary::of(&checked.expect("a result")))
     );
     // The first look chose the interval for its draws; the verdict has others.
     let full = risk_at(&case, best.interval, &sampling.with_fresh_draws(1 + swept.refuted), compute);
@@ -239,7 +239,7 @@ fn every_option_at_one_interval_is_a_point() {
         sweep(&case, &[0, 1, 2], &intervals, None, &compute, &Progress::default()).expect("a result").value;
     let point = swept.points.iter().find(|point| point.interval == 0.031_062_7);
     let checked = check_as_planned(&case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a result");
-    assert_eq!(point.expect("the option is tried").as_planned, JudgedShot::of(&checked));
+    assert_eq!(point.expect("the option is tried").as_planned, ShotSummary::of(&checked));
 }
 
 /// All orders stand in the ranking once, with the verdict of `check`; the worst and the best have the very numbers.
@@ -251,8 +251,8 @@ fn orders_find_the_worst_and_the_best_of_brute_force() {
         let tried =
             try_orders(&case, &[interval], Shard::WHOLE, &compute, &Progress::default()).expect("a result");
         let ranked = Orders::new(&case, tried.value, 1).ranked;
-        let share = |judged: &JudgedShot| judged.utilization(&case.limits);
-        let brute: HashMap<Vec<usize>, JudgedShot> =
+        let share = |judged: &ShotSummary| judged.utilization(&case.limits);
+        let brute: HashMap<Vec<usize>, ShotSummary> =
             (0..4).permutations(4).map(|order| (order.clone(), judged(&case, &order, interval))).collect();
         assert_eq!(ranked.len(), 24);
         for tried in ranked.iter().filter(|tried| tried.as_planned.verdict != Verdict::Undecided) {
@@ -291,7 +291,7 @@ fn an_order_without_its_mirrored_order_is_refined() {
     let case = mirrored_case();
     let order = vec![3, 2, 1, 0];
     let tried =
-        TriedOrder { number: 0, order: order.clone(), interval: 0.045, as_planned: JudgedShot::UNKNOWN };
+        TriedOrder { number: 0, order: order.clone(), interval: 0.045, as_planned: ShotSummary::UNKNOWN };
     let compute = ComputeSettings::of(&case.plan);
     let refined = refine(&case, vec![tried], &compute, &Progress::default()).expect("a result").value;
     assert_eq!(refined[0].as_planned, judged(&case, &order, 0.045));
@@ -305,7 +305,7 @@ fn a_fixed_step_is_the_step_of_every_shot() {
     let fixed = |order: &[usize], interval: f64| {
         let shot = case.shot(order, interval);
         let checked = check_shot(&case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
-        JudgedShot::of(&checked.expect("a result"))
+        ShotSummary::of(&checked.expect("a result"))
     };
     let progress = Progress::default();
     let tried = try_orders(&case, &[0.045], Shard::WHOLE, &compute, &progress).expect("a result").value;
@@ -407,7 +407,7 @@ fn the_lightest_shelter_is_that_of_brute_force() {
     let sizing = sizing.expect("a result").value;
     let ropes = catalogue().ropes.iter().filter(|rope| rope.family == family);
     let combinations = itertools::iproduct!(ropes, [150.0, 400.0], 0..=1).map(|(rope, mass, border)| {
-        let case = Case::new(plan.with(rope, mass, border));
+        let case = Case::new(plan.with_sizes(rope, mass, border));
         let length: f64 = case.scene().cables.iter().map(|cable| cable.rest_length).sum();
         (case.scene().mass.len() as f64 * mass + length * rope.mass_kg_per_m, case)
     });

@@ -99,7 +99,7 @@ fn plan(name: &str, source: &str, list: Holes, directions: Directions) -> Result
             "are x and y in metres? convert degrees or kilometres",
         ));
     }
-    let layout = Cover::of(&list.holes, nearest);
+    let layout = TireGrid::of(&list.holes, nearest);
     if layout.rows.saturating_mul(layout.columns) > MOST_TIRES {
         let message = "the holes lie too far apart for one shelter".to_owned();
         return Err(Diagnostics::unreadable(
@@ -187,7 +187,7 @@ fn summary(list: &Holes, timed: &Timed, directions: Directions) -> String {
 }
 
 /// A grid of tires over all holes.
-struct Cover {
+struct TireGrid {
     rows: usize,
     columns: usize,
     spacing_m: f64,
@@ -195,7 +195,7 @@ struct Cover {
     origin: [f64; 2],
 }
 
-impl Cover {
+impl TireGrid {
     /// Over holes that lie `nearest` apart [m].
     fn of(holes: &[ListedHole], nearest: f64) -> Self {
         let spacing_m =
@@ -232,12 +232,12 @@ fn nearest_distance(holes: &[ListedHole]) -> f64 {
 
 fn write(
     name: &str,
-    cover: &Cover,
+    grid: &TireGrid,
     holes: &[ListedHole],
     groups: &[Group],
     directions: Directions,
 ) -> String {
-    let &Cover { rows, columns, spacing_m, origin } = cover;
+    let &TireGrid { rows, columns, spacing_m, origin } = grid;
     let shelter = Shelter { rows, columns, spacing_m, ..USUAL };
     let remark =
         format!("               # tire (1,1) lies at x = {:.3}, y = {:.3} of the list", origin[0], origin[1]);

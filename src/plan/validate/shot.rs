@@ -234,8 +234,8 @@ pub fn read_delays(root: &SectionReader<'_>, rows: &[BlastRow], mistakes: &Mista
             mistakes.add(name.span.clone(), message, "give each its own name");
         }
         let timing = read_timing(&section, rows, mistakes);
-        let holes = read_hole_timing(&section);
-        delays.push(DelayOption { name: name.value.to_owned(), timing, holes });
+        let hole_timing = read_hole_timing(&section);
+        delays.push(DelayOption { name: name.value.to_owned(), timing, hole_timing });
         section.finish();
     }
     delays

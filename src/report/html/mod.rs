@@ -38,7 +38,7 @@ pre { font-size: 8pt; white-space: pre-wrap; overflow-wrap: anywhere }
 const ASSUMPTIONS: &[&str] = &[
     "Tires are point masses that do not turn; the ground is a hard plane. It is level, and a landing does not rebound, where the plan says nothing else.",
     "Cables are elastic, without mass and damping; they only pull, and their fastenings hold.",
-    "Each hole gives its tire the launch velocity written in the plan, varied in the possible shots as [uncertainty] says; the program knows nothing of charges, stemming or gas.",
+    "Each hole gives its tire the launch velocity written in the plan, varied in the possible shots as [uncertainty] says; it does not follow from charge, stemming or gas: charges only count within 8 ms.",
     "Friction on the ground is Coulomb's, with one coefficient.",
     "The error stated with a value of the shot as planned is that of the computation; what the plan's own numbers leave open is in the bands and the risk.",
     "The limits are the plan's; no limit is safe by default. A competent person decides.",
@@ -55,7 +55,7 @@ pub fn page(
     let plan = &case.plan;
     let hash = Sha256::digest(case.source.text.as_bytes());
     let hash: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
-    let report = check::report(case, results, false, partial);
+    let report = check::report(case, results, None, false, partial);
     let page = html! {
         (DOCTYPE)
         html lang="en" {

@@ -7,8 +7,8 @@ use super::risk::{Share, input_shares};
 use super::why::{PassingChange, RefusedKind};
 use super::{Bounds, Failures, LimitsObject};
 use crate::choice::HoleOrder;
-use crate::outcome::Broken;
-use crate::report::check::{judged_by, texts};
+use crate::outcome::BrokenCable;
+use crate::report::check::{judged_inputs, reason_sentences};
 use crate::report::no_result;
 use crate::report::option_row::option_rows;
 use crate::scene::{Scene, TireId, fire_at_s, seconds};
@@ -71,7 +71,7 @@ struct OptionValues {
     cable_safety_factor: Option<f64>,
     drift_m: AtTire,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    broken: Vec<BrokenCable>,
+    broken: Vec<BrokenAt>,
     cover: CoverAtFirings,
     method: &'static str,
     dt_s: f64,
@@ -130,13 +130,13 @@ pub(super) struct AtCable {
 
 /// A cable that broke.
 #[derive(Serialize)]
-struct BrokenCable {
+struct BrokenAt {
     cable: [Vec<Number>; 2],
     at_s: f64,
 }
 
-impl BrokenCable {
-    fn new(scene: &Scene, broken: &Broken) -> Self {
+impl BrokenAt {
+    fn new(scene: &Scene, broken: &BrokenCable) -> Self {
         let ends = scene.cables[broken.cable].ends;
         Self { cable: ends.map(|end| address(&scene.tire[end])), at_s: broken.at }
     }
@@ -171,7 +171,7 @@ impl OptionValues {
             cable_force_n: AtCable::new(scene, &checked.force, Percentiles::of(risk, Quantity::Force)),
             cable_safety_factor: Some(checked.safety_factor).filter(|factor| factor.is_finite()),
             drift_m: AtTire::new(scene, &checked.drift, Percentiles::of(drift_is_judged, Quantity::Drift)),
-            broken: checked.broken.iter().map(|broken| BrokenCable::new(scene, broken)).collect(),
+            broken: checked.broken.iter().map(|broken| BrokenAt::new(scene, broken)).collect(),
             cover: CoverAtFirings {
                 holes: checked.cover.holes,
                 uncovered: checked.cover.uncovered,
@@ -192,29 +192,37 @@ impl OptionValues {
 impl CheckDocument {
     /// The document of the results of one plan, which are partial where the time was up; with `any` one passing option is
     /// enough.
-    pub fn new(case: &Case, results: &OptionResults, any: bool, partial: bool) -> Self {
+    pub fn new(
+        case: &Case,
+        results: &OptionResults,
+        would_pass: Option<&[WouldPass]>,
+        any: bool,
+        partial: bool,
+    ) -> Self {
         let (plan, scene) = (&case.plan, case.scene());
         let method = results
             .iter()
             .flatten()
             .next()
             .map_or(plan.simulation.method, |judged| judged.as_planned.compute.method);
-        let options = option_rows(case, results).map(|row| {
+        let options = option_rows(case, results).enumerate().map(|(n, row)| {
+            let tried = would_pass.map(|all| all.iter().find(|would_pass| would_pass.option == n));
             let Together { holes, charge } = row.together();
             CheckedOption {
                 name: row.delay.name.clone(),
                 fire_at_s: fire_at_s(&row.delay.timing),
-                hole_interval_s: seconds(row.delay.holes.interval_ms),
-                hole_order: row.delay.holes.order,
+                hole_interval_s: seconds(row.delay.hole_timing.interval_ms),
+                hole_order: row.delay.hole_timing.order,
                 holes_in_8_ms: holes,
                 charge_in_8_ms_kg: charge,
                 verdict: row.verdict().name(),
                 reasons: match row.result {
-                    Ok(judged) => texts(case, judged),
+                    Ok(judged) => reason_sentences(case, judged),
                     Err(reason) => vec![no_result::message(reason)],
                 },
-                would_pass: None,
-                would_not_pass: None,
+                would_pass: tried
+                    .map(|tried| tried.map_or_else(Vec::new, |tried| PassingChange::all(case, tried))),
+                would_not_pass: tried.map(|tried| tried.map_or_else(Vec::new, RefusedKind::all)),
                 values: row.result.as_ref().ok().map(|judged| OptionValues::new(case, judged)),
             }
         });
@@ -222,7 +230,7 @@ impl CheckDocument {
             schema: "shelter.check/2",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
-            judged: results.iter().flatten().next().map_or("nominal", |judged| judged_by(case, judged)),
+            judged: results.iter().flatten().next().map_or("nominal", |judged| judged_inputs(case, judged)),
             accepted_risk_percent: plan.limits.accepted_risk_percent,
             verdict: verdict_on_plan(results, any).name(),
             partial,
@@ -234,16 +242,6 @@ impl CheckDocument {
             limits: LimitsObject::of(case),
             options: options.collect(),
         }
-    }
-
-    /// The document with the changes that were tried for options that do not pass: none for the other options.
-    pub fn with_changes(mut self, case: &Case, all: &[WouldPass]) -> Self {
-        for (n, option) in self.options.iter_mut().enumerate() {
-            let tried = all.iter().find(|would_pass| would_pass.option == n);
-            option.would_pass = Some(tried.map_or_else(Vec::new, |tried| PassingChange::all(case, tried)));
-            option.would_not_pass = Some(tried.map_or_else(Vec::new, RefusedKind::all));
-        }
-        self
     }
 }
 

@@ -28,7 +28,7 @@ pub use self::sweep::SweepDocument;
 pub use self::trace::TraceDocument;
 use crate::study::risk::Risk;
 use crate::study::risk_summary::RiskSummary;
-use crate::study::{Case, JudgedShot};
+use crate::study::{Case, ShotSummary};
 use crate::verdict::Verdict;
 
 /// A document with a line end.
@@ -57,7 +57,7 @@ impl LimitsObject {
     }
 }
 
-/// Verdict and greatest values of a judged shot.
+/// A verdict, and the greatest values of the shot as planned.
 #[derive(Serialize)]
 struct Values {
     flight_height_m: f64,
@@ -68,13 +68,13 @@ struct Values {
 }
 
 impl Values {
-    fn of(judged: &JudgedShot) -> Self {
+    fn of(verdict: Verdict, judged: &ShotSummary) -> Self {
         Self {
             flight_height_m: judged.height.value,
             flight_height_error_m: judged.height.error,
             cable_force_n: judged.force.value,
             cable_force_error_n: judged.force.error,
-            verdict: judged.verdict,
+            verdict,
         }
     }
 }

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::{LimitsObject, SampledValues, Values};
 use crate::report::row_names;
+use crate::study::Case;
 use crate::study::orders::Orders;
-use crate::study::{Case, JudgedShot};
 
 /// The document of all orders tried.
 #[derive(Serialize)]
@@ -39,11 +39,10 @@ impl OrdersDocument {
     pub fn new(case: &Case, orders: &Orders, partial: bool) -> Self {
         let result = |n: usize| {
             let tried = &orders.ranked[n];
-            let judged = JudgedShot { verdict: orders.verdict_on(n), ..tried.as_planned };
             OrderResult {
                 order: row_names(case, &tried.order),
                 interval_s: tried.interval,
-                values: Values::of(&judged),
+                values: Values::of(orders.verdict_on(n), &tried.as_planned),
                 sampled: SampledValues::of(tried.as_planned.verdict, orders.risk(n).drawn().copied()),
             }
         };

@@ -9,7 +9,6 @@ use crate::study::influence;
 use crate::study::judgement::Judgement;
 use crate::study::risk::Risk;
 use crate::study::sampling::Sampling;
-use crate::study::swaps::Swap;
 use crate::study::{Case, NoResult};
 use crate::verdict::{Limits, Quantity, Verdict};
 
@@ -92,13 +91,7 @@ impl SampledOption {
 
 impl RiskDocument {
     /// The document of the samples of all options, which is partial where the time was up.
-    pub fn new(
-        case: &Case,
-        results: &OptionResults,
-        sampling: &Sampling,
-        swaps: &[Swap],
-        partial: bool,
-    ) -> Self {
+    pub fn new(case: &Case, results: &OptionResults, sampling: &Sampling, partial: bool) -> Self {
         let options = case.plan.delays.iter().zip(results);
         Self {
             schema: "shelter.risk/1",
@@ -110,7 +103,7 @@ impl RiskDocument {
             samples: sampling.most,
             seed: sampling.seed,
             options: options.map(|(delay, result)| SampledOption::new(case, &delay.name, result)).collect(),
-            warnings: swaps.iter().map(|swap| warnings::swap(case, swap)).collect(),
+            warnings: warnings::swaps(case),
         }
     }
 }

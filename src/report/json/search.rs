@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::LimitsObject;
 use super::check::{AtCable, AtTire, Percentiles};
 use crate::choice::HoleOrder;
-use crate::report::check::texts;
+use crate::report::check::reason_sentences;
 use crate::report::no_result;
 use crate::report::option_row::{OptionRow, option_rows};
 use crate::report::row_names;
@@ -84,8 +84,8 @@ impl ScheduleObject {
         Self {
             order: row_names(case, &schedule.order),
             intervals_s: schedule.gaps_ms.iter().copied().map(seconds).collect(),
-            hole_interval_s: seconds(schedule.holes.interval_ms),
-            hole_order: schedule.holes.order,
+            hole_interval_s: seconds(schedule.hole_timing.interval_ms),
+            hole_order: schedule.hole_timing.order,
         }
     }
 }
@@ -115,7 +115,7 @@ impl SearchDocument {
                 fire_at_s: fire_at_s(&row.delay.timing),
                 verdict: row.verdict().name(),
                 reasons: match row.result {
-                    Ok(judged) => texts(row.case, judged),
+                    Ok(judged) => reason_sentences(row.case, judged),
                     Err(reason) => vec![no_result::message(reason)],
                 },
                 probability: risk.and_then(|risk| risk.bounds.probability()),

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::Values;
 use crate::report::size::nearest;
 use crate::study::Case;
-use crate::study::size::{Combination, SampledRisk, Sizing, Untried};
+use crate::study::size::{Combination, Sizing, Untried, WorstShotRisk};
 use crate::verdict::Verdict;
 
 /// The document of all combinations.
@@ -58,9 +58,9 @@ impl CombinationResult {
             tires: *tires,
             total_mass_kg: *total_mass,
             use_of_limits: trial.ok().map(|trial| trial.utilization),
-            worst: trial.ok().map(|trial| Values::of(&trial.worst)),
+            worst: trial.ok().map(|trial| Values::of(trial.worst.verdict, &trial.worst)),
             risk: trial.ok().and_then(|trial| trial.risk).map(
-                |SampledRisk { verdict, samples, failures, .. }| RiskResult { verdict, samples, failures },
+                |WorstShotRisk { verdict, samples, failures, .. }| RiskResult { verdict, samples, failures },
             ),
         }
     }

@@ -5,7 +5,6 @@ use serde::Serialize;
 use super::{LimitsObject, SampledValues, Values};
 use crate::report::row_names;
 use crate::study::Case;
-use crate::study::JudgedShot;
 use crate::study::sweep::{Point, Sweep};
 
 /// The document of one sweep.
@@ -37,9 +36,8 @@ struct IntervalResult {
 
 impl IntervalResult {
     fn of(point: &Point) -> Self {
-        let judged = JudgedShot { verdict: point.verdict(), ..point.as_planned };
         let sampled = SampledValues::of(point.as_planned.verdict, point.risk.drawn());
-        Self { interval_s: point.interval, values: Values::of(&judged), sampled }
+        Self { interval_s: point.interval, values: Values::of(point.verdict(), &point.as_planned), sampled }
     }
 }
 

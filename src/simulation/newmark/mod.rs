@@ -33,7 +33,7 @@ use self::system::System;
 use super::clock::Clock;
 use super::record::Record;
 use super::wake::{Ties, Wake};
-use super::{Failure, Motion, Settings, Watcher};
+use super::{Failure, Motion, RunSettings, Watcher};
 use crate::choice::Method;
 use crate::outcome::Outcome;
 use crate::scene::{Scene, Shot};
@@ -50,7 +50,7 @@ impl NewmarkCache {
         &self,
         scene: &Scene,
         shot: &Shot,
-        settings: &Settings,
+        settings: &RunSettings,
         watch: &mut Watcher<'_>,
     ) -> Result<Outcome, Failure> {
         if !(settings.step > 0.0 && settings.step.is_finite()) {
@@ -62,7 +62,7 @@ impl NewmarkCache {
         if scene.damping > 0.0 {
             return Err(Failure::Effect { effect: "damping", method: Method::Newmark });
         }
-        if shot.firings.iter().any(|firing| firing.push > 0.0) {
+        if shot.firings.iter().any(|firing| firing.push_time > 0.0) {
             return Err(Failure::Effect { effect: "push", method: Method::Newmark });
         }
         let ties = self.ties.get_or_init(|| Ties::of_cables(&scene.cables, scene.mass.len()));
@@ -118,7 +118,7 @@ struct Stepper<'a> {
 
 impl<'a> Stepper<'a> {
     /// Run of `shot` under `scene`, before the first step.
-    fn new(scene: &'a Scene, ties: &'a Ties, shot: &'a Shot, settings: &Settings) -> Self {
+    fn new(scene: &'a Scene, ties: &'a Ties, shot: &'a Shot, settings: &RunSettings) -> Self {
         let zeros = || vec![Vector3::zeros(); scene.mass.len()];
         let friction = shot.friction.unwrap_or(scene.friction);
         let slides = scene.slides(friction);
@@ -281,7 +281,7 @@ mod tests {
         let (some, all) = (NewmarkCache::default(), NewmarkCache { ties: ties().with_everything().into() });
         // With the longer step, motion spreads over several tires within one step.
         for (shot, step) in shots.iter().flat_map(|shot| [(shot, 2e-3), (shot, 2e-2)]) {
-            let settings = Settings { method: Method::Newmark, step, duration: None };
+            let settings = RunSettings { method: Method::Newmark, step, duration: None };
             let [some, all] = [&some, &all].map(|cache| {
                 cache.run(&scene, shot, &settings, &mut |_| ControlFlow::Continue(())).expect("a run")
             });

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::Stepper;
-use crate::outcome::{Broken, EndReason, Outcome, Peak};
+use crate::outcome::{BrokenCable, EndReason, Outcome, Peak};
 
 impl Stepper<'_> {
     /// Notes peaks, history and ledger of the present state.
@@ -56,7 +56,7 @@ impl Stepper<'_> {
             let length = cable.displaced(&self.u).norm();
             if cable.force(length) > strength * breaking_force {
                 self.record.ledger.dissipated += cable.energy(length);
-                self.record.broken.push(Broken { at, cable: index });
+                self.record.broken.push(BrokenCable { at, cable: index });
                 cable.rest_length = f64::INFINITY;
                 self.region.taut[index] = false;
                 for end in cable.ends {

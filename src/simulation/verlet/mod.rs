@@ -30,7 +30,7 @@ use super::cable::Blocks;
 
 use super::pack::LANES;
 use super::wake::Ties;
-use super::{Failure, Settings, Watcher};
+use super::{Failure, RunSettings, Watcher};
 use crate::choice::Method;
 use crate::outcome::Outcome;
 use crate::scene::{Cable, Mirror, Scene, Shot};
@@ -77,7 +77,7 @@ impl VerletCache {
         &self,
         scene: &Scene,
         shot: &Shot,
-        settings: &Settings,
+        settings: &RunSettings,
         watch: &mut Watcher<'_>,
     ) -> Result<Outcome, Failure> {
         run(self.part(scene, shot), scene, shot, settings, watch)
@@ -89,7 +89,7 @@ impl VerletCache {
         scene: &Scene,
         variant: &Scene,
         shot: &Shot,
-        settings: &Settings,
+        settings: &RunSettings,
         watch: &mut Watcher<'_>,
     ) -> Result<Outcome, Failure> {
         let planes = shared_planes(variant, shot);
@@ -108,7 +108,7 @@ fn run(
     part: &Part,
     scene: &Scene,
     shot: &Shot,
-    settings: &Settings,
+    settings: &RunSettings,
     watch: &mut Watcher<'_>,
 ) -> Result<Outcome, Failure> {
     let (step, limit) = (settings.step, part.critical_step);
@@ -191,7 +191,7 @@ mod tests {
         let (some, mut all) = (VerletCache::default(), VerletCache::default());
         all.parts[0] = part.into();
         for shot in shots {
-            let settings = Settings { method: Method::Verlet, step: 2e-3, duration: None };
+            let settings = RunSettings { method: Method::Verlet, step: 2e-3, duration: None };
             let [some, all] = [&some, &all].map(|cache| {
                 cache.run(scene, shot, &settings, &mut |_| ControlFlow::Continue(())).expect("a run")
             });

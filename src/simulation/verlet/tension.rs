@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use pulp::Simd;
 
 use crate::simulation::cable::{Block, Blocks};
-use crate::simulation::pack::{Aligned, Field, LANES, Pack, Wide};
+use crate::simulation::pack::{Aligned, LANES, Pack, VectorArrays, Wide};
 
 /// All cables from one step to the next, and their forces.
 #[derive(Debug)]
@@ -16,7 +16,7 @@ pub struct Tension<'a> {
     /// L² at the last evaluation less L² at rest [m²] (`n_elements`).
     change: Aligned,
     /// Force on the first tire of each cable, as mean over the step [N] (`n_elements`); see [`Slices::evaluate`].
-    force: Field,
+    force: VectorArrays,
     /// State of the cables in each register, at the first element of the register (`n_elements`).
     state: Vec<CableState>,
     /// What only damped cables have; empty without damping.
@@ -65,7 +65,7 @@ impl<'a> Tension<'a> {
         Self {
             weight: Cow::Borrowed(&blocks.weight),
             change: Aligned::zeros(elements),
-            force: Field::zeros(elements),
+            force: VectorArrays::zeros(elements),
             state: vec![CableState::Slack; elements],
             damped: Damped { viscosity, change: zeros(), force: [zeros(), zeros()] },
         }
@@ -105,7 +105,8 @@ impl<'a> Tension<'a> {
     }
 
     /// Forgets how a damped cable moved until now, because one of its tires was launched or has landed: as if its ends had always
-    /// moved apart like `apart` [m/s], and been `between` one another now, a vector from rest and one over a `step` [m].
+    /// moved as they do now. `span` is the vector between its ends at rest, `between` what their displacements add to it now, `per_step`
+    /// what they add in one step [m].
     pub fn forget_motion(
         &mut self,
         element: usize,
@@ -131,7 +132,7 @@ impl<'a> Tension<'a> {
         let lost = self.weight[element] * stored;
         self.weight.to_mut()[element] = 0.0;
         // The cable acts until now, through the first half of the kick.
-        self.force.part.iter_mut().for_each(|force| force[element] *= 0.5);
+        self.force.components.iter_mut().for_each(|force| force[element] *= 0.5);
         lost
     }
 

@@ -15,11 +15,11 @@ use std::time::Instant;
 
 pub use self::effect::Effect;
 use super::batch::{or_unknown, run_jobs};
+use super::quick_check::quick_check;
 use super::risk::percentiles;
 use super::sample::Sample;
 use super::sampling::{Sampling, ShotToSample, run_sample_once};
-use super::screen::screen;
-use super::{Case, ComputeSettings, Finding, Found, JudgedShot, NoResult, Progress, guarded};
+use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, guarded};
 use crate::plan::Plan;
 use crate::verdict::{Limits, Quantity, Verdict};
 
@@ -39,7 +39,7 @@ pub struct EffectOnOption {
     /// Whether the value is a probe, not the plan's own.
     pub assumed: bool,
     /// Change of each of [`Quantity::ALL`].
-    pub changes: [Change; Quantity::ALL.len()],
+    pub changes: [QuantityChange; Quantity::ALL.len()],
     /// Whether a plan without the effect states too little, or may do so, in any direction of the effect.
     pub is_missed_on_the_unsafe_side: bool,
     /// On which side of the limits the shot as planned lies without the effect.
@@ -52,7 +52,7 @@ pub struct EffectOnOption {
 
 impl EffectOnOption {
     fn new(variant: &Variant, without: &OptionFigures, with: &OptionFigures, limits: &Limits) -> Self {
-        let changes = Quantity::ALL.map(|quantity| Change {
+        let changes = Quantity::ALL.map(|quantity| QuantityChange {
             without: without.spreads[quantity as usize],
             with: with.spreads[quantity as usize],
             limit: limits.get(quantity),
@@ -62,7 +62,7 @@ impl EffectOnOption {
             value: variant.value,
             assumed: variant.assumed,
             is_missed_on_the_unsafe_side: with.verdict > without.verdict
-                || changes.iter().any(Change::may_raise),
+                || changes.iter().any(QuantityChange::may_raise),
             changes,
             verdict_without: without.verdict,
             verdict_with: with.verdict,
@@ -77,7 +77,7 @@ impl EffectOnOption {
 
     /// Whether the scene requires the effect for this option.
     pub fn is_required(&self) -> bool {
-        self.verdict_changes() || self.changes.iter().any(Change::matters)
+        self.verdict_changes() || self.changes.iter().any(QuantityChange::matters)
     }
 
     /// Whether the effect brings the shot as planned to the other side of the limits.
@@ -87,7 +87,7 @@ impl EffectOnOption {
 
     /// How hard the effect is on the option, to be compared with that of another direction.
     fn severity(&self) -> (bool, Verdict, f64) {
-        let used = |change: &Change| match change.relative().is_nan() {
+        let used = |change: &QuantityChange| match change.relative().is_nan() {
             true => f64::INFINITY,
             false => change.limit.map_or(0.0, |limit| (change.with.median - change.without.median) / limit),
         };
@@ -110,7 +110,7 @@ pub struct Spread {
 
 /// A quantity without an effect and with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Change {
+pub struct QuantityChange {
     /// Without the effect.
     pub without: Spread,
     /// With the effect.
@@ -119,7 +119,7 @@ pub struct Change {
     pub limit: Option<f64>,
 }
 
-impl Change {
+impl QuantityChange {
     /// The median with the effect over that without it, less one; not a number where one is unknown.
     pub fn relative(&self) -> f64 {
         relative(self.without.median, self.with.median)
@@ -246,7 +246,7 @@ fn measure_option(
 ) -> Result<OptionFigures, NoResult> {
     let shot = &case.shots[option];
     let begun = Instant::now();
-    let as_planned = or_unknown(screen(case, shot, compute, progress))?;
+    let as_planned = or_unknown(quick_check(case, shot, compute, progress))?;
     let verdict = verdict_of_values(&as_planned, case);
     let Some(sampling) = sampling else {
         let spreads = Quantity::ALL.map(|quantity| {
@@ -271,7 +271,7 @@ fn measure_option(
 }
 
 /// On which side of the limits a shot lies. A run that ends early counts by its values: without friction none comes to rest.
-fn verdict_of_values(judged: &JudgedShot, case: &Case) -> Verdict {
+fn verdict_of_values(judged: &ShotSummary, case: &Case) -> Verdict {
     let utilization = |errors: f64| judged.with_errors(errors).utilization(&case.limits);
     match (utilization(1.0) <= 1.0, utilization(-1.0) > 1.0) {
         _ if judged.verdict == Verdict::Fail => Verdict::Fail,

@@ -7,7 +7,7 @@
 //! 3. The best that differ from one another become delay options, which are judged as `check` judges options, with draws of their
 //!    own: the draws that chose them flatter them.
 
-mod field;
+mod pool;
 mod race;
 mod schedule;
 
@@ -15,14 +15,14 @@ use std::cmp::Ordering;
 
 use itertools::Itertools;
 
-pub use self::field::MOST_JUDGED;
-use self::field::{FIRST_OF_SEARCH, Field, Listed};
+pub use self::pool::MOST_JUDGED;
+use self::pool::{FIRST_OF_SEARCH, Listed, Pool};
 pub use self::race::TriedSchedule;
 use self::race::{Contender, Race};
 use self::schedule::Choices;
-pub use self::schedule::{Broken, Refused};
+pub use self::schedule::{BrokenLimit, RefusedCounts};
 pub use self::schedule::{Schedule, duration};
-use super::check_all::{OptionResults, check_all, find_launch_margins};
+use super::check_all::{OptionResults, check_with_margins};
 use super::judgement::Judgement;
 use super::margin::LaunchMargin;
 use super::risk::Risk;
@@ -57,7 +57,7 @@ pub struct Search {
     /// Schedules that keep the limits of the search; `None` where there are too many to look at all.
     pub keeping: Option<usize>,
     /// Schedules left out, by the limit that they break.
-    pub refused: Refused,
+    pub refused: RefusedCounts,
     /// Schedules judged.
     pub judged: usize,
     /// Whether all that keep the limits of `[search]` were judged.
@@ -114,9 +114,9 @@ pub fn try_schedules(
     progress: &Progress,
 ) -> Finding<Vec<TriedSchedule>> {
     let choices = Choices::new(case)?;
-    let mut field = Field::new(case, &choices);
-    field.add(Listed::new(case, &choices).allowed.unwrap_or_default());
-    let own = field.contenders.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
+    let mut pool = Pool::new(case, &choices);
+    pool.add(Listed::new(case, &choices).allowed.unwrap_or_default());
+    let own = pool.contenders.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
     let (numbers, mut contenders): (Vec<usize>, Vec<Contender>) = own.unzip();
     let partial = race(case, sampling, compute).draw(&mut contenders, FIRST_OF_ALL, progress)?;
     let tried = numbers.into_iter().zip(contenders);
@@ -142,13 +142,13 @@ pub fn search_after(
     let race = race(case, sampling, compute);
     let listed = Listed::new(case, &choices);
     let (complete, keeping) = (listed.are_all_judged(), listed.allowed.as_ref().map(Vec::len));
-    let mut field = Field::new(case, &choices);
+    let mut pool = Pool::new(case, &choices);
     let mut out_of_time = false;
     match listed.allowed {
-        Some(allowed) if complete => field.add(allowed),
-        allowed => out_of_time = field.explore(allowed.as_deref(), &race, progress)?,
+        Some(allowed) if complete => pool.add(allowed),
+        allowed => out_of_time = pool.explore(allowed.as_deref(), &race, progress)?,
     }
-    let mut contenders = field.contenders;
+    let mut contenders = pool.contenders;
     for TriedSchedule { number, tally } in tried {
         if let Some(contender) = contenders.get_mut(*number) {
             contender.tally = *tally;
@@ -251,10 +251,9 @@ fn judge(
     let case = Case { source: case.source.clone(), ..Case::new(plan) };
     let sampling = sampling.map(|sampling| Sampling { attempt: ATTEMPT, ..*sampling });
     let cases = [(&case, *compute)];
-    let Found { value: mut results, mut partial } = check_all(&cases, sampling.as_ref(), progress)?;
-    partial |= find_launch_margins(&cases, &mut results, progress, &|_, _| {})?.partial;
-    let results = results.remove(0);
-    Ok((case, Found { value: results, partial }))
+    let mut found = check_with_margins(&cases, sampling.as_ref(), progress, &|_, _| {})?;
+    let results = found.value.remove(0);
+    Ok((case, Found { value: results, partial: found.partial }))
 }
 
 impl Search {
@@ -303,7 +302,7 @@ impl Search {
 
     fn margin(&self, n: usize) -> f64 {
         match self.results[n].as_ref().ok().and_then(|judged| judged.launch_margin) {
-            Some(LaunchMargin::Wide) => f64::INFINITY,
+            Some(LaunchMargin::BeyondTried) => f64::INFINITY,
             Some(LaunchMargin::UpTo { rise, .. }) => rise,
             Some(LaunchMargin::NotPassing) | None => 0.0,
         }

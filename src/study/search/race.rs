@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 use super::schedule::Candidate;
 use crate::scene::Shot;
 use crate::study::batch::run_jobs;
+use crate::study::quick_check::quick_check;
 use crate::study::sample::SampleRun;
 use crate::study::sampling::{Sampling, ShotToSample, run_sample_once};
-use crate::study::screen::screen;
 use crate::study::{Case, ComputeSettings, NoResult, Progress};
 use crate::verdict::Verdict;
 
@@ -128,7 +128,7 @@ impl Race<'_> {
     ) -> Result<Vec<(Verdict, f64)>, NoResult> {
         let (Self { case, compute, sampling }, shot) = (self, &contender.shot);
         let Some(sampling) = sampling else {
-            return match screen(case, shot, compute, progress) {
+            return match quick_check(case, shot, compute, progress) {
                 Ok(judged) => Ok(vec![(judged.verdict, judged.utilization(&case.limits))]),
                 Err(NoResult::Failed(_)) => Ok(vec![(Verdict::Undecided, f64::INFINITY)]),
                 Err(ended) => Err(ended),

@@ -21,7 +21,7 @@ pub struct Schedule {
     /// Times between successive rows [ms] (`n_blast_rows` − 1).
     pub gaps_ms: Vec<f64>,
     /// Firing times of the holes of each row.
-    pub holes: HoleTiming,
+    pub hole_timing: HoleTiming,
 }
 
 /// Gaps that differ by less than this share of the greater, or by less than [`NEAR_MS`], make no other schedule.
@@ -36,7 +36,7 @@ impl Schedule {
         Self {
             order: order.to_vec(),
             gaps_ms: vec![gap_ms; order.len() - 1],
-            holes: case.holes.unwrap_or(HoleTiming::TOGETHER),
+            hole_timing: case.hole_timing.unwrap_or(HoleTiming::TOGETHER),
         }
     }
 
@@ -47,7 +47,7 @@ impl Schedule {
 
     /// The schedule as a delay option.
     pub fn delay_option(&self, name: String) -> DelayOption {
-        let (order, holes) = (self.order.clone(), self.holes);
+        let (order, hole_timing) = (self.order.clone(), self.hole_timing);
         let timing = match self.gaps_ms.as_slice() {
             [] => Timing::Interval { order, interval_ms: 0.0 },
             [interval_ms, others @ ..] if others.iter().all(|gap| gap == interval_ms) => {
@@ -64,7 +64,7 @@ impl Schedule {
                 Timing::At(at_ms)
             }
         };
-        DelayOption { name, timing, holes }
+        DelayOption { name, timing, hole_timing }
     }
 
     /// A telling name: `3-1-2 42+67 ms, holes 17 ms centre`; the order is left out where it is that of the plan. Gaps are joined by
@@ -84,7 +84,7 @@ impl Schedule {
             parts.push(format!("{} ms", gaps.join("+")));
         }
         let rows = Some(parts.join(" ")).filter(|rows| !rows.is_empty());
-        let all: Vec<String> = rows.into_iter().chain(self.holes.words()).collect();
+        let all: Vec<String> = rows.into_iter().chain(self.hole_timing.words()).collect();
         if all.is_empty() { "all at once".to_owned() } else { all.join(", ") }
     }
 
@@ -97,7 +97,7 @@ impl Schedule {
     pub fn is_near(&self, other: &Self) -> bool {
         let near = |(a, b): (&f64, &f64)| (a - b).abs() < NEAR_MS.max(NEAR * a.max(*b));
         self.order == other.order
-            && self.holes == other.holes
+            && self.hole_timing == other.hole_timing
             && self.gaps_ms.iter().zip(&other.gaps_ms).all(near)
     }
 }
@@ -118,7 +118,7 @@ pub struct Candidate {
 
 /// A limit that a schedule of a search breaks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Broken {
+pub enum BrokenLimit {
     /// The longest duration of `[search]`.
     Longest,
     /// The most holes within 8 ms of `[search]` or `[limits]`.
@@ -129,22 +129,22 @@ pub enum Broken {
 
 /// Numbers of schedules that break a limit; each is counted once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Refused {
+pub struct RefusedCounts {
     /// Longer than the longest duration.
-    pub longest: usize,
+    pub too_long: usize,
     /// More holes within 8 ms.
-    pub holes: usize,
+    pub too_many_holes: usize,
     /// More charge within 8 ms.
-    pub charge: usize,
+    pub too_heavy: usize,
 }
 
-impl Refused {
+impl RefusedCounts {
     /// Counts one more.
-    pub fn count(&mut self, broken: Broken) {
+    pub fn count(&mut self, broken: BrokenLimit) {
         *match broken {
-            Broken::Longest => &mut self.longest,
-            Broken::Holes => &mut self.holes,
-            Broken::Charge => &mut self.charge,
+            BrokenLimit::Longest => &mut self.too_long,
+            BrokenLimit::Holes => &mut self.too_many_holes,
+            BrokenLimit::Charge => &mut self.too_heavy,
         } += 1;
     }
 }
@@ -163,7 +163,7 @@ impl<'c> Choices<'c> {
     /// The choices of a plan.
     pub fn new(case: &'c Case) -> Result<Self, NoResult> {
         let (spec, rows) = (&case.plan.search, case.plan.blast_rows.len());
-        let any_holes = || Case { holes: None, ..case.clone() };
+        let any_holes = || Case { hole_timing: None, ..case.clone() };
         let own = || any_holes().intervals().into_iter().map(|interval| (interval * 1e9).round() / 1e6);
         let intervals_ms = match spec.intervals_ms.as_slice() {
             [] => own().collect(),
@@ -275,24 +275,24 @@ impl<'c> Choices<'c> {
         Schedule {
             order: candidate.order.clone(),
             gaps_ms: (0..candidate.order.len() - 1).map(gap).collect(),
-            holes: self.case.plan.search.holes[candidate.holes],
+            hole_timing: self.case.plan.search.holes[candidate.holes],
         }
     }
 
     /// The limit that a shot breaks, if any: the longest duration, the most holes, or the heaviest charge within 8 ms.
-    pub fn broken(&self, shot: &Shot) -> Option<Broken> {
+    pub fn broken(&self, shot: &Shot) -> Option<BrokenLimit> {
         let (spec, limits) = (&self.case.plan.search, &self.case.plan.limits);
         if spec.longest_ms.is_some_and(|longest| duration(shot) > seconds(longest) + 1e-9) {
-            return Some(Broken::Longest);
+            return Some(BrokenLimit::Longest);
         }
         // The stricter of both.
         let most_holes = spec.most_holes_in_8_ms.into_iter().chain(limits.holes_in_8_ms).min();
         let Together { holes, charge } = Together::of(self.case, shot);
         if most_holes.is_some_and(|most| holes > most) {
-            return Some(Broken::Holes);
+            return Some(BrokenLimit::Holes);
         }
         let too_heavy = charge.zip(limits.charge_in_8_ms_kg).is_some_and(|(charge, most)| charge > most);
-        too_heavy.then_some(Broken::Charge)
+        too_heavy.then_some(BrokenLimit::Charge)
     }
 
     fn may_fire_in(&self, order: &[usize]) -> bool {
@@ -340,8 +340,8 @@ type FiringKey = (u64, usize, [u64; 4]);
 fn key(firing: &Firing) -> FiringKey {
     // 0.0 and −0.0 are one.
     let bits = |number: f64| (number + 0.0).to_bits();
-    let Firing { at, tire, launch, push, .. } = *firing;
-    (bits(at), tire, [launch.x, launch.y, launch.z, push].map(bits))
+    let Firing { at, tire, launch, push_time, .. } = *firing;
+    (bits(at), tire, [launch.x, launch.y, launch.z, push_time].map(bits))
 }
 
 impl KnownShots {

@@ -17,7 +17,7 @@ use itertools::Itertools;
 use self::trial::{Candidate, Hardest};
 use super::sampled::{Sampled, verdict_of_both};
 use super::sampling::Sampling;
-use super::{ComputeSettings, Finding, Found, JudgedShot, NoResult, Progress};
+use super::{ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary};
 use crate::plan::{Layout, Plan};
 use crate::ropes::{Rope, catalogue};
 use crate::verdict::Verdict;
@@ -65,13 +65,13 @@ pub struct Trial {
     /// Whether every shot passes as planned.
     pub holds: bool,
     /// The worst shot judged. Where the combination does not hold, shots that were not judged may be worse.
-    pub worst: JudgedShot,
+    pub worst: ShotSummary,
     /// Utilization of the worst shot: the greatest value over its limit.
     pub utilization: f64,
     /// Number of shots judged.
     pub shots: usize,
     /// What the samples tell; `None` where none were drawn.
-    pub risk: Option<SampledRisk>,
+    pub risk: Option<WorstShotRisk>,
     /// Whether it is a choice: it holds, the risk of its shots passes, and its utilization is smaller than that of every
     /// lighter choice.
     pub is_choice: bool,
@@ -79,7 +79,7 @@ pub struct Trial {
 
 /// Samples of the worst shot of a combination: that with the worst verdict, then that of which the greatest share fails.
 #[derive(Clone, Copy, Debug)]
-pub struct SampledRisk {
+pub struct WorstShotRisk {
     /// The verdict of the samples.
     pub verdict: Verdict,
     /// Number of samples.
@@ -90,7 +90,7 @@ pub struct SampledRisk {
     pub most: f64,
 }
 
-impl SampledRisk {
+impl WorstShotRisk {
     fn compare(&self, other: &Self) -> Ordering {
         let share = |sampled: &Self| sampled.failures as f64 / sampled.samples.max(1) as f64;
         self.verdict.cmp(&other.verdict).then(share(self).total_cmp(&share(other)))

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use itertools::Itertools;
 
-use super::{Combination, Demand, SampledRisk, SizingTask, Trial, Untried};
+use super::{Combination, Demand, SizingTask, Trial, Untried, WorstShotRisk};
 use crate::ropes::Rope;
 use crate::scene::Shot;
 use crate::study::batch::judge_shots;
@@ -12,7 +12,7 @@ use crate::study::cover::Cover;
 use crate::study::failure_bounds::FailureBounds;
 use crate::study::risk::Risk;
 use crate::study::sampling::{Sampling, ShotToSample, find_risks_watched};
-use crate::study::{Case, Found, JudgedShot, NoResult, ValueWithError};
+use crate::study::{Case, Found, NoResult, ShotSummary, ValueWithError};
 use crate::verdict::Verdict;
 
 /// Number of orders, the hardest ones, that are sampled.
@@ -22,7 +22,7 @@ const HARDEST: usize = 8;
 const AT_ONCE: usize = 32;
 
 /// The shots that a combination is sampled with, hardest first: the index of each and what it is as planned.
-pub(super) type Hardest = Vec<(usize, JudgedShot)>;
+pub(super) type Hardest = Vec<(usize, ShotSummary)>;
 
 /// A combination made ready to run.
 pub(super) struct Candidate<'q> {
@@ -41,7 +41,7 @@ impl<'q> Candidate<'q> {
         tire_mass: f64,
         border_rows: usize,
     ) -> Self {
-        let case = Case::new(task.plan.with(rope, tire_mass, border_rows));
+        let case = Case::new(task.plan.with_sizes(rope, tire_mass, border_rows));
         let shots = match task.demand {
             Demand::Options(options) => options.iter().map(|&option| case.shots[option].clone()).collect(),
             Demand::AnyOrder(intervals) => all_orders(&case, intervals),
@@ -71,7 +71,7 @@ impl<'q> Candidate<'q> {
         if *likeliest < order.len() {
             order.swap(0, *likeliest);
         }
-        let mut judged: Vec<JudgedShot> = Vec::new();
+        let mut judged: Vec<ShotSummary> = Vec::new();
         let mut holds = true;
         for chunk in order.chunks(AT_ONCE) {
             let part: Vec<Shot> = chunk.iter().map(|&n| self.shots[n].clone()).collect();
@@ -87,13 +87,18 @@ impl<'q> Candidate<'q> {
                 break;
             }
         }
-        let utilization = |judged: &JudgedShot| judged.utilization(&case.limits);
+        let utilization = |judged: &ShotSummary| judged.utilization(&case.limits);
         let by_utilization =
             |a: &usize, b: &usize| utilization(&judged[*b]).total_cmp(&utilization(&judged[*a]));
         let hardest: Vec<usize> = (0..judged.len()).sorted_by(by_utilization).collect();
         let zero = ValueWithError::default();
-        let nothing =
-            JudgedShot { verdict: Verdict::Pass, height: zero, force: zero, drift: zero, cover: Cover::NONE };
+        let nothing = ShotSummary {
+            verdict: Verdict::Pass,
+            height: zero,
+            force: zero,
+            drift: zero,
+            cover: Cover::NONE,
+        };
         let mut worst = hardest.first().map_or(nothing, |&n| judged[n]);
         let covers = judged.iter().map(|judged| judged.cover);
         worst.cover = covers.max_by_key(|cover| cover.uncovered).unwrap_or(Cover::NONE);
@@ -114,9 +119,9 @@ impl<'q> Candidate<'q> {
         &self,
         hardest: &Hardest,
         sampling: &Sampling,
-    ) -> Result<Option<SampledRisk>, NoResult> {
+    ) -> Result<Option<WorstShotRisk>, NoResult> {
         let compute = self.task.compute;
-        let target = |&(n, planned): &(usize, JudgedShot)| {
+        let target = |&(n, planned): &(usize, ShotSummary)| {
             ShotToSample::new(&self.case, &self.shots[n], *compute, *sampling).as_planned(planned)
         };
         let targets: Vec<ShotToSample<'_>> = hardest.iter().map(target).collect();
@@ -128,10 +133,10 @@ impl<'q> Candidate<'q> {
             find_risks_watched(&targets, self.task.progress, until_one_fails)?;
         let worst = risks.iter().map(|risk| {
             let FailureBounds { samples, failures, interval: [_, most], .. } = risk.bounds;
-            SampledRisk { verdict: risk.verdict(), samples, failures, most }
+            WorstShotRisk { verdict: risk.verdict(), samples, failures, most }
         });
-        let nothing = SampledRisk { verdict: Verdict::Pass, samples: 0, failures: 0, most: 1.0 };
-        let worst = worst.max_by(SampledRisk::compare).unwrap_or(nothing);
+        let nothing = WorstShotRisk { verdict: Verdict::Pass, samples: 0, failures: 0, most: 1.0 };
+        let worst = worst.max_by(WorstShotRisk::compare).unwrap_or(nothing);
         Ok((!partial).then_some(worst))
     }
 }

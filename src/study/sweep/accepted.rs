@@ -15,7 +15,7 @@ use crate::study::batch::{judge_shot, or_unknown};
 use crate::study::risk_summary::{RiskSummary, sample_shots};
 use crate::study::sampled::Sampled;
 use crate::study::sampling::Sampling;
-use crate::study::{Case, ComputeSettings, Finding, Found, JudgedShot, NoResult, Progress};
+use crate::study::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary};
 use crate::verdict::Verdict;
 
 /// Most intervals that get a full verdict.
@@ -81,7 +81,7 @@ fn judge(
     sampling: &Sampling,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Option<(JudgedShot, Option<RiskSummary>)>, NoResult> {
+) -> Result<Option<(ShotSummary, Option<RiskSummary>)>, NoResult> {
     let as_planned = match or_unknown(judge_shot(case, &shot, compute, progress)) {
         Err(NoResult::OutOfTime) => return Ok(None),
         judged => judged?,

@@ -18,11 +18,11 @@ mod accepted;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::batch::{judge_all, judge_all_or_unknown, judge_shot};
+use super::quick_check::quick_check;
 use super::risk_summary::RiskSummary;
 use super::sampled::{self, Sampled};
 use super::sampling::Sampling;
-use super::screen::screen;
-use super::{Case, ComputeSettings, Finding, Found, Intervals, JudgedShot, NoResult, Progress};
+use super::{Case, ComputeSettings, Finding, Found, Intervals, NoResult, Progress, ShotSummary};
 use crate::plan::Timing;
 use crate::scene::seconds;
 use crate::verdict::Verdict;
@@ -33,7 +33,7 @@ pub struct Point {
     /// Interval between successive rows [s].
     pub interval: f64,
     /// Verdict, height, force and drift of the shot as planned.
-    pub as_planned: JudgedShot,
+    pub as_planned: ShotSummary,
     /// What the samples tell.
     pub risk: Sampled<RiskSummary>,
 }
@@ -117,7 +117,7 @@ pub fn sweep(
     if case.plan.blast_rows.len() < 2 {
         return Err(NoResult::SingleRow);
     }
-    case.needs_holes()?;
+    case.require_hole_timing()?;
     let nominal = sweep_as_planned(case, order, intervals, compute, progress)?;
     let Some(sampling) = sampling else { return Ok(nominal) };
     let own = own_intervals(case, order).into_iter().map(nanoseconds).collect();
@@ -136,14 +136,14 @@ fn sweep_as_planned(
     let [from, to] = [intervals.from, intervals.to].map(nanoseconds);
     let mut next: BTreeSet<i64> = intervals.values().into_iter().map(nanoseconds).collect();
     next.extend(exact.range(from..=to));
-    let mut tried: BTreeMap<i64, JudgedShot> = BTreeMap::new();
+    let mut tried: BTreeMap<i64, ShotSummary> = BTreeMap::new();
     loop {
         let jobs: Vec<i64> = next.iter().copied().collect();
         let work = |&at: &i64| {
             let shot = case.shot(order, in_seconds(at));
             match exact.contains(&at) {
                 true => judge_shot(case, &shot, compute, progress),
-                false => screen(case, &shot, compute, progress),
+                false => quick_check(case, &shot, compute, progress),
             }
         };
         // Of the points between points that are known, all may fail.
@@ -356,7 +356,7 @@ mod tests {
             let value = height(at as f64 * 1e-6);
             let verdict = if value > 1.0 { Verdict::Fail } else { Verdict::Pass };
             let height = ValueWithError { value, error: 0.0 };
-            let as_planned = JudgedShot {
+            let as_planned = ShotSummary {
                 verdict,
                 height,
                 force: ValueWithError::default(),
@@ -415,7 +415,7 @@ mod tests {
                 let value = height(0.1 * f64::from(n));
                 let verdict = if value > 1.0 { Verdict::Fail } else { Verdict::Pass };
                 let height = ValueWithError { value, error: 0.0 };
-                let as_planned = JudgedShot {
+                let as_planned = ShotSummary {
                     verdict,
                     height,
                     force: ValueWithError::default(),

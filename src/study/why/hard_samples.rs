@@ -28,7 +28,7 @@ pub(super) struct HardSamples {
 }
 
 /// The hard samples of one change.
-pub(super) struct Drawn {
+pub(super) struct HardDrawn {
     /// In order of their numbers.
     pub samples: Vec<Sample>,
     /// Whether a pass can come in spite of them.
@@ -79,7 +79,7 @@ impl HardSamples {
         &self,
         targets: &[(usize, ShotToSample<'_>)],
         progress: &Progress,
-    ) -> Result<Vec<Option<Drawn>>, NoResult> {
+    ) -> Result<Vec<Option<HardDrawn>>, NoResult> {
         let of_target = |(n, (option, _)): (usize, &(usize, _))| {
             self.numbers(*option).into_iter().map(move |number| (n, number))
         };
@@ -95,7 +95,7 @@ impl HardSamples {
         let in_reach = |samples: Vec<Sample>| {
             let failing = samples.iter().filter(|sample| sample.finest().verdict != Verdict::Pass);
             let failing: Vec<usize> = failing.map(|sample| sample.number).collect();
-            Drawn { samples, can_pass: self.can_pass(&failing) }
+            HardDrawn { samples, can_pass: self.can_pass(&failing) }
         };
         Ok(all.into_iter().map(|drawn| drawn.map(in_reach)).collect())
     }

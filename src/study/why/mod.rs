@@ -15,17 +15,17 @@ mod hard_samples;
 use std::collections::VecDeque;
 
 use self::candidates::candidates;
-use self::hard_samples::{Drawn, HardSamples};
+use self::hard_samples::{HardDrawn, HardSamples};
 use super::batch::run_jobs;
-use super::check::{Checked, check_as_planned};
+use super::check::{CheckedShot, check_as_planned};
 use super::check_all::OptionResults;
 use super::judgement::Judgement;
+use super::quick_check::quick_check;
 use super::reason::exceeds_together;
 use super::risk::Risk;
 use super::sampled::Sampled;
 use super::sampling::{Sampling, ShotToSample, find_risks};
-use super::screen::screen;
-use super::{Case, ComputeSettings, Finding, Found, JudgedShot, NoResult, Progress, guarded};
+use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, guarded};
 use crate::plan::PlanSource;
 use crate::plan::change::{Change, ChangeKind};
 use crate::verdict::Verdict;
@@ -98,7 +98,7 @@ impl Chain {
 }
 
 /// A change that is judged in full.
-struct Turn {
+struct ChangeToJudge {
     /// Index of its chain.
     chain: usize,
     change: Change,
@@ -172,7 +172,7 @@ fn screened(task: &Task<'_>, options: &[usize]) -> Result<Vec<Chain>, NoResult> 
         all.iter().flat_map(|(option, changes)| changes.iter().map(|&change| (*option, change))).collect();
     let mut verdicts = run_jobs(&jobs, progress, |(option, change)| {
         let Some(changed) = changed(case, change) else { return Ok(None) };
-        match guarded(|| screen(&changed, &changed.shots[*option], compute, progress)) {
+        match guarded(|| quick_check(&changed, &changed.shots[*option], compute, progress)) {
             // The judgement in full tells.
             Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(Some(Verdict::Undecided)),
             screened => Ok(Some(screened?.verdict)),
@@ -208,12 +208,14 @@ fn judge_next(task: &Task<'_>, chains: &mut [Chain], hard: &mut HardSamples) -> 
     for (n, chain) in chains.iter_mut().enumerate().filter(|(_, chain)| chain.is_open()) {
         let change = chain.left.pop_front();
         turns.extend(
-            change.and_then(|change| Some(Turn { chain: n, change, case: changed(task.case, &change)? })),
+            change.and_then(|change| {
+                Some(ChangeToJudge { chain: n, change, case: changed(task.case, &change)? })
+            }),
         );
     }
     let as_planned = check_turns(task, chains, &turns)?;
     let passing = turns.iter().zip(as_planned).filter_map(|(turn, checked)| Some((turn, checked?)));
-    let passing: Vec<(&Turn, Checked)> = passing.collect();
+    let passing: Vec<(&ChangeToJudge, CheckedShot)> = passing.collect();
     let Some(sampling) = task.sampling else {
         for (turn, checked) in passing {
             let judgement = Judgement::of_planned_alone(checked);
@@ -225,7 +227,7 @@ fn judge_next(task: &Task<'_>, chains: &mut [Chain], hard: &mut HardSamples) -> 
     for (turn, checked) in &passing {
         let option = chains[turn.chain].option;
         let target = ShotToSample::new(&turn.case, &turn.case.shots[option], *task.compute, *sampling);
-        targets.push((option, target.as_planned(JudgedShot::of(checked)).only_pass()));
+        targets.push((option, target.as_planned(ShotSummary::of(checked)).only_pass()));
     }
     let risks = sample(&targets, hard, task.progress)?;
     for ((turn, checked), risk) in passing.into_iter().zip(risks) {
@@ -250,8 +252,8 @@ fn judge_next(task: &Task<'_>, chains: &mut [Chain], hard: &mut HardSamples) -> 
 fn check_turns(
     task: &Task<'_>,
     chains: &mut [Chain],
-    turns: &[Turn],
-) -> Result<Vec<Option<Checked>>, NoResult> {
+    turns: &[ChangeToJudge],
+) -> Result<Vec<Option<CheckedShot>>, NoResult> {
     let options: Vec<usize> = turns.iter().map(|turn| chains[turn.chain].option).collect();
     let jobs: Vec<(&Case, usize)> = turns.iter().map(|turn| &turn.case).zip(options).collect();
     let all = run_jobs(&jobs, task.progress, |(case, option)| {
@@ -289,7 +291,7 @@ fn sample(
     let (mut left, mut places) = (Vec::new(), Vec::new());
     for (n, ((_, target), first)) in targets.iter().zip(&first).enumerate() {
         risks.push(if first.is_some() { Sampled::NotAsked } else { Sampled::NotDrawn });
-        if let Some(Drawn { samples, can_pass: true }) = first {
+        if let Some(HardDrawn { samples, can_pass: true }) = first {
             left.push(target.precomputed(samples));
             places.push(n);
         }

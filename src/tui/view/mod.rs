@@ -172,8 +172,8 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
 /// Draws the line being typed, with the cursor.
 fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
     let head = match prompt.purpose {
-        Purpose::Search if app.screen == Screen::Plan => " find (Down: next): ",
-        Purpose::Search => " find: ",
+        Purpose::Find if app.screen == Screen::Plan => " find (Down: next): ",
+        Purpose::Find => " find: ",
         Purpose::Palette => " : ",
         Purpose::Export => " write to (.csv, .svg, .html): ",
         Purpose::SaveAs => " save the plan as: ",

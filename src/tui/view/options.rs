@@ -7,7 +7,7 @@ use ratatui::widgets::{Row as Cells, Table, TableState};
 
 use crate::report::no_result;
 use crate::report::spark::sparkline;
-use crate::study::check::Checked;
+use crate::study::check::CheckedShot;
 use crate::study::judgement::Judgement;
 use crate::study::risk::Risk;
 use crate::study::sampled::Sampled;
@@ -124,7 +124,7 @@ fn band(judged: &Judgement, quantity: Quantity, unit: Unit) -> String {
 }
 
 /// A quantity of the shot as planned, or its difference from the baseline.
-fn against(app: &App, option: usize, quantity: fn(&Checked) -> f64, unit: Unit) -> String {
+fn against(app: &App, option: usize, quantity: fn(&CheckedShot) -> f64, unit: Unit) -> String {
     let Some(mine) = app.judgement(option).map(|judged| quantity(&judged.as_planned)) else {
         return String::new();
     };

@@ -143,7 +143,8 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
         .zip(&times)
         .map(|(row, &at)| format!("{}: {}", row.name, units::exact_milliseconds(at)))
         .collect();
-    let fires = [fires.join(", ")].into_iter().chain(delay.holes.words()).collect::<Vec<_>>().join(" · ");
+    let fires =
+        [fires.join(", ")].into_iter().chain(delay.hole_timing.words()).collect::<Vec<_>>().join(" · ");
     let title = Line::styled(format!(" {} · {fires} ", delay.name), theme.title());
     let block = Block::new().borders(Borders::TOP).border_style(theme.quiet()).title(title);
     let scene = case.scene();

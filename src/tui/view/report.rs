@@ -3,7 +3,7 @@
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
-use crate::report::model::{Align, Block, Cell, Column, Offer, Report, Row, Shown, Table};
+use crate::report::model::{Align, Block, Cell, Column, Offer, Report, Row, Table};
 use crate::tui::theme::Theme;
 
 /// Bars of a sparkline.
@@ -45,7 +45,7 @@ pub fn lines<'r>(report: &'r Report, filter: &str, theme: Theme, width: u16) -> 
                 lines.extend(sentences.flat_map(|sentence| wrapped(sentence, width)).map(Line::raw));
             }
             Block::Table(table) => {
-                let table = table_lines(table, &kept, theme);
+                let table = table_lines(table, &filter, theme);
                 offers.extend(table.offers.into_iter().map(|(line, offer)| (lines.len() + line, offer)));
                 lines.extend(table.lines.into_iter().map(|line| cut(line, width)));
             }
@@ -56,9 +56,8 @@ pub fn lines<'r>(report: &'r Report, filter: &str, theme: Theme, width: u16) -> 
 }
 
 /// Heading and rows of a table, with a blank line above; none where people see no column or no row is kept.
-fn table_lines<'r>(table: &'r Table, kept: &impl Fn(&str) -> bool, theme: Theme) -> ReportLines<'r> {
-    let seen = |column: &Column| matches!(column.shown, Shown::People | Shown::Text);
-    let columns: Vec<usize> = (0..table.columns.len()).filter(|&n| seen(&table.columns[n])).collect();
+fn table_lines<'r>(table: &'r Table, filter: &str, theme: Theme) -> ReportLines<'r> {
+    let columns: Vec<usize> = (0..table.columns.len()).filter(|&n| table.columns[n].is_in_text()).collect();
     let (rows, left_out) = match table.rows.split_at(table.rows.len().min(RANKED)) {
         (first, rest) if table.ranked && rest.len() > RANKED => {
             let (left_out, last) = rest.split_at(rest.len() - RANKED);
@@ -113,7 +112,7 @@ fn table_lines<'r>(table: &'r Table, kept: &impl Fn(&str) -> bool, theme: Theme)
                 cells.flat_map(|(column, &n)| padded(label(row, n), column, style(&row.cells[n], theme))),
             );
             line.extend(row.missing.clone().map(Span::raw));
-            if kept(&line.to_string()) {
+            if row.contains(&table.columns, filter) {
                 offers.extend(row.offer.as_ref().map(|offer| (lines.len(), offer)));
                 lines.push(line);
                 let details = row.details.iter();

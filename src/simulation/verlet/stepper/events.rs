@@ -127,7 +127,11 @@ impl Events<'_> {
             let pushed = push_at_start(here, tire);
             let pushed_on_ground = self.pushes.on_ground(tire);
             let velocity = pushed_on_ground.map_or(unpushed, |before| {
-                support(before.velocity + (free + before.push) * (0.5 * self.step), self.friction).0
+                support(
+                    before.velocity + (free + before.push_acceleration) * (0.5 * self.step),
+                    self.friction,
+                )
+                .0
             });
             if displacement.z > self.record.height.value {
                 let index = self.part.reduction.tire(tire);
@@ -164,7 +168,7 @@ impl Events<'_> {
         let last = motion.integrate(h, due.iter().map(|due| due.impulse));
         let goes_on = self.pushes.go_on(tire);
         let in_air = motion.displacement.z > 0.0 || motion.velocity.z > 0.0;
-        let unpushed = if goes_on && in_air { last - motion.push } else { last };
+        let unpushed = if goes_on && in_air { last - motion.push_acceleration } else { last };
         let velocity = motion.velocity - unpushed * (0.5 * h);
         let (height, until) = motion.top;
         let index = self.part.reduction.tire(tire);
@@ -174,7 +178,7 @@ impl Events<'_> {
         // Friction of the whole step is counted here. The kicks before and after count half a step each, and are taken off.
         let next_half = if goes_on {
             if !in_air {
-                self.pushes.keep(PushedTire { tire, velocity, push: motion.push });
+                self.pushes.keep(PushedTire { tire, velocity, push_acceleration: motion.push_acceleration });
             }
             0.0
         } else {

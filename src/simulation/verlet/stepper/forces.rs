@@ -4,7 +4,7 @@ use pulp::Simd;
 use rustc_hash::FxHashSet;
 
 use super::{PeakCable, StepTotals, Stepper};
-use crate::outcome::{Broken, Peak};
+use crate::outcome::{BrokenCable, Peak};
 use crate::simulation::pack::{LANES, Wide};
 
 /// First pass; compiled for each instruction set and chosen at run time. `DAMPED`: the cables are damped.
@@ -114,7 +114,7 @@ impl Stepper<'_> {
         let mut known: FxHashSet<usize> = self.record.broken.iter().map(|broken| broken.cable).collect();
         let all = self.part.reduction.cables_with_images(self.scene, &broken);
         let new = all.into_iter().filter(|&cable| known.insert(cable));
-        self.record.broken.extend(new.map(|cable| Broken { at, cable }));
+        self.record.broken.extend(new.map(|cable| BrokenCable { at, cable }));
     }
 
     /// Moves the greatest force to the top of the parabola through the samples around it, one step after it was sampled.

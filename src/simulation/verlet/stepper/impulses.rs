@@ -48,7 +48,7 @@ pub struct PushedTire {
     /// Velocity at mid-step before [m/s].
     pub velocity: Vector3<f64>,
     /// Acceleration by its pushes until then [m/s²].
-    pub push: Vector3<f64>,
+    pub push_acceleration: Vector3<f64>,
 }
 
 impl Pushes {
@@ -77,7 +77,7 @@ impl Pushes {
 /// Acceleration of a tire by pushes as the step begins [m/s²]; `due` are the impulses of the step.
 pub fn push_at_start(due: &[DueImpulse], tire: usize) -> Vector3<f64> {
     let here = due.iter().filter(|due| due.tire == tire && due.impulse.after <= 0.0);
-    here.map(|due| due.impulse.push).sum()
+    here.map(|due| due.impulse.push_acceleration).sum()
 }
 
 impl Stepper<'_> {
@@ -89,7 +89,7 @@ impl Stepper<'_> {
         let end = start + *step;
         let after = |at: f64| (at - start).clamp(0.0, *step);
         let pushed = |tire, after, push| {
-            let impulse = Impulse { after, push, ..Impulse::default() };
+            let impulse = Impulse { after, push_acceleration: push, ..Impulse::default() };
             DueImpulse { tire, impulse }
         };
         std::mem::swap(&mut pushes.began, &mut pushes.next);
@@ -109,17 +109,17 @@ impl Stepper<'_> {
                 break;
             }
             clock.fired += 1;
-            if firing.push <= 0.0 {
+            if firing.push_time <= 0.0 {
                 let impulse = Impulse { after: after(at), launch: firing.launch, ..Impulse::default() };
                 due.push(DueImpulse { tire, impulse });
                 continue;
             }
-            let acceleration = firing.launch / firing.push;
+            let acceleration = firing.launch / firing.push_time;
             due.push(pushed(tire, after(at), acceleration));
-            if at + firing.push < end {
-                due.push(pushed(tire, after(at + firing.push), -acceleration));
+            if at + firing.push_time < end {
+                due.push(pushed(tire, after(at + firing.push_time), -acceleration));
             } else {
-                pushes.active.push(Push { tire, acceleration, until: firing.at + firing.push });
+                pushes.active.push(Push { tire, acceleration, until: firing.at + firing.push_time });
             }
         }
         due.iter().for_each(|due| wake.set_moving(due.tire / LANES, true));

@@ -16,11 +16,11 @@ use crate::outcome::{EndReason, Outcome};
 use crate::scene::{Firing, Scene, Shot};
 use crate::simulation::clock::Clock;
 use crate::simulation::contact::support;
-use crate::simulation::pack::{Field, LANES, Pack};
+use crate::simulation::pack::{LANES, Pack, VectorArrays};
 use crate::simulation::record::Record;
 use crate::simulation::verlet::tension::Tension;
 use crate::simulation::wake::Wake;
-use crate::simulation::{Failure, Motion, Settings, Watcher};
+use crate::simulation::{Failure, Motion, RunSettings, Watcher};
 
 /// A tire whose velocity jumped within the present step.
 #[derive(Clone, Copy, Debug)]
@@ -89,9 +89,9 @@ pub(super) struct Stepper<'a> {
     wake: Wake<'a>,
     tension: Tension<'a>,
     /// Displacement [m] (`n_tires` + [`LANES`]).
-    u: Field,
+    u: VectorArrays,
     /// Velocity at mid-step [m/s] (`n_tires` + [`LANES`]).
-    v: Field,
+    v: VectorArrays,
     /// Elastic energy of each block at its last evaluation [J] (`n_blocks`).
     stored: Vec<Pack>,
     /// Elastic energy of all blocks asleep [J].
@@ -102,20 +102,20 @@ pub(super) struct Stepper<'a> {
 
 impl<'a> Stepper<'a> {
     /// Run of `shot` under `scene`, before the first step.
-    pub(super) fn new(part: &'a Part, scene: &'a Scene, shot: &Shot, settings: &Settings) -> Self {
+    pub(super) fn new(part: &'a Part, scene: &'a Scene, shot: &Shot, settings: &RunSettings) -> Self {
         let tires = part.reduction.weight.len();
         let firings = part.reduction.firings(shot);
         let friction = shot.friction.unwrap_or(scene.friction);
         let slides = scene.slides(friction);
         let mut wake = Wake::new(&part.ties);
         // The last cables may read one pack beyond the last tire.
-        let (u, mut v) = (Field::zeros(tires + LANES), Field::zeros(tires + LANES));
+        let (u, mut v) = (VectorArrays::zeros(tires + LANES), VectorArrays::zeros(tires + LANES));
         if slides {
             wake.set_all_moving();
             // Half a step before the start, of a motion that is at rest at the start.
             let acceleration = scene.downhill - scene.downhill.normalize() * (friction * scene.gravity);
             let before = -0.5 * settings.step * acceleration;
-            (0..2).for_each(|c| v.part[c][..tires].fill(before[c]));
+            (0..2).for_each(|c| v.components[c][..tires].fill(before[c]));
         }
         Self {
             scene,

@@ -8,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
 use super::race::{Contender, Race};
-use super::schedule::{Broken, Candidate, Choices, KnownShots, Refused};
+use super::schedule::{BrokenLimit, Candidate, Choices, KnownShots, RefusedCounts};
 use crate::study::{Case, NoResult, Progress};
 
 /// Greatest number of schedules that are all judged.
@@ -28,16 +28,16 @@ pub struct Listed {
     /// In order; `None` where there are too many to look at all.
     pub allowed: Option<Vec<Candidate>>,
     /// Schedules left out, by the limit that they break.
-    pub refused: Refused,
+    pub refused: RefusedCounts,
 }
 
 impl Listed {
     /// Looks at all schedules of a plan, unless there are too many.
     pub fn new(case: &Case, choices: &Choices<'_>) -> Self {
-        let mut refused = Refused::default();
+        let mut refused = RefusedCounts::default();
         let listed = (choices.count() <= MOST_LISTED).then(|| choices.all());
         let allowed = listed.map(|listed| {
-            let limits: Vec<Option<Broken>> =
+            let limits: Vec<Option<BrokenLimit>> =
                 listed.par_iter().map(|one| choices.broken(&choices.schedule(one).shot(case))).collect();
             limits.iter().flatten().for_each(|limit| refused.count(*limit));
             let all = listed.into_iter().zip(limits).filter(|(_, limit)| limit.is_none());
@@ -53,7 +53,7 @@ impl Listed {
 }
 
 /// The schedules that are judged.
-pub struct Field<'c> {
+pub struct Pool<'c> {
     case: &'c Case,
     choices: &'c Choices<'c>,
     known: KnownShots,
@@ -61,7 +61,7 @@ pub struct Field<'c> {
     pub contenders: Vec<Contender>,
 }
 
-impl<'c> Field<'c> {
+impl<'c> Pool<'c> {
     /// No schedule.
     pub fn new(case: &'c Case, choices: &'c Choices<'c>) -> Self {
         Self { case, choices, known: KnownShots::default(), contenders: Vec::new() }

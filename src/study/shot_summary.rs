@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::check::Checked;
+use super::check::CheckedShot;
 use super::cover::Cover;
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
@@ -35,7 +35,7 @@ impl From<Estimate> for ValueWithError {
 
 /// Verdict and greatest values of a judged shot.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct JudgedShot {
+pub struct ShotSummary {
     /// Pass, fail or undecided.
     pub verdict: Verdict,
     /// Greatest flight height [m].
@@ -48,7 +48,7 @@ pub struct JudgedShot {
     pub cover: Cover,
 }
 
-impl JudgedShot {
+impl ShotSummary {
     /// The shot of a run that failed: undecided, with infinite values.
     pub const UNKNOWN: Self = Self {
         verdict: Verdict::Undecided,
@@ -59,7 +59,7 @@ impl JudgedShot {
     };
 
     /// The numbers of a checked shot.
-    pub fn of(checked: &Checked) -> Self {
+    pub fn of(checked: &CheckedShot) -> Self {
         Self::new(checked.verdict, [checked.height, checked.force, checked.drift], checked.cover)
     }
 
@@ -99,7 +99,7 @@ mod tests {
 
     #[test]
     fn values_that_are_unknown_survive_a_file() {
-        let text = serde_json::to_string(&JudgedShot::UNKNOWN).expect("JSON");
-        assert_eq!(serde_json::from_str::<JudgedShot>(&text).expect("read again"), JudgedShot::UNKNOWN);
+        let text = serde_json::to_string(&ShotSummary::UNKNOWN).expect("JSON");
+        assert_eq!(serde_json::from_str::<ShotSummary>(&text).expect("read again"), ShotSummary::UNKNOWN);
     }
 }

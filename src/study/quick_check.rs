@@ -9,7 +9,7 @@ use super::batch::judge_shot;
 use super::cover::{Cover, CoverWatch};
 use super::ladder::peaks;
 use super::reason::{Reason, find_reasons_as_planned};
-use super::{Case, ComputeSettings, JudgedShot, NoResult, Progress, step_error};
+use super::{Case, ComputeSettings, NoResult, Progress, ShotSummary, step_error};
 use crate::choice::Accuracy;
 use crate::outcome::Outcome;
 use crate::scene::Shot;
@@ -27,23 +27,25 @@ const RUNS_OF_PASS: usize = 3;
 const SURE_FAIL: f64 = 3.0;
 
 /// Judges a shot at ever finer steps until it lies surely on one side of its limits.
-pub fn screen(
+pub fn quick_check(
     case: &Case,
     shot: &Shot,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<JudgedShot, NoResult> {
-    screen_until(case, shot, compute, progress, |screened, runs| screen_is_sure(case, screened, runs))
+) -> Result<ShotSummary, NoResult> {
+    quick_check_until(case, shot, compute, progress, |screened, runs| {
+        quick_check_is_sure(case, screened, runs)
+    })
 }
 
 /// Judges a shot at ever finer steps until `enough`, which gets the last run judged and the number of runs, returns true.
-pub fn screen_until(
+pub fn quick_check_until(
     case: &Case,
     shot: &Shot,
     compute: &ComputeSettings,
     progress: &Progress,
-    enough: impl Fn(&JudgedShot, usize) -> bool,
-) -> Result<JudgedShot, NoResult> {
+    enough: impl Fn(&ShotSummary, usize) -> bool,
+) -> Result<ShotSummary, NoResult> {
     if compute.step.is_some() {
         return judge_shot(case, shot, compute, progress);
     }
@@ -58,7 +60,7 @@ pub fn screen_until(
             cover.see(motion);
             progress.flow()
         };
-        match case.model.run(shot, &case.settings(compute.method, step), watch) {
+        match case.model.run(shot, &case.run_settings(compute.method, step), watch) {
             Ok(outcome) => runs.push(outcome),
             Err(failure) if failure.needs_finer_step() && !is_last => {}
             Err(failure) => return Err(progress.no_result(failure)),
@@ -77,15 +79,15 @@ pub fn screen_until(
 }
 
 /// The last run judged, with the runs before as its neighbours and the cover it saw.
-fn judge(case: &Case, shot: &Shot, runs: &[Outcome], cover: Cover) -> JudgedShot {
+fn judge(case: &Case, shot: &Shot, runs: &[Outcome], cover: Cover) -> ShotSummary {
     let all: Vec<&Outcome> = runs.iter().collect();
     let estimates = peaks(&all, &[]);
     let reasons = find_reasons_as_planned(case, shot, all[all.len() - 1], estimates);
-    JudgedShot::new(Verdict::worst(reasons.iter().map(Reason::verdict)), estimates, cover)
+    ShotSummary::new(Verdict::worst(reasons.iter().map(Reason::verdict)), estimates, cover)
 }
 
 /// Whether the values of a screen of `runs` runs lie so far from all limits that its verdict stands.
-pub fn screen_is_sure(case: &Case, screened: &JudgedShot, runs: usize) -> bool {
+pub fn quick_check_is_sure(case: &Case, screened: &ShotSummary, runs: usize) -> bool {
     match screened.verdict {
         Verdict::Pass => {
             runs >= RUNS_OF_PASS && screened.with_errors(SURE_PASS).utilization(&case.limits) <= 1.0
