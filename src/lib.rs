@@ -63,8 +63,9 @@
 //! # Rules
 //!
 //! - A [`Scene`](scene::Scene) is never changed once built; everything that moves lives in a stepper.
-//! - Plan units become SI where a plan becomes a [`Case`]: scene, shots and limits. Only `[uncertainty]` keeps the units of its
-//!   keys until samples are drawn. SI becomes words in `units`.
+//! - Plan units become SI where a plan becomes a [`Case`]: scene, shots and limits. What a study changes in the plan itself keeps
+//!   the units of its keys: `[uncertainty]` until samples are drawn, the intervals of a search, the changes of `why`. SI becomes
+//!   words in `units`.
 //! - What goes wrong in a run is a value, never a panic and never a pass. Functions that take the index of an option panic where
 //!   there is no such option.
 //! - The same plan gives the same numbers for any number of threads.
@@ -75,11 +76,12 @@
 //! their *order*, makes a *delay option*. A *shelter* is tires (point masses) tied by *cables* that only pull. A cable is
 //! *taut* or *slack*; a tire on the ground *sticks* or *slips*.
 //!
-//! The *utilization* of a shot is its greatest value over its limit. A *checked shot* was run at ever finer steps until its verdict
-//! was sure ([`CheckedShot`](study::check::CheckedShot)); its *summary* is the verdict with height, force and drift, each with its error
-//! ([`ShotSummary`](study::ShotSummary)). A *judgement* adds what samples tell. A check climbs a *ladder* of steps, each a fixed ratio finer than the
-//! one before. A *sampling* says how many samples are drawn, from which seed, and when to stop. A *face* is one way to show a
-//! report: text, CSV, JSON, page or terminal.
+//! The *utilization* of a shot is its greatest value over its limit. A *checked shot* was run at ever finer steps until its
+//! verdict was sure ([`CheckedShot`](study::check::CheckedShot)); its *summary* is the verdict with height, force and drift, each
+//! with its error ([`ShotSummary`](study::ShotSummary)). A *judgement* adds what samples tell. A check climbs a *ladder* of
+//! steps, each a fixed ratio finer than the one before. A *sampling* says how many samples are drawn, from which seed, and when
+//! to stop. A *face* is one way to show results: text, CSV, page and terminal draw reports; JSON has documents of its own, and
+//! the table and detail of Compare draw judgements as they come.
 //!
 //! *Nominal* is as planned, nothing varied. *Undecided* reads OPEN on screens. A *quick check* is a coarse check of one shot
 //! among thousands. An *audit* runs some samples again at a finer step. A *shard* is one machine's part of a study; `--shard`

@@ -146,11 +146,6 @@ pub fn factor(factor: f64) -> String {
     if factor.is_finite() { format!("{factor:.2}") } else { "none".to_owned() }
 }
 
-/// How much of a limit is left [%]; negative past it.
-pub fn margin_percent(value: f64, limit: f64) -> f64 {
-    100.0 * (1.0 - value / limit)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -15,7 +15,7 @@ use crate::study::{ComputeSettings, Intervals, Shard};
 /// How to compute.
 #[derive(Args, Clone)]
 pub struct Compute {
-    /// Step that the refinement starts from
+    /// How fine a verdict starts and ends
     #[arg(long, value_parser = named::<Accuracy>(Accuracy::NAMES))]
     pub accuracy: Option<Accuracy>,
     /// Time integration method

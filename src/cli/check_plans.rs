@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::arguments::{Compute, FormatArg, LookArguments};
 use super::print::print;
 use super::run_study::run_study;
-use super::status::{FINER, Status};
+use super::status::{REMEDY_AS_ARGUMENTS, Status};
 use crate::report::check::report;
 use crate::report::json::CheckDocument;
 use crate::report::model::Report;
@@ -93,7 +93,7 @@ pub fn print_checks(
         .flat_map(|checked| &checked.results)
         .any(|result| result.as_ref().is_err_and(needs_finer_step))
     {
-        eprintln!("a run failed: {FINER}");
+        eprintln!("a run failed: {REMEDY_AS_ARGUMENTS}");
     }
     Ok(status)
 }

@@ -76,7 +76,7 @@ enum Command {
     Effects(effects::Arguments),
     /// The lightest rope, tires and border with which every option passes
     Size(size::Arguments),
-    /// Joins the shards of `orders` or `risk` that several machines computed
+    /// Joins the shards of `orders`, `risk` or `search` that several machines computed
     Merge(merge::Arguments),
     /// One self-contained page for the blast file
     Report(report::Arguments),

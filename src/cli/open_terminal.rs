@@ -58,7 +58,7 @@ pub fn start(compute: &Compute, look: &LookArguments) -> io::Result<Status> {
             let settings = compute.settings(&case.plan);
             let mut app = App::new(Arc::new(case), settings, &config);
             if !kept {
-                app.editor.saved.clear();
+                app.editor.set_saved("");
             }
             show(app, None, &config, compute, look)
         }

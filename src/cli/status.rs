@@ -57,7 +57,7 @@ pub fn wrong(message: &str) -> io::Result<Status> {
 }
 
 /// Remedy for a run that failed at its step.
-pub const FINER: &str = "choose a finer --accuracy or a smaller --dt";
+pub const REMEDY_AS_ARGUMENTS: &str = "choose a finer --accuracy or a smaller --dt";
 
 /// Tells why a study has no result, with the remedy as arguments.
 pub fn failed(reason: &NoResult) -> io::Result<Status> {
@@ -72,7 +72,9 @@ pub fn failed(reason: &NoResult) -> io::Result<Status> {
         }
         NoResult::NoInterval => wrong(&format!("{reason}: give --interval FROM..TO:STEP")),
         NoResult::HolesDiffer => wrong(&format!("{reason} Give --option NAME")),
-        NoResult::Failed(failure) if failure.needs_finer_step() => wrong(&format!("{reason}: {FINER}")),
+        NoResult::Failed(failure) if failure.needs_finer_step() => {
+            wrong(&format!("{reason}: {REMEDY_AS_ARGUMENTS}"))
+        }
         _ => wrong(&no_result::message(reason)),
     }
 }

@@ -8,8 +8,10 @@ use super::keys::{DefaultValue, Key, Kind, Offered, delay, plan};
 /// One value of a plan's text.
 #[derive(Clone, Debug)]
 pub struct Field {
+    /// Heading of the values around it: `option 20 ms`, `limits`.
+    pub group: String,
     /// Label beside the value.
-    pub label: String,
+    pub label: &'static str,
     /// Position in the text.
     pub path: Path,
     /// The value as written; empty where the plan leaves the key out.
@@ -17,6 +19,11 @@ pub struct Field {
 }
 
 impl Field {
+    /// Group and label: `option 20 ms: interval, ms`.
+    pub fn title(&self) -> String {
+        format!("{}: {}", self.group, self.label)
+    }
+
     /// What holds where the plan leaves the key out.
     pub fn unset(&self) -> String {
         match self.path.key.default {
@@ -30,7 +37,7 @@ impl Field {
 }
 
 /// Position of a value: a section, and a key in it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Path {
     /// Name of the section.
     pub section: &'static str,
@@ -40,33 +47,32 @@ pub struct Path {
     pub key: &'static Key,
 }
 
-/// Sections in the order of the editor: those most often changed first.
-const SECTIONS: [&Key; 9] = [
-    &plan::LIMITS,
-    &plan::CABLE,
-    &plan::TIRE,
-    &plan::GROUND,
-    &plan::SHELTER,
-    &plan::SIMULATION,
-    &plan::UNCERTAINTY,
-    &plan::BLAST_ROW,
-    &plan::DELAY,
+/// Sections in the order of the editor, those most often changed first, each with its heading.
+const SECTIONS: [(&Key, &str); 9] = [
+    (&plan::DELAY, "option"),
+    (&plan::LIMITS, "limits"),
+    (&plan::CABLE, "rope"),
+    (&plan::BLAST_ROW, "row"),
+    (&plan::TIRE, "tires"),
+    (&plan::GROUND, "ground"),
+    (&plan::SHELTER, "shelter"),
+    (&plan::UNCERTAINTY, "not known"),
+    (&plan::SIMULATION, "computing"),
 ];
 
 /// The fields of a plan's text, with those that the plan leaves out and the editor offers.
 pub fn fields(text: &str) -> Vec<Field> {
     let Ok(document) = text.parse::<DocumentMut>() else { return Vec::new() };
     let mut fields = Vec::new();
-    for section in SECTIONS {
+    for (section, heading) in SECTIONS {
         if matches!(section.kind, Kind::Sections(_)) {
             for (n, table) in tables(&document, section.name).enumerate() {
                 let name = table.get("name").and_then(Item::as_str).unwrap_or_default();
-                let prefix = format!("{} {name}: ", section.name.trim_start_matches("blast_"));
-                fields.extend(of_section(section, Some(n), Some(table), &prefix));
+                fields.extend(of_section(section, Some(n), Some(table), &format!("{heading} {name}")));
             }
         } else {
             let table = document.get(section.name).and_then(Item::as_table_like);
-            fields.extend(of_section(section, None, table, ""));
+            fields.extend(of_section(section, None, table, heading));
         }
     }
     fields
@@ -77,7 +83,7 @@ fn of_section(
     section: &'static Key,
     index: Option<usize>,
     table: Option<&dyn TableLike>,
-    prefix: &str,
+    group: &str,
 ) -> Vec<Field> {
     let written = |name: &str| table.and_then(|table| table.get(name));
     let field = |key: &&'static Key| {
@@ -89,8 +95,8 @@ fn of_section(
             Offered::Beside(other) => written(other).is_some(),
         };
         let path = Path { section: section.name, index, key };
-        let label = format!("{prefix}{}", edit.label);
-        (offered || !value.is_empty()).then_some(Field { label, path, value })
+        let (group, label) = (group.to_owned(), edit.label);
+        (offered || !value.is_empty()).then_some(Field { group, label, path, value })
     };
     let keys = section.kind.section().map_or(&[][..], |section| section.keys);
     keys.iter().filter_map(field).collect()
@@ -183,7 +189,10 @@ fn rename_with_interval(table: &mut dyn TableLike, interval: &Value, names: &[St
         return;
     };
     let is_taken = |new: &str| new != name && names.iter().any(|taken| taken == new);
-    let new = free_name(&format!("{new}{rest}"), is_taken);
+    // Of `20 ms (2)` no number stays: it told two options of 20 ms apart.
+    let number = rest.strip_prefix(" (").and_then(|rest| rest.strip_suffix(')'));
+    let is_number = number.is_some_and(|number| number.bytes().all(|letter| letter.is_ascii_digit()));
+    let new = free_name(&format!("{new}{}", if is_number { "" } else { rest }), is_taken);
     super::edit::set(table, delay::NAME.name, new.into());
 }
 
@@ -274,6 +283,7 @@ mod tests {
         assert_eq!(renamed("25 ms, middle first", "30.5"), "\"30.5 ms, middle first\"");
         assert_eq!(renamed("25 ms", "42"), "\"42 ms (2)\"", "names differ");
         assert_eq!(renamed("25 ms", "25"), "\"25 ms\"");
+        assert_eq!(renamed("25 ms (2)", "33"), "\"33 ms\"");
         for name in ["25 msec", "middle first", "125 ms"] {
             assert_eq!(renamed(name, "30"), format!("\"{name}\""));
         }

@@ -16,6 +16,7 @@ pub mod schema;
 mod source;
 pub mod starter;
 mod uncertainty;
+pub mod usual;
 mod validate;
 
 use std::path::Path;
@@ -78,7 +79,7 @@ pub struct SearchSpec {
 pub struct SizeSpec {
     /// Masses of the tires at hand [kg]; empty: only the mass of `[tire]`.
     pub tire_mass_kg: Vec<f64>,
-    /// Family of ropes; `None`: the whole catalogue.
+    /// Family of ropes; `None`: that of the plan's rope, or the whole catalogue where it has none.
     pub family: Option<String>,
     /// Most rows of ballast on each side.
     pub most_border_rows: usize,

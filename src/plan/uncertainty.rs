@@ -81,7 +81,7 @@ pub struct DelayScatter {
 }
 
 impl DelayScatter {
-    /// Scatter of a kind of detonator: the upper ends of published figures.
+    /// Scatter of a kind of detonator: of electronic ones what their sheets specify, of others the upper ends of published figures.
     pub fn of(detonator: Detonator) -> Self {
         let (sd_ms, cv_percent) = match detonator {
             Detonator::Electronic => (0.1, 0.01),

@@ -1,4 +1,4 @@
-//! A result as data, and its faces: the renderers that draw it as text, CSV, JSON and HTML.
+//! A result as data, and its faces: the renderers that draw it as text, CSV and HTML, and the JSON documents beside them.
 //!
 //! | what | where |
 //! |---|---|

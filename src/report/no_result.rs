@@ -4,7 +4,7 @@ use crate::simulation::Failure;
 use crate::study::NoResult;
 
 /// Remedy for a run that failed at its step.
-pub const FINER: &str = "choose a finer accuracy or a smaller step";
+pub const REMEDY_IN_PLAN_WORDS: &str = "choose a finer accuracy or a smaller step";
 
 /// Reason of a missing result, followed by the remedy if there is one.
 pub fn message(no_result: &NoResult) -> String {
@@ -17,7 +17,7 @@ pub fn message(no_result: &NoResult) -> String {
 /// Remedy for a run that failed by itself, and for a plan that lacks what the study needs.
 fn remedy(no_result: &NoResult) -> Option<&'static str> {
     match no_result {
-        NoResult::Failed(failure) if failure.needs_finer_step() => Some(FINER),
+        NoResult::Failed(failure) if failure.needs_finer_step() => Some(REMEDY_IN_PLAN_WORDS),
         NoResult::Failed(Failure::Effect { .. }) => Some("choose method \"verlet\", or leave it out"),
         _ => None,
     }

@@ -3,7 +3,7 @@
 use super::charts;
 use super::limits::limits_of_any_rope;
 use super::model::{Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
-use super::no_result::FINER;
+use super::no_result::REMEDY_IN_PLAN_WORDS;
 use super::shared_columns::{FORCE, HEIGHT, force, height};
 use super::{accepted_risk, title, warnings};
 use crate::study::Case;
@@ -96,7 +96,7 @@ pub fn report(case: &Case, sizing: &Sizing) -> Report {
 fn tried(sizing: &Sizing) -> Vec<String> {
     let mut lines =
         vec![format!("{} of {} combinations tried", sizing.count_tried(), sizing.combinations.len())];
-    let unstable = format!("the motion cannot be computed at this step: {FINER}");
+    let unstable = format!("the motion cannot be computed at this step: {REMEDY_IN_PLAN_WORDS}");
     let reasons = [
         (Untried::StrongerRopeDoesNotHold, "a stronger rope of the same stiffness does not hold"),
         (Untried::OutOfTime, "the time was up"),

@@ -220,12 +220,12 @@ fn conclusion(sweep: &Sweep, partial: bool) -> Conclusion {
     let has_risk = sweep.has_risk();
     let text = match not_passing {
         _ if has_risk => {
-            let planned = |point: &&Point| point.as_planned.verdict == Verdict::Pass;
-            let planned = sweep.points.iter().filter(planned).count();
+            let passes = |point: &&Point| point.as_planned.verdict == Verdict::Pass;
+            let count = sweep.points.iter().filter(passes).count();
             let best = sweep.best().map_or("none is recommended".to_owned(), |best| {
                 format!("recommended {}: PASS", units::exact_milliseconds(best.interval))
             });
-            format!("{planned} of {tried} intervals tried{so_far} pass as planned; {best}")
+            format!("{count} of {tried} intervals tried{so_far} pass as planned; {best}")
         }
         _ if tried == 0 => "no interval was tried".to_owned(),
         0 => format!("all {tried} intervals tried{so_far} pass (the plan's own numbers only)"),

@@ -81,7 +81,7 @@ pub const CLASSES: [ErrorClass; 2] =
 /// Number of steps tried per method; each step is [`step_error::RATIO`] times shorter than the one before.
 const STEPS: i32 = 15;
 /// First step of the finest accuracy level over the step of the converged run.
-const FINER: f64 = 16.0;
+const REFERENCE_STEP_DIVISOR: f64 = 16.0;
 
 /// Measures one option. A run that is expected to take longer than `patience` is left out.
 pub fn measure(
@@ -92,7 +92,7 @@ pub fn measure(
 ) -> Finding<AccuracyTable> {
     let levels = [Accuracy::Draft, Accuracy::Field, Accuracy::Reference]
         .map(|level| LevelStep { level, step: first_step(case, level) });
-    let reference_step = levels[2].step / FINER;
+    let reference_step = levels[2].step / REFERENCE_STEP_DIVISOR;
     let shot = &case.shots[option];
     progress.expect(2 * STEPS as usize + levels.len() + 1);
     let reference = run(case, shot, Method::Verlet, reference_step, progress)?;

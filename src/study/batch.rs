@@ -42,17 +42,17 @@ pub fn run_jobs<J: Sync, T: Send>(
 }
 
 /// Judges every shot, refined until its verdict is sure; `None` for the shots that the time did not suffice for.
-pub fn judge_shots(
+pub fn summarize_shots(
     case: &Case,
     shots: &[Shot],
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Vec<Option<ShotSummary>>, NoResult> {
-    judge_all(shots, progress, |shot| judge_shot(case, shot, compute, progress))
+    summarize_all(shots, progress, |shot| summarize_shot(case, shot, compute, progress))
 }
 
 /// Judges one shot, refined until its verdict is sure.
-pub fn judge_shot(
+pub fn summarize_shot(
     case: &Case,
     shot: &Shot,
     compute: &ComputeSettings,
@@ -64,7 +64,7 @@ pub fn judge_shot(
 
 /// Judges the shot of every job, like [`run_jobs`]. A job whose run fails has the result [`ShotSummary::UNKNOWN`]; where every run
 /// fails, the study has no result.
-pub fn judge_all<J: Sync>(
+pub fn summarize_all<J: Sync>(
     jobs: &[J],
     progress: &Progress,
     work: impl Fn(&J) -> Result<ShotSummary, NoResult> + Sync,
@@ -82,8 +82,8 @@ pub fn judge_all<J: Sync>(
     Ok(done.into_iter().map(|result| result.map(known)).collect())
 }
 
-/// Like [`judge_all`], for a part of the jobs of a study: all of them may fail.
-pub fn judge_all_or_unknown<J: Sync>(
+/// Like [`summarize_all`], for a part of the jobs of a study: all of them may fail.
+pub fn summarize_all_or_unknown<J: Sync>(
     jobs: &[J],
     progress: &Progress,
     work: impl Fn(&J) -> Result<ShotSummary, NoResult> + Sync,
@@ -110,9 +110,9 @@ mod tests {
         let failure = NoResult::Failed(Failure::Diverged { at: 1.0 });
         let good = ShotSummary { verdict: Verdict::Pass, ..ShotSummary::UNKNOWN };
         let work = |&job: &i32| if job == 2 { Err(failure.clone()) } else { Ok(good) };
-        let some = judge_all(&[1, 2], &Progress::default(), work).expect("one of them is good");
+        let some = summarize_all(&[1, 2], &Progress::default(), work).expect("one of them is good");
         assert_eq!(some, [Some(good), Some(ShotSummary::UNKNOWN)]);
-        assert_eq!(judge_all(&[2, 2], &Progress::default(), work), Err(failure.clone()));
+        assert_eq!(summarize_all(&[2, 2], &Progress::default(), work), Err(failure.clone()));
     }
 
     #[test]

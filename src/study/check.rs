@@ -72,10 +72,11 @@ const MOST_REFINEMENTS: i32 = 12;
 
 /// Factor on the error with which a verdict must still stand. The error itself holds in 19 of 20 runs; a verdict must hold
 /// in more: with a factor of 2, 4 of 4,480 limits near true values were passed or failed wrongly.
-const SURE: f64 = 3.0;
+const SURE_ERROR_FACTOR: f64 = 3.0;
 
 impl CheckedShot {
-    /// Whether the verdict of the limits would stand with errors [`SURE`] times larger, and the energy balance closes for a pass.
+    /// Whether the verdict of the limits would stand with errors [`SURE_ERROR_FACTOR`] times larger, and the energy balance
+    /// closes for a pass.
     fn is_sure(&self, limits: &Limits) -> bool {
         let verdict = |times: f64| {
             let larger = |estimate: Estimate| Estimate { error: times * estimate.error, ..estimate };
@@ -83,7 +84,7 @@ impl CheckedShot {
                 .map(|(_, estimate, limit)| larger(estimate).against(limit));
             Verdict::worst(each)
         };
-        let stands = verdict(1.0) == verdict(SURE);
+        let stands = verdict(1.0) == verdict(SURE_ERROR_FACTOR);
         match verdict(1.0) {
             Verdict::Pass => stands && closes(self.energy_residual),
             Verdict::Fail => stands,
@@ -147,11 +148,11 @@ pub fn check_shot(
         |step| run(shot, step),
         |runs, last| {
             let cost = || Cost { runs: done.get(), steps: steps.get(), wall: begun.elapsed() };
-            let mut judged = judge(case, shot, compute, runs, &[], cost());
+            let mut judged = checked_from_runs(case, shot, compute, runs, &[], cost());
             if last || judged.is_sure(&case.limits) {
                 let coarsest = &runs[nearest(runs.len()).start];
                 let pairs = run_pairs(case, shot, compute, coarsest.outcome.step, run)?;
-                judged = judge(case, shot, compute, runs, &pairs, cost());
+                judged = checked_from_runs(case, shot, compute, runs, &pairs, cost());
             }
             let sure = judged.is_sure(&case.limits);
             checked = Some(judged);
@@ -241,7 +242,7 @@ fn climb<R>(
 
 /// Judges a shot by a ladder of runs, of which the last gives the values, and by `pairs` of nearby shots at the step of the
 /// coarsest neighbour.
-fn judge(
+fn checked_from_runs(
     case: &Case,
     shot: &Shot,
     compute: &ComputeSettings,

@@ -1,5 +1,5 @@
-//! Height, force and drift of a shot with their errors, from runs at a ladder of steps. A check judges by [`estimates`], a screen
-//! by [`peaks`].
+//! Height, force and drift of a shot with their errors, from runs at a ladder of steps. A check judges by [`estimates`], a quick
+//! check by [`peaks`].
 
 use std::ops::Range;
 

@@ -2,8 +2,10 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | questions of the user, one file each | [`mod@check_all`] (`shelter check`, and `risk`), [`sweep`], [`orders`], [`size`], [`search`], [`why`], [`effects`], [`accuracy`], [`paper_table`], [`flight`], [`trace`] |
-//! | one shot as planned, judged | [`check`], `ladder`, [`step_error`], [`reason`], [`together`], [`margin`]; coarsely: `screen`; what a study keeps of it: `shot_summary` |
+//! | questions of the user, one file each | [`mod@check_all`] (`shelter check`, and `risk`), [`sweep`], [`orders`], [`size`] |
+//! | the same | [`search`], [`why`], [`effects`], [`accuracy`], [`paper_table`], [`flight`], [`trace`] |
+//! | one shot as planned | [`check`], `ladder`, [`step_error`], [`reason`], [`together`], [`cover`], [`margin`] |
+//! | the same, coarsely, and what a study keeps of it | `quick_check`, `shot_summary` |
 //! | the shots that are possible | [`random_shot`], [`sample`], [`sampling`], [`risk`], [`risk_summary`], [`failure_bounds`], [`influence`], [`swaps`] |
 //! | both together | [`judgement`], and the rule of the verdict: [`sampled`] |
 //! | how work runs | [`batch`], `compute`, `progress`, `found`, `no_result`, `intervals`; on many machines: `shard`, [`merge`] |

@@ -1,12 +1,13 @@
 //! The orders in which the blast rows can fire, ranked from the worst to the best.
 //!
-//! 1. Up to [`MOST_ROWS`] rows all orders are judged by a screen, at coarse steps. Where the shelter is its own mirror image,
+//! 1. Up to [`MOST_ROWS`] rows all orders are judged by a quick check, at coarse steps. Where the shelter is its own mirror image,
 //!    an order and its mirrored order are judged once.
-//! 2. The hardest orders are checked first. An order stays in question while its screened utilization + [`REACH`] x its error is
-//!    above the greatest checked so far; this goes on until none is left. Likewise for the best, with the signs reversed.
+//! 2. The hardest orders are checked first. An order stays in question while its coarse utilization + [`REACH_ERROR_FACTOR`] x
+//!    its error is above the greatest checked so far; this goes on until none is left. Likewise for the best, with the signs
+//!    reversed.
 //!
-//! The orders are ranked by the shots as planned. The [`ENDS`] worst and the [`ENDS`] best of them are sampled; the best gets a
-//! full verdict.
+//! The orders are ranked by the shots as planned. The [`SAMPLED_AT_EACH_END`] worst and the [`SAMPLED_AT_EACH_END`] best of them
+//! are sampled; the best gets a full verdict.
 //!
 //! With more rows the orders are searched: random orders first; then exchanges of two rows in the worst [`CLIMBERS`] of
 //! them and in the best, until no exchange leads further. A search may miss the worst order; its result says so.
@@ -19,7 +20,7 @@ use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
-use super::batch::{judge_all_or_unknown, judge_shot};
+use super::batch::{summarize_all_or_unknown, summarize_shot};
 use super::quick_check::{quick_check_is_sure, quick_check_until};
 use super::risk_summary::{RiskSummary, sample_shots};
 use super::sampled::{self, Sampled};
@@ -31,12 +32,12 @@ use crate::verdict::Verdict;
 
 /// Greatest number of blast rows whose orders are all tried: 40,320 orders.
 pub const MOST_ROWS: usize = 8;
-/// Greatest number of blast rows at which the screen of every order goes on until its verdict is sure.
+/// Greatest number of blast rows at which the quick check of every order goes on until its verdict is sure.
 const MOST_SURE_ROWS: usize = 7;
-/// Number of runs of a screen with more rows than [`MOST_SURE_ROWS`].
+/// Number of runs of a quick check with more rows than [`MOST_SURE_ROWS`].
 const RUNS: usize = 3;
-/// Factor on the error of a screen within which an order may still be the worst or the best.
-const REACH: f64 = 6.0;
+/// Factor on the error of a quick check within which an order may still be the worst or the best.
+const REACH_ERROR_FACTOR: f64 = 6.0;
 /// Number of orders refined together: a fixed number, so that the number of threads changes nothing.
 const AT_ONCE: usize = 32;
 /// Number of orders of a search that are improved by exchanges towards the worst, and towards the best.
@@ -45,7 +46,7 @@ const CLIMBERS: usize = 24;
 const RANDOM: usize = 1000;
 
 /// Number of orders sampled at each end of the ranking.
-const ENDS: usize = 20;
+const SAMPLED_AT_EACH_END: usize = 20;
 
 /// One order at one interval.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -90,7 +91,8 @@ impl Orders {
         progress: &Progress,
     ) -> Finding<()> {
         let count = self.ranked.len();
-        let ends: Vec<usize> = (0..count).filter(|&n| n < ENDS || n + ENDS >= count).collect();
+        let ends: Vec<usize> =
+            (0..count).filter(|&n| n < SAMPLED_AT_EACH_END || n + SAMPLED_AT_EACH_END >= count).collect();
         let shot = |&n: &usize| {
             let TriedOrder { order, interval, as_planned, .. } = &self.ranked[n];
             (case.shot(order, *interval), *as_planned)
@@ -192,7 +194,7 @@ pub fn try_orders(
     let known = |found: Found<Vec<TriedOrder>>| {
         if found.value.iter().all(|tried| tried.as_planned == ShotSummary::UNKNOWN) {
             for tried in found.value.iter().take(1) {
-                judge_shot(case, &case.shot(&tried.order, tried.interval), compute, progress)?;
+                summarize_shot(case, &case.shot(&tried.order, tried.interval), compute, progress)?;
             }
         }
         Ok(found)
@@ -207,7 +209,7 @@ pub fn try_orders(
     let per_interval = count(case, 1);
     let all = all.enumerate().map(|(number, (order, interval))| OrderToTry { number, order, interval });
     let own = |one: &OrderToTry| shard.has(one.number) && one.order <= mirrored(&one.order, &mirror_rows);
-    let found = screen_orders(case, all.filter(own).collect(), compute, progress)?;
+    let found = quick_check_orders(case, all.filter(own).collect(), compute, progress)?;
     let mut tried = Vec::with_capacity(2 * found.value.len());
     for one in found.value {
         let order = mirrored(&one.order, &mirror_rows);
@@ -293,7 +295,12 @@ pub fn refine(
                 judged.map(|n| sign * utilization(case, &tried[n])).fold(f64::NEG_INFINITY, f64::max);
             // An order whose runs failed may be the worst, and is not the best.
             let reach = |n: usize| match is_known(&n) {
-                true => sign * tried[n].as_planned.with_errors(sign * REACH).utilization(&case.limits),
+                true => {
+                    sign * tried[n]
+                        .as_planned
+                        .with_errors(sign * REACH_ERROR_FACTOR)
+                        .utilization(&case.limits)
+                }
                 false => sign * f64::INFINITY,
             };
             let next: Vec<usize> = (0..tried.len())
@@ -306,8 +313,9 @@ pub fn refine(
                 break;
             }
             let shots: Vec<Shot> = next.iter().map(|&n| case.shot(&tried[n].order, interval)).collect();
-            let judged =
-                judge_all_or_unknown(&shots, progress, |shot| judge_shot(case, shot, compute, progress))?;
+            let judged = summarize_all_or_unknown(&shots, progress, |shot| {
+                summarize_shot(case, shot, compute, progress)
+            })?;
             for (n, as_planned) in next.into_iter().zip(judged) {
                 let Some(as_planned) = as_planned else { return Ok(Found { value: tried, partial: true }) };
                 for n in images[n].into_iter().chain([n]) {
@@ -320,25 +328,25 @@ pub fn refine(
     Ok(Found { value: tried, partial: false })
 }
 
-/// Judges orders by a screen.
-fn screen_orders(
+/// Judges orders by a quick check.
+fn quick_check_orders(
     case: &Case,
     orders: Vec<OrderToTry>,
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Finding<Vec<TriedOrder>> {
-    let enough = |screened: &ShotSummary, runs: usize| {
-        quick_check_is_sure(case, screened, runs)
+    let enough = |summary: &ShotSummary, runs: usize| {
+        quick_check_is_sure(case, summary, runs)
             || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= RUNS
     };
-    let screened = judge_all_or_unknown(&orders, progress, |OrderToTry { order, interval, .. }| {
+    let summaries = summarize_all_or_unknown(&orders, progress, |OrderToTry { order, interval, .. }| {
         quick_check_until(case, &case.shot(order, *interval), compute, progress, enough)
     })?;
     let tried = |(OrderToTry { number, order, interval }, as_planned): (_, Option<ShotSummary>)| {
         as_planned.map(|as_planned| TriedOrder { number, order, interval, as_planned })
     };
-    let partial = screened.contains(&None);
-    Ok(Found { value: orders.into_iter().zip(screened).filter_map(tried).collect(), partial })
+    let partial = summaries.contains(&None);
+    Ok(Found { value: orders.into_iter().zip(summaries).filter_map(tried).collect(), partial })
 }
 
 fn climb_orders(
@@ -358,7 +366,7 @@ fn climb_orders(
             order
         }));
         let first = tried.len();
-        if screen_new_orders(case, &mut tried, first, starts, interval, compute, progress)? {
+        if quick_check_new_orders(case, &mut tried, first, starts, interval, compute, progress)? {
             return Ok(Found { value: tried, partial: true });
         }
         let mut climbers: Vec<(f64, Vec<usize>)> = Vec::new();
@@ -370,7 +378,7 @@ fn climb_orders(
         // All climbers take a step at once; those that meet become one.
         while !climbers.is_empty() {
             let all = climbers.iter().flat_map(|(_, order)| exchanges(order)).unique().collect();
-            if screen_new_orders(case, &mut tried, first, all, interval, compute, progress)? {
+            if quick_check_new_orders(case, &mut tried, first, all, interval, compute, progress)? {
                 return Ok(Found { value: tried, partial: true });
             }
             let known: HashMap<&[usize], f64> =
@@ -400,7 +408,7 @@ fn exchanges(order: &[usize]) -> impl Iterator<Item = Vec<usize>> {
 }
 
 /// Judges the orders that are not among `tried[first..]`, and adds them; returns whether the time was up.
-fn screen_new_orders(
+fn quick_check_new_orders(
     case: &Case,
     tried: &mut Vec<TriedOrder>,
     first: usize,
@@ -412,7 +420,7 @@ fn screen_new_orders(
     let known: HashSet<&[usize]> = tried[first..].iter().map(|t| t.order.as_slice()).collect();
     let new = orders.into_iter().unique().filter(|order| !known.contains(order.as_slice()));
     let new = new.enumerate().map(|(n, order)| OrderToTry { number: tried.len() + n, order, interval });
-    let Found { value, partial } = screen_orders(case, new.collect(), compute, progress)?;
+    let Found { value, partial } = quick_check_orders(case, new.collect(), compute, progress)?;
     tried.extend(value);
     Ok(partial)
 }

@@ -1,11 +1,11 @@
 //! The verdict on a shot that is one of thousands: run at coarse steps first, and no finer than its verdict needs.
 //!
-//! A check begins at the step of the accuracy level and refines until the verdict is sure. A screen begins at 8 times the step
+//! A check begins at the step of the accuracy level and refines until the verdict is sure. A quick check begins at 8 times the step
 //! of the field level, refines by [`step_error::RATIO`] until it has seen enough, and ends at the latest at the step at which a
 //! check begins. Unlike a check it does not look for rival peaks ([`ladder`](super::ladder)). Where the step is fixed, or too few
 //! of the coarse runs succeed, the shot is checked instead.
 
-use super::batch::judge_shot;
+use super::batch::summarize_shot;
 use super::cover::{Cover, CoverWatch};
 use super::ladder::peaks;
 use super::reason::{Reason, find_reasons_as_planned};
@@ -33,9 +33,7 @@ pub fn quick_check(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<ShotSummary, NoResult> {
-    quick_check_until(case, shot, compute, progress, |screened, runs| {
-        quick_check_is_sure(case, screened, runs)
-    })
+    quick_check_until(case, shot, compute, progress, |summary, runs| quick_check_is_sure(case, summary, runs))
 }
 
 /// Judges a shot at ever finer steps until `enough`, which gets the last run judged and the number of runs, returns true.
@@ -47,7 +45,7 @@ pub fn quick_check_until(
     enough: impl Fn(&ShotSummary, usize) -> bool,
 ) -> Result<ShotSummary, NoResult> {
     if compute.step.is_some() {
-        return judge_shot(case, shot, compute, progress);
+        return summarize_shot(case, shot, compute, progress);
     }
     let last = compute.first_step(case);
     let field = ComputeSettings { accuracy: Accuracy::Field, step: None, ..*compute };
@@ -66,12 +64,12 @@ pub fn quick_check_until(
             Err(failure) => return Err(progress.no_result(failure)),
         }
         if is_last && runs.len() < RUNS_OF_PASS {
-            return judge_shot(case, shot, compute, progress);
+            return summarize_shot(case, shot, compute, progress);
         }
         if runs.len() > 1 {
-            let screened = judge(case, shot, &runs, cover.cover());
-            if is_last || enough(&screened, runs.len()) {
-                return Ok(screened);
+            let summary = summary_of_runs(case, shot, &runs, cover.cover());
+            if is_last || enough(&summary, runs.len()) {
+                return Ok(summary);
             }
         }
         step /= step_error::RATIO;
@@ -79,20 +77,20 @@ pub fn quick_check_until(
 }
 
 /// The last run judged, with the runs before as its neighbours and the cover it saw.
-fn judge(case: &Case, shot: &Shot, runs: &[Outcome], cover: Cover) -> ShotSummary {
+fn summary_of_runs(case: &Case, shot: &Shot, runs: &[Outcome], cover: Cover) -> ShotSummary {
     let all: Vec<&Outcome> = runs.iter().collect();
     let estimates = peaks(&all, &[]);
     let reasons = find_reasons_as_planned(case, shot, all[all.len() - 1], estimates);
     ShotSummary::new(Verdict::worst(reasons.iter().map(Reason::verdict)), estimates, cover)
 }
 
-/// Whether the values of a screen of `runs` runs lie so far from all limits that its verdict stands.
-pub fn quick_check_is_sure(case: &Case, screened: &ShotSummary, runs: usize) -> bool {
-    match screened.verdict {
+/// Whether the values of a quick check of `runs` runs lie so far from all limits that its verdict stands.
+pub fn quick_check_is_sure(case: &Case, summary: &ShotSummary, runs: usize) -> bool {
+    match summary.verdict {
         Verdict::Pass => {
-            runs >= RUNS_OF_PASS && screened.with_errors(SURE_PASS).utilization(&case.limits) <= 1.0
+            runs >= RUNS_OF_PASS && summary.with_errors(SURE_PASS).utilization(&case.limits) <= 1.0
         }
-        Verdict::Fail => screened.with_errors(-SURE_FAIL).utilization(&case.limits) > 1.0,
+        Verdict::Fail => summary.with_errors(-SURE_FAIL).utilization(&case.limits) > 1.0,
         Verdict::Undecided => false,
     }
 }

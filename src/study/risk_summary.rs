@@ -57,11 +57,8 @@ pub fn sample_shots<'c>(
         };
         let targets: Vec<_> = shots.iter().map(target).collect();
         let risks = find_risks(&targets, progress)?.value;
-        let is_complete = |risk: &Risk| {
-            let (drawn, verdict) = (risk.samples.len(), risk.bounds.verdict());
-            drawn >= sampling.most || drawn >= sampling.least && verdict != Verdict::Undecided
-        };
-        all.extend(risks.iter().map(|risk| is_complete(risk).then(|| RiskSummary::of(risk, &case.limits))));
+        let summary = |risk: &Risk| sampling.is_complete(risk).then(|| RiskSummary::of(risk, &case.limits));
+        all.extend(risks.iter().map(summary));
     }
     Ok(all)
 }

@@ -26,8 +26,9 @@ pub struct Sampling {
     pub most: usize,
     /// Seed of the random numbers.
     pub seed: u64,
-    /// Which attempt at a verdict this is. 0: the only one. n >= 1: the n-th candidate of a search that stops at its first pass; it
-    /// may be wrong with probability ERROR/(n (n + 1)), which sums to ERROR at most.
+    /// The share of the probability of an error, where several verdicts share it. 0: this is the only verdict. n >= 1: it may be
+    /// wrong with probability ERROR/(n (n + 1)): the n-th candidate tried one after the other, which sums to ERROR at most; or
+    /// each of n (n + 1) verdicts at once.
     pub attempt: usize,
 }
 
@@ -48,11 +49,16 @@ impl Sampling {
         Self { least: 0, most: SAMPLES_FOR_BANDS.min(self.most), ..*self }
     }
 
-    /// Numbers of the samples to draw next: none where there are enough, or as many as there may be.
+    /// Whether no more samples are needed: there are as many as there may be, or enough for a verdict that the audit bears out.
+    pub fn is_complete(&self, risk: &Risk) -> bool {
+        let drawn = risk.samples.len();
+        drawn >= self.most || drawn >= self.least && risk.bounds_of_audited() != Verdict::Undecided
+    }
+
+    /// Numbers of the samples to draw next; none once they are complete.
     fn next_round(&self, risk: &Risk) -> Range<usize> {
         let from = risk.samples.len();
-        let is_open = risk.bounds_of_audited() == Verdict::Undecided;
-        if from >= self.most || from >= self.least && !is_open {
+        if self.is_complete(risk) {
             return from..from;
         }
         let size = if from < SAMPLES_FOR_SHARES { SHORT_ROUND } else { LONG_ROUND };
@@ -62,6 +68,7 @@ impl Sampling {
     /// The sampling of a full verdict on a shot that a first look chose for its draws: with draws of its own, as the `attempt`-th
     /// of such shots.
     pub fn with_fresh_draws(&self, attempt: usize) -> Self {
+        // The complement: draws that no other use of this seed shares.
         Self { seed: !self.seed, attempt, ..*self }
     }
 

@@ -9,17 +9,17 @@
 //! and snap, the value jumps between nearby steps, and the estimates differ. The largest estimate counts, so two runs that
 //! agree by luck are not believed.
 //!
-//! All steps of a ladder may miss the same event, and agree on a wrong value. Nearby shots show this: pairs of shots whose
-//! inputs are changed a little to both sides ([`Shot::both_sides`](crate::scene::Shot::both_sides)), run at the coarsest step of
-//! the ladder. A value that depends smoothly on the inputs lies in the middle of each pair: |v₊ + v₋ − 2v| is of second
-//! order in the change. Where it is more than [`FAR`] times the error, an event is near, and the disagreement is the error.
+//! All steps of a ladder may miss the same event, and agree on a wrong value. Nearby shots show this: pairs of shots whose inputs
+//! are changed a little to both sides ([`Shot::both_sides`](crate::scene::Shot::both_sides)), run at the step of the coarsest
+//! neighbour. A value that depends smoothly on the inputs lies in the middle of each pair: |v₊ + v₋ − 2v| is of second order in
+//! the change. Where it is more than [`FAR_ERROR_FACTOR`] times the error, an event is near, and the disagreement is the error.
 //!
 //! A greatest value has rivals: peaks at other times. Where a rival reaches above it within the rival's own error, the greatest
 //! value is uncertain up to there; `study::ladder` sees to this.
 //!
-//! MARGIN and FAR were fitted on 1,680 random scenes of 14 regimes. `cargo bench --bench calibration` measures on other
-//! scenes how often the true error is within the reported error, by level, quantity and regime. The estimate covers the time
-//! integration alone: not the model, and not the numbers of the plan.
+//! MARGIN and FAR_ERROR_FACTOR were fitted on 1,680 random scenes of 14 regimes. `cargo bench --bench calibration` measures on
+//! other scenes how often the true error is within the reported error, by level, quantity and regime. The estimate covers the
+//! time integration alone: not the model, and not the numbers of the plan.
 
 /// Ratio of neighbouring steps.
 pub const RATIO: f64 = std::f64::consts::SQRT_2;
@@ -31,14 +31,14 @@ const MARGIN: f64 = 2.0;
 /// Number of pairs of nearby shots.
 pub const PAIRS: u64 = 2;
 /// Disagreement of nearby shots over the error, above which the disagreement is the error.
-const FAR: f64 = 3.0;
+const FAR_ERROR_FACTOR: f64 = 3.0;
 
 /// Error of a value, given its `error` from neighbouring steps and its values in pairs of nearby shots, `[v₊, v₋]`, beside
 /// the value `between` of the shot itself at the same step.
 pub fn widened(error: f64, between: f64, pairs: impl IntoIterator<Item = [f64; 2]>) -> f64 {
     let disagreements = pairs.into_iter().map(|[more, less]| (more + less - 2.0 * between).abs());
     let greatest = disagreements.fold(0.0, f64::max);
-    if greatest > FAR * error { greatest } else { error }
+    if greatest > FAR_ERROR_FACTOR * error { greatest } else { error }
 }
 
 /// Estimated error of `value`, computed at `step`, from `(step, value)` of its neighbours; 0 without neighbours.

@@ -172,8 +172,13 @@ impl App {
             }
             Action::Left => self.editor.step(false),
             Action::Right => self.editor.step(true),
-            Action::AddOption => self.editor.copy_option(self.selected),
-            Action::RemoveOption => self.editor.remove_option(self.selected),
+            Action::AddOption => {
+                let edit = self.editor.copy_option(self.selected);
+                let request = self.edited(edit);
+                self.follow_field();
+                return request;
+            }
+            Action::RemoveOption => self.editor.remove(),
             other => return self.act_anywhere(other),
         };
         self.edited(edit)

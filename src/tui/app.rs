@@ -243,7 +243,7 @@ impl App {
     /// Takes the changed file of the plan: another plan, or the mistake in it.
     pub fn reload(&mut self, read: Result<Case, String>) -> Request {
         match read {
-            Ok(case) if case.source.text == self.editor.saved => {
+            Ok(case) if case.source.text == self.editor.saved() => {
                 // The file was gone or wrong for a while, and is as before.
                 self.notice = None;
                 Request::None
@@ -274,7 +274,7 @@ impl App {
     pub fn note_saved(&mut self, result: Result<String, String>) {
         self.notice = Some(match result {
             Ok(path) => {
-                self.editor.saved = self.editor.text.clone();
+                self.editor.set_saved(&self.editor.text.clone());
                 self.behind = false;
                 format!("saved {path}")
             }

@@ -5,8 +5,9 @@ use tui_input::Input;
 use tui_input::backend::crossterm::EventHandler;
 
 use super::keymap::Action;
-use crate::plan::fields::{self, Field};
-use crate::plan::keys::Kind;
+use super::name_list::NameList;
+use crate::plan::fields::{self, Field, Path};
+use crate::plan::keys::{Kind, delay, plan};
 use crate::plan::{Layout, Plan};
 
 /// Outcome of an edit.
@@ -24,7 +25,8 @@ pub struct Editor {
     /// The text with all edits.
     pub text: String,
     /// The text of the file.
-    pub saved: String,
+    saved: String,
+    saved_fields: Vec<Field>,
     undone: Vec<String>,
     done: Vec<String>,
     /// Fields of the text.
@@ -35,6 +37,8 @@ pub struct Editor {
     pub input: Option<Input>,
     /// Blast rows being put in order, in place of the selected value.
     pub order: Option<Order>,
+    /// Names to choose the selected value from.
+    pub names: Option<NameList>,
     /// Message about the text being typed, or about the last edit.
     pub problem: Option<String>,
 }
@@ -74,12 +78,14 @@ impl Editor {
         Self {
             text: text.to_owned(),
             saved: text.to_owned(),
+            saved_fields: fields::fields(text),
             undone: Vec::new(),
             done: Vec::new(),
             fields: fields::fields(text),
             selected: 0,
             input: None,
             order: None,
+            names: None,
             problem: None,
         }
     }
@@ -106,7 +112,7 @@ impl Editor {
     pub fn find(&mut self, text: &str, next: bool) {
         let text = text.to_lowercase();
         let has = |field: &Field| {
-            field.label.to_lowercase().contains(&text) || field.value.to_lowercase().contains(&text)
+            field.title().to_lowercase().contains(&text) || field.value.to_lowercase().contains(&text)
         };
         let from = self.selected + usize::from(next);
         let mut round = self.fields.iter().enumerate().cycle().skip(from).take(self.fields.len());
@@ -115,16 +121,27 @@ impl Editor {
 
     /// Whether the user types a value or orders rows.
     pub fn typing(&self) -> bool {
-        self.input.is_some() || self.order.is_some()
+        self.input.is_some() || self.order.is_some() || self.names.is_some()
     }
 
-    /// Begins to edit the selected value: by typing, or by moving rows where the value is a firing order.
+    /// Whether a field has another value than in the file.
+    pub fn is_changed(&self, field: &Field) -> bool {
+        let in_file =
+            |saved: &&Field| saved.group == field.group && saved.path.key.name == field.path.key.name;
+        self.unsaved()
+            && self.saved_fields.iter().find(in_file).map(|saved| &saved.value) != Some(&field.value)
+    }
+
+    /// Begins to edit the selected value: by typing, by moving rows where the value is a firing order, or by choosing a name of the
+    /// catalogue.
     pub fn begin(&mut self) {
         self.problem = None;
         let Some(field) = self.field() else { return };
         if matches!(field.path.key.kind, Kind::RowNames) {
             let names = fields::order(&self.text, &field.path);
             self.order = (!names.is_empty()).then_some(Order { names, selected: 0 });
+        } else if let Kind::Catalogue(names) = field.path.key.kind {
+            self.names = Some(NameList::new(names(), field.value.trim_matches('"')));
         } else {
             self.input = Some(Input::new(field.value.trim_matches('"').to_owned()));
         }
@@ -139,6 +156,10 @@ impl Editor {
             }
             KeyCode::Enter => return self.commit(),
             _ => {}
+        }
+        if let Some(names) = &mut self.names {
+            names.type_key(key);
+            self.problem = None;
         }
         if let Some(input) = &mut self.input
             && input.handle_event(&Event::Key(*key)).is_some_and(|change| change.value)
@@ -165,16 +186,18 @@ impl Editor {
     fn end_typing(&mut self) {
         self.input = None;
         self.order = None;
+        self.names = None;
         self.problem = None;
     }
 
     /// Text and plan with the typed value.
     fn candidate(&self) -> Result<(String, Plan), String> {
         let Some(field) = self.field() else { return Err("no value is selected".to_owned()) };
-        let typed = match (&self.order, &self.input) {
-            (Some(order), _) => order.text(),
-            (None, Some(input)) => input.value().to_owned(),
-            (None, None) => return Err("nothing is typed".to_owned()),
+        let typed = match (&self.order, &self.names, &self.input) {
+            (Some(order), ..) => order.text(),
+            (_, Some(names), _) => names.name().ok_or("no name has these letters")?.to_owned(),
+            (.., Some(input)) => input.value().to_owned(),
+            _ => return Err("nothing is typed".to_owned()),
         };
         Self::checked(fields::set(&self.text, &field.path, &typed)?)
     }
@@ -220,9 +243,20 @@ impl Editor {
     pub fn reload(&mut self, text: &str) {
         self.done.push(std::mem::replace(&mut self.text, text.to_owned()));
         self.undone.clear();
-        text.clone_into(&mut self.saved);
+        self.set_saved(text);
         self.end_typing();
         self.refresh();
+    }
+
+    /// The text of the file.
+    pub fn saved(&self) -> &str {
+        &self.saved
+    }
+
+    /// Notes that the file holds this text now.
+    pub fn set_saved(&mut self, text: &str) {
+        text.clone_into(&mut self.saved);
+        self.saved_fields = fields::fields(text);
     }
 
     fn refresh(&mut self) {
@@ -253,6 +287,11 @@ impl Editor {
     /// away.
     pub fn step(&mut self, up: bool) -> EditOutcome {
         let Some(field) = self.field() else { return EditOutcome::None };
+        if field.path.section == plan::LIMITS.name {
+            // A limit is no value to play with.
+            self.problem = Some("a limit changes only by typing it: Enter".to_owned());
+            return EditOutcome::None;
+        }
         let value = field.value.trim_matches('"');
         let next = match &field.path.key.kind {
             Kind::Whole(_) => moved(value, if up { 1.0 } else { -1.0 }),
@@ -277,20 +316,32 @@ impl Editor {
         self.settle(changed.and_then(Self::checked))
     }
 
-    /// Copies a delay option.
+    /// Copies a delay option, and begins to type the interval of the copy, or its firing times.
     pub fn copy_option(&mut self, option: usize) -> EditOutcome {
-        self.with_option(option, fields::copy_delay)
+        let copied = fields::copy_delay(&self.text, option);
+        let outcome = self.take(copied.ok_or_else(|| "there is no delay option to copy".to_owned()));
+        let is_timing = |field: &Field| {
+            let Path { section, index, key } = field.path;
+            let times = [delay::INTERVAL_MS.name, delay::AT_MS.name].contains(&key.name);
+            section == plan::DELAY.name && index == Some(option + 1) && times && !field.value.is_empty()
+        };
+        if let (EditOutcome::Changed(_), Some(at)) = (&outcome, self.fields.iter().position(is_timing)) {
+            self.selected = at;
+            self.input = Some(Input::default());
+        }
+        outcome
     }
 
-    /// Removes a delay option.
-    pub fn remove_option(&mut self, option: usize) -> EditOutcome {
-        self.with_option(option, fields::remove_delay)
-    }
-
-    fn with_option(&mut self, option: usize, change: fn(&str, usize) -> Option<String>) -> EditOutcome {
-        let changed = change(&self.text, option).ok_or_else(|| "the plan needs a delay option".to_owned());
-        let changed = changed.and_then(Self::checked);
-        self.settle(changed)
+    /// Removes what is selected: a delay option, or a value that the plan may leave out.
+    pub fn remove(&mut self) -> EditOutcome {
+        let Some(Field { path, .. }) = self.field().cloned() else { return EditOutcome::None };
+        let removed = match path.index {
+            Some(option) if path.section == plan::DELAY.name => fields::remove_delay(&self.text, option)
+                .ok_or_else(|| "the plan needs a delay option".to_owned()),
+            _ if path.key.required => Err(format!("the plan needs `{}`", path.key.name)),
+            _ => fields::set(&self.text, &path, ""),
+        };
+        self.take(removed)
     }
 }
 
@@ -351,6 +402,7 @@ mod tests {
     #[test]
     fn what_is_typed_is_checked_committed_and_undone() {
         let mut editor = editor();
+        editor.find("flight height", false);
         editor.begin();
         editor.type_key(&KeyEvent::new(KeyCode::Char('u'), KeyModifiers::CONTROL));
         type_text(&mut editor, "-2");
@@ -367,6 +419,51 @@ mod tests {
         assert!(!editor.unsaved());
         assert!(matches!(editor.redo(), EditOutcome::Changed(_)));
         assert!(matches!(editor.redo(), EditOutcome::None));
+    }
+
+    #[test]
+    fn a_rope_is_found_by_its_letters() {
+        let mut editor = editor();
+        editor.find("rope: rope", false);
+        editor.begin();
+        type_text(&mut editor, "2688 16 1770");
+        let enter = KeyEvent::new(KeyCode::Enter, KeyModifiers::NONE);
+        let names = editor.names.clone().expect("a list");
+        assert!(names.matches().len() < names.names.len());
+        let EditOutcome::Changed(plan) = editor.type_key(&enter) else { panic!("{:?}", editor.problem) };
+        assert!(plan.cable.rope.is_some_and(|rope| rope.starts_with("GOST 2688-80 16")));
+        editor.begin();
+        type_text(&mut editor, "qqqq");
+        assert!(matches!(editor.type_key(&enter), EditOutcome::None) && editor.problem.is_some());
+    }
+
+    /// A limit that a stray arrow key raises would pass what fails.
+    #[test]
+    fn limits_are_only_typed() {
+        let mut editor = editor();
+        for label in ["flight height", "safety factor", "accepted risk"] {
+            editor.find(label, false);
+            assert!(matches!(editor.step(true), EditOutcome::None), "{label}");
+            assert!(editor.problem.is_some() && !editor.unsaved());
+        }
+    }
+
+    #[test]
+    fn the_copy_of_an_option_asks_for_its_interval_and_d_removes_what_is_selected() {
+        let mut editor = editor();
+        assert!(matches!(editor.copy_option(2), EditOutcome::Changed(_)));
+        type_text(&mut editor, "33");
+        let enter = KeyEvent::new(KeyCode::Enter, KeyModifiers::NONE);
+        let EditOutcome::Changed(plan) = editor.type_key(&enter) else { panic!("{:?}", editor.problem) };
+        assert_eq!(plan.delays[3].name, "33 ms");
+        assert!(editor.is_changed(&editor.fields[editor.selected]));
+        let EditOutcome::Changed(plan) = editor.remove() else { panic!("{:?}", editor.problem) };
+        assert!(plan.delays.iter().all(|delay| delay.name != "33 ms"));
+        editor.find("termination", false);
+        let EditOutcome::Changed(plan) = editor.remove() else { panic!("{:?}", editor.problem) };
+        assert_eq!(plan.cable.termination, None);
+        editor.find("friction", false);
+        assert!(matches!(editor.remove(), EditOutcome::None) && editor.problem.is_some());
     }
 
     #[test]

@@ -10,6 +10,7 @@ pub mod config;
 pub mod editor;
 mod export;
 pub mod keymap;
+pub mod name_list;
 pub mod options;
 mod plan_file;
 pub mod player;
@@ -189,7 +190,7 @@ impl Session {
     /// Writes the plan to its file; asks for a new file where there is none, or another program has changed it.
     fn save(&mut self) {
         let Some(file) = &mut self.file else { return self.name_plan() };
-        match file.write(&self.app.editor.saved, &self.app.editor.text) {
+        match file.write(self.app.editor.saved(), &self.app.editor.text) {
             Ok(()) => self.app.note_saved(Ok(self.app.case.source.path.clone())),
             Err(Refusal::Failed(reason)) => self.app.note_saved(Err(reason)),
             Err(Refusal::Changed) => {

@@ -118,6 +118,16 @@ pub struct Listing {
     pub baseline: Option<usize>,
 }
 
+/// A name as words and numbers, so that 20 ms stands before 109 ms.
+fn in_parts(name: &str) -> Vec<(u64, String)> {
+    let mut parts: Vec<(u64, String)> = Vec::new();
+    for part in name.split_inclusive(|letter: char| !letter.is_ascii_digit()) {
+        let digits = part.trim_end_matches(|letter: char| !letter.is_ascii_digit());
+        parts.push((digits.parse().unwrap_or(u64::MAX), part[digits.len()..].to_owned()));
+    }
+    parts
+}
+
 impl Listing {
     /// Sorts by a column; a column that sorts already is turned round.
     pub fn sort_by(&mut self, sort: SortBy) {
@@ -138,7 +148,7 @@ impl Listing {
             })
             .collect();
         if self.sort == SortBy::Name {
-            options.sort_by_key(|&option| name(option));
+            options.sort_by_key(|&option| in_parts(&name(option)));
         } else if self.sort != SortBy::Plan {
             let key = |option: usize| judged(option).map(|judged| self.sort.value(judged));
             options.sort_by(|&a, &b| match (key(a), key(b)) {
@@ -152,5 +162,17 @@ impl Listing {
             options.reverse();
         }
         options
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_in_names_sort_as_numbers() {
+        let mut names = ["109 ms", "long", "20 ms", "9 ms", "20 ms, centre", "1+109 ms"];
+        names.sort_by_key(|name| in_parts(name));
+        assert_eq!(names, ["1+109 ms", "9 ms", "20 ms", "20 ms, centre", "109 ms", "long"]);
     }
 }

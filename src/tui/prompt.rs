@@ -67,16 +67,22 @@ impl Prompt {
 
     /// Commands whose name or description contains the letters typed, in order. Matches of the name come first, the best first.
     pub fn commands(&self) -> Vec<&'static Binding> {
-        let pattern = Pattern::parse(self.input.value(), CaseMatching::Ignore, Normalization::Smart);
-        let mut matcher = Matcher::new(Config::DEFAULT);
-        let mut letters = Vec::new();
-        let mut score = |text| pattern.score(Utf32Str::new(text, &mut letters), &mut matcher);
-        let scores: Vec<_> =
-            BINDINGS.iter().map(|binding| (score(binding.name), score(binding.text))).collect();
-        let mut found: Vec<usize> = (0..BINDINGS.len()).filter(|&n| scores[n] != (None, None)).collect();
-        found.sort_by_key(|&n| std::cmp::Reverse(scores[n]));
+        let found = best_matches(self.input.value(), BINDINGS, |binding| [binding.name, binding.text]);
         found.into_iter().map(|n| &BINDINGS[n]).collect()
     }
+}
+
+/// Indices of the items that have the letters `typed` in one of their two texts, in order. Matches of the first text come first,
+/// the best first.
+pub fn best_matches<T>(typed: &str, items: &[T], texts: impl Fn(&T) -> [&'static str; 2]) -> Vec<usize> {
+    let pattern = Pattern::parse(typed, CaseMatching::Ignore, Normalization::Smart);
+    let mut matcher = Matcher::new(Config::DEFAULT);
+    let mut letters = Vec::new();
+    let mut score = |text| pattern.score(Utf32Str::new(text, &mut letters), &mut matcher);
+    let scores: Vec<_> = items.iter().map(|item| texts(item).map(&mut score)).collect();
+    let mut found: Vec<usize> = (0..items.len()).filter(|&n| scores[n] != [None, None]).collect();
+    found.sort_by_key(|&n| std::cmp::Reverse(scores[n]));
+    found
 }
 
 #[cfg(test)]

@@ -238,7 +238,7 @@ fn a_value_replaced_by_itself_changes_nothing() {
         let path = format!("{}/plans/{name}", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).expect("a shipped plan");
         for field in fields(&text).iter().filter(|field| !field.value.is_empty()) {
-            assert_eq!(set(&text, &field.path, &field.value).as_ref(), Ok(&text), "{}", field.label);
+            assert_eq!(set(&text, &field.path, &field.value).as_ref(), Ok(&text), "{}", field.title());
         }
     }
 }

@@ -222,7 +222,7 @@ fn a_plan_is_edited_saved_and_reloaded() {
     let read = || std::fs::read_to_string(&file).expect("the plan");
     let mut watched = Watched::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 120, 36);
     watched.until(" of 7 pass");
-    watched.press("1");
+    watched.press("1/flight height\r");
     watched.until("limit of flight height");
     watched.press("\r\x152x");
     watched.until("no value");

@@ -35,6 +35,8 @@ pub struct Key {
     pub required: bool,
     /// The value where the plan leaves the key out.
     pub default: Option<DefaultValue>,
+    /// Least and greatest value that is no surprise; others are right, but are warned of.
+    pub usual: Option<[f64; 2]>,
     /// How the terminal's editor shows the key; `None`: the key is edited in the file only.
     pub edit: Option<Edit>,
 }
@@ -182,7 +184,7 @@ impl Kind {
 }
 
 const fn key(name: &'static str, kind: Kind, example: &'static str, doc: &'static str) -> Key {
-    Key { name, kind, example, doc, required: false, default: None, edit: None }
+    Key { name, kind, example, doc, required: false, default: None, usual: None, edit: None }
 }
 
 const fn number(unit: &'static str, range: RangeInclusive<f64>) -> Kind {
@@ -201,6 +203,11 @@ impl Key {
 
     const fn default(mut self, number: f64) -> Self {
         self.default = Some(DefaultValue::Number(number));
+        self
+    }
+
+    const fn usual(mut self, low: f64, high: f64) -> Self {
+        self.usual = Some([low, high]);
         self
     }
 

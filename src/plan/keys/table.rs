@@ -1,8 +1,8 @@
 //! The table of keys: one row for each key of a plan.
 //!
 //! Sections stand in the order of a plan, the keys of a section in the order of the terminal's editor. A row names the key,
-//! the kind of its value, a right value, and what the value is; then follow, where they apply, the default, the label in
-//! the editor, and whether the editor offers the key in plans that leave it out. A new key is one row here, one field of
+//! the kind of its value, a right value, and what the value is; then follow, where they apply, the default, the usual range, the
+//! label in the editor, and whether the editor offers the key in plans that leave it out. A new key is one row here, one field of
 //! the plan, and the line that reads it.
 
 use std::ops::RangeInclusive;
@@ -73,7 +73,7 @@ sections! {
         COLUMNS = key("columns", Kind::Whole(1..=MOST_TIRES), "10", "along x, numbered from 1")
             .edit("shelter columns");
         SPACING_M = key("spacing_m", Kind::NumberOrSection(&number("m", SPACING), &spacing::SECTION), "1.5",
-            "centre to centre").edit("spacing, m");
+            "centre to centre").usual(0.5, 10.0).edit("spacing, m");
         LINKS = key("links", Kind::List(&Kind::Choice(Link::NAMES)), "[\"row\", \"column\", \"diagonal\"]",
             "which neighbours are tied").described("all");
         BORDER_ROWS = key("border_rows", Kind::Whole(0..=1000), "1", "rows of ballast around the mesh, over no hole")
@@ -99,9 +99,9 @@ sections! {
     }
 
     tire "[tire]" "the tire at every position" {
-        MASS_KG = key("mass_kg", MASS, "280", "").required().edit("tire mass, kg");
+        MASS_KG = key("mass_kg", MASS, "280", "").required().usual(30.0, 3000.0).edit("tire mass, kg");
         OUTER_DIAMETER_M = key("outer_diameter_m", number("m", 0.0..=1e3), "1.6",
-            "cables run from rim to rim; 0: from centre to centre").default(0.0).edit("outer diameter, m").offered();
+            "cables run from rim to rim; 0: from centre to centre").default(0.0).usual(0.7, 4.0).edit("outer diameter, m").offered();
         RESTITUTION = key("restitution", number("", 0.0..=0.9), "0.3", "speed after a landing over speed before")
             .default(0.0).edit("restitution").offered();
     }
@@ -113,7 +113,7 @@ sections! {
             "the breaking force used is rope × termination").edit("termination").offered();
         TERMINATION_PERCENT = key("termination_percent", number("%", 1.0..=100.0), "80",
             "share of the breaking force that the termination holds").default(100.0);
-        SLACK_PERCENT = key("slack_percent", number("%", SLACK), "2", "length over distance").default(0.0)
+        SLACK_PERCENT = key("slack_percent", number("%", SLACK), "2", "length over distance").default(0.0).usual(0.0, 15.0)
             .edit("slack, %").offered();
         AXIAL_STIFFNESS_KN = key("axial_stiffness_kn", CABLE_FORCE, "1519", "EA").edit("axial stiffness EA, kN");
         BREAKING_FORCE_KN = key("breaking_force_kn", CABLE_FORCE, "20.9", "").edit("breaking force, kN");
@@ -129,7 +129,7 @@ sections! {
 
     ground "[ground]" "the ground under the tires" {
         FRICTION = key("friction", number("", FRICTION_RANGE), "0.5", "of a tire on the ground; rocky soil 0.3 to 0.5")
-            .required().edit("friction");
+            .required().usual(0.1, 1.0).edit("friction");
         SLOPE_PERCENT = key("slope_percent", number("%", 0.0..=200.0), "10", "fall of the ground over its level length")
             .default(0.0).edit("slope, %").offered();
         SLOPE_TOWARD_DEG = key("slope_toward_deg", number("°", -360.0..=360.0), "270",
@@ -140,7 +140,7 @@ sections! {
     blast_row "[[blast_row]]" "holes that fire together" {
         NAME = key("name", Kind::Text, "\"1\"", "delay options address the row by it").required();
         LAUNCH_M_S = key("launch_m_s", number("m/s", 1e-3..=1e4), "6.0", "launch velocity of the tires")
-            .edit("launch, m/s");
+            .usual(0.5, 30.0).edit("launch, m/s");
         FREE_FLIGHT_HEIGHT_M = key("free_flight_height_m", number("m", 1e-6..=1e5), "1.83",
             "seen on a loose test tire, instead of launch_m_s").edit("free flight height, m");
         TILT_DEG = key("tilt_deg", number("°", 0.0..=80.0), "10", "of the launch from the ground's normal")
@@ -170,10 +170,10 @@ sections! {
     }
 
     limits "[limits]" "what an option must keep to pass" {
-        FLIGHT_HEIGHT_M = key("flight_height_m", LIMIT, "1.5", "greatest flight height of any tire").required()
+        FLIGHT_HEIGHT_M = key("flight_height_m", LIMIT, "1.5", "greatest flight height of any tire").required().usual(0.05, 10.0)
             .edit("limit of flight height, m");
         CABLE_SAFETY_FACTOR = key("cable_safety_factor", number("", 1.0..=1e6), "2.0",
-            "breaking force / greatest force").required().edit("cable safety factor");
+            "breaking force / greatest force").required().usual(1.0, 20.0).edit("cable safety factor");
         DRIFT_M = key("drift_m", LIMIT, "0.5", "greatest horizontal shift of any tire at the end")
             .edit("limit of drift, m").offered();
         HOLES_IN_8_MS = key("holes_in_8_ms", Kind::Whole(1..=MOST_TIRES), "20", "most holes that fire within any 8 ms")
@@ -264,7 +264,7 @@ sections! {
 
     size "[size]" "what `shelter size` may choose from" {
         ROPES = key("ropes", Kind::Catalogue(|| catalogue().families()), "\"GOST 2688-80\"", "a family of ropes")
-            .described("the whole catalogue");
+            .described("that of the plan's rope, else the whole catalogue");
         TIRE_MASS_KG = key("tire_mass_kg", Kind::List(&MASS), "[200, 280, 350]", "masses of tires at hand")
             .described("that of [tire]");
         MOST_BORDER_ROWS = key("most_border_rows", Kind::Whole(0..=100), "2", "rows of ballast").default(0.0);

@@ -105,8 +105,8 @@ impl<'a> Tension<'a> {
     }
 
     /// Forgets how a damped cable moved until now, because one of its tires was launched or has landed: as if its ends had always
-    /// moved as they do now. `span` is the vector between its ends at rest, `between` what their displacements add to it now, `per_step`
-    /// what they add in one step [m].
+    /// moved as they do now. `span` is the vector between its ends at rest, `between` what their displacements add to it now,
+    /// `per_step` what they add in one step [m].
     pub fn forget_motion(
         &mut self,
         element: usize,

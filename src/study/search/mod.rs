@@ -229,7 +229,7 @@ fn front(choices: &Choices<'_>, contenders: &[Contender]) -> Vec<FrontPoint> {
 }
 
 /// The delay option of a schedule: that of the plan which fires alike, or one whose name no option of the plan has.
-fn free_name(case: &Case, schedule: &Schedule) -> DelayOption {
+fn option_with_free_name(case: &Case, schedule: &Schedule) -> DelayOption {
     let new = schedule.named_option(&case.plan.blast_rows);
     if let Some(old) = case.plan.delays.iter().find(|old| old.fires_like(&new)) {
         return DelayOption { name: old.name.clone(), ..new };
@@ -246,7 +246,7 @@ fn judge(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<(Case, Found<OptionResults>), NoResult> {
-    let delays = schedules.iter().map(|schedule| free_name(case, schedule)).collect();
+    let delays = schedules.iter().map(|schedule| option_with_free_name(case, schedule)).collect();
     let plan = Plan { delays, ..case.plan.clone() };
     let case = Case { source: case.source.clone(), ..Case::new(plan) };
     let sampling = sampling.map(|sampling| Sampling { attempt: ATTEMPT, ..*sampling });

@@ -7,7 +7,7 @@ use itertools::Itertools;
 use super::{Combination, Demand, SizingTask, Trial, Untried, WorstShotRisk};
 use crate::ropes::Rope;
 use crate::scene::Shot;
-use crate::study::batch::judge_shots;
+use crate::study::batch::summarize_shots;
 use crate::study::cover::Cover;
 use crate::study::failure_bounds::FailureBounds;
 use crate::study::risk::Risk;
@@ -75,7 +75,7 @@ impl<'q> Candidate<'q> {
         let mut holds = true;
         for chunk in order.chunks(AT_ONCE) {
             let part: Vec<Shot> = chunk.iter().map(|&n| self.shots[n].clone()).collect();
-            let chunk_judged = judge_shots(case, &part, compute, progress)?;
+            let chunk_judged = summarize_shots(case, &part, compute, progress)?;
             let Some(chunk_judged) = chunk_judged.into_iter().collect::<Option<Vec<_>>>() else {
                 return Ok(None);
             };

@@ -1,6 +1,6 @@
 //! The risk of a sweep: windows of accepted risk, and an interval whose verdict is a full one.
 //!
-//! 1. Of the intervals that pass as planned, some about [`APART`] apart are sampled, with the same draws at each.
+//! 1. Of the intervals that pass as planned, some about [`MOST_SAMPLED_GAP`] apart are sampled, with the same draws at each.
 //! 2. A window of accepted risk is a row of sampled intervals, neighbours within one window of the shot as planned, whose
 //!    failing share does not exceed the accepted risk. Its few samples at each interval prove no small risk.
 //! 3. The interval deepest inside a window (largest product of room and unused utilization, of 95 % of the samples) gets a
@@ -9,9 +9,9 @@
 
 use std::collections::BTreeSet;
 
-use super::{APART, Point, Sweep, deepest, nanoseconds, windows};
+use super::{MOST_SAMPLED_GAP, Point, Sweep, deepest, nanoseconds, windows};
 use crate::scene::Shot;
-use crate::study::batch::{judge_shot, or_unknown};
+use crate::study::batch::{or_unknown, summarize_shot};
 use crate::study::risk_summary::{RiskSummary, sample_shots};
 use crate::study::sampled::Sampled;
 use crate::study::sampling::Sampling;
@@ -56,8 +56,8 @@ pub fn add_risk(
             break;
         };
         tried.insert(nanoseconds(candidate.interval));
-        let own = sampling.with_fresh_draws(tried.len());
-        match judge(case, case.shot(&swept.order, candidate.interval), &own, compute, progress)? {
+        let fresh = sampling.with_fresh_draws(tried.len());
+        match judge(case, case.shot(&swept.order, candidate.interval), &fresh, compute, progress)? {
             None => partial = true,
             Some((as_planned, risk)) => {
                 let point = &mut swept.points[n];
@@ -82,7 +82,7 @@ fn judge(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Option<(ShotSummary, Option<RiskSummary>)>, NoResult> {
-    let as_planned = match or_unknown(judge_shot(case, &shot, compute, progress)) {
+    let as_planned = match or_unknown(summarize_shot(case, &shot, compute, progress)) {
         Err(NoResult::OutOfTime) => return Ok(None),
         judged => judged?,
     };
@@ -94,17 +94,17 @@ fn judge(
 }
 
 /// Indices of the points to sample: the plan's own intervals, both ends of each window, and points between them at most
-/// [`APART`] apart. A window narrower than [`APART`] gives its first point only, and only if that is at least [`APART`] from the
-/// last point chosen.
+/// [`MOST_SAMPLED_GAP`] apart. A window narrower than [`MOST_SAMPLED_GAP`] gives its first point only, and only if that is at
+/// least [`MOST_SAMPLED_GAP`] from the last point chosen.
 fn choose(points: &[Point], windows: &[[f64; 2]], own: &BTreeSet<i64>) -> Vec<usize> {
     let mut chosen: Vec<usize> = Vec::new();
     for &[from, to] in windows {
         let first = points.partition_point(|point| point.interval < from);
         let last = points.partition_point(|point| point.interval <= to) - 1;
-        let is_wide = to - from >= APART;
+        let is_wide = to - from >= MOST_SAMPLED_GAP;
         let is_own = |n: usize| own.contains(&nanoseconds(points[n].interval));
         let beyond = |before: Option<&usize>, at: f64| {
-            before.is_none_or(|&before| at - points[before].interval > 1.001 * APART)
+            before.is_none_or(|&before| at - points[before].interval > 1.001 * MOST_SAMPLED_GAP)
         };
         for n in first..=last {
             let next = points.get(n + 1).map_or(f64::INFINITY, |point| point.interval);
@@ -130,7 +130,7 @@ fn accepted_windows(points: &[Point], nominal: &[[f64; 2]]) -> Vec<[f64; 2]> {
             let at = point.interval;
             before = match (before, windows.last_mut()) {
                 _ if !point.is_accepted() => None,
-                (Some(before), Some(window)) if at - before <= 1.01 * APART => {
+                (Some(before), Some(window)) if at - before <= 1.01 * MOST_SAMPLED_GAP => {
                     window[1] = at;
                     Some(at)
                 }

@@ -10,14 +10,14 @@
 //! 4. A window is a row of passing intervals with calm gaps no wider than [`GAP`]. Its ends are intervals that were tried.
 //!
 //! The plan's own intervals, the ends of windows and the recommended interval are judged as `check` does, the others by a
-//! screen: at steps as coarse as their distance from the limits allows. Where utilization jumps, the interval of the jump
+//! quick check: at steps as coarse as their distance from the limits allows. Where utilization jumps, the interval of the jump
 //! depends on the step a little; so a window is narrowed until both ends pass.
 
 mod accepted;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::batch::{judge_all, judge_all_or_unknown, judge_shot};
+use super::batch::{summarize_all, summarize_all_or_unknown, summarize_shot};
 use super::quick_check::quick_check;
 use super::risk_summary::RiskSummary;
 use super::sampled::{self, Sampled};
@@ -97,11 +97,11 @@ pub struct Recommended {
 /// Greatest distance between neighbouring points inside a window [s].
 pub const GAP: f64 = 0.25e-3;
 /// Greatest distance between neighbouring sampled points inside a window [s].
-const APART: f64 = 1e-3;
+const MOST_SAMPLED_GAP: f64 = 1e-3;
 /// Gaps as narrow as this are not halved [s].
 const NARROWEST: f64 = GAP / 8.0;
 /// Factor on the errors of two points, with which the limits must be out of reach between them.
-const CALM: f64 = 1.5;
+const CALM_ERROR_FACTOR: f64 = 1.5;
 /// Room that counts for a recommended interval [s]: more than detonators scatter.
 const ENOUGH_ROOM: f64 = 10e-3;
 
@@ -142,14 +142,14 @@ fn sweep_as_planned(
         let work = |&at: &i64| {
             let shot = case.shot(order, in_seconds(at));
             match exact.contains(&at) {
-                true => judge_shot(case, &shot, compute, progress),
+                true => summarize_shot(case, &shot, compute, progress),
                 false => quick_check(case, &shot, compute, progress),
             }
         };
         // Of the points between points that are known, all may fail.
         let judged = match tried.is_empty() {
-            true => judge_all(&jobs, progress, work)?,
-            false => judge_all_or_unknown(&jobs, progress, work)?,
+            true => summarize_all(&jobs, progress, work)?,
+            false => summarize_all_or_unknown(&jobs, progress, work)?,
         };
         // Out of time: gaps keep the width they have, and windows end there.
         let partial = judged.contains(&None);
@@ -230,7 +230,7 @@ fn is_calm(case: &Case, points: &[Point], n: usize) -> bool {
     let near = &points[n.saturating_sub(1)..points.len().min(n + 3)];
     let steepest = near.windows(2).map(slope).fold(0.0, f64::max);
     let width = points[n + 1].interval - points[n].interval;
-    let highest = |point: &Point| point.as_planned.with_errors(CALM).utilization(&case.limits);
+    let highest = |point: &Point| point.as_planned.with_errors(CALM_ERROR_FACTOR).utilization(&case.limits);
     highest(&points[n]).max(highest(&points[n + 1])) + steepest * width <= 1.0
 }
 

@@ -45,8 +45,8 @@ impl HardSamples {
         self.can_pass(&[])
     }
 
-    /// Whether a pass can still come where the samples with the numbers `failing`, in order, fail and no other does. A pass comes at
-    /// any number of samples; just before the next failing sample, or at the end, the chance is best.
+    /// Whether a pass can still come where the samples with the numbers `failing`, in order, fail and no other does. A pass comes
+    /// at any number of samples; just before the next failing sample, or at the end, the chance is best.
     fn can_pass(&self, failing: &[usize]) -> bool {
         let ends = failing.iter().copied().chain([self.most]);
         ends.enumerate().any(|(failures, end)| {

@@ -2,7 +2,7 @@
 //!
 //! 1. Candidates come by kind (rope, termination, ballast, slack, launches, interval), from the smallest change up. Each is
 //!    written into the plan's text, and the plan of the new text is what is judged: whoever writes it gets this very plan.
-//! 2. All candidates are screened as planned; those that surely fail are out.
+//! 2. All candidates are coarse as planned; those that surely fail are out.
 //! 3. Of each kind the smallest left is judged as `check` judges it: as planned, then by the samples of a verdict. Where that is
 //!    no PASS, the next follows. The first PASS is offered.
 //!
@@ -138,7 +138,7 @@ pub fn find_all_changes(
     let accepted = case.plan.limits.accepted_risk_percent * 1e-2;
     let mut hard = HardSamples::new(accepted, sampling.map_or(0, |sampling| sampling.most));
     let enough_samples = sampling.is_none() || hard.enough_samples();
-    let mut chains = if enough_samples { screened(&task, options)? } else { Vec::new() };
+    let mut chains = if enough_samples { coarse(&task, options)? } else { Vec::new() };
     while chains.iter().any(Chain::is_open) {
         judge_next(&task, &mut chains, &mut hard)?;
     }
@@ -161,7 +161,7 @@ fn changed(case: &Case, change: &Change) -> Option<Case> {
 
 /// The chains of all options, each with the candidates that a coarse run as planned does not surely fail. Candidates that make no
 /// valid plan count as not tried; a kind without a candidate has no chain.
-fn screened(task: &Task<'_>, options: &[usize]) -> Result<Vec<Chain>, NoResult> {
+fn coarse(task: &Task<'_>, options: &[usize]) -> Result<Vec<Chain>, NoResult> {
     let Task { case, compute, progress, .. } = *task;
     let kinds = |&option: &usize| {
         let crowded = exceeds_together(case, &case.shots[option]);
@@ -175,7 +175,7 @@ fn screened(task: &Task<'_>, options: &[usize]) -> Result<Vec<Chain>, NoResult> 
         match guarded(|| quick_check(&changed, &changed.shots[*option], compute, progress)) {
             // The judgement in full tells.
             Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(Some(Verdict::Undecided)),
-            screened => Ok(Some(screened?.verdict)),
+            coarse => Ok(Some(coarse?.verdict)),
         }
     })?
     .into_iter();
@@ -297,11 +297,9 @@ fn sample(
         }
     }
     for ((target, n), risk) in left.iter().zip(places).zip(find_risks(&left, progress)?.value) {
-        let Sampling { least, most, .. } = target.sampling;
-        let is_sure = risk.bounds_of_audited() != Verdict::Undecided;
-        let has_all = risk.samples.len() >= most || risk.samples.len() >= least && is_sure;
         hard.note(targets[n].0, &risk);
-        let is_complete = has_all || !risk.bounds.can_pass(most);
+        let sampling = target.sampling;
+        let is_complete = sampling.is_complete(&risk) || !risk.bounds.can_pass(sampling.most);
         risks[n] = if is_complete { Sampled::Drawn(risk) } else { Sampled::NotDrawn };
     }
     Ok(risks)

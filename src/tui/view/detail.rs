@@ -144,9 +144,9 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     if is_listed(app) {
         lines.extend(change_lines(app));
     }
-    lines.extend(
-        warnings::uncovered(&checked.cover).map(|cover| Line::styled(format!("! {cover}"), theme.firing())),
-    );
+    let swaps = if judged.risk.is_asked() { warnings::swaps_of(case, app.selected) } else { Vec::new() };
+    let warnings = swaps.into_iter().chain(warnings::uncovered(&checked.cover));
+    lines.extend(warnings.map(|warning| Line::styled(format!("! {warning}"), theme.firing())));
     let risk = judged.risk.drawn().filter(|risk| !risk.samples.is_empty());
     if open {
         let samples = risk.map_or(0, |risk| risk.samples.len());

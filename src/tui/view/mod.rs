@@ -13,6 +13,7 @@ mod accuracy;
 mod chart;
 mod command_palette;
 mod detail;
+mod fields;
 mod flight;
 mod help;
 mod options;
@@ -34,6 +35,7 @@ use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use crate::report::explain::compute_label;
 use crate::report::limits::limits_in_short;
+use crate::report::warnings;
 use crate::units;
 use crate::verdict::Verdict;
 
@@ -133,7 +135,11 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
             let what = if app.screen == Screen::Studies { "lines" } else { "options" };
             Line::styled(format!("only {what} with '{filter}' are shown; Esc shows all"), theme.limit())
         }
-        None => Line::styled(about, theme.quiet()),
+        None => {
+            let warnings = warnings::of_plan(case).into_iter();
+            let warnings = warnings.map(|warning| Span::styled(format!("! {warning} · "), theme.limit()));
+            Line::from_iter(warnings.chain([Span::styled(about, theme.quiet())]))
+        }
     };
     frame.render_widget(line, second);
 }

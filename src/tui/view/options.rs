@@ -15,7 +15,7 @@ use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::options::OptionState;
 use crate::tui::options::SortBy;
 use crate::tui::theme;
-use crate::units::{self, Unit, margin_percent};
+use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict};
 
 /// A column: head, width, and the least width of a screen that shows the column.
@@ -34,6 +34,7 @@ const LEAST_NAME: u16 = 8;
 const SPARKS: u16 = 150;
 
 const COLUMNS: &[Column] = &[
+    Column { head: "of limit", sort: SortBy::Verdict, width: 8, from: 0, cell: of_limit },
     Column { head: "fails, %", sort: SortBy::Risk, width: 15, from: 0, cell: |_, _, judged| fails(judged) },
     Column { head: "samples", sort: SortBy::Risk, width: 7, from: 0, cell: samples },
     Column {
@@ -68,24 +69,8 @@ const COLUMNS: &[Column] = &[
         head: "factor",
         sort: SortBy::Force,
         width: 6,
-        from: 70,
+        from: 125,
         cell: |_, _, judged| units::factor(judged.as_planned.safety_factor),
-    },
-    Column {
-        head: "left m",
-        sort: SortBy::Height,
-        width: 7,
-        from: SPARKS,
-        cell: |app, _, judged| {
-            percent(margin_percent(judged.as_planned.height.value, app.case.limits.height))
-        },
-    },
-    Column {
-        head: "left kN",
-        sort: SortBy::Force,
-        width: 7,
-        from: SPARKS,
-        cell: |app, _, judged| percent(margin_percent(judged.as_planned.force.value, app.case.limits.force)),
     },
     Column {
         head: "drift, m",
@@ -138,8 +123,19 @@ fn against(app: &App, option: usize, quantity: fn(&CheckedShot) -> f64, unit: Un
     }
 }
 
-fn percent(margin: f64) -> String {
-    format!("{margin:.0} %")
+/// The quantity of the shot as planned that is nearest to its limit or farthest past it, in percent of the limit: `F 105 %`.
+fn of_limit(app: &App, _: usize, judged: &Judgement) -> String {
+    let CheckedShot { height, force, drift, .. } = &judged.as_planned;
+    let share = |(letter, quantity, value): (char, Quantity, f64)| {
+        Some((letter, value / app.case.limits.get(quantity)?))
+    };
+    let all = [
+        ('H', Quantity::Height, height.value),
+        ('F', Quantity::Force, force.value),
+        ('D', Quantity::Drift, drift.value),
+    ];
+    let worst = all.into_iter().filter_map(share).max_by(|a, b| a.1.total_cmp(&b.1));
+    worst.map_or_else(String::new, |(letter, share)| format!("{letter} {}", units::percent(share, 0)))
 }
 
 /// Draws the table.

@@ -1,19 +1,18 @@
 //! The plan screen: the values of the plan, the shelter from above with its holes, and the verdicts.
 
 use ratatui::Frame;
-use ratatui::layout::{Constraint, Layout, Position, Rect};
+use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::canvas::{self, Canvas, Points};
-use ratatui::widgets::{Block, Borders, Clear, List, ListState, Paragraph, Wrap};
+use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
-use super::options;
 use super::parts::color;
+use super::{fields, options};
 use crate::scene::fire_at_s;
 use crate::study::Case;
-use crate::tui::app::{App, Areas, ClickTarget};
-use crate::tui::editor::Order;
+use crate::tui::app::{App, Areas};
 use crate::tui::keymap::Action;
 use crate::units;
 
@@ -23,87 +22,14 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         Layout::horizontal([Constraint::Percentage(55), Constraint::Percentage(45)]).spacing(1).areas(area);
     let lines = if app.editor.problem.is_some() { 4 } else { 2 };
     let [list, message] = Layout::vertical([Constraint::Min(0), Constraint::Length(lines)]).areas(left);
-    draw_fields(app, frame, list, areas);
-    draw_message(app, frame, message);
     let options = (app.listed().len() as u16 + 1).min(right.height / 3);
     let [shelter, verdicts] =
         Layout::vertical([Constraint::Min(0), Constraint::Length(options)]).areas(right);
     draw_shelter(app, frame, shelter);
     options::draw(app, frame, verdicts, areas);
-}
-
-fn draw_fields(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
-    let editor = &app.editor;
-    let title = if editor.unsaved() { " Plan, not saved " } else { " Plan " };
-    let block = Block::new()
-        .borders(Borders::TOP)
-        .border_style(app.theme.quiet())
-        .title(Span::styled(title, app.theme.title()));
-    let width = editor.fields.iter().map(|field| field.label.chars().count()).max().unwrap_or(0);
-    let width = width.min(36).min(usize::from(area.width) / 2);
-    let rows = editor.fields.iter().enumerate().map(|(n, field)| {
-        let selected = n == editor.selected;
-        let label = shortened(&field.label, width);
-        let value = match &editor.input {
-            Some(input) if selected => input.value().to_owned(),
-            _ if field.value.is_empty() => field.unset(),
-            _ => field.value.clone(),
-        };
-        let style = if selected { app.theme.selected() } else { app.theme.base() };
-        Line::from(vec![
-            Span::styled(format!("{label:width$}  "), app.theme.quiet()),
-            Span::styled(format!(" {value} "), style),
-        ])
-    });
-    let mut state = ListState::default().with_selected(Some(editor.selected));
-    let inside = block.inner(area);
-    frame.render_stateful_widget(List::new(rows).block(block), area, &mut state);
-    let shown = (state.offset()..editor.fields.len()).take(usize::from(inside.height));
-    for (y, field) in (inside.y..).zip(shown) {
-        let row = Rect { y, height: 1, ..inside };
-        areas.push((row, ClickTarget::Field(field)));
-        if field == editor.selected {
-            if let Some(input) = &editor.input {
-                let x = inside.x + (width + 3 + input.visual_cursor()) as u16;
-                frame.set_cursor_position(Position::new(x.min(inside.right().saturating_sub(1)), y));
-            }
-            if let Some(order) = &editor.order {
-                draw_order(app, order, frame, row);
-            }
-        }
-    }
-}
-
-/// A label shortened to `width` characters. Its end names the value, and stays whole.
-fn shortened(label: &str, width: usize) -> String {
-    let count = label.chars().count();
-    if count <= width {
-        return label.to_owned();
-    }
-    let Some((name, end)) = label.rsplit_once(": ") else {
-        return label.chars().take(width.saturating_sub(1)).chain(['…']).collect();
-    };
-    let room = width.saturating_sub(end.chars().count() + 3);
-    let start: String = name.chars().take(room).collect();
-    format!("{start}…: {end}")
-}
-
-/// Draws the blast rows in order of firing, below or above the value of the plan.
-fn draw_order(app: &App, order: &Order, frame: &mut Frame, value: Rect) {
-    let height = (order.names.len() as u16 + 2).min(frame.area().height);
-    let below = value.y + 1 + height <= frame.area().bottom();
-    let y = if below { value.y + 1 } else { value.y.saturating_sub(height) };
-    let area = Rect { y, height, ..value }.intersection(frame.area());
-    let rows = order.names.iter().enumerate().map(|(n, name)| {
-        let style = if n == order.selected { app.theme.selected() } else { app.theme.base() };
-        Line::styled(format!(" {}. row {name} ", n + 1), style)
-    });
-    let [left, right] = [Action::Left, Action::Right].map(|action| app.keymap.hint(action));
-    let title = format!(" Firing order: {left} earlier, {right} later ");
-    let block = Block::bordered().title(title).style(app.theme.base());
-    let mut state = ListState::default().with_selected(Some(order.selected));
-    frame.render_widget(Clear, area);
-    frame.render_stateful_widget(List::new(rows).block(block), area, &mut state);
+    // Their lists of names lie over the map.
+    fields::draw(app, frame, list, areas);
+    draw_message(app, frame, message);
 }
 
 fn draw_message(app: &App, frame: &mut Frame, area: Rect) {
@@ -117,13 +43,16 @@ fn draw_message(app: &App, frame: &mut Frame, area: Rect) {
                 format!("{up} {down} select a row, {left} {right} move it · Enter takes it, Esc leaves it");
             Line::styled(hint, app.theme.quiet())
         }
+        None if editor.names.is_some() => {
+            Line::styled("letters find a name · Enter takes it, Esc leaves it", app.theme.quiet())
+        }
         None if editor.input.is_some() => {
             Line::styled("Enter takes it, Esc leaves it, Ctrl-u clears", app.theme.quiet())
         }
         None => {
             let [open, left, right] =
                 [Action::Open, Action::Left, Action::Right].map(|action| app.keymap.hint(action));
-            let hint = format!("{open} edits · {left} {right} step through values and ropes");
+            let hint = format!("{open} edits · {left} {right} step through values, but not limits");
             Line::styled(hint, app.theme.quiet())
         }
     };
@@ -197,6 +126,14 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
             }
         });
     frame.render_widget(canvas, area);
+    let signs = match widest as f64 + 1.0 <= room {
+        true => "numbers: fired at, ms",
+        false => "signs: 1 fires first, 2 next, after 9 a, b",
+    };
+    let lines = if lines.is_empty() { "" } else { " · lines: fire at once" };
+    let legend = Line::styled(format!(" {signs}{lines} · points: no hole "), theme.quiet());
+    let last = Rect { y: area.bottom().saturating_sub(1), height: 1.min(area.height), ..area };
+    frame.render_widget(legend, last);
 }
 
 /// Number of lines of equal time between the first and the last hole.

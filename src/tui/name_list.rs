@@ -1,0 +1,55 @@
+//! The list of names that a value may have, found by typing letters: ropes and terminations of the catalogue.
+
+use crossterm::event::{Event, KeyCode, KeyEvent};
+use tui_input::Input;
+use tui_input::backend::crossterm::EventHandler;
+
+use super::prompt::best_matches;
+
+/// An open list.
+#[derive(Clone, Debug)]
+pub struct NameList {
+    /// Every name.
+    pub names: Vec<&'static str>,
+    /// Letters typed, and cursor.
+    pub input: Input,
+    /// Index of the selected name among the matches.
+    pub selected: usize,
+}
+
+impl NameList {
+    /// A list that begins at `name`.
+    pub fn new(names: Vec<&'static str>, name: &str) -> Self {
+        let selected = names.iter().position(|known| *known == name).unwrap_or(0);
+        Self { names, input: Input::default(), selected }
+    }
+
+    /// The names that have the letters typed, the best match first; all names where nothing is typed.
+    pub fn matches(&self) -> Vec<&'static str> {
+        let found = best_matches(self.input.value(), &self.names, |name| [*name, ""]);
+        found.into_iter().map(|n| self.names[n]).collect()
+    }
+
+    /// Moves the selection, or takes a letter.
+    pub fn type_key(&mut self, key: &KeyEvent) {
+        let last = self.matches().len().saturating_sub(1);
+        match key.code {
+            KeyCode::Up => self.selected = self.selected.saturating_sub(1),
+            KeyCode::Down => self.selected = (self.selected + 1).min(last),
+            KeyCode::PageUp => self.selected = self.selected.saturating_sub(10),
+            KeyCode::PageDown => self.selected = (self.selected + 10).min(last),
+            KeyCode::Home => self.selected = 0,
+            KeyCode::End => self.selected = last,
+            _ => {
+                if self.input.handle_event(&Event::Key(*key)).is_some_and(|change| change.value) {
+                    self.selected = 0;
+                }
+            }
+        }
+    }
+
+    /// The selected name; `None` where no name has the letters typed.
+    pub fn name(&self) -> Option<&'static str> {
+        self.matches().get(self.selected).copied()
+    }
+}

@@ -1,0 +1,142 @@
+//! The values of the plan, in groups with headings, and the lists from which a value is chosen.
+
+use ratatui::Frame;
+use ratatui::layout::{Position, Rect};
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, Borders, Clear, List, ListState};
+
+use crate::plan::fields::Field;
+use crate::ropes::catalogue;
+use crate::tui::app::{App, Areas, ClickTarget};
+use crate::tui::editor::Order;
+use crate::tui::keymap::Action;
+use crate::tui::name_list::NameList;
+
+/// Most names of a list shown at once.
+const MOST_NAMES: u16 = 12;
+
+/// Draws the values.
+pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
+    let editor = &app.editor;
+    let title = if editor.unsaved() { " Plan, not saved, * changed " } else { " Plan " };
+    let block = Block::new()
+        .borders(Borders::TOP)
+        .border_style(app.theme.quiet())
+        .title(Span::styled(title, app.theme.title()));
+    let width = editor.fields.iter().map(|field| field.label.chars().count()).max().unwrap_or(0);
+    let width = width.min(usize::from(area.width) / 2);
+    // A line for each value, and one for each heading: no index.
+    let mut lines: Vec<(Option<usize>, Line<'_>)> = Vec::new();
+    for (n, field) in editor.fields.iter().enumerate() {
+        if n == 0 || editor.fields[n - 1].group != field.group {
+            lines.push((None, Line::styled(field.group.as_str(), app.theme.title())));
+        }
+        lines.push((Some(n), value_line(app, n, field, width)));
+    }
+    let selected = lines.iter().position(|(n, _)| *n == Some(editor.selected));
+    let inside = block.inner(area);
+    let mut state = ListState::default().with_selected(selected);
+    if editor.selected == 0 {
+        // Its heading, too.
+        state = state.with_offset(0);
+    }
+    let (numbers, rows): (Vec<Option<usize>>, Vec<Line<'_>>) = lines.into_iter().unzip();
+    frame.render_stateful_widget(List::new(rows).block(block).scroll_padding(1), area, &mut state);
+    let shown = numbers.into_iter().skip(state.offset()).take(usize::from(inside.height));
+    for (y, field) in (inside.y..).zip(shown) {
+        let row = Rect { y, height: 1, ..inside };
+        let Some(field) = field else { continue };
+        areas.push((row, ClickTarget::Field(field)));
+        if field != editor.selected {
+            continue;
+        }
+        if let Some(input) = &editor.input {
+            let x = inside.x + (width + 5 + input.visual_cursor()) as u16;
+            frame.set_cursor_position(Position::new(x.min(inside.right().saturating_sub(1)), y));
+        }
+        if let Some(order) = &editor.order {
+            draw_order(app, order, frame, row);
+        }
+        if let Some(names) = &editor.names {
+            draw_names(app, names, frame, row);
+        }
+    }
+}
+
+fn value_line<'l>(app: &'l App, n: usize, field: &'l Field, width: usize) -> Line<'l> {
+    let editor = &app.editor;
+    let selected = n == editor.selected;
+    let label: String = match field.label.chars().count() > width {
+        true => field.label.chars().take(width.saturating_sub(1)).chain(['…']).collect(),
+        false => field.label.to_owned(),
+    };
+    let value = match &editor.input {
+        Some(input) if selected => input.value().to_owned(),
+        _ if field.value.is_empty() => field.unset(),
+        _ => field.value.clone(),
+    };
+    let mark = if editor.is_changed(field) { "*" } else { " " };
+    let style = if selected { app.theme.selected() } else { app.theme.base() };
+    Line::from(vec![
+        Span::styled(mark, app.theme.limit()),
+        Span::styled(format!(" {label:width$} "), app.theme.quiet()),
+        Span::styled(format!(" {value} "), style),
+    ])
+}
+
+/// An area of `height` lines below `value`, or above where there is no room below.
+fn beside(value: Rect, height: u16, frame: &Frame) -> Rect {
+    let height = height.min(frame.area().height);
+    let below = value.y + 1 + height <= frame.area().bottom();
+    let y = if below { value.y + 1 } else { value.y.saturating_sub(height) };
+    Rect { y, height, ..value }.intersection(frame.area())
+}
+
+/// Draws the blast rows in order of firing.
+fn draw_order(app: &App, order: &Order, frame: &mut Frame, value: Rect) {
+    let area = beside(value, order.names.len() as u16 + 2, frame);
+    let rows = order.names.iter().enumerate().map(|(n, name)| {
+        let style = if n == order.selected { app.theme.selected() } else { app.theme.base() };
+        Line::styled(format!(" {}. row {name} ", n + 1), style)
+    });
+    let [left, right] = [Action::Left, Action::Right].map(|action| app.keymap.hint(action));
+    let title = format!(" Firing order: {left} earlier, {right} later ");
+    let block = Block::bordered().title(title).style(app.theme.base());
+    let mut state = ListState::default().with_selected(Some(order.selected));
+    frame.render_widget(Clear, area);
+    frame.render_stateful_widget(List::new(rows).block(block), area, &mut state);
+}
+
+/// Draws the names that have the letters typed, with what decides between them.
+fn draw_names(app: &App, names: &NameList, frame: &mut Frame, value: Rect) {
+    let matches = names.matches();
+    let wide = frame.area().width.min(76);
+    let area = beside(Rect { width: wide, ..value }, (matches.len() as u16).clamp(1, MOST_NAMES) + 2, frame);
+    let rows = matches.iter().enumerate().map(|(n, name)| {
+        let style = if n == names.selected { app.theme.selected() } else { app.theme.base() };
+        Line::from(vec![
+            Span::styled(format!(" {name:34.34} "), style),
+            Span::styled(figures(name), app.theme.quiet()),
+        ])
+    });
+    let title = match names.input.value() {
+        "" => " type letters, Up Down, Enter takes it ".to_owned(),
+        typed => format!(" {typed} "),
+    };
+    let block = Block::bordered().title(title).style(app.theme.base());
+    let mut state = ListState::default().with_selected(Some(names.selected));
+    frame.render_widget(Clear, area);
+    frame.render_stateful_widget(List::new(rows).block(block), area, &mut state);
+}
+
+/// Diameter, breaking force and mass of a rope; what a termination holds.
+fn figures(name: &str) -> String {
+    if let Some(rope) = catalogue().ropes.iter().find(|rope| rope.name == name) {
+        return format!(
+            "{:>5} mm {:>7.1} kN {:>6.3} kg/m",
+            rope.diameter_mm, rope.breaking_force_kn, rope.mass_kg_per_m
+        );
+    }
+    let termination = catalogue().terminations.iter().find(|termination| termination.name == name);
+    termination.map_or_else(String::new, |termination| format!("holds {} %", termination.efficiency_percent))
+}
