@@ -9,6 +9,7 @@ use super::app::{App, ClickTarget, Request};
 use super::editor::EditOutcome;
 use super::keymap::{Action, BINDINGS};
 use super::options::OptionState;
+use super::paste::paste;
 use super::player::Player;
 use super::prompt::{Prompt, Purpose, Typed};
 use super::screen::Screen;
@@ -107,6 +108,23 @@ impl App {
             self.prompt = Some(prompt);
         }
         Request::None
+    }
+
+    /// Puts a pasted text into the line being typed, if there is one.
+    pub fn paste(&mut self, text: &str) {
+        self.notice = if let Some(prompt) = &mut self.prompt {
+            prompt.selected = 0;
+            let note = paste(&mut prompt.input, text);
+            if prompt.purpose == Purpose::Find {
+                let typed = prompt.input.value().to_owned();
+                self.find(&typed, false);
+            }
+            note
+        } else if self.editor.typing() {
+            self.editor.paste(text)
+        } else {
+            Some("nothing was pasted: no value is being typed".to_owned())
+        };
     }
 
     /// Finds a text: lists only the options or lines that contain it, or selects the value of the plan that does.

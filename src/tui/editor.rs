@@ -6,6 +6,7 @@ use tui_input::backend::crossterm::EventHandler;
 
 use super::keymap::Action;
 use super::name_list::NameList;
+use super::paste::paste;
 use crate::plan::fields::{self, Field, Path};
 use crate::plan::keys::{Kind, delay, plan};
 use crate::plan::{Layout, Plan};
@@ -167,6 +168,17 @@ impl Editor {
             self.problem = self.candidate().err();
         }
         EditOutcome::None
+    }
+
+    /// Puts a pasted text into the value being typed, or among the letters of a name; returns a note where not all was taken.
+    pub fn paste(&mut self, text: &str) -> Option<String> {
+        if let Some(names) = &mut self.names {
+            names.selected = 0;
+            return paste(&mut names.input, text);
+        }
+        let note = paste(self.input.as_mut()?, text);
+        self.problem = self.candidate().err();
+        note
     }
 
     /// Does an action while blast rows are put in order.

@@ -12,6 +12,7 @@ mod export;
 pub mod keymap;
 pub mod name_list;
 pub mod options;
+mod paste;
 mod plan_file;
 pub mod player;
 pub mod prompt;
@@ -31,8 +32,8 @@ use std::time::{Duration, Instant};
 use crossterm::clipboard::CopyToClipboard;
 use crossterm::cursor::Show;
 use crossterm::event::{
-    self, DisableMouseCapture, EnableMouseCapture, Event, KeyCode, KeyEvent, KeyEventKind, MouseButton,
-    MouseEventKind,
+    self, DisableBracketedPaste, DisableMouseCapture, EnableBracketedPaste, EnableMouseCapture, Event,
+    KeyCode, KeyEvent, KeyEventKind, MouseButton, MouseEventKind,
 };
 use crossterm::terminal::{
     Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
@@ -255,6 +256,10 @@ pub fn update(app: &mut App, event: &Event) -> Request {
         Event::Key(key) if app.editor.typing() => app.type_key(&ctrl_c_as_esc(key)),
         Event::Key(KeyEvent { code: KeyCode::Esc, .. }) => app.escape(),
         Event::Key(key) => app.keymap.action(key).map_or(Request::None, |action| app.act(action)),
+        Event::Paste(text) => {
+            app.paste(text);
+            Request::None
+        }
         Event::Mouse(_) if app.prompt.is_some() || app.editor.typing() => Request::None,
         Event::Mouse(mouse) => match mouse.kind {
             MouseEventKind::Down(MouseButton::Left) => app.click(Position::new(mouse.column, mouse.row)),
@@ -318,7 +323,8 @@ fn enter() -> io::Result<()> {
     let entered = out
         .execute(EnterAlternateScreen)
         .and_then(|out| out.execute(Clear(ClearType::All)))
-        .and_then(|out| out.execute(EnableMouseCapture));
+        .and_then(|out| out.execute(EnableMouseCapture))
+        .and_then(|out| out.execute(EnableBracketedPaste));
     entered.map(|_| ()).inspect_err(|_| leave())
 }
 
@@ -326,7 +332,8 @@ fn enter() -> io::Result<()> {
 fn leave() {
     let mut out = io::stdout();
     let _ = out
-        .queue(DisableMouseCapture)
+        .queue(DisableBracketedPaste)
+        .and_then(|out| out.queue(DisableMouseCapture))
         .and_then(|out| out.queue(LeaveAlternateScreen))
         .and_then(|out| out.queue(Show))
         .map(Write::flush);

@@ -13,6 +13,7 @@ use tui_input::backend::crossterm::EventHandler;
 
 use super::config::Config;
 use super::keymap::{Action, Keymap, ctrl_c_as_esc};
+use super::paste::paste;
 use super::theme::Theme;
 use crate::plan::Plan;
 use crate::plan::starter::{self, QUESTIONS, ROPE};
@@ -122,6 +123,12 @@ impl Start {
                 },
                 None => self.key(&ctrl_c_as_esc(key), keymap),
             },
+            Event::Paste(text) => {
+                if let Some(questions) = &mut self.questions {
+                    questions.paste(text);
+                }
+                Next::Wait
+            }
             Event::Mouse(mouse) if self.questions.is_none() => match mouse.kind {
                 MouseEventKind::Down(MouseButton::Left) => {
                     let at = Position::new(mouse.column, mouse.row);
@@ -252,6 +259,11 @@ impl Questions {
             }
         }
         Some(Next::Wait)
+    }
+
+    fn paste(&mut self, text: &str) {
+        let note = paste(&mut self.answers[self.selected], text);
+        self.problem = note.or(self.plan().err());
     }
 
     /// The text of the plan, or the first mistake in the answers.

@@ -91,11 +91,22 @@ impl Watched {
         // What it wrote last may still be on its way.
         let restored = || {
             let parser = self.screen.lock().expect("the parser lives");
-            !parser.screen().alternate_screen() && !parser.screen().hide_cursor()
+            let screen = parser.screen();
+            let mouse = screen.mouse_protocol_mode() != vt100::MouseProtocolMode::None;
+            !screen.alternate_screen() && !screen.hide_cursor() && !mouse && !screen.bracketed_paste()
         };
         while !restored() {
-            assert!(start.elapsed() < PATIENCE, "the alternate screen is left and the cursor is back");
+            assert!(
+                start.elapsed() < PATIENCE,
+                "the alternate screen, the mouse and pasting are left, and the cursor is back"
+            );
             thread::sleep(Duration::from_millis(10));
+        }
+        #[cfg(unix)]
+        {
+            // Lines and echo, the second and fourth flag of a terminal, are on again.
+            let flags = self.master.get_termios().expect("flags").local_flags.bits();
+            assert_eq!(flags & 0b1010, 0b1010, "raw mode is left");
         }
         status.exit_code()
     }
@@ -210,6 +221,25 @@ fn without_a_plan_there_is_a_choice() {
     let piped = std::process::Command::new(PROGRAM).output().expect("it runs");
     assert_eq!(piped.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&piped.stdout).contains("Usage"));
+}
+
+/// Pasted text is a value or nothing: never commands.
+#[test]
+fn pasted_text_is_no_command() {
+    let mut watched = Watched::open("paper-5-tire.toml", &["--accuracy", "draft"], 120, 36);
+    watched.until(" of 1 pass");
+    watched.press("\x1b[200~dqq\x1b[201~");
+    watched.until("nothing was pasted");
+    watched.press("1/mass\r\r\x15");
+    watched.press(&format!("\x1b[200~300\n{}\x1b[201~", "q".repeat(1 << 20)));
+    watched.until("the first 3 characters");
+    watched.press("\r");
+    watched.until("Plan, not saved");
+    watched.until("300");
+    watched.press("q");
+    watched.until("not saved");
+    watched.press("q");
+    assert_eq!(watched.ends(), 0);
 }
 
 /// A plan is changed by keys, undone, saved with its comments, and read again when another program changes it.
