@@ -50,6 +50,9 @@ pub struct LookArguments {
     /// ASCII characters only, for poor fonts
     #[arg(long, global = true)]
     pub ascii: bool,
+    /// Words and numbers only, for screen readers and old consoles: no charts, no sparklines, ASCII; a plan is printed as `check` does
+    #[arg(long, global = true)]
+    pub plain: bool,
     /// Colour; `auto` obeys NO_COLOR
     #[arg(long, value_enum, default_value = "auto", global = true)]
     pub color: ColorArg,
@@ -58,7 +61,8 @@ pub struct LookArguments {
 impl LookArguments {
     /// Style of text on a stream that is or is not a terminal.
     pub fn style(&self, terminal: bool) -> Style {
-        Style { ascii: self.ascii || terminal && !shows_unicode(), color: self.colored(terminal) }
+        let ascii = self.ascii || self.plain || terminal && !shows_unicode();
+        Style { ascii, color: self.colored(terminal) && !self.plain, plain: self.plain }
     }
 
     /// Whether text is coloured on a stream that is or is not a terminal.

@@ -44,6 +44,7 @@ use self::arguments::{Compute, LookArguments};
 /// Opens a plan in the terminal: `shelter plans/amur-three-rows.toml`. Scripts use `shelter check`.
 #[derive(Parser)]
 #[command(name = "shelter", version, args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+#[command(help_template = grouped_help())]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
@@ -94,6 +95,33 @@ enum Command {
     Config,
 }
 
+/// The commands by what one wants.
+const GROUPS: [(&str, &[&str]); 5] = [
+    ("Decide", &["check", "search", "risk", "report"]),
+    ("Plan", &["init", "ropes", "size"]),
+    ("Study", &["sweep", "orders", "merge"]),
+    ("Learn", &["effects", "accuracy", "trace"]),
+    ("Set up", &["config", "schema", "completions", "man", "help"]),
+];
+
+/// The help with its commands in groups.
+fn grouped_help() -> String {
+    let all = Command::augment_subcommands(clap::Command::new("shelter"));
+    let line = |name: &&str| {
+        let about = all.find_subcommand(name).and_then(clap::Command::get_about);
+        let about = about.map_or_else(|| "This help, or that of a command".to_owned(), ToString::to_string);
+        format!("  {name:12} {about}\n")
+    };
+    let groups = GROUPS.iter().map(|(heading, names)| {
+        let lines: String = names.iter().map(line).collect();
+        format!("{heading}:\n{lines}\n")
+    });
+    let groups: String = groups.collect();
+    format!(
+        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{groups}Arguments:\n{{positionals}}\n\nOptions:\n{{options}}"
+    )
+}
+
 /// The help, where a command is missing.
 fn print_help() -> io::Result<()> {
     Cli::command().print_help()
@@ -141,4 +169,20 @@ pub fn run() -> ExitCode {
         (None, None) => open_terminal::start(&cli.compute, &cli.look),
     };
     status::ended(done)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_command_stands_in_one_group() {
+        let mut grouped: Vec<&str> = GROUPS.iter().flat_map(|(_, names)| names.iter().copied()).collect();
+        let command = Cli::command();
+        let mut all: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+        all.push("help");
+        grouped.sort_unstable();
+        all.sort_unstable();
+        assert_eq!(grouped, all);
+    }
 }

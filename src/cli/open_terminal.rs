@@ -14,12 +14,12 @@ use crate::study::Case;
 use crate::study::sampling::Sampling;
 use crate::tui::config::{self, Config};
 use crate::tui::start::{Opened, Start};
-use crate::tui::{self, app::App};
+use crate::tui::{self, app::App, unsaved};
 
-/// Opens a plan in the terminal; where output is no terminal, says the same as `check`.
+/// Opens a plan in the terminal; where output is no terminal or only words are wanted, says the same as `check`.
 pub fn plan(plan: &Path, compute: &Compute, look: &LookArguments) -> io::Result<Status> {
     let Some(case) = load_plans::open(plan, look) else { return Ok(Status::Wrong) };
-    if !io::stdout().is_terminal() {
+    if look.plain || !io::stdout().is_terminal() {
         let cases = [case];
         return match check_plans(&cases, Some(Sampling::OF_VERDICT), compute, false) {
             Ok(checked) => print_checks(&cases, &checked, false, FormatArg::Text, look),
@@ -46,7 +46,8 @@ pub fn start(compute: &Compute, look: &LookArguments) -> io::Result<Status> {
     }
     needs_keyboard(compute)?;
     let config = config()?;
-    let start = Start::new(Path::new("."), config::recent());
+    let unsaved = unsaved::kept(None);
+    let start = Start::new(Path::new("."), config::recent(), unsaved);
     let (name, text, kept) = match tui::choose(start, &config, screen(&config, look))? {
         Err(exit) => return Ok(status(&exit)),
         Ok(Opened::File(path)) => return self::plan(&path, compute, look),

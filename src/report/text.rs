@@ -16,6 +16,8 @@ pub struct Style {
     pub ascii: bool,
     /// With colours; the words say the same without.
     pub color: bool,
+    /// Without charts and sparklines.
+    pub plain: bool,
 }
 
 /// Bars of a series in a table.
@@ -37,8 +39,8 @@ pub fn text(report: &Report, style: Style) -> String {
         let lines = match block {
             Block::Text(lines) => lines.clone(),
             Block::Table(table) => table_lines(table, style),
-            Block::Chart(chart) => chart_lines(chart),
-            Block::Picture(_) => continue,
+            Block::Chart(chart) if !style.plain => chart_lines(chart),
+            Block::Chart(_) | Block::Picture(_) => continue,
         };
         match paragraphs.last_mut() {
             // Bars above each other can be compared.
@@ -90,9 +92,16 @@ impl Label {
     }
 }
 
+/// Whether a column holds sparklines.
+fn is_drawn(table: &Table, column: usize) -> bool {
+    table.rows.iter().any(|row| matches!(row.cells[column], Cell::Sparkline { .. }))
+}
+
 /// Heading and rows of the columns that readers of text see; no line where they see no column.
 fn table_lines(table: &Table, style: Style) -> Vec<String> {
-    let seen: Vec<usize> = (0..table.columns.len()).filter(|&n| table.columns[n].is_in_text()).collect();
+    let seen: Vec<usize> = (0..table.columns.len())
+        .filter(|&n| table.columns[n].is_in_text() && !(style.plain && is_drawn(table, n)))
+        .collect();
     if seen.is_empty() {
         return Vec::new();
     }
@@ -210,7 +219,7 @@ mod tests {
 
     #[test]
     fn in_ascii_columns_stay_aligned() {
-        let text = text(&report(&["a ± b", "爆破排"]), Style { ascii: true, color: false });
+        let text = text(&report(&["a ± b", "爆破排"]), Style { ascii: true, ..Style::default() });
         assert_eq!(text, "option        n\na +- b  FAIL  7\n???     FAIL  7\n");
     }
 
@@ -223,8 +232,18 @@ mod tests {
     }
 
     #[test]
+    fn plain_text_has_no_drawing() {
+        let columns = [Column::words(&[], "option"), Column::words(&[], "over time")];
+        let series = Cell::Sparkline { series: vec![1.0, 2.0], top: 2.0 };
+        let table = Table::new(&columns, [vec![Cell::Text("a ± b".to_owned()), series]]);
+        let report = Report { blocks: vec![Block::Table(table)], ..Report::default() };
+        let plain = Style { ascii: true, plain: true, ..Style::default() };
+        assert_eq!(text(&report, plain), "option\na +- b\n");
+    }
+
+    #[test]
     fn only_verdicts_are_coloured() {
-        let text = text(&report(&["PASS-3"]), Style { ascii: false, color: true });
+        let text = text(&report(&["PASS-3"]), Style { color: true, ..Style::default() });
         assert_eq!(text, "option        n\nPASS-3  \x1b[1;31mFAIL\x1b[0m  7\n");
     }
 }

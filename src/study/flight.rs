@@ -91,16 +91,16 @@ impl Flight {
         self.outcome.end.at
     }
 
-    /// Whether each cable of the scene pulls at `time` [s] (`n_cables`).
-    pub fn taut(&self, scene: &Scene, time: f64) -> Vec<bool> {
+    /// Elastic force of each cable of the scene at `time` [N] (`n_cables`); 0 where it is slack or broken.
+    pub fn forces(&self, scene: &Scene, time: f64) -> Vec<f64> {
         let frame = self.at(time);
         let displacement = |tire: usize| Vector3::from(frame[tire].map(f64::from));
-        let pulls = |cable: &Cable| cable.force(cable.between(cable.ends.map(displacement)).norm()) > 0.0;
-        let mut taut: Vec<bool> = scene.cables.iter().map(pulls).collect();
+        let force = |cable: &Cable| cable.force(cable.between(cable.ends.map(displacement)).norm()).max(0.0);
+        let mut forces: Vec<f64> = scene.cables.iter().map(force).collect();
         for broken in self.outcome.broken.iter().filter(|broken| broken.at <= time) {
-            taut[broken.cable] = false;
+            forces[broken.cable] = 0.0;
         }
-        taut
+        forces
     }
 
     /// Number of frames.

@@ -147,6 +147,10 @@ impl App {
         let seek = |player: &mut Player, by: f64| player.seek(player.time + by, end);
         match action {
             Action::Play => self.player.toggle(end),
+            Action::NextEvent | Action::PreviousEvent => {
+                let to = self.event_beside(self.player.time, action == Action::NextEvent);
+                self.player.seek(to, end);
+            }
             Action::Faster => self.player.faster(),
             Action::Slower => self.player.slower(),
             Action::Turn => self.player.along_rows = !self.player.along_rows,
@@ -162,6 +166,18 @@ impl App {
             other => return self.act_anywhere(other),
         }
         Request::None
+    }
+
+    /// The nearest firing or peak of the flight after `time` [s], or before; the end or the beginning where there is none.
+    fn event_beside(&self, time: f64, after: bool) -> f64 {
+        let Some(flight) = self.studies.flight(self.selected) else { return time };
+        let firings = self.case.shots[self.selected].times();
+        let peaks = [flight.outcome.height.at, flight.outcome.force.at];
+        let events = || firings.iter().chain(&peaks).copied();
+        match after {
+            true => events().filter(|&at| at > time + 1e-9).fold(self.flight_end(), f64::min),
+            false => events().filter(|&at| at < time - 1e-9).fold(0.0, f64::max),
+        }
     }
 
     fn act_on_accuracy(&mut self, action: Action) -> Request {
@@ -365,6 +381,7 @@ impl App {
                 return self.edited(edit);
             }
             Action::Save => return Request::Save,
+            Action::SaveAs => return Request::NamePlan,
             Action::Find => self.prompt = Some(Prompt::new(Purpose::Find, "")),
             Action::Palette => self.prompt = Some(Prompt::new(Purpose::Palette, "")),
             Action::Export => return self.name_export(),

@@ -9,7 +9,7 @@ use std::time::Duration;
 use ratatui::layout::Rect;
 
 use super::config::Config;
-use super::editor::Editor;
+use super::editor::{EditOutcome, Editor};
 use super::keymap::{Action, Keymap};
 use super::options::{Listing, OptionState, SortBy};
 use super::player::Player;
@@ -38,6 +38,8 @@ pub enum Request {
     Cancel(StudyKind),
     /// Write the plan.
     Save,
+    /// Ask for a new file to write the plan to.
+    NamePlan,
     /// Write the plan to this new file.
     SaveAs(PathBuf),
     /// Ask for a file to export to; offer an unused name of this stem and ending.
@@ -238,6 +240,18 @@ impl App {
     pub(super) fn take_edited(&mut self, plan: Plan) -> Request {
         let source = PlanSource { path: self.case.source.path.clone(), text: self.editor.text.clone() };
         self.replace_plan(Case { source, ..Case::new(plan) })
+    }
+
+    /// Takes back edits that the last session could not save.
+    pub fn take_unsaved(&mut self, text: String) -> Request {
+        let edit = self.editor.take(Ok(text));
+        let undo = self.keymap.hint(Action::Undo);
+        if let EditOutcome::Changed(plan) = edit {
+            let request = self.take_edited(*plan);
+            self.notice = Some(format!("the edits that were not saved are back; {undo} takes them away"));
+            return request;
+        }
+        Request::None
     }
 
     /// Takes the changed file of the plan: another plan, or the mistake in it.

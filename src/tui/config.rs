@@ -82,9 +82,14 @@ pub fn default_text() -> String {
 /// Number of plans remembered.
 const MOST_RECENT: usize = 10;
 
-fn recent_path() -> Option<PathBuf> {
+/// Where the program keeps what it remembers between sessions.
+pub fn state_folder() -> Option<PathBuf> {
     let folders = choose_base_strategy().ok()?;
-    Some(folders.state_dir().unwrap_or_else(|| folders.data_dir()).join("shelter/recent"))
+    Some(folders.state_dir().unwrap_or_else(|| folders.data_dir()).join("shelter"))
+}
+
+fn recent_path() -> Option<PathBuf> {
+    Some(state_folder()?.join("recent"))
 }
 
 /// Plans opened lately whose files still exist, newest first.

@@ -48,6 +48,10 @@ pub enum Action {
     Why,
     /// Play or pause.
     Play,
+    /// Show the next firing or peak.
+    NextEvent,
+    /// Show the firing or peak before.
+    PreviousEvent,
     /// Play faster.
     Faster,
     /// Play slower.
@@ -66,6 +70,8 @@ pub enum Action {
     Redo,
     /// Write the plan.
     Save,
+    /// Saves the plan under another name.
+    SaveAs,
     /// Find.
     Find,
     /// Choose a command by name.
@@ -144,6 +150,8 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Play, "play", &["space"], "play", "play or pause", FLIGHT),
     bind(Action::Faster, "faster", &[">", "."], "faster", "play faster", FLIGHT),
     bind(Action::Slower, "slower", &["<", ","], "slower", "play slower", FLIGHT),
+    bind(Action::NextEvent, "next", &["n", "]"], "next", "to the next firing or peak", FLIGHT),
+    bind(Action::PreviousEvent, "previous", &["p", "["], "", "to the firing or peak before", FLIGHT),
     bind(Action::Turn, "turn", &["v"], "turn", "side view along the rows, or across them", FLIGHT),
     bind(
         Action::Open,
@@ -175,6 +183,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Undo, "undo", &["u"], "undo", "take the last change of the plan back", ALL),
     bind(Action::Redo, "redo", &["U", "ctrl-r"], "", "make it again", ALL),
     bind(Action::Save, "save", &["s", "ctrl-s"], "save", "save the plan; comments and formatting stay", ALL),
+    bind(Action::SaveAs, "save-as", &["W"], "", "save the plan under another name", ALL),
     bind(Action::Sort, "sort", &["o"], "sort", "sort by the next column", COMPARE),
     bind(Action::Reverse, "reverse", &["O"], "", "turn the sorting round", COMPARE),
     bind(
@@ -229,9 +238,11 @@ impl Default for Keymap {
 }
 
 impl Keymap {
-    /// The default keys, with other keys for the actions named; or the mistake in them.
+    /// The default keys, with other keys for the actions named; or the mistake in them. A key named for an action leaves another that
+    /// has more keys by default.
     pub fn with(changes: impl IntoIterator<Item = (String, Vec<String>)>) -> Result<Self, String> {
         let mut labels = Self::default().labels;
+        let mut named = Vec::new();
         for (name, keys) in changes {
             let Some(index) = BINDINGS.iter().position(|binding| binding.name == name) else {
                 let near = nearest(&name, BINDINGS.iter().map(|binding| binding.name));
@@ -239,6 +250,13 @@ impl Keymap {
                 return Err(format!("there is no command '{name}'{near}"));
             };
             labels[index] = keys;
+            named.push(index);
+        }
+        let taken: Vec<String> = named.iter().flat_map(|&index| labels[index].clone()).collect();
+        for (_, keys) in labels.iter_mut().enumerate().filter(|(index, _)| !named.contains(index)) {
+            if keys.iter().any(|key| !taken.contains(key)) {
+                keys.retain(|key| !taken.contains(key));
+            }
         }
         Self::new(labels)
     }

@@ -20,6 +20,7 @@ pub mod screen;
 pub mod start;
 pub mod studies;
 pub mod theme;
+pub mod unsaved;
 pub mod view;
 
 use std::io::{self, Stdout, Write};
@@ -83,45 +84,11 @@ pub fn run(app: App, jobs: Jobs, look: Look, plan: Option<&Path>) -> io::Result<
     restore_on_panic();
     let mut display = Display::open()?;
     let mut session = Session { app, jobs, file: plan.map(PlanFile::new) };
+    session.take_unsaved();
     session.serve(Request::Check);
-    let (mut dirty, mut drawn) = (true, Instant::now());
-    loop {
-        dirty |= session.listen();
-        if session.app.playing() {
-            session.app.advance(drawn.elapsed());
-            dirty = true;
-        }
-        drawn = Instant::now();
-        if dirty {
-            let mut areas = Areas::new();
-            display.draw(look, |frame| areas = view::draw(&session.app, frame))?;
-            session.app.note_drawn(areas);
-            dirty = false;
-        }
-        if signals.end.load(Ordering::Relaxed) {
-            return Ok(Exit::Signal);
-        }
-        let busy = session.app.busy() || session.app.playing();
-        let request = if signals.stop.swap(false, Ordering::Relaxed) {
-            Request::Suspend
-        } else if event::poll(if busy { FRAME } else { IDLE })? {
-            dirty = true;
-            match update(&mut session.app, &event::read()?) {
-                Request::None => session.app.request_flight(),
-                request => request,
-            }
-        } else {
-            session.app.request_flight()
-        };
-        match request {
-            Request::Quit => return Ok(Exit::Quit),
-            Request::Suspend => {
-                display.suspend()?;
-                dirty = true;
-            }
-            other => session.serve(other),
-        }
-    }
+    let exit = session.serve_events(&mut display, &signals, look);
+    session.keep_or_drop_edits(matches!(exit, Ok(Exit::Quit)));
+    exit
 }
 
 /// The app, the jobs that compute for it, and the file of its plan.
@@ -132,6 +99,71 @@ struct Session {
 }
 
 impl Session {
+    /// Draws and listens until the user leaves.
+    fn serve_events(&mut self, display: &mut Display, signals: &Signals, look: Look) -> io::Result<Exit> {
+        let (mut dirty, mut drawn) = (true, Instant::now());
+        loop {
+            dirty |= self.listen();
+            if self.app.playing() {
+                self.app.advance(drawn.elapsed());
+                dirty = true;
+            }
+            drawn = Instant::now();
+            if dirty {
+                let mut areas = Areas::new();
+                display.draw(look, |frame| areas = view::draw(&self.app, frame))?;
+                self.app.note_drawn(areas);
+                dirty = false;
+            }
+            if signals.end.load(Ordering::Relaxed) {
+                return Ok(Exit::Signal);
+            }
+            let busy = self.app.busy() || self.app.playing();
+            let request = if signals.stop.swap(false, Ordering::Relaxed) {
+                Request::Suspend
+            } else if event::poll(if busy { FRAME } else { IDLE })? {
+                dirty = true;
+                match update(&mut self.app, &event::read()?) {
+                    Request::None => self.app.request_flight(),
+                    request => request,
+                }
+            } else {
+                self.app.request_flight()
+            };
+            match request {
+                Request::Quit => return Ok(Exit::Quit),
+                Request::Suspend => {
+                    display.suspend()?;
+                    dirty = true;
+                }
+                other => self.serve(other),
+            }
+        }
+    }
+
+    /// Takes back the edits that the last session could not save; they can be undone.
+    fn take_unsaved(&mut self) {
+        // A plan without a file is offered by the start screen.
+        let Some(text) = self.file.as_ref().and_then(|file| unsaved::kept(Some(file.path()))) else { return };
+        let request = self.app.take_unsaved(text);
+        self.serve(request);
+    }
+
+    /// Keeps the edits that are not saved, unless the user gave them up.
+    fn keep_or_drop_edits(&self, given_up: bool) {
+        let plan = self.file.as_ref().map(PlanFile::path);
+        match (self.app.editor.unsaved(), given_up, plan) {
+            (true, false, _) => {
+                if let Err(error) = unsaved::keep(plan, &self.app.editor.text) {
+                    eprintln!("edits that were not saved are lost: {error}");
+                }
+            }
+            (true, true, _) | (false, _, Some(_)) => unsaved::drop(plan),
+            // An example that was only looked at says nothing about a new plan kept before.
+            (false, _, None) => {}
+        }
+    }
+
     /// Takes the news of the jobs and of the plan's file. Returns whether there was any.
     fn listen(&mut self) -> bool {
         let mut heard = false;
@@ -165,6 +197,7 @@ impl Session {
             }
             Request::Cancel(kind) => self.jobs.cancel(kind),
             Request::Save => self.save(),
+            Request::NamePlan => self.name_plan(),
             Request::SaveAs(path) => self.save_as(&path),
             Request::NameExport(stem, ending) => {
                 self.app.ask_for_file(Purpose::Export, &file::unused_path(&stem, ending));
@@ -193,7 +226,10 @@ impl Session {
         let Some(file) = &mut self.file else { return self.name_plan() };
         match file.write(self.app.editor.saved(), &self.app.editor.text) {
             Ok(()) => self.app.note_saved(Ok(self.app.case.source.path.clone())),
-            Err(Refusal::Failed(reason)) => self.app.note_saved(Err(reason)),
+            Err(Refusal::Failed(reason)) => {
+                self.app.note_saved(Err(reason));
+                self.name_plan();
+            }
             Err(Refusal::Changed) => {
                 let reason = "another program has changed the file; give another name";
                 self.app.note_saved(Err(reason.to_owned()));
@@ -214,6 +250,7 @@ impl Session {
     fn save_as(&mut self, path: &Path) {
         let written = file::create(path, &self.app.editor.text).map_err(|error| error.to_string());
         if written.is_ok() {
+            unsaved::drop(self.file.as_ref().map(PlanFile::path));
             self.file = Some(PlanFile::new(path));
             self.app.rename(path);
             config::remember(path);

@@ -19,6 +19,11 @@ impl PlanFile {
         Self { path: path.to_owned(), seen: stamp(path) }
     }
 
+    /// The path of the file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// The plan in the file, or its first mistake, if the file has changed since last seen.
     pub fn changed(&mut self) -> Option<Result<Case, String>> {
         let now = stamp(&self.path);
@@ -44,6 +49,10 @@ impl PlanFile {
     /// Writes `text`, unless the text of the file is no longer `before`.
     pub fn write(&mut self, before: &str, text: &str) -> Result<(), Refusal> {
         let failed = |error: io::Error| Refusal::Failed(error.to_string());
+        if self.path.exists() && !self.path.is_file() {
+            // A pipe without a partner would stop the screen.
+            return Err(Refusal::Failed(format!("{} is no file any more", self.path.display())));
+        }
         match std::fs::read_to_string(&self.path) {
             Ok(now) if now != before => return Err(Refusal::Changed),
             Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(failed(error)),
@@ -66,7 +75,7 @@ pub enum Refusal {
 
 /// Time of the last change, and size [bytes].
 fn stamp(path: &Path) -> Option<(SystemTime, u64)> {
-    let data = path.metadata().ok()?;
+    let data = path.metadata().ok().filter(std::fs::Metadata::is_file)?;
     Some((data.modified().ok()?, data.len()))
 }
 
@@ -75,6 +84,21 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
+
+    /// Reading a pipe that nobody writes to would never end.
+    #[cfg(unix)]
+    #[test]
+    fn a_file_that_becomes_a_pipe_is_gone() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("plan.toml");
+        std::fs::write(&path, "title = 1").expect("a file");
+        let mut file = PlanFile::new(&path);
+        std::fs::remove_file(&path).expect("removed");
+        let made = std::process::Command::new("mkfifo").arg(&path).status().expect("mkfifo runs");
+        assert!(made.success());
+        assert!(matches!(file.changed(), Some(Err(_))));
+        assert!(matches!(file.write("title = 1", "title = 2"), Err(Refusal::Failed(_))));
+    }
 
     /// A clock that is set back between two saves makes the later file look older.
     #[test]

@@ -22,6 +22,8 @@ use crate::ropes::catalogue;
 /// A line of the list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Choice {
+    /// A new plan of the last session that was never saved: its text.
+    Unsaved(String),
     /// A new plan, made from the answers to questions.
     New,
     /// A file.
@@ -89,8 +91,8 @@ pub enum Next {
 }
 
 impl Start {
-    /// Lists a new plan, the `recent` plans, the plans in `folder` and in its folder `plans`, then the examples.
-    pub fn new(folder: &Path, recent: Vec<PathBuf>) -> Self {
+    /// Lists a plan that was never saved, a new plan, the `recent` plans, the plans in `folder` and in its folder `plans`, then the examples.
+    pub fn new(folder: &Path, recent: Vec<PathBuf>, unsaved: Option<String>) -> Self {
         let mut files: Vec<PathBuf> = [folder.to_owned(), folder.join("plans")]
             .iter()
             .filter_map(|folder| std::fs::read_dir(folder).ok())
@@ -103,9 +105,11 @@ impl Start {
         files.sort();
         let examples = EXAMPLES.iter().map(|(name, text)| Choice::Example(name, text));
         let files = recent.into_iter().chain(files).map(Choice::File);
-        let choices: Vec<Choice> = [Choice::New].into_iter().chain(files).chain(examples).collect();
+        let first = unsaved.map(Choice::Unsaved).into_iter().chain([Choice::New]);
+        let choices: Vec<Choice> = first.chain(files).chain(examples).collect();
         // A user who has plans opens one of them more often than makes a new one.
-        let selected = usize::from(matches!(choices.get(1), Some(Choice::File(_))));
+        let is_new_first = matches!(choices.first(), Some(Choice::New));
+        let selected = usize::from(is_new_first && matches!(choices.get(1), Some(Choice::File(_))));
         Self { choices, selected, questions: None, areas: Vec::new() }
     }
 
@@ -170,6 +174,7 @@ impl Start {
         match self.choices.get(self.selected).cloned() {
             Some(Choice::File(path)) => Next::Open(Opened::File(path)),
             Some(Choice::Example(name, text)) => Next::Open(Opened::Example(name, text)),
+            Some(Choice::Unsaved(text)) => Next::Open(Opened::New(text)),
             Some(Choice::New) => {
                 let answers = QUESTIONS.map(|(_, answer)| Input::new(answer.to_owned()));
                 self.questions = Some(Questions { answers, selected: 0, problem: None });
@@ -218,6 +223,7 @@ impl Start {
             let style = if n == self.selected { theme.selected() } else { theme.base() };
             let (name, kind) = match choice {
                 Choice::New => ("A new plan by a few questions".to_owned(), ""),
+                Choice::Unsaved(_) => ("The new plan of the last session, not saved".to_owned(), ""),
                 Choice::File(path) => (path.display().to_string(), ""),
                 Choice::Example(name, _) => ((*name).to_owned(), "  example"),
             };

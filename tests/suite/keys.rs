@@ -111,8 +111,8 @@ fn clicks_do_what_keys_do() {
     click(&mut app, "Orders");
     assert_eq!(app.studies.shown, StudyKind::Orders);
     click(&mut app, "1 Plan");
-    click(&mut app, "friction");
-    click(&mut app, "friction");
+    click(&mut app, "\"9 ms\"");
+    click(&mut app, "\"9 ms\"");
     assert!(app.editor.input.is_some());
     key(&mut app, KeyCode::Esc);
     click(&mut app, "? help");
@@ -181,7 +181,7 @@ fn the_start_screen_uses_the_keys_of_the_configuration() {
     let remapped = "[keys]\ndown = [\"n\"]\nopen = [\"ctrl-o\"]\nquit = [\"ctrl-q\"]";
     let config = Config::parse(remapped).expect("right");
     let folder = tempfile::tempdir().expect("a folder");
-    let mut start = Start::new(folder.path(), Vec::new());
+    let mut start = Start::new(folder.path(), Vec::new(), None);
     let mut press =
         |code, modifiers| start.update(&Event::Key(KeyEvent::new(code, modifiers)), &config.keymap);
     for letter in ['j', 'q'] {

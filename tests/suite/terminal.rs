@@ -17,7 +17,7 @@ struct Watched {
     master: Box<dyn MasterPty + Send>,
     child: Box<dyn Child + Send + Sync>,
     /// Where the user's configuration would be.
-    _home: tempfile::TempDir,
+    home: Arc<tempfile::TempDir>,
 }
 
 /// Generous: machines under load are slow, and nothing here measures speed.
@@ -31,6 +31,17 @@ impl Watched {
     }
 
     fn start(arguments: &[&str], folder: &Path, columns: u16, rows: u16) -> Self {
+        let home = Arc::new(tempfile::tempdir().expect("a folder"));
+        Self::start_at_home(arguments, folder, columns, rows, home)
+    }
+
+    fn start_at_home(
+        arguments: &[&str],
+        folder: &Path,
+        columns: u16,
+        rows: u16,
+        home: Arc<tempfile::TempDir>,
+    ) -> Self {
         let size = PtySize { rows, cols: columns, pixel_width: 0, pixel_height: 0 };
         let pair = native_pty_system().openpty(size).expect("a pty");
         let mut command = CommandBuilder::new(PROGRAM);
@@ -38,7 +49,6 @@ impl Watched {
         command.cwd(folder);
         command.env("TERM", "xterm-256color");
         command.env("LC_ALL", "C.UTF-8");
-        let home = tempfile::tempdir().expect("a folder");
         for place in ["XDG_CONFIG_HOME", "XDG_STATE_HOME", "HOME"] {
             command.env(place, home.path());
         }
@@ -53,7 +63,7 @@ impl Watched {
             }
         });
         let keyboard = pair.master.take_writer().expect("a writer");
-        Self { screen, keyboard, master: pair.master, child, _home: home }
+        Self { screen, keyboard, master: pair.master, child, home }
     }
 
     fn contents(&self) -> String {
@@ -221,6 +231,44 @@ fn without_a_plan_there_is_a_choice() {
     let piped = std::process::Command::new(PROGRAM).output().expect("it runs");
     assert_eq!(piped.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&piped.stdout).contains("Usage"));
+}
+
+/// Edits that a signal left unsaved are back at the next start, once.
+#[test]
+fn unsaved_edits_survive_a_signal() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("plan.toml");
+    std::fs::write(&file, include_str!("../../plans/paper-5-tire.toml")).expect("written");
+    let arguments = [file.to_str().expect("UTF-8"), "--accuracy", "draft"];
+    let mut home = Arc::new(tempfile::tempdir().expect("a folder"));
+    let opened = |home: &Arc<tempfile::TempDir>| {
+        let watched = Watched::start_at_home(&arguments, folder.path(), 120, 36, Arc::clone(home));
+        watched.until(" of 1 pass");
+        watched
+    };
+    let edit = |watched: &mut Watched| {
+        watched.press("1/friction\r\r\x150.61\r");
+        watched.until("*not saved*");
+    };
+    for signal in ["TERM", "HUP"] {
+        let mut watched = opened(&home);
+        edit(&mut watched);
+        watched.signal(signal);
+        assert_eq!(watched.ends(), 130);
+        let mut watched = opened(&home);
+        watched.until("the edits that were not saved are back");
+        watched.until("*not saved*");
+        watched.press("1");
+        watched.until("0.61");
+        // Given up, they stay away.
+        watched.press("qq");
+        assert_eq!(watched.ends(), 0);
+        let mut watched = opened(&home);
+        assert!(!watched.contents().contains("not saved"), "{}", watched.contents());
+        watched.press("q");
+        home = Arc::clone(&watched.home);
+        assert_eq!(watched.ends(), 0);
+    }
 }
 
 /// Pasted text is a value or nothing: never commands.

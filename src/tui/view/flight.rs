@@ -6,6 +6,7 @@
 //! flight height, m              │ cable force, kN          with a cursor at the time shown
 //! ```
 
+use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_4;
 
 use nalgebra::Vector2;
@@ -44,11 +45,17 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         };
         return frame.render_widget(Paragraph::new(message).wrap(Wrap { trim: true }), area);
     };
-    let [views, bar, below] =
-        Layout::vertical([Constraint::Fill(3), Constraint::Length(1), Constraint::Fill(2)]).areas(area);
+    let [views, now, bar, below] = Layout::vertical([
+        Constraint::Fill(3),
+        Constraint::Length(1),
+        Constraint::Length(1),
+        Constraint::Fill(2),
+    ])
+    .areas(area);
     let [above, side] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(views);
     draw_above(app, flight, frame, above);
     draw_side(app, flight, frame, side);
+    frame.render_widget(now_line(app, flight), now);
     draw_bar(app, flight, frame, bar, areas);
     let areas_below = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).split(below);
     let charts = app.studies.finished(StudyKind::Flight).into_iter().flat_map(|done| done.report.charts());
@@ -64,14 +71,17 @@ fn titled<'t>(app: &App, title: String) -> Block<'t> {
         .title(Line::styled(format!(" {title} "), app.theme.title()))
 }
 
-/// Draws the shelter from above: a sign per tire by height; of tires that share a cell, the highest. A hole that fires shows the
-/// direction of its launch.
+/// Draws the shelter from above: cables that pull, coloured by their force, and a sign per tire by height; of tires that share a
+/// cell, the highest. A hole that fires shows the direction of its launch; the worst cable and the highest tire of the whole flight
+/// are marked.
 fn draw_above(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
-    let (scene, theme) = (app.case.scene(), app.theme);
+    let (scene, theme, time) = (app.case.scene(), app.theme, app.player.time);
     let name = &app.case.plan.delays[app.selected].name;
     let ground = &app.case.plan.ground;
     let slope = match ground.slope_percent > 0.0 {
-        true => format!(", ground falls {} % {}", units::short(ground.slope_percent), arrow(scene.downhill)),
+        true => {
+            format!(", ground falls {} % {}", units::short(ground.slope_percent), arrow(scene.downhill))
+        }
         false => String::new(),
     };
     let block = titled(app, format!("{name}, from above{slope}"));
@@ -85,37 +95,60 @@ fn draw_above(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
     // A cell of a terminal is about twice as high as wide.
     let width =
         ((right - left) / (columns - 1.0)).max((top - bottom) / (2.0 * (rows - 1.0).max(1.0))).max(1e-9);
-    let mut highest: Vec<Option<(f32, Option<&str>)>> =
-        vec![None; usize::from(inside.width) * usize::from(inside.height)];
-    let time = app.player.time;
+    let forces = flight.forces(scene, time);
+    let position = |tire: usize| (scene.position[tire].x, scene.position[tire].y);
+    let canvas = Canvas::default()
+        .background_color(theme.base().bg.unwrap_or(Color::Reset))
+        .marker(Marker::Braille)
+        .x_bounds([left - 0.5 * width, left + (columns - 0.5) * width])
+        .y_bounds([top - (2.0 * rows - 1.0) * width, top + width])
+        .paint(|context| {
+            let mut stroke = |cable: usize, style: Style| {
+                let [(x1, y1), (x2, y2)] = scene.cables[cable].ends.map(position);
+                context.draw(&Stroke { x1, y1, x2, y2, color: color(style) });
+            };
+            stroke(flight.outcome.force.index, theme.quiet());
+            for (cable, &force) in forces.iter().enumerate().filter(|(_, force)| **force > 0.0) {
+                stroke(cable, cable_style(app, force));
+            }
+        });
+    frame.render_widget(canvas, inside);
     let mut firing = vec![None; scene.mass.len()];
     for fire in app.case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings) {
         if (fire.at..fire.at + FLASH).contains(&time) {
             firing[fire.tire] = Some(arrow(fire.launch.xy()));
         }
     }
+    let mut highest: HashMap<(u16, u16), (f32, Option<&str>)> = HashMap::new();
     for (tire, u) in flight.at(time).iter().enumerate() {
-        let position = scene.position[tire];
-        let x = ((position.x - left) / width).round().min(columns - 1.0) as usize;
-        let y = ((top - position.y) / (2.0 * width)).round().min(rows - 1.0) as usize;
-        let cell = &mut highest[y * usize::from(inside.width) + x];
-        let (height, fires) = cell.unwrap_or((f32::MIN, None));
-        *cell = Some((height.max(u[2]), fires.or(firing[tire])));
+        let (x, y) = position(tire);
+        let x = ((x - left) / width).round().min(columns - 1.0) as u16;
+        let y = ((top - y) / (2.0 * width)).round().min(rows - 1.0) as u16;
+        let cell = highest.entry((inside.x + x, inside.y + y)).or_insert((f32::MIN, None));
+        let is_top = tire == flight.outcome.height.index && u[2] > GROUND;
+        *cell = (cell.0.max(u[2]), firing[tire].or(cell.1).or(is_top.then_some("^")));
     }
-    let lines = highest.chunks(usize::from(inside.width)).map(|cells| {
-        Line::from_iter(cells.iter().map(|cell| match cell {
-            None => Span::raw(" "),
-            Some((height, fires)) => {
-                let (sign, style) = sign(app, *height);
-                let fire = theme.firing().add_modifier(Modifier::REVERSED);
-                match fires {
-                    Some(direction) => Span::styled(*direction, fire),
-                    None => Span::styled(sign, style),
-                }
-            }
-        }))
-    });
-    frame.render_widget(Paragraph::new(lines.collect::<Vec<_>>()), inside);
+    let buffer = frame.buffer_mut();
+    for ((x, y), (height, mark)) in highest {
+        let (sign, style) = sign(app, height);
+        let fire = theme.firing().add_modifier(Modifier::REVERSED);
+        match mark {
+            Some("^") => buffer.set_string(x, y, "^", style.add_modifier(Modifier::REVERSED)),
+            Some(direction) => buffer.set_string(x, y, direction, fire),
+            None => buffer.set_string(x, y, sign, style),
+        };
+    }
+}
+
+/// Style of a cable that pulls, by its share of the limit: over it, over four fifths of it, or less.
+fn cable_style(app: &App, force: f64) -> Style {
+    let share = force / app.case.limits.force;
+    let verdict = match share {
+        _ if share > 1.0 => Verdict::Fail,
+        _ if share > 0.8 => Verdict::Undecided,
+        _ => Verdict::Pass,
+    };
+    app.theme.verdict(verdict)
 }
 
 /// The direction of a vector seen from above, x to the right and y up; a star where it has none.
@@ -152,9 +185,9 @@ fn draw_side(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
     };
     let aloft = |tire: usize| frame_of[tire][2] > GROUND;
     let tires: Vec<(f64, f64)> = (0..scene.mass.len()).map(position).collect();
-    let taut = flight.taut(scene, app.player.time);
+    let forces = flight.forces(scene, app.player.time);
     let seen = if axis == 0 { "across rows" } else { "along rows" };
-    let count = taut.iter().filter(|&&is_taut| is_taut).count();
+    let count = forces.iter().filter(|force| **force > 0.0).count();
     let canvas = Canvas::default()
         .block(titled(app, format!("{seen}: {count} of {} cables taut", scene.cables.len())))
         .background_color(theme.base().bg.unwrap_or(Color::Reset))
@@ -166,10 +199,10 @@ fn draw_side(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
             let (from, to) = (left - margin, right + margin);
             context.draw(&stroke((from, 0.0), (to, 0.0), color(theme.quiet())));
             for wanted in [false, true] {
-                let style = if wanted { theme.firing() } else { theme.quiet() };
-                for (cable, _) in scene.cables.iter().zip(&taut).filter(|(cable, is_taut)| {
-                    **is_taut == wanted && cable.ends.iter().any(|&end| aloft(end))
+                for (cable, &force) in scene.cables.iter().zip(&forces).filter(|(cable, force)| {
+                    (**force > 0.0) == wanted && cable.ends.iter().any(|&end| aloft(end))
                 }) {
+                    let style = if wanted { cable_style(app, force) } else { theme.quiet() };
                     let [a, b] = cable.ends.map(|end| tires[end]);
                     context.draw(&stroke(a, b, color(style)));
                 }
@@ -182,6 +215,30 @@ fn draw_side(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
             context.print(from, limit, Span::styled(label, theme.limit()));
         });
     frame.render_widget(canvas, area);
+}
+
+/// The highest tire and the hardest pulled cable at the time shown, and what the marks mean.
+fn now_line<'l>(app: &App, flight: &Flight) -> Line<'l> {
+    let (scene, limits, time) = (app.case.scene(), &app.case.limits, app.player.time);
+    let greatest = |values: &[f64]| {
+        let most = values.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+        most.filter(|(_, value)| *value > f64::from(GROUND))
+    };
+    let heights: Vec<f64> = flight.at(time).iter().map(|u| f64::from(u[2])).collect();
+    let share = |value: f64, limit: f64| format!("{} of limit", units::percent(value / limit, 0));
+    let tire = greatest(&heights).map_or("no tire in the air".to_owned(), |(tire, height)| {
+        let value = units::value(height, Unit::Metre);
+        format!("tire {} {value} m, {}", scene.tire[tire], share(height, limits.height))
+    });
+    let cable = greatest(&flight.forces(scene, time)).map_or("no cable taut".to_owned(), |(cable, force)| {
+        let value = units::value(force, Unit::Kilonewton);
+        format!("cable {} {value} kN, {}", scene.cable_name(cable), share(force, limits.force))
+    });
+    let marks = " · ^ highest · grey: worst cable";
+    Line::from(vec![
+        Span::styled(format!(" now: {tire} · {cable}"), app.theme.title()),
+        Span::styled(marks, app.theme.quiet()),
+    ])
 }
 
 /// Draws the time shown, as text and on a bar that takes clicks.
