@@ -8,7 +8,7 @@ pub mod app;
 pub mod changes;
 pub mod config;
 pub mod editor;
-mod export;
+pub mod export;
 pub mod keymap;
 pub mod options;
 mod plan_file;
