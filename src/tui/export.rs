@@ -33,7 +33,7 @@ pub fn write(app: &App, path: &Path) -> Result<(), String> {
     file::create(path, &text).map_err(|error| error.to_string())
 }
 
-/// Whether the text of the plan that was computed stands in its file: what is typed, undone or saved since counts as the file has it.
+/// Whether the file of the plan holds the very text that was computed.
 fn is_saved(app: &App) -> bool {
     let source = &app.case.source;
     std::fs::read_to_string(&source.path).is_ok_and(|text| text == source.text)

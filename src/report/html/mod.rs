@@ -68,7 +68,7 @@ pub fn page(page: &Page<'_>) -> String {
                     " · SHA-256 of the plan " (&hash[..SHORT_HASH]) "…"
                 }
                 @if page.unsaved {
-                    p { strong { "Not saved: " } "the plan that was computed differs from the file. Its text stands at the end of this page." }
+                    p { strong { "Not saved: " } "the plan that was computed is not the one in its file. Its text stands at the end of this page." }
                 }
                 @if page.partial { p { strong { "The time was up before all was computed." } } }
                 (fired::head(page, &of_fired))

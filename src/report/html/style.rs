@@ -5,7 +5,7 @@ use crate::verdict::Verdict;
 
 const STYLE: &str = "
 * { box-sizing: border-box }
-body { font: 10pt/1.4 system-ui, sans-serif; color: #111; max-width: 225mm; margin: 0 auto; padding: 5mm }
+body { font: 10pt/1.4 system-ui, sans-serif; color: #111; max-width: 250mm; margin: 0 auto; padding: 5mm }
 h1 { font-size: 18pt; line-height: 1.2; margin: 0 0 1mm }
 h2 { font-size: 12pt; margin: 6mm 0 2mm; border-bottom: 1px solid #999; break-after: avoid }
 p { margin: 2mm 0; orphans: 3; widows: 3 } ul { margin: 2mm 0; padding-left: 6mm }

@@ -166,7 +166,8 @@ fn draw(case: &Case, labels: &Labels, peaks: &[Peak]) -> Result<String, Box<dyn 
         draw_legend(&area, &frame, labels.meaning[usize::from(!written)], peaks)?;
         area.present()?;
     }
-    Ok(text)
+    // A white edge keeps letters readable on cables and tires.
+    Ok(text.replace("<text ", "<text stroke=\"white\" stroke-width=\"4\" paint-order=\"stroke\" "))
 }
 
 /// The direction in which the ground falls.
