@@ -137,6 +137,8 @@ fn draw(case: &Case, labels: &Labels, peaks: &[Peak]) -> Result<String, Box<dyn 
         let nearest = nearest.map(|[a, b]| (a - b).norm()).fold(f64::INFINITY, f64::min);
         let spacing = frame.scale * if nearest.is_finite() { nearest } else { 2.0 };
         let radius = (0.3 * spacing).clamp(1.0, 12.0) as i32;
+        // Marks lie over letters, so that no letter hides a hole.
+        let written = draw_labels(&area, labels, at, radius)?;
         for peak in peaks {
             if let Peak::Cable(cable, _) = peak {
                 area.draw(&PathElement::new(scene.cables[*cable].ends.map(at), BLACK.stroke_width(5)))?;
@@ -159,7 +161,6 @@ fn draw(case: &Case, labels: &Labels, peaks: &[Peak]) -> Result<String, Box<dyn 
             area.draw(&PathElement::new([(x, y), end], hole.stroke_width(2)))?;
         }
         draw_slope(case, &area, &frame)?;
-        let written = draw_labels(&area, labels, at, radius)?;
         draw_tire_numbers(case, &area, at, radius)?;
         frame.draw_numbers(&area, scene, radius)?;
         frame.draw_scale_bar(&area)?;
