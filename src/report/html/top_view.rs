@@ -187,7 +187,7 @@ fn draw_slope(case: &Case, area: &Area<'_>, frame: &Frame) -> Drawn {
     Ok(())
 }
 
-/// Labels beside their holes, without those that would lie on another one; returns whether all are written.
+/// Labels beside their holes, without those that would lie on another label or hole; returns whether all are written.
 fn draw_labels(
     area: &Area<'_>,
     labels: &Labels,
@@ -204,7 +204,11 @@ fn draw_labels(
         let right = left + (label.chars().count() as i32 + 1) * LETTERS * 6 / 10;
         let lies_on =
             |[from, to, high]: &[i32; 3]| left < *to && *from < right && (top - high).abs() < LETTERS;
-        if !placed.iter().any(lies_on) {
+        let hides = |(hole, _): &(usize, String)| {
+            let ((x, y), dot) = (at(*hole), radius / 2);
+            left < x + dot && x - dot < right && top < y + dot && y - dot < top + LETTERS
+        };
+        if !placed.iter().any(lies_on) && !labels.at.iter().any(hides) {
             placed.push([left, right, top]);
             area.draw(&Text::new(label.as_str(), (left, top), style.clone()))?;
         }
