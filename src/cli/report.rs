@@ -7,11 +7,12 @@ use clap::Args;
 
 use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments};
 use super::check_plans::{check_plans, print_checks};
-use super::load_plans::open;
+use super::load_plans::open_option;
 use super::print::{print_beside_verdict, print_warnings};
 use super::status::{Status, failed, wrong};
 use crate::file;
-use crate::report::{check, html};
+use crate::report::check;
+use crate::report::html::{self, Page};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -20,6 +21,9 @@ pub struct Arguments {
     /// Page to write; `-` writes it to standard output
     #[arg(short, long, value_name = "FILE.html")]
     output: PathBuf,
+    /// Name of the delay option to be fired: it heads the page
+    #[arg(long, value_name = "NAME")]
+    option: Option<String>,
     /// Also print the results, as `check` does
     #[arg(long, value_enum)]
     format: Option<FormatArg>,
@@ -30,7 +34,8 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
-    let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
+    let asked = arguments.option.as_deref();
+    let Some((case, option)) = open_option(&arguments.plan, asked, look) else { return Ok(Status::Wrong) };
     let Arguments { plan, output, .. } = arguments;
     let same = |a: &Path, b: &Path| a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b));
     if same(plan, output) {
@@ -45,8 +50,15 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Ok(checked) => checked,
         Err(reason) => return failed(&reason),
     };
-    let page =
-        html::page(&cases[0], &checked.value[0].results, checked.partial, sampling.as_ref(), &html::today());
+    let page = html::page(&Page {
+        case: &cases[0],
+        results: &checked.value[0].results,
+        fired: asked.map(|_| option),
+        sampling: sampling.as_ref(),
+        partial: checked.partial,
+        unsaved: false,
+        date: &html::today(),
+    });
     if output.as_os_str() == "-" {
         print_beside_verdict(&page)?;
     } else {

@@ -8,7 +8,8 @@ use super::screen::Screen;
 use super::studies::ShownStudy;
 use crate::file;
 use crate::jobs::{StudyKind, StudyResult};
-use crate::report::{self, charts, html};
+use crate::report::html::{self, Page};
+use crate::report::{self, charts};
 use crate::study::check_all::OptionResults;
 use crate::study::sampling::Sampling;
 
@@ -18,10 +19,24 @@ pub fn write(app: &App, path: &Path) -> Result<(), String> {
     let text = match ending {
         "csv" => csv(app)?,
         "svg" => svg(app)?,
-        "html" => html::page(&app.case, &results(app)?, false, Some(&Sampling::OF_VERDICT), &html::today()),
+        "html" => html::page(&Page {
+            case: &app.case,
+            results: &results(app)?,
+            fired: None,
+            sampling: Some(&Sampling::OF_VERDICT),
+            partial: false,
+            unsaved: !is_saved(app),
+            date: &html::today(),
+        }),
         _ => return Err("the name must end in .csv, .svg or .html".to_owned()),
     };
     file::create(path, &text).map_err(|error| error.to_string())
+}
+
+/// Whether the file of the plan holds the very text that was computed.
+fn is_saved(app: &App) -> bool {
+    let source = &app.case.source;
+    std::fs::read_to_string(&source.path).is_ok_and(|text| text == source.text)
 }
 
 /// The tables of the screen.
@@ -38,7 +53,10 @@ pub fn csv(app: &App) -> Result<String, String> {
 /// The charts of the screen.
 fn svg(app: &App) -> Result<String, String> {
     let pictures = match app.screen {
-        Screen::Plan => vec![html::top_view(&app.case, Some(app.selected))],
+        Screen::Plan => {
+            let checked = app.judgement(app.selected).map(|judged| &judged.as_planned);
+            vec![html::top_view(&app.case, Some(app.selected), checked)]
+        }
         Screen::Compare => {
             let judged = app.judgement(app.selected).ok_or("the selected option has no result yet")?;
             let shot = &app.case.shots[app.selected];

@@ -8,7 +8,7 @@ pub mod app;
 pub mod changes;
 pub mod config;
 pub mod editor;
-mod export;
+pub mod export;
 pub mod keymap;
 pub mod name_list;
 pub mod options;

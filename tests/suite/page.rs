@@ -1,38 +1,110 @@
-//! The page for the blast file: well formed, complete, and nothing in it comes from elsewhere.
+//! The page for the blast file: well formed, complete, and nothing in it comes from elsewhere. It is headed by the option to be
+//! fired, and one can sign it.
 
+use std::process::Output;
+use std::sync::{Arc, LazyLock};
+
+use roxmltree::{Document, Node};
 use serde_json::Value;
+use shelter::tui::export;
 
-use super::support::{shelter, shipped};
+use super::stage::finished;
+use super::support::{json, shelter, shipped, text};
 
-const PLAN: &str = r#"
-title = "<script>alert(1)</script> & \"quotes\""
-shelter = { layout = "grid", rows = 4, columns = 6, spacing_m = 1.5 }
-tire = { mass_kg = 280 }
-cable = { rope = "GOST 2688-80 14", slack_percent = 2 }
+/// Its first line is empty, and it holds a carriage return: both are kept.
+const PLAN: &str = "
+title = \"<script>alert(1)</script> & \\\"quotes\\\" </style>\"
+shelter = { layout = \"grid\", rows = 4, columns = 6, spacing_m = 1.5 }
+tire = { mass_kg = 280 }\r
+cable = { rope = \"GOST 2688-80 14\", slack_percent = 2, termination = \"clips\" }
 ground = { friction = 0.5 }
-blast_row = [{ name = "1 < 2", under_row = 2, launch_m_s = 6 }, { name = "2", under_row = 3, launch_m_s = 6 }]
-limits = { flight_height_m = 1.8, cable_safety_factor = 1.5 }
-delay = [{ name = "20 & 0", interval_ms = 20 }, { name = "<b>", at_ms = [0, 42] }]
-simulation = { accuracy = "draft" }
-"#;
+limits = { flight_height_m = 1.8, cable_safety_factor = 1.2 }
+delay = [{ name = \"20 & 0\", interval_ms = 20 }, { name = \"<b>\", at_ms = [0, 42], hole_interval_ms = 17 }]
+simulation = { accuracy = \"draft\" }
+[uncertainty]
+launch_common_percent = 2
+[[blast_row]]
+name = \"1 < 2\"
+under_row = 2
+launch_m_s = 6
+charge_kg = 25
+[[blast_row]]
+name = \"2\"
+under_row = 3
+launch_m_s = 6
+charge_kg = 25
+";
+
+/// Output of `report` on a plan, and the page it wrote; it names the plan `folder/plan.toml`.
+fn report(plan: &str, more: &[&str]) -> (Output, Option<String>) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [file, page] = ["plan.toml", "page.html"].map(|name| folder.path().join(name));
+    std::fs::write(&file, plan).expect("written");
+    let [file, written] = [&file, &page].map(|path| path.to_str().expect("UTF-8"));
+    let output = shelter(&[&["report", file, "-o", written], more].concat());
+    let page = std::fs::read_to_string(&page).ok();
+    (output, page.map(|page| page.replace(folder.path().to_str().expect("UTF-8"), "folder")))
+}
+
+/// HTML that is XML but for its doctype and the void element meta.
+fn xml(page: &str) -> String {
+    let mut metas = page.split("<meta ");
+    let first = metas.next().unwrap_or_default().replace("<!DOCTYPE html>", "");
+    let rest = metas.map(|rest| rest.split_once('>').expect("it ends").1);
+    std::iter::once(first.as_str()).chain(rest).collect()
+}
+
+fn parse(xml: &str) -> Document<'_> {
+    Document::parse(xml).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn words(node: Node<'_, '_>) -> String {
+    node.descendants().filter(|node| node.is_text()).filter_map(|node| node.text()).collect()
+}
+
+/// The element of this class.
+fn of_class<'a, 'i>(page: &'a Document<'i>, class: &str) -> Option<Node<'a, 'i>> {
+    let is = |node: &Node<'_, '_>| {
+        node.attribute("class").is_some_and(|names| names.split(' ').any(|name| name == class))
+    };
+    page.descendants().find(is)
+}
+
+/// The section under a heading that begins with `heading`.
+fn section<'a, 'i>(page: &'a Document<'i>, heading: &str) -> Node<'a, 'i> {
+    let is = |node: &Node<'_, '_>| node.has_tag_name("h2") && words(*node).starts_with(heading);
+    let found = page.descendants().find(is).and_then(|heading| heading.parent());
+    found.unwrap_or_else(|| panic!("no section '{heading}'"))
+}
+
+/// The page of the plan with the second option to be fired, as XML.
+static FIRED: LazyLock<String> = LazyLock::new(|| {
+    let (output, page) = report(PLAN, &["--option", "<b>"]);
+    xml(&page.unwrap_or_else(|| panic!("{}", text(&output.stderr))))
+});
+
+/// The page of the plan without an option to be fired, as XML.
+static PLAIN: LazyLock<String> = LazyLock::new(|| xml(&report(PLAN, &[]).1.expect("a page")));
+
+/// What `check` finds of the same plan.
+static CHECKED: LazyLock<Value> = LazyLock::new(|| {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("plan.toml");
+    std::fs::write(&file, PLAN).expect("written");
+    json(&shelter(&["check", file.to_str().expect("UTF-8"), "--format", "json"]))
+});
 
 #[test]
 fn the_page_holds_every_result_and_nothing_from_elsewhere() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let [plan, page] = ["plan.toml", "page.html"].map(|name| folder.path().join(name));
-    std::fs::write(&plan, PLAN).expect("written");
-    let [plan, page] = [plan.to_str().expect("UTF-8"), page.to_str().expect("UTF-8")];
-    let reported = shelter(&["report", plan, "-o", page]);
-    let checked = shelter(&["check", plan, "--format", "json"]);
-    assert_eq!(reported.status.code(), checked.status.code());
+    let (reported, page) = report(PLAN, &[]);
+    let passes =
+        CHECKED["options"].as_array().expect("options").iter().all(|option| option["verdict"] == "pass");
+    assert_eq!(reported.status.code(), Some(i32::from(!passes)));
     assert!(reported.stdout.is_empty());
-    let document: Value = serde_json::from_slice(&checked.stdout).expect("JSON");
-    let text = std::fs::read_to_string(page).expect("the page");
-    // HTML that is XML but for its doctype and the void element meta.
-    let xml = text.replace("<!DOCTYPE html>", "").replace("<meta charset=\"utf-8\">", "");
-    let parsed = roxmltree::Document::parse(&xml).unwrap_or_else(|error| panic!("{error}"));
-    let words: String = parsed.descendants().filter_map(|node| node.text()).collect();
-    for option in document["options"].as_array().expect("options") {
+    let xml = xml(&page.expect("a page"));
+    let parsed = parse(&xml);
+    let words = words(parsed.root());
+    for option in CHECKED["options"].as_array().expect("options") {
         assert!(words.contains(option["name"].as_str().expect("a name")));
         let height = option["flight_height_m"]["value"].as_f64().expect("a number");
         let digits = (1..5_usize).map(|decimals| format!("{height:.decimals$}"));
@@ -42,10 +114,17 @@ fn the_page_holds_every_result_and_nothing_from_elsewhere() {
         }
     }
     assert!(words.contains("<script>alert(1)</script> & \"quotes\""), "shown as text");
-    assert!(parsed.descendants().all(|node| !node.has_tag_name("script") && node.attribute("src").is_none()));
-    assert!(parsed.descendants().all(|node| node.attribute("href").is_none()));
-    assert_eq!(parsed.descendants().filter(|node| node.tag_name().name() == "svg").count(), 1 + 2 * 2);
+    for page in [&parsed, &parse(&FIRED)] {
+        let nodes = || page.descendants();
+        assert!(nodes().all(|node| !node.has_tag_name("script") && node.attribute("src").is_none()));
+        assert!(nodes().all(|node| node.attribute("href").is_none()));
+        assert_eq!(nodes().filter(|node| node.tag_name().name() == "svg").count(), 1 + 2 * 2);
+        let style = nodes().find(|node| node.has_tag_name("style")).and_then(|node| node.text()).expect("it");
+        assert!(!style.contains("url(") && !style.contains("@import"));
+        assert!(!style.contains('<'), "no title ends the style sheet");
+    }
     assert!(words.contains("2007-09-17"), "the date asked for");
+    assert_eq!(xml, *PLAIN, "the same page again");
 }
 
 #[test]
@@ -53,4 +132,251 @@ fn a_page_that_cannot_be_written_says_so() {
     let output = shelter(&["report", &shipped("paper-5-tire.toml"), "-o", "/no/such/folder/page.html"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(!output.stderr.is_empty());
+}
+
+#[test]
+fn the_option_to_be_fired_heads_the_page_with_all_its_verdict_rests_on() {
+    let page = parse(&FIRED);
+    let head = of_class(&page, "fired").expect("the box");
+    let first = page.descendants().find(|node| node.has_tag_name("section")).expect("sections");
+    assert!(head.range().start < first.range().start, "it heads the page");
+    let line = head.first_element_child().map(words).expect("a line");
+    assert_eq!(line, "To be fired: <b>, rows at 0/42 ms, holes 17 ms left");
+    let found = &CHECKED["options"][1];
+    assert_eq!(found["nominal_verdict"], "pass", "so that there is a launch margin");
+    let large = of_class(&page, "large").map(words).expect("the verdict");
+    assert_eq!(large.to_lowercase(), found["verdict"].as_str().expect("a verdict"));
+    let facts: Vec<(String, String)> = head
+        .descendants()
+        .filter(|node| node.has_tag_name("tr"))
+        .map(|row| {
+            let cells: Vec<String> = row.children().map(words).collect();
+            (cells[0].clone(), cells[1].clone())
+        })
+        .collect();
+    let fact = |name: &str| {
+        let found = facts.iter().find(|(known, _)| known == name);
+        found.map(|(_, text)| text.as_str()).unwrap_or_else(|| panic!("no fact '{name}'"))
+    };
+    let bound = |end: &str| 100.0 * found["failure_probability"][end].as_f64().expect("a bound");
+    assert!(fact("Risk").starts_with(&format!("{:.2} to {:.2} % of", bound("low"), bound("high"))));
+    assert!(fact("Risk").ends_with("accepted 1 %"));
+    let rise = 100.0 * found["launch_margin"].as_f64().expect("a margin") + 1.0;
+    let from = format!("from +{rise:.0} % launch, {} m/s", ((1.0 + rise / 100.0) * 600.0).round() / 100.0);
+    assert!(fact("Launch margin").ends_with(&from), "{} is not {from}", fact("Launch margin"));
+    assert!(fact("What decides").contains("launch ") && fact("What decides").ends_with(" %"));
+    assert_eq!(fact("Within any 8 ms"), "1 hole, 25 kg fire, as planned");
+    let height = found["flight_height_m"]["value"].as_f64().expect("a height");
+    assert!(fact("Utilization as planned").starts_with(&format!("height {:.0} %", 100.0 * height / 1.8)));
+    assert!(fact("Possible shots").contains("5 to 95 % of"));
+    for reason in found["reasons"].as_array().expect("reasons") {
+        assert!(words(head).contains(reason.as_str().expect("words")), "{reason}");
+    }
+    let row = words(of_class(&page, "options").expect("the options"));
+    assert!(row.contains("20 & 0"), "the other options stand below");
+}
+
+#[test]
+fn an_option_that_has_not_passed_says_why_at_the_head() {
+    let (_, page) =
+        report(&PLAN.replace("flight_height_m = 1.8", "flight_height_m = 0.5"), &["--option", "<b>"]);
+    let xml = xml(&page.expect("a page"));
+    let page = parse(&xml);
+    let head = words(of_class(&page, "fired").expect("the box"));
+    assert!(head.contains("FAIL") && head.contains("is over the limit of 0.5 m"), "{head}");
+    assert!(head.contains("none: the shot as planned does not pass"), "{head}");
+    let signed = words(of_class(&page, "signatures").expect("lines to sign"));
+    assert!(signed.contains("<b>, FAIL"), "who signs reads the verdict: {signed}");
+}
+
+#[test]
+fn warnings_of_the_option_to_be_fired_stand_at_its_head() {
+    let plan = PLAN.replace("at_ms = [0, 42]", "at_ms = [0, 400]");
+    let plan = plan.replace("under_row = 3", "under_row = 2");
+    let [own, other] =
+        ["<b>", "20 & 0"].map(|option| xml(&report(&plan, &["--option", option]).1.expect("a page")));
+    let warned =
+        |page: &Document<'_>| words(of_class(page, "fired").expect("the box")).contains("option <b>: ");
+    assert!(warned(&parse(&own)));
+    assert!(!warned(&parse(&other)));
+    assert!(words(section(&parse(&other), "Delay options")).contains("Warning: option <b>: "));
+}
+
+#[test]
+fn an_unknown_option_to_be_fired_is_refused_with_the_names_and_nothing_is_written() {
+    let (output, page) = report(PLAN, &["--option", "43 ms"]);
+    assert_eq!((output.status.code(), page), (Some(2), None));
+    let error = text(&output.stderr);
+    assert!(error.contains("'43 ms'") && error.contains("20 & 0; <b>"), "{error}");
+}
+
+#[test]
+fn without_an_option_to_be_fired_the_page_says_so_in_one_line() {
+    let page = parse(&PLAIN);
+    assert!(of_class(&page, "fired").is_none());
+    let line = of_class(&page, "chosen").map(words).expect("the line");
+    assert!(line.starts_with("No option is chosen to be fired") && line.contains("--option NAME"), "{line}");
+    assert!(of_class(&parse(&FIRED), "chosen").is_none());
+}
+
+#[test]
+fn only_the_plan_as_planned_says_so_at_the_head() {
+    let (_, page) = report(PLAN, &["--option", "<b>", "--nominal"]);
+    let xml = xml(&page.expect("a page"));
+    let page = parse(&xml);
+    let head = words(of_class(&page, "fired").expect("the box"));
+    assert!(head.contains("Judged: the plan's own numbers only."), "{head}");
+    assert!(head.contains("not judged: the plan's own numbers only, nothing varied"), "{head}");
+}
+
+#[test]
+fn the_plan_stands_there_letter_by_letter() {
+    let page = parse(&FIRED);
+    let plan = words(section(&page, "The plan, word for word").last_element_child().expect("its text"));
+    // A reader of HTML drops the first line end of the element.
+    assert_eq!(plan, format!("\n{PLAN}"));
+    assert!(!words(page.root()).to_lowercase().contains("not saved"));
+}
+
+#[test]
+fn the_terminal_says_where_the_plan_is_not_saved() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let exported = |name: &str, edit: &str| {
+        let (mut app, path) = (finished(), folder.path().join(name));
+        let source = &mut Arc::make_mut(&mut app.case).source;
+        source.path = shipped("amur-three-rows.toml");
+        source.text += edit;
+        export::write(&app, &path).expect("written");
+        xml(&std::fs::read_to_string(path).expect("the page"))
+    };
+    let (saved, edited) = (exported("saved.html", ""), exported("edited.html", "# edited\n"));
+    let [saved, edited] = [parse(&saved), parse(&edited)];
+    assert!(!words(saved.root()).to_lowercase().contains("not saved"));
+    assert!(
+        words(edited.root()).contains("Not saved: the plan that was computed is not the one in its file")
+    );
+    let plan = section(&edited, "The plan, word for word (not saved)");
+    assert!(words(plan).ends_with("# edited\n"));
+}
+
+#[test]
+fn rope_and_termination_stand_there_with_their_figures() {
+    let page = parse(&FIRED);
+    let facts = words(section(&page, "Shelter"));
+    for figure in [
+        "GOST 2688-80 14: 6x19",
+        "diameter 14 mm",
+        "grade 1570 N/mm²",
+        "EA 7193 kN",
+        "breaking force 98.95 kN",
+        "clips, efficiency 80 %",
+        "79.16 kN, of rope and termination",
+        "6 holes fire from 42 ms to 127 ms",
+    ] {
+        assert!(facts.contains(figure), "no '{figure}' in {facts}");
+    }
+    let own = "cable = { axial_stiffness_kn = 1400, breaking_force_kn = 60, termination_percent = 90,";
+    let plan =
+        PLAN.replace("cable = { rope = \"GOST 2688-80 14\",", own).replace(", termination = \"clips\"", "");
+    let xml = xml(&report(&plan, &["--nominal"]).1.expect("a page"));
+    let facts = words(section(&parse(&xml), "Shelter"));
+    for figure in ["EA 1400 kN, breaking force 60 kN, as the plan says", "efficiency 90 %", "54 kN, of rope"]
+    {
+        assert!(facts.contains(figure), "no '{figure}' in {facts}");
+    }
+}
+
+/// Texts of the map.
+fn map_texts(page: &Document<'_>) -> Vec<String> {
+    let map = section(page, "The shelter from above");
+    map.descendants()
+        .filter(|node| node.tag_name().name() == "text")
+        .map(|text| words(text).trim().to_owned())
+        .collect()
+}
+
+#[test]
+fn the_map_has_numbers_at_its_edges_a_scale_bar_and_a_legend() {
+    let page = parse(&FIRED);
+    let texts = map_texts(&page);
+    let count = |wanted: &str| texts.iter().filter(|text| *text == wanted).count();
+    assert_eq!(["row", "column"].map(count), [1, 1]);
+    // Four rows, six columns; no hole fires at 1, 2, 3, 4, 5 or 6 ms.
+    assert_eq!(["1", "2", "3", "4", "5", "6"].map(count), [2, 2, 2, 2, 1, 1]);
+    for time in ["0", "17", "34", "51", "68", "85", "42", "59", "76", "93", "110", "127"] {
+        assert_eq!(count(time), 1, "a hole fires at {time} ms");
+    }
+    assert_eq!(count("1 m"), 1, "of {texts:?}");
+    let has = |start: &str| texts.iter().any(|text| text.starts_with(start));
+    let found = &CHECKED["options"][1];
+    let tire = &found["flight_height_m"]["tire"];
+    assert!(has("hole, with its firing time in ms"));
+    assert!(has(&format!("highest: tire {}:{}, ", tire[0], tire[1])), "{texts:?}");
+    let [a, b] = [0, 1].map(|end| &found["cable_force_n"]["cable"][end]);
+    assert!(has(&format!("greatest force: cable {}:{}-{}:{}, ", a[0], a[1], b[0], b[1])), "{texts:?}");
+    let strokes = |page: &Document<'_>, width: &str| {
+        let map = section(page, "The shelter from above");
+        map.descendants().filter(|node| node.attribute("stroke-width") == Some(width)).count()
+    };
+    assert_eq!([strokes(&page, "5"), strokes(&page, "3")], [2, 2], "each mark on the map and in the legend");
+    let plain = parse(&PLAIN);
+    assert_eq!([strokes(&plain, "5"), strokes(&plain, "3")], [0, 0]);
+    assert!(map_texts(&plain).contains(&"1 < 2".to_owned()), "without an option the rows have their names");
+}
+
+#[test]
+fn the_words_of_the_page_are_explained() {
+    let page = parse(&FIRED);
+    let glossary = section(&page, "The words of this page");
+    let explained: Vec<String> =
+        glossary.descendants().filter(|node| node.has_tag_name("dt")).map(words).collect();
+    for word in ["Verdict", "Risk", "Launch margin", "Utilization", "Slack", "Drift", "Energy residual"] {
+        assert!(explained.iter().any(|known| known == word), "{word}");
+    }
+    let meanings = glossary.descendants().filter(|node| node.has_tag_name("dd")).map(words);
+    assert!(meanings.filter(|meaning| meaning.ends_with('.')).count() == explained.len());
+}
+
+#[test]
+fn what_the_law_asks_and_no_program_knows_is_blank_and_there_is_room_to_sign() {
+    let page = parse(&FIRED);
+    let blanks = words(of_class(&page, "blanks").expect("blanks"));
+    for asked in [
+        "Site",
+        "Date and time of the shot",
+        "Author",
+        "Blaster in charge",
+        "Explosive",
+        "Stemming",
+        "Initiation system",
+        "Weather",
+        "Guards posted",
+        "Distance and direction to what is protected",
+    ] {
+        assert!(blanks.contains(asked), "{asked}");
+    }
+    let signed = words(of_class(&page, "signatures").expect("lines to sign"));
+    assert_eq!(signed.matches("signature").count(), 2);
+    assert!(signed.contains("Option to be fired: <b>, "), "what is signed: {signed}");
+}
+
+#[test]
+fn the_page_prints_on_any_paper_and_reads_on_a_phone() {
+    let (_, page) = report(PLAN, &["--nominal"]);
+    let page = page.expect("a page");
+    assert!(page.contains("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"));
+    let xml = xml(&page);
+    let parsed = parse(&xml);
+    let style = parsed.descendants().find(|node| node.has_tag_name("style")).map(words).expect("a sheet");
+    assert!(style.contains("\"Page \" counter(page) \" of \" counter(pages)"), "pages are numbered");
+    let paper = style.split("@page").nth(1).expect("a rule for paper");
+    assert!(!paper.contains(" size:"), "the printer chooses the paper: {paper}");
+    for rule in ["break-inside: avoid", "break-after: avoid", "display: table-header-group"] {
+        assert!(style.contains(rule), "{rule}");
+    }
+    let phone = style.split("@media screen and (max-width: 600px)").nth(1).expect("a rule for phones");
+    assert!(phone.contains(".charts, .blanks, .signatures { display: block }"), "charts are stacked");
+    assert!(style.contains(".scroll { overflow-x: auto }"));
+    let options = of_class(&parsed, "options").expect("the options");
+    assert!(options.attribute("class").is_some_and(|names| names.contains("scroll")), "wide tables scroll");
 }

@@ -3,28 +3,88 @@
 use maud::{Markup, html};
 
 use crate::choice::OnOverload;
-use crate::plan::{DelayScatter, GroundSpec, Hole, Launch, LaunchTargets, Layout, Plan, Uncertainty};
+use crate::plan::{
+    CableSpec, DelayScatter, GroundSpec, Hole, Launch, LaunchTargets, Layout, Plan, Uncertainty,
+};
 use crate::report::limits::limits;
+use crate::ropes::catalogue;
 use crate::study::check_all::OptionResults;
 use crate::study::sampling::Sampling;
 use crate::study::{Case, ComputeSettings};
+use crate::units::{self, Unit};
 
-/// The plan as a table.
-pub fn shelter(case: &Case) -> Markup {
+/// The plan as a table; the blast rows with the times at which the option to be `fired` fires them.
+pub fn shelter(case: &Case, fired: Option<usize>) -> Markup {
     let (plan, scene) = (&case.plan, case.scene());
-    let cable = match &plan.cable.rope {
-        Some(rope) => format!("{rope}, termination {} %", plan.cable.termination_percent),
-        None => format!("EA {} kN", plan.cable.axial_stiffness_kn),
+    let gone = match plan.cable.on_overload {
+        OnOverload::Break => "; past its breaking force a cable is gone",
+        OnOverload::Report => "",
     };
     html! {
-        table {
+        table.facts {
             tr { th { "Tires" } td { (scene.mass.len()) " of " (plan.tire.mass_kg) " kg, " (layout(plan)) ", " (rims(plan.tire.outer_diameter_m)) } }
-            tr { th { "Cables" } td { (scene.cables.len()) ", " (cable) ", slack " (plan.cable.slack_percent) " %" (if plan.cable.on_overload == OnOverload::Break { "; past its breaking force a cable is gone" } else { "" }) } }
+            tr { th { "Cables" } td { (scene.cables.len()) ", slack " (plan.cable.slack_percent) " %" (gone) } }
+            @for (name, text) in rope(&plan.cable) { tr { th { (name) } td { (text) } } }
             tr { th { "Ground" } td { (ground(&plan.ground)) } }
             tr { th { "Limits" } td { (limits(case)) } }
-            @for row in &plan.blast_rows {
-                tr { th { "Blast row " (row.name) } td { (launched(&row.targets)) } }
+            @for (n, row) in plan.blast_rows.iter().enumerate() {
+                tr { th { "Blast row " (row.name) } td { (launched(&row.targets)) (fires_at(case, fired, n)) } }
             }
+        }
+    }
+}
+
+/// The rope, its termination and the breaking force that they leave, each with its name.
+fn rope(cable: &CableSpec) -> [(&'static str, String); 3] {
+    let used = format!(
+        "{} kN, of rope and termination",
+        units::exact(cable.breaking_force_kn * 1e3, Unit::Kilonewton)
+    );
+    let alone = cable.breaking_force_kn / (cable.termination_percent * 1e-2);
+    let strength = format!(
+        "EA {} kN, breaking force {} kN",
+        whole(cable.axial_stiffness_kn),
+        units::exact(alone * 1e3, Unit::Kilonewton)
+    );
+    let known = cable.rope.as_deref().and_then(|name| Some((name, catalogue().find(name)?)));
+    let rope = match known {
+        Some((name, rope)) => {
+            let grade = if rope.grade > 0 { format!(", grade {} N/mm²", rope.grade) } else { String::new() };
+            let typical =
+                if rope.typical { "; typical figures: the certificate of the rope counts" } else { "" };
+            format!(
+                "{name}: {}, diameter {} mm{grade}, {strength}{typical}",
+                rope.construction, rope.diameter_mm
+            )
+        }
+        None => format!("{strength}, as the plan says"),
+    };
+    let efficiency = cable.termination_percent;
+    let termination = match &cable.termination {
+        Some(name) => format!("{name}, efficiency {efficiency} %"),
+        None if efficiency < 100.0 => format!("efficiency {efficiency} %, as the plan says"),
+        None => "none named: the whole breaking force of the rope counts".to_owned(),
+    };
+    [("Rope", rope), ("Termination", termination), ("Breaking force used", used)]
+}
+
+/// A stiffness [kN] without needless digits.
+fn whole(stiffness: f64) -> String {
+    if stiffness >= 100.0 { units::rounded(stiffness, 0) } else { units::short(stiffness) }
+}
+
+/// When the option to be fired fires the holes of a row: `; fires at 42 ms`.
+fn fires_at(case: &Case, fired: Option<usize>, row: usize) -> String {
+    let Some(shot) = fired.map(|option| &case.shots[option]) else { return String::new() };
+    let holes = || shot.firings.iter().filter(|firing| firing.row == row).map(|firing| firing.at);
+    let (first, last) = (holes().fold(f64::INFINITY, f64::min), holes().fold(0.0, f64::max));
+    match holes().count() {
+        0 => String::new(),
+        1 => format!("; fires at {}", units::exact_milliseconds(first)),
+        count if first == last => format!("; {count} holes fire at {}", units::exact_milliseconds(first)),
+        count => {
+            let [first, last] = [first, last].map(units::exact_milliseconds);
+            format!("; {count} holes fire from {first} to {last}")
         }
     }
 }
@@ -64,7 +124,7 @@ pub fn uncertainty(unknown: &Uncertainty) -> Markup {
             format!("coefficient of variation {} %", unknown.breaking_force_cv_percent),
         ),
     ];
-    html! { table { @for (name, text) in rows { tr { th { (name) } td { (text) } } } } }
+    html! { table.facts { @for (name, text) in rows { tr { th { (name) } td { (text) } } } } }
 }
 
 fn layout(plan: &Plan) -> String {
@@ -112,7 +172,8 @@ fn launched(targets: &LaunchTargets) -> String {
         }
         LaunchTargets::Holes(holes) => {
             let hole = |hole: &Hole| format!("({}, {}) m {}", hole.x_m, hole.y_m, speed(&hole.launch));
-            format!("{} holes: {}", holes.len(), holes.iter().map(hole).collect::<Vec<_>>().join(" · "))
+            let count = if holes.len() == 1 { "1 hole".to_owned() } else { format!("{} holes", holes.len()) };
+            format!("{count}: {}", holes.iter().map(hole).collect::<Vec<_>>().join(" · "))
         }
     }
 }

@@ -1,82 +1,89 @@
-//! One page for the blast file: what was planned, what came out and what the model leaves out. Nothing in it is fetched
-//! from elsewhere, and it prints on A4.
+//! One page for the blast file: the option to be fired, what was planned, what came out, what the model leaves out, and room to
+//! sign. Nothing in it is fetched from elsewhere; it prints on A4 and Letter and reads on a phone.
 
 mod facts;
+mod fired;
+mod map_frame;
+mod record;
+mod style;
 mod svg;
 mod table;
 mod top_view;
+mod words;
 
 pub use self::svg::{stack, svg};
 use self::table::word;
 pub use self::top_view::svg as top_view;
 
 use chrono::{DateTime, Local};
-use maud::{DOCTYPE, PreEscaped, html};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
-use super::model::Block;
-use super::palette::Role;
+use super::model::{Block, Report};
 use super::{charts, check, explain};
 use crate::study::Case;
 use crate::study::check_all::OptionResults;
 use crate::study::sampling::Sampling;
-use crate::verdict::Verdict;
 
-const STYLE: &str = "
-@page { size: A4; margin: 15mm }
-body { font: 10pt/1.4 system-ui, sans-serif; color: #111; max-width: 190mm; margin: 0 auto; padding: 5mm }
-h1 { font-size: 18pt; margin: 0 } h2 { font-size: 12pt; margin: 6mm 0 2mm; border-bottom: 1px solid #999 }
-table { border-collapse: collapse; width: 100% } th, td { text-align: left; padding: 1mm 2mm; border-bottom: 1px solid #ddd }
-td.n, th.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap }
-th::first-letter { text-transform: uppercase } .pass, .fail, .undecided { font-weight: bold }
-.quiet { color: #555 } .charts { display: flex; gap: 4mm; break-inside: avoid } .charts svg, .view svg { width: 100%; height: auto }
-.charts > div { flex: 1 } section { break-inside: avoid } section.long { break-inside: auto }
-pre { font-size: 8pt; white-space: pre-wrap; overflow-wrap: anywhere }
-";
+/// What a page is about.
+pub struct Page<'a> {
+    /// The plan.
+    pub case: &'a Case,
+    /// Results of its options (`n_options`).
+    pub results: &'a OptionResults,
+    /// Index of the delay option to be fired; `None` where none is chosen.
+    pub fired: Option<usize>,
+    /// The samples behind the verdicts; `None` where only the shots as planned were judged.
+    pub sampling: Option<&'a Sampling>,
+    /// Whether the time was up before all was computed.
+    pub partial: bool,
+    /// Whether the text of the plan differs from its file.
+    pub unsaved: bool,
+    /// Day of the page, printed as given.
+    pub date: &'a str,
+}
 
-/// What stands under the results, whatever the plan.
-const ASSUMPTIONS: &[&str] = &[
-    "Tires are point masses that do not turn; the ground is a hard plane. It is level, and a landing does not rebound, where the plan says nothing else.",
-    "Cables are elastic, without mass and damping; they only pull, and their fastenings hold.",
-    "Each hole gives its tire the launch velocity written in the plan, varied in the possible shots as [uncertainty] says; it does not follow from charge, stemming or gas: charges only count within 8 ms.",
-    "Friction on the ground is Coulomb's, with one coefficient.",
-    "The error stated with a value of the shot as planned is that of the computation; what the plan's own numbers leave open is in the bands and the risk.",
-    "The limits are the plan's; no limit is safe by default. A competent person decides.",
-];
-
-/// The page of one plan; `date` is printed as given.
-pub fn page(
-    case: &Case,
-    results: &OptionResults,
-    partial: bool,
-    sampling: Option<&Sampling>,
-    date: &str,
-) -> String {
-    let plan = &case.plan;
+/// The page as a text.
+pub fn page(page: &Page<'_>) -> String {
+    let Page { case, results, fired, sampling, .. } = *page;
     let hash = Sha256::digest(case.source.text.as_bytes());
     let hash: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
-    let report = check::report(case, results, None, false, partial);
-    let page = html! {
+    let report = check::report(case, results, None, false, page.partial);
+    let (others, of_fired): (Vec<&String>, Vec<&String>) =
+        report.warnings.iter().partition(|warning| fired.is_none() || is_of_another(page, warning));
+    let checked = fired.and_then(|option| results[option].as_ref().ok()).map(|judged| &judged.as_planned);
+    let text = html! {
         (DOCTYPE)
         html lang="en" {
             head {
                 meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (case.title()) }
-                style { (PreEscaped(STYLE)) (PreEscaped(verdict_colors())) }
+                style { (PreEscaped(style::sheet(&foot(page, &hash)))) }
             }
             body {
                 h1 { (case.title()) }
-                @if let Some(conclusion) = &report.conclusion {
-                    p { (word(conclusion.verdict)) " · " (conclusion.text) }
+                p.quiet {
+                    "Plan " (case.source.path) " · " (page.date) " · shelter " (env!("CARGO_PKG_VERSION"))
+                    " · SHA-256 of the plan " (&hash[..SHORT_HASH]) "…"
                 }
-                p.quiet { "Plan " (case.source.path) " · " (date) " · shelter " (env!("CARGO_PKG_VERSION")) }
+                @if page.unsaved {
+                    p { strong { "Not saved: " } "the plan that was computed is not the one in its file. Its text stands at the end of this page." }
+                }
+                @if page.partial { p { strong { "The time was up before all was computed." } } }
+                (fired::head(page, &of_fired))
+                @if fired.is_none() { (conclusion(&report)) }
+                section {
+                    h2 { "The shelter from above" }
+                    div.view { (PreEscaped(top_view(case, fired, checked))) }
+                }
                 section {
                     h2 { "Shelter" }
-                    (facts::shelter(case))
-                    div.view { (PreEscaped(top_view(case, None))) }
+                    (facts::shelter(case, fired))
                 }
                 section {
                     h2 { "Delay options" }
+                    @if fired.is_some() { (conclusion(&report)) }
                     @for fact in &report.facts { p.quiet { (fact) } }
                     @if let Some(Sampling { most, seed, .. }) = sampling {
                         p.quiet { "At most " (most) " possible shots of each option, drawn from seed " (seed) }
@@ -85,49 +92,106 @@ pub fn page(
                         p { "The plan's own numbers only, nothing varied: other shots that may come of this plan can fail." }
                     }
                     @for block in &report.blocks {
-                        @if let Block::Table(options) = block { (table::table(options)) }
+                        @if let Block::Table(options) = block { div.scroll.options { (table::table(options, fired)) } }
                     }
-                    @for warning in &report.warnings { p { strong { "Warning: " } (warning) } }
+                    @for warning in others { p { strong { "Warning: " } (warning) } }
                 }
-                @for ((delay, shot), result) in plan.delays.iter().zip(&case.shots).zip(results) {
-                    @if let Ok(judged) = result {
-                        section {
-                            h2 { (delay.name) " " (word(judged.verdict())) }
-                            p.quiet { (explain::computation(case.scene(), &judged.as_planned)) }
-                            div.charts {
-                                @for chart in charts::history(case, &judged.as_planned.history, shot) {
-                                    div { (PreEscaped(svg(&chart).unwrap_or_default())) }
-                                }
-                            }
-                        }
-                    }
-                }
+                @for option in in_turn(page) { (over_time(page, option)) }
                 @if sampling.is_some() {
                     section {
                         h2 { "What is not known" }
-                        (facts::uncertainty(&plan.uncertainty))
+                        (facts::uncertainty(&case.plan.uncertainty))
                     }
                 }
                 section {
                     h2 { "What the model assumes" }
-                    ul { @for assumption in ASSUMPTIONS { li { (assumption) } } }
+                    ul { @for assumption in words::ASSUMPTIONS { li { (assumption) } } }
+                }
+                (record::record(page))
+                section {
+                    h2 { "The words of this page" }
+                    (words::glossary())
                 }
                 section {
                     h2 { "Reproduce" }
-                    p { (facts::command(case, results, sampling)) }
-                    @if partial { p { "The time was up before all was computed: the same command computes more." } }
+                    @if page.unsaved { p { "After the plan below is saved as a file:" } }
+                    p { code { (facts::command(case, results, sampling)) } }
+                    @if page.partial { p { "The time was up before all was computed: the same command computes more." } }
                     p.quiet { "SHA-256 of the plan: " code { (hash) } }
                 }
                 @if !case.source.text.is_empty() {
-                    section.long {
-                        h2 { "The plan, word for word" }
-                        pre { (case.source.text) }
+                    section {
+                        h2 { "The plan, word for word" @if page.unsaved { " (not saved)" } }
+                        (verbatim(&case.source.text))
                     }
                 }
             }
         }
     };
-    page.into_string()
+    text.into_string()
+}
+
+/// Digits of the hash of the plan at the head and at the foot of every page.
+const SHORT_HASH: usize = 12;
+
+/// What every printed page says at its foot, so that no page is taken for one of another plan.
+fn foot(page: &Page<'_>, hash: &str) -> String {
+    let option = page.fired.map(|option| format!(" · {}", page.case.plan.delays[option].name));
+    let unsaved = if page.unsaved { " (not saved)" } else { "" };
+    format!(
+        "{}{} · plan {}{unsaved} · {}",
+        page.case.title(),
+        option.unwrap_or_default(),
+        &hash[..SHORT_HASH],
+        page.date
+    )
+}
+
+/// The verdict on all options together.
+fn conclusion(report: &Report) -> Markup {
+    html! {
+        @if let Some(conclusion) = &report.conclusion {
+            p { (word(conclusion.verdict)) " · " (conclusion.text) }
+        }
+    }
+}
+
+/// Whether a warning is about an option that will not be fired.
+fn is_of_another(page: &Page<'_>, warning: &str) -> bool {
+    let names = page.case.plan.delays.iter().map(|delay| &delay.name).enumerate();
+    names
+        .filter(|(n, _)| Some(*n) != page.fired)
+        .any(|(_, name)| warning.starts_with(&format!("option {name}: ")))
+}
+
+/// The options, that to be fired first.
+fn in_turn(page: &Page<'_>) -> Vec<usize> {
+    let mut options: Vec<usize> = (0..page.results.len()).collect();
+    options.sort_by_key(|option| Some(*option) != page.fired);
+    options
+}
+
+/// Height and force of an option over time; nothing where it has no result.
+fn over_time(page: &Page<'_>, option: usize) -> Markup {
+    let (case, shot) = (page.case, &page.case.shots[option]);
+    let Ok(judged) = &page.results[option] else { return Markup::default() };
+    html! {
+        section.whole {
+            h2 { (case.plan.delays[option].name) " " (word(judged.verdict())) @if page.fired == Some(option) { " · to be fired" } }
+            p.quiet { (explain::computation(case.scene(), &judged.as_planned)) }
+            div.charts {
+                @for chart in charts::history(case, &judged.as_planned.history, shot) {
+                    div { (PreEscaped(svg(&chart).unwrap_or_default())) }
+                }
+            }
+        }
+    }
+}
+
+/// A text letter by letter. HTML drops a line end at the start of `pre` and reads a carriage return as a line end.
+fn verbatim(text: &str) -> Markup {
+    let escaped = html! { (text) }.into_string().replace('\r', "&#13;");
+    html! { pre { "\n" (PreEscaped(escaped)) } }
 }
 
 /// Today; a day fixed by SOURCE_DATE_EPOCH where pages are to be reproduced.
@@ -135,13 +199,4 @@ pub fn today() -> String {
     let fixed = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|seconds| seconds.parse().ok());
     let fixed = fixed.and_then(|seconds| DateTime::from_timestamp(seconds, 0));
     fixed.map_or_else(|| Local::now().date_naive(), |fixed| fixed.date_naive()).to_string()
-}
-
-/// Colours of verdicts, by the names of their classes.
-fn verdict_colors() -> String {
-    let rule = |verdict: Verdict| {
-        let [red, green, blue] = Role::of(verdict).on_light();
-        format!(".{} {{ color: rgb({red}, {green}, {blue}) }}\n", verdict.name())
-    };
-    [Verdict::Pass, Verdict::Undecided, Verdict::Fail].map(rule).concat()
 }

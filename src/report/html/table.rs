@@ -8,23 +8,25 @@ use crate::verdict::Verdict;
 /// Bars of a series.
 const BARS: usize = 16;
 
-/// The columns of a table that readers of the page see.
-pub fn table(table: &Table) -> Markup {
+/// The columns of a table that readers of the page see; the row of the option to be `fired` stands out.
+pub fn table(table: &Table, fired: Option<usize>) -> Markup {
     let seen: Vec<usize> = (0..table.columns.len())
         .filter(|&n| matches!(table.columns[n].shown, Shown::People | Shown::Page))
         .collect();
     let number = |n: usize| (table.columns[n].align == Align::Right).then_some("n");
     html! {
         table {
-            tr { @for &n in &seen { th class=[number(n)] { (heading(&table.columns[n])) } } }
-            @for row in &table.rows {
-                tr {
-                    @let known = known(row, &seen);
-                    @for &n in &seen[..known] { td class=[number(n)] { (cell(&row.cells[n])) } }
-                    @if let Some(missing) = &row.missing { td colspan=(seen.len() - known) { (missing) } }
-                }
-                @for detail in &row.details {
-                    tr { td {} td.quiet colspan=(seen.len() - 1) { (detail.text) } }
+            thead { tr { @for &n in &seen { th class=[number(n)] { (heading(&table.columns[n])) } } } }
+            tbody {
+                @for (option, row) in table.rows.iter().enumerate() {
+                    tr.fired[fired == Some(option)] {
+                        @let known = known(row, &seen);
+                        @for &n in &seen[..known] { td class=[number(n)] { (cell(&row.cells[n])) } }
+                        @if let Some(missing) = &row.missing { td colspan=(seen.len() - known) { (missing) } }
+                    }
+                    @for detail in &row.details {
+                        tr { td {} td.quiet colspan=(seen.len() - 1) { (detail.text) } }
+                    }
                 }
             }
         }

@@ -1,47 +1,109 @@
 //! The shelter from above: tires, cables and holes, with the names of the blast rows or with the times at which one option
-//! fires them.
+//! fires them; of that option the cable with the greatest force and the highest tire are marked.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::Vector2;
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::map_frame::{Area, Drawn, Frame};
 use super::svg::color;
-use crate::plan::BlastRow;
+use crate::plan::{BlastRow, Layout};
 use crate::report::palette::Role;
-use crate::scene::Firing;
+use crate::scene::Shot;
 use crate::study::Case;
+use crate::study::check::CheckedShot;
+use crate::units::{self, Unit};
 
-const WIDTH: f64 = 860.0;
-const TALLEST: f64 = 600.0;
-const MARGIN: f64 = 30.0;
 /// Cables of larger shelters would only be a grey area.
 const MOST_CABLES: usize = 5000;
 /// So much is written into a picture at most.
 const MOST_LABELS: usize = 60;
+/// Height of the letters beside holes [px].
+const LETTERS: i32 = 14;
 const TIRE: RGBColor = RGBColor(120, 120, 120);
 const CABLE: RGBColor = RGBColor(200, 200, 200);
 
-/// The view with the firing times of one option, or the names of the blast rows; empty if it cannot be drawn.
-pub fn svg(case: &Case, option: Option<usize>) -> String {
+/// The view with the firing times of one option, or the names of the blast rows; with the greatest force and the greatest height
+/// of the option as `checked`, where it is. Empty if it cannot be drawn.
+pub fn svg(case: &Case, option: Option<usize>, checked: Option<&CheckedShot>) -> String {
     let labels = match option.and_then(|option| case.shots.get(option)) {
-        Some(shot) => {
-            let time = |firing: &Firing| (firing.tire, format!("{:.0}", firing.at * 1e3));
-            shot.firings.iter().map(time).collect()
-        }
+        Some(shot) => times(shot),
         None => names(case),
     };
-    draw(case, &labels).unwrap_or_default()
+    draw(case, &labels, &peaks(case, checked)).unwrap_or_default()
+}
+
+/// What is written at the holes.
+struct Labels {
+    /// Tires over holes, each with its text, which may be empty.
+    at: Vec<(usize, String)>,
+    /// What the texts are, for the legend: where all have room, and where only some have.
+    meaning: [&'static str; 2],
+}
+
+/// A place of the shelter that the legend names.
+enum Peak {
+    /// Index of the cable with the greatest force.
+    Cable(usize, String),
+    /// Index of the highest tire.
+    Tire(usize, String),
+}
+
+/// The cable with the greatest force and the highest tire of a shot as planned; nothing where no cable pulls or no tire lifts.
+fn peaks(case: &Case, checked: Option<&CheckedShot>) -> Vec<Peak> {
+    let Some(CheckedShot { height, force, .. }) = checked else { return Vec::new() };
+    let scene = case.scene();
+    let pulled = || {
+        let value = units::known(force.value, force.error, Unit::Kilonewton);
+        format!("greatest force: cable {}, {value} kN", scene.cable_name(force.index))
+    };
+    let lifted = || {
+        let value = units::known(height.value, height.error, Unit::Metre);
+        format!("highest: tire {}, {value} m", scene.tire[height.index])
+    };
+    let cable = (force.value > 0.0).then(|| Peak::Cable(force.index, pulled()));
+    let tire = (height.value > 0.0).then(|| Peak::Tire(height.index, lifted()));
+    cable.into_iter().chain(tire).collect()
 }
 
 /// The name of each blast row at its first hole; the other holes have none.
-fn names(case: &Case) -> Vec<(usize, String)> {
+fn names(case: &Case) -> Labels {
     let row = |row: &BlastRow| {
         let mut name = row.name.clone();
         let tires = case.scene().firings(&row.targets).into_iter().map(|firing| firing.tire);
         tires.map(|tire| (tire, std::mem::take(&mut name))).collect::<Vec<_>>()
     };
-    case.plan.blast_rows.iter().flat_map(row).collect()
+    let at = case.plan.blast_rows.iter().flat_map(row).collect();
+    Labels {
+        at,
+        meaning: ["hole, the first of a row with its name", "hole, some with the name of their row"],
+    }
+}
+
+/// Firing times at the holes: at all where there is room, else where each row fires for the first and the last time.
+fn times(shot: &Shot) -> Labels {
+    let written = |kept: &dyn Fn(usize) -> bool| {
+        let mut texts = BTreeMap::<usize, Vec<String>>::new();
+        for (n, firing) in shot.firings.iter().enumerate() {
+            let at = texts.entry(firing.tire).or_default();
+            if kept(n) {
+                at.push(units::exact_milliseconds(firing.at).trim_end_matches(" ms").to_owned());
+            }
+        }
+        texts.into_iter().map(|(tire, texts)| (tire, texts.join(" + "))).collect()
+    };
+    let mut ends = BTreeMap::<usize, [usize; 2]>::new();
+    for (n, firing) in shot.firings.iter().enumerate() {
+        ends.entry(firing.row).or_insert([n; 2])[1] = n;
+    }
+    let ends: BTreeSet<usize> = ends.into_values().flatten().collect();
+    let all = shot.firings.len() <= MOST_LABELS;
+    let some = "hole, some with their firing time in ms";
+    let meaning = if all { ["hole, with its firing time in ms", some] } else { [some; 2] };
+    Labels { at: written(&|n| all || ends.contains(&n)), meaning }
 }
 
 /// Holes that launch their tires aside, and the direction along the ground, as long as the launch is tilted: 1 for 90°.
@@ -59,58 +121,130 @@ fn directions(case: &Case) -> Vec<(usize, Vector2<f64>)> {
 }
 
 /// Holes are marked at the labelled tires, with a stroke where the launch is tilted.
-fn draw(case: &Case, labels: &[(usize, String)]) -> Result<String, Box<dyn std::error::Error>> {
+fn draw(case: &Case, labels: &Labels, peaks: &[Peak]) -> Result<String, Box<dyn std::error::Error>> {
     let (scene, hole) = (case.scene(), color(Role::Fail));
-    let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
-    let (wide, high) = ((right - left).max(1.0), (top - bottom).max(1.0));
-    let scale = ((WIDTH - 2.0 * MARGIN) / wide).min((TALLEST - 2.0 * MARGIN) / high);
-    let size = (WIDTH as u32, (high * scale + 2.0 * MARGIN) as u32);
-    let at = |tire: usize| {
-        let position = scene.position[tire];
-        ((MARGIN + (position.x - left) * scale) as i32, (MARGIN + (top - position.y) * scale) as i32)
-    };
+    let frame = Frame::new(scene, 1 + peaks.len());
+    let at = |tire: usize| frame.at(scene.position[tire].x, scene.position[tire].y);
     let mut text = String::new();
     {
-        let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
+        let area = SVGBackend::with_string(&mut text, frame.size).into_drawing_area();
         if scene.cables.len() <= MOST_CABLES {
             for cable in &scene.cables {
                 area.draw(&PathElement::new(cable.ends.map(at), CABLE.stroke_width(1)))?;
             }
         }
-        let spacing = scale * scene.cables.iter().map(|cable| cable.span.norm()).fold(2.0, f64::min);
+        let nearest = scene.cables.iter().map(|cable| cable.ends.map(|end| scene.position[end]));
+        let nearest = nearest.map(|[a, b]| (a - b).norm()).fold(f64::INFINITY, f64::min);
+        let spacing = frame.scale * if nearest.is_finite() { nearest } else { 2.0 };
         let radius = (0.3 * spacing).clamp(1.0, 12.0) as i32;
+        // Marks lie over letters, so that no letter hides a hole.
+        let written = draw_labels(&area, labels, at, radius)?;
+        for peak in peaks {
+            if let Peak::Cable(cable, _) = peak {
+                area.draw(&PathElement::new(scene.cables[*cable].ends.map(at), BLACK.stroke_width(5)))?;
+            }
+        }
         for tire in 0..scene.mass.len() {
             area.draw(&Circle::new(at(tire), radius, TIRE.stroke_width(1)))?;
         }
-        for (tire, _) in labels {
+        for (tire, _) in &labels.at {
             area.draw(&Circle::new(at(*tire), (radius / 2).max(1), hole.filled()))?;
+        }
+        for peak in peaks {
+            if let Peak::Tire(tire, _) = peak {
+                area.draw(&Circle::new(at(*tire), radius + 4, BLACK.stroke_width(3)))?;
+            }
         }
         for (tire, direction) in directions(case) {
             let ((x, y), end) = (at(tire), direction * 0.6 * spacing);
             let end = (x + end.x as i32, y - end.y as i32);
             area.draw(&PathElement::new([(x, y), end], hole.stroke_width(2)))?;
         }
-        if case.plan.ground.slope_percent > 0.0 {
-            let (x, y) = (WIDTH as i32 - 200, 14);
-            let down = scene.downhill.normalize() * 12.0;
-            let style = ("sans-serif", 11).into_font().color(&TIRE);
-            area.draw(&PathElement::new(
-                [(x, y), (x + down.x as i32, y - down.y as i32)],
-                TIRE.stroke_width(2),
-            ))?;
-            area.draw(&Circle::new((x, y), 3, TIRE.filled()))?;
-            let falls = format!("the ground falls {} % this way", case.plan.ground.slope_percent);
-            area.draw(&Text::new(falls, (x + 18, y - 6), style))?;
-        }
-        let written = || labels.iter().filter(|(_, label)| !label.is_empty());
-        if written().count() <= MOST_LABELS {
-            let style = ("sans-serif", 10).into_font().color(&hole);
-            for (tire, label) in written() {
-                let (x, y) = at(*tire);
-                area.draw(&Text::new(label.as_str(), (x + radius + 1, y - radius - 9), style.clone()))?;
-            }
-        }
+        draw_slope(case, &area, &frame)?;
+        draw_tire_numbers(case, &area, at, radius)?;
+        frame.draw_numbers(&area, scene, radius)?;
+        frame.draw_scale_bar(&area)?;
+        draw_legend(&area, &frame, labels.meaning[usize::from(!written)], peaks)?;
         area.present()?;
     }
-    Ok(text)
+    // A white edge keeps letters readable on cables and tires.
+    Ok(text.replace("<text ", "<text stroke=\"white\" stroke-width=\"4\" paint-order=\"stroke\" "))
+}
+
+/// The direction in which the ground falls.
+fn draw_slope(case: &Case, area: &Area<'_>, frame: &Frame) -> Drawn {
+    if case.plan.ground.slope_percent == 0.0 {
+        return Ok(());
+    }
+    let (x, y) = (frame.size.0 as i32 - 200, 14);
+    let down = case.scene().downhill.normalize() * 12.0;
+    let style = ("sans-serif", 13).into_font().color(&TIRE);
+    let end = (x + down.x as i32, y - down.y as i32);
+    area.draw(&PathElement::new([(x, y), end], TIRE.stroke_width(2)))?;
+    area.draw(&Circle::new((x, y), 3, TIRE.filled()))?;
+    let falls = format!("the ground falls {} % this way", case.plan.ground.slope_percent);
+    area.draw(&Text::new(falls, (x + 18, y - 6), style))?;
+    Ok(())
+}
+
+/// Labels beside their holes, without those that would lie on another label or hole; returns whether all are written.
+fn draw_labels(
+    area: &Area<'_>,
+    labels: &Labels,
+    at: impl Fn(usize) -> (i32, i32),
+    radius: i32,
+) -> Result<bool, Box<dyn std::error::Error>> {
+    let asked: Vec<&(usize, String)> = labels.at.iter().filter(|(_, label)| !label.is_empty()).collect();
+    let style = ("sans-serif", LETTERS).into_font().color(&color(Role::Fail));
+    let mut placed: Vec<[i32; 3]> = Vec::new();
+    for (tire, label) in asked.iter().take(MOST_LABELS) {
+        let (x, y) = at(*tire);
+        let [left, top] = [x + radius + 1, y - radius - 13];
+        // A letter is some 0.6 of its height wide.
+        let right = left + (label.chars().count() as i32 + 1) * LETTERS * 6 / 10;
+        let lies_on =
+            |[from, to, high]: &[i32; 3]| left < *to && *from < right && (top - high).abs() < LETTERS;
+        let hides = |(hole, _): &(usize, String)| {
+            let ((x, y), dot) = (at(*hole), radius / 2);
+            left < x + dot && x - dot < right && top < y + dot && y - dot < top + LETTERS
+        };
+        if !placed.iter().any(lies_on) && !labels.at.iter().any(hides) {
+            placed.push([left, right, top]);
+            area.draw(&Text::new(label.as_str(), (left, top), style.clone()))?;
+        }
+    }
+    Ok(placed.len() == asked.len())
+}
+
+/// Numbers of the tires of a list, which has no rows and columns.
+fn draw_tire_numbers(case: &Case, area: &Area<'_>, at: impl Fn(usize) -> (i32, i32), radius: i32) -> Drawn {
+    let scene = case.scene();
+    if !matches!(case.plan.layout, Layout::List { .. }) || scene.tire.len() > MOST_LABELS {
+        return Ok(());
+    }
+    let place = Pos::new(HPos::Center, VPos::Top);
+    let style = ("sans-serif", 12).into_font().color(&TIRE).pos(place);
+    for (tire, id) in scene.tire.iter().enumerate() {
+        let (x, y) = at(tire);
+        area.draw(&Text::new(id.to_string(), (x, y + radius + 4), style.clone()))?;
+    }
+    Ok(())
+}
+
+/// The marks of the picture and what they mean; of the holes it is `holes`.
+fn draw_legend(area: &Area<'_>, frame: &Frame, holes: &str, peaks: &[Peak]) -> Drawn {
+    let mark = frame.draw_item(area, 0, holes)?;
+    area.draw(&Circle::new(mark, 9, TIRE.stroke_width(1)))?;
+    area.draw(&Circle::new(mark, 4, color(Role::Fail).filled()))?;
+    for (n, peak) in peaks.iter().enumerate() {
+        let (Peak::Cable(_, text) | Peak::Tire(_, text)) = peak;
+        let (x, y) = frame.draw_item(area, n + 1, text)?;
+        match peak {
+            Peak::Cable(..) => {
+                area.draw(&PathElement::new([(x - 12, y), (x + 12, y)], BLACK.stroke_width(5)))?;
+            }
+            Peak::Tire(..) => area.draw(&Circle::new((x, y), 9, BLACK.stroke_width(3)))?,
+        }
+    }
+    Ok(())
 }

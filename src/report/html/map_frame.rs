@@ -1,0 +1,154 @@
+//! What stands around the shelter seen from above: numbers of rows and columns at the edges, a scale bar and a legend.
+
+use std::collections::BTreeMap;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use crate::scene::{Scene, TireId};
+use crate::units;
+
+/// Where a picture is drawn.
+pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// Result of drawing.
+pub type Drawn = Result<(), Box<dyn std::error::Error>>;
+
+/// Width of a picture [px].
+const WIDTH: f64 = 720.0;
+/// Greatest height of the shelter in a picture [px].
+const TALLEST: f64 = 430.0;
+/// Left of the shelter, for the row numbers; also right of it [px].
+const BESIDE: f64 = 60.0;
+/// Above the shelter [px].
+const ABOVE: f64 = 34.0;
+/// Below the shelter, for the column numbers, the scale bar and the legend [px].
+const BELOW: f64 = 40.0;
+/// Height of a line of the legend [px].
+const LINE: i32 = 22;
+/// Items of the legend in one line.
+const IN_LINE: usize = 2;
+/// Least distance between two numbers at an edge [px].
+const LEAST_DISTANCE: f64 = 22.0;
+/// Greatest share of the width that the scale bar takes.
+const LONGEST_BAR: f64 = 0.25;
+const INK: RGBColor = RGBColor(60, 60, 60);
+
+/// How the ground is laid onto a picture.
+pub struct Frame {
+    /// Pixels in a metre.
+    pub scale: f64,
+    /// Width and height [px].
+    pub size: (u32, u32),
+    /// Left edge of the shelter [m].
+    left: f64,
+    /// Upper edge of the shelter [m].
+    top: f64,
+    /// Lower edge of the shelter [px].
+    bottom: i32,
+    /// Left edge of the shelter [px].
+    left_at: i32,
+}
+
+impl Frame {
+    /// The frame of a shelter whose legend has so many items.
+    pub fn new(scene: &Scene, items: usize) -> Self {
+        let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
+        let (wide, high) = ((right - left).max(1.0), (top - bottom).max(1.0));
+        let scale = ((WIDTH - 2.0 * BESIDE) / wide).min(TALLEST / high);
+        let lower = ABOVE + (top - bottom) * scale;
+        // A tall shelter stands in the middle.
+        let left_at = (WIDTH - (right - left) * scale) / 2.0;
+        let lines = 1 + items.div_ceil(IN_LINE);
+        let height = lower + BELOW + f64::from(lines as i32 * LINE);
+        let size = (WIDTH as u32, height as u32);
+        Self { scale, size, left: left - left_at / scale, top, bottom: lower as i32, left_at: left_at as i32 }
+    }
+
+    /// Place of a point of the ground [m] in the picture [px].
+    pub fn at(&self, x: f64, y: f64) -> (i32, i32) {
+        (((x - self.left) * self.scale) as i32, (ABOVE + (self.top - y) * self.scale) as i32)
+    }
+
+    /// Numbers of the rows at the left edge and of the columns at the lower edge; a list of tires has none.
+    pub fn draw_numbers(&self, area: &Area<'_>, scene: &Scene, radius: i32) -> Drawn {
+        let (mut rows, mut columns) = (BTreeMap::new(), BTreeMap::new());
+        for (tire, position) in scene.tire.iter().zip(&scene.position) {
+            if let TireId::Cell { row, column } | TireId::Border { row, column } = *tire {
+                let at = self.at(position.x, position.y);
+                // The centre tires of a quincunx have half numbers.
+                if row.fract() == 0.0 && column.fract() == 0.0 {
+                    rows.insert(row as i64, at.1);
+                    columns.insert(column as i64, at.0);
+                }
+            }
+        }
+        if rows.is_empty() {
+            return Ok(());
+        }
+        let beside = self.left_at - radius - 8;
+        let below = self.bottom + radius + 6;
+        let right = ink(13).pos(Pos::new(HPos::Right, VPos::Center));
+        let middle = ink(13).pos(Pos::new(HPos::Center, VPos::Top));
+        for (row, at) in thinned(&rows) {
+            area.draw(&Text::new(row.to_string(), (beside, at), right.clone()))?;
+        }
+        for (column, at) in thinned(&columns) {
+            area.draw(&Text::new(column.to_string(), (at, below), middle.clone()))?;
+        }
+        let highest = rows.values().copied().min().unwrap_or_default();
+        area.draw(&Text::new("row", (beside, highest - 18), right.clone()))?;
+        area.draw(&Text::new("column", (beside, below + 6), right))?;
+        Ok(())
+    }
+
+    /// A bar of a round length below the shelter.
+    pub fn draw_scale_bar(&self, area: &Area<'_>) -> Drawn {
+        let length = round_length(LONGEST_BAR * (WIDTH - 2.0 * BESIDE) / self.scale);
+        let (x, y) = (BESIDE as i32, self.bottom + BELOW as i32 + LINE / 2);
+        let end = x + (length * self.scale) as i32;
+        area.draw(&PathElement::new([(x, y), (end, y)], INK.stroke_width(2)))?;
+        for at in [x, end] {
+            area.draw(&PathElement::new([(at, y - 5), (at, y + 5)], INK.stroke_width(2)))?;
+        }
+        let style = ink(14).pos(Pos::new(HPos::Left, VPos::Center));
+        area.draw(&Text::new(format!("{} m", units::short(length)), (end + 8, y), style))?;
+        Ok(())
+    }
+
+    /// Text of an item of the legend; returns the place of its mark [px].
+    pub fn draw_item(&self, area: &Area<'_>, n: usize, text: &str) -> Result<(i32, i32), DrawingError> {
+        let across = (WIDTH - 2.0 * BESIDE) as i32 / IN_LINE as i32;
+        let x = BESIDE as i32 + (n % IN_LINE) as i32 * across;
+        let y = self.bottom + BELOW as i32 + (1 + n / IN_LINE) as i32 * LINE + LINE / 2;
+        let style = ink(14).pos(Pos::new(HPos::Left, VPos::Center));
+        area.draw(&Text::new(text, (x + 34, y), style))?;
+        Ok((x + 14, y))
+    }
+}
+
+/// Why something could not be drawn.
+type DrawingError = Box<dyn std::error::Error>;
+
+/// Dark letters of a size [px].
+fn ink(size: u32) -> TextStyle<'static> {
+    ("sans-serif", size).into_font().color(&INK)
+}
+
+/// Numbers with their places [px], so few that none touches the next; the first always stands.
+fn thinned(numbers: &BTreeMap<i64, i32>) -> impl Iterator<Item = (i64, i32)> {
+    let ends = numbers.first_key_value().zip(numbers.last_key_value());
+    let distance = ends
+        .map_or(LEAST_DISTANCE, |((a, from), (b, to))| f64::from((to - from).abs()) / (b - a).max(1) as f64);
+    let steps = [1, 2, 5, 10, 20, 50, 100, 200, 500];
+    let every = steps.into_iter().find(|every| *every as f64 * distance >= LEAST_DISTANCE).unwrap_or(1000);
+    numbers.iter().map(|(number, at)| (*number, *at)).filter(move |(n, _)| (n - 1).rem_euclid(every) == 0)
+}
+
+/// The longest of 1, 2, 5, 10, ... and their tenths that is not over `most` [m].
+fn round_length(most: f64) -> f64 {
+    let power = 10_f64.powf(most.log10().floor());
+    let factor = [5.0, 2.0, 1.0].into_iter().find(|factor| factor * power <= most);
+    factor.unwrap_or(1.0) * power
+}

@@ -1,0 +1,61 @@
+//! What a record of a blast asks for and the program cannot know: blanks to fill in by hand, and lines to sign.
+//!
+//! The list follows the records of 30 CFR 816.68 and of state rules like it; other countries ask for more or less.
+
+use maud::{Markup, html};
+
+use super::Page;
+use super::table::word;
+use crate::study::judgement::Judgement;
+use crate::verdict::Verdict;
+
+/// A blank of half the width of the page.
+const HALF: &[&str] = &[
+    "Site, and place of the shot on it",
+    "Date and time of the shot",
+    "Author of this page",
+    "Blaster in charge, number of the licence",
+    "Explosive: product, amount in each hole and in all",
+    "Stemming: material and length",
+    "Initiation system: product, detonators",
+    "Holes: diameter, depth, burden, spacing; rock",
+    "Weather: sky, wind, lightning",
+    "Guards posted: names and places",
+];
+
+/// A blank of the whole width.
+const WIDE: &[(&str, bool)] = &[
+    ("Distance and direction to what is protected: nearest dwelling, road, line", false),
+    ("Shelter as laid: what differs from the plan, who looked at ropes and terminations", false),
+    ("After the shot: what was seen, greatest height, broken cables, misfires", true),
+];
+
+/// Who signs.
+const SIGNERS: [&str; 2] = ["Author: name, date, signature", "Blaster in charge: name, date, signature"];
+
+/// The blanks and the lines to sign.
+pub fn record(page: &Page<'_>) -> Markup {
+    html! {
+        section {
+            h2 { "To be filled in by hand" }
+            p.quiet { "The program does not know these. The law of the place may ask for more." }
+            div.blanks {
+                @for name in HALF { div.blank { (name) } }
+                @for (name, tall) in WIDE { div.blank.wide.tall[*tall] { (name) } }
+            }
+            div.signatures {
+                div { p { (signed(page)) } div.signature { (SIGNERS[0]) } }
+                div { p { "The limits, launch velocities and ranges of the plan are those of this site." } div.signature { (SIGNERS[1]) } }
+            }
+        }
+    }
+}
+
+/// What is signed: the option to be fired with its verdict.
+fn signed(page: &Page<'_>) -> Markup {
+    let Some(option) = page.fired else {
+        return html! { "Option to be fired: ________________" };
+    };
+    let verdict = page.results[option].as_ref().map_or(Verdict::Undecided, Judgement::verdict);
+    html! { "Option to be fired: " (page.case.plan.delays[option].name) ", " (word(verdict)) }
+}

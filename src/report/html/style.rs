@@ -1,0 +1,69 @@
+//! How the page looks on a screen, on a phone and on paper.
+
+use crate::report::palette::Role;
+use crate::verdict::Verdict;
+
+const STYLE: &str = "
+* { box-sizing: border-box }
+body { font: 10pt/1.4 system-ui, sans-serif; color: #111; max-width: 250mm; margin: 0 auto; padding: 5mm }
+h1 { font-size: 18pt; line-height: 1.2; margin: 0 0 1mm }
+h2 { font-size: 12pt; margin: 6mm 0 2mm; border-bottom: 1px solid #999; break-after: avoid }
+p { margin: 2mm 0; orphans: 3; widows: 3 } ul { margin: 2mm 0; padding-left: 6mm }
+table { border-collapse: collapse; width: 100% } thead { display: table-header-group }
+th, td { text-align: left; vertical-align: top; padding: 1mm 2mm; border-bottom: 1px solid #ddd }
+td.n, th.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap }
+table.facts th { width: 30%; font-weight: 600 } tr.fired td { background: #eef3f9; font-weight: 600 }
+th::first-letter { text-transform: uppercase } .pass, .fail, .undecided { font-weight: bold }
+.quiet { color: #555 } code, pre { overflow-wrap: anywhere } pre { font-size: 8pt; white-space: pre-wrap }
+.scroll { overflow-x: auto } .options { font-size: 8.5pt } .options th { vertical-align: bottom } .options td:nth-child(2) { min-width: 22mm }
+.charts { display: flex; gap: 4mm } .charts > div { flex: 1; min-width: 0 }
+.charts svg, .view svg { display: block; width: 100%; height: auto; margin: 0 auto }
+div.fired { border: 2px solid #111; padding: 3mm 4mm; margin: 4mm 0 }
+.what { font-size: 13pt; font-weight: 600; margin: 0 } .large { font-size: 30pt; line-height: 1.2; margin: 1mm 0 }
+.blanks { display: grid; grid-template-columns: 1fr 1fr; gap: 0 6mm }
+.blank { border-bottom: 1px solid #111; min-height: 13mm; padding-top: 1mm; font-size: 8.5pt; color: #333 }
+.blank.wide { grid-column: 1 / -1 } .blank.tall { min-height: 24mm }
+.signatures { display: grid; grid-template-columns: 1fr 1fr; gap: 0 6mm; margin-top: 3mm; align-items: end }
+.signature { border-top: 1px solid #111; margin-top: 15mm; padding-top: 1mm; font-size: 8.5pt; color: #333 }
+dl { margin: 0; columns: 2; column-gap: 8mm } dt { font-weight: 600 } dd { margin: 0 0 1.5mm }
+tr, li, dt, dd, .charts, .view, .blank, .signatures, div.fired, section.whole { break-inside: avoid } dt { break-after: avoid }
+@media print {
+  body { max-width: none; padding: 0 } .scroll { overflow: visible } .options { font-size: 7.5pt }
+  h2 { margin-top: 4mm } p { margin: 1mm 0 } .charts svg { width: auto; max-width: 100%; max-height: 43mm }
+  .view svg { width: auto; max-width: 100%; max-height: 92mm } .options td:nth-child(2) { min-width: 15mm }
+}
+@media screen and (max-width: 600px) {
+  body { padding: 4mm 3mm } .charts, .blanks, .signatures { display: block } dl { columns: 1 } .view { overflow-x: auto } .view svg { min-width: 620px }
+  .options { white-space: nowrap } .options td[colspan] { white-space: normal }
+}
+";
+
+/// The style sheet; at the foot of every printed page stand `foot` and the number of the page.
+pub fn sheet(foot: &str) -> String {
+    let small = "font: 8pt system-ui, sans-serif; color: #555";
+    // Without a size the page takes the paper of the printer: A4 or Letter.
+    let page = format!(
+        "@page {{ margin: 14mm 15mm 16mm;\n  @bottom-left {{ content: \"{}\"; {small}; width: 80% }}\n  \
+         @bottom-right {{ content: \"Page \" counter(page) \" of \" counter(pages); {small} }} }}\n",
+        quoted(foot)
+    );
+    format!("{STYLE}{page}{}", verdict_colors())
+}
+
+/// A text inside a string of CSS: all but ASCII letters and digits as escapes, so that no text ends the string or the sheet.
+fn quoted(text: &str) -> String {
+    let escape = |letter: char| match letter {
+        'a'..='z' | 'A'..='Z' | '0'..='9' => letter.to_string(),
+        _ => format!("\\{:x} ", u32::from(letter)),
+    };
+    text.chars().map(escape).collect()
+}
+
+/// Colours of verdicts, by the names of their classes.
+fn verdict_colors() -> String {
+    let rule = |verdict: Verdict| {
+        let [red, green, blue] = Role::of(verdict).on_light();
+        format!(".{} {{ color: rgb({red}, {green}, {blue}) }}\n", verdict.name())
+    };
+    [Verdict::Pass, Verdict::Undecided, Verdict::Fail].map(rule).concat()
+}

@@ -1,0 +1,52 @@
+//! Fixed texts of the page: what the model assumes, and what the words mean.
+
+use maud::{Markup, html};
+
+/// What stands under the results, whatever the plan.
+pub const ASSUMPTIONS: &[&str] = &[
+    "Tires are point masses that do not turn; the ground is a hard plane. It is level, and a landing does not rebound, where the plan says nothing else.",
+    "Cables are elastic, without mass and damping; they only pull, and their fastenings hold.",
+    "Each hole gives its tire the launch velocity written in the plan, varied in the possible shots as [uncertainty] says; it does not follow from charge, stemming or gas: charges only count within 8 ms.",
+    "Friction on the ground is Coulomb's, with one coefficient.",
+    "The error stated with a value of the shot as planned is that of the computation; what the plan's own numbers leave open is in the bands and the risk.",
+    "The limits are the plan's; no limit is safe by default. A competent person decides.",
+];
+
+/// Words of the page, each with its meaning in one sentence.
+const WORDS: &[(&str, &str)] = &[
+    (
+        "Verdict",
+        "PASS, FAIL or OPEN: whether the shot as planned, and surely enough of the possible shots, keep every limit of the plan; OPEN means that neither can be said.",
+    ),
+    ("As planned", "The shot exactly as the plan says, nothing varied."),
+    (
+        "Possible shots",
+        "The shots that may come of the plan, because its numbers are only known as far as [uncertainty] says; samples are drawn from them.",
+    ),
+    (
+        "Risk",
+        "The share of the possible shots that go past a limit, given as two bounds between which it lies with 95 % confidence.",
+    ),
+    ("Accepted risk", "The greatest share of the possible shots that the plan allows to go past a limit."),
+    (
+        "Launch margin",
+        "How much faster than planned all tires may leave the ground before the shot as planned no longer passes.",
+    ),
+    ("Utilization", "The greatest value of a quantity over its limit: above 100 % the shot fails."),
+    ("Factor", "The breaking force of rope and termination over the greatest cable force."),
+    (
+        "Slack",
+        "How much longer a cable is than the distance that it spans at rest, in percent of this distance.",
+    ),
+    ("Drift", "How far a tire lies from its first place when the shot is over, measured along the ground."),
+    (
+        "Energy residual",
+        "The error of the energy balance over the energy that the holes put in: a run that can be trusted has well below 1 %.",
+    ),
+    ("In 8 ms", "The most holes, and the heaviest charge, that fire within any 8 ms of the shot as planned."),
+];
+
+/// The meanings of the words.
+pub fn glossary() -> Markup {
+    html! { dl { @for (word, meaning) in WORDS { dt { (word) } dd { (meaning) } } } }
+}
