@@ -432,7 +432,9 @@ mod tests {
         let without = Keymap::with([("quit".to_owned(), Vec::new())]).expect("no key");
         assert_eq!(without.hint(Action::Quit), ":quit");
         assert!(with("qiut", "x").is_err_and(|mistake| mistake.contains("'quit'")));
-        assert!(with("quit", "j").is_err_and(|mistake| mistake.contains("'down'")));
+        assert!(with("quit", "v").is_err_and(|mistake| mistake.contains("'turn'")), "its only key");
+        let keymap = with("quit", "j").expect("down has another key");
+        assert_eq!(keymap.label(Action::Down, true), "Down");
         assert!(with("quit", "nokey").is_err_and(|mistake| mistake.contains("is no key")));
     }
 }
