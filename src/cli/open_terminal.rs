@@ -9,7 +9,7 @@ use super::check_plans::{check_plans, print_checks};
 use super::status::{Status, failed, wrong};
 use super::{load_plans, print_help};
 use crate::jobs::Jobs;
-use crate::plan::PlanSource;
+use crate::plan::{PlanSource, starter};
 use crate::study::Case;
 use crate::study::sampling::Sampling;
 use crate::tui::config::{self, Config};
@@ -60,6 +60,7 @@ pub fn start(compute: &Compute, look: &LookArguments) -> io::Result<Status> {
             let mut app = App::new(Arc::new(case), settings, &config);
             if !kept {
                 app.editor.set_saved("");
+                app.notice = Some(starter::ASSUMED.to_owned());
             }
             show(app, None, &config, compute, look)
         }

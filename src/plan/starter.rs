@@ -6,21 +6,28 @@ use super::keys::{Key, Section, blast_row, cable, delay, ground, limits, plan, s
 use crate::choice::LayoutKind;
 
 /// Questions for a new shelter, each with the answer offered.
-pub const QUESTIONS: [(&str, &str); 9] = [
+pub const QUESTIONS: [(&str, &str); 11] = [
     ("title", "New shelter"),
     ("shelter rows (along the depth of the blast)", "5"),
     ("shelter columns (along the blast rows)", "10"),
     ("spacing of the tires, m", "2.6"),
     ("mass of a tire, kg", "280"),
-    ("rope (Left Right: the catalogue)", "GOST 2688-80 14"),
-    ("blast rows", "3"),
-    ("intervals to compare, ms", "0, 9, 20, 25, 42, 67, 109"),
-    ("flight height allowed, m", "1.8"),
+    ("rope (Left Right: the catalogue)", "GOST 2688-80 19.5 1770"),
+    ("shelter rows over holes, as 2-4", "2-4"),
+    ("launch, m/s; or height of a loose test tire, as 0.8 m", "4"),
+    ("intervals to compare, ms, as 9, 25 or 9..109", "0, 9, 20, 25, 42, 67, 109"),
+    ("flight height allowed, m", "2"),
+    ("safety factor of the cables", "1.5"),
 ];
 /// Index of the question for a rope in [`QUESTIONS`].
 pub const ROPE: usize = 5;
+/// What a plan made from the answers assumes without having asked.
+pub const ASSUMED: &str =
+    "assumed, check these: slack, friction, diameter of the tires, termination, all of [uncertainty]";
 /// Most blast rows of a starter plan.
 const MOST_ROWS: usize = 50;
+/// Intervals of a range without a step.
+const INTERVALS_OF_RANGE: usize = 6;
 /// Launch velocity of a starter plan [m/s]; the user replaces it.
 pub(super) const LAUNCH_M_S: f64 = 6.0;
 
@@ -88,12 +95,12 @@ pub(super) fn quoted(text: &str) -> String {
     toml_edit::value(text).to_string()
 }
 
-/// The limits of a plan, with its limit of flight height [m].
-pub(super) fn limits(height_m: f64) -> String {
+/// The limits of a plan: its flight height [m] and the safety factor of its cables.
+pub(super) fn limits(height_m: f64, safety_factor: f64) -> String {
     [
         header(&limits::SECTION),
         line(&limits::FLIGHT_HEIGHT_M, height_m),
-        explained(&limits::CABLE_SAFETY_FACTOR, 1.5),
+        explained(&limits::CABLE_SAFETY_FACTOR, safety_factor),
     ]
     .concat()
 }
@@ -152,11 +159,12 @@ pub(super) fn delay(interval_ms: f64) -> String {
     header(&delay::SECTION) + &name + &line(&delay::INTERVAL_MS, interval_ms)
 }
 
-/// The text of the plan, with blast rows spread evenly under the shelter; or a message that names a wrong answer.
+/// The text of the plan, or a message that names a wrong answer.
 ///
 /// Ranges of numbers are checked when the plan is read.
 pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
-    let [title, rows, columns, spacing, mass, rope, blast_rows, intervals, height] = answers.map(str::trim);
+    let [title, rows, columns, spacing, mass, rope, over_holes, launch, intervals, height, factor] =
+        answers.map(str::trim);
     let number = |text: &str, question: usize| {
         let value =
             text.parse::<f64>().map_err(|_| format!("{}: '{text}' is no number", QUESTIONS[question].0))?;
@@ -165,29 +173,63 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
     let count = |text: &str, question: usize| {
         text.parse::<usize>().map_err(|_| format!("{}: '{text}' is no whole number", QUESTIONS[question].0))
     };
-    let (rows, columns, blast_rows) = (count(rows, 1)?, count(columns, 2)?, count(blast_rows, 6)?);
-    let (spacing, mass, height) = (number(spacing, 3)?, number(mass, 4)?, number(height, 8)?);
-    if blast_rows == 0 || blast_rows > rows.min(MOST_ROWS) {
-        return Err(format!("{}: 1 to {}, one per shelter row at most", QUESTIONS[6].0, rows.min(MOST_ROWS)));
+    let (rows, columns) = (count(rows, 1)?, count(columns, 2)?);
+    let (spacing, mass) = (number(spacing, 3)?, number(mass, 4)?);
+    let (height, factor) = (number(height, 9)?, number(factor, 10)?);
+    let over_holes = shelter_rows(over_holes, rows).map_err(|why| format!("{}: {why}", QUESTIONS[6].0))?;
+    let launch = match launch.strip_suffix('m') {
+        Some(height) => line(&blast_row::FREE_FLIGHT_HEIGHT_M, number(height.trim(), 7)?),
+        None => line(&blast_row::LAUNCH_M_S, number(launch, 7)?),
+    };
+    let mut all = Vec::new();
+    for part in intervals.split([',', ' ', ';']).filter(|part| !part.is_empty()) {
+        all.extend(match part.split_once("..") {
+            Some((from, to)) => evenly(number(from, 8)?, number(to, 8)?),
+            None => vec![number(part, 8)?],
+        });
     }
-    let intervals: Vec<f64> = intervals
-        .split([',', ' ', ';'])
-        .filter(|interval| !interval.is_empty())
-        .map(|interval| number(interval, 7))
-        .collect::<Result<_, _>>()?;
     let mut text = Shelter { rows, columns, spacing_m: spacing, mass_kg: mass, rope }.sections(title, "");
-    for row in 0..blast_rows {
-        let under = (2 * row + 1) * rows / (2 * blast_rows) + 1;
-        let name = row + 1;
+    for (n, under) in over_holes.into_iter().enumerate() {
         text += &header(&blast_row::SECTION);
-        text += &line(&blast_row::NAME, quoted(&name.to_string()));
+        text += &line(&blast_row::NAME, quoted(&(n + 1).to_string()));
         text += &line(&blast_row::UNDER_ROW, under);
-        text += &line(&blast_row::LAUNCH_M_S, format!("{LAUNCH_M_S:?}    # put in yours"));
+        text += &launch;
     }
-    text += &limits(height);
-    intervals.into_iter().for_each(|interval| text += &delay(interval));
+    text += &limits(height, factor);
+    all.into_iter().for_each(|interval| text += &delay(interval));
     text += &uncertainty();
     Ok(text)
+}
+
+/// Shelter rows in words: `2-4`, `1, 3`; or why there are no such rows.
+fn shelter_rows(text: &str, rows: usize) -> Result<Vec<usize>, String> {
+    let mut all = Vec::new();
+    for part in text.split([',', ' ', ';']).filter(|part| !part.is_empty()) {
+        let ends = part.split_once('-').unwrap_or((part, part));
+        let [from, to] = [ends.0, ends.1].map(|end| end.trim().parse::<usize>());
+        let (Ok(from), Ok(to)) = (from, to) else {
+            return Err(format!("'{part}' names no shelter rows"));
+        };
+        if from < 1 || to > rows || from > to {
+            return Err(format!("'{part}': the shelter has the rows 1 to {rows}"));
+        }
+        all.extend(from..=to);
+    }
+    all.sort_unstable();
+    all.dedup();
+    match all.len() {
+        0 => Err("at least one".to_owned()),
+        count if count > MOST_ROWS => Err(format!("at most {MOST_ROWS}")),
+        _ => Ok(all),
+    }
+}
+
+/// Whole numbers at even distances from one end to the other.
+fn evenly(from: f64, to: f64) -> Vec<f64> {
+    let part = |n: usize| (from + (to - from) * n as f64 / (INTERVALS_OF_RANGE - 1) as f64).round();
+    let mut all: Vec<f64> = (0..INTERVALS_OF_RANGE).map(part).collect();
+    all.dedup();
+    all
 }
 
 #[cfg(test)]
@@ -207,8 +249,24 @@ mod tests {
     }
 
     #[test]
+    fn rows_ranges_and_test_tires_are_understood() {
+        let mut answers = QUESTIONS.map(|(_, answer)| answer);
+        (answers[6], answers[7], answers[8]) = ("1, 4-5", "0.8 m", "9..109, 200");
+        let text = super::plan(&answers).expect("answers");
+        let plan = Plan::parse("new", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"));
+        let under: Vec<&str> = text.lines().filter(|line| line.starts_with("under_row")).collect();
+        assert_eq!(under, ["under_row = 1", "under_row = 4", "under_row = 5"]);
+        let names: Vec<&str> = plan.delays.iter().map(|delay| delay.name.as_str()).collect();
+        assert_eq!(names, ["9 ms", "29 ms", "49 ms", "69 ms", "89 ms", "109 ms", "200 ms"]);
+        let speed = plan.launches().next().expect("a launch").speed_m_s;
+        assert!((speed - (2.0 * 9.81 * 0.8_f64).sqrt()).abs() < 1e-9);
+    }
+
+    #[test]
     fn a_wrong_answer_is_named() {
-        for (question, answer) in [(1, "many"), (6, "9"), (7, "soon"), (8, "")] {
+        for (question, answer) in
+            [(1, "many"), (6, "9"), (6, "0-2"), (6, ""), (7, "fast"), (8, "soon"), (8, "9..x"), (9, "")]
+        {
             let mut answers = QUESTIONS.map(|(_, answer)| answer);
             answers[question] = answer;
             assert!(plan(&answers).is_err_and(|message| message.starts_with(QUESTIONS[question].0)));

@@ -76,6 +76,8 @@ pub struct Start {
 struct Questions {
     answers: [Input; QUESTIONS.len()],
     selected: usize,
+    /// Whether the selected answer is still the one offered: what is typed takes its place.
+    offered: bool,
     problem: Option<String>,
 }
 
@@ -177,7 +179,7 @@ impl Start {
             Some(Choice::Unsaved(text)) => Next::Open(Opened::New(text)),
             Some(Choice::New) => {
                 let answers = QUESTIONS.map(|(_, answer)| Input::new(answer.to_owned()));
-                self.questions = Some(Questions { answers, selected: 0, problem: None });
+                self.questions = Some(Questions { answers, selected: 0, offered: true, problem: None });
                 Next::Wait
             }
             None => Next::Wait,
@@ -260,14 +262,23 @@ impl Questions {
                 self.problem = self.plan().err();
             }
             _ => {
+                if self.offered && matches!(key.code, KeyCode::Char(_)) {
+                    self.answers[self.selected] = Input::default();
+                }
+                self.offered = false;
                 self.answers[self.selected].handle_event(&Event::Key(*key));
                 self.problem = self.plan().err();
+                return Some(Next::Wait);
             }
         }
+        self.offered = true;
         Some(Next::Wait)
     }
 
     fn paste(&mut self, text: &str) {
+        if std::mem::take(&mut self.offered) {
+            self.answers[self.selected] = Input::default();
+        }
         let note = paste(&mut self.answers[self.selected], text);
         self.problem = note.or(self.plan().err());
     }

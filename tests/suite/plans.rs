@@ -3,9 +3,14 @@
 use std::path::Path;
 
 use proptest::prelude::*;
+use shelter::choice::Accuracy;
+use shelter::plan::starter::{self, QUESTIONS};
 use shelter::plan::{DelayScatter, LaunchTargets, Layout, Plan, Timing, Uncertainty};
 use shelter::scene::TireId;
-use shelter::study::Case;
+use shelter::study::check_all::verdict_on_plan;
+use shelter::study::sampling::Sampling;
+use shelter::study::{Case, ComputeSettings, Progress};
+use shelter::verdict::Verdict;
 
 fn shipped(name: &str) -> Plan {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("plans").join(name);
@@ -155,4 +160,15 @@ fn what_a_plan_does_not_say_is_known_to_one_percent() {
     let delay = DelayScatter { sd_ms: 0.0, cv_percent: 2.0 };
     let friction = [0.4, 0.4];
     assert_eq!(some, Uncertainty { assumed: false, delay, friction, in_hole_delay_ms: 500.0, ..expected });
+}
+
+/// Who takes all that the questions offer begins with a plan that works, not with a wall of FAIL.
+#[test]
+fn the_answers_offered_give_an_option_that_passes() {
+    let text = starter::plan(&QUESTIONS.map(|(_, answer)| answer)).expect("answers");
+    let case = Case::new(Plan::parse("new", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+    let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
+    let judged = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &Progress::default());
+    let verdict = verdict_on_plan(&judged.expect("a result").value, true);
+    assert_eq!(verdict, Verdict::Pass);
 }

@@ -452,9 +452,11 @@ fn a_new_plan_by_questions() {
     watched.until("A new plan by a few questions");
     watched.press("\r");
     watched.until("title");
-    watched.press("\x15My shelter\r");
-    watched.press("\r\r\r\r\r\r\r");
-    watched.press("\x7f9\r");
+    watched.press("My shelter\r");
+    watched.press("\r\r\r\r\r\r\r\r");
+    watched.press("1.9\r\r");
+    watched.until("assumed, check these");
+    watched.press("j");
     watched.until("height 1.900 m");
     watched.until("*not saved*");
     watched.press("q");

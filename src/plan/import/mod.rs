@@ -32,6 +32,8 @@ const TOO_NEAR_M: f64 = 0.1;
 const MARGIN: usize = 1;
 /// Limit of flight height in the plan written [m]; the user replaces it.
 const HEIGHT_M: f64 = 1.8;
+/// Safety factor of the cables of such a plan.
+const SAFETY_FACTOR: f64 = 1.5;
 /// Intervals of the delay options where the list has no firing times [ms].
 const INTERVALS_MS: [f64; 3] = [17.0, 25.0, 42.0];
 
@@ -274,7 +276,7 @@ fn write(
         }
         text += "]\n";
     }
-    text += &starter::limits(HEIGHT_M);
+    text += &starter::limits(HEIGHT_M, SAFETY_FACTOR);
     let times: Option<Vec<String>> =
         groups.iter().map(|group| Some(format!("{:?}", group.fire_ms?))).collect();
     match times {
