@@ -3,7 +3,8 @@
 use super::model::Detail;
 use crate::choice::Accuracy;
 use crate::outcome::BrokenCable;
-use crate::scene::{Scene, Shot};
+use crate::plan::{BlastRow, DelayOption};
+use crate::scene::{Scene, Shot, fire_at_s};
 use crate::study::Case;
 use crate::study::ComputeSettings;
 use crate::study::check::CheckedShot;
@@ -29,6 +30,14 @@ pub const VERDICTS: [&str; 3] = [
 pub fn together(Together { holes, charge }: Together) -> String {
     let holes = if holes == 1 { "1 hole".to_owned() } else { format!("{holes} holes") };
     charge.map_or(holes.clone(), |charge| format!("{holes}, {} kg", grams(charge)))
+}
+
+/// When each blast row of an option fires, and how its holes do: `1: 0 ms, 2: 42 ms · holes 17 ms left`.
+pub fn fires(rows: &[BlastRow], delay: &DelayOption) -> String {
+    let times = fire_at_s(&delay.timing);
+    let row = |(row, &at): (&BlastRow, &f64)| format!("{}: {}", row.name, units::exact_milliseconds(at));
+    let rows: Vec<String> = rows.iter().zip(&times).map(row).collect();
+    [rows.join(", ")].into_iter().chain(delay.hole_timing.words()).collect::<Vec<_>>().join(" · ")
 }
 
 /// A sum of charges [kg] to the gram, without the digits of its rounding.

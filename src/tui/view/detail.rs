@@ -13,17 +13,16 @@
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::text::Line;
+use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::chart;
 use crate::jobs::StudyKind;
 use crate::outcome::EndReason;
-use crate::report::explain::{bands, broken, inputs, launch_limit, peaks, reason, risk_detail};
+use crate::report::explain::{bands, broken, fires, inputs, launch_limit, peaks, reason, risk_detail};
 use crate::report::model::{Chart, Detail};
 use crate::report::why::{sentence, without_pass};
 use crate::report::{charts, no_result, warnings};
-use crate::scene::fire_at_s;
 use crate::study::judgement::Judgement;
 use crate::study::risk::Risk;
 use crate::study::sampled;
@@ -49,6 +48,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         .borders(Borders::TOP)
         .border_style(app.theme.quiet())
         .title(Line::styled(format!(" {} ", delay.name), app.theme.title()));
+    let times = format!(" rows fire at {} ", fires(&app.case.plan.blast_rows, delay));
+    // The name is worth more than the times.
+    let fits = Span::raw(&times).width() + Span::raw(&delay.name).width() + 4 <= usize::from(area.width);
+    let rule = if fits { rule.title(Line::styled(times, app.theme.quiet()).right_aligned()) } else { rule };
     let inside = rule.inner(area);
     frame.render_widget(rule, area);
     let judged = match &app.options[app.selected] {
@@ -58,8 +61,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
             return frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inside);
         }
         OptionState::Waiting | OptionState::Running { .. } => {
-            let fires: Vec<_> = fire_at_s(&delay.timing).into_iter().map(units::exact_milliseconds).collect();
-            let text = format!("Rows fire at {}. Computing…", fires.join(", "));
+            let text = "Computing…";
             return frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inside);
         }
     };

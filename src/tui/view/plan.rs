@@ -10,11 +10,10 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::parts::color;
 use super::{fields, options};
-use crate::scene::fire_at_s;
+use crate::report::explain::fires;
 use crate::study::Case;
 use crate::tui::app::{App, Areas};
 use crate::tui::keymap::Action;
-use crate::units;
 
 /// Draws the plan.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
@@ -64,16 +63,7 @@ fn draw_message(app: &App, frame: &mut Frame, area: Rect) {
 fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
     let (case, theme) = (&app.case, app.theme);
     let Some(delay) = case.plan.delays.get(app.selected) else { return };
-    let times = fire_at_s(&delay.timing);
-    let fires: Vec<String> = case
-        .plan
-        .blast_rows
-        .iter()
-        .zip(&times)
-        .map(|(row, &at)| format!("{}: {}", row.name, units::exact_milliseconds(at)))
-        .collect();
-    let fires =
-        [fires.join(", ")].into_iter().chain(delay.hole_timing.words()).collect::<Vec<_>>().join(" · ");
+    let fires = fires(&case.plan.blast_rows, delay);
     let title = Line::styled(format!(" {} · {fires} ", delay.name), theme.title());
     let block = Block::new().borders(Borders::TOP).border_style(theme.quiet()).title(title);
     let scene = case.scene();
