@@ -177,7 +177,7 @@ pub fn launch_limit(shot: &Shot, judged: &Judgement) -> Option<String> {
     match judged.launch_margin? {
         LaunchMargin::NotPassing => None,
         LaunchMargin::UpTo { rise, then } => {
-            let (share, becomes) = (rise + 0.01, if then == Verdict::Fail { "fails" } else { "open" });
+            let (share, becomes) = (rise + 0.01, if then == Verdict::Fail { "fails" } else { "is open" });
             Some(format!("{becomes} from +{} launch{}", units::percent(share, 0), at(1.0 + share)))
         }
         LaunchMargin::BeyondTried => Some(format!("passes up to +100 % launch{}", at(2.0))),

@@ -1,15 +1,16 @@
 //! Warnings: what a reader must know beside the results, one sentence each. Text, page and terminal draw them; where only numbers
 //! are printed, they go to standard error.
 
-use crate::plan::DelayOption;
 use crate::plan::keys::Key;
 use crate::plan::usual::Unusual;
+use crate::plan::{DelayOption, Timing};
 use crate::study::check_all::OptionResults;
 use crate::study::cover::Cover;
 use crate::study::judgement::Judgement;
 use crate::study::swaps::{self, Swap};
 use crate::study::{Case, NoResult, ShotSummary};
 use crate::units;
+use crate::verdict::Quantity;
 
 /// Least probability of a swap of blast rows that deserves a warning.
 const SWAP: f64 = 1e-4;
@@ -33,7 +34,20 @@ pub fn of_plan(case: &Case) -> Vec<String> {
             "`{name} = [{low}, {high}]` of [uncertainty] leaves out {own}, the plan's own: no sample is like the nominal shot"
         )
     };
-    unusual.chain(case.plan.ranges_beside_the_plan().into_iter().map(warning)).collect()
+    let names = case.plan.delays.iter().filter_map(|delay| {
+        let [named, fired] = false_interval(delay)?;
+        let name = &delay.name;
+        Some(format!("the option named \"{name}\" fires its rows {fired} ms apart, not {named} ms"))
+    });
+    names.chain(unusual).chain(case.plan.ranges_beside_the_plan().into_iter().map(warning)).collect()
+}
+
+/// The interval in the name of an option and the interval at which its rows fire [ms], where they differ: `42 ms` at 109 ms.
+fn false_interval(delay: &DelayOption) -> Option<[f64; 2]> {
+    let Timing::Interval { interval_ms, .. } = delay.timing else { return None };
+    let (number, _) = delay.name.split_once(" ms")?;
+    let named: f64 = number.parse().ok()?;
+    (named != interval_ms).then_some([named, interval_ms])
 }
 
 /// Warnings of the options of a plan: blast rows that may fire in the wrong order, and holes that fire under no cover.
@@ -50,19 +64,29 @@ pub fn of_options(case: &Case, results: &OptionResults) -> Vec<String> {
 
 /// The warning that tires end far from where they lay, and no limit judges that; `None` where none does.
 fn drifts(case: &Case, results: &OptionResults) -> Option<String> {
-    let far = FAR * case.plan.layout.widest_tie();
     let drift = |(delay, result): (&DelayOption, &Result<Judgement, NoResult>)| {
-        let drift = result.as_ref().ok()?.as_planned.drift.value;
-        (case.limits.drift.is_none() && drift > far)
-            .then(|| format!("{} {} m", delay.name, units::rounded(drift, 2)))
+        let drift = far_drift(case, result.as_ref().ok()?)?;
+        Some(format!("{} {} m", delay.name, units::rounded(drift, 2)))
     };
     let drifts: Vec<String> = case.plan.delays.iter().zip(results).filter_map(drift).collect();
-    (!drifts.is_empty()).then(|| {
-        format!(
-            "drift is not judged, there is no limit `drift_m`, and tires end more than half the distance of tied tires from where they lay: {}",
-            drifts.join(", ")
-        )
-    })
+    (!drifts.is_empty()).then(|| format!("{FAR_DRIFT}: {}", drifts.join(", ")))
+}
+
+/// The same of one option.
+pub fn drift(case: &Case, judged: &Judgement) -> Option<String> {
+    Some(format!("{FAR_DRIFT}: {} m", units::rounded(far_drift(case, judged)?, 2)))
+}
+
+/// What is wrong where tires drift far.
+const FAR_DRIFT: &str = "drift is not judged, there is no limit `drift_m`, and tires end more than half the distance of tied tires from where they lay";
+
+/// The drift of an option where no limit judges it and it is far [m]: of the shot as planned, or of 1 in 20 of the possible shots.
+fn far_drift(case: &Case, judged: &Judgement) -> Option<f64> {
+    let of_samples = judged.risk.drawn().and_then(|risk| risk.band(Quantity::Drift));
+    let of_samples = of_samples.map_or(0.0, |[_, _, p95, _]| p95);
+    let drift = judged.as_planned.drift.value.max(of_samples);
+    let far = FAR * case.plan.layout.widest_tie();
+    (case.limits.drift.is_none() && drift > far).then_some(drift)
 }
 
 /// Warnings of blast rows that may fire in the wrong order, of all options.

@@ -390,6 +390,36 @@ fn a_range_that_leaves_out_the_plans_own_value_is_warned_of() {
     assert_eq!(text(&output.stdout).matches("leaves out").count(), 2);
 }
 
+/// An option whose name says another interval would be fired at that; names that turn text round, or are none, are refused.
+#[test]
+fn names_that_mislead_are_told_or_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plan.toml");
+    let run = |name: &str| {
+        let plan = include_str!("../../plans/amur-three-rows.toml");
+        let text = plan.replace("name = \"42 ms\"", &format!("name = \"{name}\""));
+        std::fs::write(&path, text).expect("written");
+        shelter(&[
+            "check",
+            path.to_str().expect("UTF-8"),
+            "--nominal",
+            "--accuracy",
+            "draft",
+            "--format",
+            "json",
+        ])
+    };
+    let output = run("40 ms");
+    let warning = "the option named \"40 ms\" fires its rows 42 ms apart, not 40 ms";
+    assert!(text(&output.stderr).contains(warning), "{}", text(&output.stderr));
+    let warnings = json(&output)["warnings"].to_string();
+    assert!(warnings.contains("not 40 ms") && warnings.contains("drift is not judged"), "{warnings}");
+    assert!(!text(&run("42 ms, ours").stderr).contains("apart, not"));
+    for name in ["x\u{202e}SSAP", "\u{2067}a", " ", ""] {
+        assert_eq!(run(name).status.code(), Some(2), "{name:?}");
+    }
+}
+
 #[test]
 fn init_writes_a_plan_that_loads_and_overwrites_nothing() {
     let folder = tempfile::tempdir().expect("a folder");

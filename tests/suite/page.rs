@@ -186,7 +186,43 @@ fn an_option_that_has_not_passed_says_why_at_the_head() {
     assert!(head.contains("FAIL") && head.contains("is over the limit of 0.5 m"), "{head}");
     assert!(head.contains("none: the shot as planned does not pass"), "{head}");
     let signed = words(of_class(&page, "signatures").expect("lines to sign"));
-    assert!(signed.contains("<b>, FAIL"), "who signs reads the verdict: {signed}");
+    assert!(signed.contains("“<b>”, FAIL"), "who signs reads the verdict: {signed}");
+}
+
+/// A text as the style sheet writes it: all but letters and digits of ASCII by their numbers.
+fn in_style_sheet(text: &str) -> String {
+    let letter = |letter: char| match letter.is_ascii_alphanumeric() {
+        true => letter.to_string(),
+        false => format!("\\{:x} ", u32::from(letter)),
+    };
+    text.chars().map(letter).collect()
+}
+
+/// A pass of the shot as planned alone must not be signed for one of all shots that may come of the plan.
+#[test]
+fn a_page_without_samples_says_so_wherever_it_says_pass() {
+    let output = shelter(&[
+        "report",
+        &shipped("amur-three-rows.toml"),
+        "-o",
+        "-",
+        "--nominal",
+        "--accuracy",
+        "draft",
+        "--option",
+        "109 ms",
+    ]);
+    let page = text(&output.stdout);
+    let caveat = " as planned only; the possible shots were NOT judged";
+    for place in [
+        // The head, the signature, the heading of its charts, and the foot of every printed page.
+        format!("<p class=\"large\"><span class=\"pass\">PASS</span>{caveat}"),
+        format!("“109 ms”, <span class=\"pass\">PASS</span>{caveat}"),
+        format!("109 ms <span class=\"pass\">PASS</span>{caveat} · to be fired"),
+        in_style_sheet(&format!("“109 ms”: PASS{caveat}")),
+    ] {
+        assert!(page.contains(&place), "{place}\n{page}");
+    }
 }
 
 #[test]
@@ -357,7 +393,7 @@ fn what_the_law_asks_and_no_program_knows_is_blank_and_there_is_room_to_sign() {
     }
     let signed = words(of_class(&page, "signatures").expect("lines to sign"));
     assert_eq!(signed.matches("signature").count(), 2);
-    assert!(signed.contains("Option to be fired: <b>, "), "what is signed: {signed}");
+    assert!(signed.contains("Option to be fired: “<b>”, "), "what is signed: {signed}");
 }
 
 #[test]

@@ -181,10 +181,13 @@ impl<'s> SectionReader<'s> {
             self.mistyped(key, value, key.kind.wanted());
             return None;
         };
-        if text.contains(char::is_control) {
+        if text.contains(|letter: char| letter.is_control() || turns_text(letter)) {
             self.mistakes.add(
                 value.span(),
-                format!("`{}` has a line end or another control character", key.name),
+                format!(
+                    "`{}` has a line end or another control character, or one that turns text round",
+                    key.name
+                ),
                 "write it in one line of letters, digits and signs",
             );
         }
@@ -193,7 +196,16 @@ impl<'s> SectionReader<'s> {
 
     /// A text; its absence is a mistake.
     pub fn text(&self, key: &Key) -> At<&'s str> {
-        self.text_if(key).unwrap_or_else(|| {
+        let text = self.text_if(key).inspect(|text| {
+            if text.value.trim().is_empty() {
+                self.mistakes.add(
+                    text.span.clone(),
+                    format!("`{}` is empty", key.name),
+                    "write a few letters",
+                );
+            }
+        });
+        text.unwrap_or_else(|| {
             if !self.has(key) {
                 self.missing(key);
             }
@@ -261,4 +273,9 @@ impl<'s> SectionReader<'s> {
             self.mistakes.add(key.span(), message, remedy);
         }
     }
+}
+
+/// Whether a character changes the direction of the text around it: what is read would not be what is written.
+fn turns_text(letter: char) -> bool {
+    matches!(letter, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }

@@ -32,7 +32,8 @@ pub fn head(page: &Page<'_>, warnings: &[&String]) -> Markup {
     html! {
         div.fired {
             p.what { "To be fired: " (delay.name) ", " (firing(delay)) }
-            p.large { (word(verdict)) }
+            p.large { (word(verdict)) (only_planned(page)) }
+            @if verdict != Verdict::Pass { p { strong { "Do not fire this option as it stands." } } }
             @if !caveat.is_empty() { p { "Judged:" (caveat.replace(['(', ')'], "")) "." } }
             @for reason in &reasons { p { (reason) } }
             table.facts {
@@ -44,6 +45,11 @@ pub fn head(page: &Page<'_>, warnings: &[&String]) -> Markup {
             @for warning in warnings { p { strong { "Warning: " } (warning) } }
         }
     }
+}
+
+/// Words behind a verdict for which no possible shot was judged.
+pub fn only_planned(page: &Page<'_>) -> &'static str {
+    if page.sampling.is_some() { "" } else { " as planned only; the possible shots were NOT judged" }
 }
 
 /// When the rows fire, in the order of the plan, and how the holes of each follow: `rows at 0/42/84 ms, holes 17 ms left`.

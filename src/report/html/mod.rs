@@ -23,7 +23,9 @@ use super::model::{Block, Report};
 use super::{charts, check, explain};
 use crate::study::Case;
 use crate::study::check_all::OptionResults;
+use crate::study::judgement::Judgement;
 use crate::study::sampling::Sampling;
+use crate::verdict::Verdict;
 
 /// What a page is about.
 pub struct Page<'a> {
@@ -136,7 +138,11 @@ const SHORT_HASH: usize = 12;
 
 /// What every printed page says at its foot, so that no page is taken for one of another plan.
 fn foot(page: &Page<'_>, hash: &str) -> String {
-    let option = page.fired.map(|option| format!(" · {}", page.case.plan.delays[option].name));
+    let option = page.fired.map(|option| {
+        let verdict = page.results[option].as_ref().map_or(Verdict::Undecided, Judgement::verdict);
+        let name = &page.case.plan.delays[option].name;
+        format!(" · “{name}”: {}{}", verdict.label(), fired::only_planned(page))
+    });
     let unsaved = if page.unsaved { " (not saved)" } else { "" };
     format!(
         "{}{} · plan {}{unsaved} · {}",
@@ -177,7 +183,7 @@ fn over_time(page: &Page<'_>, option: usize) -> Markup {
     let Ok(judged) = &page.results[option] else { return Markup::default() };
     html! {
         section.whole {
-            h2 { (case.plan.delays[option].name) " " (word(judged.verdict())) @if page.fired == Some(option) { " · to be fired" } }
+            h2 { (case.plan.delays[option].name) " " (word(judged.verdict())) (fired::only_planned(page)) @if page.fired == Some(option) { " · to be fired" } }
             p.quiet { (explain::computation(case.scene(), &judged.as_planned)) }
             div.charts {
                 @for chart in charts::history(case, &judged.as_planned.history, shot) {

@@ -5,6 +5,7 @@
 use maud::{Markup, html};
 
 use super::Page;
+use super::fired::only_planned;
 use super::table::word;
 use crate::study::judgement::Judgement;
 use crate::verdict::Verdict;
@@ -57,5 +58,6 @@ fn signed(page: &Page<'_>) -> Markup {
         return html! { "Option to be fired: ________________" };
     };
     let verdict = page.results[option].as_ref().map_or(Verdict::Undecided, Judgement::verdict);
-    html! { "Option to be fired: " (page.case.plan.delays[option].name) ", " (word(verdict)) }
+    let name = &page.case.plan.delays[option].name;
+    html! { "Option to be fired: “" (name) "”, " (word(verdict)) (only_planned(page)) }
 }

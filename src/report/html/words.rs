@@ -16,7 +16,7 @@ pub const ASSUMPTIONS: &[&str] = &[
 const WORDS: &[(&str, &str)] = &[
     (
         "Verdict",
-        "PASS, FAIL or OPEN: whether the shot as planned, and surely enough of the possible shots, keep every limit of the plan; OPEN means that neither can be said.",
+        "PASS, FAIL or OPEN: whether the shot as planned, and surely enough of the possible shots where these were judged, keep every limit of the plan; OPEN means that neither can be said.",
     ),
     ("As planned", "The shot exactly as the plan says, nothing varied."),
     (

@@ -9,8 +9,8 @@ use super::{Bounds, Failures, LimitsObject};
 use crate::choice::HoleOrder;
 use crate::outcome::BrokenCable;
 use crate::report::check::{judged_inputs, reason_sentences};
-use crate::report::no_result;
 use crate::report::option_row::option_rows;
+use crate::report::{no_result, warnings};
 use crate::scene::{Scene, TireId, fire_at_s, seconds};
 use crate::study::Case;
 use crate::study::check_all::{OptionResults, verdict_on_plan};
@@ -33,6 +33,7 @@ pub struct CheckDocument {
     scene: SceneSize,
     limits: LimitsObject,
     options: Vec<CheckedOption>,
+    warnings: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -241,6 +242,10 @@ impl CheckDocument {
             },
             limits: LimitsObject::of(case),
             options: options.collect(),
+            warnings: warnings::of_plan(case)
+                .into_iter()
+                .chain(warnings::of_options(case, results))
+                .collect(),
         }
     }
 }

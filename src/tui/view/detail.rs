@@ -148,6 +148,7 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     }
     let swaps = if judged.risk.is_asked() { warnings::swaps_of(case, app.selected) } else { Vec::new() };
     let warnings = swaps.into_iter().chain(warnings::uncovered(&checked.cover));
+    let warnings = warnings.chain(warnings::drift(case, judged));
     lines.extend(warnings.map(|warning| Line::styled(format!("! {warning}"), theme.firing())));
     let risk = judged.risk.drawn().filter(|risk| !risk.samples.is_empty());
     if open {

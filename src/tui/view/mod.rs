@@ -136,9 +136,15 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
             Line::styled(format!("only {what} with '{filter}' are shown; Esc shows all"), theme.limit())
         }
         None => {
-            let warnings = warnings::of_plan(case).into_iter();
-            let warnings = warnings.map(|warning| Span::styled(format!("! {warning} · "), theme.limit()));
-            Line::from_iter(warnings.chain([Span::styled(about, theme.quiet())]))
+            let warnings = warnings::of_plan(case);
+            let warning = match (warnings.as_slice(), app.screen) {
+                ([], _) => String::new(),
+                // The Plan screen lists them.
+                (all, Screen::Plan) if all.len() > 1 => format!("! {} warnings, below · ", all.len()),
+                ([only], _) => format!("! {only} · "),
+                (all, _) => format!("! {} warnings: see Plan · ", all.len()),
+            };
+            Line::from(vec![Span::styled(warning, theme.limit()), Span::styled(about, theme.quiet())])
         }
     };
     frame.render_widget(line, second);

@@ -192,7 +192,8 @@ fn row<'r>(app: &'r App, option: usize, columns: &[&Column], (name, spark): (u16
     let style = if option == app.selected { app.theme.selected() } else { app.theme.base() };
     let mark = if app.listing.baseline == Some(option) { "=" } else { "" };
     let label = format!("{mark}{}", app.case.plan.delays[option].name);
-    let mut cells = vec![Line::styled(format!("{label:0$.0$}", usize::from(name)), style)];
+    let mut cells =
+        vec![Line::styled(format!("{:1$}", cut(&label, usize::from(name)), usize::from(name)), style)];
     match &app.options[option] {
         OptionState::Done { judgement, .. } => {
             cells.push(verdict(app, judgement.verdict()));
@@ -216,6 +217,17 @@ fn row<'r>(app: &'r App, option: usize, columns: &[&Column], (name, spark): (u16
         }
     }
     Cells::new(cells)
+}
+
+/// A name in so many columns: where letters are left out, its end stays, because names differ there.
+fn cut(name: &str, width: usize) -> String {
+    let letters: Vec<char> = name.chars().collect();
+    if letters.len() <= width {
+        return name.to_owned();
+    }
+    let end = (width / 3).min(4);
+    let start = width.saturating_sub(end + 1);
+    letters[..start].iter().chain(&['…']).chain(&letters[letters.len() - end..]).collect()
 }
 
 fn verdict(app: &App, verdict: Verdict) -> Line<'static> {

@@ -11,6 +11,7 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use super::parts::color;
 use super::{fields, options};
 use crate::report::explain::fires;
+use crate::report::warnings;
 use crate::study::Case;
 use crate::tui::app::{App, Areas};
 use crate::tui::keymap::Action;
@@ -19,7 +20,10 @@ use crate::tui::keymap::Action;
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let [left, right] =
         Layout::horizontal([Constraint::Percentage(55), Constraint::Percentage(45)]).spacing(1).areas(area);
+    let warnings = warnings::of_plan(&app.case);
     let lines = if app.editor.problem.is_some() { 4 } else { 2 };
+    // Each warning takes two lines of a screen of 80 columns; they are worth more than the last values.
+    let lines = lines + (3 * warnings.len() as u16).min(area.height / 2);
     let [list, message] = Layout::vertical([Constraint::Min(0), Constraint::Length(lines)]).areas(left);
     let options = (app.listed().len() as u16 + 1).min(right.height / 3);
     let [shelter, verdicts] =
@@ -28,10 +32,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     options::draw(app, frame, verdicts, areas);
     // Their lists of names lie over the map.
     fields::draw(app, frame, list, areas);
-    draw_message(app, frame, message);
+    draw_message(app, &warnings, frame, message);
 }
 
-fn draw_message(app: &App, frame: &mut Frame, area: Rect) {
+fn draw_message(app: &App, warnings: &[String], frame: &mut Frame, area: Rect) {
     let editor = &app.editor;
     let line = match &editor.problem {
         Some(problem) => Line::styled(problem.clone(), app.theme.limit()),
@@ -55,7 +59,9 @@ fn draw_message(app: &App, frame: &mut Frame, area: Rect) {
             Line::styled(hint, app.theme.quiet())
         }
     };
-    frame.render_widget(Paragraph::new(line).wrap(Wrap { trim: true }), area);
+    let warnings = warnings.iter().map(|warning| Line::styled(format!("! {warning}"), app.theme.limit()));
+    let lines: Vec<Line> = warnings.chain([line]).collect();
+    frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), area);
 }
 
 /// Draws the shelter from above: a point per tire, the firing time of each hole in ms, or the sign of its turn where times have no
@@ -110,8 +116,11 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
             context.layer();
             for (turn, (_, holes)) in turns.iter().enumerate() {
                 let style = Style::new().fg(turn_color(app, turn, turns.len())).add_modifier(Modifier::BOLD);
+                let label = label(turn);
+                // A number that is cut would be another number.
+                let last = right + margin - 2.0 * right_by * label.chars().count() as f64;
                 for &(x, y) in holes {
-                    context.print(x + right_by, y - down_by, Span::styled(label(turn), style));
+                    context.print((x + right_by).min(last), y - down_by, Span::styled(label.clone(), style));
                 }
             }
         });
