@@ -31,7 +31,8 @@
 //!
 //! # Map of the modules
 //!
-//! One way in, one way through:
+//! One way in, one way through, here for `check`; a sweep, orders and search keep of each shot a summary (`ShotSummary`,
+//! `RiskSummary`) where `check` keeps a judgement:
 //!
 //! ```text
 //! TOML ─▶ Plan ─▶ Case (Scene, Shots) ─▶ Model::run ─▶ Outcome ─▶ CheckedShot ─▶ Judgement ─▶ Report ─▶ text, CSV, page, terminal

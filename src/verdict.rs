@@ -1,7 +1,7 @@
 //! Pass, fail or undecided: the verdict on a value with an error, given a limit, and the worst of several verdicts.
 //!
 //! Values, one-sided errors and limits come in; a [`Verdict`] goes out. This module does not know where they come from. What
-//! else can keep an option from passing stands in `study::reason`.
+//! else can keep an option from passing stands in `study::reason` (one run) and `study::risk` (samples).
 
 use serde::{Deserialize, Serialize};
 
@@ -14,10 +14,10 @@ use serde::{Deserialize, Serialize};
 pub enum Verdict {
     /// Value + error is within every limit, and nothing else keeps the shot from passing.
     Pass,
-    /// Neither a pass nor a fail: a value is too near its limit even at the finest step allowed, the run ends too early to
-    /// tell, or the run has no result.
+    /// Neither a pass nor a fail: a value is too near its limit even at the finest step allowed, the run ends too early to tell,
+    /// loses energy or has no result, or the samples do not decide.
     Undecided,
-    /// Value − error is past some limit, or a cable breaks.
+    /// Value − error is past some limit, a cable breaks, too much fires within 8 ms, or surely more samples fail than accepted.
     Fail,
 }
 

@@ -50,7 +50,8 @@ pub struct LookArguments {
     /// ASCII characters only, for poor fonts
     #[arg(long, global = true)]
     pub ascii: bool,
-    /// Words and numbers only, for screen readers and old consoles: no charts, no sparklines, ASCII; a plan is printed as `check` does
+    /// Words and numbers only, for screen readers and old consoles: no charts, no sparklines, ASCII; a plan is printed as `check`
+    /// does
     #[arg(long, global = true)]
     pub plain: bool,
     /// Colour; `auto` obeys NO_COLOR

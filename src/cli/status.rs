@@ -15,7 +15,7 @@ pub enum Status {
     Pass = 0,
     /// Something fails or stays undecided.
     Fail = 1,
-    /// The plan or the arguments are wrong.
+    /// The plan or the arguments are wrong, or the system refused what was needed.
     Wrong = 2,
     /// Interrupted by a signal.
     Interrupted = 130,

@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use super::cover::{Cover, CoverWatch};
-use super::ladder::{estimates, nearest};
+use super::peaks::{error_runs, peaks_with_rivals};
 use super::reason::{Reason, closes, find_reasons_as_planned, with_limits};
 use super::{Case, ComputeSettings, step_error};
 use crate::choice::Accuracy;
@@ -150,7 +150,7 @@ pub fn check_shot(
             let cost = || Cost { runs: done.get(), steps: steps.get(), wall: begun.elapsed() };
             let mut judged = checked_from_runs(case, shot, compute, runs, &[], cost());
             if last || judged.is_sure(&case.limits) {
-                let coarsest = &runs[nearest(runs.len()).start];
+                let coarsest = &runs[error_runs(runs.len()).start];
                 let pairs = run_pairs(case, shot, compute, coarsest.outcome.step, run)?;
                 judged = checked_from_runs(case, shot, compute, runs, &pairs, cost());
             }
@@ -254,7 +254,7 @@ fn checked_from_runs(
     let outcomes: Vec<&Outcome> = runs.iter().map(|run| &run.outcome).collect();
     let pairs: Vec<[&Outcome; 2]> =
         pairs.iter().map(|pair| pair.each_ref().map(|run| &run.outcome)).collect();
-    let [height, force, drift] = estimates(&outcomes, &pairs);
+    let [height, force, drift] = peaks_with_rivals(&outcomes, &pairs);
     let outcome = &last.outcome;
     let reasons = find_reasons_as_planned(case, shot, outcome, [height, force, drift]);
     CheckedShot {

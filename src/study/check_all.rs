@@ -99,7 +99,7 @@ pub fn check_all_watched(
     Ok(Found { value: results, partial })
 }
 
-/// Judges every option of every case as the commands and the terminal show it: like [`check_all_watched`], with its launch margin.
+/// Like [`check_all_watched`], with the launch margin of every option: what `check` with samples, the terminal and a search show.
 pub fn check_with_margins(
     cases: &[(&Case, ComputeSettings)],
     sampling: Option<&Sampling>,

@@ -4,9 +4,10 @@
 //! |---|---|
 //! | questions of the user, one file each | [`mod@check_all`] (`shelter check`, and `risk`), [`sweep`], [`orders`], [`size`] |
 //! | the same | [`search`], [`why`], [`effects`], [`accuracy`], [`paper_table`], [`flight`], [`trace`] |
-//! | one shot as planned | [`check`], `ladder`, [`step_error`], [`reason`], [`together`], [`cover`], [`margin`] |
+//! | one shot as planned | [`check`], `peaks`, [`step_error`], [`reason`], [`together`], [`cover`], [`margin`] |
 //! | the same, coarsely, and what a study keeps of it | `quick_check`, `shot_summary` |
 //! | the shots that are possible | [`random_shot`], [`sample`], [`sampling`], [`risk`], [`risk_summary`], [`failure_bounds`], [`influence`], [`swaps`] |
+//! | why a verdict is open | one run: [`reason`]; samples: [`risk`]; both: [`sampled`]; the words: `report::explain` |
 //! | both together | [`judgement`], and the rule of the verdict: [`sampled`] |
 //! | how work runs | [`batch`], `compute`, `progress`, `found`, `no_result`, `intervals`; on many machines: `shard`, [`merge`] |
 //!
@@ -27,12 +28,12 @@ mod found;
 pub mod influence;
 mod intervals;
 pub mod judgement;
-mod ladder;
 pub mod margin;
 pub mod merge;
 mod no_result;
 pub mod orders;
 pub mod paper_table;
+mod peaks;
 mod progress;
 mod quick_check;
 pub mod random_shot;

@@ -2,12 +2,12 @@
 //!
 //! A check begins at the step of the accuracy level and refines until the verdict is sure. A quick check begins at 8 times the step
 //! of the field level, refines by [`step_error::RATIO`] until it has seen enough, and ends at the latest at the step at which a
-//! check begins. Unlike a check it does not look for rival peaks ([`ladder`](super::ladder)). Where the step is fixed, or too few
+//! check begins. Unlike a check it does not look for rival peaks ([`peaks`](super::peaks)). Where the step is fixed, or too few
 //! of the coarse runs succeed, the shot is checked instead.
 
 use super::batch::summarize_shot;
 use super::cover::{Cover, CoverWatch};
-use super::ladder::peaks;
+use super::peaks::peaks;
 use super::reason::{Reason, find_reasons_as_planned};
 use super::{Case, ComputeSettings, NoResult, Progress, ShotSummary, step_error};
 use crate::choice::Accuracy;

@@ -15,7 +15,7 @@
 //! the change. Where it is more than [`FAR_ERROR_FACTOR`] times the error, an event is near, and the disagreement is the error.
 //!
 //! A greatest value has rivals: peaks at other times. Where a rival reaches above it within the rival's own error, the greatest
-//! value is uncertain up to there; `study::ladder` sees to this.
+//! value is uncertain up to there; `study::peaks` sees to this.
 //!
 //! MARGIN and FAR_ERROR_FACTOR were fitted on 1,680 random scenes of 14 regimes. `cargo bench --bench calibration` measures on
 //! other scenes how often the true error is within the reported error, by level, quantity and regime. The estimate covers the

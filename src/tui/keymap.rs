@@ -206,7 +206,14 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Show(Screen::Plan), "plan", &["1"], "", "the plan and its values", ALL),
     bind(Action::Show(Screen::Compare), "compare", &["2"], "", "the delay options side by side", ALL),
     bind(Action::Show(Screen::Flight), "flight", &["3"], "", "the selected option in motion", ALL),
-    bind(Action::Show(Screen::Studies), "studies", &["4"], "", "sweep, orders, risk, size, effects", ALL),
+    bind(
+        Action::Show(Screen::Studies),
+        "studies",
+        &["4"],
+        "",
+        "sweep, orders, risk, search, size, effects",
+        ALL,
+    ),
     bind(Action::Show(Screen::Accuracy), "accuracy", &["5"], "", "what accuracy costs on this plan", ALL),
     bind(Action::NextScreen, "next-screen", &["tab"], "", "the next screen", ALL),
     bind(Action::PreviousScreen, "previous-screen", &["backtab"], "", "the screen before", ALL),
@@ -238,8 +245,8 @@ impl Default for Keymap {
 }
 
 impl Keymap {
-    /// The default keys, with other keys for the actions named; or the mistake in them. A key named for an action leaves another that
-    /// has more keys by default.
+    /// The default keys, with other keys for the actions named; or the mistake in them. A key named for an action leaves another
+    /// that has more keys by default.
     pub fn with(changes: impl IntoIterator<Item = (String, Vec<String>)>) -> Result<Self, String> {
         let mut labels = Self::default().labels;
         let mut named = Vec::new();

@@ -93,7 +93,8 @@ pub enum Next {
 }
 
 impl Start {
-    /// Lists a plan that was never saved, a new plan, the `recent` plans, the plans in `folder` and in its folder `plans`, then the examples.
+    /// Lists a plan that was never saved, a new plan, the `recent` plans, the plans in `folder` and in its folder `plans`, then
+    /// the examples.
     pub fn new(folder: &Path, recent: Vec<PathBuf>, unsaved: Option<String>) -> Self {
         let mut files: Vec<PathBuf> = [folder.to_owned(), folder.join("plans")]
             .iter()

@@ -1,4 +1,5 @@
-//! Edits that a signal, or a terminal that went away, left unsaved: kept in a file of the program's own, and back at the next start.
+//! Edits that a signal, or a terminal that went away, left unsaved: kept in a file of the program's own, and back at the next
+//! start.
 
 use std::fs;
 use std::io;

@@ -165,8 +165,9 @@ impl<'s> SectionReader<'s> {
         low
     }
 
-    /// Yes or no; `default` where the plan leaves the key out.
-    pub fn flag(&self, key: &Key, default: bool) -> bool {
+    /// Yes or no; the default of the key where the plan leaves it out.
+    pub fn flag(&self, key: &Key) -> bool {
+        let default = key.default == Some(DefaultValue::Name("true"));
         let Some(value) = self.get(key) else { return default };
         value.get_ref().as_bool().unwrap_or_else(|| {
             self.mistyped(key, value, key.kind.wanted());

@@ -112,7 +112,7 @@ pub fn read_search(section: SectionReader<'_>) -> SearchSpec {
     let limit = &search::MOST_HOLES_IN_8_MS;
     let spec = SearchSpec {
         intervals_ms: read_intervals(&section),
-        equal_intervals: section.flag(&search::EQUAL_INTERVALS, true),
+        equal_intervals: section.flag(&search::EQUAL_INTERVALS),
         orders: section.choice(&search::ORDERS, SearchedOrders::DEFAULT),
         holes: holes.fold(Vec::new(), |mut all, one| {
             if !all.contains(&one) {

@@ -21,16 +21,17 @@ use crate::verdict::Verdict;
 /// Most intervals that get a full verdict.
 const TRIES: usize = 6;
 
-/// Adds risk to a sweep of the shots as planned; the intervals `own` [ns] of the plan's options are among those sampled.
+/// Adds risk to a sweep of the shots as planned; of the intervals `own` [ns] of the plan's options those that lie in a window as
+/// planned are among the intervals sampled.
 pub fn add_risk(
     case: &Case,
-    nominal: Found<Sweep>,
+    as_planned: Found<Sweep>,
     own: &BTreeSet<i64>,
     sampling: &Sampling,
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Finding<Sweep> {
-    let Found { value: mut swept, mut partial } = nominal;
+    let Found { value: mut swept, mut partial } = as_planned;
     let shot = |point: &Point| (case.shot(&swept.order, point.interval), point.as_planned);
     let chosen = choose(&swept.points, &swept.windows_as_planned, own);
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
@@ -120,10 +121,10 @@ fn choose(points: &[Point], windows: &[[f64; 2]], own: &BTreeSet<i64>) -> Vec<us
     chosen
 }
 
-/// Windows of accepted risk [s], each inside one of `nominal`; the ends were sampled.
-fn accepted_windows(points: &[Point], nominal: &[[f64; 2]]) -> Vec<[f64; 2]> {
+/// Windows of accepted risk [s], each inside one of `as_planned`; the ends were sampled.
+fn accepted_windows(points: &[Point], as_planned: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut windows: Vec<[f64; 2]> = Vec::new();
-    for &[from, to] in nominal {
+    for &[from, to] in as_planned {
         let inside = |point: &&Point| point.is_sampled() && (from..=to).contains(&point.interval);
         let mut before: Option<f64> = None;
         for point in points.iter().filter(inside) {

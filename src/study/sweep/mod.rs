@@ -65,7 +65,7 @@ pub struct Sweep {
     /// Ranges of intervals [s] in which every interval tried passes as planned; the ends were tried.
     pub windows_as_planned: Vec<[f64; 2]>,
     /// Windows of accepted risk: ranges of intervals [s] in which every interval sampled is accepted; the ends were sampled.
-    /// Where only the shots as planned were asked for, the nominal windows.
+    /// Where only the shots as planned were asked for, the windows as planned.
     pub windows: Vec<[f64; 2]>,
     /// The recommended interval; `None` where no window is wider than a point, or no full verdict passes.
     pub recommended: Option<Recommended>,
@@ -82,7 +82,7 @@ impl Sweep {
     }
 }
 
-/// An interval deep inside a safe window.
+/// An interval deep inside a window of accepted risk, or without samples inside one that passes as planned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recommended {
     /// Interval between successive rows [s].
@@ -118,10 +118,10 @@ pub fn sweep(
         return Err(NoResult::SingleRow);
     }
     case.require_hole_timing()?;
-    let nominal = sweep_as_planned(case, order, intervals, compute, progress)?;
-    let Some(sampling) = sampling else { return Ok(nominal) };
+    let as_planned = sweep_as_planned(case, order, intervals, compute, progress)?;
+    let Some(sampling) = sampling else { return Ok(as_planned) };
     let own = own_intervals(case, order).into_iter().map(nanoseconds).collect();
-    accepted::add_risk(case, nominal, &own, sampling, compute, progress)
+    accepted::add_risk(case, as_planned, &own, sampling, compute, progress)
 }
 
 /// Sweeps the shots as planned.

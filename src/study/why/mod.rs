@@ -2,7 +2,7 @@
 //!
 //! 1. Candidates come by kind (rope, termination, ballast, slack, launches, interval), from the smallest change up. Each is
 //!    written into the plan's text, and the plan of the new text is what is judged: whoever writes it gets this very plan.
-//! 2. All candidates are coarse as planned; those that surely fail are out.
+//! 2. All candidates are judged coarsely, as planned; those that surely fail are out.
 //! 3. Of each kind the smallest left is judged as `check` judges it: as planned, then by the samples of a verdict. Where that is
 //!    no PASS, the next follows. The first PASS is offered.
 //!

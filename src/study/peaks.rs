@@ -1,5 +1,5 @@
-//! Height, force and drift of a shot with their errors, from runs at a ladder of steps. A check judges by [`estimates`], a quick
-//! check by [`peaks`].
+//! Height, force and drift of a shot with their errors, from runs at a ladder of steps. A check judges by [`peaks_with_rivals`],
+//! a quick check by [`peaks`].
 
 use std::ops::Range;
 
@@ -11,8 +11,8 @@ use crate::verdict::Estimate;
 const SLICES: usize = 32;
 
 /// Like [`peaks`]; errors of height and force reach up to rivals of the greatest value.
-pub fn estimates(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
-    let near = &runs[nearest(runs.len())];
+pub fn peaks_with_rivals(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
+    let near = &runs[error_runs(runs.len())];
     let last = runs[runs.len() - 1];
     let [height, force, drift] = peaks(runs, pairs);
     [
@@ -26,7 +26,7 @@ pub fn estimates(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
 ///
 /// The errors come from the [`nearest`] runs, and from `pairs` of nearby shots, run at the coarsest step of those.
 pub fn peaks(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
-    let near = &runs[nearest(runs.len())];
+    let near = &runs[error_runs(runs.len())];
     let last = runs[runs.len() - 1];
     let estimate_of = |peak: fn(&Outcome) -> Peak| {
         let Peak { value, at, index } = peak(last);
@@ -39,7 +39,7 @@ pub fn peaks(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
 }
 
 /// Indices of the runs that give the errors of the last of `count` runs: the runs just before it, [`NEIGHBOURS`] at most.
-pub fn nearest(count: usize) -> Range<usize> {
+pub fn error_runs(count: usize) -> Range<usize> {
     count.saturating_sub(1 + NEIGHBOURS)..count - 1
 }
 
