@@ -133,7 +133,10 @@ proptest! {
             });
             prop_assert!(finite && out.height.value.is_finite() && out.force.value.is_finite());
             prop_assert!(lowest >= -1e-12, "{:?} penetrates by {:e}", method, lowest);
-            prop_assert!(outside_cone <= 1e-9, "{:?} leaves the cone by {:e}", method, outside_cone);
+            // Friction is the change of a velocity, up to some 10 m/s, over a step: its rounding is that of the velocity times m/h.
+            let heaviest = scene.mass.iter().copied().fold(0.0, f64::max);
+            let rounding = 1e-9 + 4.0 * f64::EPSILON * 10.0 * heaviest / step(&scene);
+            prop_assert!(outside_cone <= rounding, "{:?} leaves the cone by {:e}", method, outside_cone);
             prop_assert!(out.height.at >= first || out.height.value == 0.0);
             prop_assert!(early <= 1e-12, "{:?}: {:e} m before the first hole", method, early);
         }
