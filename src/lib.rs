@@ -78,7 +78,7 @@
 //! *taut* or *slack*; a tire on the ground *sticks* or *slips*.
 //!
 //! The *utilization* of a shot is its greatest value over its limit. A *checked shot* was run at ever finer steps until its
-//! verdict was sure ([`CheckedShot`](study::check::CheckedShot)); its *summary* is the verdict with height, force and drift, each
+//! verdict was sure ([`CheckedShot`]); its *summary* is the verdict with height, force and drift, each
 //! with its error ([`ShotSummary`](study::ShotSummary)). A *judgement* adds what samples tell. A check climbs a *ladder* of
 //! steps, each a fixed ratio finer than the one before. A *sampling* says how many samples are drawn, from which seed, and when
 //! to stop. A *face* is one way to show results: text, CSV, page and terminal draw reports; JSON has documents of its own, and
