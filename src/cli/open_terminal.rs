@@ -46,7 +46,7 @@ pub fn start(compute: &Compute, look: &LookArguments) -> io::Result<Status> {
     }
     needs_keyboard(compute)?;
     let config = config()?;
-    let unsaved = unsaved::kept(None);
+    let unsaved = unsaved::kept(None).map(|kept| kept.text);
     let start = Start::new(Path::new("."), config::recent(), unsaved);
     let (name, text, kept) = match tui::choose(start, &config, screen(&config, look))? {
         Err(exit) => return Ok(status(&exit)),

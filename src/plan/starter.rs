@@ -21,9 +21,9 @@ pub const QUESTIONS: [(&str, &str); 11] = [
 ];
 /// Index of the question for a rope in [`QUESTIONS`].
 pub const ROPE: usize = 5;
-/// What a plan made from the answers assumes without having asked.
+/// What a plan made from the answers assumes.
 pub const ASSUMED: &str =
-    "assumed, check these: slack, friction, diameter of the tires, termination, all of [uncertainty]";
+    "assumed, check these: answers taken as offered, slack, friction, diameter, termination, [uncertainty]";
 /// Most blast rows of a starter plan.
 const MOST_ROWS: usize = 50;
 /// Intervals of a range without a step.
@@ -177,9 +177,11 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
     let (spacing, mass) = (number(spacing, 3)?, number(mass, 4)?);
     let (height, factor) = (number(height, 9)?, number(factor, 10)?);
     let over_holes = shelter_rows(over_holes, rows).map_err(|why| format!("{}: {why}", QUESTIONS[6].0))?;
+    // A number that nobody gave must not look measured.
+    let source = if launch == QUESTIONS[7].1 { "    # assumed: put in yours" } else { "" };
     let launch = match launch.strip_suffix('m') {
         Some(height) => line(&blast_row::FREE_FLIGHT_HEIGHT_M, number(height.trim(), 7)?),
-        None => line(&blast_row::LAUNCH_M_S, number(launch, 7)?),
+        None => line(&blast_row::LAUNCH_M_S, format!("{}{source}", number(launch, 7)?)),
     };
     let mut all = Vec::new();
     for part in intervals.split([',', ' ', ';']).filter(|part| !part.is_empty()) {
@@ -242,6 +244,7 @@ mod tests {
         let text = plan(&QUESTIONS.map(|(_, answer)| answer)).expect("answers");
         let plan = Plan::parse("new", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"));
         assert_eq!((plan.blast_rows.len(), plan.delays.len()), (3, 7));
+        assert_eq!(text.matches("launch_m_s = 4    # assumed: put in yours").count(), 3, "{text}");
         assert!(plan.ranges_beside_the_plan().is_empty());
         for key in uncertainty::SECTION.keys.iter().filter(|key| !key.name.starts_with("delay_")) {
             assert!(text.contains(&format!("\n{} = ", key.name)), "{}", key.name);
@@ -255,6 +258,9 @@ mod tests {
         let text = super::plan(&answers).expect("answers");
         let plan = Plan::parse("new", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"));
         let under: Vec<&str> = text.lines().filter(|line| line.starts_with("under_row")).collect();
+        assert!(
+            !text.contains("# assumed: put in yours\n[[") && text.contains("free_flight_height_m = 0.8\n")
+        );
         assert_eq!(under, ["under_row = 1", "under_row = 4", "under_row = 5"]);
         let names: Vec<&str> = plan.delays.iter().map(|delay| delay.name.as_str()).collect();
         assert_eq!(names, ["9 ms", "29 ms", "49 ms", "69 ms", "89 ms", "109 ms", "200 ms"]);

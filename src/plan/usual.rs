@@ -31,11 +31,13 @@ impl Plan {
         let launches = self.launches().map(|launch| launch.speed_m_s).collect();
         // 0 is no diameter: cables run from centre to centre.
         let diameters = Some(self.tire.outer_diameter_m).filter(|diameter| *diameter > 0.0);
-        let values: [(&'static Section, &'static Key, Vec<f64>); 8] = [
+        let values: [(&'static Section, &'static Key, Vec<f64>); 10] = [
             (&tire::SECTION, &tire::MASS_KG, masses),
             (&tire::SECTION, &tire::OUTER_DIAMETER_M, diameters.into_iter().collect()),
             (&shelter::SECTION, &shelter::SPACING_M, spacings),
             (&cable::SECTION, &cable::SLACK_PERCENT, vec![self.cable.slack_percent]),
+            (&cable::SECTION, &cable::AXIAL_STIFFNESS_KN, vec![self.cable.axial_stiffness_kn]),
+            (&cable::SECTION, &cable::BREAKING_FORCE_KN, vec![self.cable.breaking_force_kn]),
             (&ground::SECTION, &ground::FRICTION, vec![self.ground.friction]),
             (&blast_row::SECTION, &blast_row::LAUNCH_M_S, launches),
             (&limits::SECTION, &limits::FLIGHT_HEIGHT_M, vec![self.limits.flight_height_m]),
@@ -70,6 +72,9 @@ mod tests {
         assert_eq!(told("mass_kg = 280 ", "mass_kg = 2.8 "), [("mass_kg", 2.8)]);
         assert_eq!(told("friction = 0.5 ", "friction = 50 "), [("friction", 50.0)]);
         assert_eq!(told("launch_m_s = 6.0", "launch_m_s = 60"), [("launch_m_s", 60.0)]);
+        let own = "breaking_force_kn = 20900\naxial_stiffness_kn = 1519";
+        let rope = "rope = \"GOST 2688-80 14 1960\"    # `shelter ropes` lists the catalogue\ntermination = \"mechanical sleeve\"";
+        assert_eq!(told(rope, own), [("breaking_force_kn", 20_900.0)], "newtons for kilonewtons");
         assert_eq!(told("slack_percent = 2\n", "slack_percent = 40\n"), [("slack_percent", 40.0)]);
     }
 }

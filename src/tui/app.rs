@@ -17,6 +17,7 @@ use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use super::studies::{ShownStudy, Studies, StudyState};
 use super::theme::Theme;
+use super::unsaved::Kept;
 use crate::jobs::{News, StudyKind};
 use crate::plan::{Plan, PlanSource};
 use crate::study::judgement::Judgement;
@@ -243,12 +244,18 @@ impl App {
     }
 
     /// Takes back edits that the last session could not save.
-    pub fn take_unsaved(&mut self, text: String) -> Request {
-        let edit = self.editor.take(Ok(text));
+    pub fn take_unsaved(&mut self, kept: Kept) -> Request {
+        let changed = !kept.are_of(self.editor.saved());
+        let edit = self.editor.take(Ok(kept.text));
         let undo = self.keymap.hint(Action::Undo);
         if let EditOutcome::Changed(plan) = edit {
             let request = self.take_edited(*plan);
-            self.notice = Some(format!("the edits that were not saved are back; {undo} takes them away"));
+            self.notice = Some(match changed {
+                true => format!(
+                    "edits of an OLDER file are back: another program has changed it since; {undo} shows the file"
+                ),
+                false => format!("the edits that were not saved are back; {undo} takes them away"),
+            });
             return request;
         }
         Request::None

@@ -87,6 +87,8 @@ pub fn run(app: App, jobs: Jobs, look: Look, plan: Option<&Path>) -> io::Result<
     session.take_unsaved();
     session.serve(Request::Check);
     let exit = session.serve_events(&mut display, &signals, look);
+    // What is told now must not go with the screen.
+    drop(display);
     session.keep_or_drop_edits(matches!(exit, Ok(Exit::Quit)));
     exit
 }
@@ -144,8 +146,8 @@ impl Session {
     /// Takes back the edits that the last session could not save; they can be undone.
     fn take_unsaved(&mut self) {
         // A plan without a file is offered by the start screen.
-        let Some(text) = self.file.as_ref().and_then(|file| unsaved::kept(Some(file.path()))) else { return };
-        let request = self.app.take_unsaved(text);
+        let Some(kept) = self.file.as_ref().and_then(|file| unsaved::kept(Some(file.path()))) else { return };
+        let request = self.app.take_unsaved(kept);
         self.serve(request);
     }
 
@@ -154,7 +156,7 @@ impl Session {
         let plan = self.file.as_ref().map(PlanFile::path);
         match (self.app.editor.unsaved(), given_up, plan) {
             (true, false, _) => {
-                if let Err(error) = unsaved::keep(plan, &self.app.editor.text) {
+                if let Err(error) = unsaved::keep(plan, self.app.editor.saved(), &self.app.editor.text) {
                     eprintln!("edits that were not saved are lost: {error}");
                 }
             }

@@ -15,24 +15,44 @@ fn path(plan: Option<&Path>) -> Option<PathBuf> {
     let name = match plan {
         Some(plan) => {
             let path = plan.canonicalize().ok()?;
-            let hash = Sha256::digest(path.as_os_str().as_encoded_bytes());
-            hash.iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+            checksum(path.as_os_str().as_encoded_bytes())
         }
         None => "new-plan".to_owned(),
     };
     Some(state_folder()?.join("unsaved").join(name).with_extension("toml"))
 }
 
-/// Keeps the text of a plan.
-pub fn keep(plan: Option<&Path>, text: &str) -> io::Result<()> {
-    let path = path(plan).ok_or(io::ErrorKind::NotFound)?;
-    path.parent().map_or(Ok(()), fs::create_dir_all)?;
-    file::save(&path, text)
+/// Edits that were kept.
+pub struct Kept {
+    /// The text with the edits.
+    pub text: String,
+    /// Checksum of the text of the file that was edited.
+    before: String,
 }
 
-/// The text that was kept of a plan.
-pub fn kept(plan: Option<&Path>) -> Option<String> {
-    fs::read_to_string(path(plan)?).ok()
+impl Kept {
+    /// Whether they are edits of this text of the file; if not, another program has changed the file since.
+    pub fn are_of(&self, saved: &str) -> bool {
+        self.before == checksum(saved.as_bytes())
+    }
+}
+
+fn checksum(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Keeps the text of a plan whose file holds `saved`.
+pub fn keep(plan: Option<&Path>, saved: &str, text: &str) -> io::Result<()> {
+    let path = path(plan).ok_or(io::ErrorKind::NotFound)?;
+    path.parent().map_or(Ok(()), fs::create_dir_all)?;
+    file::save(&path, &format!("# {}\n{text}", checksum(saved.as_bytes())))
+}
+
+/// The edits that were kept of a plan.
+pub fn kept(plan: Option<&Path>) -> Option<Kept> {
+    let kept = fs::read_to_string(path(plan)?).ok()?;
+    let (before, text) = kept.strip_prefix("# ")?.split_once('\n')?;
+    Some(Kept { text: text.to_owned(), before: before.to_owned() })
 }
 
 /// Drops what was kept of a plan: it is saved now, or given up.

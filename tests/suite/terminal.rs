@@ -271,6 +271,28 @@ fn unsaved_edits_survive_a_signal() {
     }
 }
 
+/// Who saved them would take back what a colleague has changed meanwhile.
+#[test]
+fn unsaved_edits_of_a_file_that_has_changed_say_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("plan.toml");
+    let text = include_str!("../../plans/paper-5-tire.toml");
+    std::fs::write(&file, text).expect("written");
+    let arguments = [file.to_str().expect("UTF-8"), "--accuracy", "draft"];
+    let home = Arc::new(tempfile::tempdir().expect("a folder"));
+    let mut watched = Watched::start_at_home(&arguments, folder.path(), 120, 36, Arc::clone(&home));
+    watched.until(" of 1 pass");
+    watched.press("1/friction\r\r\x150.61\r");
+    watched.until("*not saved*");
+    watched.signal("TERM");
+    assert_eq!(watched.ends(), 130);
+    std::fs::write(&file, format!("{text}# stricter now\n")).expect("written");
+    let mut watched = Watched::start_at_home(&arguments, folder.path(), 120, 36, home);
+    watched.until("edits of an OLDER file are back");
+    watched.press("qq");
+    assert_eq!(watched.ends(), 0);
+}
+
 /// Pasted text is a value or nothing: never commands.
 #[test]
 fn pasted_text_is_no_command() {

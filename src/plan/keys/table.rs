@@ -115,8 +115,8 @@ sections! {
             "share of the breaking force that the termination holds").default(100.0);
         SLACK_PERCENT = key("slack_percent", number("%", SLACK), "2", "length over distance").default(0.0).usual(0.0, 15.0)
             .edit("slack, %").offered();
-        AXIAL_STIFFNESS_KN = key("axial_stiffness_kn", CABLE_FORCE, "1519", "EA").edit("axial stiffness EA, kN");
-        BREAKING_FORCE_KN = key("breaking_force_kn", CABLE_FORCE, "20.9", "").edit("breaking force, kN");
+        AXIAL_STIFFNESS_KN = key("axial_stiffness_kn", CABLE_FORCE, "1519", "EA").usual(20.0, 2e5).edit("axial stiffness EA, kN");
+        BREAKING_FORCE_KN = key("breaking_force_kn", CABLE_FORCE, "20.9", "").usual(1.0, 2500.0).edit("breaking force, kN");
         DAMPING_PERCENT = key("damping_percent", number("%", 0.0..=100.0), "5", "of critical damping, of two tires on a cable")
             .default(0.0).edit("damping, %").offered();
         END_STIFFNESS_KN_M = key("end_stiffness_kn_m", number("kN/m", 1e-3..=1e12), "2000",

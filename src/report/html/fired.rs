@@ -102,13 +102,7 @@ fn launch_margin(shot: &Shot, judged: &Judgement) -> String {
         Some(LaunchMargin::NotPassing) => "none: the shot as planned does not pass".to_owned(),
         _ => "not computed".to_owned(),
     };
-    explain::launch_limit(shot, judged)
-        .map_or_else(none, |limit| format!("as planned it {}", opening(&limit)))
-}
-
-/// `open from ...` as a part of a sentence.
-fn opening(limit: &str) -> String {
-    limit.strip_prefix("open ").map_or_else(|| limit.to_owned(), |rest| format!("is open {rest}"))
+    explain::launch_limit(shot, judged).map_or_else(none, |limit| format!("as planned it {limit}"))
 }
 
 /// The share of each limit that the shot as planned takes.

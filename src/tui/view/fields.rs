@@ -36,10 +36,6 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let selected = lines.iter().position(|(n, _)| *n == Some(editor.selected));
     let inside = block.inner(area);
     let mut state = ListState::default().with_selected(selected);
-    if editor.selected == 0 {
-        // Its heading, too.
-        state = state.with_offset(0);
-    }
     let (numbers, rows): (Vec<Option<usize>>, Vec<Line<'_>>) = lines.into_iter().unzip();
     frame.render_stateful_widget(List::new(rows).block(block).scroll_padding(1), area, &mut state);
     let shown = numbers.into_iter().skip(state.offset()).take(usize::from(inside.height));

@@ -21,6 +21,7 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use super::chart::{self, Mark};
 use super::parts::color;
 use crate::jobs::StudyKind;
+use crate::outcome::Outcome;
 use crate::report::no_result;
 use crate::study::flight::Flight;
 use crate::tui::app::{App, Areas, ClickTarget};
@@ -53,9 +54,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     ])
     .areas(area);
     let [above, side] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(views);
-    draw_above(app, flight, frame, above);
-    draw_side(app, flight, frame, side);
-    frame.render_widget(now_line(app, flight), now);
+    let forces = flight.forces(app.case.scene(), app.player.time);
+    draw_above(app, flight, &forces, frame, above);
+    draw_side(app, flight, &forces, frame, side);
+    frame.render_widget(now_line(app, flight, &forces, now.width), now);
     draw_bar(app, flight, frame, bar, areas);
     let areas_below = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).split(below);
     let charts = app.studies.finished(StudyKind::Flight).into_iter().flat_map(|done| done.report.charts());
@@ -74,7 +76,7 @@ fn titled<'t>(app: &App, title: String) -> Block<'t> {
 /// Draws the shelter from above: cables that pull, coloured by their force, and a sign per tire by height; of tires that share a
 /// cell, the highest. A hole that fires shows the direction of its launch; the worst cable and the highest tire of the whole flight
 /// are marked.
-fn draw_above(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
+fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area: Rect) {
     let (scene, theme, time) = (app.case.scene(), app.theme, app.player.time);
     let name = &app.case.plan.delays[app.selected].name;
     let ground = &app.case.plan.ground;
@@ -95,7 +97,6 @@ fn draw_above(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
     // A cell of a terminal is about twice as high as wide.
     let width =
         ((right - left) / (columns - 1.0)).max((top - bottom) / (2.0 * (rows - 1.0).max(1.0))).max(1e-9);
-    let forces = flight.forces(scene, time);
     let position = |tire: usize| (scene.position[tire].x, scene.position[tire].y);
     let canvas = Canvas::default()
         .background_color(theme.base().bg.unwrap_or(Color::Reset))
@@ -172,7 +173,7 @@ fn sign(app: &App, height: f32) -> (&'static str, Style) {
 }
 
 /// Draws tires and cables from the side, with ground and limit. Taut cables stand out.
-fn draw_side(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
+fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area: Rect) {
     let (scene, theme, axis) = (app.case.scene(), app.theme, usize::from(app.player.along_rows));
     let [left, right] = scene.extent(axis);
     let margin = 0.03 * (right - left).max(1.0);
@@ -185,7 +186,6 @@ fn draw_side(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
     };
     let aloft = |tire: usize| frame_of[tire][2] > GROUND;
     let tires: Vec<(f64, f64)> = (0..scene.mass.len()).map(position).collect();
-    let forces = flight.forces(scene, app.player.time);
     let seen = if axis == 0 { "across rows" } else { "along rows" };
     let count = forces.iter().filter(|force| **force > 0.0).count();
     let canvas = Canvas::default()
@@ -199,7 +199,7 @@ fn draw_side(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
             let (from, to) = (left - margin, right + margin);
             context.draw(&stroke((from, 0.0), (to, 0.0), color(theme.quiet())));
             for wanted in [false, true] {
-                for (cable, &force) in scene.cables.iter().zip(&forces).filter(|(cable, force)| {
+                for (cable, &force) in scene.cables.iter().zip(forces).filter(|(cable, force)| {
                     (**force > 0.0) == wanted && cable.ends.iter().any(|&end| aloft(end))
                 }) {
                     let style = if wanted { cable_style(app, force) } else { theme.quiet() };
@@ -217,8 +217,9 @@ fn draw_side(app: &App, flight: &Flight, frame: &mut Frame, area: Rect) {
     frame.render_widget(canvas, area);
 }
 
-/// The highest tire and the hardest pulled cable at the time shown, and what the marks mean.
-fn now_line<'l>(app: &App, flight: &Flight) -> Line<'l> {
+/// The highest tire and the hardest pulled cable at the time shown, and those of the whole flight: a peak lies between two times
+/// that were recorded. Those of the whole flight stand where the width [cells] has room: the charts below have them too.
+fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<'l> {
     let (scene, limits, time) = (app.case.scene(), &app.case.limits, app.player.time);
     let greatest = |values: &[f64]| {
         let most = values.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
@@ -230,15 +231,22 @@ fn now_line<'l>(app: &App, flight: &Flight) -> Line<'l> {
         let value = units::value(height, Unit::Metre);
         format!("tire {} {value} m, {}", scene.tire[tire], share(height, limits.height))
     });
-    let cable = greatest(&flight.forces(scene, time)).map_or("no cable taut".to_owned(), |(cable, force)| {
+    let cable = greatest(forces).map_or("no cable taut".to_owned(), |(cable, force)| {
         let value = units::value(force, Unit::Kilonewton);
         format!("cable {} {value} kN, {}", scene.cable_name(cable), share(force, limits.force))
     });
-    let marks = " · ^ highest · grey: worst cable";
-    Line::from(vec![
-        Span::styled(format!(" now: {tire} · {cable}"), app.theme.title()),
-        Span::styled(marks, app.theme.quiet()),
-    ])
+    let Outcome { height, force, .. } = &flight.outcome;
+    let peaks = format!(
+        " · most in all: ^ {} m, grey {} kN",
+        units::value(height.value, Unit::Metre),
+        units::value(force.value, Unit::Kilonewton)
+    );
+    let mut line = Line::from(Span::styled(format!(" now: {tire} · {cable}"), app.theme.title()));
+    let marks = [peaks, " · peaks: ^, grey".to_owned()].map(|words| Span::styled(words, app.theme.quiet()));
+    if let Some(marks) = marks.into_iter().find(|marks| line.width() + marks.width() <= usize::from(width)) {
+        line.push_span(marks);
+    }
+    line
 }
 
 /// Draws the time shown, as text and on a bar that takes clicks.

@@ -59,8 +59,25 @@ fn draw_message(app: &App, warnings: &[String], frame: &mut Frame, area: Rect) {
             Line::styled(hint, app.theme.quiet())
         }
     };
-    let warnings = warnings.iter().map(|warning| Line::styled(format!("! {warning}"), app.theme.limit()));
-    let lines: Vec<Line> = warnings.chain([line]).collect();
+    let mut lines: Vec<Line> = Vec::new();
+    // Two lines at the foot stay for the hint, or for how many warnings have no room.
+    let mut room = usize::from(area.height.saturating_sub(2));
+    for (n, warning) in warnings.iter().enumerate() {
+        let warning = format!("! {warning}");
+        // Words that are not broken leave gaps: a line more.
+        let height = Span::raw(&warning).width().div_ceil(usize::from(area.width.max(1))) + 1;
+        if height > room {
+            let hidden = warnings.len() - n;
+            lines.push(Line::styled(
+                format!("! {hidden} more: `shelter check` lists them"),
+                app.theme.limit(),
+            ));
+            break;
+        }
+        room -= height;
+        lines.push(Line::styled(warning, app.theme.limit()));
+    }
+    lines.push(line);
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), area);
 }
 
