@@ -8,9 +8,10 @@ use shelter::choice::Method;
 use shelter::plan::{DelayScatter, Plan, Uncertainty};
 use shelter::simulation::{Model, Motion, RunSettings};
 use shelter::study::Progress;
-use shelter::study::batch::run_jobs;
-use shelter::study::random_shot::{RandomShot, draw};
-use shelter::study::{Case, NoResult, check};
+use shelter::study::as_planned::check;
+use shelter::study::samples::random_shot::{RandomShot, draw};
+use shelter::study::work::batch::run_jobs;
+use shelter::study::{Case, NoResult};
 
 fn main() {
     divan::main();

@@ -51,7 +51,7 @@
 //! | [`outcome`] | | peaks, ledger, histories of a run | any other module |
 //! | [`simulation`] | scene, shot, step | an [`Outcome`](outcome::Outcome) or a [`Failure`](simulation::Failure) | [`plan`], [`ropes`], [`file`], [`units`]; options, limits, screens |
 //! | [`verdict`] | value, error, limit | pass, fail, undecided | any other module |
-//! | [`study`] | a plan made ready | verdicts refined until sure, on the shot as planned and on what may come of it; sweeps, orders, sizes, effects; accuracy tables, traces, flights | formats, except that of a shard (`study::merge`) |
+//! | [`study`] | a plan made ready | verdicts refined until sure, on the shot as planned and on what may come of it; sweeps, orders, sizes, effects; accuracy tables, traces, flights | formats, except that of a shard (`study::work::merge`) |
 //! | [`report`] | study results | text, JSON, CSV, a page of HTML | terminals |
 //! | [`jobs`] | a check or a study to begin | news: progress, results; the newest request of a kind wins | [`report`]; screens |
 //! | [`tui`] | keys and events | a screen | physics |
@@ -65,8 +65,8 @@
 //!
 //! - A [`Scene`](scene::Scene) is never changed once built; everything that moves lives in a stepper.
 //! - Plan units become SI where a plan becomes a [`Case`]: scene, shots and limits. What a study changes in the plan itself keeps
-//!   the units of its keys: `[uncertainty]` until samples are drawn, the intervals of a search, the changes of `why`. SI becomes
-//!   words in `units`.
+//!   the units of its keys: `[uncertainty]` until samples are drawn, the intervals of a search, the changes of `would_pass`. SI
+//!   becomes words in `units`.
 //! - What goes wrong in a run is a value, never a panic and never a pass. Functions that take the index of an option panic where
 //!   there is no such option.
 //! - The same plan gives the same numbers for any number of threads.
@@ -78,11 +78,12 @@
 //! *taut* or *slack*; a tire on the ground *sticks* or *slips*.
 //!
 //! The *utilization* of a shot is its greatest value over its limit. A *checked shot* was run at ever finer steps until its
-//! verdict was sure ([`CheckedShot`]); its *summary* is the verdict with height, force and drift, each
-//! with its error ([`ShotSummary`](study::ShotSummary)). A *judgement* adds what samples tell. A check climbs a *ladder* of
-//! steps, each a fixed ratio finer than the one before. A *sampling* says how many samples are drawn, from which seed, and when
-//! to stop. A *face* is one way to show results: text, CSV, page and terminal draw reports; JSON has documents of its own, and
-//! the table and detail of Compare draw judgements as they come.
+//! verdict was sure ([`CheckedShot`]); its *summary* is the verdict with height, force and drift, each with its error
+//! ([`ShotSummary`](study::ShotSummary)). A *sample* is one of the shots that are possible: drawn at random as `[uncertainty]`
+//! says, and run. What all samples of a shot tell is its *risk*. A *judgement* is check and risk together. A check climbs a
+//! *ladder* of steps, each a fixed ratio finer than the one before. A *sampling* says how many samples are drawn, from which
+//! seed, and when to stop. A *face* is one way to show results: text, CSV, page and terminal draw reports; JSON has documents of
+//! its own, and the table and detail of Compare draw judgements as they come.
 //!
 //! *Nominal* is as planned, nothing varied. *Undecided* reads OPEN on screens. A *quick check* is a coarse check of one shot
 //! among thousands. An *audit* runs some samples again at a finer step. A *shard* is one machine's part of a study; `--shard`
@@ -109,9 +110,9 @@ pub mod verdict;
 
 pub use plan::Plan;
 pub use simulation::{Model, Motion, RunSettings};
-pub use study::check::{CheckedShot, check_as_planned};
-pub use study::check_all::check_all;
+pub use study::as_planned::check::{CheckedShot, check_as_planned};
+pub use study::judge::judge_all;
 pub use study::judgement::Judgement;
-pub use study::sampling::Sampling;
+pub use study::samples::sampling::Sampling;
 pub use study::{Case, ComputeSettings, Progress};
 pub use verdict::Verdict;

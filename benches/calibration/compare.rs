@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use shelter::choice::{Accuracy, Method};
 use shelter::plan::Plan;
 use shelter::simulation::{Model, RunSettings};
-use shelter::study::check::{CheckedShot, check_as_planned};
+use shelter::study::as_planned::check::{CheckedShot, check_as_planned};
 use shelter::study::{Case, ComputeSettings};
 use shelter::verdict::{Limits, Verdict};
 

@@ -8,8 +8,8 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use shelter::choice::Accuracy;
 use shelter::plan::Plan;
-use shelter::study::sample::Sample;
-use shelter::study::sampling::{Sampling, ShotToSample, draw_shard, find_risks};
+use shelter::study::samples::sample::Sample;
+use shelter::study::samples::sampling::{Sampling, ShotToSample, draw_shard, find_risks};
 use shelter::study::{Case, ComputeSettings, Progress, Shard};
 use shelter::verdict::Verdict;
 

@@ -17,7 +17,7 @@ use std::time::Instant;
 
 use itertools::Itertools;
 use rayon::prelude::*;
-use shelter::study::check::check_shot;
+use shelter::study::as_planned::check::check_shot;
 use shelter::study::orders::try_orders;
 use shelter::study::sweep::sweep;
 use shelter::study::{Case, ComputeSettings, Intervals, Progress, Shard, ShotSummary};

@@ -9,7 +9,7 @@ use crate::choice::{Accuracy, Method, UnknownName};
 use crate::plan::Plan;
 use crate::report::text::Style;
 use crate::scene::seconds;
-use crate::study::sampling::Sampling;
+use crate::study::samples::sampling::Sampling;
 use crate::study::{ComputeSettings, Intervals, Shard};
 
 /// How to compute.

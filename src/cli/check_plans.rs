@@ -11,9 +11,9 @@ use super::status::{REMEDY_AS_ARGUMENTS, Status};
 use crate::report::check::report;
 use crate::report::json::CheckDocument;
 use crate::report::model::Report;
-use crate::study::check_all::{OptionResults, check_all, check_with_margins};
-use crate::study::sampling::Sampling;
-use crate::study::why::{WouldPass, find_all_changes, not_passing};
+use crate::study::judge::{OptionResults, UNWATCHED, judge_all, judge_all_with_margins};
+use crate::study::samples::sampling::Sampling;
+use crate::study::would_pass::{WouldPass, find_all_changes, not_passing};
 use crate::study::{Case, Finding, Found, NoResult};
 
 /// The results of one plan.
@@ -35,8 +35,9 @@ pub fn check_plans(
     let cases: Vec<_> = cases.iter().map(|case| (case, compute.settings(&case.plan))).collect();
     run_study(compute, |progress| {
         let Found { value: results, mut partial } = match &sampling {
-            Some(sampling) => check_with_margins(&cases, Some(sampling), progress, &|_, _| {})?,
-            None => check_all(&cases, None, progress)?,
+            Some(sampling) => judge_all_with_margins(&cases, Some(sampling), progress, UNWATCHED)?,
+            // The plan's own numbers alone: nothing varies, the launches neither.
+            None => judge_all(&cases, None, progress, UNWATCHED)?,
         };
         let mut checked = Vec::new();
         for (results, (case, compute)) in results.into_iter().zip(&cases) {

@@ -9,10 +9,10 @@ use super::arguments::{FormatArg, LookArguments};
 use super::print_sharded::{print_orders, print_risks, print_search};
 use super::status::{Status, failed, wrong};
 use crate::plan::PlanSource;
-use crate::study::check_all::judge_drawn;
-use crate::study::merge::{Question, ShardResults, merge};
+use crate::study::judge::judge_from_samples;
 use crate::study::orders::{rank, refine};
 use crate::study::search::search_after;
+use crate::study::work::merge::{Question, ShardResults, merge};
 use crate::study::{Case, Found, Progress};
 
 #[derive(Args)]
@@ -59,7 +59,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             }
         }
         (Question::Risk { sampling }, ShardResults::Risk(samples)) => {
-            match judge_drawn(&case, &head.compute, &sampling, &samples, &Progress::default()) {
+            match judge_from_samples(&case, &head.compute, &sampling, &samples, &Progress::default()) {
                 Ok(results) => print_risks(&case, &results, &sampling, false, arguments.format, look),
                 Err(reason) => failed(&reason),
             }

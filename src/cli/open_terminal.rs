@@ -11,7 +11,7 @@ use super::{load_plans, print_help};
 use crate::jobs::Jobs;
 use crate::plan::{PlanSource, starter};
 use crate::study::Case;
-use crate::study::sampling::Sampling;
+use crate::study::samples::sampling::Sampling;
 use crate::tui::config::{self, Config};
 use crate::tui::start::{Opened, Start};
 use crate::tui::{self, app::App, unsaved};

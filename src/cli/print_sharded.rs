@@ -8,9 +8,9 @@ use super::status::Status;
 use crate::report::json::{OrdersDocument, RiskDocument, SearchDocument};
 use crate::report::{orders, risk, search};
 use crate::study::Case;
-use crate::study::check_all::OptionResults;
+use crate::study::judge::OptionResults;
 use crate::study::orders::Orders;
-use crate::study::sampling::Sampling;
+use crate::study::samples::sampling::Sampling;
 use crate::study::search::Search;
 
 /// Prints the orders tried; `partial` where the time was up before all were.

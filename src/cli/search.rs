@@ -13,8 +13,8 @@ use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::file;
 use crate::plan::{DelayOption, edit};
-use crate::study::merge::{Question, ShardResults, write_shard};
-use crate::study::search::{MOST_JUDGED, Search, judges_all, search, try_schedules};
+use crate::study::search::{MOST_JUDGED, Search, search, try_schedules};
+use crate::study::work::merge::{Question, ShardResults, write_shard};
 use crate::study::{Case, Found, Shard};
 
 #[derive(Args)]
@@ -39,21 +39,15 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let compute = arguments.study.compute.settings(&case.plan);
     let sampling = arguments.study.verdict.sampling();
     if let Some(shard) = arguments.shard {
-        match judges_all(&case) {
-            Ok(true) => {}
-            Ok(false) => {
-                return wrong(&format!(
-                    "of more than {MOST_JUDGED} schedules the best are searched, not shared: leave out --shard"
-                ));
-            }
-            Err(reason) => return failed(&reason),
-        }
         let tried = run_study(&arguments.study.compute, |progress| {
             try_schedules(&case, sampling.as_ref(), &compute, shard, progress)
         });
         return match tried {
             Err(reason) => failed(&reason),
-            Ok(Found { value: tried, .. }) => {
+            Ok(Found { value: None, .. }) => wrong(&format!(
+                "of more than {MOST_JUDGED} schedules the best are searched, not shared: leave out --shard"
+            )),
+            Ok(Found { value: Some(tried), .. }) => {
                 let question = Question::Search { sampling };
                 print_text(&write_shard(&case, question, compute, shard, &ShardResults::Search(tried))?)?;
                 Ok(Status::Pass)

@@ -4,8 +4,8 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use super::{Job, News};
-use crate::study::check_all::{CaseOption, CheckEvent, check_with_margins};
-use crate::study::sampling::Sampling;
+use crate::study::judge::{CaseOption, JudgeEvent, judge_all_with_margins};
+use crate::study::samples::sampling::Sampling;
 use crate::study::{NoResult, guarded};
 
 /// Least time between two pieces of news about an option that computes.
@@ -22,37 +22,37 @@ struct LastTold {
 
 impl Job {
     /// Judges all options: as planned, then by samples, then for their launch margins.
-    pub(super) fn check_all(&self) {
+    pub(super) fn judge_all(&self) {
         let cases = [(&*self.case, self.compute)];
         let new = LastTold { checking: Instant::now(), sampled: None };
         let last_told: Vec<Mutex<LastTold>> = self.case.shots.iter().map(|_| Mutex::new(new)).collect();
-        let watch = |at: CaseOption, event: CheckEvent<'_>| {
+        let watch = |at: CaseOption, event: JudgeEvent<'_>| {
             let option = at.option;
             let Ok(mut last) = last_told[option].lock() else { return };
             match event {
-                CheckEvent::Running(step) => {
+                JudgeEvent::Running(step) => {
                     if last.checking.elapsed() > CHECKING_EVERY {
                         last.checking = Instant::now();
                         self.tell(News::Checking { option, runs: step.runs, time: step.time });
                     }
                 }
-                CheckEvent::AsPlanned(result) => {
+                JudgeEvent::AsPlanned(result) => {
                     self.tell(News::Checked { option, result: result.clone().map(Box::new) });
                 }
-                CheckEvent::SampledSoFar(risk) => {
+                JudgeEvent::SampledSoFar(risk) => {
                     if last.sampled.is_none_or(|told| told.elapsed() >= SAMPLED_EVERY) {
                         last.sampled = Some(Instant::now());
                         self.tell(News::Sampled { option, risk: Box::new(risk.clone()), more: true });
                     }
                 }
-                CheckEvent::SampledFully(risk) => {
+                JudgeEvent::SampledFully(risk) => {
                     self.tell(News::Sampled { option, risk: Box::new(risk.clone()), more: false });
                 }
-                CheckEvent::Margin(margin) => self.tell(News::Margin { option, margin }),
+                JudgeEvent::Margin(margin) => self.tell(News::Margin { option, margin }),
             }
         };
         let judged =
-            guarded(|| check_with_margins(&cases, Some(&Sampling::OF_VERDICT), &self.progress, &watch));
+            guarded(|| judge_all_with_margins(&cases, Some(&Sampling::OF_VERDICT), &self.progress, &watch));
         if let Err(none) = judged {
             self.tell_no_result(&none);
         }

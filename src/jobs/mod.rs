@@ -13,9 +13,9 @@ use std::thread;
 
 pub use studies::{StudyKind, StudyResult};
 
-use crate::study::check::CheckedShot;
-use crate::study::margin::LaunchMargin;
-use crate::study::risk::Risk;
+use crate::study::as_planned::check::CheckedShot;
+use crate::study::as_planned::margin::LaunchMargin;
+use crate::study::samples::risk::Risk;
 use crate::study::{Case, ComputeSettings, NoResult, Progress, guarded, thread_pool};
 
 /// News of a job.
@@ -108,7 +108,7 @@ impl Jobs {
         let job = self.job(case, compute);
         end(self.check.replace(Arc::clone(&job.progress)));
         match thread_pool(self.threads) {
-            Ok(pool) => pool.spawn(move || job.check_all()),
+            Ok(pool) => pool.spawn(move || job.judge_all()),
             Err(none) => job.tell_no_result(&none),
         }
     }

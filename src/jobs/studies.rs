@@ -3,15 +3,15 @@
 use std::time::Duration;
 
 use super::Job;
-use crate::study::check_all::OptionResults;
 use crate::study::effects::{EffectsOnOptions, SAMPLES, effects};
 use crate::study::flight::{Flight, record};
+use crate::study::judge::OptionResults;
 use crate::study::orders::{Orders, orders};
-use crate::study::sampling::Sampling;
+use crate::study::samples::sampling::Sampling;
 use crate::study::search::{Search, search};
 use crate::study::size::{Demand, Sizing, size};
 use crate::study::sweep::{GAP, Sweep, sweep};
-use crate::study::why::{WouldPass, find_changes};
+use crate::study::would_pass::{WouldPass, find_changes};
 use crate::study::{Intervals, NoResult, accuracy};
 
 /// Declares the kinds of studies and the list of all of them, in one order.
@@ -48,7 +48,7 @@ study_kinds! {
     /// The cost of accuracy, measured on one option.
     Accuracy,
     /// The changes of the plan with which one option would pass.
-    Why,
+    WouldPass,
 }
 
 impl StudyKind {
@@ -82,8 +82,8 @@ pub enum StudyResult {
     Flight(Flight),
     /// Result of [`StudyKind::Accuracy`].
     Accuracy(accuracy::AccuracyTable),
-    /// Result of [`StudyKind::Why`].
-    Why(WouldPass),
+    /// Result of [`StudyKind::WouldPass`].
+    WouldPass(WouldPass),
 }
 
 /// Samples of every option.
@@ -135,10 +135,10 @@ impl Job {
             StudyKind::Accuracy => {
                 Ok(StudyResult::Accuracy(accuracy::measure(case, option, LONGEST_RUN, progress)?.value))
             }
-            StudyKind::Why => {
+            StudyKind::WouldPass => {
                 let sampling = Some(&Sampling::OF_VERDICT);
                 let found = find_changes(case, option, sampling, compute, progress)?;
-                Ok(StudyResult::Why(found.value))
+                Ok(StudyResult::WouldPass(found.value))
             }
         }
     }

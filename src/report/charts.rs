@@ -6,7 +6,7 @@ use crate::outcome::History;
 use crate::scene::Shot;
 use crate::study::accuracy::{AccuracyTable, Measured};
 use crate::study::orders::Orders;
-use crate::study::risk::Risk;
+use crate::study::samples::risk::Risk;
 use crate::study::search::FrontPoint;
 use crate::study::size::{Combination, Sizing};
 use crate::study::sweep::{Point, Sweep};

@@ -1,16 +1,16 @@
 //! `check` as a report: one row a delay option.
 
-use super::explain::{self, broken, compute_label, launch_margin, reason, risk_detail};
+use super::explain::{self, broken, compute_label, launch_margin};
 use super::model::{Block, Cell, Column, Conclusion, Detail, Field, Report, Shown, Table};
 use super::option_row::{OptionRow, option_rows};
+use super::reasons;
 use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
-use super::{no_result, report_head, warnings, why};
+use super::{no_result, report_head, warnings, would_pass};
 use crate::study::Case;
-use crate::study::check::CheckedShot;
-use crate::study::check_all::{OptionResults, verdict_on_plan};
+use crate::study::as_planned::check::CheckedShot;
+use crate::study::judge::{OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
-use crate::study::reason::Reason;
-use crate::study::why::WouldPass;
+use crate::study::would_pass::WouldPass;
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Quantity, Verdict};
 
@@ -23,16 +23,9 @@ pub(super) fn band(row: &OptionRow<'_>, quantity: Quantity, unit: Unit) -> Cell 
 /// Why the option does not pass, or has no result.
 fn all_reasons(row: &OptionRow<'_>) -> String {
     match row.result {
-        Ok(judged) => reason_sentences(row.case, judged).join("; "),
+        Ok(judged) => reasons::sentences(row.case, judged).join("; "),
         Err(reason) => no_result::message(reason),
     }
-}
-
-/// Firing times of the rows in the order of the plan: `0, 20, 40 ms`.
-fn firing(row: &OptionRow<'_>) -> String {
-    let times: Vec<String> = row.delay.timing.fire_at_ms().iter().map(f64::to_string).collect();
-    let rows = format!("{} ms", times.join(", "));
-    [rows].into_iter().chain(row.delay.hole_timing.words()).collect::<Vec<_>>().join(" · ")
 }
 
 fn fields<'a>() -> [Field<OptionRow<'a>>; 34] {
@@ -41,7 +34,7 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 34] {
         Field::new(Column::scripts(&["plan"]), |row| Cell::Text(row.case.source.path.clone())),
         Field::new(Column::words(&["option"], "option"), |row| Cell::Text(row.delay.name.clone())),
         Field::new(Column::words(&[], "rows fire, as listed, at").shown(Shown::Page), |row| {
-            Cell::Text(firing(row))
+            Cell::Text(explain::firing_times(row.delay))
         }),
         Field::new(VERDICT, |row| Cell::Verdict(row.verdict())),
         Field::new(Column::scripts(&["judged"]), |row| {
@@ -172,8 +165,8 @@ pub fn report(
     }
     let mut report = report_head(case, sampled);
     report.blocks.push(Block::Table(table));
-    report.blocks.extend(would_pass.iter().flat_map(|changes| why::blocks(case, changes)));
-    report.warnings.extend(warnings::of_options(case, results));
+    report.blocks.extend(would_pass.iter().flat_map(|changes| would_pass::blocks(case, changes)));
+    report.warnings.extend(warnings::of_options(case, results, None));
     report.conclusion = Some(Conclusion { verdict: verdict_on_plan(results, any), text });
     report
 }
@@ -209,16 +202,6 @@ fn bars(series: &[f64], top: f64) -> Cell {
     Cell::Sparkline { series: series.to_vec(), top }
 }
 
-/// Why an option does not pass, one sentence a reason.
-pub fn reason_sentences(case: &Case, judged: &Judgement) -> Vec<String> {
-    reasons(case, judged).map(|detail| detail.text).collect()
-}
-
-fn reasons<'a>(case: &'a Case, judged: &'a Judgement) -> impl Iterator<Item = Detail> + 'a {
-    let detail = |why: &Reason| Detail { verdict: why.verdict(), text: reason(why) };
-    judged.as_planned.reasons.iter().map(detail).chain(risk_detail(case, judged))
-}
-
 /// Adds to the row of each option why it does not pass, or has no result.
 pub(super) fn complete_rows(table: &mut Table, case: &Case, results: &OptionResults) {
     for (row, result) in table.rows.iter_mut().zip(results) {
@@ -231,7 +214,7 @@ pub(super) fn complete_rows(table: &mut Table, case: &Case, results: &OptionResu
 
 fn details(case: &Case, judged: &Judgement) -> Vec<Detail> {
     let checked = &judged.as_planned;
-    let mut details: Vec<Detail> = reasons(case, judged).collect();
+    let mut details = reasons::details(case, judged);
     if !checked.broken.is_empty() {
         details.push(Detail { verdict: Verdict::Fail, text: broken(case.scene(), checked) });
     }

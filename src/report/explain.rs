@@ -1,21 +1,16 @@
 //! Sentences about one checked option, the same in every face.
 
-use super::model::Detail;
-use crate::choice::Accuracy;
 use crate::outcome::BrokenCable;
 use crate::plan::{BlastRow, DelayOption};
 use crate::scene::{Scene, Shot, fire_at_s};
-use crate::study::Case;
 use crate::study::ComputeSettings;
-use crate::study::check::CheckedShot;
-use crate::study::influence;
+use crate::study::as_planned::check::CheckedShot;
+use crate::study::as_planned::margin::LaunchMargin;
+use crate::study::as_planned::together::Together;
 use crate::study::judgement::Judgement;
-use crate::study::margin::LaunchMargin;
-use crate::study::random_shot::Input;
-use crate::study::reason::{EarlyEnd, Reason};
-use crate::study::risk::Risk;
-use crate::study::sample::SampleRun;
-use crate::study::together::Together;
+use crate::study::samples::influence;
+use crate::study::samples::random_shot::Input;
+use crate::study::samples::risk::Risk;
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
@@ -40,96 +35,20 @@ pub fn fires(rows: &[BlastRow], delay: &DelayOption) -> String {
     [rows.join(", ")].into_iter().chain(delay.hole_timing.words()).collect::<Vec<_>>().join(" · ")
 }
 
+/// Firing times of the rows in the order of the plan, and how the holes of each follow: `0/42/84 ms, holes 17 ms left`.
+pub fn firing_times(delay: &DelayOption) -> String {
+    let exact = |at: f64| units::exact_milliseconds(at).replace(" ms", "");
+    let times: Vec<String> = fire_at_s(&delay.timing).into_iter().map(exact).collect();
+    [format!("{} ms", times.join("/"))]
+        .into_iter()
+        .chain(delay.hole_timing.words())
+        .collect::<Vec<_>>()
+        .join(", ")
+}
+
 /// A sum of charges [kg] to the gram, without the digits of its rounding.
-fn grams(charge: f64) -> f64 {
+pub(super) fn grams(charge: f64) -> f64 {
     (charge * 1e3).round() / 1e3
-}
-
-/// Why an option did not pass, in words.
-pub fn reason(reason: &Reason) -> String {
-    let (quantity, verdict, estimate, limit) = match reason {
-        Reason::Limit { quantity, verdict, estimate, limit } => (quantity, verdict, estimate, limit),
-        Reason::Broken(1) => return "a cable breaks".to_owned(),
-        Reason::Broken(count) => return format!("{count} cables break"),
-        Reason::HolesTogether { holes, limit } => {
-            return format!("{holes} holes fire within 8 ms, the limit is {limit}");
-        }
-        Reason::ChargeTogether { charge, limit } => {
-            return format!("{} kg fire within 8 ms, the limit is {limit} kg", grams(*charge));
-        }
-        Reason::EnergyResidual(residual) => {
-            let residual = units::percent(*residual, 1);
-            return format!("the energy balance is off by {residual}: the step is too long for this motion");
-        }
-        Reason::EndsEarly { end, open } => return ends_early(*end, *open),
-    };
-    let (name, unit) = quantity_name(*quantity);
-    let value = value_and_error(estimate.value, estimate.error, unit);
-    let (limit, symbol) = (units::exact(*limit, unit), unit.symbol());
-    match verdict {
-        Verdict::Fail => format!("{name} {value} {symbol} is over the limit of {limit} {symbol}"),
-        _ => format!("{name} {value} {symbol} is too near the limit of {limit} {symbol} to tell"),
-    }
-}
-
-fn quantity_name(quantity: Quantity) -> (&'static str, Unit) {
-    match quantity {
-        Quantity::Height => ("flight height", Unit::Metre),
-        Quantity::Force => ("cable force", Unit::Kilonewton),
-        Quantity::Drift => ("drift", Unit::Metre),
-    }
-}
-
-/// Why the shots that `[uncertainty]` describes do not pass, if they do not.
-pub fn risk_detail(case: &Case, judged: &Judgement) -> Option<Detail> {
-    if !judged.risk.is_asked() {
-        return None;
-    }
-    let Some(risk) = judged.risk.drawn().filter(|risk| !risk.samples.is_empty()) else {
-        let text = "no sample of the possible shots was drawn: the time was up".to_owned();
-        return Some(Detail { verdict: Verdict::Undecided, text });
-    };
-    let accepted = format!("{} %", units::short(case.plan.limits.accepted_risk_percent));
-    let (failures, samples) = (risk.bounds.failures, risk.bounds.samples);
-    let shots = format!("{failures} of {samples} possible shots fail{}", limits_exceeded(case, risk));
-    let verdict = risk.verdict();
-    let ComputeSettings { accuracy, step, .. } = judged.as_planned.compute;
-    let can_be_finer = step.is_none() && accuracy != Accuracy::Reference;
-    let finer = if can_be_finer { "; choose accuracy \"reference\"" } else { "" };
-    let text = match verdict {
-        Verdict::Pass => return None,
-        Verdict::Undecided if risk.planned_exceeds_samples() => {
-            format!(
-                "the shot as planned lies above all samples: the step of samples is too long for this motion{finer}"
-            )
-        }
-        Verdict::Fail => format!("{shots}, surely more than the {accepted} accepted"),
-        Verdict::Undecided if risk.is_contradicted() => {
-            format!("{shots}, but finer runs contradict them{finer}")
-        }
-        Verdict::Undecided if risk.bounds.verdict() == Verdict::Pass => {
-            format!("{shots}, but too few of them are run at a finer step, too: draw 200 or more")
-        }
-        Verdict::Undecided if risk.bounds.undecided > 0 => {
-            let undecided = risk.bounds.undecided;
-            format!("{shots} and {undecided} stay undecided: not surely fewer than the {accepted} accepted")
-        }
-        Verdict::Undecided => format!("{shots}, not surely fewer than the {accepted} accepted"),
-    };
-    Some(Detail { verdict, text })
-}
-
-/// How many samples go past each limit: ` (cable force 12, flight height 3)`.
-fn limits_exceeded(case: &Case, risk: &Risk) -> String {
-    let count = |quantity: Quantity| {
-        let limit = case.limits.get(quantity)?;
-        let is_past =
-            |run: &SampleRun, quantity, limit| run.verdict != Verdict::Undecided && run.get(quantity) > limit;
-        let past = risk.samples.iter().filter(|sample| is_past(sample.finest(), quantity, limit)).count();
-        (past > 0).then(|| format!("{} {past}", quantity_name(quantity).0))
-    };
-    let words: Vec<String> = Quantity::ALL.into_iter().filter_map(count).collect();
-    if words.is_empty() { String::new() } else { format!(" ({})", words.join(", ")) }
 }
 
 /// What decides how a shot turns out: `slack 61 %, launch 24 %, hole by hole and interplay 13 %`.
@@ -198,28 +117,6 @@ pub fn bands(risk: &Risk) -> Option<String> {
         band(Quantity::Force, Unit::Kilonewton)?,
         units::probabilities(risk.breaks.interval),
     ))
-}
-
-/// That a run ends too early, in words.
-fn ends_early(end: f64, open: EarlyEnd) -> String {
-    let end = units::seconds(end);
-    match open {
-        EarlyEnd::HolesUnfired(last) => {
-            format!(
-                "the run ends at {end}, before the last hole fires at {}: give a longer duration_s",
-                units::seconds(last)
-            )
-        }
-        EarlyEnd::TiresInAir => {
-            format!("the run ends at {end} with tires in the air: give a longer duration_s, or none")
-        }
-        EarlyEnd::ForceGrowing => {
-            format!("the run ends at {end} with force at its greatest: give a longer duration_s, or none")
-        }
-        EarlyEnd::TiresMoving => {
-            format!("tires still move at {end} and may pull harder later: give a longer duration_s")
-        }
-    }
 }
 
 /// How results were asked for: `verlet, field` or `verlet, step 1 ms`.

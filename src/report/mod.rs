@@ -29,6 +29,7 @@ mod option_row;
 pub mod orders;
 pub mod palette;
 mod paper_table;
+pub mod reasons;
 pub mod risk;
 pub mod ropes;
 pub mod search;
@@ -39,7 +40,7 @@ pub mod sweep;
 pub mod text;
 pub mod trace;
 pub mod warnings;
-pub mod why;
+pub mod would_pass;
 
 use self::model::Report;
 use crate::study::Case;

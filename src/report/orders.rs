@@ -9,7 +9,7 @@ use super::shared_columns::{
 use super::{notes, report_head, row_names, warnings};
 use crate::study::Case;
 use crate::study::orders::{Orders, TriedOrder};
-use crate::study::risk_summary::RiskSummary;
+use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::search::Schedule;
 use crate::verdict::Verdict;
 

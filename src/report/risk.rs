@@ -8,8 +8,8 @@ use super::option_row::{OptionRow, option_rows};
 use super::shared_columns::{FAILURES, VERDICT};
 use super::{report_head, warnings};
 use crate::study::Case;
-use crate::study::check_all::{OptionResults, verdict_on_plan};
-use crate::study::sampling::Sampling;
+use crate::study::judge::{OptionResults, verdict_on_plan};
+use crate::study::samples::sampling::Sampling;
 use crate::units::Unit;
 use crate::verdict::{Quantity, Verdict};
 
@@ -73,7 +73,7 @@ pub fn report(case: &Case, results: &OptionResults, sampling: &Sampling, partial
     }
     let mut report = report_head(case, true);
     report.blocks = blocks;
-    report.warnings.extend(warnings::of_options(case, results));
+    report.warnings.extend(warnings::of_options(case, results, None));
     report.conclusion = Some(Conclusion { verdict: verdict_on_plan(results, false), text });
     report
 }

@@ -2,7 +2,7 @@
 
 use super::model::{Cell, Column};
 use crate::study::ValueWithError;
-use crate::study::risk_summary::RiskSummary;
+use crate::study::samples::risk_summary::RiskSummary;
 use crate::units::Unit;
 
 /// Pass, open or fail.

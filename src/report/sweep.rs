@@ -239,7 +239,7 @@ fn conclusion(sweep: &Sweep, partial: bool) -> Conclusion {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::sampled::Sampled;
+    use crate::study::judgement::Sampled;
 
     #[test]
     fn a_sweep_passes_only_where_every_interval_passes() {

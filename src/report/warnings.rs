@@ -1,19 +1,21 @@
 //! Warnings: what a reader must know beside the results, one sentence each. Text, page and terminal draw them; where only numbers
 //! are printed, they go to standard error.
 
+use crate::plan::DelayOption;
 use crate::plan::keys::Key;
 use crate::plan::usual::Unusual;
-use crate::plan::{DelayOption, Timing};
-use crate::study::check_all::OptionResults;
-use crate::study::cover::Cover;
+use crate::study::as_planned::cover::Cover;
+use crate::study::judge::OptionResults;
 use crate::study::judgement::Judgement;
-use crate::study::swaps::{self, Swap};
-use crate::study::{Case, NoResult, ShotSummary};
+use crate::study::samples::swaps::{Swap, swaps};
+use crate::study::{Case, ShotSummary};
 use crate::units;
 use crate::verdict::Quantity;
 
 /// Least probability of a swap of blast rows that deserves a warning.
 const SWAP: f64 = 1e-4;
+/// Difference between two intervals that are the same but for rounding [ms].
+const SAME_INTERVAL_MS: f64 = 1e-6;
 /// Drift over the widest distance of tied tires from which it is told where no limit judges it.
 const FAR: f64 = 0.5;
 
@@ -42,39 +44,49 @@ pub fn of_plan(case: &Case) -> Vec<String> {
     names.chain(unusual).chain(case.plan.ranges_beside_the_plan().into_iter().map(warning)).collect()
 }
 
-/// The interval in the name of an option and the interval at which its rows fire [ms], where they differ: `42 ms` at 109 ms.
-fn false_interval(delay: &DelayOption) -> Option<[f64; 2]> {
-    let Timing::Interval { interval_ms, .. } = delay.timing else { return None };
+/// The interval in the name of an option and the first other interval at which its rows fire [ms]: `42 ms` at 109 ms.
+fn false_interval(delay: &DelayOption) -> Option<[String; 2]> {
     let (number, _) = delay.name.split_once(" ms")?;
     let named: f64 = number.parse().ok()?;
-    (named != interval_ms).then_some([named, interval_ms])
+    let mut times = delay.timing.fire_at_ms();
+    times.sort_by(f64::total_cmp);
+    let mut intervals = times.windows(2).map(|pair| pair[1] - pair[0]);
+    let other = intervals.find(|interval| (interval - named).abs() > SAME_INTERVAL_MS)?;
+    Some([named, other].map(|interval| ((interval * 1e6).round() / 1e6).to_string()))
 }
 
-/// Warnings of the options of a plan: blast rows that may fire in the wrong order, and holes that fire under no cover.
-pub fn of_options(case: &Case, results: &OptionResults) -> Vec<String> {
-    let sampled = results.iter().flatten().any(|judged| judged.risk.is_asked());
-    let swaps = if sampled { swaps(case) } else { Vec::new() };
-    let covers = |(delay, result): (&DelayOption, &Result<Judgement, NoResult>)| {
-        let cover = uncovered(&result.as_ref().ok()?.as_planned.cover)?;
-        Some(format!("option {}: {cover}", delay.name))
-    };
-    let covers = case.plan.delays.iter().zip(results).filter_map(covers);
-    swaps.into_iter().chain(covers).chain(drifts(case, results)).collect()
+/// Warnings of one option, without its name: blast rows that may fire in the wrong order, holes that fire under no cover, a far
+/// drift that no limit judges.
+pub fn of_option(case: &Case, option: usize, judged: &Judgement) -> Vec<String> {
+    let drift = far_drift(case, judged).map(|drift| format!("{FAR_DRIFT}: {} m", units::rounded(drift, 2)));
+    swaps_and_cover(case, option, judged).chain(drift).collect()
 }
 
-/// The warning that tires end far from where they lay, and no limit judges that; `None` where none does.
-fn drifts(case: &Case, results: &OptionResults) -> Option<String> {
-    let drift = |(delay, result): (&DelayOption, &Result<Judgement, NoResult>)| {
-        let drift = far_drift(case, result.as_ref().ok()?)?;
-        Some(format!("{} {} m", delay.name, units::rounded(drift, 2)))
-    };
-    let drifts: Vec<String> = case.plan.delays.iter().zip(results).filter_map(drift).collect();
-    (!drifts.is_empty()).then(|| format!("{FAR_DRIFT}: {}", drifts.join(", ")))
+/// The same of all options but one, each with the name of its option.
+pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> Vec<String> {
+    let name = |option: usize| &case.plan.delays[option].name;
+    let (mut warnings, mut drifts) = (Vec::new(), Vec::new());
+    for (option, result) in results.iter().enumerate() {
+        let Ok(judged) = result else { continue };
+        if Some(option) == but {
+            continue;
+        }
+        let own = swaps_and_cover(case, option, judged);
+        warnings.extend(own.map(|warning| format!("option {}: {warning}", name(option))));
+        let drift = far_drift(case, judged);
+        drifts.extend(drift.map(|drift| format!("{} {} m", name(option), units::rounded(drift, 2))));
+    }
+    if !drifts.is_empty() {
+        warnings.push(format!("{FAR_DRIFT}: {}", drifts.join(", ")));
+    }
+    warnings
 }
 
-/// The same of one option.
-pub fn drift(case: &Case, judged: &Judgement) -> Option<String> {
-    Some(format!("{FAR_DRIFT}: {} m", units::rounded(far_drift(case, judged)?, 2)))
+/// Warnings of an option that need no other option beside them.
+fn swaps_and_cover(case: &Case, option: usize, judged: &Judgement) -> impl Iterator<Item = String> {
+    let swaps = if judged.risk.is_asked() { swaps(case, option, SWAP) } else { Vec::new() };
+    let swaps = swaps.into_iter().map(|found| swap(case, &found));
+    swaps.chain(uncovered(&judged.as_planned.cover))
 }
 
 /// What is wrong where tires drift far.
@@ -89,30 +101,18 @@ fn far_drift(case: &Case, judged: &Judgement) -> Option<f64> {
     (case.limits.drift.is_none() && drift > far).then_some(drift)
 }
 
-/// Warnings of blast rows that may fire in the wrong order, of all options.
-pub fn swaps(case: &Case) -> Vec<String> {
-    swaps::swaps(case, SWAP).iter().map(|found| swap(case, found)).collect()
-}
-
-/// The same of one option.
-pub fn swaps_of(case: &Case, option: usize) -> Vec<String> {
-    let all = swaps::swaps(case, SWAP);
-    all.iter().filter(|found| found.option == option).map(|found| swap(case, found)).collect()
-}
-
 /// The warning that two blast rows may fire in the wrong order.
 fn swap(case: &Case, swap: &Swap) -> String {
     let [first, second] = swap.rows.map(|row| &case.plan.blast_rows[row].name);
     format!(
-        "option {}: {} between rows {first} and {second} is short for the scatter of the detonators; a given hole of row {second} fires before a given hole of row {first} with a probability of {}",
-        case.plan.delays[swap.option].name,
+        "{} between rows {first} and {second} is short for the scatter of the detonators; a given hole of row {second} fires before a given hole of row {first} with a probability of {}",
         units::exact_milliseconds(swap.interval),
         units::percent(swap.probability, 2),
     )
 }
 
 /// The warning that holes fire under a tire in the air or aside; `None` where none does.
-pub fn uncovered(cover: &Cover) -> Option<String> {
+fn uncovered(cover: &Cover) -> Option<String> {
     let Cover { holes, uncovered, height, shift } = cover;
     let [height, shift] = [height, shift].map(|value| units::rounded(*value, 2));
     (*uncovered > 0).then(|| {

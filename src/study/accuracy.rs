@@ -4,7 +4,8 @@
 
 use std::time::{Duration, Instant};
 
-use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, step_error};
+use super::as_planned::step_error;
+use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress};
 use crate::choice::{Accuracy, Method};
 use crate::outcome::Outcome;
 use crate::scene::Shot;

@@ -2,171 +2,38 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | questions of the user, one file each | [`mod@check_all`] (`shelter check`, and `risk`), [`sweep`], [`orders`], [`size`] |
-//! | the same | [`search`], [`why`], [`effects`], [`accuracy`], [`paper_table`], [`flight`], [`trace`] |
-//! | one shot as planned | [`check`], `peaks`, [`step_error`], [`reason`], [`together`], [`cover`], [`margin`] |
-//! | the same, coarsely, and what a study keeps of it | `quick_check`, `shot_summary` |
-//! | the shots that are possible | [`random_shot`], [`sample`], [`sampling`], [`risk`], [`risk_summary`], [`failure_bounds`], [`influence`], [`swaps`] |
-//! | why a verdict is open | one run: [`reason`]; samples: [`risk`]; both: [`sampled`]; the words: `report::explain` |
-//! | both together | [`judgement`], and the rule of the verdict: [`sampled`] |
-//! | how work runs | [`batch`], `compute`, `progress`, `found`, `no_result`, `intervals`; on many machines: `shard`, [`merge`] |
+//! | a plan made ready to run | [`Case`] |
+//! | one shot as planned: checked, and what speaks against it | [`as_planned`] |
+//! | the shots that are possible: drawn, run, counted | [`samples`] |
+//! | both together: the judgement on an option, on all options | [`judgement`], [`judge`] |
+//! | why an option fails, or its verdict stays open | [`reasons`] |
+//! | other questions of the user, one each | [`sweep`], [`orders`], [`search`], [`size`], [`would_pass`], [`effects`], [`accuracy`], [`paper_table`], [`flight`], [`trace`] |
+//! | how work runs: on all cores, with progress, to be stopped, on many machines | [`work`] |
 //!
-//! A [`Case`] is a plan made ready to run. A study takes a case and returns plain data, which every face draws; `size` takes a
-//! plan and makes a case of each combination, `why` one of each change.
+//! Three verbs: a shot as planned is *checked*, possible shots are *sampled*, and both together are *judged*.
+//!
+//! A study takes a case and returns plain data, which every face draws; `size` takes a plan and makes a case of each combination,
+//! `would_pass` one of each change.
 //! Studies do not print and do not compute physics. Only `merge` reads and writes a file format: that of shards.
 
 pub mod accuracy;
-pub mod batch;
-pub mod check;
-pub mod check_all;
-mod compute;
-pub mod cover;
+pub mod as_planned;
+mod case;
 pub mod effects;
-pub mod failure_bounds;
 pub mod flight;
-mod found;
-pub mod influence;
-mod intervals;
+pub mod judge;
 pub mod judgement;
-pub mod margin;
-pub mod merge;
-mod no_result;
 pub mod orders;
 pub mod paper_table;
-mod peaks;
-mod progress;
-mod quick_check;
-pub mod random_shot;
-pub mod reason;
-pub mod risk;
-pub mod risk_summary;
-pub mod sample;
-pub mod sampled;
-pub mod sampling;
+pub mod reasons;
+pub mod samples;
 pub mod search;
-mod shard;
-mod shot_summary;
 pub mod size;
-pub mod step_error;
-pub mod swaps;
 pub mod sweep;
-pub mod together;
 pub mod trace;
-pub mod why;
+pub mod work;
+pub mod would_pass;
 
-use std::path::Path;
-
-pub use batch::thread_pool;
-pub use compute::ComputeSettings;
-pub use found::{Finding, Found};
-pub use intervals::Intervals;
-pub use no_result::{NoResult, guarded};
-pub use progress::Progress;
-pub use shard::Shard;
-pub use shot_summary::{ShotSummary, ValueWithError};
-
-use crate::choice::Method;
-use crate::plan::{DelayOption, Diagnostics, HoleTiming, Plan, PlanSource, Timing};
-use crate::scene::{Scene, Shot, seconds};
-use crate::simulation::{Model, RunSettings};
-use crate::verdict::Limits;
-
-/// A plan made ready to run.
-#[derive(Clone, Debug)]
-pub struct Case {
-    /// File and text of the plan; empty where the program made the plan.
-    pub source: PlanSource,
-    /// Values of the plan.
-    pub plan: Plan,
-    /// The shelter, made ready for many runs.
-    pub model: Model,
-    /// Firing time and launch velocity of every hole, per delay option (`n_options`).
-    pub shots: Vec<Shot>,
-    /// Limits in SI units.
-    pub limits: Limits,
-    /// How the holes of each row fire in studies that vary order and interval: as in all options of the plan; `None` where the
-    /// options differ, and such a study needs to be told.
-    pub hole_timing: Option<HoleTiming>,
-}
-
-impl Case {
-    /// Reads, validates and builds a plan; `-` is standard input.
-    pub fn load(path: &Path) -> Result<Self, Diagnostics> {
-        Self::parse(PlanSource::read(path)?)
-    }
-
-    /// Validates and builds a plan from its text.
-    pub fn parse(source: PlanSource) -> Result<Self, Diagnostics> {
-        let plan = source.plan()?;
-        Ok(Self { source, ..Self::new(plan) })
-    }
-
-    /// Builds scene, shots and limits of a plan that has no file.
-    pub fn new(plan: Plan) -> Self {
-        let scene = Scene::build(&plan);
-        let shots = plan.delays.iter().map(|delay| Shot::new(&scene, &plan.blast_rows, delay)).collect();
-        let hole_timing = plan.shared_hole_timing();
-        let breaking_force = plan.cable.breaking_force_kn * 1e3;
-        let limits = Limits {
-            height: plan.limits.flight_height_m,
-            force: breaking_force / plan.limits.cable_safety_factor,
-            drift: plan.limits.drift_m,
-            breaking_force,
-        };
-        Self { source: PlanSource::default(), plan, model: Model::new(scene), shots, limits, hole_timing }
-    }
-
-    /// Title of the plan; the path of its file where the plan has no title.
-    pub fn title(&self) -> &str {
-        self.plan.title.as_deref().unwrap_or(&self.source.path)
-    }
-
-    /// The shot of blast rows fired in `order`, `interval` [s] apart. Studies refuse a case without [`Case::hole_timing`] by
-    /// [`Case::require_hole_timing`] before they ask for shots; here its rows fire at once.
-    pub fn shot(&self, order: &[usize], interval: f64) -> Shot {
-        let holes = self.hole_timing.unwrap_or(HoleTiming::TOGETHER);
-        Shot::in_order(self.scene(), &self.plan.blast_rows, order, interval, &holes)
-    }
-
-    /// Refuses a study that varies order or interval, where the options differ in how the holes of a row fire.
-    pub fn require_hole_timing(&self) -> Result<(), NoResult> {
-        self.hole_timing.map(|_| ()).ok_or(NoResult::HolesDiffer)
-    }
-
-    /// The case with the holes of each row fired as in a delay option, where the options differ.
-    pub fn with_hole_timing_of(&self, option: usize) -> Self {
-        Self { hole_timing: self.hole_timing.or(Some(self.plan.delays[option].hole_timing)), ..self.clone() }
-    }
-
-    /// Intervals of the delay options whose holes fire as [`Case::hole_timing`] says [s], ascending, without repetitions.
-    pub fn intervals(&self) -> Vec<f64> {
-        let interval = |delay: &DelayOption| match delay.timing {
-            Timing::Interval { interval_ms, .. }
-                if self.hole_timing.is_none_or(|holes| delay.hole_timing == holes) =>
-            {
-                Some(seconds(interval_ms))
-            }
-            Timing::Interval { .. } | Timing::At(_) => None,
-        };
-        let mut all: Vec<f64> = self.plan.delays.iter().filter_map(interval).collect();
-        all.sort_by(f64::total_cmp);
-        all.dedup();
-        all
-    }
-
-    /// The shelter.
-    pub fn scene(&self) -> &Scene {
-        self.model.scene()
-    }
-
-    /// Settings of a run by `method` at `step` [s], which ends where the plan says.
-    pub fn run_settings(&self, method: Method, step: f64) -> RunSettings {
-        RunSettings { method, step, duration: self.plan.simulation.duration_s }
-    }
-
-    /// Number of tires that `method` integrates: the greatest of all options. Mirror planes of shelter and shot make it
-    /// smaller than the number of tires.
-    pub fn modelled_tires(&self, method: Method) -> usize {
-        self.shots.iter().map(|shot| self.model.modelled_tires(method, shot)).max().unwrap_or(0)
-    }
-}
+pub use as_planned::shot_summary::{ShotSummary, ValueWithError};
+pub use case::Case;
+pub use work::{ComputeSettings, Finding, Found, Intervals, NoResult, Progress, Shard, guarded, thread_pool};

@@ -1,7 +1,7 @@
 //! The orders in which the blast rows can fire, ranked from the worst to the best.
 //!
-//! 1. Up to [`MOST_ROWS`] rows all orders are judged by a quick check, at coarse steps. Where the shelter is its own mirror image,
-//!    an order and its mirrored order are judged once.
+//! 1. Up to [`MOST_ROWS`] rows all orders are checked quickly, at coarse steps. Where the shelter is its own mirror image,
+//!    an order and its mirrored order are checked once.
 //! 2. The hardest orders are checked first. An order stays in question while its coarse utilization + [`REACH_ERROR_FACTOR`] x
 //!    its error is above the greatest checked so far; this goes on until none is left. Likewise for the best, with the signs
 //!    reversed.
@@ -20,11 +20,12 @@ use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
-use super::batch::{summarize_all_or_unknown, summarize_shot};
-use super::quick_check::{quick_check_is_sure, quick_check_until};
-use super::risk_summary::{RiskSummary, sample_shots};
-use super::sampled::{self, Sampled};
-use super::sampling::Sampling;
+use super::as_planned::quick_check::{quick_check_is_sure, quick_check_until};
+use super::judgement;
+use super::judgement::Sampled;
+use super::samples::risk_summary::{RiskSummary, find_risk_summaries};
+use super::samples::sampling::Sampling;
+use super::work::batch::{full_check, run_checks_or_unknown};
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, Shard, ShotSummary};
 use crate::plan::BlastRow;
 use crate::scene::{Firing, Shot};
@@ -98,9 +99,10 @@ impl Orders {
             (case.shot(order, *interval), *as_planned)
         };
         let shots: Vec<_> = ends.iter().map(shot).collect();
-        let mut sampled = sample_shots(case, &shots, &sampling.first_look(), compute, progress)?;
+        let mut sampled = find_risk_summaries(case, &shots, &sampling.first_look(), compute, progress)?;
         if let (Some(best), Some(last)) = (shots.last(), sampled.last_mut()) {
-            *last = sample_shots(case, std::slice::from_ref(best), sampling, compute, progress)?.remove(0);
+            *last =
+                find_risk_summaries(case, std::slice::from_ref(best), sampling, compute, progress)?.remove(0);
         }
         let partial = sampled.contains(&None);
         let known = ends.into_iter().zip(sampled).filter_map(|(n, sampled)| Some((n, sampled?)));
@@ -123,7 +125,7 @@ impl Orders {
 
     /// The verdict on the order ranked `n`: as planned, and of its samples where samples were asked for.
     pub fn verdict_on(&self, n: usize) -> Verdict {
-        sampled::verdict_of_both(self.ranked[n].as_planned.verdict, self.risk(n).map(|risk| risk.verdict))
+        judgement::verdict_of_both(self.ranked[n].as_planned.verdict, self.risk(n).map(|risk| risk.verdict))
     }
 
     /// The verdict on all orders; undecided where none was tried.
@@ -194,7 +196,7 @@ pub fn try_orders(
     let known = |found: Found<Vec<TriedOrder>>| {
         if found.value.iter().all(|tried| tried.as_planned == ShotSummary::UNKNOWN) {
             for tried in found.value.iter().take(1) {
-                summarize_shot(case, &case.shot(&tried.order, tried.interval), compute, progress)?;
+                full_check(case, &case.shot(&tried.order, tried.interval), compute, progress)?;
             }
         }
         Ok(found)
@@ -226,7 +228,7 @@ pub fn try_orders(
     refine(case, tried, compute, progress).and_then(known)
 }
 
-/// An order to be judged at one interval.
+/// An order to be checked at one interval.
 struct OrderToTry {
     /// Number of the trial, as in [`TriedOrder::number`].
     number: usize,
@@ -270,7 +272,7 @@ fn utilization(case: &Case, tried: &TriedOrder) -> f64 {
     tried.as_planned.utilization(&case.limits)
 }
 
-/// Judges as `check` does, at every interval, the orders that may be the worst or the best, until none is left.
+/// Checks as `check` does, at every interval, the orders that may be the worst or the best, until none is left.
 pub fn refine(
     case: &Case,
     mut tried: Vec<TriedOrder>,
@@ -313,9 +315,8 @@ pub fn refine(
                 break;
             }
             let shots: Vec<Shot> = next.iter().map(|&n| case.shot(&tried[n].order, interval)).collect();
-            let judged = summarize_all_or_unknown(&shots, progress, |shot| {
-                summarize_shot(case, shot, compute, progress)
-            })?;
+            let judged =
+                run_checks_or_unknown(&shots, progress, |shot| full_check(case, shot, compute, progress))?;
             for (n, as_planned) in next.into_iter().zip(judged) {
                 let Some(as_planned) = as_planned else { return Ok(Found { value: tried, partial: true }) };
                 for n in images[n].into_iter().chain([n]) {
@@ -328,7 +329,7 @@ pub fn refine(
     Ok(Found { value: tried, partial: false })
 }
 
-/// Judges orders by a quick check.
+/// Checks orders quickly.
 fn quick_check_orders(
     case: &Case,
     orders: Vec<OrderToTry>,
@@ -339,7 +340,7 @@ fn quick_check_orders(
         quick_check_is_sure(case, summary, runs)
             || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= RUNS
     };
-    let summaries = summarize_all_or_unknown(&orders, progress, |OrderToTry { order, interval, .. }| {
+    let summaries = run_checks_or_unknown(&orders, progress, |OrderToTry { order, interval, .. }| {
         quick_check_until(case, &case.shot(order, *interval), compute, progress, enough)
     })?;
     let tried = |(OrderToTry { number, order, interval }, as_planned): (_, Option<ShotSummary>)| {
@@ -407,7 +408,7 @@ fn exchanges(order: &[usize]) -> impl Iterator<Item = Vec<usize>> {
     })
 }
 
-/// Judges the orders that are not among `tried[first..]`, and adds them; returns whether the time was up.
+/// Checks the orders that are not among `tried[first..]`, and adds them; returns whether the time was up.
 fn quick_check_new_orders(
     case: &Case,
     tried: &mut Vec<TriedOrder>,

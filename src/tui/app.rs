@@ -20,9 +20,10 @@ use super::theme::Theme;
 use super::unsaved::Kept;
 use crate::jobs::{News, StudyKind};
 use crate::plan::{Plan, PlanSource};
+use crate::study::as_planned::step_error;
 use crate::study::judgement::Judgement;
-use crate::study::sampled::Sampled;
-use crate::study::{Case, ComputeSettings, step_error};
+use crate::study::judgement::Sampled;
+use crate::study::{Case, ComputeSettings};
 
 /// What the event loop must do after an update.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,8 +5,8 @@ use super::keymap::Action;
 use super::options::OptionState;
 use super::studies::ChangeList;
 use crate::jobs::StudyKind;
-use crate::report::why::words;
-use crate::study::why::WouldPass;
+use crate::report::would_pass::words;
+use crate::study::would_pass::WouldPass;
 use crate::verdict::Verdict;
 
 impl App {
@@ -23,7 +23,7 @@ impl App {
         let list = ChangeList { option, selected: 0 };
         if self.studies.changes.is_some_and(|open| open.option == option) {
             self.studies.changes = None;
-            return self.cancel_study(StudyKind::Why);
+            return self.cancel_study(StudyKind::WouldPass);
         }
         let state = &self.options[option];
         let refusal = match (state, state.verdict()) {
@@ -43,7 +43,7 @@ impl App {
         if self.studies.would_pass(option, &self.compute).is_some() {
             return Request::None;
         }
-        self.begin_study(StudyKind::Why)
+        self.begin_study(StudyKind::WouldPass)
     }
 
     /// Does an action on the open list; `None` where the action is not for the list.

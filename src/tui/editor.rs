@@ -6,7 +6,9 @@ use tui_input::backend::crossterm::EventHandler;
 
 use super::keymap::Action;
 use super::name_list::NameList;
+use super::order::Order;
 use super::paste::paste;
+use super::stepped::{beside, moved, stepped};
 use crate::plan::fields::{self, Field, Path};
 use crate::plan::keys::{Kind, delay, plan};
 use crate::plan::{Layout, Plan};
@@ -42,35 +44,6 @@ pub struct Editor {
     pub names: Option<NameList>,
     /// Message about the text being typed, or about the last edit.
     pub problem: Option<String>,
-}
-
-/// A firing order being edited.
-#[derive(Clone, Debug)]
-pub struct Order {
-    /// Names of the blast rows in their order of firing.
-    pub names: Vec<String>,
-    /// Index of the selected row.
-    pub selected: usize,
-}
-
-impl Order {
-    fn select(&mut self, down: bool) {
-        let last = self.names.len().saturating_sub(1);
-        self.selected = self.selected.saturating_add_signed(if down { 1 } else { -1 }).min(last);
-    }
-
-    /// Moves the selected row one turn earlier or later.
-    fn shift(&mut self, later: bool) {
-        let from = self.selected;
-        self.select(later);
-        self.names.swap(from, self.selected);
-    }
-
-    /// The order as a plan writes it.
-    fn text(&self) -> String {
-        let names: Vec<String> = self.names.iter().map(|name| format!("{name:?}")).collect();
-        format!("[{}]", names.join(", "))
-    }
 }
 
 impl Editor {
@@ -357,29 +330,6 @@ impl Editor {
     }
 }
 
-/// The name before or after `name` in a list; the first where the list has no such name.
-fn beside(names: &[&str], name: &str, up: bool) -> Option<String> {
-    let index = names.iter().position(|known| *known == name);
-    let next = index.map_or(0, |index| index.saturating_add_signed(if up { 1 } else { -1 }));
-    names.get(next).map(|name| (*name).to_owned())
-}
-
-/// A number moved by `step`, at least 0.
-fn moved(number: &str, step: f64) -> Option<String> {
-    number.parse::<f64>().ok().map(|number| (number + step).max(0.0).to_string())
-}
-
-/// The number moved by one unit of its second digit: 20 to 21, 6 to 6.1, 280 to 290.
-fn stepped(number: f64, up: bool) -> f64 {
-    if number == 0.0 {
-        return if up { 1.0 } else { 0.0 };
-    }
-    let unit = 10_f64.powf(number.abs().log10().floor() - 1.0);
-    let steps = (number / unit).round() + if up { 1.0 } else { -1.0 };
-    // A unit below 1 has no exact value; its reciprocal has.
-    if unit < 1.0 { steps / (1.0 / unit).round() } else { steps * unit }
-}
-
 #[cfg(test)]
 mod tests {
     use crossterm::event::KeyModifiers;
@@ -486,11 +436,5 @@ mod tests {
             assert!(matches!(editor.step(true), EditOutcome::Changed(_)), "{:?}", editor.problem);
             assert_eq!(editor.field().map(|field| field.value.as_str()), Some(stepped));
         }
-    }
-
-    #[test]
-    fn steps_follow_the_leading_digit() {
-        assert_eq!([20.0, 6.0, 280.0, 1.8].map(|n| stepped(n, true)), [21.0, 6.1, 290.0, 1.9]);
-        assert_eq!([20.0, 0.0].map(|n| stepped(n, false)), [19.0, 0.0]);
     }
 }

@@ -10,8 +10,8 @@ use crate::file;
 use crate::jobs::{StudyKind, StudyResult};
 use crate::report::html::{self, Page};
 use crate::report::{self, charts};
-use crate::study::check_all::OptionResults;
-use crate::study::sampling::Sampling;
+use crate::study::judge::OptionResults;
+use crate::study::samples::sampling::Sampling;
 
 /// Writes the contents of the screen to a new file, in the format of the file's ending; or says why not.
 pub fn write(app: &App, path: &Path) -> Result<(), String> {

@@ -7,7 +7,7 @@ use crate::jobs::{StudyKind, StudyResult};
 use crate::report::model::{Block, Report};
 use crate::report::{self, charts};
 use crate::study::flight::Flight;
-use crate::study::why::WouldPass;
+use crate::study::would_pass::WouldPass;
 use crate::study::{Case, ComputeSettings, NoResult};
 
 /// State of one study.
@@ -50,8 +50,8 @@ impl ShownStudy {
             StudyResult::Search(search) => report::search::report(case, search, false),
             StudyResult::Effects(effects) => report::effects::report(case, effects, false),
             StudyResult::Size(sizing) => report::size::report(case, sizing),
-            StudyResult::Why(would_pass) => {
-                let blocks = report::why::blocks(case, std::slice::from_ref(would_pass));
+            StudyResult::WouldPass(would_pass) => {
+                let blocks = report::would_pass::blocks(case, std::slice::from_ref(would_pass));
                 Report { blocks, ..Report::default() }
             }
             StudyResult::Accuracy(study) => report::accuracy::report(case, study, &[]),
@@ -99,7 +99,7 @@ pub struct Studies {
     pub filter: String,
     /// Index of the selected row among those that offer a change of the plan.
     pub selected: usize,
-    /// The list of [`StudyKind::Why`]; `None` while it is closed.
+    /// The list of [`StudyKind::WouldPass`]; `None` while it is closed.
     pub changes: Option<ChangeList>,
     states: [StudyState; StudyKind::ALL.len()],
 }
@@ -156,9 +156,9 @@ impl Studies {
 
     /// The changes with which an option would pass, as found by a computation with these settings.
     pub fn would_pass(&self, option: usize, compute: &ComputeSettings) -> Option<&WouldPass> {
-        let finished = self.finished(StudyKind::Why).filter(|finished| finished.compute == *compute)?;
+        let finished = self.finished(StudyKind::WouldPass).filter(|finished| finished.compute == *compute)?;
         match &*finished.found {
-            StudyResult::Why(would_pass) if would_pass.option == option => Some(would_pass),
+            StudyResult::WouldPass(would_pass) if would_pass.option == option => Some(would_pass),
             _ => None,
         }
     }

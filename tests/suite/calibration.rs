@@ -11,7 +11,7 @@ mod regimes;
 use std::ops::ControlFlow;
 
 use shelter::choice::Accuracy;
-use shelter::study::step_error::{NEIGHBOURS, PAIRS};
+use shelter::study::as_planned::step_error::{NEIGHBOURS, PAIRS};
 
 use self::compare::{compare, median, within};
 use self::regimes::Regime;
@@ -36,7 +36,7 @@ fn reported_errors_hold_and_are_not_too_wide() {
 #[test]
 fn only_open_verdicts_cost_more() {
     use shelter::plan::Plan;
-    use shelter::study::check::check_as_planned;
+    use shelter::study::as_planned::check::check_as_planned;
     use shelter::study::{Case, ComputeSettings};
     let path = shipped("amur-three-rows.toml");
     let mut case = Case::new(Plan::load(path.as_ref()).expect("a shipped plan"));

@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 
 use shelter::plan::Plan;
 use shelter::scene::Firing;
+use shelter::study::as_planned::together::Together;
 use shelter::study::orders::try_orders;
-use shelter::study::random_shot::draw;
+use shelter::study::samples::random_shot::draw;
 use shelter::study::sweep::sweep;
-use shelter::study::together::Together;
 use shelter::study::{Case, ComputeSettings, Intervals, NoResult, Progress, Shard};
 use shelter::verdict::Verdict;
 
@@ -272,9 +272,13 @@ fn studies_keep_the_holes_of_the_options() {
     let differing = differing.with_hole_timing_of(0);
     assert_eq!(differing.intervals(), [0.009], "the option whose rows fire together");
     let compute = ComputeSettings::of(&differing.plan);
-    let flow = &mut |_: shelter::study::check::CheckStep| ControlFlow::Continue(());
-    let checked =
-        shelter::study::check::check_shot(&differing, &differing.shot(&[0, 1], 0.009), &compute, flow);
+    let flow = &mut |_: shelter::study::as_planned::check::CheckStep| ControlFlow::Continue(());
+    let checked = shelter::study::as_planned::check::check_shot(
+        &differing,
+        &differing.shot(&[0, 1], 0.009),
+        &compute,
+        flow,
+    );
     let own = differing.check_as_planned(0, &compute);
     assert_eq!(checked.expect("a result").height, own.expect("a result").height);
 }

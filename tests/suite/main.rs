@@ -36,4 +36,4 @@ mod studies;
 mod support;
 #[cfg(unix)]
 mod terminal;
-mod why;
+mod would_pass;

@@ -7,8 +7,8 @@ use shelter::choice::Accuracy;
 use shelter::plan::starter::{self, QUESTIONS};
 use shelter::plan::{DelayScatter, LaunchTargets, Layout, Plan, Timing, Uncertainty};
 use shelter::scene::TireId;
-use shelter::study::check_all::verdict_on_plan;
-use shelter::study::sampling::Sampling;
+use shelter::study::judge::verdict_on_plan;
+use shelter::study::samples::sampling::Sampling;
 use shelter::study::{Case, ComputeSettings, Progress};
 use shelter::verdict::Verdict;
 

@@ -7,16 +7,16 @@ use shelter::outcome::Outcome;
 use shelter::plan::{DelayScatter, Plan, Uncertainty};
 use shelter::scene::{Scene, Shot};
 use shelter::simulation::{Model, RunSettings};
-use shelter::study::check_all::{check_all, find_launch_margins, judge_drawn};
-use shelter::study::influence::input_shares;
+use shelter::study::as_planned::margin::LaunchMargin;
+use shelter::study::judge::{UNWATCHED, find_launch_margins, judge_all, judge_from_samples};
 use shelter::study::judgement::Judgement;
-use shelter::study::margin::LaunchMargin;
-use shelter::study::random_shot::{RandomShot, draw};
-use shelter::study::risk::Risk;
-use shelter::study::risk_summary::sample_shots;
-use shelter::study::sample::OptionSample;
-use shelter::study::sampled::Sampled;
-use shelter::study::sampling::{Sampling, ShotToSample, draw_shard, find_risks};
+use shelter::study::judgement::Sampled;
+use shelter::study::samples::influence::input_shares;
+use shelter::study::samples::random_shot::{RandomShot, draw};
+use shelter::study::samples::risk::Risk;
+use shelter::study::samples::risk_summary::find_risk_summaries;
+use shelter::study::samples::sample::OptionSample;
+use shelter::study::samples::sampling::{Sampling, ShotToSample, draw_shard, find_risks};
 use shelter::study::{Case, ComputeSettings, Progress, Shard, ShotSummary, thread_pool};
 use shelter::verdict::{Quantity, Verdict};
 
@@ -139,9 +139,9 @@ fn the_launch_margin_is_the_room_below_the_limit() {
     let margin = |height: f64| {
         let case = lone(height, 1.0);
         let cases = [(&case, ComputeSettings::of(&case.plan))];
-        let mut results = check_all(&cases, None, &Progress::default()).expect("a result").value;
+        let mut results = judge_all(&cases, None, &Progress::default(), UNWATCHED).expect("a result").value;
         let found =
-            find_launch_margins(&cases, &mut results, &Progress::default(), &|_, _| {}).expect("a result");
+            find_launch_margins(&cases, &mut results, &Progress::default(), UNWATCHED).expect("a result");
         assert!(!found.partial);
         results[0].remove(0).expect("a result").launch_margin.expect("a margin")
     };
@@ -169,8 +169,9 @@ fn too_hard_for_samples() -> Case {
 fn samples_whose_step_is_too_long_pass_nothing() {
     let case = too_hard_for_samples();
     let cases = [(&case, ComputeSettings::of(&case.plan))];
-    let mut found =
-        check_all(&cases, Some(&Sampling::OF_VERDICT), &Progress::default()).expect("a result").value;
+    let mut found = judge_all(&cases, Some(&Sampling::OF_VERDICT), &Progress::default(), UNWATCHED)
+        .expect("a result")
+        .value;
     let judged = found.remove(0).remove(0).expect("a result");
     let risk = judged.risk.drawn().expect("samples");
     assert_eq!((judged.as_planned.verdict, risk.bounds.verdict()), (Verdict::Pass, Verdict::Pass));
@@ -178,7 +179,8 @@ fn samples_whose_step_is_too_long_pass_nothing() {
     assert!(risk.halvings > 0, "the audit saw it, too");
     // Sweeps and orders sample shots this way.
     let shots = [(case.shots[0].clone(), ShotSummary::of(&judged.as_planned))];
-    let sampled = sample_shots(&case, &shots, &Sampling::OF_VERDICT, &cases[0].1, &Progress::default());
+    let sampled =
+        find_risk_summaries(&case, &shots, &Sampling::OF_VERDICT, &cases[0].1, &Progress::default());
     let sampled = sampled.expect("a result").remove(0).expect("samples");
     assert_eq!((sampled.bounds.verdict(), sampled.verdict), (Verdict::Pass, Verdict::Undecided));
 }
@@ -286,7 +288,8 @@ fn shards_that_the_audit_contradicts_are_sampled_anew() {
         .map(|(option, sample)| OptionSample { option, sample: sample.expect("time for all") })
         .collect();
     drawn.sort_by_key(|drawn| drawn.sample.number);
-    let joined = judge_drawn(&case, &compute, &sampling, &drawn, &progress).expect("a result").remove(0);
+    let joined =
+        judge_from_samples(&case, &compute, &sampling, &drawn, &progress).expect("a result").remove(0);
     let whole = case.judge_options(&compute, Some(&sampling), &progress).expect("a result").value;
     let whole = whole[0].as_ref().expect("a result").risk.drawn().expect("samples");
     assert!(whole.halvings > 0, "a test that can fail");
@@ -508,7 +511,8 @@ fn samples_are_the_same_on_any_number_of_threads() {
         .enumerate()
         .flat_map(|(option, risk)| risk.samples.iter().map(move |&sample| OptionSample { option, sample }))
         .collect();
-    let joined = judge_drawn(&case, &compute, &sampling, &drawn, &Progress::default()).expect("a result");
+    let joined =
+        judge_from_samples(&case, &compute, &sampling, &drawn, &Progress::default()).expect("a result");
     for (joined, one) in joined.into_iter().zip(one) {
         assert_eq!(joined.expect("a result").risk, Sampled::Drawn(one));
     }

@@ -10,7 +10,7 @@ use shelter::jobs::{News, StudyKind};
 use shelter::plan::Timing;
 use shelter::simulation::Failure;
 use shelter::study::NoResult;
-use shelter::study::margin::LaunchMargin;
+use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::tui::app::{App, Request};
 use shelter::tui::options::OptionState;
 use shelter::tui::screen::Screen;

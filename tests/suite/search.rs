@@ -1,12 +1,12 @@
 //! The search of firing schedules, against all schedules judged one by one.
 
 use shelter::plan::{Plan, PlanSource, edit};
-use shelter::study::check::check_shot;
-use shelter::study::check_all::OptionResults;
+use shelter::study::as_planned::check::check_shot;
+use shelter::study::as_planned::together::Together;
+use shelter::study::judge::OptionResults;
 use shelter::study::orders::try_orders;
-use shelter::study::sampling::Sampling;
+use shelter::study::samples::sampling::Sampling;
 use shelter::study::search::{MOST_JUDGED, Search, duration, search};
-use shelter::study::together::Together;
 use shelter::study::{Case, ComputeSettings, NoResult, Progress, Shard};
 use shelter::verdict::Verdict;
 
@@ -279,7 +279,7 @@ fn a_slope_takes_mirror_images_away() {
         of_order.expect("every order").as_planned.height
     };
     for order in [[0, 1, 2], [2, 1, 0], [1, 0, 2], [1, 2, 0]] {
-        let flow = &mut |_: shelter::study::check::CheckStep| std::ops::ControlFlow::Continue(());
+        let flow = &mut |_: shelter::study::as_planned::check::CheckStep| std::ops::ControlFlow::Continue(());
         let checked = check_shot(&falling, &falling.shot(&order, 0.042), &compute, flow).expect("a result");
         let apart = (checked.height.value - height(order).value).abs();
         assert!(apart <= checked.height.error + height(order).error, "{order:?}");

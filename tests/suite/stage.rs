@@ -12,15 +12,15 @@ use shelter::jobs::{News, StudyKind, StudyResult};
 use shelter::outcome::{EndReason, History, RunEnd};
 use shelter::ropes::catalogue;
 use shelter::study::accuracy::{AccuracyTable, LevelStep, Measured, StepRow};
-use shelter::study::check::CheckedShot;
-use shelter::study::cover::Cover;
+use shelter::study::as_planned::check::CheckedShot;
+use shelter::study::as_planned::cover::Cover;
+use shelter::study::as_planned::shot_reason::ShotReason;
 use shelter::study::judgement::Judgement;
+use shelter::study::judgement::Sampled;
 use shelter::study::orders::{Orders, TriedOrder};
-use shelter::study::reason::Reason;
-use shelter::study::risk::Risk;
-use shelter::study::sample::{Sample, SampleRun};
-use shelter::study::sampled::Sampled;
-use shelter::study::sampling::Sampling;
+use shelter::study::samples::risk::Risk;
+use shelter::study::samples::sample::{Sample, SampleRun};
+use shelter::study::samples::sampling::Sampling;
 use shelter::study::size::{Combination, Sizing, Trial, WorstShotRisk};
 use shelter::study::sweep::{Point, Recommended, Sweep};
 use shelter::study::{Case, ComputeSettings, NoResult, flight};
@@ -46,7 +46,7 @@ pub fn checked(verdict: Verdict) -> CheckedShot {
     let wave = |n: usize| (n as f64 * 0.05).sin().abs();
     let estimate = |value, error, at, index| Estimate { value, error, at, index };
     let force = estimate(61_234.0, 45.0, 0.123, 3);
-    let limit = Reason::Limit { quantity: Quantity::Force, verdict, estimate: force, limit: 61_019.0 };
+    let limit = ShotReason::Limit { quantity: Quantity::Force, verdict, estimate: force, limit: 61_019.0 };
     CheckedShot {
         broken: Vec::new(),
         verdict,

@@ -7,15 +7,15 @@ use itertools::Itertools;
 use shelter::choice::Accuracy;
 use shelter::plan::{DelayScatter, LaunchTargets, Plan, Timing};
 use shelter::ropes::{Kind, catalogue};
-use shelter::study::check::{check_as_planned, check_shot};
-use shelter::study::check_all::check_all;
+use shelter::study::as_planned::check::{check_as_planned, check_shot};
+use shelter::study::judge::{UNWATCHED, judge_all};
 use shelter::study::judgement::Judgement;
+use shelter::study::judgement::Sampled;
 use shelter::study::orders::{Orders, TriedOrder, orders, refine, try_orders};
-use shelter::study::risk::Risk;
-use shelter::study::sampled::Sampled;
-use shelter::study::sampling::{Sampling, ShotToSample, find_risks};
+use shelter::study::samples::risk::Risk;
+use shelter::study::samples::sampling::{Sampling, ShotToSample, find_risks};
+use shelter::study::samples::swaps::swaps;
 use shelter::study::size::{Demand, size};
-use shelter::study::swaps::swaps;
 use shelter::study::sweep::{GAP, Point, Sweep, sweep};
 use shelter::study::{Case, ComputeSettings, Intervals, Shard};
 use shelter::study::{Progress, ShotSummary};
@@ -413,7 +413,7 @@ fn the_lightest_shelter_is_that_of_brute_force() {
     });
     let (mut lightest, mut fragile) = (f64::INFINITY, 0);
     for (total, case) in combinations.sorted_by(|a, b| a.0.total_cmp(&b.0)) {
-        let results = check_all(&[(&case, compute)], Some(&sampling), &Progress::default());
+        let results = judge_all(&[(&case, compute)], Some(&sampling), &Progress::default(), UNWATCHED);
         let results = results.expect("a result").value.remove(0);
         if results.iter().flatten().all(|judged| judged.verdict() == Verdict::Pass) {
             lightest = total;
@@ -480,9 +480,9 @@ fn rows_that_may_swap_are_named() {
     let mut case = case(2, "");
     case.plan.uncertainty.delay = DelayScatter { sd_ms: 10.0, cv_percent: 0.0 };
     case.plan.uncertainty.in_hole_delay_ms = 500.0;
-    let swaps = swaps(&case, 1e-2);
-    assert_eq!(swaps.len(), 1, "the option of 45 ms is safe: {swaps:?}");
-    assert_eq!((swaps[0].option, swaps[0].rows), (0, [0, 1]));
+    let [swaps, of_45_ms] = [0, 1].map(|option| swaps(&case, option, 1e-2));
+    assert_eq!((swaps.len(), of_45_ms.len()), (1, 0));
+    assert_eq!(swaps[0].rows, [0, 1]);
     assert!((swaps[0].probability - 0.124_1).abs() < 1e-4, "{}", swaps[0].probability);
 }
 
@@ -498,8 +498,8 @@ fn a_study_without_time_is_partial() {
             sweep(&case, &[0, 1], &intervals, None, &compute, progress).map(|found| found.partial),
             try_orders(&case, &[0.02], Shard::WHOLE, &compute, progress).map(|found| found.partial),
             size(&case.plan, &demand, Some(&three), &compute, progress).map(|found| found.partial),
-            check_all(&[(&case, compute)], None, progress).map(|found| found.partial),
-            check_all(&[(&case, compute)], Some(&three), progress).map(|found| found.partial),
+            judge_all(&[(&case, compute)], None, progress, UNWATCHED).map(|found| found.partial),
+            judge_all(&[(&case, compute)], Some(&three), progress, UNWATCHED).map(|found| found.partial),
         ]
     };
     let out_of_time = Progress::default();

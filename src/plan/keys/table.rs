@@ -181,7 +181,7 @@ sections! {
         CHARGE_IN_8_MS_KG = key("charge_in_8_ms_kg", number("kg", 1e-6..=1e9), "200",
             "heaviest charge within any 8 ms; every hole then needs charge_kg").edit("limit of charge in 8 ms, kg").offered();
         ACCEPTED_RISK_PERCENT = key("accepted_risk_percent", number("%", 1e-6..=50.0), "1",
-            "share of the shots that may go past a limit").default(1.0).edit("accepted risk, %").offered();
+            "share of the shots that may go past a limit").default(1.0).usual(0.01, 5.0).edit("accepted risk, %").offered();
     }
 
     delay "[[delay]]" "one delay option" {

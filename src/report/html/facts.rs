@@ -8,8 +8,8 @@ use crate::plan::{
 };
 use crate::report::limits::limits;
 use crate::ropes::catalogue;
-use crate::study::check_all::OptionResults;
-use crate::study::sampling::Sampling;
+use crate::study::judge::OptionResults;
+use crate::study::samples::sampling::Sampling;
 use crate::study::{Case, ComputeSettings};
 use crate::units::{self, Unit};
 

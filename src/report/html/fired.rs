@@ -4,19 +4,18 @@ use maud::{Markup, html};
 
 use super::Page;
 use super::table::word;
-use crate::plan::DelayOption;
-use crate::report::{check, explain, no_result};
+use crate::report::{check, explain, no_result, reasons};
 use crate::scene::Shot;
 use crate::study::Case;
+use crate::study::as_planned::margin::LaunchMargin;
+use crate::study::as_planned::together::Together;
 use crate::study::judgement::Judgement;
-use crate::study::margin::LaunchMargin;
-use crate::study::sampled::Sampled;
-use crate::study::together::Together;
+use crate::study::judgement::Sampled;
 use crate::units;
-use crate::verdict::{Estimate, Quantity, Verdict};
+use crate::verdict::{Quantity, Verdict};
 
 /// The box with the option to be fired; one line where none is chosen.
-pub fn head(page: &Page<'_>, warnings: &[&String]) -> Markup {
+pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     let Some(option) = page.fired else {
         return html! { p.chosen { "No option is chosen to be fired: --option NAME of shelter report chooses one." } };
     };
@@ -26,12 +25,12 @@ pub fn head(page: &Page<'_>, warnings: &[&String]) -> Markup {
     let verdict = result.as_ref().map_or(Verdict::Undecided, Judgement::verdict);
     let caveat = check::pass_caveat(case, page.sampling.is_some());
     let reasons = match result {
-        Ok(judged) => check::reason_sentences(case, judged),
+        Ok(judged) => reasons::sentences(case, judged),
         Err(reason) => vec![no_result::message(reason)],
     };
     html! {
         div.fired {
-            p.what { "To be fired: " (delay.name) ", " (firing(delay)) }
+            p.what { "To be fired: " (delay.name) ", rows at " (explain::firing_times(delay)) }
             p.large { (word(verdict)) (only_planned(page)) }
             @if verdict != Verdict::Pass { p { strong { "Do not fire this option as it stands." } } }
             @if !caveat.is_empty() { p { "Judged:" (caveat.replace(['(', ')'], "")) "." } }
@@ -50,16 +49,6 @@ pub fn head(page: &Page<'_>, warnings: &[&String]) -> Markup {
 /// Words behind a verdict for which no possible shot was judged.
 pub fn only_planned(page: &Page<'_>) -> &'static str {
     if page.sampling.is_some() { "" } else { " as planned only; the possible shots were NOT judged" }
-}
-
-/// When the rows fire, in the order of the plan, and how the holes of each follow: `rows at 0/42/84 ms, holes 17 ms left`.
-fn firing(delay: &DelayOption) -> String {
-    // A sum of intervals has digits that nobody wrote.
-    let exact = |time: &f64| ((time * 1e6).round() / 1e6).to_string();
-    let times: Vec<String> = delay.timing.fire_at_ms().iter().map(exact).collect();
-    let rows = if times.len() == 1 { "row" } else { "rows" };
-    let rows = format!("{rows} at {} ms", times.join("/"));
-    [rows].into_iter().chain(delay.hole_timing.words()).collect::<Vec<_>>().join(", ")
 }
 
 /// What the verdict rests on, each with its name.
@@ -107,15 +96,10 @@ fn launch_margin(shot: &Shot, judged: &Judgement) -> String {
 
 /// The share of each limit that the shot as planned takes.
 fn utilization(case: &Case, judged: &Judgement) -> String {
-    let checked = &judged.as_planned;
-    let of = |name: &str, peak: Estimate, quantity: Quantity| {
-        Some(format!("{name} {}", units::percent(peak.value / case.limits.get(quantity)?, 0)))
+    let names = ["height", "force", "drift"].into_iter().zip(Quantity::ALL);
+    let share = |(name, quantity): (&str, Quantity)| {
+        let share = judged.as_planned.share_of_limit(quantity, &case.limits)?;
+        Some(format!("{name} {}", units::percent(share, 0)))
     };
-    let shares = [
-        of("height", checked.height, Quantity::Height),
-        of("force", checked.force, Quantity::Force),
-        of("drift", checked.drift, Quantity::Drift),
-    ];
-    let shares: Vec<String> = shares.into_iter().flatten().collect();
-    format!("{} of the limit", shares.join(" · "))
+    format!("{} of the limit", names.filter_map(share).collect::<Vec<_>>().join(" · "))
 }

@@ -20,11 +20,12 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
 use super::model::{Block, Report};
+use super::warnings;
 use super::{charts, check, explain};
 use crate::study::Case;
-use crate::study::check_all::OptionResults;
+use crate::study::judge::OptionResults;
 use crate::study::judgement::Judgement;
-use crate::study::sampling::Sampling;
+use crate::study::samples::sampling::Sampling;
 use crate::verdict::Verdict;
 
 /// What a page is about.
@@ -51,9 +52,12 @@ pub fn page(page: &Page<'_>) -> String {
     let hash = Sha256::digest(case.source.text.as_bytes());
     let hash: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
     let report = check::report(case, results, None, false, page.partial);
-    let (others, of_fired): (Vec<&String>, Vec<&String>) =
-        report.warnings.iter().partition(|warning| fired.is_none() || is_of_another(page, warning));
-    let checked = fired.and_then(|option| results[option].as_ref().ok()).map(|judged| &judged.as_planned);
+    let fired_judged = fired.and_then(|option| Some((option, results[option].as_ref().ok()?)));
+    let checked = fired_judged.map(|(_, judged)| &judged.as_planned);
+    let of_fired = fired_judged.map(|(option, judged)| warnings::of_option(case, option, judged));
+    let at_head = [warnings::of_plan(case), of_fired.unwrap_or_default()].concat();
+    let others =
+        if fired.is_some() { warnings::of_options(case, results, fired) } else { report.warnings.clone() };
     let text = html! {
         (DOCTYPE)
         html lang="en" {
@@ -73,7 +77,7 @@ pub fn page(page: &Page<'_>) -> String {
                     p { strong { "Not saved: " } "the plan that was computed is not the one in its file. Its text stands at the end of this page." }
                 }
                 @if page.partial { p { strong { "The time was up before all was computed." } } }
-                (fired::head(page, &of_fired))
+                (fired::head(page, &at_head))
                 @if fired.is_none() { (conclusion(&report)) }
                 section {
                     h2 { "The shelter from above" }
@@ -160,14 +164,6 @@ fn conclusion(report: &Report) -> Markup {
             p { (word(conclusion.verdict)) " · " (conclusion.text) }
         }
     }
-}
-
-/// Whether a warning is about an option that will not be fired.
-fn is_of_another(page: &Page<'_>, warning: &str) -> bool {
-    let names = page.case.plan.delays.iter().map(|delay| &delay.name).enumerate();
-    names
-        .filter(|(n, _)| Some(*n) != page.fired)
-        .any(|(_, name)| warning.starts_with(&format!("option {name}: ")))
 }
 
 /// The options, that to be fired first.

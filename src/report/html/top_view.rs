@@ -14,7 +14,7 @@ use crate::plan::{BlastRow, Layout};
 use crate::report::palette::Role;
 use crate::scene::Shot;
 use crate::study::Case;
-use crate::study::check::CheckedShot;
+use crate::study::as_planned::check::CheckedShot;
 use crate::units::{self, Unit};
 
 /// Cables of larger shelters would only be a grey area.

@@ -4,20 +4,21 @@ use serde::Serialize;
 use serde_json::Number;
 
 use super::risk::{Share, input_shares};
-use super::why::{PassingChange, RefusedKind};
+use super::would_pass::{PassingChange, RefusedKind};
 use super::{Bounds, Failures, LimitsObject};
 use crate::choice::HoleOrder;
 use crate::outcome::BrokenCable;
-use crate::report::check::{judged_inputs, reason_sentences};
+use crate::report::check::judged_inputs;
 use crate::report::option_row::option_rows;
+use crate::report::reasons;
 use crate::report::{no_result, warnings};
 use crate::scene::{Scene, TireId, fire_at_s, seconds};
 use crate::study::Case;
-use crate::study::check_all::{OptionResults, verdict_on_plan};
+use crate::study::as_planned::together::Together;
+use crate::study::judge::{OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
-use crate::study::risk::Risk;
-use crate::study::together::Together;
-use crate::study::why::WouldPass;
+use crate::study::samples::risk::Risk;
+use crate::study::would_pass::WouldPass;
 use crate::verdict::{Estimate, Quantity};
 
 /// The document of one plan.
@@ -218,7 +219,7 @@ impl CheckDocument {
                 charge_in_8_ms_kg: charge,
                 verdict: row.verdict().name(),
                 reasons: match row.result {
-                    Ok(judged) => reason_sentences(case, judged),
+                    Ok(judged) => reasons::sentences(case, judged),
                     Err(reason) => vec![no_result::message(reason)],
                 },
                 would_pass: tried
@@ -244,7 +245,7 @@ impl CheckDocument {
             options: options.collect(),
             warnings: warnings::of_plan(case)
                 .into_iter()
-                .chain(warnings::of_options(case, results))
+                .chain(warnings::of_options(case, results, None))
                 .collect(),
         }
     }

@@ -10,7 +10,7 @@ mod search;
 mod size;
 mod sweep;
 mod trace;
-mod why;
+mod would_pass;
 
 use std::io;
 
@@ -26,8 +26,8 @@ pub use self::search::SearchDocument;
 pub use self::size::SizeDocument;
 pub use self::sweep::SweepDocument;
 pub use self::trace::TraceDocument;
-use crate::study::risk::Risk;
-use crate::study::risk_summary::RiskSummary;
+use crate::study::samples::risk::Risk;
+use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::{Case, ShotSummary};
 use crate::verdict::Verdict;
 

@@ -4,11 +4,11 @@ use serde::Serialize;
 
 use super::LimitsObject;
 use crate::report::warnings;
-use crate::study::check_all::{OptionResults, verdict_on_plan};
-use crate::study::influence;
+use crate::study::judge::{OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
-use crate::study::risk::Risk;
-use crate::study::sampling::Sampling;
+use crate::study::samples::influence;
+use crate::study::samples::risk::Risk;
+use crate::study::samples::sampling::Sampling;
 use crate::study::{Case, NoResult};
 use crate::verdict::{Limits, Quantity, Verdict};
 
@@ -103,7 +103,7 @@ impl RiskDocument {
             samples: sampling.most,
             seed: sampling.seed,
             options: options.map(|(delay, result)| SampledOption::new(case, &delay.name, result)).collect(),
-            warnings: warnings::swaps(case),
+            warnings: warnings::of_options(case, results, None),
         }
     }
 }

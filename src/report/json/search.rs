@@ -5,15 +5,15 @@ use serde::Serialize;
 use super::LimitsObject;
 use super::check::{AtCable, AtTire, Percentiles};
 use crate::choice::HoleOrder;
-use crate::report::check::reason_sentences;
 use crate::report::no_result;
 use crate::report::option_row::{OptionRow, option_rows};
+use crate::report::reasons;
 use crate::report::row_names;
 use crate::scene::{fire_at_s, seconds};
 use crate::study::Case;
+use crate::study::as_planned::together::Together;
 use crate::study::judgement::Judgement;
 use crate::study::search::{FrontPoint, Schedule, Search, duration};
-use crate::study::together::Together;
 use crate::verdict::Quantity;
 
 /// The document of a search.
@@ -115,7 +115,7 @@ impl SearchDocument {
                 fire_at_s: fire_at_s(&row.delay.timing),
                 verdict: row.verdict().name(),
                 reasons: match row.result {
-                    Ok(judged) => reason_sentences(row.case, judged),
+                    Ok(judged) => reasons::sentences(row.case, judged),
                     Err(reason) => vec![no_result::message(reason)],
                 },
                 probability: risk.and_then(|risk| risk.bounds.probability()),

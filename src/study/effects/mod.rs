@@ -14,11 +14,11 @@ use std::cmp::Ordering;
 use std::time::Instant;
 
 pub use self::effect::Effect;
-use super::batch::{or_unknown, run_jobs};
-use super::quick_check::quick_check;
-use super::risk::percentiles;
-use super::sample::Sample;
-use super::sampling::{Sampling, ShotToSample, run_sample_once};
+use super::as_planned::quick_check::quick_check;
+use super::samples::risk::percentiles;
+use super::samples::sample::Sample;
+use super::samples::sampling::{Sampling, ShotToSample, run_sample_once};
+use super::work::batch::{or_unknown, run_jobs};
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, guarded};
 use crate::plan::Plan;
 use crate::verdict::{Limits, Quantity, Verdict};

@@ -22,11 +22,11 @@ use self::race::{Contender, Race};
 use self::schedule::Choices;
 pub use self::schedule::{BrokenLimit, RefusedCounts};
 pub use self::schedule::{Schedule, duration};
-use super::check_all::{OptionResults, check_with_margins};
+use super::as_planned::margin::LaunchMargin;
+use super::judge::{OptionResults, UNWATCHED, judge_all_with_margins};
 use super::judgement::Judgement;
-use super::margin::LaunchMargin;
-use super::risk::Risk;
-use super::sampling::Sampling;
+use super::samples::risk::Risk;
+use super::samples::sampling::Sampling;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, Shard};
 use crate::plan::{DelayOption, Plan, edit};
 use crate::verdict::Verdict;
@@ -100,30 +100,28 @@ pub fn search(
     search_after(case, &[], sampling, compute, progress)
 }
 
-/// Whether all schedules of a plan that keep the limits of its search are judged; only such a search can be shared.
-pub fn judges_all(case: &Case) -> Result<bool, NoResult> {
-    Ok(Listed::new(case, &Choices::new(case)?).are_all_judged())
-}
-
-/// Draws the first samples of the schedules of one shard, where all are judged.
+/// Draws the first samples of the schedules of one shard; `None` where there are more than [`MOST_JUDGED`]: a search that does not
+/// judge all cannot be shared.
 pub fn try_schedules(
     case: &Case,
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
     shard: Shard,
     progress: &Progress,
-) -> Finding<Vec<TriedSchedule>> {
+) -> Finding<Option<Vec<TriedSchedule>>> {
     let choices = Choices::new(case)?;
+    let listed = Listed::new(case, &choices);
+    if !listed.are_all_judged() {
+        return Ok(Found { value: None, partial: false });
+    }
     let mut pool = Pool::new(case, &choices);
-    pool.add(Listed::new(case, &choices).allowed.unwrap_or_default());
+    pool.add(listed.allowed.unwrap_or_default());
     let own = pool.contenders.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
     let (numbers, mut contenders): (Vec<usize>, Vec<Contender>) = own.unzip();
     let partial = race(case, sampling, compute).draw(&mut contenders, FIRST_OF_ALL, progress)?;
     let tried = numbers.into_iter().zip(contenders);
-    Ok(Found {
-        value: tried.map(|(number, one)| TriedSchedule { number, tally: one.tally }).collect(),
-        partial,
-    })
+    let tried = tried.map(|(number, one)| TriedSchedule { number, tally: one.tally }).collect();
+    Ok(Found { value: Some(tried), partial })
 }
 
 fn race<'c>(case: &'c Case, sampling: Option<&Sampling>, compute: &ComputeSettings) -> Race<'c> {
@@ -251,7 +249,7 @@ fn judge(
     let case = Case { source: case.source.clone(), ..Case::new(plan) };
     let sampling = sampling.map(|sampling| Sampling { attempt: ATTEMPT, ..*sampling });
     let cases = [(&case, *compute)];
-    let mut found = check_with_margins(&cases, sampling.as_ref(), progress, &|_, _| {})?;
+    let mut found = judge_all_with_margins(&cases, sampling.as_ref(), progress, UNWATCHED)?;
     let results = found.value.remove(0);
     Ok((case, Found { value: results, partial: found.partial }))
 }

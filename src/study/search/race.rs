@@ -4,10 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use super::schedule::Candidate;
 use crate::scene::Shot;
-use crate::study::batch::run_jobs;
-use crate::study::quick_check::quick_check;
-use crate::study::sample::SampleRun;
-use crate::study::sampling::{Sampling, ShotToSample, run_sample_once};
+use crate::study::as_planned::quick_check::quick_check;
+use crate::study::samples::sample::SampleRun;
+use crate::study::samples::sampling::{Sampling, ShotToSample, run_sample_once};
+use crate::study::work::batch::run_jobs;
 use crate::study::{Case, ComputeSettings, NoResult, Progress};
 use crate::verdict::Verdict;
 

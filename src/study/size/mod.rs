@@ -15,8 +15,8 @@ use std::cmp::Ordering;
 use itertools::Itertools;
 
 use self::trial::{Candidate, Hardest};
-use super::sampled::{Sampled, verdict_of_both};
-use super::sampling::Sampling;
+use super::judgement::{Sampled, verdict_of_both};
+use super::samples::sampling::Sampling;
 use super::{ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary};
 use crate::plan::{Layout, Plan};
 use crate::ropes::{Rope, catalogue};

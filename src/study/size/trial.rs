@@ -7,11 +7,11 @@ use itertools::Itertools;
 use super::{Combination, Demand, SizingTask, Trial, Untried, WorstShotRisk};
 use crate::ropes::Rope;
 use crate::scene::Shot;
-use crate::study::batch::summarize_shots;
-use crate::study::cover::Cover;
-use crate::study::failure_bounds::FailureBounds;
-use crate::study::risk::Risk;
-use crate::study::sampling::{Sampling, ShotToSample, find_risks_watched};
+use crate::study::as_planned::cover::Cover;
+use crate::study::samples::failure_bounds::FailureBounds;
+use crate::study::samples::risk::Risk;
+use crate::study::samples::sampling::{Sampling, ShotToSample, find_risks_watched};
+use crate::study::work::batch::full_checks;
 use crate::study::{Case, Found, NoResult, ShotSummary, ValueWithError};
 use crate::verdict::Verdict;
 
@@ -75,7 +75,7 @@ impl<'q> Candidate<'q> {
         let mut holds = true;
         for chunk in order.chunks(AT_ONCE) {
             let part: Vec<Shot> = chunk.iter().map(|&n| self.shots[n].clone()).collect();
-            let chunk_judged = summarize_shots(case, &part, compute, progress)?;
+            let chunk_judged = full_checks(case, &part, compute, progress)?;
             let Some(chunk_judged) = chunk_judged.into_iter().collect::<Option<Vec<_>>>() else {
                 return Ok(None);
             };

@@ -11,10 +11,10 @@ use std::collections::BTreeSet;
 
 use super::{MOST_SAMPLED_GAP, Point, Sweep, deepest, nanoseconds, windows};
 use crate::scene::Shot;
-use crate::study::batch::{or_unknown, summarize_shot};
-use crate::study::risk_summary::{RiskSummary, sample_shots};
-use crate::study::sampled::Sampled;
-use crate::study::sampling::Sampling;
+use crate::study::judgement::Sampled;
+use crate::study::samples::risk_summary::{RiskSummary, find_risk_summaries};
+use crate::study::samples::sampling::Sampling;
+use crate::study::work::batch::{full_check, or_unknown};
 use crate::study::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary};
 use crate::verdict::Verdict;
 
@@ -35,7 +35,7 @@ pub fn add_risk(
     let shot = |point: &Point| (case.shot(&swept.order, point.interval), point.as_planned);
     let chosen = choose(&swept.points, &swept.windows_as_planned, own);
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
-    let sampled = sample_shots(case, &shots, &sampling.first_look(), compute, progress)?;
+    let sampled = find_risk_summaries(case, &shots, &sampling.first_look(), compute, progress)?;
     partial |= sampled.contains(&None);
     swept.points.iter_mut().for_each(|point| point.risk = Sampled::NotDrawn);
     for (&n, sampled) in chosen.iter().zip(sampled) {
@@ -83,14 +83,14 @@ fn judge(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Option<(ShotSummary, Option<RiskSummary>)>, NoResult> {
-    let as_planned = match or_unknown(summarize_shot(case, &shot, compute, progress)) {
+    let as_planned = match or_unknown(full_check(case, &shot, compute, progress)) {
         Err(NoResult::OutOfTime) => return Ok(None),
         judged => judged?,
     };
     if as_planned.verdict != Verdict::Pass {
         return Ok(Some((as_planned, None)));
     }
-    let sampled = sample_shots(case, &[(shot, as_planned)], sampling, compute, progress)?.remove(0);
+    let sampled = find_risk_summaries(case, &[(shot, as_planned)], sampling, compute, progress)?.remove(0);
     Ok(sampled.map(|sampled| (as_planned, Some(sampled))))
 }
 

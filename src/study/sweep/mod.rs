@@ -17,11 +17,12 @@ mod accepted;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::batch::{summarize_all, summarize_all_or_unknown, summarize_shot};
-use super::quick_check::quick_check;
-use super::risk_summary::RiskSummary;
-use super::sampled::{self, Sampled};
-use super::sampling::Sampling;
+use super::as_planned::quick_check::quick_check;
+use super::judgement;
+use super::judgement::Sampled;
+use super::samples::risk_summary::RiskSummary;
+use super::samples::sampling::Sampling;
+use super::work::batch::{full_check, run_checks, run_checks_or_unknown};
 use super::{Case, ComputeSettings, Finding, Found, Intervals, NoResult, Progress, ShotSummary};
 use crate::plan::Timing;
 use crate::scene::seconds;
@@ -41,7 +42,7 @@ pub struct Point {
 impl Point {
     /// The verdict: of the shot as planned, and of its samples where they were asked for.
     pub fn verdict(&self) -> Verdict {
-        sampled::verdict_of_both(self.as_planned.verdict, self.risk.map(|risk| risk.verdict))
+        judgement::verdict_of_both(self.as_planned.verdict, self.risk.map(|risk| risk.verdict))
     }
 
     /// Whether samples were drawn.
@@ -142,14 +143,14 @@ fn sweep_as_planned(
         let work = |&at: &i64| {
             let shot = case.shot(order, in_seconds(at));
             match exact.contains(&at) {
-                true => summarize_shot(case, &shot, compute, progress),
+                true => full_check(case, &shot, compute, progress),
                 false => quick_check(case, &shot, compute, progress),
             }
         };
         // Of the points between points that are known, all may fail.
         let judged = match tried.is_empty() {
-            true => summarize_all(&jobs, progress, work)?,
-            false => summarize_all_or_unknown(&jobs, progress, work)?,
+            true => run_checks(&jobs, progress, work)?,
+            false => run_checks_or_unknown(&jobs, progress, work)?,
         };
         // Out of time: gaps keep the width they have, and windows end there.
         let partial = judged.contains(&None);
@@ -345,7 +346,7 @@ mod tests {
     use super::*;
     use crate::plan::Plan;
     use crate::study::ValueWithError;
-    use crate::study::cover::Cover;
+    use crate::study::as_planned::cover::Cover;
 
     /// Tries a shelter whose height is `height` [m] at an interval [ms], limit 1 m, at first every `step` [ms] up to 20 ms.
     fn tried(step: f64, height: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {

@@ -19,13 +19,15 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use super::chart;
 use crate::jobs::StudyKind;
 use crate::outcome::EndReason;
-use crate::report::explain::{bands, broken, fires, inputs, launch_limit, peaks, reason, risk_detail};
-use crate::report::model::{Chart, Detail};
-use crate::report::why::{sentence, without_pass};
+use crate::report::explain::{bands, broken, fires, inputs, launch_limit, peaks};
+use crate::report::model::Chart;
+use crate::report::reasons;
+use crate::report::would_pass::{sentence, without_pass};
 use crate::report::{charts, no_result, warnings};
+use crate::study::judgement;
 use crate::study::judgement::Judgement;
-use crate::study::risk::Risk;
-use crate::study::sampled;
+use crate::study::reasons::Reason;
+use crate::study::samples::risk::Risk;
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
 use crate::tui::options::OptionState;
@@ -105,7 +107,7 @@ fn is_listed(app: &App) -> bool {
 fn change_lines<'a>(app: &App) -> Vec<Line<'a>> {
     let (case, theme) = (&app.case, app.theme);
     let Some((would_pass, selected)) = app.open_changes() else {
-        let text = match app.studies.state(StudyKind::Why) {
+        let text = match app.studies.state(StudyKind::WouldPass) {
             StudyState::Failed(failed) => no_result::message(failed),
             state => format!("looking for changes with which it would pass… {state}"),
         };
@@ -129,15 +131,15 @@ fn change_lines<'a>(app: &App) -> Vec<Line<'a>> {
 
 fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     let (case, theme, checked) = (&app.case, app.theme, &judged.as_planned);
-    let as_planned = checked.reasons.iter().map(|why| Detail { verdict: why.verdict(), text: reason(why) });
     // As long as samples come, how many there are says more than that they do not suffice.
     let open = app.options[app.selected].is_sampling()
-        && sampled::verdict_of_both(Verdict::Pass, judged.risk.map(Risk::verdict)) == Verdict::Undecided;
-    let mut lines: Vec<Line> = as_planned
-        .chain(risk_detail(case, judged).filter(|_| !open))
-        .map(|Detail { verdict, text }| {
-            let sign = theme::label(verdict).chars().next().unwrap_or(' ');
-            Line::styled(format!("{sign} {text}"), theme.verdict(verdict))
+        && judgement::verdict_of_both(Verdict::Pass, judged.risk.map(Risk::verdict)) == Verdict::Undecided;
+    let reasons = judged.reasons().into_iter().filter(|why| !(open && !matches!(why, Reason::AsPlanned(_))));
+    let mut lines: Vec<Line> = reasons
+        .map(|why| {
+            let sign = theme::label(why.verdict()).chars().next().unwrap_or(' ');
+            let text = format!("{sign} {}", reasons::sentence(case, judged, &why));
+            Line::styled(text, theme.verdict(why.verdict()))
         })
         .collect();
     if !checked.broken.is_empty() {
@@ -146,10 +148,8 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     if is_listed(app) {
         lines.extend(change_lines(app));
     }
-    let swaps = if judged.risk.is_asked() { warnings::swaps_of(case, app.selected) } else { Vec::new() };
-    let warnings = swaps.into_iter().chain(warnings::uncovered(&checked.cover));
-    let warnings = warnings.chain(warnings::drift(case, judged));
-    lines.extend(warnings.map(|warning| Line::styled(format!("! {warning}"), theme.firing())));
+    let warnings = warnings::of_option(case, app.selected, judged);
+    lines.extend(warnings.into_iter().map(|warning| Line::styled(format!("! {warning}"), theme.firing())));
     let risk = judged.risk.drawn().filter(|risk| !risk.samples.is_empty());
     if open {
         let samples = risk.map_or(0, |risk| risk.samples.len());

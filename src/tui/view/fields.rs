@@ -8,9 +8,9 @@ use ratatui::widgets::{Block, Borders, Clear, List, ListState};
 use crate::plan::fields::Field;
 use crate::ropes::catalogue;
 use crate::tui::app::{App, Areas, ClickTarget};
-use crate::tui::editor::Order;
 use crate::tui::keymap::Action;
 use crate::tui::name_list::NameList;
+use crate::tui::order::Order;
 
 /// Most names of a list shown at once.
 const MOST_NAMES: u16 = 12;

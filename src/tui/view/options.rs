@@ -7,10 +7,10 @@ use ratatui::widgets::{Row as Cells, Table, TableState};
 
 use crate::report::no_result;
 use crate::report::spark::sparkline;
-use crate::study::check::CheckedShot;
+use crate::study::as_planned::check::CheckedShot;
 use crate::study::judgement::Judgement;
-use crate::study::risk::Risk;
-use crate::study::sampled::Sampled;
+use crate::study::judgement::Sampled;
+use crate::study::samples::risk::Risk;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::options::OptionState;
 use crate::tui::options::SortBy;
@@ -125,16 +125,10 @@ fn against(app: &App, option: usize, quantity: fn(&CheckedShot) -> f64, unit: Un
 
 /// The quantity of the shot as planned that is nearest to its limit or farthest past it, in percent of the limit: `F 105 %`.
 fn of_limit(app: &App, _: usize, judged: &Judgement) -> String {
-    let CheckedShot { height, force, drift, .. } = &judged.as_planned;
-    let share = |(letter, quantity, value): (char, Quantity, f64)| {
-        Some((letter, value / app.case.limits.get(quantity)?))
-    };
-    let all = [
-        ('H', Quantity::Height, height.value),
-        ('F', Quantity::Force, force.value),
-        ('D', Quantity::Drift, drift.value),
-    ];
-    let worst = all.into_iter().filter_map(share).max_by(|a, b| a.1.total_cmp(&b.1));
+    let share =
+        |(letter, quantity)| Some((letter, judged.as_planned.share_of_limit(quantity, &app.case.limits)?));
+    let shares = ['H', 'F', 'D'].into_iter().zip(Quantity::ALL).filter_map(share);
+    let worst = shares.max_by(|a, b| a.1.total_cmp(&b.1));
     worst.map_or_else(String::new, |(letter, share)| format!("{letter} {}", units::percent(share, 0)))
 }
 

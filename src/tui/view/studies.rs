@@ -48,7 +48,7 @@ fn about(kind: StudyKind) -> (&'static str, &'static str) {
             ("Effects", "Which effects does this scene require? Each switched on or taken away, by itself.")
         }
         // Flight and accuracy have screens of their own; what would make an option pass stands beside the option.
-        StudyKind::Flight | StudyKind::Accuracy | StudyKind::Why => ("", ""),
+        StudyKind::Flight | StudyKind::Accuracy | StudyKind::WouldPass => ("", ""),
     }
 }
 

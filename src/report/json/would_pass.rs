@@ -1,0 +1,89 @@
+//! What would make an option pass, in `shelter.check/2`.
+
+use serde::Serialize;
+
+use super::Failures;
+use crate::plan::change::Change;
+use crate::plan::keys::{Key, blast_row, cable, delay, plan, shelter};
+use crate::report::would_pass::FromTo;
+use crate::study::Case;
+use crate::study::would_pass::{Passing, TriedKind, WouldPass};
+
+/// A change with which the option passes.
+#[derive(Serialize)]
+pub struct PassingChange {
+    kind: &'static str,
+    from: String,
+    to: String,
+    key: String,
+    value: Value,
+    verdict: &'static str,
+    failure_probability: Option<Failures>,
+    flight_height_m: f64,
+    cable_force_n: f64,
+}
+
+/// A kind of change of which none tried passes.
+#[derive(Serialize)]
+pub struct RefusedKind {
+    kind: &'static str,
+    tried: usize,
+    undecided: usize,
+    complete: bool,
+}
+
+/// What stands at the key; of launches the factor on every one.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Value {
+    Name(&'static str),
+    Count(usize),
+    Number(f64),
+}
+
+impl PassingChange {
+    /// The changes with which an option passes.
+    pub fn all(case: &Case, would_pass: &WouldPass) -> Vec<Self> {
+        would_pass.passing().map(|passing| Self::new(case, passing)).collect()
+    }
+
+    fn new(case: &Case, passing: &Passing) -> Self {
+        let Passing { change, judgement } = passing;
+        let FromTo { from, to } = FromTo::new(case, change);
+        let (section, key, value): (&Key, &Key, Value) = match *change {
+            Change::Rope(rope) => (&plan::CABLE, &cable::ROPE, Value::Name(&rope.name)),
+            Change::Termination(known) => (&plan::CABLE, &cable::TERMINATION, Value::Name(&known.name)),
+            Change::BorderRows(rows) => (&plan::SHELTER, &shelter::BORDER_ROWS, Value::Count(rows)),
+            Change::Slack(percent) => (&plan::CABLE, &cable::SLACK_PERCENT, Value::Number(percent)),
+            Change::Launch(factor) => (&plan::BLAST_ROW, &blast_row::LAUNCH_M_S, Value::Number(factor)),
+            Change::Interval { interval_ms, .. } => {
+                (&plan::DELAY, &delay::INTERVAL_MS, Value::Number(interval_ms))
+            }
+        };
+        Self {
+            kind: change.kind().name(),
+            from,
+            to,
+            key: format!("{}.{}", section.name, key.name),
+            value,
+            verdict: judgement.verdict().name(),
+            failure_probability: judgement.risk.drawn().map(Failures::of),
+            flight_height_m: judgement.as_planned.height.value,
+            cable_force_n: judgement.as_planned.force.value,
+        }
+    }
+}
+
+impl RefusedKind {
+    /// The kinds of which no change tried passes.
+    pub fn all(would_pass: &WouldPass) -> Vec<Self> {
+        let refused = would_pass.kinds.iter().filter(|tried| tried.passing.is_none());
+        let object = |tried: &TriedKind| Self {
+            kind: tried.kind.name(),
+            tried: tried.tried.len(),
+            undecided: tried.open,
+            complete: !tried.out_of_time,
+        };
+        refused.map(object).collect()
+    }
+}

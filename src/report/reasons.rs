@@ -1,0 +1,130 @@
+//! Why the verdict on an option is no pass, in words: one sentence a reason.
+
+use super::explain::grams;
+use super::model::Detail;
+use crate::choice::Accuracy;
+use crate::study::as_planned::shot_reason::{EarlyEnd, ShotReason};
+use crate::study::judgement::Judgement;
+use crate::study::reasons::Reason;
+use crate::study::samples::risk::Risk;
+use crate::study::samples::risk_reason::RiskReason;
+use crate::study::samples::sample::SampleRun;
+use crate::study::{Case, ComputeSettings};
+use crate::units::{self, Unit, value_and_error};
+use crate::verdict::{Quantity, Verdict};
+
+/// Why an option does not pass; empty for a pass.
+pub fn details(case: &Case, judged: &Judgement) -> Vec<Detail> {
+    let detail = |reason: &Reason| Detail { verdict: reason.verdict(), text: sentence(case, judged, reason) };
+    judged.reasons().iter().map(detail).collect()
+}
+
+/// Why an option does not pass, without the verdict of each reason.
+pub fn sentences(case: &Case, judged: &Judgement) -> Vec<String> {
+    details(case, judged).into_iter().map(|detail| detail.text).collect()
+}
+
+/// A reason of an option in words.
+pub fn sentence(case: &Case, judged: &Judgement, reason: &Reason) -> String {
+    match (reason, judged.risk.drawn()) {
+        (Reason::AsPlanned(reason), _) => of_shot(reason),
+        (Reason::Samples(reason), Some(risk)) => of_risk(case, &judged.as_planned.compute, risk, *reason),
+        (Reason::Samples(_) | Reason::NoSamples, _) => {
+            "no sample of the possible shots was drawn: the time was up".to_owned()
+        }
+    }
+}
+
+/// Why a shot does not pass.
+fn of_shot(reason: &ShotReason) -> String {
+    let (quantity, verdict, estimate, limit) = match reason {
+        ShotReason::Limit { quantity, verdict, estimate, limit } => (quantity, verdict, estimate, limit),
+        ShotReason::Broken(1) => return "a cable breaks".to_owned(),
+        ShotReason::Broken(count) => return format!("{count} cables break"),
+        ShotReason::HolesTogether { holes, limit } => {
+            return format!("{holes} holes fire within 8 ms, the limit is {limit}");
+        }
+        ShotReason::ChargeTogether { charge, limit } => {
+            return format!("{} kg fire within 8 ms, the limit is {limit} kg", grams(*charge));
+        }
+        ShotReason::EnergyResidual(residual) => {
+            let residual = units::percent(*residual, 1);
+            return format!("the energy balance is off by {residual}: the step is too long for this motion");
+        }
+        ShotReason::EndsEarly { end, open } => return ends_early(*end, *open),
+    };
+    let (name, unit) = quantity_name(*quantity);
+    let value = value_and_error(estimate.value, estimate.error, unit);
+    let (limit, symbol) = (units::exact(*limit, unit), unit.symbol());
+    match verdict {
+        Verdict::Fail => format!("{name} {value} {symbol} is over the limit of {limit} {symbol}"),
+        _ => format!("{name} {value} {symbol} is too near the limit of {limit} {symbol} to tell"),
+    }
+}
+
+/// Why the possible shots do not pass.
+fn of_risk(case: &Case, compute: &ComputeSettings, risk: &Risk, reason: RiskReason) -> String {
+    let accepted = format!("{} %", units::short(case.plan.limits.accepted_risk_percent));
+    let (failures, samples) = (risk.bounds.failures, risk.bounds.samples);
+    let shots = format!("{failures} of {samples} possible shots fail{}", limits_exceeded(case, risk));
+    let can_be_finer = compute.step.is_none() && compute.accuracy != Accuracy::Reference;
+    let finer = if can_be_finer { "; choose accuracy \"reference\"" } else { "" };
+    match reason {
+        RiskReason::TooManyFail => format!("{shots}, surely more than the {accepted} accepted"),
+        RiskReason::PlannedExceedsSamples => format!(
+            "the shot as planned lies above all samples: the step of samples is too long for this motion{finer}"
+        ),
+        RiskReason::Contradicted => format!("{shots}, but finer runs contradict them{finer}"),
+        RiskReason::FewAudited => {
+            format!("{shots}, but too few of them are run at a finer step, too: draw 200 or more")
+        }
+        RiskReason::UndecidedSamples => {
+            let undecided = risk.bounds.undecided;
+            format!("{shots} and {undecided} stay undecided: not surely fewer than the {accepted} accepted")
+        }
+        RiskReason::NotSure => format!("{shots}, not surely fewer than the {accepted} accepted"),
+    }
+}
+
+/// How many samples go past each limit: ` (cable force 12, flight height 3)`.
+fn limits_exceeded(case: &Case, risk: &Risk) -> String {
+    let count = |quantity: Quantity| {
+        let limit = case.limits.get(quantity)?;
+        let is_past =
+            |run: &SampleRun, quantity, limit| run.verdict != Verdict::Undecided && run.get(quantity) > limit;
+        let past = risk.samples.iter().filter(|sample| is_past(sample.finest(), quantity, limit)).count();
+        (past > 0).then(|| format!("{} {past}", quantity_name(quantity).0))
+    };
+    let words: Vec<String> = Quantity::ALL.into_iter().filter_map(count).collect();
+    if words.is_empty() { String::new() } else { format!(" ({})", words.join(", ")) }
+}
+
+/// That a run ends too early, in words.
+fn ends_early(end: f64, open: EarlyEnd) -> String {
+    let end = units::seconds(end);
+    match open {
+        EarlyEnd::HolesUnfired(last) => {
+            format!(
+                "the run ends at {end}, before the last hole fires at {}: give a longer duration_s",
+                units::seconds(last)
+            )
+        }
+        EarlyEnd::TiresInAir => {
+            format!("the run ends at {end} with tires in the air: give a longer duration_s, or none")
+        }
+        EarlyEnd::ForceGrowing => {
+            format!("the run ends at {end} with force at its greatest: give a longer duration_s, or none")
+        }
+        EarlyEnd::TiresMoving => {
+            format!("tires still move at {end} and may pull harder later: give a longer duration_s")
+        }
+    }
+}
+
+fn quantity_name(quantity: Quantity) -> (&'static str, Unit) {
+    match quantity {
+        Quantity::Height => ("flight height", Unit::Metre),
+        Quantity::Force => ("cable force", Unit::Kilonewton),
+        Quantity::Drift => ("drift", Unit::Metre),
+    }
+}

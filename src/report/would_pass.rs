@@ -1,0 +1,181 @@
+//! What would make an option pass, as sentences: one a change.
+
+use super::model::Block;
+use crate::plan::change::Change;
+use crate::plan::{Launch, Layout, Timing};
+use crate::study::Case;
+use crate::study::as_planned::shot_reason::exceeds_together;
+use crate::study::judgement::Judgement;
+use crate::study::would_pass::{Passing, TriedKind, WouldPass};
+use crate::units::{self, Unit};
+use crate::verdict::Quantity;
+
+/// A block for each option: the changes with which it passes, then those that do not suffice.
+pub fn blocks(case: &Case, all: &[WouldPass]) -> Vec<Block> {
+    all.iter().map(|would_pass| Block::Text(lines(case, would_pass))).collect()
+}
+
+fn lines(case: &Case, would_pass: &WouldPass) -> Vec<String> {
+    let name = &case.plan.delays[would_pass.option].name;
+    let passing: Vec<String> =
+        would_pass.passing().map(|passing| format!("    {}", sentence(case, passing))).collect();
+    let head = match passing.len() {
+        0 if !would_pass.enough_samples => format!("{name}: no change was tried"),
+        0 => format!("{name} would pass with none of the changes tried"),
+        1 => format!("{name} would pass with this change:"),
+        _ => format!("{name} would pass with any one of these changes:"),
+    };
+    let rest = without_pass(case, would_pass).into_iter().map(|line| format!("    {line}"));
+    [head].into_iter().chain(passing).chain(rest).collect()
+}
+
+/// A change in words: what there is now, and what would be.
+pub struct FromTo {
+    /// What the plan says.
+    pub from: String,
+    /// What the changed plan says.
+    pub to: String,
+}
+
+impl FromTo {
+    /// The words of a change of the plan of `case`.
+    pub fn new(case: &Case, change: &Change) -> Self {
+        let cable = &case.plan.cable;
+        let (from, to) = match change {
+            Change::Rope(rope) => (cable.rope.clone().unwrap_or_default(), rope.name.clone()),
+            Change::Termination(termination) => {
+                let own = cable.termination.clone();
+                let percent = || format!("{} %", cable.termination_percent);
+                (own.unwrap_or_else(percent), termination.name.clone())
+            }
+            Change::BorderRows(rows) => {
+                let own = match &case.plan.layout {
+                    Layout::Grid(mesh) | Layout::Quincunx(mesh) => mesh.border_rows,
+                    Layout::List { .. } => 0,
+                };
+                (own.to_string(), rows.to_string())
+            }
+            Change::Slack(percent) => (format!("{} %", cable.slack_percent), format!("{percent} %")),
+            Change::Launch(factor) => launches(case, *factor),
+            Change::Interval { option, interval_ms } => {
+                let own = match &case.plan.delays[*option].timing {
+                    Timing::Interval { interval_ms, .. } => format!("{interval_ms} ms"),
+                    Timing::At(_) => String::new(),
+                };
+                (own, format!("{interval_ms} ms"))
+            }
+        };
+        Self { from, to }
+    }
+}
+
+/// Least and greatest launch velocity, now and times `factor`: `5 to 6 m/s`.
+fn launches(case: &Case, factor: f64) -> (String, String) {
+    let speeds = || case.plan.launches().map(|launch: &Launch| launch.speed_m_s);
+    let (least, most) = (speeds().fold(f64::INFINITY, f64::min), speeds().fold(0.0, f64::max));
+    let words = |factor: f64| match [least, most].map(|speed| units::short(factor * speed)) {
+        [least, most] if least == most => format!("{most} m/s"),
+        [least, most] => format!("{least} to {most} m/s"),
+    };
+    (words(1.0), words(factor))
+}
+
+/// A change with which an option passes, and its judgement: `rope … instead of … (at most 0.88 % fail, height …)`.
+pub fn sentence(case: &Case, passing: &Passing) -> String {
+    let what = words(case, &passing.change);
+    format!("{what} ({})", result(&passing.judgement))
+}
+
+/// A change in words: `rope … instead of …`.
+pub fn words(case: &Case, change: &Change) -> String {
+    let FromTo { from, to } = FromTo::new(case, change);
+    match change {
+        Change::Rope(_) => format!("rope {to} instead of {from}"),
+        Change::Termination(_) => format!("termination {to} instead of {from}"),
+        Change::BorderRows(1) => format!("1 border row instead of {from}"),
+        Change::BorderRows(_) => format!("{to} border rows instead of {from}"),
+        Change::Slack(_) => format!("slack {to} instead of {from}"),
+        Change::Launch(factor) => {
+            format!("launches {} lower, {to} instead of {from}", units::percent(1.0 - factor, 0))
+        }
+        Change::Interval { .. } => format!("interval {to} instead of {from}"),
+    }
+}
+
+/// What the changed plan comes to: by its samples, or as planned where none were asked for.
+fn result(judgement: &Judgement) -> String {
+    let Some(risk) = judgement.risk.drawn() else {
+        let checked = &judgement.as_planned;
+        let value = |estimate: f64, error: f64, unit: Unit| {
+            format!("{} {}", units::known(estimate, error, unit), unit.symbol())
+        };
+        return format!(
+            "height {}, force {} as planned",
+            value(checked.height.value, checked.height.error, Unit::Metre),
+            value(checked.force.value, checked.force.error, Unit::Kilonewton)
+        );
+    };
+    let band = |name: &str, quantity: Quantity, unit: Unit| {
+        let [low, _, high, _] = risk.band(quantity)?;
+        Some(format!(
+            ", {name} {} to {} {}",
+            units::value(low, unit),
+            units::value(high, unit),
+            unit.symbol()
+        ))
+    };
+    let height = band("height", Quantity::Height, Unit::Metre);
+    let force = band("force", Quantity::Force, Unit::Kilonewton);
+    let most = units::percent(risk.bounds.interval[1], 2);
+    format!("at most {most} fail{}{}", height.unwrap_or_default(), force.unwrap_or_default())
+}
+
+/// The kinds of which no change suffices, in one sentence, and whether all were tried; none where there is nothing to tell.
+pub fn without_pass(case: &Case, would_pass: &WouldPass) -> Vec<String> {
+    let too_much_together = exceeds_together(case, &case.shots[would_pass.option]);
+    let failed = would_pass.kinds.iter().filter(|tried| tried.passing.is_none() && !tried.out_of_time);
+    let sentences: Vec<String> = failed.filter_map(refusal).collect();
+    let mut lines = Vec::new();
+    if too_much_together {
+        lines.push(
+            "too much fires within 8 ms: spread the holes, by hole_interval_ms or by `shelter search`"
+                .to_owned(),
+        );
+    }
+    if !would_pass.enough_samples {
+        lines.push("so few samples prove no pass: give more".to_owned());
+    }
+    if !sentences.is_empty() {
+        lines.push(sentences.join("; "));
+    }
+    if would_pass.kinds.iter().any(|tried| tried.out_of_time) {
+        lines.push("not all changes were tried: the time was up".to_owned());
+    }
+    lines
+}
+
+/// That no change of a kind suffices, and how far they went.
+fn refusal(tried: &TriedKind) -> Option<String> {
+    let text = match tried.tried.last()? {
+        Change::Rope(rope) => format!("no stronger rope of {} passes", rope.family),
+        Change::Termination(_) => "no stronger termination passes".to_owned(),
+        Change::BorderRows(1) => "a border row does not suffice".to_owned(),
+        Change::BorderRows(rows) => format!("not even {rows} border rows pass"),
+        Change::Slack(_) => format!("no slack tried from {} % passes", range(tried)),
+        Change::Launch(factor) => format!("not even launches {} lower pass", units::percent(1.0 - factor, 0)),
+        Change::Interval { .. } => format!("no interval tried from {} ms passes", range(tried)),
+    };
+    Some(text)
+}
+
+/// Least and greatest number tried: `1 to 4`.
+fn range(tried: &TriedKind) -> String {
+    let numbers = || {
+        tried.tried.iter().filter_map(|change| match change {
+            Change::Slack(number) | Change::Interval { interval_ms: number, .. } => Some(*number),
+            _ => None,
+        })
+    };
+    let (least, most) = (numbers().fold(f64::INFINITY, f64::min), numbers().fold(0.0, f64::max));
+    format!("{least} to {most}")
+}

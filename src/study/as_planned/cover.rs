@@ -1,0 +1,65 @@
+//! The state of the cover over each hole as it fires: a tire that is in the air then, or no longer over its hole, still gets
+//! the whole launch in the model.
+
+use serde::{Deserialize, Serialize};
+
+use crate::scene::Firing;
+use crate::simulation::Motion;
+use crate::study::Case;
+
+/// Height above which a tire counts as being in the air [m].
+const IN_AIR: f64 = 0.01;
+/// Shift over the widest distance of tied tires from which a tire counts as no longer over its hole.
+const ASIDE: f64 = 0.5;
+
+/// The cover over the holes of a shot, each at its firing time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Cover {
+    /// Number of holes.
+    pub holes: usize,
+    /// Number of holes whose tire is in the air or aside.
+    pub uncovered: usize,
+    /// Greatest height of a tire over a hole that fires [m].
+    pub height: f64,
+    /// Greatest shift of a tire over a hole that fires [m].
+    pub shift: f64,
+}
+
+impl Cover {
+    /// The cover over no hole.
+    pub const NONE: Self = Self { holes: 0, uncovered: 0, height: 0.0, shift: 0.0 };
+}
+
+/// Sees a run, and notes the cover over its holes.
+pub struct CoverWatch<'s> {
+    firings: &'s [Firing],
+    step: f64,
+    aside: f64,
+    cover: Cover,
+}
+
+impl<'s> CoverWatch<'s> {
+    /// Watch of a run of `firings` at a `step` [s].
+    pub fn new(case: &Case, firings: &'s [Firing], step: f64) -> Self {
+        let aside = ASIDE * case.plan.layout.widest_tie();
+        Self { firings, step, aside, cover: Cover::NONE }
+    }
+
+    /// Notes the tires over the holes that fire within the step that begins now.
+    pub fn see(&mut self, motion: &dyn Motion) {
+        let end = motion.time() + self.step;
+        while let Some(firing) = self.firings.get(self.cover.holes).filter(|firing| firing.at < end) {
+            let displacement = motion.displacement(firing.tire);
+            let (height, shift) = (displacement.z, displacement.xy().norm());
+            let Cover { holes, uncovered, height: highest, shift: farthest } = &mut self.cover;
+            *holes += 1;
+            *uncovered += usize::from(height > IN_AIR || shift > self.aside);
+            (*highest, *farthest) = (highest.max(height), farthest.max(shift));
+        }
+    }
+
+    /// What was seen.
+    pub fn cover(&self) -> Cover {
+        self.cover
+    }
+}

@@ -1,0 +1,47 @@
+//! How much faster than planned the tires may leave before the shot as planned no longer passes.
+
+use super::quick_check::quick_check;
+use crate::scene::Shot;
+use crate::study::work::batch::or_unknown;
+use crate::study::{Case, ComputeSettings, NoResult, Progress};
+use crate::verdict::Verdict;
+
+/// How much faster all launches may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LaunchMargin {
+    /// The shot does not pass as planned.
+    NotPassing,
+    /// The shot passes up to `rise` above the planned launch velocities; at 1 % more the verdict is `then`.
+    UpTo {
+        /// Share of the planned launch velocities.
+        rise: f64,
+        /// Fail or undecided.
+        then: Verdict,
+    },
+    /// The shot passes up to [`MOST_PERCENT`] more.
+    BeyondTried,
+}
+
+/// Greatest rise of launches tried [%].
+const MOST_PERCENT: usize = 100;
+
+/// Raises the launches of a shot by 1 % at a time until it does not pass; `as_planned` is its verdict as planned.
+pub fn launch_margin(
+    case: &Case,
+    shot: &Shot,
+    as_planned: Verdict,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<LaunchMargin, NoResult> {
+    if as_planned != Verdict::Pass {
+        return Ok(LaunchMargin::NotPassing);
+    }
+    for percent in 1..=MOST_PERCENT {
+        let faster = shot.with_launches(1.0 + 1e-2 * percent as f64);
+        let then = or_unknown(quick_check(case, &faster, compute, progress))?.verdict;
+        if then != Verdict::Pass {
+            return Ok(LaunchMargin::UpTo { rise: 1e-2 * (percent - 1) as f64, then });
+        }
+    }
+    Ok(LaunchMargin::BeyondTried)
+}

@@ -1,0 +1,20 @@
+//! One shot as planned.
+//!
+//! | what | where |
+//! |---|---|
+//! | the check: run ever finer until the verdict is sure | [`check`]; one of thousands of shots: [`quick_check`] |
+//! | greatest values of a run, with the error of its step | `peaks`, [`step_error`] |
+//! | why it fails or stays open | [`shot_reason`] |
+//! | what no limit judges: the cover over unfired holes; what fires within 8 ms | [`cover`], [`together`] |
+//! | how much faster the tires may leave | [`margin`] |
+//! | what a study keeps of a check | [`shot_summary`] |
+
+pub mod check;
+pub mod cover;
+pub mod margin;
+mod peaks;
+pub mod quick_check;
+pub mod shot_reason;
+pub mod shot_summary;
+pub mod step_error;
+pub mod together;

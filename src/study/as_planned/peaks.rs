@@ -1,0 +1,61 @@
+//! Height, force and drift of a shot with their errors, from runs at a ladder of steps. A check takes [`peaks_with_rivals`],
+//! a quick check by [`peaks`].
+
+use std::ops::Range;
+
+use super::step_error::{NEIGHBOURS, estimate, widened};
+use crate::outcome::{History, Outcome, Peak, slice_at, slices};
+use crate::verdict::Estimate;
+
+/// Number of equal parts of a run in which rivals of its greatest value are looked for.
+const SLICES: usize = 32;
+
+/// Like [`peaks`]; errors of height and force reach up to rivals of the greatest value.
+pub fn peaks_with_rivals(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
+    let near = &runs[error_runs(runs.len())];
+    let last = runs[runs.len() - 1];
+    let [height, force, drift] = peaks(runs, pairs);
+    [
+        beside_rivals(near, last, height, |history| &history.height),
+        beside_rivals(near, last, force, |history| &history.force),
+        drift,
+    ]
+}
+
+/// Height, force and drift of the last of `runs`, which stand in order from the coarsest step to the finest.
+///
+/// The errors come from the [`nearest`] runs, and from `pairs` of nearby shots, run at the coarsest step of those.
+pub fn peaks(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
+    let near = &runs[error_runs(runs.len())];
+    let last = runs[runs.len() - 1];
+    let estimate_of = |peak: fn(&Outcome) -> Peak| {
+        let Peak { value, at, index } = peak(last);
+        let error = estimate(last.step, value, near.iter().map(|run| (run.step, peak(run).value)));
+        let between = near.first().map_or(value, |coarsest| peak(coarsest).value);
+        let pairs = pairs.iter().map(|pair| pair.map(|run| peak(run).value));
+        Estimate { value, error: widened(error, between, pairs), at, index }
+    };
+    [estimate_of(|run| run.height), estimate_of(|run| run.force), estimate_of(|run| run.drift)]
+}
+
+/// Indices of the runs that give the errors of the last of `count` runs: the runs just before it, [`NEIGHBOURS`] at most.
+pub fn error_runs(count: usize) -> Range<usize> {
+    count.saturating_sub(1 + NEIGHBOURS)..count - 1
+}
+
+/// A greatest value whose error reaches up to its rivals: peaks at other times that are smaller in this run, and that may
+/// be greater within an error of their own.
+fn beside_rivals(
+    near: &[&Outcome],
+    last: &Outcome,
+    greatest: Estimate,
+    buckets: fn(&History) -> &Vec<f64>,
+) -> Estimate {
+    let parts = |run: &Outcome| slices::<SLICES>(buckets(&run.history), run.history.width, last.end.at);
+    let own = parts(last);
+    let near: Vec<_> = near.iter().map(|run| (run.step, parts(run))).collect();
+    let reach = |n: usize| own[n] + estimate(last.step, own[n], near.iter().map(|(step, v)| (*step, v[n])));
+    let top = slice_at::<SLICES>(greatest.at, last.end.at);
+    let highest = (0..SLICES).filter(|n| n.abs_diff(top) > 1).map(reach).fold(0.0, f64::max);
+    Estimate { error: greatest.error.max(highest - greatest.value), ..greatest }
+}

@@ -1,0 +1,97 @@
+//! The verdict on a shot that is one of thousands: run at coarse steps first, and no finer than its verdict needs.
+//!
+//! A check begins at the step of the accuracy level and refines until the verdict is sure. A quick check begins at 8 times the step
+//! of the field level, refines by [`step_error::RATIO`] until it has seen enough, and ends at the latest at the step at which a
+//! check begins. Unlike a check it does not look for rival peaks ([`peaks`](super::peaks)). Where the step is fixed, or too few
+//! of the coarse runs succeed, the shot is checked instead.
+
+use super::cover::{Cover, CoverWatch};
+use super::peaks::peaks;
+use super::shot_reason::{ShotReason, find_reasons_as_planned};
+use super::step_error;
+use crate::choice::Accuracy;
+use crate::outcome::Outcome;
+use crate::scene::Shot;
+use crate::simulation::Motion;
+use crate::study::work::batch::full_check;
+use crate::study::{Case, ComputeSettings, NoResult, Progress, ShotSummary};
+use crate::verdict::Verdict;
+
+/// Number of steps above the first step of `field`: the coarsest is 8 times that, with `verlet` at most 0.8 of the critical
+/// step.
+const COARSER: i32 = 6;
+/// Factor on the error of a coarse run with which a pass must still stand.
+const SURE_PASS: f64 = 4.5;
+/// Least number of runs behind a pass: two may agree by luck.
+const RUNS_OF_PASS: usize = 3;
+/// Factor on the error of a coarse run with which a fail must still stand.
+const SURE_FAIL: f64 = 3.0;
+
+/// Checks a shot at ever finer steps until it lies surely on one side of its limits.
+pub fn quick_check(
+    case: &Case,
+    shot: &Shot,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<ShotSummary, NoResult> {
+    quick_check_until(case, shot, compute, progress, |summary, runs| quick_check_is_sure(case, summary, runs))
+}
+
+/// Checks a shot at ever finer steps until `enough`, which gets the last run checked and the number of runs, returns true.
+pub fn quick_check_until(
+    case: &Case,
+    shot: &Shot,
+    compute: &ComputeSettings,
+    progress: &Progress,
+    enough: impl Fn(&ShotSummary, usize) -> bool,
+) -> Result<ShotSummary, NoResult> {
+    if compute.step.is_some() {
+        return full_check(case, shot, compute, progress);
+    }
+    let last = compute.first_step(case);
+    let field = ComputeSettings { accuracy: Accuracy::Field, step: None, ..*compute };
+    let mut step = field.first_step(case) * step_error::RATIO.powi(COARSER);
+    let mut runs: Vec<Outcome> = Vec::new();
+    loop {
+        let is_last = step < 1.01 * last;
+        let mut cover = CoverWatch::new(case, &shot.firings, step);
+        let watch = &mut |motion: &dyn Motion| {
+            cover.see(motion);
+            progress.flow()
+        };
+        match case.model.run(shot, &case.run_settings(compute.method, step), watch) {
+            Ok(outcome) => runs.push(outcome),
+            Err(failure) if failure.needs_finer_step() && !is_last => {}
+            Err(failure) => return Err(progress.no_result(failure)),
+        }
+        if is_last && runs.len() < RUNS_OF_PASS {
+            return full_check(case, shot, compute, progress);
+        }
+        if runs.len() > 1 {
+            let summary = summary_of_runs(case, shot, &runs, cover.cover());
+            if is_last || enough(&summary, runs.len()) {
+                return Ok(summary);
+            }
+        }
+        step /= step_error::RATIO;
+    }
+}
+
+/// The last run checked, with the runs before as its neighbours and the cover it saw.
+fn summary_of_runs(case: &Case, shot: &Shot, runs: &[Outcome], cover: Cover) -> ShotSummary {
+    let all: Vec<&Outcome> = runs.iter().collect();
+    let estimates = peaks(&all, &[]);
+    let reasons = find_reasons_as_planned(case, shot, all[all.len() - 1], estimates);
+    ShotSummary::new(Verdict::worst(reasons.iter().map(ShotReason::verdict)), estimates, cover)
+}
+
+/// Whether the values of a quick check of `runs` runs lie so far from all limits that its verdict stands.
+pub fn quick_check_is_sure(case: &Case, summary: &ShotSummary, runs: usize) -> bool {
+    match summary.verdict {
+        Verdict::Pass => {
+            runs >= RUNS_OF_PASS && summary.with_errors(SURE_PASS).utilization(&case.limits) <= 1.0
+        }
+        Verdict::Fail => summary.with_errors(-SURE_FAIL).utilization(&case.limits) > 1.0,
+        Verdict::Undecided => false,
+    }
+}

@@ -1,0 +1,158 @@
+//! Why one run fails or leaves a verdict open: limits, broken cables, an early end.
+
+use super::together::Together;
+use crate::outcome::{EndReason, Outcome};
+use crate::scene::Shot;
+use crate::study::Case;
+use crate::verdict::{Estimate, Limits, Quantity, Verdict};
+
+/// Greatest energy residual of a run that may pass, over the energy put in. A greater one says that the step is too long for
+/// the motion, whatever neighbouring steps say.
+const MOST_RESIDUAL: f64 = 0.01;
+
+/// Why a shot does not pass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ShotReason {
+    /// A value is past its limit, or too near to the limit to tell.
+    Limit {
+        /// The quantity.
+        quantity: Quantity,
+        /// Fail or undecided.
+        verdict: Verdict,
+        /// The computed value with its error.
+        estimate: Estimate,
+        /// The limit [SI unit of the quantity].
+        limit: f64,
+    },
+    /// Cables break; their number.
+    Broken(usize),
+    /// More holes fire within 8 ms than the plan allows.
+    HolesTogether {
+        /// Most holes within any 8 ms.
+        holes: usize,
+        /// The limit.
+        limit: usize,
+    },
+    /// More explosive fires within 8 ms than the plan allows.
+    ChargeTogether {
+        /// Heaviest charge within any 8 ms [kg].
+        charge: f64,
+        /// The limit [kg].
+        limit: f64,
+    },
+    /// The energy residual over the energy put in is greater than [`MOST_RESIDUAL`].
+    EnergyResidual(f64),
+    /// The run ends too early for a verdict.
+    EndsEarly {
+        /// End of the run [s].
+        end: f64,
+        /// What the run leaves open.
+        open: EarlyEnd,
+    },
+}
+
+impl ShotReason {
+    /// The verdict that this reason leads to: fail or undecided.
+    pub fn verdict(&self) -> Verdict {
+        match self {
+            ShotReason::Limit { verdict, .. } => *verdict,
+            ShotReason::Broken(_) | ShotReason::HolesTogether { .. } | ShotReason::ChargeTogether { .. } => {
+                Verdict::Fail
+            }
+            ShotReason::EnergyResidual(_) | ShotReason::EndsEarly { .. } => Verdict::Undecided,
+        }
+    }
+}
+
+/// What a run that ends too early leaves open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EarlyEnd {
+    /// The last hole fires at this time [s].
+    HolesUnfired(f64),
+    /// Tires are in the air: they rise, or will pull at cables as they fall.
+    TiresInAir,
+    /// The force is greatest at the very end.
+    ForceGrowing,
+    /// Tires move on, and may pull harder later.
+    TiresMoving,
+}
+
+/// What the run of a shot leaves open, where the run ends too early for a verdict.
+fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<EarlyEnd> {
+    let last = shot.firings.last().map_or(0.0, |firing| firing.at);
+    if last >= case.plan.simulation.duration_s.unwrap_or(f64::INFINITY) {
+        return Some(EarlyEnd::HolesUnfired(last));
+    }
+    if outcome.end.reason == EndReason::AtRest {
+        return None;
+    }
+    if outcome.tires_in_air {
+        return Some(EarlyEnd::TiresInAir);
+    }
+    // The greatest of all samples is the last one, or the one before.
+    if outcome.force.value > 0.0 && outcome.force.at > outcome.end.at - 2.5 * outcome.step {
+        return Some(EarlyEnd::ForceGrowing);
+    }
+    Some(EarlyEnd::TiresMoving)
+}
+
+/// Why a shot as planned does not pass, by one of its runs and by what fires together in it; see [`find_reasons`].
+pub fn find_reasons_as_planned(
+    case: &Case,
+    shot: &Shot,
+    outcome: &Outcome,
+    estimates: [Estimate; 3],
+) -> Vec<ShotReason> {
+    let of_run = find_reasons(case, shot, outcome, estimates);
+    of_run.into_iter().chain(too_much_together(case, Together::of(case, shot))).collect()
+}
+
+/// Whether a shot fires more within 8 ms than the plan allows.
+pub fn exceeds_together(case: &Case, shot: &Shot) -> bool {
+    too_much_together(case, Together::of(case, shot)).next().is_some()
+}
+
+/// Which limits are exceeded by what fires together.
+fn too_much_together(case: &Case, Together { holes, charge }: Together) -> impl Iterator<Item = ShotReason> {
+    let limits = &case.plan.limits;
+    let most = limits.holes_in_8_ms.filter(|&limit| holes > limit);
+    let heaviest = charge.zip(limits.charge_in_8_ms_kg).filter(|(charge, limit)| charge > limit);
+    let holes = most.map(|limit| ShotReason::HolesTogether { holes, limit });
+    holes.into_iter().chain(heaviest.map(|(charge, limit)| ShotReason::ChargeTogether { charge, limit }))
+}
+
+/// Why a run of a shot does not pass, given its height, force and drift with their errors; empty for a pass.
+pub fn find_reasons(
+    case: &Case,
+    shot: &Shot,
+    outcome: &Outcome,
+    estimates: [Estimate; 3],
+) -> Vec<ShotReason> {
+    let limits = with_limits(estimates, &case.limits).map(|(quantity, estimate, limit)| ShotReason::Limit {
+        quantity,
+        verdict: estimate.against(limit),
+        estimate,
+        limit,
+    });
+    let broken = Some(outcome.broken.len()).filter(|&count| count > 0).map(ShotReason::Broken);
+    let residual = Some(outcome.ledger.residual()).filter(|&residual| !closes(residual));
+    let residual = residual.map(ShotReason::EnergyResidual);
+    let end = case.plan.simulation.duration_s.unwrap_or(outcome.end.at);
+    let early = early(case, shot, outcome).map(|open| ShotReason::EndsEarly { end, open });
+    let all = limits.chain(broken).chain(residual).chain(early);
+    all.filter(|reason| reason.verdict() != Verdict::Pass).collect()
+}
+
+/// Whether the energy balance of a run closes well enough for a pass; `residual` over the energy put in.
+pub(in crate::study) fn closes(residual: f64) -> bool {
+    residual <= MOST_RESIDUAL
+}
+
+/// The quantities that have a limit, each with its estimate and its limit; `estimates` are height, force and drift.
+pub(in crate::study) fn with_limits(
+    estimates: [Estimate; 3],
+    limits: &Limits,
+) -> impl Iterator<Item = (Quantity, Estimate, f64)> {
+    let all = Quantity::ALL.into_iter().zip(estimates);
+    all.filter_map(|(quantity, estimate)| Some((quantity, estimate, limits.get(quantity)?)))
+}

@@ -1,0 +1,105 @@
+//! The numbers that a study keeps of each checked shot.
+
+use serde::{Deserialize, Deserializer, Serialize};
+
+use super::check::CheckedShot;
+use super::cover::Cover;
+use crate::verdict::{Estimate, Limits, Quantity, Verdict};
+
+/// A computed value and its estimated error, one-sided, both in the same SI unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ValueWithError {
+    /// The value.
+    #[serde(deserialize_with = "or_infinite")]
+    pub value: f64,
+    /// The error.
+    #[serde(deserialize_with = "or_infinite")]
+    pub error: f64,
+}
+
+/// Reads null as infinity: JSON has no infinity and writes null instead.
+pub(in crate::study) fn or_infinite<'d, D: Deserializer<'d>>(from: D) -> Result<f64, D::Error> {
+    Option::<f64>::deserialize(from).map(|value| value.unwrap_or(f64::INFINITY))
+}
+
+impl ValueWithError {
+    /// Value of a run that failed: unknown, so infinite.
+    const UNKNOWN: Self = Self { value: f64::INFINITY, error: f64::INFINITY };
+}
+
+impl From<Estimate> for ValueWithError {
+    fn from(Estimate { value, error, .. }: Estimate) -> Self {
+        Self { value, error }
+    }
+}
+
+/// Verdict and greatest values of a checked shot.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ShotSummary {
+    /// Pass, fail or undecided.
+    pub verdict: Verdict,
+    /// Greatest flight height [m].
+    pub height: ValueWithError,
+    /// Greatest cable force [N].
+    pub force: ValueWithError,
+    /// Greatest drift at the end [m].
+    pub drift: ValueWithError,
+    /// The cover over each hole as it fires.
+    pub cover: Cover,
+}
+
+impl ShotSummary {
+    /// The shot of a run that failed: undecided, with infinite values.
+    pub const UNKNOWN: Self = Self {
+        verdict: Verdict::Undecided,
+        height: ValueWithError::UNKNOWN,
+        force: ValueWithError::UNKNOWN,
+        drift: ValueWithError::UNKNOWN,
+        cover: Cover::NONE,
+    };
+
+    /// The numbers of a checked shot.
+    pub fn of(checked: &CheckedShot) -> Self {
+        Self::new(checked.verdict, [checked.height, checked.force, checked.drift], checked.cover)
+    }
+
+    /// A verdict with its height, force and drift, in this order, and the cover.
+    pub fn new(verdict: Verdict, estimates: [Estimate; 3], cover: Cover) -> Self {
+        let [height, force, drift] = estimates.map(ValueWithError::from);
+        Self { verdict, height, force, drift, cover }
+    }
+
+    /// The same shot with `times` every error added to its value, and no error left.
+    pub fn with_errors(&self, times: f64) -> Self {
+        let add = |quantity: ValueWithError| ValueWithError {
+            value: quantity.value + times * quantity.error,
+            error: 0.0,
+        };
+        Self { height: add(self.height), force: add(self.force), drift: add(self.drift), ..*self }
+    }
+
+    /// Utilization: the greatest value over its limit; above 1 the shot fails.
+    pub fn utilization(&self, limits: &Limits) -> f64 {
+        limits.utilization(|quantity| self.get(quantity).value)
+    }
+
+    /// The value of a quantity and its error.
+    pub fn get(&self, quantity: Quantity) -> ValueWithError {
+        match quantity {
+            Quantity::Height => self.height,
+            Quantity::Force => self.force,
+            Quantity::Drift => self.drift,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_that_are_unknown_survive_a_file() {
+        let text = serde_json::to_string(&ShotSummary::UNKNOWN).expect("JSON");
+        assert_eq!(serde_json::from_str::<ShotSummary>(&text).expect("read again"), ShotSummary::UNKNOWN);
+    }
+}

@@ -1,0 +1,225 @@
+//! All delay options of one plan or of several, judged in parallel.
+
+use std::ops::ControlFlow;
+
+use super::as_planned::check::{CheckStep, CheckedShot, check_as_planned};
+use super::as_planned::margin::{LaunchMargin, launch_margin};
+use super::judgement::Judgement;
+use super::judgement::Sampled;
+use super::samples::risk::Risk;
+use super::samples::sample::{OptionSample, Sample};
+use super::samples::sampling::{Sampling, ShotToSample, find_risks, find_risks_watched};
+use super::work::batch::run_jobs;
+use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, guarded};
+use crate::verdict::Verdict;
+
+/// Results of the options of one plan, in their order (`n_options`).
+pub type OptionResults = Vec<Result<Judgement, NoResult>>;
+
+/// An option of one of several cases.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CaseOption {
+    /// Index of the case.
+    pub case: usize,
+    /// Index of the option in its plan.
+    pub option: usize,
+}
+
+/// What becomes known of an option while all are judged, in this order.
+#[derive(Clone, Copy, Debug)]
+pub enum JudgeEvent<'r> {
+    /// A run of the shot as planned has gone on by [`STEPS_PER_EVENT`] steps.
+    Running(CheckStep),
+    /// The shot as planned is judged, or has no result.
+    AsPlanned(&'r Result<CheckedShot, NoResult>),
+    /// A round of samples was drawn.
+    SampledSoFar(&'r Risk),
+    /// All samples were drawn.
+    SampledFully(&'r Risk),
+    /// The launch margin is known.
+    Margin(LaunchMargin),
+}
+
+/// Steps of a run between two events.
+const STEPS_PER_EVENT: usize = 64;
+
+/// Sees events, on the threads that compute.
+pub type Watch<'w> = &'w (dyn Fn(CaseOption, JudgeEvent<'_>) + Sync);
+
+/// Sees nothing.
+pub const UNWATCHED: Watch<'static> = &|_, _| {};
+
+impl Case {
+    /// Judges every delay option: as planned, then, where a `sampling` is given, how likely it fails.
+    pub fn judge_options(
+        &self,
+        compute: &ComputeSettings,
+        sampling: Option<&Sampling>,
+        progress: &Progress,
+    ) -> Finding<OptionResults> {
+        let Found { mut value, partial } = judge_all(&[(self, *compute)], sampling, progress, UNWATCHED)?;
+        Ok(Found { value: value.remove(0), partial })
+    }
+}
+
+/// Judges every option of every case: first all shots as planned, then, where a `sampling` is given, how likely they fail.
+/// Returns the results by case; an option that the time did not suffice for has the result [`NoResult::OutOfTime`].
+pub fn judge_all(
+    cases: &[(&Case, ComputeSettings)],
+    sampling: Option<&Sampling>,
+    progress: &Progress,
+    watch: Watch<'_>,
+) -> Finding<Vec<OptionResults>> {
+    let of_case = |case: usize| (0..cases[case].0.shots.len()).map(move |option| CaseOption { case, option });
+    let options: Vec<CaseOption> = (0..cases.len()).flat_map(of_case).collect();
+    let checked = run_jobs(&options, progress, |&at| {
+        let as_planned = guarded(|| check_one_as_planned(cases, at, progress, watch));
+        watch(at, JudgeEvent::AsPlanned(&as_planned));
+        match as_planned {
+            Err(ended @ (NoResult::Stopped | NoResult::OutOfTime)) => Err(ended),
+            // An option without a result is no reason for the others to have none.
+            result => Ok(result),
+        }
+    })?;
+    let mut partial = checked.iter().any(Option::is_none);
+    let mut results: Vec<OptionResults> = vec![Vec::new(); cases.len()];
+    for (at, as_planned) in options.into_iter().zip(checked) {
+        let as_planned = as_planned.unwrap_or(Err(NoResult::OutOfTime));
+        results[at.case].push(as_planned.map(Judgement::of_planned_alone));
+    }
+    if let Some(sampling) = sampling {
+        partial |= add_risks(cases, &mut results, sampling, progress, watch)?.partial;
+    }
+    Ok(Found { value: results, partial })
+}
+
+/// Like [`judge_all`], with the launch margin of every option: what `check` with samples, the terminal and a search show.
+pub fn judge_all_with_margins(
+    cases: &[(&Case, ComputeSettings)],
+    sampling: Option<&Sampling>,
+    progress: &Progress,
+    watch: Watch<'_>,
+) -> Finding<Vec<OptionResults>> {
+    let Found { value: mut results, partial } = judge_all(cases, sampling, progress, watch)?;
+    let margins = find_launch_margins(cases, &mut results, progress, watch)?;
+    Ok(Found { value: results, partial: partial || margins.partial })
+}
+
+fn check_one_as_planned(
+    cases: &[(&Case, ComputeSettings)],
+    at: CaseOption,
+    progress: &Progress,
+    watch: Watch<'_>,
+) -> Result<CheckedShot, NoResult> {
+    let (case, compute) = &cases[at.case];
+    let mut steps = 0_usize;
+    let checked = check_as_planned(case, at.option, compute, &mut |step| {
+        steps += 1;
+        if steps.is_multiple_of(STEPS_PER_EVENT) {
+            watch(at, JudgeEvent::Running(step));
+        }
+        progress.flow()
+    });
+    checked.map_err(|failure| progress.no_result(failure))
+}
+
+/// The options that are judged as planned.
+fn judged(results: &mut [OptionResults]) -> Vec<(CaseOption, &mut Judgement)> {
+    let of_case = |(case, results)| {
+        let options = <OptionResults as AsMut<[_]>>::as_mut(results).iter_mut().enumerate();
+        options.filter_map(move |(option, result)| Some((CaseOption { case, option }, result.as_mut().ok()?)))
+    };
+    results.iter_mut().enumerate().flat_map(of_case).collect()
+}
+
+/// Samples the options that are judged as planned.
+fn add_risks(
+    cases: &[(&Case, ComputeSettings)],
+    results: &mut [OptionResults],
+    sampling: &Sampling,
+    progress: &Progress,
+    watch: Watch<'_>,
+) -> Finding<()> {
+    let mut judged = judged(results);
+    let target = |(at, judgement): &(CaseOption, &mut Judgement)| {
+        let (case, compute) = cases[at.case];
+        target(case, at.option, &ShotSummary::of(&judgement.as_planned), sampling, compute)
+    };
+    let targets: Vec<ShotToSample<'_>> = judged.iter().map(target).collect();
+    let mut sampled = |n: usize, risk: &Risk| {
+        watch(judged[n].0, JudgeEvent::SampledSoFar(risk));
+        ControlFlow::Continue(())
+    };
+    let Found { value: risks, partial } = find_risks_watched(&targets, progress, &mut sampled)?;
+    for ((at, judgement), risk) in judged.iter_mut().zip(risks) {
+        watch(*at, JudgeEvent::SampledFully(&risk));
+        judgement.risk = Sampled::Drawn(risk);
+    }
+    Ok(Found { value: (), partial })
+}
+
+/// An option to be sampled, judged `as_planned`; one that fails is sampled only to show by how much.
+fn target<'c>(
+    case: &'c Case,
+    option: usize,
+    as_planned: &ShotSummary,
+    sampling: &Sampling,
+    compute: ComputeSettings,
+) -> ShotToSample<'c> {
+    let fails = as_planned.verdict == Verdict::Fail;
+    let sampling = if fails { sampling.least_only() } else { *sampling };
+    ShotToSample::new(case, &case.shots[option], compute, sampling).as_planned(*as_planned)
+}
+
+/// Finds the launch margin of every option of every case that has a result.
+pub fn find_launch_margins(
+    cases: &[(&Case, ComputeSettings)],
+    results: &mut [OptionResults],
+    progress: &Progress,
+    watch: Watch<'_>,
+) -> Finding<()> {
+    let judged = judged(results);
+    let jobs: Vec<_> = judged.iter().map(|(at, judgement)| (*at, judgement.as_planned.verdict)).collect();
+    let margins = run_jobs(&jobs, progress, |&(at, as_planned)| {
+        let (case, compute) = &cases[at.case];
+        match guarded(|| launch_margin(case, &case.shots[at.option], as_planned, compute, progress)) {
+            // The verdicts stand without it.
+            Err(NoResult::Panicked(_)) => Ok(None),
+            margin => margin.map(Some).inspect(|margin| {
+                margin.iter().for_each(|&margin| watch(at, JudgeEvent::Margin(margin)));
+            }),
+        }
+    })?;
+    let partial = margins.contains(&None);
+    for ((_, judgement), margin) in judged.into_iter().zip(margins) {
+        judgement.launch_margin = margin.flatten();
+    }
+    Ok(Found { value: (), partial })
+}
+
+/// Judges every option of a case as planned, and by samples that other machines drew, in order of their numbers.
+pub fn judge_from_samples(
+    case: &Case,
+    compute: &ComputeSettings,
+    sampling: &Sampling,
+    samples: &[OptionSample],
+    progress: &Progress,
+) -> Result<OptionResults, NoResult> {
+    let mut results = case.judge_options(compute, None, progress)?.value;
+    for (option, result) in results.iter_mut().enumerate() {
+        if let Ok(judged) = result {
+            let of_option = samples.iter().filter(|drawn| drawn.option == option);
+            let drawn: Vec<Sample> = of_option.map(|drawn| drawn.sample).collect();
+            let as_planned = ShotSummary::of(&judged.as_planned);
+            let target = target(case, option, &as_planned, sampling, *compute).precomputed(&drawn);
+            judged.risk = Sampled::Drawn(find_risks(&[target], progress)?.value.remove(0));
+        }
+    }
+    Ok(results)
+}
+
+/// The verdict on a plan: the worst of its options, or the best where one passing option is enough.
+pub fn verdict_on_plan(results: &OptionResults, any: bool) -> Verdict {
+    let each = results.iter().map(|result| result.as_ref().map_or(Verdict::Undecided, Judgement::verdict));
+    if any { each.min().unwrap_or(Verdict::Pass) } else { Verdict::worst(each) }
+}

@@ -1,0 +1,21 @@
+//! The shots that are possible, as `[uncertainty]` describes them.
+//!
+//! | what | where |
+//! |---|---|
+//! | one drawn at random, and its run | [`random_shot`], [`sample`] |
+//! | how many of which shots are run | [`sampling`] |
+//! | what they tell: the risk and its verdict | [`risk`]; of thousands of shots: [`risk_summary`] |
+//! | why they fail too often or leave the verdict open | [`risk_reason`] |
+//! | how sure a count of failures is | [`failure_bounds`] |
+//! | which input decides | [`influence`] |
+//! | rows that may fire the wrong way round | [`swaps`] |
+
+pub mod failure_bounds;
+pub mod influence;
+pub mod random_shot;
+pub mod risk;
+pub mod risk_reason;
+pub mod risk_summary;
+pub mod sample;
+pub mod sampling;
+pub mod swaps;

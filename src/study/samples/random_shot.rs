@@ -1,0 +1,217 @@
+//! Draws the shots that `[uncertainty]` describes.
+//!
+//! A sample is a variant of the scene and a shot. Every draw follows from the seed, the number of the sample, and what it is for:
+//! an input of the whole shot, a gap between blast rows, a blast row, a tire, or a cable. So a sample does not depend on threads,
+//! shards, accuracy or the order of options, and the options of a plan are compared on the same draws.
+//!
+//! Factors on launch velocities, masses and breaking forces are lognormal with mean 1. A hole's launch velocity belongs to a
+//! tire of the plan's mass: a tire of another mass leaves with the same momentum. Each gap between blast rows scatters by itself
+//! and shifts all later rows; so does each gap between the holes
+//! of a row, which shifts the later holes of its side.
+
+use nalgebra::{Rotation3, Vector3};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use crate::plan::Uncertainty;
+use crate::plan::keys::{Key, uncertainty};
+use crate::scene::{Cable, Firing, Scene, Shot, with_ends};
+use crate::study::Case;
+
+/// An input that is the same in the whole shot, and not known exactly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Input {
+    /// Factor on all launch velocities.
+    LaunchCommon,
+    /// Coefficient of friction.
+    Friction,
+    /// Slack of all cables [%].
+    Slack,
+    /// Factor on the axial stiffness of all cables.
+    AxialStiffness,
+}
+
+impl Input {
+    /// Every input, in the order of the values of [`RandomShot::inputs`].
+    pub const ALL: [Input; 4] = [Input::LaunchCommon, Input::Friction, Input::Slack, Input::AxialStiffness];
+
+    /// The key of a plan that says how well the input is known.
+    pub fn key(self) -> &'static Key {
+        match self {
+            Input::LaunchCommon => &uncertainty::LAUNCH_COMMON_PERCENT,
+            Input::Friction => &uncertainty::FRICTION,
+            Input::Slack => &uncertainty::SLACK_PERCENT,
+            Input::AxialStiffness => &uncertainty::AXIAL_STIFFNESS_PERCENT,
+        }
+    }
+}
+
+/// One sample.
+#[derive(Clone, Debug)]
+pub struct RandomShot {
+    /// The shelter with the numbers of the sample.
+    pub scene: Scene,
+    /// The shot with the numbers of the sample.
+    pub shot: Shot,
+    /// Values of the inputs in [`Input::ALL`].
+    pub inputs: [f64; Input::ALL.len()],
+}
+
+/// The random numbers of one sample, kept apart by what they are for.
+struct Random(ChaCha8Rng);
+
+/// What draws within a sample are for.
+#[derive(Clone, Copy)]
+enum Draws {
+    WholeShot,
+    Gaps,
+    BlastRow(usize),
+    Tire(usize),
+    Cable(usize),
+}
+
+impl Random {
+    fn new(seed: u64, number: usize) -> Self {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        random.set_stream(number as u64);
+        Self(random)
+    }
+
+    /// Moves to the random numbers of these draws. A tire has room for a hundred thousand holes.
+    fn at(&mut self, draws: Draws) -> &mut ChaCha8Rng {
+        let word = match draws {
+            Draws::WholeShot => 0,
+            Draws::Gaps => 1 << 32,
+            Draws::BlastRow(row) => (1 << 40) + ((row as u128) << 20),
+            Draws::Tire(tire) => (1 << 44) + ((tire as u128) << 20),
+            Draws::Cable(cable) => (1 << 60) + ((cable as u128) << 6),
+        };
+        self.0.set_word_pos(word);
+        &mut self.0
+    }
+}
+
+/// Factor with mean 1 and a coefficient of variation [%], lognormal.
+fn factor(random: &mut ChaCha8Rng, cv_percent: f64) -> f64 {
+    let variance = (cv_percent * 1e-2).powi(2).ln_1p();
+    (variance.sqrt() * normal(random) - 0.5 * variance).exp()
+}
+
+fn normal(random: &mut ChaCha8Rng) -> f64 {
+    StandardNormal.sample(random)
+}
+
+/// Draws sample `number` of the shots that the plan describes beside `nominal`.
+pub fn draw(case: &Case, nominal: &Shot, seed: u64, number: usize) -> RandomShot {
+    let unknown = &case.plan.uncertainty;
+    let mut random = Random::new(seed, number);
+    let whole = random.at(Draws::WholeShot);
+    let launch_common = factor(whole, unknown.launch_common_percent);
+    let mut between = |[low, high]: [f64; 2]| low + (high - low) * whole.random::<f64>();
+    let friction = between(unknown.friction);
+    let slack_percent = between(unknown.slack_percent);
+    let stiffness = 1.0 + 1e-2 * between(unknown.axial_stiffness_percent);
+
+    let mut firings = nominal.firings.clone();
+    scatter_gaps(&mut firings, unknown, &mut random);
+    let mut scene = case.scene().clone();
+    scatter_tires(&mut scene, &mut firings, unknown, launch_common, &mut random);
+    let length = (1.0 + 1e-2 * slack_percent) / (1.0 + 1e-2 * case.plan.cable.slack_percent);
+    let rope = &case.plan.cable;
+    for cable in &mut scene.cables {
+        let own = rope.axial_stiffness_kn * 1e3 / cable.rest_length;
+        let stiffness = with_ends(own * stiffness / length, rope.end_stiffness());
+        *cable = Cable { rest_length: cable.rest_length * length, stiffness, ..*cable };
+    }
+    if unknown.breaking_force_cv_percent > 0.0 {
+        let strength = |cable| factor(random.at(Draws::Cable(cable)), unknown.breaking_force_cv_percent);
+        scene.strength = (0..scene.cables.len()).map(strength).collect();
+    }
+    if unknown.tire_mass_cv_percent > 0.0 || unknown.breaking_force_cv_percent > 0.0 {
+        scene.mirrors.clear();
+    }
+    // No firing may be before the start; only differences of firing times matter.
+    let first = firings.iter().map(|firing| firing.at).fold(0.0, f64::min);
+    firings.iter_mut().for_each(|firing| firing.at -= first);
+    let shot = Shot { friction: Some(friction), ..Shot::from_firings(firings) };
+    RandomShot { scene, shot, inputs: [launch_common, friction, slack_percent, stiffness] }
+}
+
+/// Shifts the firings [s], which are in order of time, by the scatter of the gaps before them: of the gaps between the rows, and
+/// of those between the holes of their row.
+fn scatter_gaps(firings: &mut [Firing], unknown: &Uncertainty, random: &mut Random) {
+    let rows = firings.iter().map(|firing| firing.row + 1).max().unwrap_or(0);
+    let mut holes: Vec<Vec<usize>> = vec![Vec::new(); rows];
+    firings.iter().enumerate().for_each(|(n, firing)| holes[firing.row].push(n));
+    let mut by_start: Vec<&[usize]> = holes.iter().map(Vec::as_slice).filter(|row| !row.is_empty()).collect();
+    by_start.sort_by(|a, b| firings[a[0]].at.total_cmp(&firings[b[0]].at));
+    let starts: Vec<f64> = by_start.iter().map(|row| firings[row[0]].at).collect();
+    let scattered_starts = scatter_chain(&starts, unknown, random.at(Draws::Gaps));
+    for (row, start) in by_start.into_iter().zip(scattered_starts) {
+        let first = firings[row[0]].at;
+        let random = random.at(Draws::BlastRow(firings[row[0]].row));
+        for side in sides(row, firings) {
+            let planned: Vec<f64> = [first].into_iter().chain(side.iter().map(|&n| firings[n].at)).collect();
+            let scattered = scatter_chain(&planned, unknown, random);
+            for (n, at) in side.into_iter().zip(&scattered[1..]) {
+                firings[n].at = at - first + start;
+            }
+        }
+    }
+}
+
+/// The chains in which the holes of a row fire one another, from its first hole on: of holes that are planned for one time, each
+/// belongs to a chain of its own, such as the two sides of a row fired from its middle.
+fn sides(row: &[usize], firings: &[Firing]) -> Vec<Vec<usize>> {
+    let mut sides: Vec<Vec<usize>> = Vec::new();
+    for together in row.chunk_by(|&a, &b| firings[a].at == firings[b].at) {
+        for (side, &hole) in together.iter().enumerate() {
+            if side == sides.len() {
+                sides.push(Vec::new());
+            }
+            sides[side].push(hole);
+        }
+    }
+    sides
+}
+
+/// Firing times [s] of which each fires the next: every gap between `planned` times, which are in order, scatters and shifts all
+/// that follow. A gap stays a delay: it is never negative.
+fn scatter_chain(planned: &[f64], unknown: &Uncertainty, random: &mut ChaCha8Rng) -> Vec<f64> {
+    let mut at = planned.to_vec();
+    for n in 1..planned.len() {
+        let gap = planned[n] - planned[n - 1];
+        at[n] = match gap > 0.0 {
+            true => at[n - 1] + (gap + unknown.delay.deviation(gap) * normal(random)).max(0.0),
+            false => at[n - 1],
+        };
+    }
+    at
+}
+
+/// Scatters masses tire by tire, and launches and in-hole delays hole by hole.
+fn scatter_tires(
+    scene: &mut Scene,
+    firings: &mut [Firing],
+    unknown: &Uncertainty,
+    launch_common: f64,
+    random: &mut Random,
+) {
+    let mut above: Vec<Vec<usize>> = vec![Vec::new(); scene.mass.len()];
+    firings.iter().enumerate().for_each(|(n, firing)| above[firing.tire].push(n));
+    let in_hole = unknown.in_hole_deviation();
+    let tilt = unknown.launch_tilt_deg.to_radians();
+    for (tire, mass) in scene.mass.iter_mut().enumerate() {
+        let random = random.at(Draws::Tire(tire));
+        let heavier = factor(random, unknown.tire_mass_cv_percent);
+        *mass *= heavier;
+        for &hole in &above[tire] {
+            let firing = &mut firings[hole];
+            let faster = launch_common * factor(random, unknown.launch_cv_percent) / heavier;
+            let axis = Vector3::new(normal(random), normal(random), 0.0) * tilt;
+            firing.launch = Rotation3::from_scaled_axis(axis) * firing.launch * faster;
+            firing.at += in_hole * normal(random);
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! How likely a shot fails when what is not known varies as `[uncertainty]` says: what its samples tell.
+//!
+//! A sample is run once, at a coarse step: its error falls to both sides of a limit, and the failure probability is far more
+//! exact than any one sample. The audit runs some of them again at a finer step. Where these runs, or the shot as planned,
+//! contradict the samples, the risk is open, and [`find_risks`](super::sampling::find_risks) samples the shot anew at half
+//! the step.
+
+use super::failure_bounds::FailureBounds;
+use super::sample::{Sample, SampleRun};
+use crate::study::{Case, ShotSummary};
+use crate::verdict::{Limits, Quantity, Verdict};
+
+/// Factor on a difference to one side, because the audit has an error of its own.
+const BIAS_ALLOWANCE: f64 = 2.0;
+/// Probability below which a difference between samples and audit is more than chance.
+const SIGNIFICANCE: f64 = 0.01;
+/// Quantile of the normal distribution that both sides together exceed with the probability [`SIGNIFICANCE`].
+const SIGNIFICANT_DEVIATIONS: f64 = 2.576;
+/// Samples of the audit without which no risk passes.
+pub const LEAST_AUDITS: usize = 20;
+/// Samples needed for bands.
+pub const SAMPLES_FOR_BANDS: usize = 100;
+
+/// The samples of one shot, in order of their numbers, and what they tell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Risk {
+    /// The samples.
+    pub samples: Vec<Sample>,
+    /// Bounds of the failure probability.
+    pub bounds: FailureBounds,
+    /// Bounds of the probability that a cable breaks.
+    pub breaks: FailureBounds,
+    /// Times that the step was halved because finer runs contradicted the samples.
+    pub halvings: u32,
+    /// Whether samples are audited: not where the user fixed the step.
+    is_audited: bool,
+    as_planned: Option<ShotSummary>,
+    limits: Limits,
+}
+
+impl Risk {
+    /// No sample yet of a shot that was judged `as_planned`; the plan of `case` names the accepted risk.
+    /// For `attempt` see [`Sampling`](super::sampling::Sampling).
+    pub fn new(case: &Case, as_planned: Option<ShotSummary>, attempt: usize, is_audited: bool) -> Self {
+        let accepted = case.plan.limits.accepted_risk_percent * 1e-2;
+        let bounds = FailureBounds::new(accepted, attempt);
+        let limits = case.limits;
+        Self { samples: Vec::new(), bounds, breaks: bounds, halvings: 0, is_audited, as_planned, limits }
+    }
+
+    /// Takes the next sample; one of the audit counts as it is at the finer step.
+    pub fn push(&mut self, sample: Sample) {
+        let SampleRun { verdict, breaks, .. } = *sample.finest();
+        self.bounds.push(verdict);
+        self.breaks.push(breaks);
+        self.samples.push(sample);
+    }
+
+    /// The verdict of the samples; undecided where finer runs contradict them, or where a pass has too few of these.
+    pub fn verdict(&self) -> Verdict {
+        match self.bounds_of_audited() {
+            Verdict::Undecided => Verdict::Undecided,
+            _ if self.is_contradicted() => Verdict::Undecided,
+            verdict => verdict,
+        }
+    }
+
+    /// The verdict of the bounds; no pass before [`LEAST_AUDITS`] samples are audited.
+    pub fn bounds_of_audited(&self) -> Verdict {
+        match self.bounds.verdict() {
+            Verdict::Pass if self.is_audited && self.audited().count() < LEAST_AUDITS => Verdict::Undecided,
+            verdict => verdict,
+        }
+    }
+
+    /// Whether finer runs contradict the samples: those of the audit beyond chance, or the shot as planned.
+    pub fn is_contradicted(&self) -> bool {
+        self.audit_differs() || self.is_biased() || self.planned_exceeds_samples()
+    }
+
+    /// Whether the samples pass only because their step is too long: the shot as planned, computed more finely, exceeds the
+    /// greatest sample by d, and that sample + 2 d is past a limit.
+    pub fn planned_exceeds_samples(&self) -> bool {
+        let Some(planned) = self.as_planned else { return false };
+        let would_fail = |quantity: Quantity| {
+            let (refined, values) =
+                (planned.get(quantity).value, self.decided().map(|s| s.run.get(quantity)));
+            let greatest = values.fold(0.0, f64::max);
+            let limit = self.limits.get(quantity).unwrap_or(f64::INFINITY);
+            refined > greatest && 2.0 * refined - greatest > limit
+        };
+        let passes = self.bounds.verdict() == Verdict::Pass;
+        passes && Quantity::ALL.into_iter().any(would_fail)
+    }
+
+    /// Whether the samples of the audit fail more often or less often at the finer step, beyond chance: a sign test on those
+    /// that change (McNemar 1947).
+    fn audit_differs(&self) -> bool {
+        let count = |more: bool| {
+            let audited = self.audited().map(|(coarse, fine)| (coarse.verdict, fine.verdict));
+            let changed =
+                audited.filter(|(coarse, fine)| (*coarse == Verdict::Pass) != (*fine == Verdict::Pass));
+            changed.filter(|(_, fine)| (*fine != Verdict::Pass) == more).count()
+        };
+        sign_test_rejects(count(true), count(false))
+    }
+
+    /// The samples that are not undecided.
+    pub fn decided(&self) -> impl Iterator<Item = &Sample> {
+        self.samples.iter().filter(|sample| sample.run.verdict != Verdict::Undecided)
+    }
+
+    /// The runs of the samples of the audit, each at both steps.
+    fn audited(&self) -> impl Iterator<Item = (&SampleRun, &SampleRun)> {
+        self.samples.iter().filter_map(|sample| Some((&sample.run, sample.finer.as_ref()?)))
+    }
+
+    /// Whether values at the finer step lie to one side, beyond chance, and so far that of the samples, moved by [`BIAS_ALLOWANCE`]
+    /// times the mean difference, a share fails that is outside the bounds or on the other side of the accepted risk. Where
+    /// little is unknown, all samples have the same error of the step, and none of them may change its verdict.
+    fn is_biased(&self) -> bool {
+        let moved = Quantity::ALL.map(|quantity| self.bias_factor(quantity));
+        let fails = |sample: &&Sample| {
+            let value = |quantity: Quantity| sample.run.get(quantity) * moved[quantity as usize];
+            self.limits.utilization(value) > 1.0
+        };
+        let share = self.samples.iter().filter(fails).count() as f64 / self.samples.len().max(1) as f64;
+        let is_moved = moved != [1.0; 3];
+        let [low, high] = self.bounds.interval;
+        let is_outside = is_moved && !(low..=high).contains(&share);
+        is_outside
+            || match self.bounds.verdict() {
+                Verdict::Pass => share > self.bounds.accepted,
+                Verdict::Fail => is_moved && share < self.bounds.accepted,
+                Verdict::Undecided => false,
+            }
+    }
+
+    /// Factor by which a quantity is to be moved: 1, unless the finer values lie to one side beyond chance.
+    fn bias_factor(&self, quantity: Quantity) -> f64 {
+        let pairs = self.audited().map(|(coarse, fine)| fine.get(quantity) / coarse.get(quantity) - 1.0);
+        let changes: Vec<f64> = pairs.filter(|change| change.is_finite()).collect();
+        if lies_to_one_side(&changes) {
+            1.0 + BIAS_ALLOWANCE * changes.iter().sum::<f64>() / changes.len() as f64
+        } else {
+            1.0
+        }
+    }
+
+    /// The 5th, 50th and 95th percentile and the greatest value of a quantity over the decided samples; `None` for fewer than
+    /// [`SAMPLES_FOR_BANDS`].
+    pub fn band(&self, quantity: Quantity) -> Option<[f64; 4]> {
+        let values = self.decided().map(|sample| sample.run.get(quantity));
+        (self.decided().count() >= SAMPLES_FOR_BANDS).then(|| percentiles(values, [0.05, 0.5, 0.95, 1.0]))?
+    }
+}
+
+/// Values below which these shares of `values` lie; `None` without a value.
+pub(in crate::study) fn percentiles<const N: usize>(
+    values: impl Iterator<Item = f64>,
+    shares: [f64; N],
+) -> Option<[f64; N]> {
+    let mut sorted: Vec<f64> = values.collect();
+    sorted.sort_by(f64::total_cmp);
+    let at = |share: f64| sorted[((share * sorted.len() as f64).ceil() as usize).max(1) - 1];
+    (!sorted.is_empty()).then(|| shares.map(at))
+}
+
+/// Whether changes lie to one side beyond chance, by their signs and ranks (Wilcoxon 1945): ten of which nine are alike and
+/// large, and one is small, do.
+fn lies_to_one_side(changes: &[f64]) -> bool {
+    let mut changes: Vec<f64> = changes.iter().copied().filter(|&change| change != 0.0).collect();
+    changes.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let ranks = changes.iter().enumerate().map(|(n, change)| change.signum() * (n + 1) as f64);
+    let count = changes.len() as f64;
+    let deviation = (count * (count + 1.0) * (2.0 * count + 1.0) / 6.0).sqrt();
+    ranks.sum::<f64>().abs() > SIGNIFICANT_DEVIATIONS * deviation
+}
+
+/// Whether of samples that change, `more` to one side and `fewer` to the other, one side has more than by chance.
+fn sign_test_rejects(more: usize, fewer: usize) -> bool {
+    let all = (more + fewer) as f64;
+    let mut term = (-all * std::f64::consts::LN_2).exp();
+    let mut tail = 0.0;
+    for k in 0..=more.min(fewer) {
+        tail += term;
+        term *= (all - k as f64) / (k as f64 + 1.0);
+    }
+    2.0 * tail < SIGNIFICANCE
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of n changes, half are expected to each side: 8 of 8 have a probability of 2/256, 7 of 7 of 2/128; 10 of 11 one of
+    /// 24/2048, 11 of 12 one of 26/4096.
+    #[test]
+    fn an_audit_differs_only_beyond_chance() {
+        assert!(
+            !sign_test_rejects(0, 0)
+                && !sign_test_rejects(7, 0)
+                && sign_test_rejects(8, 0)
+                && sign_test_rejects(0, 8)
+        );
+        assert!(!sign_test_rejects(10, 1) && sign_test_rejects(11, 1));
+    }
+
+    /// With n of one sign the rank sum is n (n + 1)/2: 36 of 8 is 2.52 deviations of 14.28, 45 of 9 is 2.67 of 16.88.
+    #[test]
+    fn changes_lie_to_one_side_only_beyond_chance() {
+        let alike = |count: usize| (0..count).map(|n| 0.03 + 1e-4 * n as f64).collect::<Vec<_>>();
+        assert!(!lies_to_one_side(&[]) && !lies_to_one_side(&alike(8)) && lies_to_one_side(&alike(9)));
+        let with_one = |odd: f64| [alike(9), vec![odd]].concat();
+        assert!(lies_to_one_side(&with_one(-0.01)) && !lies_to_one_side(&with_one(-0.1)));
+        let both: Vec<f64> = (0..100).map(|n| if n % 2 == 0 { 0.01 } else { -0.01 }).collect();
+        assert!(!lies_to_one_side(&both));
+    }
+}

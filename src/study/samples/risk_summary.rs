@@ -1,0 +1,64 @@
+//! The risk of many shots of a study, of which only a summary is kept: few samples of each, or as many as a verdict needs.
+
+use super::failure_bounds::FailureBounds;
+use super::risk::{Risk, percentiles};
+use super::sampling::{Sampling, ShotToSample, find_risks};
+use crate::scene::Shot;
+use crate::study::{Case, ComputeSettings, NoResult, Progress, ShotSummary};
+use crate::verdict::{Limits, Verdict};
+
+/// Number of shots sampled together; their samples are not kept.
+const AT_ONCE: usize = 64;
+
+/// What the samples of one shot tell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RiskSummary {
+    /// Bounds of the failure probability.
+    pub bounds: FailureBounds,
+    /// Verdict of the samples.
+    pub verdict: Verdict,
+    /// Whether finer runs contradict the samples.
+    pub is_contradicted: bool,
+    /// 95th percentile of the samples' utilization: the greatest value over its limit.
+    pub utilization: f64,
+}
+
+impl RiskSummary {
+    fn of(risk: &Risk, limits: &Limits) -> Self {
+        let shares = risk.samples.iter().map(|sample| sample.run.utilization(limits));
+        let utilization = percentiles(shares, [0.95]).map_or(f64::INFINITY, |[p95]| p95);
+        let (verdict, is_contradicted) = (risk.verdict(), risk.is_contradicted());
+        Self { bounds: risk.bounds, verdict, is_contradicted, utilization }
+    }
+
+    /// Whether the failing share so far does not exceed the accepted risk, and nothing speaks against the samples; not yet a
+    /// verdict. Undecided samples count as failing.
+    pub fn is_accepted(&self) -> bool {
+        let FailureBounds { accepted, samples, failures, undecided, .. } = self.bounds;
+        let failing = (failures + undecided) as f64;
+        let is_open = !self.is_contradicted && self.verdict != Verdict::Fail;
+        samples > 0 && is_open && failing <= accepted * samples as f64 + 1e-9
+    }
+}
+
+/// Samples shots of one case, each judged as planned, all with the same draws; `None` for the shots that the time did not
+/// suffice for.
+pub fn find_risk_summaries<'c>(
+    case: &'c Case,
+    shots: &'c [(Shot, ShotSummary)],
+    sampling: &Sampling,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<Vec<Option<RiskSummary>>, NoResult> {
+    let mut all = Vec::with_capacity(shots.len());
+    for shots in shots.chunks(AT_ONCE) {
+        let target = |(shot, planned): &'c (Shot, ShotSummary)| {
+            ShotToSample::new(case, shot, *compute, *sampling).as_planned(*planned)
+        };
+        let targets: Vec<_> = shots.iter().map(target).collect();
+        let risks = find_risks(&targets, progress)?.value;
+        let summary = |risk: &Risk| sampling.is_complete(risk).then(|| RiskSummary::of(risk, &case.limits));
+        all.extend(risks.iter().map(summary));
+    }
+    Ok(all)
+}

@@ -1,0 +1,105 @@
+//! One sample of a shot, and how its run is judged.
+
+use serde::{Deserialize, Serialize};
+
+use super::random_shot::Input;
+use crate::outcome::{Outcome, Peak};
+use crate::scene::Shot;
+use crate::study::Case;
+use crate::study::as_planned::shot_reason::{ShotReason, closes, find_reasons};
+use crate::study::as_planned::shot_summary::or_infinite;
+use crate::verdict::{Estimate, Limits, Quantity, Verdict};
+
+/// One sample of a shot.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sample {
+    /// Number of the sample, from 0.
+    pub number: usize,
+    /// Its run at the step of samples.
+    pub run: SampleRun,
+    /// Its run at a finer step, for a sample of the audit.
+    pub finer: Option<SampleRun>,
+    /// Values of the inputs in [`Input::ALL`].
+    pub inputs: [f64; Input::ALL.len()],
+}
+
+impl Sample {
+    /// Its run at the finest step.
+    pub fn finest(&self) -> &SampleRun {
+        self.finer.as_ref().unwrap_or(&self.run)
+    }
+}
+
+/// A sample at one step.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SampleRun {
+    /// Whether it keeps every limit; undecided where the run ends too early, fails, or loses energy.
+    pub verdict: Verdict,
+    /// Fail where a cable breaks; undecided where the verdict is, or where the run ends before one broke.
+    pub breaks: Verdict,
+    /// Greatest flight height [m].
+    #[serde(deserialize_with = "or_infinite")]
+    pub height: f64,
+    /// Greatest cable force, of a cable of the plan's breaking force [N].
+    #[serde(deserialize_with = "or_infinite")]
+    pub force: f64,
+    /// Greatest drift at the end [m].
+    #[serde(deserialize_with = "or_infinite")]
+    pub drift: f64,
+}
+
+impl SampleRun {
+    /// A run that failed.
+    pub const FAILED: Self = Self {
+        verdict: Verdict::Undecided,
+        breaks: Verdict::Undecided,
+        height: f64::INFINITY,
+        force: f64::INFINITY,
+        drift: f64::INFINITY,
+    };
+
+    /// Judges a run; one without energy balance shows nothing.
+    pub fn new(case: &Case, shot: &Shot, outcome: &Outcome) -> Self {
+        let peaks = [outcome.height, outcome.force, outcome.drift];
+        let exact = |Peak { value, at, index }| Estimate { value, error: 0.0, at, index };
+        let reasons = find_reasons(case, shot, outcome, peaks.map(exact));
+        let verdict = match closes(outcome.ledger.residual()) {
+            true => Verdict::worst(reasons.iter().map(ShotReason::verdict)),
+            false => Verdict::Undecided,
+        };
+        let broke = !outcome.broken.is_empty() || outcome.force.value > case.limits.breaking_force;
+        let ends_early = reasons.iter().any(|reason| matches!(reason, ShotReason::EndsEarly { .. }));
+        let breaks = match verdict {
+            Verdict::Undecided => Verdict::Undecided,
+            _ if broke => Verdict::Fail,
+            _ if ends_early => Verdict::Undecided,
+            _ => Verdict::Pass,
+        };
+        let [height, force, drift] = peaks.map(|peak| peak.value);
+        Self { verdict, breaks, height, force, drift }
+    }
+
+    /// Greatest share of a limit that the run uses.
+    pub fn utilization(&self, limits: &Limits) -> f64 {
+        limits.utilization(|quantity| self.get(quantity))
+    }
+
+    /// The value of a quantity [its SI unit].
+    pub fn get(&self, quantity: Quantity) -> f64 {
+        match quantity {
+            Quantity::Height => self.height,
+            Quantity::Force => self.force,
+            Quantity::Drift => self.drift,
+        }
+    }
+}
+
+/// A sample of a delay option.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OptionSample {
+    /// Index of the delay option.
+    pub option: usize,
+    /// The sample.
+    #[serde(flatten)]
+    pub sample: Sample,
+}

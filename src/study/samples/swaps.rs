@@ -1,0 +1,35 @@
+//! Blast rows that may fire in the reverse order, because the detonators in their holes scatter.
+
+use crate::scene::fire_at_s;
+use crate::study::Case;
+
+/// Two successive blast rows that may fire in the reverse order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Swap {
+    /// Indices of the blast rows, in the planned order.
+    pub rows: [usize; 2],
+    /// Planned interval between the rows [s].
+    pub interval: f64,
+    /// Probability that a hole of the second row fires before a hole of the first.
+    pub probability: f64,
+}
+
+/// Pairs of successive rows of an option of which a hole of the second fires before a hole of the first with a probability of
+/// at least `least`.
+pub fn swaps(case: &Case, option: usize, least: f64) -> Vec<Swap> {
+    let unknown = &case.plan.uncertainty;
+    let in_hole = unknown.in_hole_deviation();
+    let times = fire_at_s(&case.plan.delays[option].timing);
+    let mut rows: Vec<(f64, usize)> = times.into_iter().zip(0..).collect();
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let swap = |pair: &[(f64, usize)]| {
+        let [(early, first), (late, second)] = [pair[0], pair[1]];
+        let interval = late - early;
+        let deviation = unknown.delay.deviation(interval).hypot(in_hole.hypot(in_hole));
+        // The gap between rows is never negative: without detonators in the holes rows keep their order.
+        let may_swap = interval > 0.0 && in_hole > 0.0;
+        let probability = 0.5 * libm::erfc(interval / (deviation * std::f64::consts::SQRT_2));
+        (may_swap && probability >= least).then_some(Swap { rows: [first, second], interval, probability })
+    };
+    rows.windows(2).filter_map(swap).collect()
+}

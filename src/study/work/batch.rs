@@ -1,0 +1,136 @@
+//! Many shots of one plan, spread over the cores: the base of all long studies.
+
+use rayon::prelude::*;
+
+use crate::scene::Shot;
+use crate::simulation::Failure;
+use crate::study::as_planned::check::check_shot;
+use crate::study::as_planned::shot_summary::ShotSummary;
+use crate::study::{Case, ComputeSettings, NoResult, Progress};
+
+/// `threads` threads to compute on, one per core where 0; they end once the pool is dropped and its work is done.
+pub fn thread_pool(threads: usize) -> Result<rayon::ThreadPool, NoResult> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map_err(|error| NoResult::NoThreads(error.to_string()))
+}
+
+/// Does `work` for every job, in parallel. Returns the results in the order of the jobs; `None` where the time ran out. The
+/// number of threads does not change the results.
+pub fn run_jobs<J: Sync, T: Send>(
+    jobs: &[J],
+    progress: &Progress,
+    work: impl Fn(&J) -> Result<T, NoResult> + Sync,
+) -> Result<Vec<Option<T>>, NoResult> {
+    progress.expect(jobs.len());
+    let one = |job: &J| {
+        if progress.stopped() {
+            return Err(NoResult::Stopped);
+        }
+        if progress.expired() {
+            return Ok(None);
+        }
+        match work(job) {
+            Err(NoResult::OutOfTime) => Ok(None),
+            result => {
+                progress.advance();
+                result.map(Some)
+            }
+        }
+    };
+    let results: Vec<_> = jobs.par_iter().map(one).collect();
+    results.into_iter().collect()
+}
+
+/// Checks every shot, refined until its verdict is sure; `None` for the shots that the time did not suffice for.
+pub fn full_checks(
+    case: &Case,
+    shots: &[Shot],
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<Vec<Option<ShotSummary>>, NoResult> {
+    run_checks(shots, progress, |shot| full_check(case, shot, compute, progress))
+}
+
+/// Checks one shot, refined until its verdict is sure.
+pub fn full_check(
+    case: &Case,
+    shot: &Shot,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<ShotSummary, NoResult> {
+    let checked = check_shot(case, shot, compute, &mut |_| progress.flow());
+    checked.map(|checked| ShotSummary::of(&checked)).map_err(|failure| progress.no_result(failure))
+}
+
+/// Checks the shot of every job, like [`run_jobs`]. A job whose run fails has the result [`ShotSummary::UNKNOWN`]; where every run
+/// fails, the study has no result.
+pub fn run_checks<J: Sync>(
+    jobs: &[J],
+    progress: &Progress,
+    work: impl Fn(&J) -> Result<ShotSummary, NoResult> + Sync,
+) -> Result<Vec<Option<ShotSummary>>, NoResult> {
+    let done = run_jobs(jobs, progress, |job| match work(job) {
+        Err(NoResult::Failed(failure)) => Ok(Err(failure)),
+        result => result.map(Ok),
+    })?;
+    if done.iter().flatten().all(Result::is_err)
+        && let Some(Err(failure)) = done.iter().flatten().next()
+    {
+        return Err(NoResult::Failed(failure.clone()));
+    }
+    let known = |result: Result<ShotSummary, Failure>| result.unwrap_or(ShotSummary::UNKNOWN);
+    Ok(done.into_iter().map(|result| result.map(known)).collect())
+}
+
+/// Like [`run_checks`], for a part of the jobs of a study: all of them may fail.
+pub fn run_checks_or_unknown<J: Sync>(
+    jobs: &[J],
+    progress: &Progress,
+    work: impl Fn(&J) -> Result<ShotSummary, NoResult> + Sync,
+) -> Result<Vec<Option<ShotSummary>>, NoResult> {
+    run_jobs(jobs, progress, |job| or_unknown(work(job)))
+}
+
+/// A run that failed is a shot of which nothing is known.
+pub fn or_unknown(judged: Result<ShotSummary, NoResult>) -> Result<ShotSummary, NoResult> {
+    match judged {
+        Err(NoResult::Failed(_)) => Ok(ShotSummary::UNKNOWN),
+        judged => judged,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::work::no_result::guarded;
+    use crate::verdict::Verdict;
+
+    #[test]
+    fn a_run_that_fails_is_open_unless_all_fail() {
+        let failure = NoResult::Failed(Failure::Diverged { at: 1.0 });
+        let good = ShotSummary { verdict: Verdict::Pass, ..ShotSummary::UNKNOWN };
+        let work = |&job: &i32| if job == 2 { Err(failure.clone()) } else { Ok(good) };
+        let some = run_checks(&[1, 2], &Progress::default(), work).expect("one of them is good");
+        assert_eq!(some, [Some(good), Some(ShotSummary::UNKNOWN)]);
+        assert_eq!(run_checks(&[2, 2], &Progress::default(), work), Err(failure.clone()));
+    }
+
+    #[test]
+    fn a_job_that_ends_as_the_time_is_up_keeps_its_result() {
+        let progress = Progress::default();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
+        let work = |&job: &i32| {
+            progress.expire();
+            Ok(job)
+        };
+        assert_eq!(pool.install(|| run_jobs(&[1, 2], &progress, work)), Ok(vec![Some(1), None]));
+    }
+
+    #[test]
+    fn a_panic_is_told_and_the_others_go_on() {
+        let jobs = [1, 2, 3];
+        let work = |&job: &i32| Ok(guarded(|| if job == 2 { panic!("job {job}") } else { Ok(10 * job) }));
+        let results = run_jobs(&jobs, &Progress::default(), work).expect("nobody stopped it");
+        assert_eq!(results, [Some(Ok(10)), Some(Err(NoResult::Panicked("job 2".to_owned()))), Some(Ok(30))]);
+    }
+}

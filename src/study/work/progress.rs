@@ -1,0 +1,67 @@
+//! How far a study is, and the two ways to end it early.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use crate::simulation::Failure;
+use crate::study::NoResult;
+
+/// Progress of a study, shared between the threads that compute and the view that shows it.
+#[derive(Debug, Default)]
+pub struct Progress {
+    stopped: AtomicBool,
+    out_of_time: AtomicBool,
+    done: AtomicUsize,
+    total: AtomicUsize,
+}
+
+impl Progress {
+    /// Ends the study within a step, without a result.
+    pub fn stop(&self) {
+        self.stopped.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether the study was told to end without a result.
+    pub fn stopped(&self) -> bool {
+        self.stopped.load(Ordering::Relaxed)
+    }
+
+    /// Ends the study within a step, with the shots checked so far as its result.
+    pub fn expire(&self) {
+        self.out_of_time.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether the time was up.
+    pub fn expired(&self) -> bool {
+        self.out_of_time.load(Ordering::Relaxed)
+    }
+
+    /// Shots checked, and shots expected as far as is known.
+    pub fn counts(&self) -> (usize, usize) {
+        (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed))
+    }
+
+    /// Announces `more` shots.
+    pub(in crate::study) fn expect(&self, more: usize) {
+        self.total.fetch_add(more, Ordering::Relaxed);
+    }
+
+    /// Counts one shot as checked.
+    pub(in crate::study) fn advance(&self) {
+        self.done.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// Tells a run whether to go on.
+    pub fn flow(&self) -> ControlFlow<()> {
+        if self.stopped() || self.expired() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// Why a run of this study has no result: a run that was ended has no failure of its own.
+    pub fn no_result(&self, failure: Failure) -> NoResult {
+        match failure {
+            Failure::Stopped { .. } if self.stopped() => NoResult::Stopped,
+            Failure::Stopped { .. } => NoResult::OutOfTime,
+            failure => NoResult::Failed(failure),
+        }
+    }
+}

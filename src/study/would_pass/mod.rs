@@ -1,0 +1,306 @@
+//! The nearest changes of a plan with which a delay option that does not pass would pass.
+//!
+//! 1. Candidates come by kind (rope, termination, ballast, slack, launches, interval), from the smallest change up. Each is
+//!    written into the plan's text, and the plan of the new text is what is judged: whoever writes it gets this very plan.
+//! 2. All candidates are judged coarsely, as planned; those that surely fail are out.
+//! 3. Of each kind the smallest left is judged as `check` judges it: as planned, then by the samples of a verdict. Where that is
+//!    no PASS, the next follows. The first PASS is offered.
+//!
+//! A candidate gets no more samples once so many failed that no PASS can come. That offers nothing wrong: a PASS has all samples of
+//! `check`.
+
+mod candidates;
+mod hard_samples;
+
+use std::collections::VecDeque;
+
+use self::candidates::candidates;
+use self::hard_samples::{HardDrawn, HardSamples};
+use super::as_planned::check::{CheckedShot, check_as_planned};
+use super::as_planned::quick_check::quick_check;
+use super::as_planned::shot_reason::exceeds_together;
+use super::judge::OptionResults;
+use super::judgement::Judgement;
+use super::judgement::Sampled;
+use super::samples::risk::Risk;
+use super::samples::sampling::{Sampling, ShotToSample, find_risks};
+use super::work::batch::run_jobs;
+use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, guarded};
+use crate::plan::PlanSource;
+use crate::plan::change::{Change, ChangeKind};
+use crate::verdict::Verdict;
+
+/// The changes tried for one delay option, by kind; without the kinds that the plan has no candidate of.
+#[derive(Clone, Debug)]
+pub struct WouldPass {
+    /// Index of the option.
+    pub option: usize,
+    /// Whether a pass needs no more samples than were allowed. Otherwise nothing was tried.
+    pub enough_samples: bool,
+    /// One entry a kind.
+    pub kinds: Vec<TriedKind>,
+}
+
+impl WouldPass {
+    /// The changes with which the option passes, at most one a kind.
+    pub fn passing(&self) -> impl Iterator<Item = &Passing> {
+        self.kinds.iter().filter_map(|tried| tried.passing.as_ref())
+    }
+}
+
+/// The changes of one kind that were tried for one option.
+#[derive(Clone, Debug)]
+pub struct TriedKind {
+    /// The kind.
+    pub kind: ChangeKind,
+    /// The changes tried, from the smallest up.
+    pub tried: Vec<Change>,
+    /// Number of those that neither pass nor surely fail.
+    pub open: usize,
+    /// Whether the time was up before a change passed or all were tried.
+    pub out_of_time: bool,
+    /// The smallest change that passes.
+    pub passing: Option<Passing>,
+}
+
+/// A change with which an option passes.
+#[derive(Clone, Debug)]
+pub struct Passing {
+    /// The change.
+    pub change: Change,
+    /// The judgement of the option in the changed plan.
+    pub judgement: Judgement,
+}
+
+/// Indices of the options that have a result and do not pass.
+pub fn not_passing(results: &OptionResults) -> Vec<usize> {
+    let judged =
+        results.iter().enumerate().filter_map(|(option, result)| Some((option, result.as_ref().ok()?)));
+    judged.filter(|(_, judged)| judged.verdict() != Verdict::Pass).map(|(option, _)| option).collect()
+}
+
+/// The changes of one kind for one option, while they are tried.
+struct Chain {
+    option: usize,
+    left: VecDeque<Change>,
+    found: TriedKind,
+}
+
+impl Chain {
+    /// Whether the next change is to be judged.
+    fn is_open(&self) -> bool {
+        self.found.passing.is_none() && !self.found.out_of_time && !self.left.is_empty()
+    }
+
+    fn note(&mut self, verdict: Verdict) {
+        self.found.open += usize::from(verdict == Verdict::Undecided);
+    }
+}
+
+/// A change that is judged in full.
+struct ChangeToJudge {
+    /// Index of its chain.
+    chain: usize,
+    change: Change,
+    case: Case,
+}
+
+/// What is asked of every change.
+#[derive(Clone, Copy)]
+struct Task<'t> {
+    case: &'t Case,
+    sampling: Option<&'t Sampling>,
+    compute: &'t ComputeSettings,
+    progress: &'t Progress,
+}
+
+/// Tries changes for one option, until the time is up. Without a `sampling` only the shot as planned counts.
+pub fn find_changes(
+    case: &Case,
+    option: usize,
+    sampling: Option<&Sampling>,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Finding<WouldPass> {
+    let Found { mut value, partial } = find_all_changes(case, &[option], sampling, compute, progress)?;
+    Ok(Found { value: value.remove(0), partial })
+}
+
+/// Tries changes for the options with these indices, until the time is up. Without a `sampling` only the shots as planned count.
+pub fn find_all_changes(
+    case: &Case,
+    options: &[usize],
+    sampling: Option<&Sampling>,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Finding<Vec<WouldPass>> {
+    let task = Task { case, sampling, compute, progress };
+    let accepted = case.plan.limits.accepted_risk_percent * 1e-2;
+    let mut hard = HardSamples::new(accepted, sampling.map_or(0, |sampling| sampling.most));
+    let enough_samples = sampling.is_none() || hard.enough_samples();
+    let mut chains = if enough_samples { coarse(&task, options)? } else { Vec::new() };
+    while chains.iter().any(Chain::is_open) {
+        judge_next(&task, &mut chains, &mut hard)?;
+    }
+    let partial = chains.iter().any(|chain| chain.found.out_of_time);
+    let mut found: Vec<WouldPass> =
+        options.iter().map(|&option| WouldPass { option, enough_samples, kinds: Vec::new() }).collect();
+    for Chain { option, found: tried, .. } in chains {
+        if let Some(of_option) = found.iter_mut().find(|of_option| of_option.option == option) {
+            of_option.kinds.push(tried);
+        }
+    }
+    Ok(Found { value: found, partial })
+}
+
+/// The plan with a change; `None` where the change makes no valid plan.
+fn changed(case: &Case, change: &Change) -> Option<Case> {
+    let text = change.apply(&case.source.text).ok()?;
+    Case::parse(PlanSource { path: case.source.path.clone(), text }).ok()
+}
+
+/// The chains of all options, each with the candidates that a coarse run as planned does not surely fail. Candidates that make no
+/// valid plan count as not tried; a kind without a candidate has no chain.
+fn coarse(task: &Task<'_>, options: &[usize]) -> Result<Vec<Chain>, NoResult> {
+    let Task { case, compute, progress, .. } = *task;
+    let kinds = |&option: &usize| {
+        let crowded = exceeds_together(case, &case.shots[option]);
+        candidates(&case.plan, option, crowded).into_iter().map(move |changes| (option, changes))
+    };
+    let all: Vec<(usize, Vec<Change>)> = options.iter().flat_map(kinds).collect();
+    let jobs: Vec<(usize, Change)> =
+        all.iter().flat_map(|(option, changes)| changes.iter().map(|&change| (*option, change))).collect();
+    let mut verdicts = run_jobs(&jobs, progress, |(option, change)| {
+        let Some(changed) = changed(case, change) else { return Ok(None) };
+        match guarded(|| quick_check(&changed, &changed.shots[*option], compute, progress)) {
+            // The judgement in full tells.
+            Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(Some(Verdict::Undecided)),
+            coarse => Ok(Some(coarse?.verdict)),
+        }
+    })?
+    .into_iter();
+    let mut chains = Vec::new();
+    for (option, changes) in all {
+        let kind = changes.first().map(Change::kind);
+        let (mut tried, mut left, mut out_of_time) = (Vec::new(), VecDeque::new(), false);
+        for (change, verdict) in changes.into_iter().zip(verdicts.by_ref()) {
+            match verdict {
+                None => out_of_time = true,
+                Some(None) => {}
+                Some(Some(Verdict::Fail)) => tried.push(change),
+                Some(Some(Verdict::Pass | Verdict::Undecided)) => {
+                    tried.push(change);
+                    left.push_back(change);
+                }
+            }
+        }
+        if let Some(kind) = kind.filter(|_| out_of_time || !tried.is_empty()) {
+            let found = TriedKind { kind, tried, open: 0, out_of_time, passing: None };
+            chains.push(Chain { option, left, found });
+        }
+    }
+    Ok(chains)
+}
+
+/// Judges the next change of every open chain in full.
+fn judge_next(task: &Task<'_>, chains: &mut [Chain], hard: &mut HardSamples) -> Result<(), NoResult> {
+    let mut turns = Vec::new();
+    for (n, chain) in chains.iter_mut().enumerate().filter(|(_, chain)| chain.is_open()) {
+        let change = chain.left.pop_front();
+        turns.extend(
+            change.and_then(|change| {
+                Some(ChangeToJudge { chain: n, change, case: changed(task.case, &change)? })
+            }),
+        );
+    }
+    let as_planned = check_turns(task, chains, &turns)?;
+    let passing = turns.iter().zip(as_planned).filter_map(|(turn, checked)| Some((turn, checked?)));
+    let passing: Vec<(&ChangeToJudge, CheckedShot)> = passing.collect();
+    let Some(sampling) = task.sampling else {
+        for (turn, checked) in passing {
+            let judgement = Judgement::of_planned_alone(checked);
+            chains[turn.chain].found.passing = Some(Passing { change: turn.change, judgement });
+        }
+        return Ok(());
+    };
+    let mut targets = Vec::with_capacity(passing.len());
+    for (turn, checked) in &passing {
+        let option = chains[turn.chain].option;
+        let target = ShotToSample::new(&turn.case, &turn.case.shots[option], *task.compute, *sampling);
+        targets.push((option, target.as_planned(ShotSummary::of(checked)).only_pass()));
+    }
+    let risks = sample(&targets, hard, task.progress)?;
+    for ((turn, checked), risk) in passing.into_iter().zip(risks) {
+        let chain = &mut chains[turn.chain];
+        match risk {
+            Sampled::NotAsked => chain.note(Verdict::Undecided),
+            Sampled::NotDrawn => chain.found.out_of_time = true,
+            Sampled::Drawn(risk) => {
+                let judgement =
+                    Judgement { risk: Sampled::Drawn(risk), ..Judgement::of_planned_alone(checked) };
+                chain.note(judgement.verdict());
+                if judgement.verdict() == Verdict::Pass {
+                    chain.found.passing = Some(Passing { change: turn.change, judgement });
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Judges changes as planned; `None` for those that do not pass, which their chains note.
+fn check_turns(
+    task: &Task<'_>,
+    chains: &mut [Chain],
+    turns: &[ChangeToJudge],
+) -> Result<Vec<Option<CheckedShot>>, NoResult> {
+    let options: Vec<usize> = turns.iter().map(|turn| chains[turn.chain].option).collect();
+    let jobs: Vec<(&Case, usize)> = turns.iter().map(|turn| &turn.case).zip(options).collect();
+    let all = run_jobs(&jobs, task.progress, |(case, option)| {
+        let check = || {
+            let checked = check_as_planned(case, *option, task.compute, &mut |_| task.progress.flow());
+            checked.map_err(|failure| task.progress.no_result(failure))
+        };
+        match guarded(check) {
+            Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(None),
+            checked => checked.map(Some),
+        }
+    })?;
+    let checked = turns.iter().zip(all).map(|(turn, result)| {
+        let chain = &mut chains[turn.chain];
+        match result {
+            None => chain.found.out_of_time = true,
+            Some(None) => chain.note(Verdict::Undecided),
+            Some(Some(checked)) if checked.verdict == Verdict::Pass => return Some(checked),
+            Some(Some(checked)) => chain.note(checked.verdict),
+        }
+        None
+    });
+    Ok(checked.collect())
+}
+
+/// The risk of changes, each for an option: not asked for where no pass can come, not drawn where the time was up before that
+/// was known.
+fn sample(
+    targets: &[(usize, ShotToSample<'_>)],
+    hard: &mut HardSamples,
+    progress: &Progress,
+) -> Result<Vec<Sampled<Risk>>, NoResult> {
+    let first = hard.draw(targets, progress)?;
+    let mut risks: Vec<Sampled<Risk>> = Vec::new();
+    let (mut left, mut places) = (Vec::new(), Vec::new());
+    for (n, ((_, target), first)) in targets.iter().zip(&first).enumerate() {
+        risks.push(if first.is_some() { Sampled::NotAsked } else { Sampled::NotDrawn });
+        if let Some(HardDrawn { samples, can_pass: true }) = first {
+            left.push(target.precomputed(samples));
+            places.push(n);
+        }
+    }
+    for ((target, n), risk) in left.iter().zip(places).zip(find_risks(&left, progress)?.value) {
+        hard.note(targets[n].0, &risk);
+        let sampling = target.sampling;
+        let is_complete = sampling.is_complete(&risk) || !risk.bounds.can_pass(sampling.most);
+        risks[n] = if is_complete { Sampled::Drawn(risk) } else { Sampled::NotDrawn };
+    }
+    Ok(risks)
+}

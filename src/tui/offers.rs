@@ -1,0 +1,101 @@
+//! The screen of studies: its tabs, and rows that offer a change of the plan.
+
+use super::actions::PAGE;
+use super::app::{App, Request};
+use super::editor::EditOutcome;
+use super::keymap::Action;
+use super::screen::Screen;
+use crate::plan::edit;
+use crate::report::model::Offer;
+
+impl App {
+    pub(super) fn act_on_studies(&mut self, action: Action) -> Request {
+        let kind = self.studies.shown;
+        if let Some(request) = self.act_on_offers(action) {
+            return request;
+        }
+        match action {
+            Action::Up => self.studies.scroll(-1),
+            Action::Down => self.studies.scroll(1),
+            Action::PageUp => self.studies.scroll(-(PAGE as i16)),
+            Action::PageDown => self.studies.scroll(PAGE as i16),
+            Action::First => self.studies.scroll = 0,
+            Action::Last => self.studies.scroll = u16::MAX,
+            Action::Left => self.studies.turn(-1),
+            Action::Right => self.studies.turn(1),
+            Action::Open | Action::Rerun => return self.begin_study(kind),
+            Action::Cancel => return self.cancel_study(kind),
+            other => return self.act_anywhere(other),
+        }
+        Request::None
+    }
+
+    /// Moves among the rows of the study shown that offer a change of the plan, and makes the change of the selected one; `None`
+    /// where there are no such rows, or the action is another.
+    fn act_on_offers(&mut self, action: Action) -> Option<Request> {
+        let finished = self.studies.finished(self.studies.shown)?;
+        let offers = finished.report.offers(&self.studies.filter);
+        let count = offers.len().max(1);
+        let at = self.studies.selected.min(count - 1);
+        let to = match action {
+            Action::Up => at.saturating_sub(1),
+            Action::Down => at + 1,
+            Action::PageUp => at.saturating_sub(PAGE),
+            Action::PageDown => at + PAGE,
+            Action::First => 0,
+            Action::Last => count - 1,
+            Action::Open => {
+                let offer = (*offers.get(at)?).clone();
+                return Some(self.take_offer(&offer));
+            }
+            _ => return None,
+        };
+        if offers.is_empty() {
+            return None;
+        }
+        self.studies.selected = to.min(count - 1);
+        Some(Request::None)
+    }
+
+    /// Makes a change that a row offers; it can be taken back.
+    fn take_offer(&mut self, offer: &Offer) -> Request {
+        let (text, plan) = (self.editor.text.as_str(), &self.case.plan);
+        if let Offer::Option(delay) = offer
+            && let Some(own) = plan.delays.iter().position(|own| own.fires_like(delay))
+        {
+            self.notice = Some(format!("in the plan already: {}", plan.delays[own].name));
+            (self.screen, self.selected) = (Screen::Compare, own);
+            return Request::None;
+        }
+        let (changed, told) = match offer {
+            Offer::Option(delay) => (edit::add_delays(text, plan, &[delay]), "added".to_owned()),
+            Offer::Sizes { rope, tire_mass, border_rows } => (
+                edit::write_sizes(text, rope, *tire_mass, *border_rows),
+                format!("used: {rope}, tires of {tire_mass} kg, {border_rows} border rows"),
+            ),
+        };
+        let edit = self.editor.take(changed.map_err(|error| error.to_string()));
+        if matches!(edit, EditOutcome::None) {
+            self.notice = self.editor.problem.clone();
+            return Request::None;
+        }
+        let undo = self.keymap.hint(Action::Undo);
+        // One more option changes nothing about what the study found.
+        let kept = self.studies.clone();
+        let request = self.edited(edit);
+        if matches!(offer, Offer::Option(_)) {
+            self.studies.keep(kept);
+        }
+        // Its verdict stands there.
+        self.screen = Screen::Compare;
+        let told = match (offer, self.case.plan.delays.last()) {
+            (Offer::Option(_), Some(added)) => {
+                self.selected = self.options.len().saturating_sub(1);
+                format!("{told}: {}", added.name)
+            }
+            _ => told,
+        };
+        self.notice = Some(format!("{told} · {undo} takes it back"));
+        request
+    }
+}

@@ -1,0 +1,31 @@
+//! A firing order that is edited by moving its rows.
+
+/// A firing order being edited.
+#[derive(Clone, Debug)]
+pub struct Order {
+    /// Names of the blast rows in their order of firing.
+    pub names: Vec<String>,
+    /// Index of the selected row.
+    pub selected: usize,
+}
+
+impl Order {
+    /// Selects the row that fires before or after.
+    pub fn select(&mut self, down: bool) {
+        let last = self.names.len().saturating_sub(1);
+        self.selected = self.selected.saturating_add_signed(if down { 1 } else { -1 }).min(last);
+    }
+
+    /// Moves the selected row one turn earlier or later.
+    pub fn shift(&mut self, later: bool) {
+        let from = self.selected;
+        self.select(later);
+        self.names.swap(from, self.selected);
+    }
+
+    /// The order as a plan writes it.
+    pub fn text(&self) -> String {
+        let names: Vec<String> = self.names.iter().map(|name| format!("{name:?}")).collect();
+        format!("[{}]", names.join(", "))
+    }
+}

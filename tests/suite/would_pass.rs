@@ -1,0 +1,354 @@
+//! What would make an option pass: every change offered does, in the very text that it writes.
+
+use crossterm::event::KeyCode;
+use serde_json::Value;
+use shelter::jobs::{StudyKind, StudyResult};
+use shelter::plan::change::{Change, ChangeKind};
+use shelter::plan::{Layout, Plan, PlanSource, Timing};
+use shelter::ropes::catalogue;
+use shelter::study::judgement::Judgement;
+use shelter::study::samples::sampling::Sampling;
+use shelter::study::would_pass::{WouldPass, find_all_changes, find_changes};
+use shelter::study::{Case, ComputeSettings, NoResult, Progress};
+use shelter::tui::app::{App, Request};
+use shelter::tui::options::OptionState;
+use shelter::verdict::Verdict;
+
+use super::stage::{draw, finished, key, study_ends, text};
+use super::support::{self, json, shelter, shipped};
+
+/// Three options under a small shelter: the first fails as planned, the second by its samples, and the third passes.
+const SMALL: &str = r#"
+[shelter] # three by four
+layout = "grid"
+rows = 3
+columns = 4
+spacing_m = 2.6
+
+[tire]
+mass_kg = 280
+outer_diameter_m = 1.6
+
+[cable]
+rope = "GOST 2688-80 9.6" # at hand
+termination = "clips"
+slack_percent = 2
+
+[ground]
+friction = 0.5
+
+[[blast_row]]
+name = "1"
+under_row = 1
+launch_m_s = 5.0
+
+[[blast_row]]
+name = "2"
+under_row = 2
+launch_m_s = 5.0
+
+[limits]
+flight_height_m = 1.6
+cable_safety_factor = 1.3
+
+[[delay]]
+name = "60 ms"
+interval_ms = 60
+
+[[delay]]
+name = "long"
+at_ms = [0, 500]
+
+[[delay]]
+name = "10 ms"
+interval_ms = 10
+
+[uncertainty]
+slack_percent = [1.5, 2.5]
+"#;
+
+fn parse(text: &str) -> Case {
+    let source = PlanSource { path: "plan.toml".to_owned(), text: text.to_owned() };
+    Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"))
+}
+
+fn changes(case: &Case, option: usize, sampling: Option<&Sampling>) -> WouldPass {
+    let compute = ComputeSettings::of(&case.plan);
+    let found = find_changes(case, option, sampling, &compute, &Progress::default()).expect("it computes");
+    assert!(!found.partial);
+    found.value
+}
+
+/// The judgement that `check` makes of an option of a plan with a change, written into its text; the other options are left out.
+fn checked(case: &Case, option: usize, change: &Change, sampling: Option<&Sampling>) -> Judgement {
+    let mut plan = parse(&change.apply(&case.source.text).expect("the text has a place for it")).plan;
+    plan.delays = vec![plan.delays.remove(option)];
+    let compute = ComputeSettings::of(&plan);
+    let found = Case::new(plan).judge_options(&compute, sampling, &Progress::default()).expect("it computes");
+    found.value[0].clone().expect("a result")
+}
+
+/// The judgement offered is that of `check`, to the last bit.
+fn all_pass_when_made(case: &Case, option: usize, sampling: Option<&Sampling>) -> usize {
+    let found = changes(case, option, sampling);
+    for passing in found.passing() {
+        let judged = checked(case, option, &passing.change, sampling);
+        assert_eq!(judged.verdict(), Verdict::Pass, "{:?}", passing.change);
+        assert_eq!(judged.risk, passing.judgement.risk, "{:?}", passing.change);
+        assert_eq!(judged.as_planned.height, passing.judgement.as_planned.height);
+        assert_eq!(judged.as_planned.force, passing.judgement.as_planned.force);
+    }
+    found.passing().count()
+}
+
+#[test]
+fn every_change_offered_passes_when_made() {
+    let small = parse(SMALL);
+    for option in [0, 1] {
+        for sampling in [None, Some(&Sampling::OF_VERDICT)] {
+            assert!(all_pass_when_made(&small, option, sampling) > 0);
+        }
+    }
+    let amur = Case::load(shipped("amur-three-rows.toml").as_ref()).expect("a shipped plan");
+    // So few samples pass only where none fails.
+    let few = Sampling::exactly(450, 1);
+    assert!(all_pass_when_made(&amur, 2, Some(&few)) > 0);
+    assert!(all_pass_when_made(&amur, 6, None) > 0);
+}
+
+/// The plan in memory with a change, made without the text.
+fn expected(plan: &Plan, change: &Change) -> Plan {
+    let mut plan = plan.clone();
+    match *change {
+        Change::Rope(rope) => {
+            plan.cable.rope = Some(rope.name.clone());
+            plan.cable.axial_stiffness_kn = rope.axial_stiffness_kn;
+            plan.cable.breaking_force_kn = rope.breaking_force_kn * plan.cable.termination_percent * 1e-2;
+        }
+        Change::Termination(termination) => {
+            let rope = plan.cable.breaking_force_kn / plan.cable.termination_percent;
+            plan.cable.breaking_force_kn = rope * termination.efficiency_percent;
+            plan.cable.termination = Some(termination.name.clone());
+            plan.cable.termination_percent = termination.efficiency_percent;
+        }
+        Change::BorderRows(rows) => match &mut plan.layout {
+            Layout::Grid(mesh) | Layout::Quincunx(mesh) => mesh.border_rows = rows,
+            Layout::List { .. } => panic!("a list has no border"),
+        },
+        Change::Slack(percent) => {
+            let moved = percent - plan.cable.slack_percent;
+            plan.cable.slack_percent = percent;
+            let usual = plan.uncertainty.assumed.then_some([percent - 0.1, percent + 0.1]);
+            let range = plan.uncertainty.slack_percent.map(|end| end + moved);
+            plan.uncertainty.slack_percent = usual.unwrap_or(range).map(|end| end.max(0.0));
+        }
+        Change::Launch(factor) => plan.launches_mut().for_each(|launch| launch.speed_m_s *= factor),
+        Change::Interval { option, interval_ms: new } => {
+            let Timing::Interval { interval_ms, .. } = &mut plan.delays[option].timing else {
+                panic!("no interval")
+            };
+            let named = format!("{interval_ms} ms");
+            *interval_ms = new;
+            if plan.delays[option].name == named {
+                plan.delays[option].name = format!("{new} ms");
+            }
+        }
+    }
+    plan
+}
+
+/// Words of a plan with its numbers to nine digits: a number of the text has six.
+fn words(plan: &Plan) -> String {
+    let text = format!("{plan:?}");
+    let words = text.split(' ').map(|word| {
+        let bare = word.trim_matches(|c: char| !c.is_ascii_digit());
+        let number = bare.parse::<f64>().ok().filter(|_| bare.contains('.'));
+        number.map_or_else(|| word.to_owned(), |number| word.replace(bare, &format!("{number:.9}")))
+    });
+    words.collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn a_change_of_the_text_is_that_change_of_the_plan_and_no_other() {
+    let rope = catalogue().find("GOST 2688-80 15").expect("in the catalogue");
+    let spelter = catalogue().termination("spelter socket").expect("in the catalogue");
+    for entry in std::fs::read_dir(shipped("")).expect("the folder") {
+        let path = entry.expect("an entry").path();
+        let case = Case::load(&path).expect("a shipped plan");
+        let mut changes = vec![Change::BorderRows(2), Change::Launch(0.85)];
+        changes.extend([0.5, 3.0].map(Change::Slack));
+        if case.plan.cable.rope.is_some() {
+            changes.extend([Change::Rope(rope), Change::Termination(spelter)]);
+        }
+        changes.push(Change::Interval { option: 0, interval_ms: 12.5 });
+        for change in changes {
+            for (text, ends) in
+                [(case.source.text.clone(), "\n"), (case.source.text.replace('\n', "\r\n"), "\r\n")]
+            {
+                let new = change.apply(&text).expect("a place for it");
+                let changed = parse(&new).plan;
+                assert_eq!(words(&changed), words(&expected(&case.plan, &change)), "{path:?} {change:?}");
+                assert_eq!(new.matches('\n').count(), new.matches(ends).count());
+                let comments = |text: &str| text.matches('#').count();
+                assert_eq!(comments(&new), comments(&text), "comments stay");
+                let added = new.lines().filter(|line| !text.contains(line)).count();
+                assert!(added <= case.plan.launches().count().max(2), "{path:?} {change:?}: {added} lines");
+            }
+        }
+    }
+}
+
+#[test]
+fn kinds_without_a_pass_are_told_and_a_passing_option_offers_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plan.toml");
+    std::fs::write(&path, SMALL).expect("written");
+    let path = path.to_str().expect("UTF-8");
+    let told = shelter(&["check", path, "--why"]);
+    let told = support::text(&told.stdout);
+    for line in [
+        "60 ms would pass with any one of these changes:",
+        "    rope GOST 2688-80 12 instead of GOST 2688-80 9.6 (at most ",
+        "    termination spelter socket instead of clips (",
+        "    interval 48 ms instead of 60 ms (",
+        "    not even 3 border rows pass",
+        "long would pass with this change:",
+        "    launches 5 % lower, 4.75 m/s instead of 5 m/s (",
+        "    no stronger rope of GOST 2688-80 passes; no stronger termination passes; not even 3 border rows pass; \
+         no slack tried from 0 to 4 % passes",
+    ] {
+        assert!(told.lines().any(|found| found.starts_with(line)), "{line}\n{told}");
+    }
+    assert!(!told.contains("10 ms would"), "{told}");
+    let few = shelter(&["check", path, "--why", "--samples", "100"]);
+    assert!(support::text(&few.stdout).contains("so few samples prove no pass"));
+}
+
+#[test]
+fn scripts_read_each_change_with_its_key_and_its_judgement() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plan.toml");
+    std::fs::write(&path, SMALL).expect("written");
+    let path = path.to_str().expect("UTF-8");
+    let plain = json(&shelter(&["check", path, "--format", "json"]));
+    for option in plain["options"].as_array().expect("options") {
+        assert!(option["would_pass"].is_null() && option["would_not_pass"].is_null(), "nobody asked");
+    }
+    let found = json(&shelter(&["check", path, "--why", "--format", "json"]));
+    assert_eq!(found["verdict"], plain["verdict"]);
+    let of = |option: usize, key: &str| found["options"][option][key].as_array().expect(key).clone();
+    let names = |all: &[Value]| -> Vec<String> {
+        all.iter().map(|one| one["kind"].as_str().expect("a kind").to_owned()).collect()
+    };
+    assert_eq!(names(&of(0, "would_pass")), ["rope", "termination", "slack", "launch", "interval"]);
+    assert_eq!(names(&of(0, "would_not_pass")), ["border_rows"]);
+    assert_eq!(names(&of(1, "would_pass")), ["launch"]);
+    assert_eq!((of(2, "would_pass").len(), of(2, "would_not_pass").len()), (0, 0), "it passes");
+    for change in of(0, "would_pass") {
+        assert_eq!(change["verdict"], "pass");
+        assert!(change["failure_probability"]["high"].as_f64().is_some_and(|high| high < 0.01), "{change}");
+        assert!(change["failure_probability"]["samples"].as_u64().is_some_and(|samples| samples >= 430));
+        assert!(change["cable_force_n"].as_f64().is_some_and(|force| force > 1e3), "{change}");
+        assert!(change["flight_height_m"].as_f64().is_some_and(|height| height < 1.6), "{change}");
+    }
+    let interval = of(0, "would_pass").pop().expect("the last");
+    assert_eq!(interval["key"], "delay.interval_ms");
+    assert_eq!((&interval["from"], &interval["to"]), (&"60 ms".into(), &"48 ms".into()));
+    assert_eq!(interval["value"], 48.0);
+    let csv = |more: &[&str]| shelter(&[&["check", path, "--format", "csv"][..], more].concat()).stdout;
+    assert_eq!(csv(&[]), csv(&["--why"]), "tables for scripts stay as they are");
+    let nominal = json(&shelter(&["check", path, "--why", "--nominal", "--format", "json"]));
+    assert!(nominal["options"][0]["would_pass"][0]["failure_probability"].is_null());
+}
+
+#[test]
+fn terminations_offered_fit_and_plans_without_a_rope_have_none() {
+    let kinds = |text: &str| -> Vec<ChangeKind> {
+        changes(&parse(text), 0, None).kinds.iter().map(|tried| tried.kind).collect()
+    };
+    use ChangeKind::{BorderRows, Interval, Launch, Rope, Slack, Termination};
+    assert_eq!(kinds(SMALL), [Rope, Termination, BorderRows, Slack, Launch, Interval]);
+    let numbers = "axial_stiffness_kn = 3400\nbreaking_force_kn = 48.85";
+    let without = SMALL.replace("rope = \"GOST 2688-80 9.6\" # at hand", numbers);
+    assert_eq!(kinds(&without), [Termination, BorderRows, Slack, Launch, Interval]);
+    let percent = without.replace("termination = \"clips\"", "termination_percent = 80");
+    assert_eq!(kinds(&percent), [BorderRows, Slack, Launch, Interval], "nobody knows what fits");
+    let found = changes(&parse(SMALL), 0, None);
+    for tried in found.kinds.iter().flat_map(|tried| &tried.tried) {
+        if let Change::Termination(termination) = tried {
+            assert_ne!(termination.name, "swaged socket", "for steel cores only");
+        }
+    }
+}
+
+#[test]
+fn the_time_or_the_user_ends_it() {
+    let case = parse(SMALL);
+    let compute = ComputeSettings::of(&case.plan);
+    let find = |progress: &Progress| {
+        find_all_changes(&case, &[0, 1], Some(&Sampling::OF_VERDICT), &compute, progress)
+    };
+    let progress = Progress::default();
+    progress.expire();
+    let found = find(&progress).expect("what is known by then");
+    assert!(found.partial);
+    let open = found.value.iter().flat_map(|would_pass| &would_pass.kinds);
+    assert!(
+        open.clone().count() > 0 && open.clone().all(|tried| tried.out_of_time && tried.passing.is_none())
+    );
+    let progress = Progress::default();
+    progress.stop();
+    assert_eq!(find(&progress).err(), Some(NoResult::Stopped));
+}
+
+fn screen(app: &App) -> String {
+    text(&draw(app, 160, 40))
+}
+
+#[test]
+fn w_lists_changes_and_enter_makes_one_that_undo_takes_back() {
+    let mut app = finished();
+    let before = app.editor.text.clone();
+    assert_eq!(key(&mut app, KeyCode::Char('w')), Request::Study(StudyKind::WouldPass));
+    assert!(screen(&app).contains("looking for changes with which it would pass"));
+    assert_eq!(key(&mut app, KeyCode::Esc), Request::Cancel(StudyKind::WouldPass));
+    key(&mut app, KeyCode::Esc);
+    assert!(!screen(&app).contains("looking for changes"));
+    assert_eq!(key(&mut app, KeyCode::Char('w')), Request::Study(StudyKind::WouldPass));
+    let found = changes(&app.case, 0, None);
+    let all: Vec<Change> = found.passing().map(|passing| passing.change).collect();
+    assert!(all.len() >= 3, "its shots as planned pass already: {all:?}");
+    study_ends(&mut app, StudyKind::WouldPass, Ok(StudyResult::WouldPass(found)));
+    assert!(screen(&app).contains("Enter makes the selected one") && screen(&app).contains("> rope "));
+    assert_eq!(key(&mut app, KeyCode::Char('w')), Request::None, "closed");
+    assert!(!screen(&app).contains("> rope "));
+    assert_eq!(key(&mut app, KeyCode::Char('w')), Request::None, "and known when opened again");
+    key(&mut app, KeyCode::Down);
+    assert_eq!(app.selected, 0, "arrows move in the list");
+    assert!(screen(&app).contains("> termination "), "{}", screen(&app));
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::CheckNewPlan);
+    assert_eq!(Ok(&app.editor.text), all[1].apply(&before).as_ref());
+    assert_eq!(Some(&app.case.plan), Plan::parse("", &app.editor.text).ok().as_ref());
+    assert!(screen(&app).contains("; u takes it back"), "{}", screen(&app));
+    assert!(app.editor.unsaved() && app.open_changes().is_none());
+    assert_eq!(key(&mut app, KeyCode::Char('u')), Request::CheckNewPlan);
+    assert_eq!(app.editor.text, before);
+}
+
+#[test]
+fn w_on_an_option_that_passes_or_is_not_judged_says_so() {
+    let mut app = finished();
+    app.selected = 4;
+    assert_eq!(key(&mut app, KeyCode::Char('w')), Request::None);
+    assert!(screen(&app).contains("the option passes"));
+    app.options[4] = OptionState::Waiting;
+    assert_eq!(key(&mut app, KeyCode::Char('w')), Request::None);
+    assert!(screen(&app).contains("the option is not judged yet"));
+    app.selected = 0;
+    key(&mut app, KeyCode::Char('w'));
+    key(&mut app, KeyCode::Down);
+    assert_eq!(app.selected, 1, "without a list the arrows move among the options");
+    study_ends(&mut app, StudyKind::WouldPass, Err(NoResult::OutOfTime));
+    app.selected = 0;
+    assert!(screen(&app).contains("the time was up"));
+}
