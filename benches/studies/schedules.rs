@@ -10,21 +10,19 @@ use shelter::study::samples::sampling::{Sampling, ShotToSample, find_risks};
 use shelter::study::search::{Schedule, search};
 use shelter::study::{Case, ComputeSettings, Progress};
 
-use super::plans;
-
 /// Samples of each schedule by brute force, with draws of their own.
 const BRUTE: Sampling = Sampling::exactly(2000, 77);
 /// Intervals to choose from, gap by gap [ms].
 const INTERVALS: [f64; 6] = [9.0, 17.0, 25.0, 42.0, 67.0, 109.0];
 
-/// Compares on `random` plans of three rows: 6 orders and 36 pairs of intervals.
-pub fn compare(random: u64) {
+/// Compares on the random plans of these numbers, of three rows: 6 orders and 36 pairs of intervals.
+pub fn compare(plans: std::ops::Range<u64>) {
     println!(
         "| plan | schedules | least risk of all, % | least of those found, % | of the first, % | verdict of the first | search, s | brute force, s | ratio |"
     );
     println!("|---|---|---|---|---|---|---|---|---|");
-    for n in 0..random {
-        let case = unsure(plans::case(n, Some(3), n % 2 == 0), ROOM[n as usize % ROOM.len()]);
+    for n in plans {
+        let case = unsure(super::plans::case(n, Some(3), n % 2 == 0), ROOM[n as usize % ROOM.len()]);
         let compute = ComputeSettings::of(&case.plan);
         let begun = Instant::now();
         let found = search(&case, Some(&Sampling::OF_VERDICT), &compute, &Progress::default());

@@ -10,9 +10,9 @@ use super::print_sharded::{print_orders, print_risks, print_search};
 use super::status::{Status, failed, wrong};
 use crate::plan::PlanSource;
 use crate::study::judge::judge_from_samples;
+use crate::study::merge::{Question, ShardResults, merge};
 use crate::study::orders::{rank, refine};
 use crate::study::search::search_after;
-use crate::study::work::merge::{Question, ShardResults, merge};
 use crate::study::{Case, Found, Progress};
 
 #[derive(Args)]

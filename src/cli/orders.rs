@@ -11,8 +11,8 @@ use super::print::print_text;
 use super::print_sharded::print_orders;
 use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
+use crate::study::merge::{Question, ShardResults, write_shard};
 use crate::study::orders::{MOST_ROWS, count, orders, tries_all, try_orders};
-use crate::study::work::merge::{Question, ShardResults, write_shard};
 use crate::study::{Found, Intervals, Shard};
 
 #[derive(Args)]

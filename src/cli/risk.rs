@@ -11,9 +11,9 @@ use super::print::print_text;
 use super::print_sharded::print_risks;
 use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
+use crate::study::merge::{Question, ShardResults, write_shard};
 use crate::study::samples::sample::OptionSample;
 use crate::study::samples::sampling::{Sampling, ShotToSample, draw_shard};
-use crate::study::work::merge::{Question, ShardResults, write_shard};
 use crate::study::{Case, Found, Shard};
 
 #[derive(Args)]

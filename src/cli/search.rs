@@ -13,8 +13,8 @@ use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::file;
 use crate::plan::{DelayOption, edit};
+use crate::study::merge::{Question, ShardResults, write_shard};
 use crate::study::search::{MOST_JUDGED, Search, search, try_schedules};
-use crate::study::work::merge::{Question, ShardResults, write_shard};
 use crate::study::{Case, Found, Shard};
 
 #[derive(Args)]

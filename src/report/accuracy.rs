@@ -5,7 +5,7 @@ use super::model::{Block, Cell, Column, Field, Report, Table};
 use super::paper_table::paper_table;
 use crate::choice::Method;
 use crate::study::Case;
-use crate::study::accuracy::{AccuracyTable, CLASSES, ErrorClass, Measured, StepRow};
+use crate::study::accuracy::{AccuracyTable, CLASSES, ErrorClass, Measured, NearestLimit, StepRow};
 use crate::study::paper_table::PaperRow;
 use crate::units::{self, Unit};
 
@@ -67,7 +67,9 @@ fn fields<'a>() -> [Field<MeasuredRow<'a>>; 13] {
 pub fn report(case: &Case, study: &AccuracyTable, paper: &[(Method, Vec<PaperRow>)]) -> Report {
     let mut blocks = vec![Block::Table(steps(study))];
     blocks.extend(charts::work_precision(study).map(Block::Chart));
-    blocks.push(Block::Text(CLASSES.iter().map(|&class| cheapest(study, class)).collect()));
+    let mut told = vec![enough(case, study)];
+    told.extend(CLASSES.iter().map(|&class| cheapest(study, class)));
+    blocks.push(Block::Text(told));
     blocks.extend(paper.iter().flat_map(|(method, ours)| paper_table(*method, ours)));
     let reference = units::milliseconds(study.reference_step);
     Report {
@@ -84,6 +86,24 @@ fn steps(study: &AccuracyTable) -> Table {
         drawn.missing = row.result.is_none().then(|| "not stable".to_owned());
     }
     table
+}
+
+/// Which level decides on the limits by its first run.
+pub fn enough(case: &Case, study: &AccuracyTable) -> String {
+    let levels = study.levels.map(|start| (start.level, study.nearest_limit(start.level, &case.limits)));
+    let found =
+        levels.into_iter().find_map(|(level, run)| Some((level, run.filter(NearestLimit::is_enough)?)));
+    let percent =
+        |share: f64| if share < 1e-4 { "under 0.01 %".to_owned() } else { units::percent(share, 2) };
+    match found {
+        Some((level, NearestLimit { error, margin })) => format!(
+            "{} is enough as planned: error {}, nearest limit {} away",
+            level.name(),
+            percent(error),
+            units::percent(margin, 1)
+        ),
+        None => "no level decides by its first run: a check refines until it is sure".to_owned(),
+    }
 }
 
 /// The cheapest step of each method within a class of errors.

@@ -11,6 +11,7 @@ use crate::study::Case;
 use crate::study::orders::{Orders, TriedOrder};
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::search::Schedule;
+use crate::units;
 use crate::verdict::Verdict;
 
 /// An order and its place in the ranking.
@@ -93,8 +94,11 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
     let so_far = if partial { " so far" } else { "" };
     let planned = if orders.has_risk() { " as planned" } else { " (the plan's own numbers only)" };
     let mut text = format!("{} of {all} orders pass{planned}{so_far}", orders.passing_as_planned());
-    if let Some((n, risk)) = all.checked_sub(1).and_then(|n| Some((n, *orders.risk(n).drawn()?))) {
-        text += &format!("; the best: {}, {}", orders.verdict_on(n).label(), sampled(risk));
+    if let Some((n, best)) = orders.ranked.iter().enumerate().next_back() {
+        let (order, interval) =
+            (row_names(case, &best.order).join(" "), units::exact_milliseconds(best.interval));
+        text += &format!("; the best, {order} at {interval}: {}", orders.verdict_on(n).label());
+        text.extend(orders.risk(n).drawn().map(|risk| format!(", {}", sampled(risk))));
     }
     let picture = charts::orders(case, orders);
     let tried = orders.ranked.iter().map(|tried| &tried.as_planned);

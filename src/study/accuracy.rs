@@ -4,11 +4,13 @@
 
 use std::time::{Duration, Instant};
 
+use super::as_planned::check::SURE_ERROR_FACTOR;
 use super::as_planned::step_error;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress};
 use crate::choice::{Accuracy, Method};
 use crate::outcome::Outcome;
 use crate::scene::Shot;
+use crate::verdict::{Limits, Quantity};
 
 /// One method at one step.
 #[derive(Clone, Debug)]
@@ -75,6 +77,22 @@ pub struct ErrorClass {
     pub force: f64,
 }
 
+/// The quantity of a run that is hardest to tell from its limit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearestLimit {
+    /// Error over value.
+    pub error: f64,
+    /// Distance between value and limit, over the value.
+    pub margin: f64,
+}
+
+impl NearestLimit {
+    /// Whether the limit is so far that a check needs no finer run.
+    pub fn is_enough(&self) -> bool {
+        SURE_ERROR_FACTOR * self.error < self.margin
+    }
+}
+
 /// The classes of accuracy, the coarser first.
 pub const CLASSES: [ErrorClass; 2] =
     [ErrorClass { height: 0.01, force: 0.02 }, ErrorClass { height: 0.002, force: 0.002 }];
@@ -138,6 +156,26 @@ fn first_step(case: &Case, accuracy: Accuracy) -> f64 {
 }
 
 impl AccuracyTable {
+    /// The limit that is hardest to decide on by the first run at a level; `None` where that is not stable, or nothing moves.
+    pub fn nearest_limit(&self, level: Accuracy, limits: &Limits) -> Option<NearestLimit> {
+        let step = self.levels.iter().find(|one| one.level == level)?.step;
+        let mut rows = self.rows.iter().filter(|row| row.method == Method::Verlet && row.step == step);
+        let run = rows.find_map(|row| row.result)?;
+        let values = [
+            (Quantity::Height, run.height, run.height_error),
+            (Quantity::Force, run.force, run.force_error),
+            (Quantity::Drift, run.drift, run.drift_error),
+        ];
+        let from_limit = |(quantity, value, error): (Quantity, f64, f64)| {
+            let limit = limits.get(quantity).filter(|_| value > 0.0)?;
+            Some(NearestLimit { error, margin: (limit / value - 1.0).abs() })
+        };
+        let all = values.into_iter().filter_map(from_limit);
+        all.min_by(|a, b| {
+            (a.margin - SURE_ERROR_FACTOR * a.error).total_cmp(&(b.margin - SURE_ERROR_FACTOR * b.error))
+        })
+    }
+
     /// The longest step of a method at which this step and all shorter steps are within a class; with its computing time.
     pub fn cheapest(&self, method: Method, class: ErrorClass) -> Option<(f64, Duration)> {
         let within = |row: &&StepRow| {

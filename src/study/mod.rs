@@ -2,13 +2,13 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | a plan made ready to run | [`Case`] |
+//! | a plan made ready to run; method, accuracy and step | [`Case`], [`ComputeSettings`] |
 //! | one shot as planned: checked, and what speaks against it | [`as_planned`] |
 //! | the shots that are possible: drawn, run, counted | [`samples`] |
 //! | both together: the judgement on an option, on all options | [`judgement`], [`judge`] |
 //! | why an option fails, or its verdict stays open | [`reasons`] |
 //! | other questions of the user, one each | [`sweep`], [`orders`], [`search`], [`size`], [`would_pass`], [`effects`], [`accuracy`], [`paper_table`], [`flight`], [`trace`] |
-//! | how work runs: on all cores, with progress, to be stopped, on many machines | [`work`] |
+//! | how work runs: on all cores, with progress, to be stopped | [`work`]; on many machines: [`merge`] |
 //!
 //! Three verbs: a shot as planned is *checked*, possible shots are *sampled*, and both together are *judged*.
 //!
@@ -19,10 +19,12 @@
 pub mod accuracy;
 pub mod as_planned;
 mod case;
+mod compute;
 pub mod effects;
 pub mod flight;
 pub mod judge;
 pub mod judgement;
+pub mod merge;
 pub mod orders;
 pub mod paper_table;
 pub mod reasons;
@@ -36,4 +38,5 @@ pub mod would_pass;
 
 pub use as_planned::shot_summary::{ShotSummary, ValueWithError};
 pub use case::Case;
-pub use work::{ComputeSettings, Finding, Found, Intervals, NoResult, Progress, Shard, guarded, thread_pool};
+pub use compute::ComputeSettings;
+pub use work::{Finding, Found, Intervals, NoResult, Progress, Shard, guarded, thread_pool};

@@ -20,12 +20,12 @@ use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
+use super::as_planned::full_check::{full_check, run_checks_or_unknown};
 use super::as_planned::quick_check::{quick_check_is_sure, quick_check_until};
 use super::judgement;
 use super::judgement::Sampled;
 use super::samples::risk_summary::{RiskSummary, find_risk_summaries};
 use super::samples::sampling::Sampling;
-use super::work::batch::{full_check, run_checks_or_unknown};
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, Shard, ShotSummary};
 use crate::plan::BlastRow;
 use crate::scene::{Firing, Shot};

@@ -99,6 +99,7 @@ impl App {
                 return self.act(chosen.action);
             }
             (Purpose::Export, Typed::Done) if !text.is_empty() => return Request::Export(text.into()),
+            (Purpose::Page, Typed::Done) if !text.is_empty() => return Request::Page(text.into()),
             (Purpose::SaveAs, Typed::Done) if !text.is_empty() => return Request::SaveAs(text.into()),
             _ => {}
         }
@@ -293,6 +294,7 @@ impl App {
             Action::Find => self.prompt = Some(Prompt::new(Purpose::Find, "")),
             Action::Palette => self.prompt = Some(Prompt::new(Purpose::Palette, "")),
             Action::Export => return self.name_export(),
+            Action::Page => return Request::NamePage(format!("{}-to-be-fired", self.stem())),
             Action::Yank => return Request::Yank,
             Action::Theme => self.theme = self.theme.next(),
             Action::Help => {
@@ -311,10 +313,13 @@ impl App {
 
     /// Asks for the file to export to; the name offered says plan and screen.
     fn name_export(&self) -> Request {
-        let plan = Path::new(&self.case.source.path);
-        let stem = plan.file_stem().and_then(|stem| stem.to_str()).unwrap_or("plan");
         let ending = if self.screen == Screen::Plan { "svg" } else { "csv" };
-        Request::NameExport(format!("{stem}-{}", self.screen.name().to_lowercase()), ending)
+        Request::NameExport(format!("{}-{}", self.stem(), self.screen.name().to_lowercase()), ending)
+    }
+
+    /// Name of the plan's file without its ending.
+    fn stem(&self) -> &str {
+        Path::new(&self.case.source.path).file_stem().and_then(|stem| stem.to_str()).unwrap_or("plan")
     }
 
     /// Closes the uppermost open thing; never leaves the program.

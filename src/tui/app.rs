@@ -48,6 +48,10 @@ pub enum Request {
     NameExport(String, &'static str),
     /// Write the contents of the screen to this file.
     Export(PathBuf),
+    /// Ask for a file for the page of the selected option; offer an unused name of this stem.
+    NamePage(String),
+    /// Write the page of the selected option to this file.
+    Page(PathBuf),
     /// Put the contents of the screen on the clipboard.
     Yank,
     /// Give the terminal back for now.
@@ -130,7 +134,7 @@ impl App {
     /// An app on which nothing is computed yet.
     pub fn new(case: Arc<Case>, compute: ComputeSettings, config: &Config) -> Self {
         let options = vec![OptionState::Waiting; case.plan.delays.len()];
-        let editor = Editor::new(&case.source.text);
+        let (editor, studies) = (Editor::new(&case.source.text), Studies::new(&case.source.text));
         Self {
             case,
             compute,
@@ -144,7 +148,7 @@ impl App {
             screen: Screen::default(),
             listing: Listing::default(),
             player: Player::default(),
-            studies: Studies::default(),
+            studies,
             editor,
             prompt: None,
             areas: Areas::new(),
@@ -233,7 +237,7 @@ impl App {
         self.options = vec![OptionState::Waiting; self.case.plan.delays.len()];
         self.selected = self.selected.min(self.options.len().saturating_sub(1));
         self.listing.baseline = None;
-        self.studies.forget();
+        self.studies.follow(&self.case.source.text);
         self.player.option = None;
         Request::CheckNewPlan
     }

@@ -19,18 +19,31 @@ pub fn write(app: &App, path: &Path) -> Result<(), String> {
     let text = match ending {
         "csv" => csv(app)?,
         "svg" => svg(app)?,
-        "html" => html::page(&Page {
-            case: &app.case,
-            results: &results(app)?,
-            fired: None,
-            sampling: Some(&Sampling::OF_VERDICT),
-            partial: false,
-            unsaved: !is_saved(app),
-            date: &html::today(),
-        }),
+        "html" => page(app, None)?,
         _ => return Err("the name must end in .csv, .svg or .html".to_owned()),
     };
     file::create(path, &text).map_err(|error| error.to_string())
+}
+
+/// Writes the page of the selected option to a new file, or says why not.
+pub fn write_page(app: &App, path: &Path) -> Result<(), String> {
+    if path.extension().is_none_or(|ending| ending != "html") {
+        return Err("the name must end in .html".to_owned());
+    }
+    file::create(path, &page(app, Some(app.selected))?).map_err(|error| error.to_string())
+}
+
+/// The page for the blast file, headed by the option to be fired.
+fn page(app: &App, fired: Option<usize>) -> Result<String, String> {
+    Ok(html::page(&Page {
+        case: &app.case,
+        results: &results(app)?,
+        fired,
+        sampling: Some(&Sampling::OF_VERDICT),
+        partial: false,
+        unsaved: !is_saved(app),
+        date: &html::today(),
+    }))
 }
 
 /// Whether the file of the plan holds the very text that was computed.

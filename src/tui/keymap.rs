@@ -80,6 +80,8 @@ pub enum Action {
     Yank,
     /// Write the contents of the screen to a file.
     Export,
+    /// Write the page of the selected option.
+    Page,
     /// Switch to the next theme.
     Theme,
     /// Show or hide the help.
@@ -200,6 +202,14 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Rerun, "rerun", &["r"], "", "compute again", ALL),
     bind(Action::Find, "search", &["/"], "find", "find: options by name or verdict, values, lines", ALL),
     bind(Action::Export, "export", &["e"], "export", "write what is shown to a CSV, SVG or HTML file", ALL),
+    bind(
+        Action::Page,
+        "page",
+        &["P"],
+        "page",
+        "write the page of the selected option: to be signed and fired",
+        COMPARE,
+    ),
     bind(Action::Yank, "copy", &["y"], "", "copy what is shown to the clipboard", ALL),
     bind(Action::Palette, "commands", &[":"], "", "choose a command by name", ALL),
     bind(Action::Theme, "theme", &["t"], "theme", "next theme: dark, light, sunlight", ALL),

@@ -207,15 +207,11 @@ impl Session {
             Request::NameExport(stem, ending) => {
                 self.app.ask_for_file(Purpose::Export, &file::unused_path(&stem, ending));
             }
-            Request::Export(path) => {
-                self.app.notice = Some(match export::write(&self.app, &path) {
-                    Ok(()) => format!("wrote {}", path.display()),
-                    Err(reason) => {
-                        self.app.ask_for_file(Purpose::Export, &path.to_string_lossy());
-                        reason
-                    }
-                });
+            Request::Export(path) => self.write(Purpose::Export, &path, export::write),
+            Request::NamePage(stem) => {
+                self.app.ask_for_file(Purpose::Page, &file::unused_path(&stem, "html"));
             }
+            Request::Page(path) => self.write(Purpose::Page, &path, export::write_page),
             Request::Yank => {
                 let copied = export::csv(&self.app).and_then(|text| {
                     let copy = io::stdout().execute(CopyToClipboard::to_clipboard_from(text)).map(|_| ());
@@ -224,6 +220,17 @@ impl Session {
                 self.app.notice = Some(copied.map_or_else(|reason| reason, |()| "copied as CSV".to_owned()));
             }
         }
+    }
+
+    /// Writes to a new file; asks for another name where that fails.
+    fn write(&mut self, purpose: Purpose, path: &Path, write: fn(&App, &Path) -> Result<(), String>) {
+        self.app.notice = Some(match write(&self.app, path) {
+            Ok(()) => format!("wrote {}", path.display()),
+            Err(reason) => {
+                self.app.ask_for_file(purpose, &path.to_string_lossy());
+                reason
+            }
+        });
     }
 
     /// Writes the plan to its file; asks for a new file where there is none, or another program has changed it.

@@ -84,7 +84,7 @@ impl App {
         let kept = self.studies.clone();
         let request = self.edited(edit);
         if matches!(offer, Offer::Option(_)) {
-            self.studies.keep(kept);
+            self.studies.keep(&kept);
         }
         // Its verdict stands there.
         self.screen = Screen::Compare;

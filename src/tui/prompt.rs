@@ -17,6 +17,8 @@ pub enum Purpose {
     Palette,
     /// The file to write the contents of the screen to.
     Export,
+    /// The file to write the page of the selected option to.
+    Page,
     /// The file to write the plan to.
     SaveAs,
 }

@@ -101,11 +101,17 @@ pub struct Studies {
     pub selected: usize,
     /// The list of [`StudyKind::WouldPass`]; `None` while it is closed.
     pub changes: Option<ChangeList>,
+    /// Text of the plan on the screen.
+    plan: Arc<str>,
     states: [StudyState; StudyKind::ALL.len()],
+    /// Text of the plan that each of the states is about.
+    plans: [Arc<str>; StudyKind::ALL.len()],
 }
 
-impl Default for Studies {
-    fn default() -> Self {
+impl Studies {
+    /// No study of the plan with this text yet.
+    pub fn new(plan: &str) -> Self {
+        let plan: Arc<str> = plan.into();
         Self {
             shown: StudyKind::Sweep,
             scroll: 0,
@@ -113,19 +119,29 @@ impl Default for Studies {
             selected: 0,
             changes: None,
             states: Default::default(),
+            plans: std::array::from_fn(|_| plan.clone()),
+            plan,
         }
     }
-}
 
-impl Studies {
-    /// State of a study.
+    /// State of a study of the plan on the screen.
     pub fn state(&self, kind: StudyKind) -> &StudyState {
-        &self.states[kind as usize]
+        let is_of_plan = self.plans[kind as usize] == self.plan;
+        if is_of_plan { &self.states[kind as usize] } else { &StudyState::Idle }
     }
 
-    /// Sets the state of a study.
+    /// The result of a study of the plan as it was before it was edited; it comes back with undo.
+    pub fn of_plan_before(&self, kind: StudyKind) -> Option<&ShownStudy> {
+        match &self.states[kind as usize] {
+            StudyState::Done(finished) if self.plans[kind as usize] != self.plan => Some(finished),
+            _ => None,
+        }
+    }
+
+    /// Sets the state of a study of the plan on the screen.
     pub fn set(&mut self, kind: StudyKind, state: StudyState) {
         self.states[kind as usize] = state;
+        self.plans[kind as usize] = self.plan.clone();
     }
 
     /// Whether a study computes.
@@ -163,16 +179,24 @@ impl Studies {
         }
     }
 
-    /// Drops every result; the same study stays shown.
-    pub fn forget(&mut self) {
-        *self = Self { shown: self.shown, ..Self::default() };
+    /// Follows a change of the plan to this text. Results stay, as those of the plan before; what computes has no result.
+    pub fn follow(&mut self, plan: &str) {
+        self.plan = plan.into();
+        for state in &mut self.states {
+            if !matches!(state, StudyState::Done(_)) {
+                *state = StudyState::Idle;
+            }
+        }
+        (self.scroll, self.selected, self.changes) = (0, 0, None);
+        self.filter.clear();
     }
 
-    /// Takes back the result of the study that was shown before the plan changed.
-    pub fn keep(&mut self, before: Self) {
+    /// Takes the result of the study that was shown before a change of the plan as one of the plan now: the change does not
+    /// concern it.
+    pub fn keep(&mut self, before: &Self) {
         let kind = before.shown;
         self.selected = before.selected;
-        self.states[kind as usize] = before.states[kind as usize].clone();
+        self.set(kind, before.states[kind as usize].clone());
     }
 
     /// Shows the study `by` tabs further; the first follows the last.

@@ -163,6 +163,9 @@ fn what_is_shown_is_offered_for_export() {
     let prompt = app.prompt.as_ref().expect("a file is asked for");
     assert_eq!((prompt.purpose, prompt.input.value()), (Purpose::Export, "amur-three-rows-compare.csv"));
     assert_eq!(key(&mut app, KeyCode::Enter), Request::Export("amur-three-rows-compare.csv".into()));
+    assert_eq!(press(&mut app, "P"), Request::NamePage("amur-three-rows-to-be-fired".to_owned()));
+    app.ask_for_file(Purpose::Page, "page.html");
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::Page("page.html".into()));
 }
 
 #[test]

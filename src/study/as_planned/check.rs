@@ -73,7 +73,7 @@ const MOST_REFINEMENTS: i32 = 12;
 
 /// Factor on the error with which a verdict must still stand. The error itself holds in 19 of 20 runs; a verdict must hold
 /// in more: with a factor of 2, 4 of 4,480 limits near true values were passed or failed wrongly.
-const SURE_ERROR_FACTOR: f64 = 3.0;
+pub const SURE_ERROR_FACTOR: f64 = 3.0;
 
 impl CheckedShot {
     /// Height [m], force [N] or drift [m].

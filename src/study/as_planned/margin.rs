@@ -1,8 +1,8 @@
 //! How much faster than planned the tires may leave before the shot as planned no longer passes.
 
+use super::full_check::or_unknown;
 use super::quick_check::quick_check;
 use crate::scene::Shot;
-use crate::study::work::batch::or_unknown;
 use crate::study::{Case, ComputeSettings, NoResult, Progress};
 use crate::verdict::Verdict;
 

@@ -2,7 +2,7 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | the check: run ever finer until the verdict is sure | [`check`]; one of thousands of shots: [`quick_check`] |
+//! | the check: run ever finer until the verdict is sure | [`check`]; one of thousands of shots: [`quick_check`]; many: [`full_check`] |
 //! | greatest values of a run, with the error of its step | `peaks`, [`step_error`] |
 //! | why it fails or stays open | [`shot_reason`] |
 //! | what no limit judges: the cover over unfired holes; what fires within 8 ms | [`cover`], [`together`] |
@@ -11,6 +11,7 @@
 
 pub mod check;
 pub mod cover;
+pub mod full_check;
 pub mod margin;
 mod peaks;
 pub mod quick_check;

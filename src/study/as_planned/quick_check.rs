@@ -6,6 +6,7 @@
 //! of the coarse runs succeed, the shot is checked instead.
 
 use super::cover::{Cover, CoverWatch};
+use super::full_check::full_check;
 use super::peaks::peaks;
 use super::shot_reason::{ShotReason, find_reasons_as_planned};
 use super::step_error;
@@ -13,7 +14,6 @@ use crate::choice::Accuracy;
 use crate::outcome::Outcome;
 use crate::scene::Shot;
 use crate::simulation::Motion;
-use crate::study::work::batch::full_check;
 use crate::study::{Case, ComputeSettings, NoResult, Progress, ShotSummary};
 use crate::verdict::Verdict;
 

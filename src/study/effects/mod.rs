@@ -14,11 +14,12 @@ use std::cmp::Ordering;
 use std::time::Instant;
 
 pub use self::effect::Effect;
+use super::as_planned::full_check::or_unknown;
 use super::as_planned::quick_check::quick_check;
 use super::samples::risk::percentiles;
 use super::samples::sample::Sample;
 use super::samples::sampling::{Sampling, ShotToSample, run_sample_once};
-use super::work::batch::{or_unknown, run_jobs};
+use super::work::batch::run_jobs;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, guarded};
 use crate::plan::Plan;
 use crate::verdict::{Limits, Quantity, Verdict};

@@ -12,8 +12,8 @@ use super::sample::{Sample, SampleRun};
 use crate::choice::Accuracy;
 use crate::scene::{Scene, Shot};
 use crate::study::as_planned::shot_reason::closes;
+use crate::study::compute::step_factor;
 use crate::study::work::batch::run_jobs;
-use crate::study::work::step_factor;
 use crate::study::{Case, ComputeSettings, Finding, Found, NoResult, Progress, Shard, ShotSummary, guarded};
 use crate::verdict::Verdict;
 

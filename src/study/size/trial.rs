@@ -8,10 +8,10 @@ use super::{Combination, Demand, SizingTask, Trial, Untried, WorstShotRisk};
 use crate::ropes::Rope;
 use crate::scene::Shot;
 use crate::study::as_planned::cover::Cover;
+use crate::study::as_planned::full_check::full_checks;
 use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::risk::Risk;
 use crate::study::samples::sampling::{Sampling, ShotToSample, find_risks_watched};
-use crate::study::work::batch::full_checks;
 use crate::study::{Case, Found, NoResult, ShotSummary, ValueWithError};
 use crate::verdict::Verdict;
 

@@ -11,10 +11,10 @@ use std::collections::BTreeSet;
 
 use super::{MOST_SAMPLED_GAP, Point, Sweep, deepest, nanoseconds, windows};
 use crate::scene::Shot;
+use crate::study::as_planned::full_check::{full_check, or_unknown};
 use crate::study::judgement::Sampled;
 use crate::study::samples::risk_summary::{RiskSummary, find_risk_summaries};
 use crate::study::samples::sampling::Sampling;
-use crate::study::work::batch::{full_check, or_unknown};
 use crate::study::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary};
 use crate::verdict::Verdict;
 

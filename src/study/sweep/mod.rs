@@ -17,12 +17,12 @@ mod accepted;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::as_planned::full_check::{full_check, run_checks, run_checks_or_unknown};
 use super::as_planned::quick_check::quick_check;
 use super::judgement;
 use super::judgement::Sampled;
 use super::samples::risk_summary::RiskSummary;
 use super::samples::sampling::Sampling;
-use super::work::batch::{full_check, run_checks, run_checks_or_unknown};
 use super::{Case, ComputeSettings, Finding, Found, Intervals, NoResult, Progress, ShotSummary};
 use crate::plan::Timing;
 use crate::scene::seconds;

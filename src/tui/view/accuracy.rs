@@ -9,6 +9,7 @@ use super::chart::{self, Mark};
 use super::parts::{draw_message, draw_progress};
 use crate::choice::Method;
 use crate::jobs::{StudyKind, StudyResult};
+use crate::report::accuracy::enough;
 use crate::report::charts::work_and_error;
 use crate::report::{effects, no_result};
 use crate::study::accuracy::{AccuracyTable, LevelStep, Measured};
@@ -83,6 +84,7 @@ fn levels<'l>(app: &App, study: &AccuracyTable) -> Vec<Line<'l>> {
         let style = if chosen { app.theme.selected() } else { app.theme.base() };
         lines.push(Line::from(Span::styled(start + &cost, style)));
     }
+    lines.push(Line::styled(enough(&app.case, study), app.theme.title()));
     lines.push(Line::styled(required(app), app.theme.base()));
     lines
 }
@@ -102,7 +104,9 @@ fn measured(study: &AccuracyTable, step: f64) -> Option<Measured> {
 }
 
 fn costs(m: Measured, base: Option<Measured>) -> String {
-    let percent = |error: f64| format!("{:.4} %", error * 100.0);
+    let percent = |error: f64| {
+        if error > 0.0 && error < 5e-7 { "<0.0001 %".to_owned() } else { format!("{:.4} %", error * 100.0) }
+    };
     let wall = m.wall.as_secs_f64();
     let times = base.map_or_else(String::new, |base| {
         format!(" {:.1} times draft", wall / base.wall.as_secs_f64().max(f64::MIN_POSITIVE))

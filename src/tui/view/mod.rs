@@ -188,6 +188,7 @@ fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
         Purpose::Find => " find: ",
         Purpose::Palette => " : ",
         Purpose::Export => " write to (.csv, .svg, .html): ",
+        Purpose::Page => " page of the selected option, to be fired: ",
         Purpose::SaveAs => " save the plan as: ",
     };
     if prompt.purpose == Purpose::Palette {

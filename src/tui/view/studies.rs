@@ -58,12 +58,20 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let tab = |kind: StudyKind| {
         let style = if kind == app.studies.shown { app.theme.selected() } else { app.theme.base() };
         let name = Span::styled(format!(" {} ", about(kind).0), style);
-        Line::from(vec![name, Span::styled(format!("{} ", app.studies.state(kind)), app.theme.quiet())])
+        let state = match app.studies.of_plan_before(kind) {
+            Some(_) => "before ".to_owned(),
+            None => format!("{} ", app.studies.state(kind)),
+        };
+        Line::from(vec![name, Span::styled(state, app.theme.quiet())])
     };
     let tabs_drawn = StudyKind::OF_PLAN.map(|kind| (tab(kind), ClickTarget::Study(kind)));
     draw_row(tabs_drawn, frame, tabs, areas);
     let kind = app.studies.shown;
-    let settings = app.studies.finished(kind).map(|finished| settings(app, finished));
+    let before = app.studies.of_plan_before(kind);
+    let settings = match before {
+        Some(_) => Some(of_plan_before(app)),
+        None => app.studies.finished(kind).map(|finished| settings(app, finished)),
+    };
     let rule = Block::new()
         .borders(Borders::TOP)
         .border_style(app.theme.quiet())
@@ -71,18 +79,19 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let inside = rule.inner(body);
     frame.render_widget(rule, body);
     let question = Line::styled(about(kind).1, app.theme.title());
-    match app.studies.state(kind) {
-        StudyState::Idle => {
+    match (app.studies.state(kind), before) {
+        (StudyState::Idle, Some(before)) => draw_finished(app, before, frame, inside, areas),
+        (StudyState::Idle, None) => {
             let hint = format!("{} starts it.", app.keymap.hint(Action::Open));
             draw_message(app, frame, inside, question, &hint);
         }
-        StudyState::Failed(failed) => {
+        (StudyState::Failed(failed), _) => {
             draw_message(app, frame, inside, question, &no_result::message(failed));
         }
-        StudyState::Running { done, total } => {
+        (StudyState::Running { done, total }, _) => {
             draw_progress(app, frame, inside, question, (*done, *total));
         }
-        StudyState::Done(finished) => draw_finished(app, finished, frame, inside, areas),
+        (StudyState::Done(finished), _) => draw_finished(app, finished, frame, inside, areas),
     }
 }
 
@@ -96,10 +105,18 @@ fn settings(app: &App, finished: &ShownStudy) -> Line<'static> {
     Line::styled(format!(" computed with {label}; {again} computes again "), app.theme.limit())
 }
 
+/// That a result is not of the plan on the screen.
+fn of_plan_before(app: &App) -> Line<'static> {
+    let [again, undo] = [Action::Rerun, Action::Undo].map(|action| app.keymap.hint(action));
+    Line::styled(format!(" OF THE PLAN BEFORE; {again} computes again, {undo} undoes "), app.theme.limit())
+}
+
 /// Draws the report of a study. The text may be scrolled; the charts take the rest of the area.
 fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let ReportLines { lines: mut all, offers } =
         lines(&finished.report, &app.studies.filter, app.theme, area.width);
+    // Only rows of the plan on the screen can be taken.
+    let offers = if app.studies.finished(app.studies.shown).is_some() { offers } else { Vec::new() };
     let selected = offers.get(app.studies.selected).map(|(line, _)| *line);
     if let Some(line) = selected {
         all[line] = std::mem::take(&mut all[line]).patch_style(app.theme.selected());
