@@ -164,6 +164,44 @@ choice! {
     }
 }
 
+choice! {
+    /// What was seen of a tire or a cable.
+    ObservedQuantity {
+        /// Greatest flight height of a tire [m].
+        FlightHeight = "flight_height_m",
+        /// Height of a tire at a time [m].
+        Height = "height_m",
+        /// Time at which a tire first leaves the ground [s].
+        Lift = "lift_s",
+        /// Time at which a tire first lands [s].
+        Landing = "landing_s",
+        /// Horizontal shift of a tire at the end [m].
+        Drift = "drift_m",
+        /// Greatest force of a cable [N].
+        Force = "cable_force_n",
+    }
+}
+
+choice! {
+    /// What a fit estimates.
+    Unknown {
+        /// One factor on all launch velocities.
+        Launch = "launch",
+        /// A factor on the launch velocities of each blast row.
+        LaunchByRow = "launch_by_row",
+        /// Coefficient of friction.
+        Friction = "friction",
+        /// Slack of all cables.
+        Slack = "slack_percent",
+        /// A factor on the axial stiffness of all cables.
+        AxialStiffness = "axial_stiffness",
+        /// Stiffness of tie and tire at each end of a cable.
+        EndStiffness = "end_stiffness",
+        /// Damping of the cables.
+        Damping = "damping",
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

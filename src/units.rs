@@ -71,6 +71,12 @@ pub fn value_and_error(value: f64, error: f64, unit: Unit) -> String {
     format!("{value:.decimals$} ± {shown:.decimals$}")
 }
 
+/// A value and its standard deviation, with two digits of that: `1.163 ± 0.014`.
+pub fn value_and_sd(value: f64, sd: f64) -> String {
+    let decimals = if sd > 0.0 { (1.0 - sd.log10().floor()).clamp(0.0, 9.0) as usize } else { 6 };
+    format!("{value:.decimals$} ± {sd:.decimals$}")
+}
+
 /// A value with the digits that its error leaves, without the error: `132`.
 pub fn known(value: f64, error: f64, unit: Unit) -> String {
     let both = value_and_error(value, error, unit);

@@ -162,7 +162,7 @@ pub struct StudyArguments {
 }
 
 /// A parser that takes the names of a choice, and shows them in the help.
-fn named<T>(names: &'static [&'static str]) -> impl TypedValueParser<Value = T>
+pub fn named<T>(names: &'static [&'static str]) -> impl TypedValueParser<Value = T>
 where
     T: FromStr<Err = UnknownName> + Clone + Send + Sync + 'static,
 {

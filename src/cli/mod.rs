@@ -11,6 +11,7 @@ mod check_plans;
 mod completions;
 mod config;
 mod effects;
+mod fit;
 mod init;
 mod load_plans;
 mod man;
@@ -75,6 +76,8 @@ enum Command {
     Search(search::Arguments),
     /// Which physical effects this scene requires: each switched on or taken away
     Effects(effects::Arguments),
+    /// Launch velocities and other unknowns from what was seen of earlier shots
+    Fit(fit::Arguments),
     /// The lightest rope, tires and border with which every option passes
     Size(size::Arguments),
     /// Joins the shards of `orders`, `risk` or `search` that several machines computed
@@ -100,7 +103,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ("Decide", &["check", "search", "risk", "report"]),
     ("Plan", &["init", "ropes", "size"]),
     ("Study", &["sweep", "orders", "merge"]),
-    ("Learn", &["effects", "accuracy", "trace"]),
+    ("Learn", &["fit", "effects", "accuracy", "trace"]),
     ("Set up", &["config", "schema", "completions", "man", "help"]),
 ];
 
@@ -156,6 +159,7 @@ pub fn run() -> ExitCode {
         (Some(Command::Risk(arguments)), _) => risk::run(&arguments, &cli.look),
         (Some(Command::Search(arguments)), _) => search::run(&arguments, &cli.look),
         (Some(Command::Effects(arguments)), _) => effects::run(&arguments, &cli.look),
+        (Some(Command::Fit(arguments)), _) => fit::run(&arguments, &cli.look),
         (Some(Command::Size(arguments)), _) => size::run(&arguments, &cli.look),
         (Some(Command::Merge(arguments)), _) => merge::run(&arguments, &cli.look),
         (Some(Command::Report(arguments)), _) => report::run(&arguments, &cli.look),

@@ -99,7 +99,7 @@ impl Change {
             }),
             Change::Slack(percent) => change_slack(&mut document, percent),
             Change::Launch(factor) => {
-                let scaled = |by: f64| move |value: f64| rounded(value * by);
+                let scaled = |by: f64| move |_, value: f64| rounded(value * by);
                 change_launches(&mut document, &scaled(factor), &scaled(factor * factor));
             }
             Change::Interval { .. } => {}

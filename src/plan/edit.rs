@@ -47,7 +47,7 @@ pub fn write_sizes(
     if let Some(old) = old.filter(|&old| old != tire_mass_kg) {
         change_section(&mut document, &plan::TIRE, |tire| set(tire, MASS_KG.name, tire_mass_kg.into()));
         // By the same momentum; a height grows with the square of its velocity.
-        change_launches(&mut document, &|speed| speed * old / tire_mass_kg, &|height| {
+        change_launches(&mut document, &|_, speed| speed * old / tire_mass_kg, &|_, height| {
             height * (old / tire_mass_kg).powi(2)
         });
     }
@@ -154,31 +154,35 @@ pub(super) fn as_number(value: &Value) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }
 
-/// Changes the launches of all blast rows and holes: each by `speed` [m/s], or by `height` [m] where the plan gives that.
+/// Changes the launches of all blast rows and holes, each by the index of its row and by `speed` [m/s], or by `height` [m] where
+/// the plan gives that.
 pub(super) fn change_launches(
     document: &mut DocumentMut,
-    speed: &dyn Fn(f64) -> f64,
-    height: &dyn Fn(f64) -> f64,
+    speed: &dyn Fn(usize, f64) -> f64,
+    height: &dyn Fn(usize, f64) -> f64,
 ) {
-    fn each(item: Option<&mut Item>, change: &dyn Fn(&mut dyn TableLike)) {
+    fn each(item: Option<&mut Item>, change: &dyn Fn(usize, &mut dyn TableLike)) {
         match item {
-            Some(Item::ArrayOfTables(tables)) => tables.iter_mut().for_each(|table| change(table)),
+            Some(Item::ArrayOfTables(tables)) => {
+                tables.iter_mut().enumerate().for_each(|(n, table)| change(n, table));
+            }
             Some(Item::Value(Value::Array(list))) => {
-                list.iter_mut().filter_map(Value::as_inline_table_mut).for_each(|table| change(table));
+                let tables = list.iter_mut().filter_map(Value::as_inline_table_mut);
+                tables.enumerate().for_each(|(n, table)| change(n, table));
             }
             _ => {}
         }
     }
-    let change = |table: &mut dyn TableLike| {
+    let change = |row: usize, table: &mut dyn TableLike| {
         for (key, new) in [(LAUNCH_M_S, speed), (FREE_FLIGHT_HEIGHT_M, height)] {
             if let Some(old) = number(table, key.name) {
-                set(table, key.name, new(old).into());
+                set(table, key.name, new(row, old).into());
             }
         }
     };
-    each(document.get_mut(plan::BLAST_ROW.name), &|row| {
-        change(row);
-        each(row.get_mut(HOLES.name), &change);
+    each(document.get_mut(plan::BLAST_ROW.name), &|row, table| {
+        change(row, table);
+        each(table.get_mut(HOLES.name), &|_, hole| change(row, hole));
     });
 }
 

@@ -9,8 +9,10 @@ pub mod change;
 mod diagnostic;
 pub mod edit;
 pub mod fields;
+pub mod fitted;
 pub mod import;
 pub mod keys;
+pub mod observations;
 mod read;
 pub mod schema;
 mod source;
@@ -51,6 +53,8 @@ pub struct Plan {
     pub simulation: SimulationSpec,
     /// What is not known of the shot, and how far.
     pub uncertainty: Uncertainty,
+    /// SHA-256 of every file of observations that a fit has written into this plan, in hexadecimal digits.
+    pub fitted_from: Vec<String>,
     /// Choices of `shelter size`.
     pub size: SizeSpec,
     /// Choices of `shelter search`.

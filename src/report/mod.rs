@@ -3,7 +3,7 @@
 //! | what | where |
 //! |---|---|
 //! | what a report is | [`model`] |
-//! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`why`], [`accuracy`], [`ropes`], [`trace`] |
+//! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`mod@fit`], [`why`], [`accuracy`], [`ropes`], [`trace`] |
 //! | words, charts and columns that reports share | [`explain`], [`limits`], [`no_result`], [`notes`], [`warnings`], [`charts`], [`shared_columns`], rows of options |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |
 //! | what faces share | [`palette`], [`ascii`], [`spark`], labels of cells |
@@ -17,6 +17,7 @@ pub mod check;
 pub mod csv;
 pub mod effects;
 pub mod explain;
+pub mod fit;
 #[cfg(feature = "page")]
 pub mod html;
 pub mod json;

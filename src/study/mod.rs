@@ -7,7 +7,7 @@
 //! | the shots that are possible: drawn, run, counted | [`samples`] |
 //! | both together: the judgement on an option, on all options | [`judgement`], [`judge`] |
 //! | why an option fails, or its verdict stays open | [`reasons`] |
-//! | other questions of the user, one each | [`sweep`], [`orders`], [`search`], [`size`], [`would_pass`], [`effects`], [`accuracy`], [`paper_table`], [`flight`], [`trace`] |
+//! | other questions of the user, one each | [`sweep`], [`orders`], [`search`], [`size`], [`would_pass`], [`effects`], [`mod@fit`], [`accuracy`], [`paper_table`], [`flight`], [`trace`] |
 //! | how work runs: on all cores, with progress, to be stopped | [`work`]; on many machines: [`merge`] |
 //!
 //! Three verbs: a shot as planned is *checked*, possible shots are *sampled*, and both together are *judged*.
@@ -21,6 +21,7 @@ pub mod as_planned;
 mod case;
 mod compute;
 pub mod effects;
+pub mod fit;
 pub mod flight;
 pub mod judge;
 pub mod judgement;

@@ -10,6 +10,7 @@ mod documents;
 mod effects;
 mod extremes;
 mod faults;
+mod fit;
 mod flight;
 mod hole_by_hole;
 mod hostile;

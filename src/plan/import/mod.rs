@@ -4,10 +4,10 @@ mod columns;
 mod direction;
 mod header;
 mod holes;
-mod number;
+pub(super) mod number;
 #[cfg(feature = "shotplus")]
 mod shotplus;
-mod table;
+pub(super) mod table;
 mod timing;
 
 use std::collections::HashSet;

@@ -80,7 +80,8 @@ pub fn split(source: &str, remedy: &str) -> Result<Table, Vec<Mistake>> {
     Ok(Table { has_header, lines, titles: Vec::new(), separator })
 }
 
-fn lines(source: &str, separator: u8) -> Result<Vec<Line>, csv::Error> {
+/// The lines of a table that are not blank, with what `separator` separates in them.
+pub fn lines(source: &str, separator: u8) -> Result<Vec<Line>, csv::Error> {
     let mut reader = csv::ReaderBuilder::new()
         .delimiter(separator)
         .has_headers(false)

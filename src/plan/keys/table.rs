@@ -238,6 +238,8 @@ sections! {
             .edit("tire masses, %").offered();
         BREAKING_FORCE_CV_PERCENT = key("breaking_force_cv_percent", PERCENT, "3", "of breaking forces, cable by cable")
             .default(0.0).edit("breaking forces, %").offered();
+        FITTED_FROM = key("fitted_from", Kind::List(&Kind::Text), "[\"…\"]",
+            "checksums of the observations that `shelter fit --write` has used");
     }
 
     search "[search]" "what `shelter search` may choose from" {

@@ -56,7 +56,7 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
     let blast_rows = read_blast_rows(root, layout.as_ref(), &simulation, mistakes);
     let limits = root.section(&LIMITS).map(read_limits);
     let delays = read_delays(root, &blast_rows, mistakes);
-    let uncertainty = read_uncertainty(
+    let (uncertainty, fitted_from) = read_uncertainty(
         root.section_or_empty(&UNCERTAINTY),
         !root.has(&UNCERTAINTY),
         ground.map_or(0.0, |ground| ground.friction),
@@ -77,6 +77,7 @@ fn read_plan(root: &SectionReader<'_>, mistakes: &Mistakes) -> Option<Plan> {
         delays,
         simulation,
         uncertainty,
+        fitted_from,
         size,
         search,
     };

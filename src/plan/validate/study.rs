@@ -8,13 +8,15 @@ use crate::plan::read::SectionReader;
 use crate::plan::{DelayScatter, HoleTiming, SearchSpec, SizeSpec, Uncertainty};
 use crate::ropes::catalogue;
 
-/// Reads `[uncertainty]` of a plan with this friction and slack [%]; `assumed`: the plan has no such section.
+/// Reads `[uncertainty]` of a plan with this friction and slack [%], and the checksums of the observations it comes from;
+/// `assumed`: the plan has no such section.
 pub fn read_uncertainty(
     section: SectionReader<'_>,
     assumed: bool,
     friction: f64,
     slack_percent: f64,
-) -> Uncertainty {
+) -> (Uncertainty, Vec<String>) {
+    let used = section.texts(&uncertainty::FITTED_FROM).map_or_else(Vec::new, |list| list.value);
     let uncertainty = Uncertainty {
         assumed,
         incomplete: OF_INPUTS.iter().any(|key| !section.has(key)),
@@ -36,7 +38,7 @@ pub fn read_uncertainty(
         breaking_force_cv_percent: section.number(&uncertainty::BREAKING_FORCE_CV_PERCENT),
     };
     section.finish();
-    uncertainty
+    (uncertainty, used.into_iter().map(|checksum| checksum.value.to_owned()).collect())
 }
 
 /// Keys whose default is an input known to 1 %.

@@ -3,6 +3,7 @@
 mod accuracy;
 mod check;
 mod effects;
+mod fit;
 mod orders;
 mod risk;
 mod ropes;
@@ -19,6 +20,7 @@ use serde::Serialize;
 pub use self::accuracy::AccuracyDocument;
 pub use self::check::CheckDocument;
 pub use self::effects::EffectsDocument;
+pub use self::fit::FitDocument;
 pub use self::orders::OrdersDocument;
 pub use self::risk::RiskDocument;
 pub use self::ropes::RopesDocument;

@@ -257,7 +257,7 @@ const OF_CRITICAL_STEP: f64 = 0.55;
 const OF_REFERENCE: f64 = 0.25;
 
 /// Step of a sample [s]: the fixed step where there is one.
-fn step(compute: &ComputeSettings, scene: &Scene) -> f64 {
+pub(in crate::study) fn step(compute: &ComputeSettings, scene: &Scene) -> f64 {
     let level = if compute.accuracy == Accuracy::Reference { OF_REFERENCE } else { 1.0 };
     let usual = LONGEST_STEP.min(OF_CRITICAL_STEP * scene.critical_step());
     compute.step.unwrap_or(step_factor(compute.method) * level * usual)

@@ -1,0 +1,146 @@
+//! `shelter fit`: launch velocities and other unknowns from what was seen of earlier shots.
+
+use std::io::{self, IsTerminal};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use itertools::Itertools;
+
+use super::arguments::{LookArguments, StudyArguments, named};
+use super::load_plans::open;
+use super::print::{print, print_text};
+use super::run_study::run_study;
+use super::status::{Status, failed, wrong};
+use crate::choice::Unknown;
+use crate::file;
+use crate::plan::Plan;
+use crate::plan::fitted;
+use crate::plan::observations::{Observations, template};
+use crate::report::fit::{refusal, report};
+use crate::report::json::FitDocument;
+use crate::study::fit::{Fit, FitResult, Request, addresses, fit};
+use crate::study::{Case, Found};
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Plan of the shots that were observed
+    plan: PathBuf,
+    /// Observations as CSV; a file for each time that an option was fired
+    #[arg(long, value_name = "FILE.csv", required_unless_present = "template")]
+    observed: Vec<PathBuf>,
+    /// What to estimate
+    #[arg(long, value_delimiter = ',', default_value = "launch", value_parser = named::<Unknown>(Unknown::NAMES))]
+    unknown: Vec<Unknown>,
+    /// Write the estimates into the plan, and their standard deviations into its [uncertainty]
+    #[arg(long)]
+    write: bool,
+    /// Print a file of observations to begin with
+    #[arg(long, conflicts_with_all = ["observed", "write", "unknown"])]
+    template: bool,
+    #[command(flatten)]
+    study: StudyArguments,
+}
+
+pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
+    let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
+    if arguments.template {
+        print_text(&template_of(&case))?;
+        return Ok(Status::Pass);
+    }
+    if arguments.write && case.source.path == "-" {
+        return wrong("--write has no file to write into: give the plan by its name");
+    }
+    let unknowns = &arguments.unknown;
+    if let Some(message) = contradiction(unknowns) {
+        return wrong(&message);
+    }
+    let Some(files) = read(&case, &arguments.observed, look) else { return Ok(Status::Wrong) };
+    if let Some(message) = used_twice(&case, &files) {
+        return wrong(&message);
+    }
+    let compute = arguments.study.compute.settings(&case.plan);
+    let sampling = arguments.study.verdict.sampling();
+    let request = Request { files: &files, unknowns, sampling };
+    let found = match run_study(&arguments.study.compute, |progress| fit(&case, &request, &compute, progress))
+    {
+        Err(reason) => return failed(&reason),
+        Ok(Found { value: found, .. }) => found,
+    };
+    if let Some(message) = refusal(&case, &found) {
+        return wrong(&message);
+    }
+    let FitResult::Fitted(fit) = &found else { return Ok(Status::Wrong) };
+    let document = || FitDocument::new(&case, &files, fit);
+    let reports = [report(&case, &files, fit, sampling.is_some())];
+    let status = print(&reports, document, arguments.study.format, look)?;
+    if arguments.write {
+        match reports[0].conclusion.as_ref() {
+            Some(conclusion) => eprintln!("nothing was written: {}", conclusion.text),
+            None => write(&arguments.plan, &case, &files, fit)?,
+        }
+    }
+    Ok(status)
+}
+
+/// The observations of all files; prints every mistake, `None` where there is one.
+fn read(case: &Case, paths: &[PathBuf], look: &LookArguments) -> Option<Vec<Observations>> {
+    let known = addresses(case);
+    let open = |path: &PathBuf| {
+        let read = Observations::read(path, &known);
+        read.inspect_err(|mistakes| eprint!("{}", mistakes.render(look.colored(io::stderr().is_terminal()))))
+            .ok()
+    };
+    // All of them are read before the first mistake ends the command.
+    let files: Vec<Option<Observations>> = paths.iter().map(open).collect();
+    files.into_iter().collect()
+}
+
+/// What is wrong with unknowns that are each right by themselves.
+fn contradiction(unknowns: &[Unknown]) -> Option<String> {
+    if unknowns.contains(&Unknown::Launch) && unknowns.contains(&Unknown::LaunchByRow) {
+        return Some("launch and launch_by_row contradict one another: choose one of them".to_owned());
+    }
+    let twice = unknowns.iter().duplicates_by(|unknown| unknown.name()).next()?;
+    Some(format!("--unknown names {twice} twice"))
+}
+
+/// Which file is in the plan already, or is named twice.
+fn used_twice(case: &Case, files: &[Observations]) -> Option<String> {
+    let in_plan = files.iter().find(|file| case.plan.fitted_from.contains(&file.checksum));
+    if let Some(file) = in_plan {
+        return Some(format!(
+            "{} was fitted into {} already, as its [uncertainty] says: the same observations do not count twice; leave the file out",
+            file.path, case.source.path
+        ));
+    }
+    let file = files.iter().duplicates_by(|file| &file.checksum).next()?;
+    Some(format!("{} holds the same observations as a file before it: name each once", file.path))
+}
+
+/// A file of observations with a tire and a cable of the plan.
+fn template_of(case: &Case) -> String {
+    let scene = case.scene();
+    let tire = case.shots[0].firings.first().map_or(0, |firing| firing.tire);
+    let cable =
+        scene.cables.iter().position(|cable| cable.ends.contains(&tire)).map(|cable| scene.cable_name(cable));
+    template(&case.plan.delays[0].name, &scene.tire[tire].to_string(), cable.as_deref())
+}
+
+/// Writes the estimates into the plan.
+fn write(path: &Path, case: &Case, files: &[Observations], fit: &Fit) -> io::Result<()> {
+    if std::fs::read_to_string(path)? != case.source.text {
+        return Err(io::Error::other("the plan has changed meanwhile; nothing was written"));
+    }
+    let checksums: Vec<String> = files.iter().map(|file| file.checksum.clone()).collect();
+    let text =
+        fitted::write(&case.source.text, &fit.answers[0].fitted(), &checksums).map_err(io::Error::other)?;
+    if let Err(mistakes) = Plan::parse(&case.source.path, &text) {
+        return Err(io::Error::other(format!(
+            "the plan would not be valid; nothing was written: {}",
+            mistakes.first()
+        )));
+    }
+    file::save(path, &text)?;
+    eprintln!("written: {}", path.display());
+    Ok(())
+}

@@ -1,0 +1,222 @@
+//! What a fit writes into the text of a plan: estimates, how well they are known, and which observations they come from.
+
+use toml_edit::{Array, DocumentMut, Item, TableLike, Value};
+
+use super::edit::{change_launches, change_section, replace_keys, set, with_line_ends_of};
+use super::keys::{cable, ground, plan, uncertainty};
+use crate::choice::Unknown;
+use crate::plan::keys::Key;
+use crate::ropes::catalogue;
+use crate::units::{self, Unit};
+
+/// Which inputs `[uncertainty]` of a plan states; the others have defaults.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StatedKeys {
+    /// The launch in common.
+    pub launch_common: bool,
+    /// Friction.
+    pub friction: bool,
+    /// Slack.
+    pub slack: bool,
+    /// Axial stiffness.
+    pub axial_stiffness: bool,
+}
+
+impl StatedKeys {
+    /// What the text of a plan states.
+    pub fn of(text: &str) -> Self {
+        let document: Option<DocumentMut> = text.trim_start_matches('\u{feff}').parse().ok();
+        let section = document.as_ref().and_then(|document| document.get(plan::UNCERTAINTY.name));
+        let section = section.and_then(Item::as_table_like);
+        let has = |key: &Key| section.is_some_and(|section| section.contains_key(key.name));
+        Self {
+            launch_common: has(&uncertainty::LAUNCH_COMMON_PERCENT),
+            friction: has(&uncertainty::FRICTION),
+            slack: has(&uncertainty::SLACK_PERCENT),
+            axial_stiffness: has(&uncertainty::AXIAL_STIFFNESS_PERCENT),
+        }
+    }
+}
+
+/// One estimate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fitted {
+    /// What is estimated.
+    pub unknown: Unknown,
+    /// Index of the blast row, of a launch by row.
+    pub row: Option<usize>,
+    /// The estimate: a factor on launch velocities, else in the unit of the key of the plan.
+    pub value: f64,
+    /// Its standard deviation.
+    pub sd: f64,
+}
+
+impl Fitted {
+    /// Standard deviation over estimate [%].
+    fn percent(&self) -> f64 {
+        1e2 * self.sd / self.value
+    }
+
+    /// The ends of the uniform distribution with this mean and standard deviation, not below 0.
+    fn ends(&self) -> [f64; 2] {
+        let half = 3.0_f64.sqrt() * self.sd;
+        [(self.value - half).max(0.0), self.value + half]
+    }
+}
+
+/// The text of a plan with these estimates, and with the checksums of the observations behind them. Comments and formatting stay.
+/// A stiffness of rope takes the place of the rope's name. Launches by row leave the greatest of their standard deviations.
+pub fn write(text: &str, fitted: &[Fitted], checksums: &[String]) -> Result<String, String> {
+    let mut document: DocumentMut =
+        text.parse().map_err(|error: toml_edit::TomlError| error.message().to_owned())?;
+    for estimate in fitted {
+        write_value(&mut document, estimate);
+    }
+    let launches = fitted.iter().filter(|one| matches!(one.unknown, Unknown::Launch | Unknown::LaunchByRow));
+    let launch_percent = launches.map(Fitted::percent).reduce(f64::max);
+    change_section(&mut document, &plan::UNCERTAINTY, |section| {
+        if let Some(percent) = launch_percent {
+            set(section, uncertainty::LAUNCH_COMMON_PERCENT.name, short(percent).into());
+        }
+        for estimate in fitted {
+            match estimate.unknown {
+                Unknown::Friction => set_range(section, &uncertainty::FRICTION, estimate.ends()),
+                Unknown::Slack => set_range(section, &uncertainty::SLACK_PERCENT, estimate.ends()),
+                Unknown::AxialStiffness => {
+                    let half = 3.0_f64.sqrt() * estimate.percent();
+                    set_range(section, &uncertainty::AXIAL_STIFFNESS_PERCENT, [-half, half]);
+                }
+                Unknown::Launch | Unknown::LaunchByRow | Unknown::EndStiffness | Unknown::Damping => {}
+            }
+        }
+        let used = section.entry(uncertainty::FITTED_FROM.name).or_insert(Array::new().into());
+        if let Some(list) = used.as_array_mut() {
+            checksums.iter().for_each(|checksum| list.push(checksum.as_str()));
+        }
+    });
+    Ok(with_line_ends_of(text, &document))
+}
+
+/// Writes an estimate in place of the plan's number.
+fn write_value(document: &mut DocumentMut, estimate: &Fitted) {
+    let value = estimate.value;
+    let of_row = |row: usize| if estimate.row.is_none_or(|own| own == row) { value } else { 1.0 };
+    match estimate.unknown {
+        Unknown::Launch | Unknown::LaunchByRow => {
+            change_launches(document, &|row, speed| short(speed * of_row(row)), &|row, height| {
+                short(height * of_row(row).powi(2))
+            })
+        }
+        Unknown::Friction => change_section(document, &plan::GROUND, |section| {
+            set(section, ground::FRICTION.name, short(value).into());
+        }),
+        Unknown::Slack => set_of_cable(document, &cable::SLACK_PERCENT, value),
+        Unknown::EndStiffness => set_of_cable(document, &cable::END_STIFFNESS_KN_M, value),
+        Unknown::Damping => set_of_cable(document, &cable::DAMPING_PERCENT, value),
+        Unknown::AxialStiffness => {
+            change_section(document, &plan::CABLE, |section| {
+                let rope = section.get(cable::ROPE.name).and_then(Item::as_str);
+                if let Some(rope) = rope.and_then(|name| catalogue().find(name)) {
+                    let breaking = rope.breaking_force_kn;
+                    replace_keys(section, &[&cable::ROPE], &cable::AXIAL_STIFFNESS_KN, short(value).into());
+                    set(section, cable::BREAKING_FORCE_KN.name, breaking.into());
+                }
+            });
+            set_of_cable(document, &cable::AXIAL_STIFFNESS_KN, value);
+        }
+    }
+}
+
+fn set_of_cable(document: &mut DocumentMut, key: &Key, value: f64) {
+    change_section(document, &plan::CABLE, |section| set(section, key.name, short(value).into()));
+}
+
+fn set_range(section: &mut dyn TableLike, key: &Key, ends: [f64; 2]) {
+    set(section, key.name, Value::from_iter(ends.map(short)));
+}
+
+/// The number with six digits.
+fn short(number: f64) -> f64 {
+    units::exact(number, Unit::One).parse().unwrap_or(number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::Plan;
+
+    const PLAN: &str = include_str!("../../plans/amur-three-rows.toml");
+
+    fn written(text: &str, fitted: &[Fitted]) -> (String, Plan) {
+        let text = write(text, fitted, &["ab12".to_owned()]).expect("TOML");
+        let plan = Plan::parse("plan.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        (text, plan)
+    }
+
+    fn fitted(unknown: Unknown, value: f64, sd: f64) -> Fitted {
+        Fitted { unknown, row: None, value, sd }
+    }
+
+    /// Every line that no estimate is about stays as it is, with its comment.
+    #[test]
+    fn only_the_lines_of_estimates_change() {
+        let all = [
+            fitted(Unknown::Launch, 1.1, 0.022),
+            fitted(Unknown::Friction, 0.45, 0.02),
+            fitted(Unknown::Slack, 0.1, 0.1),
+        ];
+        let (text, plan) = written(PLAN, &all);
+        let changed: Vec<&str> = text.lines().filter(|line| !PLAN.lines().any(|old| old == *line)).collect();
+        assert_eq!(
+            changed,
+            [
+                "slack_percent = 0.1",
+                "friction = 0.45          # rocky soil 0.3 to 0.5",
+                "launch_m_s = 6.6",
+                "launch_m_s = 6.6",
+                "launch_m_s = 6.6",
+                "launch_common_percent = 2.0        # of the whole shot at once; assumed: put in yours",
+                "friction = [0.415359, 0.484641]            # rocky soil",
+                "slack_percent = [0.0, 0.273205]       # assumed: measure yours",
+                "fitted_from = [\"ab12\"]",
+            ]
+        );
+        assert_eq!(plan.fitted_from, ["ab12"]);
+        let again = write(&text, &[], &["cd34".to_owned()]).expect("TOML");
+        assert!(again.contains("fitted_from = [\"ab12\", \"cd34\"]"), "{again}");
+        let windows = write(&PLAN.replace('\n', "\r\n"), &all, &["ab12".to_owned()]).expect("TOML");
+        assert_eq!(windows, text.replace('\n', "\r\n"));
+    }
+
+    /// The rope keeps its breaking force under the same termination.
+    #[test]
+    fn a_fitted_stiffness_takes_the_place_of_the_rope() {
+        let before = Plan::parse("", PLAN).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let (_, plan) = written(
+            PLAN,
+            &[fitted(Unknown::AxialStiffness, 5000.0, 250.0), fitted(Unknown::EndStiffness, 900.0, 1.0)],
+        );
+        assert_eq!(plan.cable.axial_stiffness_kn, 5000.0);
+        assert_eq!(plan.cable.breaking_force_kn, before.cable.breaking_force_kn);
+        assert_eq!(plan.cable.end_stiffness_kn_m, Some(900.0));
+        assert_eq!(plan.uncertainty.axial_stiffness_percent, [-8.66025, 8.66025]);
+    }
+
+    #[test]
+    fn launches_of_a_row_change_alone() {
+        let row = |row, value| Fitted { row: Some(row), ..fitted(Unknown::LaunchByRow, value, 0.05) };
+        let (_, plan) = written(PLAN, &[row(0, 0.5), row(1, 1.0), row(2, 2.0)]);
+        let speeds: Vec<f64> = plan.launches().map(|launch| launch.speed_m_s).collect();
+        assert_eq!(speeds, [3.0, 6.0, 12.0]);
+        assert_eq!(plan.uncertainty.launch_common_percent, 10.0);
+    }
+
+    #[test]
+    fn a_plan_without_the_section_gets_it() {
+        let text = &PLAN[..PLAN.find("[uncertainty]").expect("the section")];
+        assert_eq!(StatedKeys::of(text), StatedKeys::default());
+        let (text, plan) = written(text, &[fitted(Unknown::Launch, 0.9, 0.018)]);
+        assert_eq!(plan.uncertainty.launch_common_percent, 2.0);
+        assert_eq!(StatedKeys::of(&text), StatedKeys { launch_common: true, ..StatedKeys::default() });
+    }
+}

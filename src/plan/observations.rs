@@ -1,0 +1,430 @@
+//! Reads what was seen of earlier shots: a table of values of tires and cables, each with its standard deviation.
+//!
+//! The header names the columns of [`COLUMNS`], in any order. Separators, decimal commas and a byte order mark are read as in lists
+//! of holes ([`import`](super::import)). Lines that begin with `#` are left out.
+
+use std::path::Path;
+
+use itertools::Itertools;
+use sha2::{Digest, Sha256};
+
+use super::Diagnostics;
+use super::diagnostic::Mistake;
+use super::import::number::{Decimals, both_ways, decimals, value};
+use super::import::table::{Line, lines};
+use super::read::nearest;
+use super::source::{read_bytes, text_of};
+use crate::choice::ObservedQuantity;
+
+/// Names of the columns.
+pub const COLUMNS: [&str; 7] = ["option", "tire", "cable", "quantity", "at_s", "value", "sd"];
+const OPTION: usize = 0;
+const TIRE: usize = 1;
+const CABLE: usize = 2;
+const QUANTITY: usize = 3;
+const AT: usize = 4;
+const VALUE: usize = 5;
+const SD: usize = 6;
+
+/// One file of observations: what was seen of one shot of each delay option in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Observations {
+    /// The file as the user named it.
+    pub path: String,
+    /// SHA-256 of the file, in hexadecimal digits.
+    pub checksum: String,
+    /// Lines of the file; never empty.
+    pub list: Vec<Observation>,
+}
+
+/// One value that was seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Observation {
+    /// Index of the delay option that was fired.
+    pub option: usize,
+    /// What was watched.
+    pub watched: Watched,
+    /// The value [SI unit of the quantity].
+    pub value: f64,
+    /// Standard deviation of the value [the same unit].
+    pub sd: f64,
+    /// Line of the file, from 1.
+    pub line: u64,
+}
+
+/// A quantity of a tire or a cable.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Watched {
+    /// The quantity.
+    pub quantity: ObservedQuantity,
+    /// Index of the tire, or of the cable where the quantity is a force.
+    pub index: usize,
+    /// Time [s] where the quantity is a height at a time; else 0.
+    pub at: f64,
+}
+
+/// SI unit of a quantity.
+pub fn unit(quantity: ObservedQuantity) -> &'static str {
+    match quantity {
+        ObservedQuantity::FlightHeight | ObservedQuantity::Height | ObservedQuantity::Drift => "m",
+        ObservedQuantity::Lift | ObservedQuantity::Landing => "s",
+        ObservedQuantity::Force => "N",
+    }
+}
+
+/// What observations may name: the delay options of a plan, and the tires and cables of its shelter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Addresses {
+    /// Names of the delay options.
+    pub options: Vec<String>,
+    /// Numbers of each tire: row and column, or its number in the list (`n_tires`).
+    pub tires: Vec<Vec<f64>>,
+    /// Indices of the two tires of each cable (`n_cables`).
+    pub cables: Vec<[usize; 2]>,
+}
+
+impl Observations {
+    /// Reads a file; `-` is standard input.
+    pub fn read(path: &Path, known: &Addresses) -> Result<Self, Diagnostics> {
+        let name = path.display().to_string();
+        match read_bytes(path).and_then(text_of) {
+            Ok(text) => Self::parse(&name, &text, known),
+            Err((message, _)) => Err(Diagnostics::unreadable(
+                &name,
+                message,
+                "check the path; --template prints a file to begin with",
+            )),
+        }
+    }
+
+    /// Reads the text of the file `path`.
+    pub fn parse(path: &str, text: &str, known: &Addresses) -> Result<Self, Diagnostics> {
+        let source = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let list = read(source, known).map_err(|mistakes| Diagnostics::new(path, source, mistakes))?;
+        let checksum = Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
+        Ok(Self { path: path.to_owned(), checksum, list })
+    }
+}
+
+/// A file to begin with: the header, and an example of a tire and of a cable.
+pub fn template(option: &str, tire: &str, cable: Option<&str>) -> String {
+    let quoted = format!("\"{}\"", option.replace('"', "\"\""));
+    let mut text = format!(
+        "{}\n# an example, replace it; tire and cable as ROW:COLUMN, or as in `shelter trace`; times from the first hole on\n\
+         {quoted},{tire},,flight_height_m,,1.25,0.05\n\
+         {quoted},{tire},,height_m,0.3,0.9,0.1\n\
+         {quoted},{tire},,landing_s,,0.95,0.02\n",
+        COLUMNS.join(",")
+    );
+    if let Some(cable) = cable {
+        text += &format!("{quoted},,{cable},cable_force_n,,30000,2000\n");
+    }
+    text
+}
+
+fn mistake(line: &Line, message: impl Into<String>, remedy: impl Into<String>) -> Mistake {
+    Mistake { span: line.span.clone(), message: message.into(), remedy: remedy.into() }
+}
+
+fn read(source: &str, known: &Addresses) -> Result<Vec<Observation>, Vec<Mistake>> {
+    let separator = separator(source);
+    let all = lines(source, separator).map_err(|error| {
+        let message = format!("the table cannot be read: {error}");
+        vec![Mistake { span: 0..0, message, remedy: "save it as CSV in UTF-8".to_owned() }]
+    })?;
+    let is_data = |line: &Line| {
+        let first = line.values.first().map_or("", String::as_str);
+        !first.starts_with('#') && !first.starts_with("sep=")
+    };
+    let mut all = all.into_iter().filter(is_data);
+    let header_remedy = format!("begin with the line {}", COLUMNS.join(","));
+    let Some(header) = all.next() else {
+        let message = "there is no observation in the file".to_owned();
+        return Err(vec![Mistake { span: 0..0, message, remedy: header_remedy }]);
+    };
+    let columns = read_header(&header, known)?;
+    let rows: Vec<Line> = all.collect();
+    if rows.is_empty() {
+        return Err(vec![mistake(
+            &header,
+            "there is no observation below the header",
+            "add a line for each",
+        )]);
+    }
+    let comma = decimal_comma(&rows, &columns, separator)?;
+    let (mut list, mut mistakes) = (Vec::<Observation>::new(), Vec::new());
+    for line in &rows {
+        let Some(seen) = (Row { line, columns: &columns, known, comma }).read(&mut mistakes) else {
+            continue;
+        };
+        match list.iter().find(|other| other.option == seen.option && other.watched == seen.watched) {
+            Some(other) => mistakes.push(mistake(
+                line,
+                format!("line {} has this observation already", other.line),
+                "remove one of them, or give their mean; another shot of the same option goes into a file of its own",
+            )),
+            None => list.push(seen),
+        }
+    }
+    if mistakes.is_empty() { Ok(list) } else { Err(mistakes) }
+}
+
+/// What separates the values: as the first line declares, or the first of `;`, tab and `,` that the header holds.
+fn separator(source: &str) -> u8 {
+    if let Some(declared) = source.lines().next().and_then(|line| line.trim().strip_prefix("sep=")) {
+        return declared.bytes().next().unwrap_or(b'\t');
+    }
+    let is_header = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
+    let header = source.lines().find(is_header).unwrap_or_default();
+    [b';', b'\t'].into_iter().find(|&sign| header.contains(char::from(sign))).unwrap_or(b',')
+}
+
+/// Index of each of [`COLUMNS`] among the values of a line, and the number of values of a line.
+struct Columns {
+    at: [Option<usize>; COLUMNS.len()],
+    width: usize,
+}
+
+fn read_header(header: &Line, known: &Addresses) -> Result<Columns, Vec<Mistake>> {
+    let width = header.values.iter().rposition(|name| !name.is_empty()).map_or(0, |last| last + 1);
+    let mut columns = Columns { at: [None; COLUMNS.len()], width };
+    let mut mistakes = Vec::new();
+    for (n, name) in header.values[..width].iter().enumerate() {
+        let name = name.to_lowercase();
+        match COLUMNS.iter().position(|column| *column == name) {
+            Some(column) if columns.at[column].is_some() => {
+                mistakes.push(mistake(
+                    header,
+                    format!("two columns are called `{name}`"),
+                    "remove one of them",
+                ));
+            }
+            Some(column) => columns.at[column] = Some(n),
+            None => {
+                let near = nearest(&name, COLUMNS.into_iter());
+                let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+                let remedy =
+                    format!("{near}the columns are {}; values are in m, s and N", COLUMNS.join(", "));
+                mistakes.push(mistake(header, format!("the column `{name}` is not known"), remedy));
+            }
+        }
+    }
+    if columns.at == [None; COLUMNS.len()] {
+        let remedy = format!("begin with the line {}", COLUMNS.join(","));
+        return Err(vec![mistake(header, "the first line does not name the columns", remedy)]);
+    }
+    let mut wanted = vec![QUANTITY, VALUE, SD];
+    if known.options.len() > 1 {
+        wanted.push(OPTION);
+    }
+    if mistakes.is_empty() {
+        for column in wanted.into_iter().filter(|&column| columns.at[column].is_none()) {
+            let name = COLUMNS[column];
+            let remedy = match column {
+                SD => "add the standard deviation of each value, in the unit of the value".to_owned(),
+                OPTION => format!("add the delay option that was fired: {}", known.options.join("; ")),
+                _ => format!("begin with the line {}", COLUMNS.join(",")),
+            };
+            mistakes.push(mistake(header, format!("no column is called `{name}`"), remedy));
+        }
+    }
+    if mistakes.is_empty() { Ok(columns) } else { Err(mistakes) }
+}
+
+/// Whether the numbers have decimal commas; a mistake where that cannot be told.
+fn decimal_comma(rows: &[Line], columns: &Columns, separator: u8) -> Result<bool, Vec<Mistake>> {
+    let numbers = |line: &Line| -> Vec<String> {
+        let read = [AT, VALUE, SD].into_iter().filter_map(|column| columns.at[column]);
+        read.filter_map(|n| line.values.get(n)).cloned().collect()
+    };
+    let all: Vec<String> = rows.iter().flat_map(&numbers).collect();
+    let wrong = |sign: char, message: &dyn Fn(&str) -> String, remedy: &dyn Fn(&str) -> String| {
+        let with = all.iter().find(|value| value.contains(sign)).map_or("", String::as_str);
+        let line = rows.iter().find(|line| numbers(line).iter().any(|value| value == with));
+        Err(line.into_iter().map(|line| mistake(line, message(with), remedy(with))).collect())
+    };
+    let ambiguous = |sign: char| {
+        let message = |with: &str| format!("`{with}` may be a decimal number or thousands");
+        wrong(sign, &message, &|with| both_ways(with, sign))
+    };
+    match decimals(all.iter().map(String::as_str), separator != b',') {
+        Decimals::Point => Ok(false),
+        Decimals::Comma => Ok(true),
+        Decimals::AmbiguousComma => ambiguous(','),
+        Decimals::AmbiguousPoint => ambiguous('.'),
+        Decimals::Mixed => {
+            let message = |with: &str| format!("`{with}` has a comma, other numbers have a decimal point");
+            wrong(',', &message, &|_| "write all numbers with decimal points".to_owned())
+        }
+    }
+}
+
+/// A line being read.
+struct Row<'r> {
+    line: &'r Line,
+    columns: &'r Columns,
+    known: &'r Addresses,
+    /// Whether numbers have decimal commas.
+    comma: bool,
+}
+
+impl Row<'_> {
+    /// The text in a column; `None` where it is empty.
+    fn text(&self, column: usize) -> Option<&str> {
+        let text = self.line.values.get(self.columns.at[column]?)?;
+        Some(text.as_str()).filter(|text| !text.is_empty())
+    }
+
+    /// The observation; notes every mistake of the line.
+    fn read(&self, mistakes: &mut Vec<Mistake>) -> Option<Observation> {
+        let (line, width) = (self.line, self.columns.width);
+        if line.runs_on {
+            mistakes.push(mistake(line, "a value runs over several lines", "is a quotation mark missing?"));
+            return None;
+        }
+        let extra = line.values.iter().skip(width).any(|value| !value.is_empty());
+        if line.values.len() < width || extra {
+            let message = format!("the line has {} values, the header {width}", line.values.len());
+            let remedy = "leave a value that is not known empty between its separators; numbers with decimal commas need semicolons between them";
+            mistakes.push(mistake(line, message, remedy));
+            return None;
+        }
+        let mut keep = |found: Result<f64, (String, String)>| match found {
+            Ok(number) => number,
+            Err((message, remedy)) => {
+                mistakes.push(mistake(line, message, remedy));
+                f64::NAN
+            }
+        };
+        let (quantity, is_known) = match self.quantity() {
+            Ok(quantity) => (quantity, true),
+            Err(wrong) => {
+                keep(Err(wrong));
+                (ObservedQuantity::FlightHeight, false)
+            }
+        };
+        let option = keep(self.option().map(|option| option as f64));
+        let index = if is_known { keep(self.index(quantity).map(|index| index as f64)) } else { 0.0 };
+        let at = if is_known { keep(self.at(quantity)) } else { 0.0 };
+        let value = keep(self.number(VALUE, quantity, 0.0));
+        let sd = keep(self.number(SD, quantity, f64::MIN_POSITIVE));
+        let whole = is_known && [option, index, at, value, sd].iter().all(|number| number.is_finite());
+        let watched = Watched { quantity, index: index as usize, at };
+        whole.then_some(Observation { option: option as usize, watched, value, sd, line: line.number })
+    }
+
+    fn quantity(&self) -> Result<ObservedQuantity, (String, String)> {
+        let names = ObservedQuantity::NAMES;
+        let Some(name) = self.text(QUANTITY) else {
+            return Err((
+                "the line has no quantity".to_owned(),
+                format!("write one of {}", names.join(", ")),
+            ));
+        };
+        name.to_lowercase().parse().map_err(|_| {
+            let near = nearest(&name.to_lowercase(), names.iter().copied());
+            let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+            (
+                format!("no quantity is called `{name}`"),
+                format!("{near}write one of {}; values are in m, s and N", names.join(", ")),
+            )
+        })
+    }
+
+    fn option(&self) -> Result<usize, (String, String)> {
+        let options = &self.known.options;
+        let Some(name) = self.text(OPTION) else {
+            return match options.len() {
+                1 => Ok(0),
+                _ => Err((
+                    "the line does not say which delay option was fired".to_owned(),
+                    format!("the plan has: {}", options.join("; ")),
+                )),
+            };
+        };
+        options.iter().position(|option| option == name).ok_or_else(|| {
+            (format!("the plan has no delay option `{name}`"), format!("it has: {}", options.join("; ")))
+        })
+    }
+
+    fn index(&self, quantity: ObservedQuantity) -> Result<usize, (String, String)> {
+        let [wanted, other] = match quantity {
+            ObservedQuantity::Force => [CABLE, TIRE],
+            _ => [TIRE, CABLE],
+        };
+        if self.text(other).is_some() {
+            let message =
+                format!("`{quantity}` is a quantity of a {}, not of a {}", COLUMNS[wanted], COLUMNS[other]);
+            return Err((message, format!("leave the column `{}` empty", COLUMNS[other])));
+        }
+        let Some(text) = self.text(wanted) else {
+            let example = if wanted == TIRE { "3:1" } else { "3:1-4:1" };
+            let message = format!("`{quantity}` needs a {}", COLUMNS[wanted]);
+            return Err((message, format!("write its address, such as {example}")));
+        };
+        if wanted == TIRE {
+            return self.tire(text);
+        }
+        let (from, to) = text.split_once('-').ok_or_else(|| {
+            (format!("`{text}` is no cable"), "write its two tires, such as 3:1-4:1".to_owned())
+        })?;
+        let ends = [self.tire(from)?, self.tire(to)?];
+        let joins = |cable: &[usize; 2]| *cable == ends || *cable == [ends[1], ends[0]];
+        self.known.cables.iter().position(joins).ok_or_else(|| {
+            (format!("no cable joins the tires {from} and {to}"), "name two tires that are tied".to_owned())
+        })
+    }
+
+    fn tire(&self, text: &str) -> Result<usize, (String, String)> {
+        let parts: Vec<&str> = text.split(':').map(str::trim).collect();
+        let numbers: Option<Vec<f64>> =
+            parts.iter().map(|part| part.replace(',', ".").parse().ok()).collect();
+        let tires = &self.known.tires;
+        let last = tires.last().map_or_else(String::new, |numbers| numbers.iter().join(":"));
+        match numbers {
+            Some(numbers) if numbers.len() == 3 => Err((
+                format!("`{text}` is no tire, but a time of day"),
+                "a spreadsheet took ROW:COLUMN for a time: format the column as text".to_owned(),
+            )),
+            Some(numbers) => tires.iter().position(|tire| *tire == numbers).ok_or_else(|| {
+                (format!("the shelter has no tire {text}"), format!("its last tire is {last}"))
+            }),
+            None => Err((format!("`{text}` is no tire"), format!("write its address as in {last}"))),
+        }
+    }
+
+    fn at(&self, quantity: ObservedQuantity) -> Result<f64, (String, String)> {
+        match (quantity == ObservedQuantity::Height, self.text(AT).is_some()) {
+            (true, _) => self.number(AT, quantity, 0.0),
+            (false, false) => Ok(0.0),
+            (false, true) => {
+                let message = format!("`{quantity}` is no quantity of one time");
+                Err((message, "leave `at_s` empty, or observe `height_m`".to_owned()))
+            }
+        }
+    }
+
+    /// A number that is at least `least`.
+    fn number(&self, column: usize, quantity: ObservedQuantity, least: f64) -> Result<f64, (String, String)> {
+        let unit = if column == AT { "s" } else { unit(quantity) };
+        let name = COLUMNS[column];
+        let Some(text) = self.text(column) else {
+            let remedy = match column {
+                SD => format!("write the standard deviation of the value, in {unit}"),
+                _ => format!("write a number, in {unit}"),
+            };
+            return Err((format!("the line has no `{name}`"), remedy));
+        };
+        match value(text, self.comma) {
+            Some(number) if number >= least => Ok(number),
+            Some(_) if column == SD => Err((
+                format!("`{text}` is no standard deviation"),
+                format!("write a number above 0, in {unit}: nothing is seen exactly"),
+            )),
+            Some(_) => {
+                Err((format!("`{text}` is negative"), format!("write a number of 0 or more, in {unit}")))
+            }
+            None => Err((format!("`{text}` is no number"), format!("write the number alone, in {unit}"))),
+        }
+    }
+}

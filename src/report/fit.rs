@@ -1,0 +1,342 @@
+//! `fit` as a report: the estimates of each answer, and every observation beside what was planned, possible and fitted.
+
+use super::model::{Align, Block, Cell, Column, Conclusion, Field, Report, Shown, Table};
+use super::report_head;
+use crate::choice::{ObservedQuantity, Unknown};
+use crate::plan::observations::{Observation, Observations, Watched, unit};
+use crate::study::Case;
+use crate::study::fit::parameter::Parameter;
+use crate::study::fit::possible::AsFired;
+use crate::study::fit::{Answer, Candidate, Estimated, Fit, FitResult, NotDetermined, Residual};
+use crate::units;
+use crate::verdict::Verdict;
+
+/// Correlation from which two estimates are said to hang together.
+const TIED: f64 = 0.7;
+
+/// An estimate of one answer.
+struct EstimateRow<'a> {
+    case: &'a Case,
+    /// Number of the answer, from 1.
+    answer: usize,
+    estimate: &'a Estimated,
+}
+
+fn estimate_fields<'a>() -> [Field<EstimateRow<'a>>; 6] {
+    [
+        Field::new(Column::numbers(&["answer"], "answer", units::Unit::One), |row| Cell::Count(row.answer)),
+        Field::new(Column::words(&["name"], "unknown"), |row| {
+            Cell::Text(row.estimate.parameter.name(&row.case.plan))
+        }),
+        Field::new(Column::words(&[], "estimate ± sd"), |row| Cell::Text(estimate(row.estimate))),
+        Field::new(Column::words(&[], "in the plan"), |row| {
+            Cell::Text(row.estimate.was.map_or_else(|| "stiff".to_owned(), units::short))
+        }),
+        Field::new(Column::words(&["unit"], "unit"), |row| {
+            Cell::Text(row.estimate.parameter.unit().to_owned())
+        }),
+        Field::new(Column::words(&[], "what it means"), |row| {
+            Cell::Text(meaning(row.case, row.estimate.parameter, row.estimate.value, row.estimate.sd))
+        }),
+    ]
+}
+
+/// The numbers of an estimate, for scripts.
+fn estimate_numbers<'a>() -> [Field<EstimateRow<'a>>; 3] {
+    [
+        Field::new(Column::scripts(&["value"]), |row| Cell::Number(row.estimate.value)),
+        Field::new(Column::scripts(&["sd"]), |row| Cell::Number(row.estimate.sd)),
+        Field::new(Column::scripts(&["was"]), |row| row.estimate.was.map_or(Cell::Nothing, Cell::Number)),
+    ]
+}
+
+/// An observation beside what the plan and the best answer say of it.
+pub struct ObservedRow<'a> {
+    /// The plan.
+    pub case: &'a Case,
+    /// The observation.
+    pub observed: &'a Observation,
+    /// What was planned and possible.
+    pub as_fired: &'a AsFired,
+    /// What the best answer says.
+    pub residual: &'a Residual,
+}
+
+fn observed_fields<'a>() -> [Field<ObservedRow<'a>>; 7] {
+    fn words(heading: &'static str) -> Column {
+        Column { align: Align::Right, ..Column::words(&[], heading) }
+    }
+    [
+        Field::new(Column::words(&[], "observed"), |row| {
+            Cell::Text(place(row.case, row.observed.option, &row.observed.watched))
+        }),
+        Field::new(words("value ± sd"), |row| {
+            Cell::Text(units::value_and_sd(row.observed.value, row.observed.sd))
+        }),
+        Field::new(words("planned"), |row| Cell::Text(like(row.as_fired.planned, row.observed.sd))),
+        Field::new(words("predicted, 90 %"), |row| {
+            row.as_fired.band.map_or(Cell::Nothing, |band| {
+                Cell::Text(band.map(|end| like(end, row.observed.sd)).join(" to "))
+            })
+        }),
+        Field::new(Column::words(&[], "within"), |row| {
+            row.as_fired.holds(row.observed.value).map_or(Cell::Nothing, Cell::Flag)
+        }),
+        Field::new(words("fitted"), |row| Cell::Text(like(row.residual.fitted, row.observed.sd))),
+        Field::new(words("residual"), |row| {
+            let deviation = units::rounded(row.residual.deviation, 1);
+            let mark = if row.residual.is_suspicious() { "  suspicious" } else { "" };
+            Cell::Text(if row.residual.fitted.is_nan() {
+                "never".to_owned() + mark
+            } else {
+                format!("{deviation} sd{mark}")
+            })
+        }),
+    ]
+}
+
+/// The rows of all observations.
+pub fn observed_rows<'a>(case: &'a Case, fit: &'a Fit) -> impl Iterator<Item = ObservedRow<'a>> {
+    let beside = fit.as_fired.iter().zip(&fit.answers[0].residuals);
+    fit.observed.iter().zip(beside).map(move |(observed, (as_fired, residual))| ObservedRow {
+        case,
+        observed,
+        as_fired,
+        residual,
+    })
+}
+
+/// The table of observations: planned, predicted, observed, fitted.
+pub fn observed_table(case: &Case, fit: &Fit) -> Table {
+    Table::of(&observed_fields(), observed_rows(case, fit))
+}
+
+/// The report of a fit; `sampled`: with what the plan does not know.
+pub fn report(case: &Case, files: &[Observations], fit: &Fit, sampled: bool) -> Report {
+    let several = fit.answers.len() > 1;
+    let rows = || {
+        let numbered = fit.answers.iter().enumerate();
+        numbered.flat_map(|(n, answer)| {
+            answer.estimates.iter().map(move |estimate| EstimateRow { case, answer: n + 1, estimate })
+        })
+    };
+    let [number, name, rest @ ..] = estimate_fields();
+    let number =
+        if several { number } else { Field { column: number.column.shown(Shown::Scripts), ..number } };
+    let all: Vec<_> = [number, name].into_iter().chain(rest).chain(estimate_numbers()).collect();
+    let mut blocks =
+        vec![Block::Text(vec![basis(files, fit, sampled)]), Block::Table(Table::of(&all, rows()))];
+    blocks.push(Block::Text(ties(case, &fit.answers[0])));
+    blocks.push(Block::Table(observed_table(case, fit)));
+    blocks.push(Block::Text(bands(case, fit).into_iter().chain(next(case, fit)).collect()));
+    let head = report_head(case, false);
+    let warnings = head.warnings.iter().cloned().chain(warnings(case, fit)).collect();
+    Report { blocks, warnings, conclusion: conclusion(fit), ..head }
+}
+
+/// From how many observations of how many shots the estimates come, and how well they fit.
+fn basis(files: &[Observations], fit: &Fit, sampled: bool) -> String {
+    let mut shots: Vec<(usize, usize)> =
+        fit.file.iter().zip(&fit.observed).map(|(&file, seen)| (file, seen.option)).collect();
+    shots.dedup();
+    shots.sort_unstable();
+    shots.dedup();
+    let best = &fit.answers[0];
+    let paths: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
+    let alone = if sampled { "" } else { "; all other numbers of the plan are taken for exact" };
+    format!(
+        "from {} of {} in {}: chi-square {} for {} degrees of freedom{alone}",
+        counted(fit.observed.len(), "observation"),
+        counted(shots.len(), "shot"),
+        paths.join(", "),
+        units::rounded(best.chi_square, 1),
+        best.freedom
+    )
+}
+
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
+/// `1.163 ± 0.014`.
+fn estimate(estimate: &Estimated) -> String {
+    units::value_and_sd(estimate.value, estimate.sd)
+}
+
+/// A value with the digits of another's standard deviation.
+fn like(value: f64, sd: f64) -> String {
+    if value.is_nan() {
+        return "never".to_owned();
+    }
+    units::value_and_sd(value, sd).split(' ').next().unwrap_or_default().to_owned()
+}
+
+/// The launch velocities that a factor makes of those of the plan; else nothing.
+pub fn meaning(case: &Case, parameter: Parameter, factor: f64, sd: f64) -> String {
+    let mut speeds = launch_speeds(case, parameter);
+    speeds.truncate(4);
+    let words: Vec<String> = speeds
+        .iter()
+        .map(|speed| format!("{} m/s", units::value_and_sd(speed * factor, speed * sd)))
+        .collect();
+    if words.is_empty() { String::new() } else { format!("launches of {}", words.join(", ")) }
+}
+
+/// Launch velocities of the plan that a parameter is a factor on, each once [m/s]; none for other parameters.
+pub fn launch_speeds(case: &Case, parameter: Parameter) -> Vec<f64> {
+    if !matches!(parameter.unknown, Unknown::Launch | Unknown::LaunchByRow) {
+        return Vec::new();
+    }
+    let firings = case.shots.first().map_or(&[][..], |shot| &shot.firings);
+    let own = firings.iter().filter(|firing| parameter.row.is_none_or(|row| row == firing.row));
+    let mut speeds: Vec<f64> = own.map(|firing| (firing.launch.norm() * 1e6).round() / 1e6).collect();
+    speeds.sort_by(f64::total_cmp);
+    speeds.dedup();
+    speeds
+}
+
+/// `20 ms · 3:1 height_m at 0.3 s`.
+pub fn place(case: &Case, option: usize, watched: &Watched) -> String {
+    let scene = case.scene();
+    let address = match watched.quantity {
+        ObservedQuantity::Force => scene.cable_name(watched.index),
+        _ => scene.tire[watched.index].to_string(),
+    };
+    let at = if watched.quantity == ObservedQuantity::Height {
+        format!(" at {} s", watched.at)
+    } else {
+        String::new()
+    };
+    let option = if case.plan.delays.len() > 1 {
+        format!("{} · ", case.plan.delays[option].name)
+    } else {
+        String::new()
+    };
+    format!("{option}{address} {}{at}", watched.quantity)
+}
+
+/// Which estimates hang together.
+fn ties(case: &Case, answer: &Answer) -> Vec<String> {
+    let count = answer.estimates.len();
+    let pairs = itertools::iproduct!(0..count, 0..count).filter(|(a, b)| a < b);
+    let tied = pairs.filter(|&(a, b)| answer.correlation[a][b].abs() > TIED);
+    tied.map(|(a, b)| {
+        let [first, second] = [a, b].map(|n| answer.estimates[n].parameter.name(&case.plan));
+        let correlation = units::rounded(answer.correlation[a][b], 2);
+        format!("{first} and {second} hang together: correlation {correlation}")
+    })
+    .collect()
+}
+
+/// How many observations lie in their bands: of each shot, and of all.
+fn bands(case: &Case, fit: &Fit) -> Vec<String> {
+    let held: Vec<(usize, bool)> = observed_rows(case, fit)
+        .filter_map(|row| Some((row.observed.option, row.as_fired.holds(row.observed.value)?)))
+        .collect();
+    let words = |of: &[(usize, bool)]| {
+        let within = of.iter().filter(|(_, held)| *held).count();
+        format!("{within} of {}", of.len())
+    };
+    if held.is_empty() {
+        return Vec::new();
+    }
+    let options: Vec<String> = held
+        .chunk_by(|a, b| a.0 == b.0)
+        .map(|shot| format!("{} of {}", words(shot), case.plan.delays[shot[0].0].name))
+        .collect();
+    let by_option = if options.len() > 1 { format!(" ({})", options.join("; ")) } else { String::new() };
+    vec![format!(
+        "{} observations lie within what the plan as it is predicts of them{by_option}; 9 of 10 are to be expected",
+        words(&held)
+    )]
+}
+
+/// What to observe next.
+fn next(case: &Case, fit: &Fit) -> Option<String> {
+    let next = fit.next?;
+    let Candidate { option, watched } = next.candidate;
+    Some(format!(
+        "observe next: {}, to within {} {}; that takes {} from the variance of the greatest utilization",
+        place(case, option, &watched),
+        units::short(next.sd),
+        unit(watched.quantity),
+        units::percent(next.share, 0)
+    ))
+}
+
+fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
+    let best = &fit.answers[0];
+    let mut all = Vec::new();
+    for estimate in &best.estimates {
+        let name = estimate.parameter.name(&case.plan);
+        if estimate.is_at_end {
+            all.push(format!(
+                "{name} lies at an end of its plausible range: another unknown is perhaps behind it"
+            ));
+        }
+        if let Some(from) = estimate.from_stated.filter(|from| from.abs() > 3.0) {
+            let from = units::rounded(from.abs(), 1);
+            all.push(format!(
+                "{name} lies {from} sd from what [uncertainty] states of it: is the range there too narrow?"
+            ));
+        }
+    }
+    let suspicious: Vec<String> = observed_rows(case, fit)
+        .filter(|row| row.residual.is_suspicious())
+        .map(|row| {
+            format!(
+                "{} in line {}",
+                place(case, row.observed.option, &row.observed.watched),
+                row.observed.line
+            )
+        })
+        .collect();
+    if !suspicious.is_empty() {
+        all.push(format!("suspicious, more than 3 sd from the fit: {}", suspicious.join("; ")));
+    }
+    all
+}
+
+fn conclusion(fit: &Fit) -> Option<Conclusion> {
+    let best = &fit.answers[0];
+    let text = if !best.explains() {
+        "the model does not explain what was observed: the residuals are larger than chance makes them"
+            .to_owned()
+    } else if fit.answers.len() > 1 {
+        format!(
+            "{} separate answers fit nearly as well: observe something that tells them apart",
+            fit.answers.len()
+        )
+    } else {
+        return None;
+    };
+    Some(Conclusion { verdict: Verdict::Undecided, text })
+}
+
+/// Why there are no estimates, with the remedy; `None` where there are.
+pub fn refusal(case: &Case, found: &FitResult) -> Option<String> {
+    match found {
+        FitResult::Fitted(_) => None,
+        FitResult::NotDetermined(NotDetermined { parameters, observe }) => {
+            let names: Vec<String> = parameters.iter().map(|parameter| parameter.name(&case.plan)).collect();
+            let what = match names.len() {
+                1 => format!("the observations do not determine {}", names[0]),
+                _ => format!("the observations determine only a combination of {}", names.join(" and ")),
+            };
+            let remedy = observe.map_or_else(
+                || "nothing that can be seen of this shot would: leave it out".to_owned(),
+                |Candidate { option, watched }| {
+                    let out = if names.len() == 1 { "it" } else { "one" };
+                    format!("observe {} too, or leave {out} out", place(case, option, &watched))
+                },
+            );
+            Some(format!("{what}: {remedy}"))
+        }
+        FitResult::KnownExactly(unknown) => Some(format!(
+            "[uncertainty] says that {unknown} is known exactly: widen it there, or leave {unknown} out"
+        )),
+        FitResult::NotInMethod(unknown) => {
+            Some(format!("newmark has no {unknown}: choose --method verlet, or leave {unknown} out"))
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! Whether observations determine the parameters, and what else would.
+//!
+//! 1. Symbols: J the derivatives of the predictions, made independent and of unit variance; S the diagonal of the standard deviations
+//!    that uniform distributions over the plausible ranges have.
+//! 2. A unit vector v with ‖J S v‖ = σ is a combination of the parameters that the observations know to 1/σ of its range.
+//! 3. A combination with σ below [`DETERMINED`] is not determined, and neither is any parameter that is a good part of it.
+//!
+//! What the plan knows beforehand does not count here: observations that add nothing to it are refused as well.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::parameter::Parameter;
+use super::predict::Predictor;
+use super::search::SearchBox;
+use crate::choice::ObservedQuantity;
+use crate::plan::observations::Watched;
+use crate::scene::Scene;
+use crate::study::NoResult;
+
+/// Least σ of a combination that the observations determine.
+const DETERMINED: f64 = 2.0;
+/// Least σ that makes something else worth observing.
+const WORTH_OBSERVING: f64 = 1.0;
+/// Least share of a parameter in a combination that is not determined, at which the parameter is named.
+const NAMED: f64 = 0.3;
+/// Shift along a combination, to each side, in standard deviations of the plausible ranges.
+const SHIFT: f64 = 0.15;
+
+/// Parameters that the observations do not determine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NotDetermined {
+    /// The parameters: one by itself, or several of which only a combination is determined.
+    pub parameters: Vec<Parameter>,
+    /// What else to observe; `None` where nothing of these shots would tell.
+    pub observe: Option<Candidate>,
+}
+
+/// Something that could be observed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Candidate {
+    /// Index of the delay option.
+    pub option: usize,
+    /// What to watch.
+    pub watched: Watched,
+}
+
+/// Standard deviation with which somebody observes a quantity of this value, where nobody says: 5 cm, 20 ms, 5 %.
+pub fn usual_sd(quantity: ObservedQuantity, value: f64) -> f64 {
+    match quantity {
+        ObservedQuantity::FlightHeight | ObservedQuantity::Height | ObservedQuantity::Drift => 0.05,
+        ObservedQuantity::Lift | ObservedQuantity::Landing => 0.02,
+        ObservedQuantity::Force => 0.05 * value.abs().max(1e3),
+    }
+}
+
+/// Everything that could be observed of a shot under a shelter.
+pub fn candidates(scene: &Scene) -> Vec<Watched> {
+    let of_tires = [ObservedQuantity::FlightHeight, ObservedQuantity::Landing, ObservedQuantity::Drift];
+    let tires = itertools::iproduct!(of_tires, 0..scene.mass.len());
+    let cables = (0..scene.cables.len()).map(|cable| (ObservedQuantity::Force, cable));
+    tires.chain(cables).map(|(quantity, index)| Watched { quantity, index, at: 0.0 }).collect()
+}
+
+/// The combination of parameters [standard deviations of their ranges] that is least determined, where it is not determined;
+/// `slopes` are J.
+fn undetermined(slopes: &DMatrix<f64>, scales: &DVector<f64>) -> Option<DVector<f64>> {
+    let scaled = slopes * DMatrix::from_diagonal(scales);
+    let eigen = (scaled.transpose() * scaled).symmetric_eigen();
+    let least = eigen.eigenvalues.imin();
+    (eigen.eigenvalues[least] < DETERMINED * DETERMINED)
+        .then(|| eigen.eigenvectors.column(least).into_owned())
+}
+
+/// Refuses parameters that observations do not determine; `slopes` are J at the best answer. What else to observe is looked for at
+/// `own`, the coordinates of the plan: where nothing is determined, the best answer lies anywhere.
+pub fn refuse(
+    predictor: &Predictor<'_>,
+    space: &SearchBox,
+    own: &[f64],
+    slopes: &DMatrix<f64>,
+) -> Result<Option<NotDetermined>, NoResult> {
+    let scales = DVector::from_iterator(
+        own.len(),
+        space.ranges.iter().map(|[low, high]| (high - low) / 12.0_f64.sqrt()),
+    );
+    let Some(combination) = undetermined(slopes, &scales) else { return Ok(None) };
+    let named = predictor.parameters.iter().zip(combination.iter()).filter(|(_, share)| share.abs() > NAMED);
+    let parameters = named.map(|(&parameter, _)| parameter).collect();
+    let all = candidates(predictor.case(own).scene());
+    let options = predictor.options.iter().map(|(option, _)| (*option, all.clone())).collect();
+    let wide = Predictor {
+        plan: predictor.plan.clone(),
+        parameters: predictor.parameters.clone(),
+        options,
+        ..*predictor
+    };
+    let shifted = |side: f64| -> Vec<f64> {
+        let shift = |n: usize| own[n] + side * SHIFT * scales[n] * combination[n];
+        (0..own.len()).map(|n| shift(n).clamp(space.ranges[n][0], space.ranges[n][1])).collect()
+    };
+    let [more, less] = [wide.values(&shifted(1.0), 1.0)?, wide.values(&shifted(-1.0), 1.0)?];
+    let (Some(more), Some(less)) = (more, less) else {
+        return Ok(Some(NotDetermined { parameters, observe: None }));
+    };
+    let mut best: Option<(f64, Candidate)> = None;
+    for (n, (more, less)) in more.iter().zip(&less).enumerate() {
+        let (option, watched) = (wide.options[n / all.len()].0, all[n % all.len()]);
+        let sigma = (more - less).abs() / (2.0 * SHIFT * usual_sd(watched.quantity, *more));
+        if sigma >= WORTH_OBSERVING && best.is_none_or(|(most, _)| sigma > most) {
+            best = Some((sigma, Candidate { option, watched }));
+        }
+    }
+    Ok(Some(NotDetermined { parameters, observe: best.map(|(_, candidate)| candidate) }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One observation of a sum knows the sum and not the difference; two observations of different sums know both.
+    #[test]
+    fn a_sum_does_not_tell_its_terms() {
+        let scales = DVector::from_element(2, 1.0);
+        let combination =
+            undetermined(&DMatrix::from_row_slice(1, 2, &[50.0, 50.0]), &scales).expect("a difference");
+        assert!((combination[0] + combination[1]).abs() < 1e-9 && combination[0].abs() > NAMED);
+        assert_eq!(undetermined(&DMatrix::from_row_slice(2, 2, &[50.0, 50.0, 50.0, 10.0]), &scales), None);
+        let alone = undetermined(&DMatrix::from_row_slice(2, 2, &[50.0, 0.1, 20.0, 0.0]), &scales)
+            .expect("the second");
+        assert!(alone[0].abs() < NAMED && alone[1].abs() > 0.99);
+    }
+}

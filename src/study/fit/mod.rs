@@ -1,0 +1,435 @@
+//! What observations of earlier shots tell of launch velocities and other unknowns.
+//!
+//! Weighted least squares: of the parameters within plausible ranges those whose predictions fit the observations best, with what
+//! `[uncertainty]` of the plan states of them as observations of their own. The weights are those of [`weights`], first at the plan,
+//! then at each answer. Inputs that are not estimated are not taken for exact: they weaken the weights.
+//!
+//! | question | where |
+//! |---|---|
+//! | which numbers are estimated, and what the plan knows of them | [`parameter`] |
+//! | what a plan predicts | `predict`, `watch` |
+//! | how far observations may lie from it | [`weights`] |
+//! | which parameters fit best, in which separate answers | [`search`] |
+//! | whether observations determine them | [`determined`] |
+//! | how observations lie among the shots that were possible, and what to observe next | [`possible`] |
+
+pub mod determined;
+pub mod parameter;
+pub mod possible;
+mod predict;
+pub mod search;
+mod watch;
+pub mod weights;
+
+use nalgebra::{DMatrix, DVector};
+
+pub use self::determined::{Candidate, NotDetermined};
+use self::parameter::{Parameter, Prior};
+use self::possible::{AsFired, NextObservation, as_fired, next_observation};
+use self::predict::Predictor;
+use self::search::{Minimum, SearchBox, distinct};
+use self::weights::{Seen, Weighing, Weights};
+use super::samples::sampling::Sampling;
+use super::work::batch::run_jobs;
+use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress};
+use crate::choice::{Method, Unknown};
+use crate::plan::Plan;
+use crate::plan::fitted::{Fitted, StatedKeys};
+use crate::plan::observations::{Addresses, Observation, Observations, Watched};
+use crate::scene::TireId;
+
+/// What observations of a plan may name.
+pub fn addresses(case: &Case) -> Addresses {
+    let scene = case.scene();
+    Addresses {
+        options: case.plan.delays.iter().map(|delay| delay.name.clone()).collect(),
+        tires: scene.tire.iter().map(TireId::numbers).collect(),
+        cables: scene.cables.iter().map(|cable| cable.ends).collect(),
+    }
+}
+
+/// What a fit finds.
+#[derive(Clone, Debug)]
+pub enum FitResult {
+    /// Estimates.
+    Fitted(Fit),
+    /// The observations do not determine some of the unknowns.
+    NotDetermined(NotDetermined),
+    /// The plan says that an unknown is known exactly.
+    KnownExactly(Unknown),
+    /// The method of the plan has no such effect.
+    NotInMethod(Unknown),
+}
+
+/// Estimates and what speaks for and against them.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// Separate answers of nearly equal misfit, the best first; never empty.
+    pub answers: Vec<Answer>,
+    /// The observations, in the order of their options.
+    pub observed: Vec<Observation>,
+    /// Index of the file of each observation.
+    pub file: Vec<usize>,
+    /// What the plan as it is says of each observation.
+    pub as_fired: Vec<AsFired>,
+    /// What to observe next.
+    pub next: Option<NextObservation>,
+}
+
+/// One set of estimates.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// One for each parameter.
+    pub estimates: Vec<Estimated>,
+    /// Correlation of the estimates (`n_parameters` × `n_parameters`).
+    pub correlation: Vec<Vec<f64>>,
+    /// One for each observation.
+    pub residuals: Vec<Residual>,
+    /// Sum of the squares of the independent residuals, with those of what the plan knew of the parameters.
+    pub chi_square: f64,
+    /// Its degrees of freedom; 0 where there are as many parameters as observations.
+    pub freedom: usize,
+}
+
+/// The estimate of one parameter, in its unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimated {
+    /// The parameter.
+    pub parameter: Parameter,
+    /// The estimate.
+    pub value: f64,
+    /// Its standard deviation.
+    pub sd: f64,
+    /// The number of the plan; `None` for ends that are stiff.
+    pub was: Option<f64>,
+    /// How far the estimate lies from what `[uncertainty]` states, in standard deviations of that; `None` where it states nothing.
+    pub from_stated: Option<f64>,
+    /// Whether the estimate lies at an end of its plausible range.
+    pub is_at_end: bool,
+}
+
+/// How an observation lies beside the shot of the estimates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Residual {
+    /// The predicted value; not a number where the tire never lifts, or never lands.
+    pub fitted: f64,
+    /// Standard deviation of the observation about its prediction: stated, of computing, of the scatter of the plan.
+    pub sd: f64,
+    /// Observed less predicted, in these standard deviations.
+    pub deviation: f64,
+    /// Error of the time integration of the prediction.
+    pub error: f64,
+}
+
+/// Residual from which an observation is suspicious [standard deviations].
+const SUSPICIOUS: f64 = 3.0;
+/// Standard normal deviate of a sum of squares that is too great: with a probability of 0.1 %.
+const TOO_GREAT: f64 = 3.09;
+/// Misfit above the least up to which another answer is told: its likelihood is 1/20 of the best.
+const NEARLY_EQUAL: f64 = 6.0;
+/// The same for answers whose weights are yet to be found.
+const WORTH_WEIGHING: f64 = 40.0;
+/// Most answers that are weighed.
+const MOST_WEIGHED: usize = 6;
+
+impl Residual {
+    /// Whether the observation is hard to believe beside the others.
+    pub fn is_suspicious(&self) -> bool {
+        self.deviation.is_nan() || self.deviation.abs() > SUSPICIOUS
+    }
+}
+
+impl Answer {
+    /// Whether the sum of squares is no greater than chance makes it; true where nothing is left to test.
+    pub fn explains(&self) -> bool {
+        if self.freedom == 0 {
+            return true;
+        }
+        // The cube root of χ²/f is nearly normal (Wilson and Hilferty 1931).
+        let f = self.freedom as f64;
+        let spread = 2.0 / (9.0 * f);
+        ((self.chi_square / f).cbrt() - (1.0 - spread)) / spread.sqrt() <= TOO_GREAT
+    }
+
+    /// The estimates as a plan writes them.
+    pub fn fitted(&self) -> Vec<Fitted> {
+        let one = |estimate: &Estimated| Fitted {
+            unknown: estimate.parameter.unknown,
+            row: estimate.parameter.row,
+            value: estimate.value,
+            sd: estimate.sd,
+        };
+        self.estimates.iter().map(one).collect()
+    }
+}
+
+/// What is asked of a fit.
+#[derive(Clone, Copy, Debug)]
+pub struct Request<'a> {
+    /// Files of observations.
+    pub files: &'a [Observations],
+    /// What is estimated, each once.
+    pub unknowns: &'a [Unknown],
+    /// Samples of what the plan does not know; `None`: all but the unknowns is taken for exact, and nothing is known of these
+    /// beforehand.
+    pub sampling: Option<Sampling>,
+}
+
+/// Fits unknowns of a plan to observations.
+pub fn fit(
+    case: &Case,
+    request: &Request<'_>,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Finding<FitResult> {
+    let parameters = Parameter::all(request.unknowns, &case.plan);
+    let priors = match stated_priors(case, request, &parameters) {
+        Ok(priors) => priors,
+        Err(unknown) => return Ok(whole(FitResult::KnownExactly(unknown))),
+    };
+    if compute.method == Method::Newmark && request.unknowns.contains(&Unknown::Damping) {
+        return Ok(whole(FitResult::NotInMethod(Unknown::Damping)));
+    }
+    let seen = in_order(request.files);
+    let fitting = Fitting {
+        space: search_box(&case.plan, &parameters, &priors),
+        predictor: Predictor {
+            plan: plan_of_others(case, request),
+            options: by_option(&seen.list),
+            parameters,
+            compute: *compute,
+            progress,
+        },
+        others: others(case, request),
+        priors,
+        seen,
+        seed: request.sampling.map(|sampling| sampling.seed),
+    };
+    let weighed = fitting.answers(case)?;
+    let (best, weights) = &weighed[0];
+    let slopes = fitting.slopes(best, weights)?;
+    let refused = determined::refuse(&fitting.predictor, &fitting.space, &fitting.own(&case.plan), &slopes)?;
+    if let Some(refused) = refused {
+        return Ok(whole(FitResult::NotDetermined(refused)));
+    }
+    let answers: Vec<Answer> = weighed
+        .iter()
+        .map(|(minimum, weights)| fitting.answer(case, minimum, weights))
+        .collect::<Result<Vec<_>, _>>()?;
+    let Seen { list: observed, file } = fitting.seen;
+    let as_fired = as_fired(case, &observed, request.sampling.as_ref(), compute, progress)?;
+    let mut fit = Fit { answers, observed, file, as_fired, next: None };
+    fit.next = next(case, &fit, request, compute, progress)?;
+    Ok(whole(FitResult::Fitted(fit)))
+}
+
+fn whole(value: FitResult) -> Found<FitResult> {
+    Found { value, partial: false }
+}
+
+/// Observations of all files in the order of their options.
+fn in_order(files: &[Observations]) -> Seen {
+    let of_file =
+        |(n, file): (usize, &Observations)| file.list.iter().map(move |seen| (n, *seen)).collect::<Vec<_>>();
+    let mut all: Vec<(usize, Observation)> = files.iter().enumerate().flat_map(of_file).collect();
+    all.sort_by_key(|(_, seen)| seen.option);
+    let (file, list) = all.into_iter().unzip();
+    Seen { list, file }
+}
+
+/// What `[uncertainty]` states of each parameter; an unknown of which it says that it is exact is an error.
+fn stated_priors(
+    case: &Case,
+    request: &Request<'_>,
+    parameters: &[Parameter],
+) -> Result<Vec<Option<Prior>>, Unknown> {
+    if request.sampling.is_none() {
+        return Ok(vec![None; parameters.len()]);
+    }
+    let stated = StatedKeys::of(&case.source.text);
+    let prior = |parameter: &Parameter| match parameter.stated_prior(&case.plan, &stated) {
+        Some(prior) if prior.sd <= 0.0 => Err(parameter.unknown),
+        prior => Ok(prior),
+    };
+    parameters.iter().map(prior).collect()
+}
+
+/// Inputs in common that are not estimated and that are not exact.
+fn others(case: &Case, request: &Request<'_>) -> Vec<(Parameter, Prior)> {
+    if request.sampling.is_none() {
+        return Vec::new();
+    }
+    let all = Parameter::others(request.unknowns).into_iter();
+    all.filter_map(|other| Some((other, other.prior(&case.plan).filter(|prior| prior.sd > 0.0)?))).collect()
+}
+
+/// The plan with the inputs that are not estimated at their means.
+fn plan_of_others(case: &Case, request: &Request<'_>) -> Plan {
+    let mut plan = case.plan.clone();
+    others(case, request).iter().for_each(|(other, prior)| other.put_into(&mut plan, prior.mean));
+    plan
+}
+
+fn by_option(observations: &[Observation]) -> Vec<(usize, Vec<Watched>)> {
+    let shots = observations.chunk_by(|a, b| a.option == b.option);
+    shots.map(|shot| (shot[0].option, shot.iter().map(|seen| seen.watched).collect())).collect()
+}
+
+/// Plausible ranges, and the parts of them that the plan expects: within three standard deviations.
+fn search_box(plan: &Plan, parameters: &[Parameter], priors: &[Option<Prior>]) -> SearchBox {
+    let ranges: Vec<[f64; 2]> = parameters.iter().map(|parameter| parameter.range(plan)).collect();
+    let expected = |(range, prior): (&[f64; 2], &Option<Prior>)| {
+        prior.map_or(*range, |prior| {
+            [prior.mean - 3.0 * prior.sd, prior.mean + 3.0 * prior.sd]
+                .map(|end| end.clamp(range[0], range[1]))
+        })
+    };
+    SearchBox { expected: ranges.iter().zip(priors).map(expected).collect(), ranges }
+}
+
+/// A fit under way.
+struct Fitting<'p> {
+    predictor: Predictor<'p>,
+    space: SearchBox,
+    priors: Vec<Option<Prior>>,
+    others: Vec<(Parameter, Prior)>,
+    seen: Seen,
+    seed: Option<u64>,
+}
+
+impl Fitting<'_> {
+    /// Where the search begins: at what the plan states, or at its own numbers.
+    fn own(&self, plan: &Plan) -> Vec<f64> {
+        let own = |(n, parameter): (usize, &Parameter)| {
+            let planned = || parameter.planned(plan).map(|planned| parameter.coordinate(planned));
+            // Stiff ends are at the stiff end of their range.
+            self.priors[n].map(|prior| prior.mean).or_else(planned).unwrap_or(self.space.ranges[n][1])
+        };
+        self.predictor.parameters.iter().enumerate().map(own).collect()
+    }
+
+    /// Independent residuals of unit variance: those of the observations, then those of what the plan states.
+    fn residuals(&self, at: &[f64], weights: &Weights) -> Result<Option<DVector<f64>>, NoResult> {
+        let Some(predicted) = self.predictor.values(at, 1.0)? else { return Ok(None) };
+        let Some(of_observations) = weights.whitened(&self.seen.list, &predicted) else { return Ok(None) };
+        let stated = self
+            .priors
+            .iter()
+            .zip(at)
+            .filter_map(|(prior, at)| prior.map(|prior| (at - prior.mean) / prior.sd));
+        let all: Vec<f64> = of_observations.iter().copied().chain(stated).collect();
+        Ok(Some(DVector::from_vec(all)))
+    }
+
+    /// Answers of nearly equal misfit, the best first, each with the weights there.
+    fn answers(&self, case: &Case) -> Result<Vec<(Minimum, Weights)>, NoResult> {
+        let own = self.own(&case.plan);
+        let weighing =
+            Weighing { predictor: &self.predictor, others: &self.others, seen: &self.seen, seed: self.seed };
+        let weights = weighing.weights(&own)?.ok_or_else(|| self.failure(&own))?;
+        let minima = self.space.minima(&own, &|at| self.residuals(at, &weights), self.predictor.progress)?;
+        let least = minima.first().map_or(f64::INFINITY, |best| best.misfit);
+        let worth: Vec<Minimum> = minima
+            .into_iter()
+            .take_while(|minimum| minimum.misfit <= least + WORTH_WEIGHING)
+            .take(MOST_WEIGHED)
+            .collect();
+        let weighed = run_jobs(&worth, self.predictor.progress, |minimum| {
+            let Some(weights) = weighing.weights(&minimum.at)? else { return Ok(None) };
+            let refined = self.space.refine(&minimum.at, &|at| self.residuals(at, &weights))?;
+            Ok(refined.map(|refined| (refined, weights)))
+        })?;
+        let mut weighed: Vec<(Minimum, Weights)> = weighed
+            .into_iter()
+            .collect::<Option<Vec<_>>>()
+            .ok_or(NoResult::OutOfTime)?
+            .into_iter()
+            .flatten()
+            .collect();
+        let unlikelihood = |(minimum, weights): &(Minimum, Weights)| minimum.misfit + weights.log_determinant;
+        weighed.sort_by(|a, b| unlikelihood(a).total_cmp(&unlikelihood(b)));
+        let least = weighed.first().map(unlikelihood).ok_or_else(|| self.failure(&own))?;
+        weighed.retain(|answer| unlikelihood(answer) <= least + NEARLY_EQUAL);
+        let kept = distinct(weighed.iter().map(|(minimum, _)| minimum.clone()).collect());
+        weighed.retain(|(minimum, _)| kept.iter().any(|kept| kept.at == minimum.at));
+        Ok(weighed)
+    }
+
+    /// Why the run at these coordinates fails.
+    fn failure(&self, at: &[f64]) -> NoResult {
+        let case = self.predictor.case(at);
+        let settings =
+            case.run_settings(self.predictor.compute.method, self.predictor.compute.first_step(&case));
+        let run = |(option, _): &(usize, _)| {
+            let watch = &mut |_: &dyn crate::simulation::Motion| self.predictor.progress.flow();
+            case.model.run(&case.shots[*option], &settings, watch).err()
+        };
+        let failure = self.predictor.options.iter().find_map(run);
+        failure.map_or(NoResult::OutOfTime, |failure| self.predictor.progress.no_result(failure))
+    }
+
+    /// Derivatives of the predictions at a minimum, made independent and of unit variance.
+    fn slopes(&self, minimum: &Minimum, weights: &Weights) -> Result<DMatrix<f64>, NoResult> {
+        let predictions = |at: &[f64]| Ok(self.predictor.values(at, 1.0)?.map(DVector::from_vec));
+        let Some(values) = predictions(&minimum.at)? else { return Err(self.failure(&minimum.at)) };
+        let difference = |n: usize| {
+            let [low, high] = self.space.ranges[n];
+            minimum.sd(n).clamp(1e-3 * (high - low), 0.1 * (high - low))
+        };
+        let difference: Vec<f64> = (0..minimum.at.len()).map(difference).collect();
+        let slopes = self.space.slopes(&minimum.at, &values, &difference, &predictions)?;
+        let known = slopes.map(|slope| if slope.is_finite() { slope } else { 0.0 });
+        Ok(weights.whiten(&known).unwrap_or(known))
+    }
+
+    fn answer(&self, case: &Case, minimum: &Minimum, weights: &Weights) -> Result<Answer, NoResult> {
+        let Some(predicted) = self.predictor.values(&minimum.at, 1.0)? else {
+            return Err(self.failure(&minimum.at));
+        };
+        let parameters = &self.predictor.parameters;
+        let count = parameters.len();
+        let estimate = |n: usize| {
+            let (parameter, at, [low, high]) = (parameters[n], minimum.at[n], self.space.ranges[n]);
+            let near_end = 1e-6 * (high - low);
+            Estimated {
+                parameter,
+                value: parameter.value(at),
+                sd: parameter.sd_of_value(at, minimum.sd(n)),
+                was: parameter.planned(&case.plan),
+                from_stated: self.priors[n].map(|prior| (at - prior.mean) / prior.sd),
+                is_at_end: at - low <= near_end || high - at <= near_end,
+            }
+        };
+        let correlation = |a: usize, b: usize| minimum.covariance[(a, b)] / (minimum.sd(a) * minimum.sd(b));
+        let residual = |n: usize| Residual {
+            fitted: predicted[n],
+            sd: weights.sds[n],
+            deviation: (self.seen.list[n].value - predicted[n]) / weights.sds[n],
+            error: weights.errors[n],
+        };
+        let stated = self.priors.iter().flatten().count();
+        Ok(Answer {
+            estimates: (0..count).map(estimate).collect(),
+            correlation: (0..count).map(|a| (0..count).map(|b| correlation(a, b)).collect()).collect(),
+            residuals: (0..predicted.len()).map(residual).collect(),
+            chi_square: minimum.misfit,
+            freedom: (predicted.len() + stated).saturating_sub(count),
+        })
+    }
+}
+
+/// What to observe next, by the plan with the best answer: of a shot of the option observed most.
+fn next(
+    case: &Case,
+    fit: &Fit,
+    request: &Request<'_>,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<Option<NextObservation>, NoResult> {
+    let Some(sampling) = request.sampling else { return Ok(None) };
+    let text = crate::plan::fitted::write(&case.source.text, &fit.answers[0].fitted(), &[]);
+    let Some(plan) = text.ok().and_then(|text| Plan::parse("", &text).ok()) else { return Ok(None) };
+    let shots = fit.observed.chunk_by(|a, b| a.option == b.option);
+    let Some(most) = shots.max_by_key(|shot| shot.len()) else { return Ok(None) };
+    next_observation(&Case::new(plan), most[0].option, &sampling, compute, progress)
+}

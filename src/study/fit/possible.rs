@@ -1,0 +1,169 @@
+//! Samples of a plan: what could have been seen of its shots, how the observations lie among it, and what to observe next.
+
+use nalgebra::{DMatrix, DVector};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::StandardNormal;
+
+use super::determined::{Candidate, candidates, usual_sd};
+use super::predict::seen;
+use crate::choice::ObservedQuantity;
+use crate::plan::observations::{Observation, Watched};
+use crate::study::samples::random_shot::{Input, draw};
+use crate::study::samples::risk::percentiles;
+use crate::study::samples::sampling::{Sampling, step};
+use crate::study::work::batch::run_jobs;
+use crate::study::{Case, ComputeSettings, NoResult, Progress};
+use crate::verdict::Quantity;
+
+/// What was planned of an observed quantity, and what could have been seen of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AsFired {
+    /// The value of the plan; not a number where the tire never lifts, or never lands.
+    pub planned: f64,
+    /// 5th and 95th percentile of what could have been seen, with the standard deviation of the observation; `None` without
+    /// samples.
+    pub band: Option<[f64; 2]>,
+}
+
+impl AsFired {
+    /// Whether an observed value lies in the band.
+    pub fn holds(&self, value: f64) -> Option<bool> {
+        self.band.map(|[low, high]| (low..=high).contains(&value))
+    }
+}
+
+/// What one more observation would narrow most.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NextObservation {
+    /// The observation.
+    pub candidate: Candidate,
+    /// Standard deviation that was assumed of it [SI unit].
+    pub sd: f64,
+    /// Share of the variance of the utilization that the observation would take away.
+    pub share: f64,
+}
+
+/// Values of what is watched in samples of one option, and their inputs in common.
+struct Samples {
+    /// Values (`n_samples` × `n_watched`).
+    values: Vec<Vec<f64>>,
+    /// Inputs in common (`n_samples`).
+    inputs: Vec<[f64; Input::ALL.len()]>,
+}
+
+fn samples(
+    case: &Case,
+    option: usize,
+    watched: &[Watched],
+    sampling: &Sampling,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<Samples, NoResult> {
+    let numbers: Vec<usize> = (0..sampling.least).collect();
+    let runs = run_jobs(&numbers, progress, |&number| {
+        let sample = draw(case, &case.shots[option], sampling.seed, number);
+        let settings = case.run_settings(compute.method, step(compute, &sample.scene));
+        let values = seen(case, Some(&sample.scene), &sample.shot, watched, &settings, progress)?;
+        Ok(values.map(|values| (values, sample.inputs)))
+    })?;
+    if runs.contains(&None) {
+        return Err(NoResult::OutOfTime);
+    }
+    let (values, inputs) = runs.into_iter().flatten().flatten().unzip();
+    Ok(Samples { values, inputs })
+}
+
+/// The observations beside what the plan says of them, which are in the order of their options; without a `sampling` there are no
+/// bands.
+pub fn as_fired(
+    case: &Case,
+    observations: &[Observation],
+    sampling: Option<&Sampling>,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<Vec<AsFired>, NoResult> {
+    let mut all = Vec::new();
+    for shot in observations.chunk_by(|a, b| a.option == b.option) {
+        let option = shot[0].option;
+        let watched: Vec<Watched> = shot.iter().map(|observation| observation.watched).collect();
+        let settings = case.run_settings(compute.method, compute.first_step(case));
+        let planned = seen(case, None, &case.shots[option], &watched, &settings, progress)?;
+        let planned = planned.unwrap_or_else(|| vec![f64::NAN; watched.len()]);
+        let drawn = sampling.map(|sampling| samples(case, option, &watched, sampling, compute, progress));
+        let drawn = drawn.transpose()?;
+        for (n, observation) in shot.iter().enumerate() {
+            let band = drawn.as_ref().and_then(|drawn| {
+                let mut random = ChaCha8Rng::seed_from_u64(n as u64);
+                let values = drawn.values.iter().map(|sample| {
+                    let noise: f64 = random.sample(StandardNormal);
+                    sample[n] + observation.sd * noise
+                });
+                percentiles(values.filter(|value| value.is_finite()), [0.05, 0.95])
+            });
+            all.push(AsFired { planned: planned[n], band });
+        }
+    }
+    Ok(all)
+}
+
+/// The single observation of a shot of `option` that would narrow its utilization most; `None` where none would by a hundredth.
+///
+/// 1. Only inputs in common repeat in the next shot. Let c be these inputs in a sample, Σ their covariance, and u and y the
+///    utilization and what is observed, each with its regression on c: slopes β and γ.
+/// 2. An observation with variance v = var y + sd² takes the part (βᵀΣγ)²/v from the variance of u.
+pub fn next_observation(
+    case: &Case,
+    option: usize,
+    sampling: &Sampling,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<Option<NextObservation>, NoResult> {
+    let watched = candidates(case.scene());
+    let drawn = samples(case, option, &watched, sampling, compute, progress)?;
+    let count = drawn.values.len();
+    if count <= 2 * Input::ALL.len() {
+        return Ok(None);
+    }
+    let utilization: Vec<f64> =
+        drawn.values.iter().map(|values| utilization(case, &watched, values)).collect();
+    let inputs = DMatrix::from_fn(count, Input::ALL.len(), |n, input| drawn.inputs[n][input]);
+    let centred = DMatrix::from_fn(count, Input::ALL.len(), |n, input| {
+        inputs[(n, input)] - inputs.column(input).mean()
+    });
+    let covariance = centred.transpose() * &centred / (count - 1) as f64;
+    let Ok(inverse) = covariance.clone().pseudo_inverse(1e-15) else { return Ok(None) };
+    let regression = |values: &DVector<f64>| -> (DVector<f64>, f64) {
+        let from_mean = values.add_scalar(-values.mean());
+        let slopes = &inverse * (centred.transpose() * &from_mean) / (count - 1) as f64;
+        (slopes, from_mean.norm_squared() / (count - 1) as f64)
+    };
+    let (beta, variance) = regression(&DVector::from_vec(utilization));
+    let mut best: Option<NextObservation> = None;
+    for (n, &watched) in watched.iter().enumerate() {
+        let values = DVector::from_iterator(count, drawn.values.iter().map(|sample| sample[n]));
+        if values.iter().any(|value| !value.is_finite()) {
+            continue;
+        }
+        let (gamma, scatter) = regression(&values);
+        let sd = usual_sd(watched.quantity, values.mean());
+        let share = (beta.transpose() * &covariance * gamma)[0].powi(2) / (scatter + sd * sd) / variance;
+        if share > best.map_or(0.01, |best| best.share) {
+            best = Some(NextObservation { candidate: Candidate { option, watched }, sd, share });
+        }
+    }
+    Ok(best)
+}
+
+/// Greatest share of a limit among the values of everything that could be watched.
+fn utilization(case: &Case, watched: &[Watched], values: &[f64]) -> f64 {
+    case.limits.utilization(|quantity| {
+        let wanted = match quantity {
+            Quantity::Height => ObservedQuantity::FlightHeight,
+            Quantity::Force => ObservedQuantity::Force,
+            Quantity::Drift => ObservedQuantity::Drift,
+        };
+        let of_quantity = watched.iter().zip(values).filter(|(watched, _)| watched.quantity == wanted);
+        of_quantity.map(|(_, value)| *value).fold(0.0, f64::max)
+    })
+}

@@ -1,0 +1,76 @@
+//! What a plan predicts of observed quantities, for given values of the parameters.
+
+use std::ops::ControlFlow;
+
+use super::parameter::Parameter;
+use super::watch::Watch;
+use crate::plan::Plan;
+use crate::plan::observations::Watched;
+use crate::scene::{Scene, Shot};
+use crate::simulation::{Motion, RunSettings};
+use crate::study::{Case, ComputeSettings, NoResult, Progress};
+
+/// Quantities watched in the shots of a plan, and the parameters on which they depend.
+pub struct Predictor<'p> {
+    /// The plan, but for the parameters.
+    pub plan: Plan,
+    /// The parameters, in the order of their coordinates.
+    pub parameters: Vec<Parameter>,
+    /// Delay options, each with what is watched in its shot.
+    pub options: Vec<(usize, Vec<Watched>)>,
+    /// Method and accuracy.
+    pub compute: ComputeSettings,
+    /// Progress of the study.
+    pub progress: &'p Progress,
+}
+
+impl Predictor<'_> {
+    /// The plan at these coordinates of the parameters, made ready to run.
+    pub fn case(&self, at: &[f64]) -> Case {
+        let mut plan = self.plan.clone();
+        for (parameter, &coordinate) in self.parameters.iter().zip(at) {
+            parameter.put_into(&mut plan, coordinate);
+        }
+        Case::new(plan)
+    }
+
+    /// The values of everything watched, option by option, in a run whose step is `coarser` times the usual one; `None` where a run
+    /// fails.
+    pub fn values(&self, at: &[f64], coarser: f64) -> Result<Option<Vec<f64>>, NoResult> {
+        let case = self.case(at);
+        let mut all = Vec::new();
+        for (option, watched) in &self.options {
+            let step = coarser * self.compute.first_step(&case);
+            let settings = case.run_settings(self.compute.method, step);
+            let run = seen(&case, None, &case.shots[*option], watched, &settings, self.progress)?;
+            let Some(values) = run else { return Ok(None) };
+            all.extend(values);
+        }
+        Ok(Some(all))
+    }
+}
+
+/// The values of what is watched in one shot, under a `variant` of the scene where there is one; `None` where the run fails.
+pub fn seen(
+    case: &Case,
+    variant: Option<&Scene>,
+    shot: &Shot,
+    watched: &[Watched],
+    settings: &RunSettings,
+    progress: &Progress,
+) -> Result<Option<Vec<f64>>, NoResult> {
+    let mut watch = Watch::new(watched);
+    let mut look = |motion: &dyn Motion| -> ControlFlow<()> {
+        watch.see(motion);
+        progress.flow()
+    };
+    let done = match variant {
+        Some(variant) => case.model.run_variant(variant, shot, settings, &mut look),
+        None => case.model.run(shot, settings, &mut look),
+    };
+    match done.map_err(|failure| progress.no_result(failure)) {
+        Ok(_) => Ok(Some(watch.values())),
+        Err(NoResult::Failed(_)) => Ok(None),
+        Err(ended) => Err(ended),
+    }
+}

@@ -1,0 +1,265 @@
+//! All minima of a sum of squares over a box: starts across the box, each refined by damped Gauss–Newton steps.
+//!
+//! The crate `levenberg-marquardt` (0.15) is on nalgebra 0.34, a second copy of what this crate uses in 0.35. It is also made for
+//! smooth functions with exact derivatives, and the height of a tire against its launch velocity is not smooth: it has kinks where
+//! a cable catches, and steps where a tire is launched anew. So the derivatives here are central differences over about half a
+//! standard deviation of the estimate, never over less than a thousandth of the range: roughness below that does not count.
+//!
+//! One refinement, with residuals r, their derivatives J, and a damping λ (Marquardt 1963):
+//! 1. d solves (JᵀJ + λ diag JᵀJ) d = −Jᵀr over the coordinates that do not press against an end of their range;
+//! 2. where r falls at the next point, it is taken and λ falls; else λ rises, and after some tries the differences narrow;
+//! 3. it ends where the sum of squares falls no more.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::study::work::batch::run_jobs;
+use crate::study::{NoResult, Progress};
+
+/// The residuals at given coordinates; `None` where a run fails. Their number never changes.
+pub type Residuals<'f> = dyn Fn(&[f64]) -> Result<Option<DVector<f64>>, NoResult> + Sync + 'f;
+
+/// The box that is searched.
+#[derive(Clone, Debug)]
+pub struct SearchBox {
+    /// Ends of each coordinate (`n_parameters`).
+    pub ranges: Vec<[f64; 2]>,
+    /// The part of each range in which the minimum is expected; half of the starts lie there.
+    pub expected: Vec<[f64; 2]>,
+}
+
+/// A minimum of the sum of squares.
+#[derive(Clone, Debug)]
+pub struct Minimum {
+    /// Its coordinates.
+    pub at: Vec<f64>,
+    /// The sum of squares.
+    pub misfit: f64,
+    /// Inverse of JᵀJ: the covariance of the coordinates.
+    pub covariance: DMatrix<f64>,
+}
+
+impl Minimum {
+    /// Standard deviation of a coordinate.
+    pub fn sd(&self, n: usize) -> f64 {
+        self.covariance[(n, n)].max(0.0).sqrt()
+    }
+
+    /// Whether two minima are one answer: no coordinate differs by more than two standard deviations.
+    pub fn is_same(&self, other: &Self) -> bool {
+        let near = |n: usize| (self.at[n] - other.at[n]).abs() <= 2.0 * self.sd(n).max(other.sd(n));
+        (0..self.at.len()).all(near)
+    }
+}
+
+/// Most starts that are refined.
+const MOST_REFINED: usize = 10;
+/// Most steps of a refinement.
+const MOST_STEPS: usize = 20;
+/// Least and greatest distance of a difference to each side, as a share of the range.
+const DIFFERENCE: [f64; 2] = [1e-3, 2e-2];
+/// Standard deviation of a coordinate that nothing depends on, over its range.
+const UNKNOWN: f64 = 10.0;
+/// Fall of the sum of squares that is none.
+const NO_FALL: f64 = 1e-3;
+
+impl SearchBox {
+    /// Width of a range.
+    fn width(&self, n: usize) -> f64 {
+        self.ranges[n][1] - self.ranges[n][0]
+    }
+
+    /// The point nearest to `at` within the box.
+    fn held(&self, at: &[f64]) -> Vec<f64> {
+        at.iter().zip(&self.ranges).map(|(at, [low, high])| at.clamp(*low, *high)).collect()
+    }
+
+    /// Starts: `own`, and points spread evenly over the box and over the part in which the minimum is expected.
+    fn starts(&self, own: &[f64]) -> Vec<Vec<f64>> {
+        let dimensions = self.ranges.len();
+        let count = [97, 160, 320, 480][(dimensions - 1).min(3)];
+        let inside = |ends: &[[f64; 2]], shares: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            ends.iter().enumerate().map(|(n, [low, high])| low + (high - low) * shares(n)).collect()
+        };
+        let share = |point: usize, n: usize| match dimensions {
+            1 => point as f64 / (count - 1) as f64,
+            _ => van_der_corput(point + 1, PRIMES[n % PRIMES.len()]),
+        };
+        let over = |ends| (0..count).map(move |point| inside(ends, &|n| share(point, n)));
+        let mut starts = vec![self.held(own)];
+        starts.extend(over(&self.ranges));
+        if self.expected != self.ranges {
+            starts.extend(over(&self.expected));
+        }
+        starts
+    }
+
+    /// All minima whose sum of squares may be the least, from the least on.
+    pub fn minima(
+        &self,
+        own: &[f64],
+        residuals: &Residuals<'_>,
+        progress: &Progress,
+    ) -> Result<Vec<Minimum>, NoResult> {
+        let starts = self.starts(own);
+        let misfits = run_jobs(&starts, progress, |start| Ok(residuals(start)?.map(|r| r.norm_squared())))?;
+        let misfits: Option<Vec<f64>> =
+            misfits.into_iter().map(|misfit| misfit.map(|known| known.unwrap_or(f64::INFINITY))).collect();
+        let Some(misfits) = misfits else { return Err(NoResult::OutOfTime) };
+        let mut chosen: Vec<usize> =
+            (0..starts.len()).filter(|&n| self.is_lowest_near(n, &starts, &misfits)).collect();
+        chosen.sort_by(|&a, &b| misfits[a].total_cmp(&misfits[b]));
+        chosen.truncate(MOST_REFINED);
+        let chosen: Vec<Vec<f64>> = chosen.into_iter().map(|n| starts[n].clone()).collect();
+        let refined = run_jobs(&chosen, progress, |start| self.refine(start, residuals))?;
+        let refined: Option<Vec<Option<Minimum>>> = refined.into_iter().collect();
+        let mut minima: Vec<Minimum> = refined.ok_or(NoResult::OutOfTime)?.into_iter().flatten().collect();
+        minima.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
+        Ok(distinct(minima))
+    }
+
+    /// Whether no start among the nearest to this one has a smaller sum of squares.
+    fn is_lowest_near(&self, n: usize, starts: &[Vec<f64>], misfits: &[f64]) -> bool {
+        if !misfits[n].is_finite() {
+            return false;
+        }
+        let distance = |other: usize| -> f64 {
+            let apart = |i: usize| ((starts[n][i] - starts[other][i]) / self.width(i)).powi(2);
+            (0..self.ranges.len()).map(apart).sum()
+        };
+        let mut others: Vec<usize> = (0..starts.len()).filter(|&other| distance(other) > 1e-12).collect();
+        others.sort_by(|&a, &b| distance(a).total_cmp(&distance(b)));
+        others.iter().take(2 * self.ranges.len()).all(|&other| misfits[n] <= misfits[other])
+    }
+
+    /// The minimum below a start; `None` where the run at the start fails.
+    pub fn refine(&self, start: &[f64], residuals: &Residuals<'_>) -> Result<Option<Minimum>, NoResult> {
+        let mut at = self.held(start);
+        let Some(mut r) = residuals(&at)? else { return Ok(None) };
+        let count = at.len();
+        let mut difference: Vec<f64> = (0..count).map(|n| 0.5 * DIFFERENCE[1] * self.width(n)).collect();
+        let mut damping = 1e-3;
+        for _ in 0..MOST_STEPS {
+            let slopes = self.slopes(&at, &r, &difference, residuals)?;
+            let mut fall = 0.0;
+            for _ in 0..6 {
+                let next = self.held(&self.step(&at, &r, &slopes, damping));
+                if let Some(lower) = residuals(&next)?.filter(|lower| lower.norm_squared() < r.norm_squared())
+                {
+                    fall = r.norm_squared() - lower.norm_squared();
+                    (at, r) = (next, lower);
+                    damping = (0.2 * damping).max(1e-9);
+                    break;
+                }
+                damping *= 8.0;
+            }
+            let narrowest = (0..count).all(|n| difference[n] <= 1.01 * DIFFERENCE[0] * self.width(n));
+            if fall <= NO_FALL && narrowest {
+                break;
+            }
+            let covariance = self.covariance(&slopes);
+            for n in 0..count {
+                let [least, most] = DIFFERENCE.map(|share| share * self.width(n));
+                let wanted = 0.5 * covariance[(n, n)].max(0.0).sqrt();
+                difference[n] = if fall > NO_FALL { wanted } else { 0.25 * difference[n] }.clamp(least, most);
+            }
+        }
+        let covariance = self.final_covariance(&at, &r, residuals)?;
+        Ok(Some(Minimum { misfit: r.norm_squared(), at, covariance }))
+    }
+
+    /// The covariance of the coordinates, from differences of about one standard deviation to each side.
+    fn final_covariance(
+        &self,
+        at: &[f64],
+        r: &DVector<f64>,
+        residuals: &Residuals<'_>,
+    ) -> Result<DMatrix<f64>, NoResult> {
+        let mut difference: Vec<f64> = (0..at.len()).map(|n| DIFFERENCE[1] * self.width(n)).collect();
+        let mut found = DMatrix::zeros(0, 0);
+        for _ in 0..2 {
+            found = self.covariance(&self.slopes(at, r, &difference, residuals)?);
+            for n in 0..at.len() {
+                let width = self.width(n);
+                difference[n] = found[(n, n)].max(0.0).sqrt().clamp(DIFFERENCE[0] * width, 0.1 * width);
+            }
+        }
+        Ok(found)
+    }
+
+    /// Derivatives of the residuals by central differences (`n_residuals` × `n_parameters`).
+    pub fn slopes(
+        &self,
+        at: &[f64],
+        r: &DVector<f64>,
+        difference: &[f64],
+        residuals: &Residuals<'_>,
+    ) -> Result<DMatrix<f64>, NoResult> {
+        let mut slopes = DMatrix::zeros(r.len(), at.len());
+        for n in 0..at.len() {
+            let beside = |side: f64| {
+                let mut beside = at.to_vec();
+                beside[n] = (at[n] + side * difference[n]).clamp(self.ranges[n][0], self.ranges[n][1]);
+                beside
+            };
+            let (more, less) = (beside(1.0), beside(-1.0));
+            let [above, below] = [residuals(&more)?, residuals(&less)?];
+            let (above, below) = (above.unwrap_or_else(|| r.clone()), below.unwrap_or_else(|| r.clone()));
+            slopes.set_column(n, &((above - below) / (more[n] - less[n])));
+        }
+        Ok(slopes)
+    }
+
+    /// Inverse of JᵀJ; a coordinate on which the residuals do not depend has a standard deviation of [`UNKNOWN`] times its range.
+    fn covariance(&self, slopes: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut normal = slopes.transpose() * slopes;
+        for n in 0..self.ranges.len() {
+            normal[(n, n)] += (UNKNOWN * self.width(n)).powi(-2);
+        }
+        let count = self.ranges.len();
+        normal.cholesky().map_or_else(|| DMatrix::zeros(count, count), |factor| factor.inverse())
+    }
+
+    /// The point that one damped step leads to.
+    fn step(&self, at: &[f64], r: &DVector<f64>, slopes: &DMatrix<f64>, damping: f64) -> Vec<f64> {
+        let gradient = slopes.transpose() * r;
+        let mut normal = slopes.transpose() * slopes;
+        let pressed = |n: usize| {
+            let [low, high] = self.ranges[n];
+            at[n] <= low && gradient[n] > 0.0 || at[n] >= high && gradient[n] < 0.0
+        };
+        for n in 0..at.len() {
+            // A coordinate without any effect stays where it is.
+            normal[(n, n)] += damping * normal[(n, n)] + 1e-12 / self.width(n).powi(2);
+        }
+        let free: Vec<usize> = (0..at.len()).filter(|&n| !pressed(n)).collect();
+        let normal = normal.select_rows(&free).select_columns(&free);
+        let mut next = at.to_vec();
+        if let Some(step) = normal.cholesky().map(|factor| factor.solve(&gradient.select_rows(&free))) {
+            free.iter().zip(step.iter()).for_each(|(&n, step)| next[n] -= step);
+        }
+        next
+    }
+}
+
+/// The minima, each once.
+pub fn distinct(minima: Vec<Minimum>) -> Vec<Minimum> {
+    minima.into_iter().fold(Vec::new(), |mut all: Vec<Minimum>, minimum| {
+        if !all.iter().any(|known| known.is_same(&minimum)) {
+            all.push(minimum);
+        }
+        all
+    })
+}
+
+const PRIMES: [usize; 8] = [2, 3, 5, 7, 11, 13, 17, 19];
+
+/// Member `n` of the sequence of van der Corput: evenly spread over 0 to 1, in several bases at once over a box (Halton 1960).
+fn van_der_corput(mut n: usize, base: usize) -> f64 {
+    let (mut share, mut digit) = (0.0, 1.0 / base as f64);
+    while n > 0 {
+        share += digit * (n % base) as f64;
+        n /= base;
+        digit /= base as f64;
+    }
+    share
+}

@@ -1,0 +1,420 @@
+//! Fits of observations: against closed forms, brute force and known truths; what is refused, and what is written.
+
+use std::fmt::Write;
+use std::fs;
+
+use shelter::Sampling;
+use shelter::choice::{ObservedQuantity, Unknown};
+use shelter::plan::observations::{Observations, Watched, template};
+use shelter::plan::{Plan, PlanSource};
+use shelter::study::fit::{Answer, Fit, FitResult, NotDetermined, Request, addresses, fit};
+use shelter::study::{Case, ComputeSettings, Progress};
+
+use crate::support::{json, shelter, shipped, small_plan, text};
+
+fn case_of(text: &str) -> Case {
+    let source = PlanSource { path: "plan.toml".to_owned(), text: text.to_owned() };
+    Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"))
+}
+
+fn observations(case: &Case, lines: &str) -> Observations {
+    let read = Observations::parse("seen.csv", lines, &addresses(case));
+    read.unwrap_or_else(|mistakes| panic!("{mistakes}"))
+}
+
+fn found(case: &Case, lines: &str, unknowns: &[Unknown], sampling: Option<Sampling>) -> FitResult {
+    let files = [observations(case, lines)];
+    let request = Request { files: &files, unknowns, sampling };
+    fit(case, &request, &ComputeSettings::of(&case.plan), &Progress::default()).expect("a result").value
+}
+
+fn fitted(case: &Case, lines: &str, unknowns: &[Unknown], sampling: Option<Sampling>) -> Fit {
+    match found(case, lines, unknowns, sampling) {
+        FitResult::Fitted(fit) => fit,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Value and standard deviation of the estimates of an answer.
+fn estimates(answer: &Answer) -> Vec<(f64, f64)> {
+    answer.estimates.iter().map(|estimate| (estimate.value, estimate.sd)).collect()
+}
+
+/// A lone tire over a hole of 6 m/s, without cables; `uncertainty` is the text of the section.
+fn lone_tire(uncertainty: &str) -> Case {
+    case_of(&format!(
+        "shelter = {{ layout = \"list\", tire = [{{ x_m = 0, y_m = 0 }}], cable = [] }}\ntire = {{ mass_kg = 280 }}\n\
+         cable = {{ rope = \"GOST 2688-80 6.2\" }}\nground = {{ friction = 0.5 }}\n\
+         blast_row = [{{ name = \"1\", under_tires = [1], launch_m_s = 6 }}]\n\
+         limits = {{ flight_height_m = 3, cable_safety_factor = 2 }}\ndelay = [{{ name = \"at once\", interval_ms = 0 }}]\n{uncertainty}"
+    ))
+}
+
+const EXACT: &str = "[uncertainty]\ndelay_sd_ms = 0\nlaunch_cv_percent = 0\nfriction = 0\nslack_percent = 0\naxial_stiffness_percent = [0, 0]\ntire_mass_cv_percent = 0\n";
+
+/// A height h is seen of a tire that leaves with V0: the factor is √(2 g h)/V0, its standard deviation that of h over 2 h, times
+/// the factor. Differences over one standard deviation err by its square.
+#[test]
+fn a_free_flight_gives_its_launch() {
+    for (height, sd) in [(1.2, 0.02), (1.8349, 0.02), (3.0, 0.05)] {
+        let lines = format!("tire,quantity,value,sd\n1,flight_height_m,{height},{sd}\n");
+        for sampling in [None, Some(Sampling::exactly(50, 1))] {
+            let fit = fitted(&lone_tire(EXACT), &lines, &[Unknown::Launch], sampling);
+            let [(factor, factor_sd)] = estimates(&fit.answers[0])[..] else { panic!("one estimate") };
+            let exact = f64::sqrt(2.0 * 9.81 * height) / 6.0;
+            assert!((factor - exact).abs() < 1e-4, "{factor} {exact}");
+            assert!((factor_sd / (exact * 0.5 * sd / height) - 1.0).abs() < 1e-3, "{factor_sd}");
+            assert_eq!(fit.answers.len(), 1);
+        }
+    }
+}
+
+/// What is known beforehand, seen, and scattered from hole to hole weighs by the inverse of the variances of the logarithm of the
+/// launch velocity: 0.05² stated; of the height (0.04/1.8 / 2)² seen and 0.03² scattered. The scatter comes from 64 samples, so
+/// that its variance is known to 18 %, the weights to 13 %, and the estimate to 4 %; the tolerances are three times that.
+#[test]
+fn prior_scatter_and_observation_weigh_as_they_should() {
+    let section = EXACT.replace("launch_cv_percent = 0", "launch_cv_percent = 3\nlaunch_common_percent = 5");
+    let lines = "tire,quantity,value,sd\n1,flight_height_m,2.2,0.04\n";
+    let fit = fitted(&lone_tire(&section), lines, &[Unknown::Launch], Some(Sampling::exactly(50, 1)));
+    let [(factor, sd)] = estimates(&fit.answers[0])[..] else { panic!("one estimate") };
+    let seen = (2.0 * 9.81 * 2.2_f64).sqrt() / 6.0;
+    let [stated, about] = [0.05_f64.powi(2), (0.02_f64 / 2.2).powi(2) + 0.03_f64.powi(2)].map(|v| 1.0 / v);
+    // The logarithm of a factor with mean 1 has the mean −0.05²/2.
+    let exact = (seen.ln() * about - 0.5 * 0.05_f64.powi(2) * stated) / (stated + about);
+    assert!((factor.ln() / exact - 1.0).abs() < 0.12, "{} {exact}", factor.ln());
+    assert!((sd / factor * (stated + about).sqrt() - 1.0).abs() < 0.15, "{sd}");
+}
+
+/// The heights of a tied tire at V0 of 5, 6 and 7 m/s, known to the millimetre; a height to within 0.1 m gives V0 to within 0.2 m/s.
+#[test]
+fn heights_of_a_tied_tire_give_the_launch_velocities_behind_them() {
+    let case = case_of(include_str!("../../plans/amur-three-rows.toml"));
+    for (height, speed) in [(1.234, 5.0), (1.744, 6.0), (2.326, 7.0)] {
+        let lines = format!("option,tire,quantity,value,sd\n20 ms,1:1,flight_height_m,{height},0.1\n");
+        let fit = fitted(&case, &lines, &[Unknown::Launch], None);
+        let (factor, sd) = estimates(&fit.answers[0])[0];
+        assert!((6.0 * factor - speed).abs() < 0.01, "{height}: {}", 6.0 * factor);
+        assert!((6.0 * sd - 0.2).abs() < 0.04, "{height}: {}", 6.0 * sd);
+    }
+}
+
+/// The plan of the source paper with a change.
+fn paper(old: &str, new: &str) -> Case {
+    let plan = include_str!("../../plans/paper-5-tire.toml");
+    assert!(plan.contains(old), "{old}");
+    case_of(&plan.replacen(old, new, 1))
+}
+
+/// The central tire rises and falls with the slack: less up to 7 %, more from there on, and more up to 0.5 %. Every slack at which it
+/// crosses an observed height is an answer, and no other; the crossings come from a scan.
+#[test]
+fn separate_answers_are_all_told() {
+    let step = 0.05;
+    let lines = |height: f64| format!("tire,quantity,value,sd\n1.5:1.5,flight_height_m,{height},0.004\n");
+    let height_at = |slack: f64| {
+        let case = paper("breaking_force_kn", &format!("slack_percent = {slack}\nbreaking_force_kn"));
+        fitted_as_planned(&case, &lines(1.0))[0].0
+    };
+    let heights: Vec<f64> = (0..=300).map(|n| height_at(f64::from(n) * step)).collect();
+    for height in [0.60, 0.70, 0.78] {
+        let pairs = heights.windows(2).enumerate();
+        let crosses = pairs.filter(|(_, pair)| (pair[0] - height) * (pair[1] - height) < 0.0);
+        let crossings: Vec<f64> =
+            crosses.map(|(n, pair)| step * (n as f64 + (height - pair[0]) / (pair[1] - pair[0]))).collect();
+        let fit = fitted(&paper("mass_kg", "mass_kg"), &lines(height), &[Unknown::Slack], None);
+        let mut answers: Vec<f64> = fit.answers.iter().map(|answer| answer.estimates[0].value).collect();
+        answers.sort_by(f64::total_cmp);
+        assert_eq!(answers.len(), crossings.len(), "{height}: {answers:?} {crossings:?}");
+        for (answer, crossing) in answers.iter().zip(&crossings) {
+            assert!((answer - crossing).abs() < 0.05, "{height}: {answers:?} {crossings:?}");
+        }
+        let report = shelter::report::fit::report(&paper("mass_kg", "mass_kg"), &[], &fit, false);
+        assert_eq!(report.conclusion.is_some(), answers.len() > 1);
+    }
+}
+
+/// Sets of unknowns that the observations cannot tell apart, or say nothing about.
+#[test]
+fn what_observations_do_not_determine_is_refused_by_name() {
+    use Unknown::{AxialStiffness, Damping, EndStiffness, Friction, Launch, LaunchByRow, Slack};
+    let (paper, rows) = (paper("mass_kg", "mass_kg"), case_of(&small_plan()));
+    let of_centre = "tire,cable,quantity,value,sd\n1.5:1.5,,flight_height_m,0.75,0.02\n";
+    let two = format!("{of_centre},1:1-1.5:1.5,cable_force_n,17700,500\n");
+    let side = "cable,quantity,value,sd\n1:1-1:2,cable_force_n,0,500\n";
+    let of_row = "option,tire,quantity,value,sd\n20 ms,1:1,flight_height_m,1.6,0.05\n";
+    let sets: [(&Case, &str, &[Unknown], &[&str]); 9] = [
+        (&paper, of_centre, &[Slack, AxialStiffness], &["slack_percent", "axial_stiffness"]),
+        (&paper, of_centre, &[Launch, Slack], &["launch", "slack_percent"]),
+        (&paper, of_centre, &[Launch, Friction], &["launch", "friction"]),
+        (&paper, of_centre, &[Damping, EndStiffness], &["damping", "end_stiffness"]),
+        (&paper, &two, &[Launch, Slack, AxialStiffness], &["launch", "slack_percent", "axial_stiffness"]),
+        (&paper, side, &[Slack], &["slack_percent"]),
+        (&paper, side, &[Launch], &["launch"]),
+        (&rows, of_row, &[LaunchByRow], &["launch_by_row[2]", "launch_by_row[3]"]),
+        (&rows, of_row, &[Damping], &["damping"]),
+    ];
+    let mut all = String::new();
+    for sampling in [None, Some(Sampling::exactly(20, 1))] {
+        for (case, lines, unknowns, among) in &sets {
+            let found = found(case, lines, unknowns, sampling);
+            let FitResult::NotDetermined(NotDetermined { parameters, .. }) = &found else {
+                panic!("{unknowns:?}: {found:?}")
+            };
+            let names: Vec<String> = parameters.iter().map(|parameter| parameter.name(&case.plan)).collect();
+            assert!(
+                !names.is_empty() && names.iter().all(|name| among.contains(&name.as_str())),
+                "{unknowns:?}: {names:?}"
+            );
+            let _ = writeln!(all, "{}", shelter::report::fit::refusal(case, &found).expect("words"));
+        }
+    }
+    insta::assert_snapshot!(all);
+}
+
+/// Two unknowns by brute force: the mean and the standard deviations of exp(−χ²/2) over a fine grid.
+#[test]
+fn two_unknowns_are_those_of_brute_force() {
+    let case = paper("mass_kg", "mass_kg");
+    let lines = "tire,quantity,value,sd\n1.5:1.5,flight_height_m,0.75,0.003\n1:1,drift_m,0.68,0.01\n";
+    let fit = fitted(&case, lines, &[Unknown::Launch, Unknown::Friction], None);
+    let best = &fit.answers[0];
+    let [(factor, factor_sd), (friction, friction_sd)] = estimates(best)[..] else { panic!("two estimates") };
+    let mut sums = [0.0_f64; 6];
+    let side = 24;
+    let grid = |n: i32| 3.5 * f64::from(n) / f64::from(side / 2);
+    for (a, b) in (-side / 2..=side / 2).flat_map(|a| (-side / 2..=side / 2).map(move |b| (a, b))) {
+        let (f, mu) = (factor + grid(a) * factor_sd, friction + grid(b) * friction_sd);
+        let mut plan = case.plan.clone();
+        plan.launches_mut().for_each(|launch| launch.speed_m_s = 6.0 * f);
+        plan.ground.friction = mu;
+        let planned = fitted_as_planned(&Case::new(plan), lines);
+        let chi: f64 = planned.iter().map(|(predicted, value, sd)| ((predicted - value) / sd).powi(2)).sum();
+        let weight = (-0.5 * chi).exp();
+        for (sum, value) in sums.iter_mut().zip([1.0, f, mu, f * f, mu * mu, f * mu]) {
+            *sum += weight * value;
+        }
+    }
+    let [mean_f, mean_mu] = [sums[1] / sums[0], sums[2] / sums[0]];
+    let [var_f, var_mu, both] = [
+        sums[3] / sums[0] - mean_f * mean_f,
+        sums[4] / sums[0] - mean_mu * mean_mu,
+        sums[5] / sums[0] - mean_f * mean_mu,
+    ];
+    println!(
+        "{best:?} {mean_f} {mean_mu} {} {} {}",
+        var_f.sqrt(),
+        var_mu.sqrt(),
+        both / (var_f * var_mu).sqrt()
+    );
+    // The map bends within a standard deviation: mean and mode of the likelihood differ by a part of it.
+    assert!((factor - mean_f).abs() < 0.3 * factor_sd && (friction - mean_mu).abs() < 0.3 * friction_sd);
+    assert!((var_f.sqrt() / factor_sd - 1.0).abs() < 0.2 && (var_mu.sqrt() / friction_sd - 1.0).abs() < 0.2);
+    assert!((both / (var_f * var_mu).sqrt() - best.correlation[0][1]).abs() < 0.15);
+}
+
+/// What a plan predicts of each observation, beside its value and standard deviation.
+fn fitted_as_planned(case: &Case, lines: &str) -> Vec<(f64, f64, f64)> {
+    let list = observations(case, lines).list;
+    let compute = ComputeSettings::of(&case.plan);
+    let fired = shelter::study::fit::possible::as_fired(case, &list, None, &compute, &Progress::default());
+    fired
+        .expect("a run")
+        .iter()
+        .zip(&list)
+        .map(|(fired, seen)| (fired.planned, seen.value, seen.sd))
+        .collect()
+}
+
+/// What is replaced in the good file, and by what.
+const BAD: &[(&str, &str)] = &[
+    ("option,tire,cable,quantity,at_s,value,sd\n", ""),
+    ("option,tire,", "option,tyre,"),
+    ("value,sd", "value"),
+    ("value,sd", "value_cm,sd_cm"),
+    ("value,sd", "value,sd,value"),
+    ("option,tire", "delay,tire"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "21 ms,1:1,,flight_height_m,,1.6,0.05"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", ",1:1,,flight_height_m,,1.6,0.05"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,9:1,,flight_height_m,,1.6,0.05"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,01:01:00,,flight_height_m,,1.6,0.05"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,A1,,flight_height_m,,1.6,0.05"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,,,flight_height_m,,1.6,0.05"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,1:1-1:2,flight_height_m,,1.6,0.05"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,,flight_height_cm,,160,5"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,,velocity,,1.6,0.05"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,,,,1.6,0.05"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,,flight_height_m,0.3,1.6,0.05"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,,height_m,,1.6,0.05"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,,flight_height_m,,1.6 m,5 cm"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,,flight_height_m,,1,6,0,05"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,,flight_height_m,,\"1,6\",0.05"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,,flight_height_m,,-1.6,0.05"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,,flight_height_m,,1.6,"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,,flight_height_m,,1.6,0"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,,flight_height_m,,1.6,-0.05"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,,flight_height_m,,nan,inf"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,,flight_height_m"),
+    (
+        "20 ms,1:1,,flight_height_m,,1.6,0.05",
+        "20 ms,1:1,,flight_height_m,,1.6,0.05\n20 ms,1:1,,flight_height_m,,1.7,0.05",
+    ),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "\"20 ms,1:1,,flight_height_m,,1.6,0.05"),
+    ("20 ms,,1:1-1:2,", "20 ms,,1:1-3:3,"),
+    ("20 ms,,1:1-1:2,", "20 ms,,1:1,"),
+    ("20 ms,,1:1-1:2,", "20 ms,1:1,,"),
+    ("20 ms,,1:1-1:2,cable_force_n,,30000,2000", "20 ms,,1:1-1:2,cable_force_kn,,30,2"),
+    (
+        "option,tire,cable,quantity,at_s,value,sd\n20 ms,1:1,,flight_height_m,,1.6,0.05\n20 ms,,1:1-1:2,cable_force_n,,30000,2000\n",
+        "option;tire;cable;quantity;at_s;value;sd\n20 ms;;1:1-1:2;cable_force_n;;30,000;2,000\n",
+    ),
+    (
+        "option,tire,cable,quantity,at_s,value,sd\n20 ms,1:1,,flight_height_m,,1.6,0.05\n20 ms,,1:1-1:2,cable_force_n,,30000,2000\n",
+        "",
+    ),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05\n20 ms,,1:1-1:2,cable_force_n,,30000,2000\n", ""),
+];
+
+const GOOD: &str = "option,tire,cable,quantity,at_s,value,sd\n20 ms,1:1,,flight_height_m,,1.6,0.05\n20 ms,,1:1-1:2,cable_force_n,,30000,2000\n";
+
+#[test]
+fn malformed_observations_have_their_line_and_remedy() {
+    let case = case_of(&small_plan());
+    assert_eq!(observations(&case, GOOD).list.len(), 2);
+    let mut all = String::new();
+    for (good, bad) in BAD {
+        assert!(GOOD.contains(good), "{good:?} is in the good file");
+        let lines = GOOD.replacen(good, bad, 1);
+        let mistakes = Observations::parse("seen.csv", &lines, &addresses(&case)).expect_err(bad);
+        let _ = writeln!(all, "## {}", bad.replace('\n', " / "));
+        for (line, column, message, remedy) in mistakes.iter() {
+            let _ = writeln!(all, "{line}:{column} {message}\n    {remedy}");
+        }
+    }
+    insta::assert_snapshot!(all);
+}
+
+#[test]
+fn observations_are_the_same_whatever_separates_the_columns() {
+    let case = case_of(&small_plan());
+    let list = observations(&case, GOOD).list;
+    for lines in [
+        "\u{feff}Option;Tire;Cable;Quantity;At_s;Value;SD\r\n20 ms;1:1;;flight_height_m;;1,6;0,05\r\n20 ms;;1:1-1:2;cable_force_n;;30000;2000\r\n",
+        "sep=;\noption;tire;cable;quantity;value;sd\n20 ms;1:1;;flight_height_m;1,6;0,05\n20 ms;;1:2-1:1;cable_force_n;30 000;2 000\n",
+        "option\ttire\tcable\tquantity\tat_s\tvalue\tsd\n20 ms\t1:1\t\tflight_height_m\t\t1.6\t0.05\n20 ms\t\t1:1-1:2\tcable_force_n\t\t30000\t2000",
+        "# filmed\nsd,value,quantity,cable,tire,option\n0.05,1.6,flight_height_m,,01:01,20 ms\n# load cell\n2000,30000,cable_force_n,1:1-1:2,,20 ms\n",
+    ] {
+        let mut other = observations(&case, lines).list;
+        other.iter_mut().zip(&list).for_each(|(other, own)| other.line = own.line);
+        assert_eq!(other, list, "{lines}");
+    }
+    let watched = Watched { quantity: ObservedQuantity::FlightHeight, index: 0, at: 0.0 };
+    assert_eq!((list[0].option, list[0].watched, list[0].value, list[0].sd), (2, watched, 1.6, 0.05));
+}
+
+#[test]
+fn the_template_is_a_file_of_observations() {
+    let case = case_of(&small_plan());
+    assert_eq!(observations(&case, &template("20 ms", "1:1", Some("1:1-1:2"))).list.len(), 4);
+    let printed = shelter(&["fit", &shipped("amur-three-rows.toml"), "--template"]);
+    let case = Case::load(shipped("amur-three-rows.toml").as_ref()).expect("a plan");
+    assert_eq!(observations(&case, text(&printed.stdout)).list.len(), 4);
+}
+
+/// Plan and observations in a folder of their own, and the program run on them.
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn with(lines: &str) -> Self {
+        let folder = Self(tempfile::tempdir().expect("a folder"));
+        fs::write(folder.path("plan.toml"), small_plan()).expect("written");
+        fs::write(folder.path("seen.csv"), lines).expect("written");
+        folder
+    }
+
+    fn path(&self, name: &str) -> String {
+        self.0.path().join(name).display().to_string()
+    }
+
+    fn fit(&self, more: &[&str]) -> std::process::Output {
+        let (plan, seen) = (self.path("plan.toml"), self.path("seen.csv"));
+        shelter(&[&["fit", &plan, "--observed", &seen], more].concat())
+    }
+
+    fn plan(&self) -> String {
+        fs::read_to_string(self.path("plan.toml")).expect("a plan")
+    }
+}
+
+#[test]
+fn estimates_are_written_once() {
+    let folder = Folder::with(
+        "option,tire,quantity,value,sd\n20 ms,1:1,flight_height_m,1.9,0.02\n20 ms,3:1,flight_height_m,1.5,0.02\n",
+    );
+    let first = folder.fit(&["--write", "--format", "json"]);
+    assert_eq!(first.status.code(), Some(0), "{}", text(&first.stderr));
+    let document = json(&first);
+    let launch = &document["unknowns"][0];
+    let factor = launch["value"].as_f64().expect("a number");
+    let plan = Plan::parse("", &folder.plan()).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    for launch in plan.launches() {
+        assert!((launch.speed_m_s - 6.0 * factor).abs() < 1e-4, "{}", launch.speed_m_s);
+    }
+    let percent = 1e2 * launch["sd"].as_f64().expect("a number") / factor;
+    assert!((plan.uncertainty.launch_common_percent - percent).abs() < 1e-4);
+    assert_eq!(plan.fitted_from, [document["files"][0]["sha256"].as_str().expect("a text")]);
+    assert!(folder.plan().contains("# rocky soil"), "comments stay");
+    let written = folder.plan();
+    let second = folder.fit(&["--write"]);
+    assert_eq!(second.status.code(), Some(2));
+    assert!(text(&second.stderr).contains("seen.csv was fitted into"), "{}", text(&second.stderr));
+    assert_eq!(folder.plan(), written);
+}
+
+#[test]
+fn nothing_is_written_where_something_is_wrong() {
+    for (lines, more, status) in [
+        ("option,tire,quantity,value,sd\n20 ms,1:1,flight_height_m,1.9,0\n", &["--write"][..], 2),
+        (
+            "option,tire,quantity,value,sd\n20 ms,1:1,flight_height_m,1.9,0.02\n",
+            &["--write", "--unknown", "damping"],
+            2,
+        ),
+        (
+            "option,tire,quantity,value,sd\n20 ms,1:1,flight_height_m,1.9,0.02\n",
+            &["--write", "--unknown", "launch,launch_by_row"],
+            2,
+        ),
+        (
+            "option,tire,quantity,value,sd\n20 ms,1:1,flight_height_m,1.9,0.02\n20 ms,3:1,flight_height_m,0.1,0.02\n",
+            &["--write", "--nominal"],
+            1,
+        ),
+        (
+            "option,tire,quantity,value,sd\n20 ms,1:1,flight_height_m,1.9,0.02\n",
+            &["--write", "--timeout", "1e-6"],
+            1,
+        ),
+    ] {
+        let folder = Folder::with(lines);
+        let output = folder.fit(more);
+        assert_eq!(output.status.code(), Some(status), "{lines} {}", text(&output.stderr));
+        assert_eq!(folder.plan(), small_plan(), "{lines}");
+    }
+}
+
+#[test]
+fn the_report_tells_estimates_and_what_was_seen() {
+    let folder = Folder::with(
+        "option,tire,quantity,value,sd\n20 ms,1:1,flight_height_m,1.9,0.02\n20 ms,3:1,flight_height_m,1.5,0.02\n42 ms,3:1,landing_s,3,0.01\n",
+    );
+    let output = folder.fit(&["--ascii", "--samples", "50"]);
+    let told = text(&output.stdout).replace(&folder.path(""), "");
+    insta::assert_snapshot!(told);
+    let csv = folder.fit(&["--format", "csv", "--samples", "50"]);
+    assert!(
+        text(&csv.stdout).starts_with("answer,name,unit,value,sd,was\n1,launch,,"),
+        "{}",
+        text(&csv.stdout)
+    );
+}
