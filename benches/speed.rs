@@ -9,7 +9,7 @@ use shelter::plan::{DelayScatter, Plan, Uncertainty};
 use shelter::simulation::{Model, Motion, RunSettings};
 use shelter::study::Progress;
 use shelter::study::as_planned::check;
-use shelter::study::samples::random_shot::{RandomShot, draw};
+use shelter::study::samples::draw::{RandomShot, draw};
 use shelter::study::work::batch::run_jobs;
 use shelter::study::{Case, NoResult};
 

@@ -51,7 +51,7 @@
 //! | [`outcome`] | | peaks, ledger, histories of a run | any other module |
 //! | [`simulation`] | scene, shot, step | an [`Outcome`](outcome::Outcome) or a [`Failure`](simulation::Failure) | [`plan`], [`ropes`], [`file`], [`units`]; options, limits, screens |
 //! | [`verdict`] | value, error, limit | pass, fail, undecided | any other module |
-//! | [`study`] | a plan made ready | verdicts refined until sure, on the shot as planned and on what may come of it; sweeps, orders, sizes, effects; accuracy tables, traces, flights | formats, except that of a shard (`study::merge`) |
+//! | [`study`] | a plan made ready | verdicts refined until sure; sweeps, orders, searches and other studies | formats, except that of a shard (`study::merge`) |
 //! | [`report`] | study results | text, JSON, CSV, a page of HTML | terminals |
 //! | [`jobs`] | a check or a study to begin | news: progress, results; the newest request of a kind wins | [`report`]; screens |
 //! | [`tui`] | keys and events | a screen | physics |

@@ -8,8 +8,9 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use shelter::choice::Accuracy;
 use shelter::plan::Plan;
+use shelter::study::samples::rounds::{ShotToSample, draw_shard, find_risks};
 use shelter::study::samples::sample::Sample;
-use shelter::study::samples::sampling::{Sampling, ShotToSample, draw_shard, find_risks};
+use shelter::study::samples::sampling::Sampling;
 use shelter::study::{Case, ComputeSettings, Progress, Shard};
 use shelter::verdict::Verdict;
 

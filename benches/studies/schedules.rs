@@ -6,7 +6,8 @@ use itertools::Itertools;
 use rayon::prelude::*;
 use shelter::plan::{HoleTiming, Plan};
 use shelter::scene::Shot;
-use shelter::study::samples::sampling::{Sampling, ShotToSample, find_risks};
+use shelter::study::samples::rounds::{ShotToSample, find_risks};
+use shelter::study::samples::sampling::Sampling;
 use shelter::study::search::{Schedule, search};
 use shelter::study::{Case, ComputeSettings, Progress};
 

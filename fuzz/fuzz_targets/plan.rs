@@ -2,7 +2,8 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use shelter::plan::{Plan, fields};
+use shelter::plan::Plan;
+use shelter::plan::edit::fields;
 
 fuzz_target!(|text: &str| {
     match Plan::parse("plan.toml", text) {

@@ -16,7 +16,7 @@ use crate::report::accuracy::report;
 use crate::report::json::AccuracyDocument;
 use crate::study::Found;
 use crate::study::accuracy::measure;
-use crate::study::paper_table::{PaperRow, paper_table};
+use crate::study::accuracy::paper_table::{PaperRow, paper_table};
 
 /// Runs that are expected to take longer are left out.
 const PATIENCE: Duration = Duration::from_secs(8);

@@ -12,8 +12,9 @@ use super::print_sharded::print_risks;
 use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::study::merge::{Question, ShardResults, write_shard};
+use crate::study::samples::rounds::{ShotToSample, draw_shard};
 use crate::study::samples::sample::OptionSample;
-use crate::study::samples::sampling::{Sampling, ShotToSample, draw_shard};
+use crate::study::samples::sampling::Sampling;
 use crate::study::{Case, Found, Shard};
 
 #[derive(Args)]

@@ -30,14 +30,14 @@ pub enum News {
         /// Time that the present run has reached [s].
         time: f64,
     },
-    /// An option is judged as planned, or has no result.
+    /// An option is checked as planned, or has no result.
     Checked {
         /// Index of the option.
         option: usize,
         /// Its result.
         result: Result<Box<CheckedShot>, NoResult>,
     },
-    /// Samples of an option that is judged as planned.
+    /// Samples of an option that is checked as planned.
     Sampled {
         /// Index of the option.
         option: usize,

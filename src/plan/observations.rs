@@ -12,7 +12,7 @@ use super::Diagnostics;
 use super::diagnostic::Mistake;
 use super::import::number::{Decimals, both_ways, decimals, value};
 use super::import::table::{Line, lines};
-use super::read::nearest;
+use super::reader::nearest;
 use super::source::{read_bytes, text_of};
 use crate::choice::ObservedQuantity;
 

@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::path::Path;
 
-use super::{Diagnostics, Plan, validate};
+use super::{Diagnostics, Plan, sections};
 
 /// Largest file read [bytes].
 pub(super) const MOST_BYTES: u64 = 64 << 20;
@@ -29,7 +29,7 @@ impl PlanSource {
 
     /// The values of the plan, or every mistake in its text.
     pub fn plan(&self) -> Result<Plan, Diagnostics> {
-        validate::parse(&self.path, &self.text)
+        sections::parse(&self.path, &self.text)
     }
 }
 

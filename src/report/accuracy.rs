@@ -5,8 +5,8 @@ use super::model::{Block, Cell, Column, Field, Report, Table};
 use super::paper_table::paper_table;
 use crate::choice::Method;
 use crate::study::Case;
+use crate::study::accuracy::paper_table::PaperRow;
 use crate::study::accuracy::{AccuracyTable, CLASSES, ErrorClass, Measured, NearestLimit, StepRow};
-use crate::study::paper_table::PaperRow;
 use crate::units::{self, Unit};
 
 /// One method at one step.

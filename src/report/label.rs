@@ -1,6 +1,6 @@
 //! Words of cells, headings and axes, the same in text, page and terminal.
 
-use super::model::{Axis, Block, Cell, Column, Offer, Report, Row, Scale, Shown};
+use super::model::{Axis, Block, Cell, Column, Offer, Report, Row, Scale};
 use super::spark::sparkline;
 use crate::units;
 
@@ -34,7 +34,7 @@ impl Cell {
 impl Row {
     /// Whether the words of the row, in the columns that readers of text see, contain `filter`, whose letters are small.
     pub fn contains(&self, columns: &[Column], filter: &str) -> bool {
-        let seen = columns.iter().zip(&self.cells).filter(|(column, _)| column.is_in_text());
+        let seen = columns.iter().zip(&self.cells).filter(|(column, _)| column.shown.is_in_text());
         let words = seen.map(|(_, cell)| cell.label(0)).chain(self.missing.clone());
         words.collect::<Vec<_>>().join(" ").to_lowercase().contains(filter)
     }
@@ -55,11 +55,6 @@ impl Report {
 }
 
 impl Column {
-    /// Whether readers of text see it.
-    pub fn is_in_text(&self) -> bool {
-        matches!(self.shown, Shown::People | Shown::Text)
-    }
-
     /// Heading with unit: `height, m`.
     pub fn label(&self) -> String {
         with_unit(self.heading, self.unit)

@@ -3,8 +3,8 @@
 //! | what | where |
 //! |---|---|
 //! | what a report is | [`model`] |
-//! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`mod@fit`], [`why`], [`accuracy`], [`ropes`], [`trace`] |
-//! | words, charts and columns that reports share | [`explain`], [`limits`], [`no_result`], [`notes`], [`warnings`], [`charts`], [`shared_columns`], rows of options |
+//! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`mod@fit`], [`would_pass`], [`accuracy`], `paper_table`, [`ropes`], [`trace`] |
+//! | words, charts and columns that reports share | [`explain`], [`reasons`], [`limits`], [`no_result`], [`notes`], [`warnings`], [`charts`], [`shared_columns`], rows of options |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |
 //! | what faces share | [`palette`], [`ascii`], [`spark`], labels of cells |
 //!

@@ -3,6 +3,8 @@
 //! Numbers stay numbers, SI, beside the unit in which people read them. A report holds no widths, colours, escapes or
 //! rounded numbers: faces choose the first three, [`units`](crate::units) words the last.
 
+use std::ops::Range;
+
 use crate::plan::DelayOption;
 use crate::units::Unit;
 use crate::verdict::Verdict;
@@ -118,12 +120,33 @@ impl Table {
 }
 
 impl Table {
+    /// Indices of the columns that a face shows, by for whom they are.
+    pub fn columns_for(&self, shown: impl Fn(Shown) -> bool) -> Vec<usize> {
+        (0..self.columns.len()).filter(|&n| shown(self.columns[n].shown)).collect()
+    }
+
+    /// Indices of the rows that a face leaves out where it shows so many at each end of a ranking.
+    pub fn left_out(&self, at_each_end: usize) -> Range<usize> {
+        let rows = self.rows.len();
+        if self.ranked && rows > 2 * at_each_end { at_each_end..rows - at_each_end } else { 0..0 }
+    }
+
     /// The same table, whose rows offer these changes of the plan, in their order.
     pub fn offering(mut self, offers: impl IntoIterator<Item = Offer>) -> Self {
         for (row, offer) in self.rows.iter_mut().zip(offers) {
             row.offer = Some(offer);
         }
         self
+    }
+}
+
+impl Row {
+    /// How many of the columns `seen` have a value before the reason why the others have none.
+    pub fn known(&self, seen: &[usize]) -> usize {
+        match self.missing {
+            Some(_) => seen.iter().take_while(|&&n| self.cells[n] != Cell::Nothing).count(),
+            None => seen.len(),
+        }
     }
 }
 
@@ -179,6 +202,13 @@ pub enum Shown {
     Page,
     /// No reader: the column is for scripts.
     Scripts,
+}
+
+impl Shown {
+    /// Whether readers of text and terminal see the column.
+    pub fn is_in_text(self) -> bool {
+        matches!(self, Shown::People | Shown::Text)
+    }
 }
 
 /// A row of a table.

@@ -2,7 +2,7 @@
 
 use super::model::{Block, Cell, Column, Table};
 use crate::choice::Method;
-use crate::study::paper_table::{PAPER, PaperRow};
+use crate::study::accuracy::paper_table::{PAPER, PaperRow};
 use crate::units::Unit;
 
 const PAPER_COLUMNS: [Column; 7] = [

@@ -3,7 +3,7 @@
 use unicode_width::UnicodeWidthStr;
 
 use super::ascii::to_ascii;
-use super::model::{Align, Block, Cell, Chart, Column, Report, Row, Scale, SeriesKind, Table};
+use super::model::{Align, Block, Cell, Chart, Column, Report, Row, Scale, SeriesKind, Shown, Table};
 use super::palette::Role;
 use super::spark::sparkline;
 use crate::units;
@@ -99,9 +99,8 @@ fn is_drawn(table: &Table, column: usize) -> bool {
 
 /// Heading and rows of the columns that readers of text see; no line where they see no column.
 fn table_lines(table: &Table, style: Style) -> Vec<String> {
-    let seen: Vec<usize> = (0..table.columns.len())
-        .filter(|&n| table.columns[n].is_in_text() && !(style.plain && is_drawn(table, n)))
-        .collect();
+    let mut seen = table.columns_for(Shown::is_in_text);
+    seen.retain(|&n| !(style.plain && is_drawn(table, n)));
     if seen.is_empty() {
         return Vec::new();
     }
@@ -121,7 +120,7 @@ fn table_lines(table: &Table, style: Style) -> Vec<String> {
         padded.collect::<Vec<_>>().join("  ").trim_end().to_owned()
     };
     let mut lines: Vec<String> = heading.iter().map(|labels| join(labels)).collect();
-    let hidden = if table.ranked && rows.len() > 2 * RANKED { RANKED..rows.len() - RANKED } else { 0..0 };
+    let hidden = table.left_out(RANKED);
     for (n, (row, labels)) in table.rows.iter().zip(&rows).enumerate() {
         if hidden.contains(&n) {
             if n == hidden.start {
@@ -129,9 +128,8 @@ fn table_lines(table: &Table, style: Style) -> Vec<String> {
             }
             continue;
         }
-        let known = labels.iter().take_while(|label| !label.text.is_empty()).count();
         lines.push(match &row.missing {
-            Some(missing) => format!("{}  {missing}", join(&labels[..known])),
+            Some(missing) => format!("{}  {missing}", join(&labels[..row.known(&seen)])),
             None => join(labels),
         });
         lines.extend(row.details.iter().map(|detail| format!("    {}", detail.text)));

@@ -1,7 +1,7 @@
 //! What would make an option pass, as sentences: one a change.
 
 use super::model::Block;
-use crate::plan::change::Change;
+use crate::plan::edit::change::Change;
 use crate::plan::{Launch, Layout, Timing};
 use crate::study::Case;
 use crate::study::as_planned::shot_reason::exceeds_together;

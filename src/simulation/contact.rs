@@ -123,7 +123,8 @@ impl TireStep {
         self.displacement.z <= 0.0 && self.velocity.z <= 0.0
     }
 
-    /// The same without the work of pushes.
+    /// Integrates over the time `left` [s] of a step `h` [s], phase by phase: in the air, landing, on the ground. Returns the
+    /// acceleration of a free tire at its end [m/s²]. The work of pushes is not counted here.
     fn integrate_phases(&mut self, mut left: f64, h: f64) -> Vector3<f64> {
         while !(self.on_ground() && self.free.z <= 0.0) {
             match self.landing().filter(|&landing| landing <= left) {

@@ -7,6 +7,21 @@
 //! | R, Ff | reaction of the ground and friction [N]; u₃ ≥ 0, R ≥ 0, R u₃ = 0, \|Ff\| ≤ μR | R, Ff, (2), (3) |
 //! | h | step [s] | Δt |
 //!
+//! | what | where |
+//! |---|---|
+//! | the two methods, each a stepper | `verlet`, `newmark` |
+//! | a tire on the ground: support, friction, landing, push | `contact` |
+//! | forces of cables, in the order of memory | `cable` |
+//! | which tires and cables need work in a step | `wake` |
+//! | when holes fire, when the run ends | `clock` |
+//! | peaks, broken cables, energy, history | `record` |
+//! | why there is no outcome | `failure` |
+//! | numbers in registers; lists in one piece of memory | `pack`, `compressed_rows` |
+//!
+//! Words of the loop: a *part* is the piece of a scene that stands for the whole where its mirror *images* move alike. Cables of
+//! equal length and stiffness form a *block*; an *element* is a cable of a block. A *pack* is as many numbers as one register
+//! holds, each in a *lane*; a *slot* is the place of a tire in the packs. A tire that nothing has moved yet is *asleep*.
+//!
 //! Two methods solve one model: `verlet` is explicit with contact in closed form, `newmark` is the source paper's. This module
 //! does not know plans, options, limits or screens. A motion that is no longer finite is a [`Failure`], never a result.
 
@@ -27,8 +42,8 @@ use std::sync::Arc;
 use nalgebra::Vector3;
 
 pub use self::failure::{Failure, Iteration};
-use self::newmark::NewmarkCache;
-use self::verlet::VerletCache;
+use self::newmark::NewmarkModel;
+use self::verlet::VerletModel;
 use crate::choice::Method;
 use crate::outcome::Outcome;
 use crate::scene::{Scene, Shot};
@@ -63,8 +78,8 @@ pub type Watcher<'a> = dyn FnMut(&dyn Motion) -> ControlFlow<()> + 'a;
 #[derive(Clone, Debug)]
 pub struct Model {
     scene: Arc<Scene>,
-    verlet: Arc<VerletCache>,
-    newmark: Arc<NewmarkCache>,
+    verlet: Arc<VerletModel>,
+    newmark: Arc<NewmarkModel>,
 }
 
 impl Model {

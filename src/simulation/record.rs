@@ -1,4 +1,4 @@
-//! Running record of one run: peaks between samples, broken cables, the ledger, the history.
+//! Running record of one run: peaks between steps, broken cables, the ledger, the history.
 
 use nalgebra::Vector3;
 
@@ -38,32 +38,32 @@ impl Record {
         }
     }
 
-    /// Notes a sampled height that is greater than all before, `sample` [m], with the tire's vertical velocity [m/s] and
+    /// Notes a height that is greater than all before, `peak` [m], with the tire's vertical velocity [m/s] and
     /// acceleration [m/s²].
     ///
-    /// Between samples the tire follows a parabola. The top of the parabola replaces the sample when the top is at most half
+    /// Between steps the tire follows a parabola. The top of the parabola replaces the height when the top is at most half
     /// a step away.
-    pub fn note_height(&mut self, sample: Peak, velocity: f64, acceleration: f64) {
+    pub fn note_height(&mut self, peak: Peak, velocity: f64, acceleration: f64) {
         let until_top = -velocity / acceleration;
         let near = acceleration < 0.0 && until_top.abs() <= 0.5 * self.step;
         let ahead = if near { until_top } else { 0.0 };
-        self.height = Peak { value: sample.value + 0.5 * velocity * ahead, at: sample.at + ahead, ..sample };
+        self.height = Peak { value: peak.value + 0.5 * velocity * ahead, at: peak.at + ahead, ..peak };
     }
 
-    /// Notes the top of a flight that no sample saw [m], if that top is the greatest height so far.
+    /// Notes the top of a flight that no step saw [m], if that top is the greatest height so far.
     pub fn note_top(&mut self, top: Peak) {
         if top.value > self.height.value {
             self.height = top;
         }
     }
 
-    /// Moves the greatest force, which was sampled one step ago, to the top of the parabola through three samples.
+    /// Moves the greatest force, which was seen one step ago, to the top of the parabola through the forces of three steps.
     ///
-    /// `before` and `after` are k (L − L0) of the same cable one step before and one step after that sample [N].
+    /// `before` and `after` are k (L − L0) of the same cable one step before and one step after it [N].
     pub fn interpolate_force(&mut self, before: f64, after: f64) {
-        let sampled = self.force.value;
-        if before <= sampled && after <= sampled && before + after < 2.0 * sampled && after.is_finite() {
-            let (rise, bend) = (after - before, 2.0 * sampled - before - after);
+        let middle = self.force.value;
+        if before <= middle && after <= middle && before + after < 2.0 * middle && after.is_finite() {
+            let (rise, bend) = (after - before, 2.0 * middle - before - after);
             self.force.value += rise * rise / (8.0 * bend);
             self.force.at += 0.5 * self.step * rise / bend;
         }

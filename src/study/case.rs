@@ -36,7 +36,7 @@ impl Case {
     /// Validates and builds a plan from its text.
     pub fn parse(source: PlanSource) -> Result<Self, Diagnostics> {
         let plan = source.plan()?;
-        Ok(Self { source, ..Self::new(plan) })
+        Ok(Self::new(plan).with_source(source))
     }
 
     /// Builds scene, shots and limits of a plan that has no file.
@@ -52,6 +52,18 @@ impl Case {
             breaking_force,
         };
         Self { source: PlanSource::default(), plan, model: Model::new(scene), shots, limits, hole_timing }
+    }
+
+    /// The same case, of a plan with this file and text.
+    pub fn with_source(self, source: PlanSource) -> Self {
+        Self { source, ..self }
+    }
+
+    /// The case with only these of its delay options, in this order.
+    pub fn with_options(&self, options: &[usize]) -> Self {
+        let delays = options.iter().map(|&n| self.plan.delays[n].clone()).collect();
+        let shots = options.iter().map(|&n| self.shots[n].clone()).collect();
+        Self { plan: Plan { delays, ..self.plan.clone() }, shots, ..self.clone() }
     }
 
     /// Title of the plan; the path of its file where the plan has no title.

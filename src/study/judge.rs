@@ -7,8 +7,9 @@ use super::as_planned::margin::{LaunchMargin, launch_margin};
 use super::judgement::Judgement;
 use super::judgement::Sampled;
 use super::samples::risk::Risk;
+use super::samples::rounds::{ShotToSample, find_risks, find_risks_watched};
 use super::samples::sample::{OptionSample, Sample};
-use super::samples::sampling::{Sampling, ShotToSample, find_risks, find_risks_watched};
+use super::samples::sampling::Sampling;
 use super::work::batch::run_jobs;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, guarded};
 use crate::verdict::Verdict;
@@ -123,7 +124,7 @@ fn check_one_as_planned(
     checked.map_err(|failure| progress.no_result(failure))
 }
 
-/// The options that are judged as planned.
+/// The options that are checked as planned.
 fn judged(results: &mut [OptionResults]) -> Vec<(CaseOption, &mut Judgement)> {
     let of_case = |(case, results)| {
         let options = <OptionResults as AsMut<[_]>>::as_mut(results).iter_mut().enumerate();
@@ -132,7 +133,7 @@ fn judged(results: &mut [OptionResults]) -> Vec<(CaseOption, &mut Judgement)> {
     results.iter_mut().enumerate().flat_map(of_case).collect()
 }
 
-/// Samples the options that are judged as planned.
+/// Samples the options that are checked as planned.
 fn add_risks(
     cases: &[(&Case, ComputeSettings)],
     results: &mut [OptionResults],
@@ -158,7 +159,7 @@ fn add_risks(
     Ok(Found { value: (), partial })
 }
 
-/// An option to be sampled, judged `as_planned`; one that fails is sampled only to show by how much.
+/// An option to be sampled, checked `as_planned`; one that fails is sampled only to show by how much.
 fn target<'c>(
     case: &'c Case,
     option: usize,

@@ -5,7 +5,7 @@ use super::as_planned::margin::LaunchMargin;
 use super::samples::risk::Risk;
 use crate::verdict::Verdict;
 
-/// A delay option, judged as planned and by samples.
+/// A delay option: the check of the shot as planned, and the risk of the possible shots.
 #[derive(Clone, Debug)]
 pub struct Judgement {
     /// The shot as planned.

@@ -7,7 +7,7 @@
 //! | the shots that are possible: drawn, run, counted | [`samples`] |
 //! | both together: the judgement on an option, on all options | [`judgement`], [`judge`] |
 //! | why an option fails, or its verdict stays open | [`reasons`] |
-//! | other questions of the user, one each | [`sweep`], [`orders`], [`search`], [`size`], [`would_pass`], [`effects`], [`mod@fit`], [`accuracy`], [`paper_table`], [`flight`], [`trace`] |
+//! | other questions of the user, one each | [`sweep`], [`orders`], [`search`], [`size`], [`would_pass`], [`effects`], [`mod@fit`], [`accuracy`], [`flight`], [`trace`] |
 //! | how work runs: on all cores, with progress, to be stopped | [`work`]; on many machines: [`merge`] |
 //!
 //! Three verbs: a shot as planned is *checked*, possible shots are *sampled*, and both together are *judged*.
@@ -27,7 +27,6 @@ pub mod judge;
 pub mod judgement;
 pub mod merge;
 pub mod orders;
-pub mod paper_table;
 pub mod reasons;
 pub mod samples;
 pub mod search;

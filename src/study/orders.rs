@@ -292,9 +292,9 @@ pub fn refine(
         loop {
             let mine = |n: &usize| tried[*n].interval == interval;
             let is_known = |n: &usize| tried[*n].as_planned != ShotSummary::UNKNOWN;
-            let judged = (0..tried.len()).filter(|n| mine(n) && refined.contains(n) && is_known(n));
+            let checked = (0..tried.len()).filter(|n| mine(n) && refined.contains(n) && is_known(n));
             let farthest =
-                judged.map(|n| sign * utilization(case, &tried[n])).fold(f64::NEG_INFINITY, f64::max);
+                checked.map(|n| sign * utilization(case, &tried[n])).fold(f64::NEG_INFINITY, f64::max);
             // An order whose runs failed may be the worst, and is not the best.
             let reach = |n: usize| match is_known(&n) {
                 true => {
@@ -315,9 +315,9 @@ pub fn refine(
                 break;
             }
             let shots: Vec<Shot> = next.iter().map(|&n| case.shot(&tried[n].order, interval)).collect();
-            let judged =
+            let checked =
                 run_checks_or_unknown(&shots, progress, |shot| full_check(case, shot, compute, progress))?;
-            for (n, as_planned) in next.into_iter().zip(judged) {
+            for (n, as_planned) in next.into_iter().zip(checked) {
                 let Some(as_planned) = as_planned else { return Ok(Found { value: tried, partial: true }) };
                 for n in images[n].into_iter().chain([n]) {
                     tried[n].as_planned = as_planned;

@@ -8,10 +8,10 @@ use std::time::Duration;
 
 use ratatui::layout::Rect;
 
+use super::compare::{Listing, OptionState, SortBy};
 use super::config::Config;
 use super::editor::{EditOutcome, Editor};
 use super::keymap::{Action, Keymap};
-use super::options::{Listing, OptionState, SortBy};
 use super::player::Player;
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
@@ -245,7 +245,7 @@ impl App {
     /// Shows the plan of the editor's text.
     pub(super) fn take_edited(&mut self, plan: Plan) -> Request {
         let source = PlanSource { path: self.case.source.path.clone(), text: self.editor.text.clone() };
-        self.replace_plan(Case { source, ..Case::new(plan) })
+        self.replace_plan(Case::new(plan).with_source(source))
     }
 
     /// Takes back edits that the last session could not save.
@@ -383,7 +383,7 @@ impl App {
         self.checking() || self.sampling() || self.studies.busy()
     }
 
-    /// Whether an option is not yet judged as planned.
+    /// Whether an option is not yet checked as planned.
     pub fn checking(&self) -> bool {
         self.options.iter().any(OptionState::is_computing)
     }

@@ -127,8 +127,8 @@ mod tests {
             .collect();
         let config = Config::parse(&all).unwrap_or_else(|mistake| panic!("{mistake}\n{all}"));
         for binding in BINDINGS {
-            let default = Keymap::default().label(binding.action, true);
-            assert_eq!(config.keymap.label(binding.action, true), default);
+            let default = Keymap::default().all_keys(binding.action);
+            assert_eq!(config.keymap.all_keys(binding.action), default);
         }
     }
 

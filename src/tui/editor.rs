@@ -9,7 +9,8 @@ use super::name_list::NameList;
 use super::order::Order;
 use super::paste::paste;
 use super::stepped::{beside, moved, stepped};
-use crate::plan::fields::{self, Field, Path};
+use crate::plan::edit::fields;
+use crate::plan::edit::fields::{Field, Path};
 use crate::plan::keys::{Kind, delay, plan};
 use crate::plan::{Layout, Plan};
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::app::App;
-use super::options::OptionState;
+use super::compare::OptionState;
 use super::screen::Screen;
 use super::studies::ShownStudy;
 use crate::file;

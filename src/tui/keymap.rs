@@ -1,4 +1,4 @@
-//! The table of keys: dispatch, footer, help, command palette and configuration read it.
+//! Key bindings: dispatch, footer, help, command palette and configuration read one table.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
@@ -202,14 +202,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Rerun, "rerun", &["r"], "", "compute again", ALL),
     bind(Action::Find, "search", &["/"], "find", "find: options by name or verdict, values, lines", ALL),
     bind(Action::Export, "export", &["e"], "export", "write what is shown to a CSV, SVG or HTML file", ALL),
-    bind(
-        Action::Page,
-        "page",
-        &["P"],
-        "page",
-        "write the page of the selected option: to be signed and fired",
-        COMPARE,
-    ),
+    bind(Action::Page, "page", &["P"], "page", "write the page of the selected option, to sign", COMPARE),
     bind(Action::Yank, "copy", &["y"], "", "copy what is shown to the clipboard", ALL),
     bind(Action::Palette, "commands", &[":"], "", "choose a command by name", ALL),
     bind(Action::Theme, "theme", &["t"], "theme", "next theme: dark, light, sunlight", ALL),
@@ -308,17 +301,23 @@ impl Keymap {
     /// The first key of an action, or its name in the command palette; for a sentence.
     pub fn hint(&self, action: Action) -> String {
         let name = || BINDINGS.iter().find(|binding| binding.action == action).map_or("", |found| found.name);
-        Some(self.label(action, false))
-            .filter(|key| !key.is_empty())
-            .unwrap_or_else(|| format!(":{}", name()))
+        Some(self.first_key(action)).filter(|key| !key.is_empty()).unwrap_or_else(|| format!(":{}", name()))
     }
 
-    /// The first key of an action, or all its keys.
-    pub fn label(&self, action: Action, all: bool) -> String {
+    /// The first key of an action; empty where it has none.
+    pub fn first_key(&self, action: Action) -> String {
+        self.keys(action).first().map(|key| readable(key)).unwrap_or_default()
+    }
+
+    /// All keys of an action, with blanks between them.
+    pub fn all_keys(&self, action: Action) -> String {
+        self.keys(action).iter().map(|key| readable(key)).collect::<Vec<_>>().join(" ")
+    }
+
+    /// The keys of an action, as the configuration writes them.
+    fn keys(&self, action: Action) -> &[String] {
         let index = BINDINGS.iter().position(|binding| binding.action == action);
-        let written = index.and_then(|index| self.labels.get(index)).map_or(&[][..], Vec::as_slice);
-        let shown = if all { written } else { &written[..written.len().min(1)] };
-        shown.iter().map(|key| readable(key)).collect::<Vec<_>>().join(" ")
+        index.and_then(|index| self.labels.get(index)).map_or(&[], Vec::as_slice)
     }
 }
 
@@ -444,14 +443,14 @@ mod tests {
         let pressed = |letter, modifiers| keymap.action(&KeyEvent::new(KeyCode::Char(letter), modifiers));
         assert_eq!(pressed('q', KeyModifiers::CONTROL), Some(Action::Quit));
         assert_eq!(pressed('q', KeyModifiers::NONE), None);
-        assert_eq!(keymap.label(Action::Quit, true), "Ctrl-q");
+        assert_eq!(keymap.all_keys(Action::Quit), "Ctrl-q");
         assert_eq!(keymap.hint(Action::Quit), "Ctrl-q");
         let without = Keymap::with([("quit".to_owned(), Vec::new())]).expect("no key");
         assert_eq!(without.hint(Action::Quit), ":quit");
         assert!(with("qiut", "x").is_err_and(|mistake| mistake.contains("'quit'")));
         assert!(with("quit", "v").is_err_and(|mistake| mistake.contains("'turn'")), "its only key");
         let keymap = with("quit", "j").expect("down has another key");
-        assert_eq!(keymap.label(Action::Down, true), "Down");
+        assert_eq!(keymap.all_keys(Action::Down), "Down");
         assert!(with("quit", "nokey").is_err_and(|mistake| mistake.contains("is no key")));
     }
 }

@@ -1,18 +1,25 @@
 //! The terminal: sets it up, draws it, gives it back. No module outside knows ratatui or crossterm.
 //!
+//! | what | where |
+//! |---|---|
+//! | what the screen shows, and how news changes it | [`app`]; of each option [`compare`], of the studies [`studies`] |
+//! | what a key does: its action, the effect of that action | [`keymap`], `actions`, a file a screen |
+//! | the plan being edited | [`editor`], [`order`], [`name_list`], `stepped`, `paste`; its file: `plan_file`, [`unsaved`] |
+//! | how it is drawn | [`view`], a file a screen; styles: [`theme`] |
+//! | the line being typed, the flight being played, what is written to a file | [`prompt`], [`player`], [`export`] |
+//! | the start screen; the user's configuration | [`start`], [`config`] |
+//!
 //! The loop waits for a key, a click or news, updates the [`App`], and draws when something changed. Every way out gives
 //! the terminal back: quitting, an error, a panic, a signal.
 
 mod actions;
 pub mod app;
-pub mod changes;
+pub mod compare;
 pub mod config;
 pub mod editor;
 pub mod export;
 pub mod keymap;
 pub mod name_list;
-mod offers;
-pub mod options;
 pub mod order;
 mod paste;
 mod plan_file;

@@ -203,7 +203,7 @@ impl Start {
             None => {
                 self.draw_choices(theme, frame, body);
                 let key = |action, otherwise: &str| {
-                    Some(config.keymap.label(action, false))
+                    Some(config.keymap.first_key(action))
                         .filter(|key| !key.is_empty())
                         .unwrap_or_else(|| otherwise.to_owned())
                 };

@@ -44,6 +44,33 @@ fn names(text: &str) -> Vec<&str> {
     names
 }
 
+/// Names in small letters to which documentation links: the last part of [`each::path`].
+fn links(comments: &str) -> Vec<&str> {
+    let linked = comments.split("[`").skip(1).filter_map(|rest| rest.split_once("`]")).map(|(path, _)| path);
+    let name = |path: &str| path.chars().all(|c| c.is_ascii_lowercase() || c == '_' || c == ':');
+    linked.filter(|path| name(path)).filter_map(|path| path.rsplit("::").next()).collect()
+}
+
+/// rustdoc cannot tell units, written [m] and [s], from broken links.
+#[test]
+fn links_in_documentation_lead_to_modules_functions_or_fields() {
+    let sources: Vec<String> = files(&Path::new(ROOT).join("src"), "rs").into_iter().map(read).collect();
+    let code: Vec<String> = sources.iter().map(|text| lines(text, false)).collect();
+    let word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let declared = |keyword: &'static str| {
+        let after = code.iter().flat_map(move |text| text.split(keyword).skip(1));
+        after.filter_map(move |rest| rest.split(|c: char| !word(c)).next())
+    };
+    let known: BTreeSet<&str> =
+        ["fn ", "mod ", "pub ", "use crate::"].into_iter().flat_map(declared).collect();
+    let comments: Vec<String> = sources.iter().map(|text| lines(text, true)).collect();
+    let linked: BTreeSet<&str> = comments.iter().flat_map(|text| links(text)).collect();
+    assert!(linked.contains("peaks_with_rivals"), "links are found");
+    let broken: Vec<&&str> =
+        linked.iter().filter(|name| **name != "super" && !known.contains(*name)).collect();
+    assert!(broken.is_empty(), "links to nothing: {broken:?}");
+}
+
 #[test]
 fn names_in_documents_and_comments_exist() {
     let folders = ["src", "tests", "benches", "examples"].map(|folder| Path::new(ROOT).join(folder));

@@ -6,7 +6,7 @@ use shelter::plan::Plan;
 use shelter::scene::Firing;
 use shelter::study::as_planned::together::Together;
 use shelter::study::orders::try_orders;
-use shelter::study::samples::random_shot::draw;
+use shelter::study::samples::draw::draw;
 use shelter::study::sweep::sweep;
 use shelter::study::{Case, ComputeSettings, Intervals, NoResult, Progress, Shard};
 use shelter::verdict::Verdict;

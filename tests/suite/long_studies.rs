@@ -78,7 +78,7 @@ fn a_shard_that_is_not_as_it_was_written_is_refused() {
         // Values altered within their types: a fail that became a pass.
         (first.replace("\"fail\"", "\"pass\""), "its checksum differs"),
         (first.replacen("\"height\":1", "\"height\":3", 1), "its checksum differs"),
-        (signed_again(&first.replace("shelter.shard/9", "shelter.shard/1")), "with one version"),
+        (signed_again(&first.replace("shelter.shard/10", "shelter.shard/1")), "with one version"),
         (signed_again(&first.replacen("\"version\":\"", "\"version\":\"9", 1)), "with one version"),
         (signed_again(&first.replacen("\"seed\":1", "\"seed\":2", 1)), "another study"),
         (signed_again(&first.replacen("\"option\":0", "\"option\":99", 1)), "damaged"),

@@ -37,4 +37,6 @@ mod studies;
 mod support;
 #[cfg(unix)]
 mod terminal;
+mod walks;
+mod watched;
 mod would_pass;

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use serde_json::Value;
 use shelter::plan::Plan;
-use shelter::plan::fields::{fields, set};
+use shelter::plan::edit::fields::{fields, set};
 use shelter::plan::keys::{DefaultValue, Key, Kind, Section, plan};
 use shelter::plan::schema::schema;
 use toml_edit::{DocumentMut, Item, TableLike};

@@ -11,12 +11,13 @@ use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::judge::{UNWATCHED, find_launch_margins, judge_all, judge_from_samples};
 use shelter::study::judgement::Judgement;
 use shelter::study::judgement::Sampled;
+use shelter::study::samples::draw::{RandomShot, draw};
 use shelter::study::samples::influence::input_shares;
-use shelter::study::samples::random_shot::{RandomShot, draw};
 use shelter::study::samples::risk::Risk;
 use shelter::study::samples::risk_summary::find_risk_summaries;
+use shelter::study::samples::rounds::{ShotToSample, draw_shard, find_risks};
 use shelter::study::samples::sample::OptionSample;
-use shelter::study::samples::sampling::{Sampling, ShotToSample, draw_shard, find_risks};
+use shelter::study::samples::sampling::Sampling;
 use shelter::study::{Case, ComputeSettings, Progress, Shard, ShotSummary, thread_pool};
 use shelter::verdict::{Quantity, Verdict};
 

@@ -12,7 +12,7 @@ use shelter::simulation::Failure;
 use shelter::study::NoResult;
 use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::tui::app::{App, Request};
-use shelter::tui::options::OptionState;
+use shelter::tui::compare::OptionState;
 use shelter::tui::screen::Screen;
 use shelter::tui::studies::StudyState;
 use shelter::tui::theme::{self, Theme};

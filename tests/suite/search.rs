@@ -5,6 +5,7 @@ use shelter::study::as_planned::check::check_shot;
 use shelter::study::as_planned::together::Together;
 use shelter::study::judge::OptionResults;
 use shelter::study::orders::try_orders;
+use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::sampling::Sampling;
 use shelter::study::search::{MOST_JUDGED, Search, duration, search};
 use shelter::study::{Case, ComputeSettings, NoResult, Progress, Shard};
@@ -31,7 +32,7 @@ fn case(text: &str) -> Case {
     Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"))
 }
 
-const FEW: Sampling = Sampling { least: 0, most: 200, seed: 1, attempt: 0 };
+const FEW: Sampling = Sampling { least: 0, most: 200, seed: 1, error_share: ErrorShare::Whole };
 
 fn searched(case: &Case, sampling: Option<&Sampling>) -> Search {
     let compute = ComputeSettings::of(&case.plan);
@@ -94,7 +95,7 @@ fn as_planned_the_best_of_all_is_found() {
 #[test]
 fn the_least_risk_of_all_is_found() {
     let case = case(&plan("intervals_ms = [9, 25, 42, 67], equal_intervals = false"));
-    let all_at_once = Sampling { least: 400, most: 400, seed: 9, attempt: 0 };
+    let all_at_once = Sampling { least: 400, most: 400, seed: 9, error_share: ErrorShare::Whole };
     let found = searched(&case, Some(&FEW));
     let share = |results: &OptionResults, n: usize| {
         let risk = results[n].as_ref().ok().and_then(|judged| judged.risk.drawn());

@@ -18,6 +18,7 @@ use shelter::study::as_planned::shot_reason::ShotReason;
 use shelter::study::judgement::Judgement;
 use shelter::study::judgement::Sampled;
 use shelter::study::orders::{Orders, TriedOrder};
+use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::risk::Risk;
 use shelter::study::samples::sample::{Sample, SampleRun};
 use shelter::study::samples::sampling::Sampling;
@@ -26,8 +27,8 @@ use shelter::study::sweep::{Point, Recommended, Sweep};
 use shelter::study::{Case, ComputeSettings, NoResult, flight};
 use shelter::study::{ShotSummary, ValueWithError};
 use shelter::tui::app::{App, Areas, Request};
+use shelter::tui::compare::OptionState;
 use shelter::tui::config::Config;
-use shelter::tui::options::OptionState;
 use shelter::tui::{update, view};
 use shelter::verdict::{Estimate, Quantity, Verdict};
 
@@ -75,7 +76,7 @@ pub fn checked(verdict: Verdict) -> CheckedShot {
 
 /// Round samples, of which none fails or one in ten.
 pub fn samples(case: &Case, count: usize, some_fail: bool) -> Risk {
-    let mut risk = Risk::new(case, None, 0, false);
+    let mut risk = Risk::new(case, None, ErrorShare::Whole, false);
     for number in 0..count {
         let part = number as f64 / count as f64;
         let fails = some_fail && number % 10 == 3;

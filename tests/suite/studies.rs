@@ -12,8 +12,10 @@ use shelter::study::judge::{UNWATCHED, judge_all};
 use shelter::study::judgement::Judgement;
 use shelter::study::judgement::Sampled;
 use shelter::study::orders::{Orders, TriedOrder, orders, refine, try_orders};
+use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::risk::Risk;
-use shelter::study::samples::sampling::{Sampling, ShotToSample, find_risks};
+use shelter::study::samples::rounds::{ShotToSample, find_risks};
+use shelter::study::samples::sampling::Sampling;
 use shelter::study::samples::swaps::swaps;
 use shelter::study::size::{Demand, size};
 use shelter::study::sweep::{GAP, Point, Sweep, sweep};
@@ -172,7 +174,12 @@ fn the_recommended_interval_has_a_full_verdict() {
         (Verdict::Pass, ShotSummary::of(&checked.expect("a result")))
     );
     // The first look chose the interval for its draws; the verdict has others.
-    let full = risk_at(&case, best.interval, &sampling.with_fresh_draws(1 + swept.refuted), compute);
+    let full = risk_at(
+        &case,
+        best.interval,
+        &sampling.with_fresh_draws(ErrorShare::Nth(1 + swept.refuted)),
+        compute,
+    );
     assert_eq!((full.verdict(), best.risk.drawn().expect("sampled").bounds), (Verdict::Pass, full.bounds));
 }
 

@@ -3,7 +3,7 @@
 use crossterm::event::KeyCode;
 use serde_json::Value;
 use shelter::jobs::{StudyKind, StudyResult};
-use shelter::plan::change::{Change, ChangeKind};
+use shelter::plan::edit::change::{Change, ChangeKind};
 use shelter::plan::{Layout, Plan, PlanSource, Timing};
 use shelter::ropes::catalogue;
 use shelter::study::judgement::Judgement;
@@ -11,7 +11,7 @@ use shelter::study::samples::sampling::Sampling;
 use shelter::study::would_pass::{WouldPass, find_all_changes, find_changes};
 use shelter::study::{Case, ComputeSettings, NoResult, Progress};
 use shelter::tui::app::{App, Request};
-use shelter::tui::options::OptionState;
+use shelter::tui::compare::OptionState;
 use shelter::verdict::Verdict;
 
 use super::stage::{draw, finished, key, study_ends, text};

@@ -5,7 +5,7 @@ use super::columns::{Column, Meaning, meaning, plain, program};
 use super::direction::Directions;
 use super::table::Line;
 use crate::plan::diagnostic::Mistake;
-use crate::plan::read::nearest;
+use crate::plan::reader::nearest;
 
 /// What to write into the first line.
 pub const REMEDY: &str =

@@ -1,4 +1,4 @@
-//! The table of keys: one row for each key of a plan.
+//! Every key of a plan: one row each.
 //!
 //! Sections stand in the order of a plan, the keys of a section in the order of the terminal's editor. A row names the key,
 //! the kind of its value, a right value, and what the value is; then follow, where they apply, the default, the usual range, the

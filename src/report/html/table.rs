@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::report::model::{Align, Cell, Column, Row, Shown, Table};
+use crate::report::model::{Align, Cell, Column, Shown, Table};
 use crate::verdict::Verdict;
 
 /// Bars of a series.
@@ -10,9 +10,7 @@ const BARS: usize = 16;
 
 /// The columns of a table that readers of the page see; the row of the option to be `fired` stands out.
 pub fn table(table: &Table, fired: Option<usize>) -> Markup {
-    let seen: Vec<usize> = (0..table.columns.len())
-        .filter(|&n| matches!(table.columns[n].shown, Shown::People | Shown::Page))
-        .collect();
+    let seen = table.columns_for(|shown| matches!(shown, Shown::People | Shown::Page));
     let number = |n: usize| (table.columns[n].align == Align::Right).then_some("n");
     html! {
         table {
@@ -20,7 +18,7 @@ pub fn table(table: &Table, fired: Option<usize>) -> Markup {
             tbody {
                 @for (option, row) in table.rows.iter().enumerate() {
                     tr.fired[fired == Some(option)] {
-                        @let known = known(row, &seen);
+                        @let known = row.known(&seen);
                         @for &n in &seen[..known] { td class=[number(n)] { (cell(&row.cells[n])) } }
                         @if let Some(missing) = &row.missing { td colspan=(seen.len() - known) { (missing) } }
                     }
@@ -30,14 +28,6 @@ pub fn table(table: &Table, fired: Option<usize>) -> Markup {
                 }
             }
         }
-    }
-}
-
-/// Seen cells before the reason why the others have no value; all where nothing is missing.
-fn known(row: &Row, seen: &[usize]) -> usize {
-    match row.missing {
-        Some(_) => seen.iter().take_while(|&&n| row.cells[n] != Cell::Nothing).count(),
-        None => seen.len(),
     }
 }
 

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::Failures;
-use crate::plan::change::Change;
+use crate::plan::edit::change::Change;
 use crate::plan::keys::{Key, blast_row, cable, delay, plan, shelter};
 use crate::report::would_pass::FromTo;
 use crate::study::Case;

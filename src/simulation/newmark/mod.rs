@@ -18,8 +18,8 @@
 //! one step: a tire that starts to move wakes its neighbours before the step is repeated.
 
 mod ground;
+mod observe;
 mod region;
-mod sample;
 mod settle;
 mod system;
 
@@ -40,11 +40,11 @@ use crate::scene::{Scene, Shot};
 
 /// Ties of one scene, made at their first use and kept for later runs.
 #[derive(Debug, Default)]
-pub struct NewmarkCache {
+pub struct NewmarkModel {
     ties: OnceLock<Ties>,
 }
 
-impl NewmarkCache {
+impl NewmarkModel {
     /// Runs one shot of the scene of this cache; see [`super::Model::run`].
     pub fn run(
         &self,
@@ -82,9 +82,9 @@ struct Stepper<'a> {
     /// Whether any tire moved in the last step.
     moving: bool,
     record: Record,
-    /// Cable of the greatest force, if that force was sampled one step ago, and its k (L − L0) over
+    /// Cable of the greatest force, if that force was seen one step ago, and its k (L − L0) over
     /// strength one step earlier [N].
-    sampled: Option<(usize, f64)>,
+    peak_to_refine: Option<(usize, f64)>,
     /// Tires and cables that need work, in packs of one tire and blocks of one cable.
     wake: Wake<'a>,
     /// Elastic energy of the cables asleep [J].
@@ -136,7 +136,7 @@ impl<'a> Stepper<'a> {
             clock: Clock::new(shot, settings, slides),
             moving: slides,
             record: Record::new(settings.step),
-            sampled: None,
+            peak_to_refine: None,
             wake,
             asleep: 0.0,
             asleep_on_slope: 0.0,
@@ -162,7 +162,7 @@ impl<'a> Stepper<'a> {
                 return Ok(self.finish(reason));
             }
             self.refresh();
-            self.sample();
+            self.observe();
             if watch(&Snapshot { stepper: &self }).is_break() {
                 return Err(Failure::Stopped { at: self.clock.now() });
             }
@@ -278,7 +278,7 @@ mod tests {
     fn tires_asleep_would_not_have_moved() {
         let (scene, shots) = scenes();
         let ties = || Ties::of_cables(&scene.cables, scene.mass.len());
-        let (some, all) = (NewmarkCache::default(), NewmarkCache { ties: ties().with_everything().into() });
+        let (some, all) = (NewmarkModel::default(), NewmarkModel { ties: ties().with_everything().into() });
         // With the longer step, motion spreads over several tires within one step.
         for (shot, step) in shots.iter().flat_map(|shot| [(shot, 2e-3), (shot, 2e-2)]) {
             let settings = RunSettings { method: Method::Newmark, step, duration: None };

@@ -29,7 +29,7 @@ pub struct Tires<S: Simd> {
 
 /// Tires at the end of a step without landing and without firing, and their energies at tₙ.
 #[derive(Clone, Copy)]
-pub struct Kicked<S: Simd> {
+pub struct Moved<S: Simd> {
     /// Displacement uₙ₊₁ [m].
     pub u: [Wide<S>; 3],
     /// Velocity at mid-step n + ½ [m/s].
@@ -46,7 +46,7 @@ impl<S: Simd> Tires<S> {
     /// Kicks and drifts the tires: free velocity v* = v + h (f/m + g), then support and friction of the ground, then
     /// u + h v. Roots and quotients are computed only where a tire slips; `SLOPED`: the ground slopes.
     #[inline(always)]
-    pub fn kick<const SLOPED: bool>(&self, simd: S) -> Kicked<S> {
+    pub fn kick_and_drift<const SLOPED: bool>(&self, simd: S) -> Moved<S> {
         let Self { u, v, f, mass, inverse, step, friction, gravity, downhill } = *self;
         let (zero, half) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5));
         let tiny = Wide::splat(simd, f64::MIN_POSITIVE);
@@ -93,12 +93,6 @@ impl<S: Simd> Tires<S> {
         if SLOPED {
             height = height - (downhill[0] * u[0] + downhill[1] * u[1]);
         }
-        Kicked {
-            u: moved,
-            v: after,
-            energy: mass * (half * speed2 + height),
-            dissipated: mass * work,
-            motion,
-        }
+        Moved { u: moved, v: after, energy: mass * (half * speed2 + height), dissipated: mass * work, motion }
     }
 }

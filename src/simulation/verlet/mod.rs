@@ -37,7 +37,7 @@ use crate::scene::{Cable, Mirror, Scene, Shot};
 
 /// Parts of one scene, each made at its first use and kept for later runs.
 #[derive(Debug, Default)]
-pub struct VerletCache {
+pub struct VerletModel {
     /// Part for each set of mirror planes; the index is a binary number with one digit for each plane.
     parts: [OnceLock<Part>; 4],
 }
@@ -60,7 +60,7 @@ pub struct Part {
     critical_step: f64,
 }
 
-impl VerletCache {
+impl VerletModel {
     /// Part of the scene that stands for the whole scene in `shot`.
     fn part(&self, scene: &Scene, shot: &Shot) -> &Part {
         self.part_of(scene, &shared_planes(scene, shot))
@@ -188,7 +188,7 @@ mod tests {
     fn asleep_like_awake(scene: &Scene, shots: &[Shot]) {
         let mut part = Part::new(scene, &[]);
         part.ties = Arc::new(Ties::of_blocks(&part.blocks, scene.mass.len()).with_everything());
-        let (some, mut all) = (VerletCache::default(), VerletCache::default());
+        let (some, mut all) = (VerletModel::default(), VerletModel::default());
         all.parts[0] = part.into();
         for shot in shots {
             let settings = RunSettings { method: Method::Verlet, step: 2e-3, duration: None };

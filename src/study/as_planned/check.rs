@@ -163,14 +163,14 @@ pub fn check_shot(
         |step| run(shot, step),
         |runs, last| {
             let cost = || Cost { runs: done.get(), steps: steps.get(), wall: begun.elapsed() };
-            let mut judged = checked_from_runs(case, shot, compute, runs, &[], cost());
-            if last || judged.is_sure(&case.limits) {
+            let mut latest = checked_from_runs(case, shot, compute, runs, &[], cost());
+            if last || latest.is_sure(&case.limits) {
                 let coarsest = &runs[error_runs(runs.len()).start];
                 let pairs = run_pairs(case, shot, compute, coarsest.outcome.step, run)?;
-                judged = checked_from_runs(case, shot, compute, runs, &pairs, cost());
+                latest = checked_from_runs(case, shot, compute, runs, &pairs, cost());
             }
-            let sure = judged.is_sure(&case.limits);
-            checked = Some(judged);
+            let sure = latest.is_sure(&case.limits);
+            checked = Some(latest);
             Ok(sure)
         },
     )?;

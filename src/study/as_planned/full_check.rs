@@ -58,10 +58,10 @@ pub fn run_checks_or_unknown<J: Sync>(
 }
 
 /// A run that failed is a shot of which nothing is known.
-pub fn or_unknown(judged: Result<ShotSummary, NoResult>) -> Result<ShotSummary, NoResult> {
-    match judged {
+pub fn or_unknown(checked: Result<ShotSummary, NoResult>) -> Result<ShotSummary, NoResult> {
+    match checked {
         Err(NoResult::Failed(_)) => Ok(ShotSummary::UNKNOWN),
-        judged => judged,
+        checked => checked,
     }
 }
 

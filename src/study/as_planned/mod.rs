@@ -5,7 +5,8 @@
 //! | the check: run ever finer until the verdict is sure | [`check`]; one of thousands of shots: [`quick_check`]; many: [`full_check`] |
 //! | greatest values of a run, with the error of its step | `peaks`, [`step_error`] |
 //! | why it fails or stays open | [`shot_reason`] |
-//! | what no limit judges: the cover over unfired holes; what fires within 8 ms | [`cover`], [`together`] |
+//! | what fires within 8 ms | [`together`] |
+//! | the cover over unfired holes, which no limit judges | [`cover`] |
 //! | how much faster the tires may leave | [`margin`] |
 //! | what a study keeps of a check | [`shot_summary`] |
 

@@ -1,5 +1,5 @@
 //! Height, force and drift of a shot with their errors, from runs at a ladder of steps. A check takes [`peaks_with_rivals`],
-//! a quick check by [`peaks`].
+//! a quick check takes [`peaks`].
 
 use std::ops::Range;
 
@@ -24,7 +24,7 @@ pub fn peaks_with_rivals(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimat
 
 /// Height, force and drift of the last of `runs`, which stand in order from the coarsest step to the finest.
 ///
-/// The errors come from the [`nearest`] runs, and from `pairs` of nearby shots, run at the coarsest step of those.
+/// The errors come from the runs of [`error_runs`], and from `pairs` of nearby shots, run at the coarsest step of those.
 pub fn peaks(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
     let near = &runs[error_runs(runs.len())];
     let last = runs[runs.len() - 1];

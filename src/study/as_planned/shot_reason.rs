@@ -89,7 +89,7 @@ fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<EarlyEnd> {
     if outcome.tires_in_air {
         return Some(EarlyEnd::TiresInAir);
     }
-    // The greatest of all samples is the last one, or the one before.
+    // The greatest of all steps is the last one, or the one before.
     if outcome.force.value > 0.0 && outcome.force.at > outcome.end.at - 2.5 * outcome.step {
         return Some(EarlyEnd::ForceGrowing);
     }

@@ -16,8 +16,8 @@ use super::predict::{Predictor, seen};
 use crate::plan::Uncertainty;
 use crate::plan::observations::Observation;
 use crate::study::as_planned::step_error;
-use crate::study::samples::random_shot::draw;
-use crate::study::samples::sampling::step;
+use crate::study::samples::draw::draw;
+use crate::study::samples::rounds::step;
 use crate::study::work::batch::run_jobs;
 use crate::study::{Case, NoResult};
 

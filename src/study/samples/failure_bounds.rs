@@ -9,6 +9,8 @@
 //!    close bounds on both sides of the accepted risk.
 //! 5. A bound found once holds on: later looks only narrow the interval.
 
+use serde::{Deserialize, Serialize};
+
 use crate::verdict::Verdict;
 
 /// Probability of a wrong bound on one side of a verdict that was asked for.
@@ -46,13 +48,36 @@ pub struct FailureBounds {
     lower_mixture: [Beta; 2],
 }
 
+/// The share of the probability of an error that one verdict takes, where several have it in common.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ErrorShare {
+    /// There is no other verdict.
+    Whole,
+    /// The n-th of candidates that are tried one after the other, n from 1: 1/(n (n + 1)). All together take no more than the
+    /// whole.
+    Nth(usize),
+    /// One of so many verdicts at once.
+    OneOf(usize),
+}
+
+impl ErrorShare {
+    /// The whole over this share.
+    fn parts(self) -> usize {
+        match self {
+            ErrorShare::Whole => 1,
+            ErrorShare::Nth(n) => n * (n + 1),
+            ErrorShare::OneOf(count) => count,
+        }
+    }
+}
+
 impl FailureBounds {
-    /// No sample yet of the shot of this `attempt`: see [`Sampling`](super::sampling::Sampling).
-    pub fn new(accepted: f64, attempt: usize) -> Self {
+    /// No sample yet of a shot whose verdict takes this share of the probability of an error.
+    pub fn new(accepted: f64, share: ErrorShare) -> Self {
         let beta = |weight, a, b| Beta { weight, a, b };
         Self {
             accepted,
-            error: if attempt == 0 { ERROR } else { ERROR / (attempt * (attempt + 1)) as f64 },
+            error: ERROR / share.parts() as f64,
             samples: 0,
             failures: 0,
             undecided: 0,
@@ -156,7 +181,7 @@ mod tests {
     /// At an accepted risk of 1 % some 430 samples without a failure pass.
     #[test]
     fn a_pass_is_out_of_reach_with_few_samples_or_many_failures() {
-        let new = FailureBounds::new(0.01, 0);
+        let new = FailureBounds::new(0.01, ErrorShare::Whole);
         assert!(!new.can_pass(400) && new.can_pass(450));
         let mut bounds = new;
         (0..400).for_each(|_| bounds.push(Verdict::Pass));
@@ -198,7 +223,7 @@ mod tests {
         for (p, accepted) in [(0.01, 0.01), (0.3, 0.01), (0.1, 0.1)] {
             let mut wrong = [0; 2];
             for _ in 0..2000 {
-                let mut bounds = FailureBounds::new(accepted, 0);
+                let mut bounds = FailureBounds::new(accepted, ErrorShare::Whole);
                 (0..2000).for_each(|_| bounds.push(drawn(&mut random, p)));
                 // The interval only narrows, so its last bounds are wrong if any were.
                 let [low, high] = bounds.interval;
@@ -212,13 +237,13 @@ mod tests {
     }
 
     /// Where six shots are sampled one after the other, all bounds together are wrong as rarely as one verdict that was asked
-    /// for: here of shots that fail just as often as accepted. Without the shares of the attempts a tenth would be wrong.
+    /// for: here of shots that fail just as often as accepted. Without the shares a tenth would be wrong.
     #[test]
-    fn attempts_share_the_probability_of_an_error() {
+    fn candidates_share_the_probability_of_an_error() {
         let mut random = ChaCha8Rng::seed_from_u64(7);
         let mut any_passes = || {
-            (1..=6).any(|attempt| {
-                let mut bounds = FailureBounds::new(0.1, attempt);
+            (1..=6).any(|n| {
+                let mut bounds = FailureBounds::new(0.1, ErrorShare::Nth(n));
                 (0..1000).for_each(|_| bounds.push(drawn(&mut random, 0.1)));
                 bounds.interval[1] < 0.1
             })
@@ -239,7 +264,7 @@ mod tests {
         ] {
             let mut samples = 0;
             for _ in 0..100 {
-                let mut bounds = FailureBounds::new(0.01, 0);
+                let mut bounds = FailureBounds::new(0.01, ErrorShare::Whole);
                 while bounds.verdict() == Verdict::Undecided {
                     bounds.push(drawn(&mut random, p));
                 }
@@ -253,7 +278,7 @@ mod tests {
     /// Samples that stop passing contradict the bound found before.
     #[test]
     fn bounds_that_contradict_one_another_decide_nothing() {
-        let mut bounds = FailureBounds::new(0.01, 0);
+        let mut bounds = FailureBounds::new(0.01, ErrorShare::Whole);
         (0..500).for_each(|_| bounds.push(Verdict::Pass));
         assert_eq!(bounds.verdict(), Verdict::Pass);
         (0..200).for_each(|_| bounds.push(Verdict::Fail));
@@ -263,7 +288,7 @@ mod tests {
     #[test]
     fn undecided_samples_widen_the_interval_to_both_sides() {
         let after = |tenth: Verdict| {
-            let mut bounds = FailureBounds::new(0.01, 0);
+            let mut bounds = FailureBounds::new(0.01, ErrorShare::Whole);
             (0..100).for_each(|n| bounds.push(if n % 10 == 0 { tenth } else { Verdict::Pass }));
             bounds
         };

@@ -2,20 +2,21 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | one drawn at random, and its run | [`random_shot`], [`sample`] |
-//! | how many of which shots are run | [`sampling`] |
+//! | one drawn at random, and its run | [`draw`], [`sample`] |
+//! | how many; which are run when | [`sampling`], [`rounds`] |
 //! | what they tell: the risk and its verdict | [`risk`]; of thousands of shots: [`risk_summary`] |
 //! | why they fail too often or leave the verdict open | [`risk_reason`] |
 //! | how sure a count of failures is | [`failure_bounds`] |
 //! | which input decides | [`influence`] |
 //! | rows that may fire the wrong way round | [`swaps`] |
 
+pub mod draw;
 pub mod failure_bounds;
 pub mod influence;
-pub mod random_shot;
 pub mod risk;
 pub mod risk_reason;
 pub mod risk_summary;
+pub mod rounds;
 pub mod sample;
 pub mod sampling;
 pub mod swaps;

@@ -2,7 +2,8 @@
 
 use super::failure_bounds::FailureBounds;
 use super::risk::{Risk, percentiles};
-use super::sampling::{Sampling, ShotToSample, find_risks};
+use super::rounds::{ShotToSample, find_risks};
+use super::sampling::Sampling;
 use crate::scene::Shot;
 use crate::study::{Case, ComputeSettings, NoResult, Progress, ShotSummary};
 use crate::verdict::{Limits, Verdict};
@@ -41,7 +42,7 @@ impl RiskSummary {
     }
 }
 
-/// Samples shots of one case, each judged as planned, all with the same draws; `None` for the shots that the time did not
+/// Samples shots of one case, each checked as planned, all with the same draws; `None` for the shots that the time did not
 /// suffice for.
 pub fn find_risk_summaries<'c>(
     case: &'c Case,

@@ -25,6 +25,7 @@ pub use self::schedule::{Schedule, duration};
 use super::as_planned::margin::LaunchMargin;
 use super::judge::{OptionResults, UNWATCHED, judge_all_with_margins};
 use super::judgement::Judgement;
+use super::samples::failure_bounds::ErrorShare;
 use super::samples::risk::Risk;
 use super::samples::sampling::Sampling;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, Shard};
@@ -35,9 +36,8 @@ use crate::verdict::Verdict;
 const FIRST_OF_ALL: usize = 16;
 /// Most schedules in the report.
 const FOUND: usize = 10;
-/// The full verdicts of twelve schedules share the probability of an error: each may be wrong with 1/(3 × 4) of it.
+/// Schedules with a full verdict; these verdicts share the probability of an error.
 const JUDGED_IN_FULL: usize = 12;
-const ATTEMPT: usize = 3;
 /// A schedule with fewer samples is left out of the front of risk against duration.
 const SAMPLES_OF_FRONT: usize = 256;
 
@@ -125,7 +125,11 @@ pub fn try_schedules(
 }
 
 fn race<'c>(case: &'c Case, sampling: Option<&Sampling>, compute: &ComputeSettings) -> Race<'c> {
-    Race { case, compute: *compute, sampling: sampling.map(|sampling| sampling.with_fresh_draws(0)) }
+    Race {
+        case,
+        compute: *compute,
+        sampling: sampling.map(|sampling| sampling.with_fresh_draws(ErrorShare::Whole)),
+    }
 }
 
 /// Like [`search`], where the first samples of some schedules are drawn already.
@@ -246,8 +250,9 @@ fn judge(
 ) -> Result<(Case, Found<OptionResults>), NoResult> {
     let delays = schedules.iter().map(|schedule| option_with_free_name(case, schedule)).collect();
     let plan = Plan { delays, ..case.plan.clone() };
-    let case = Case { source: case.source.clone(), ..Case::new(plan) };
-    let sampling = sampling.map(|sampling| Sampling { attempt: ATTEMPT, ..*sampling });
+    let case = Case::new(plan).with_source(case.source.clone());
+    let sampling =
+        sampling.map(|sampling| Sampling { error_share: ErrorShare::OneOf(JUDGED_IN_FULL), ..*sampling });
     let cases = [(&case, *compute)];
     let mut found = judge_all_with_margins(&cases, sampling.as_ref(), progress, UNWATCHED)?;
     let results = found.value.remove(0);
@@ -284,9 +289,7 @@ impl Search {
             waiting = others;
         }
         ranked.truncate(FOUND);
-        let delays = ranked.iter().map(|&n| self.case.plan.delays[n].clone()).collect();
-        self.case.plan.delays = delays;
-        self.case.shots = ranked.iter().map(|&n| self.case.shots[n].clone()).collect();
+        self.case = self.case.with_options(&ranked);
         self.schedules = ranked.iter().map(|&n| self.schedules[n].clone()).collect();
         self.results = ranked.iter().map(|&n| self.results[n].clone()).collect();
         self.rough = ranked.iter().map(|&n| self.rough[n]).collect();

@@ -16,6 +16,7 @@ use itertools::Itertools;
 
 use self::trial::{Candidate, Hardest};
 use super::judgement::{Sampled, verdict_of_both};
+use super::samples::failure_bounds::ErrorShare;
 use super::samples::sampling::Sampling;
 use super::{ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary};
 use crate::plan::{Layout, Plan};
@@ -239,7 +240,7 @@ fn choose(
     tried: &mut [(Combination, Hardest)],
     sampling: Option<&Sampling>,
 ) -> Result<(), NoResult> {
-    let (mut least, mut attempt) = (f64::INFINITY, 0);
+    let (mut least, mut candidates) = (f64::INFINITY, 0);
     for (combination, hardest) in tried {
         let Ok(mut trial) = combination.trial else { continue };
         if !trial.holds || trial.utilization >= least {
@@ -247,10 +248,11 @@ fn choose(
         }
         let mut sampled = Sampled::NotAsked;
         if let Some(sampling) = sampling {
-            attempt += 1;
+            candidates += 1;
             let Combination { rope, tire_mass, border_rows, .. } = *combination;
             let candidate = Candidate::new(task, rope, tire_mass, border_rows);
-            let Some(risk) = candidate.sample(hardest, &Sampling { least: 0, attempt, ..*sampling })? else {
+            let sampling = Sampling { least: 0, error_share: ErrorShare::Nth(candidates), ..*sampling };
+            let Some(risk) = candidate.sample(hardest, &sampling)? else {
                 combination.trial = Err(Untried::OutOfTime);
                 continue;
             };

@@ -11,7 +11,8 @@ use crate::study::as_planned::cover::Cover;
 use crate::study::as_planned::full_check::full_checks;
 use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::risk::Risk;
-use crate::study::samples::sampling::{Sampling, ShotToSample, find_risks_watched};
+use crate::study::samples::rounds::{ShotToSample, find_risks_watched};
+use crate::study::samples::sampling::Sampling;
 use crate::study::{Case, Found, NoResult, ShotSummary, ValueWithError};
 use crate::verdict::Verdict;
 

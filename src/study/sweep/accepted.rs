@@ -13,6 +13,7 @@ use super::{MOST_SAMPLED_GAP, Point, Sweep, deepest, nanoseconds, windows};
 use crate::scene::Shot;
 use crate::study::as_planned::full_check::{full_check, or_unknown};
 use crate::study::judgement::Sampled;
+use crate::study::samples::failure_bounds::ErrorShare;
 use crate::study::samples::risk_summary::{RiskSummary, find_risk_summaries};
 use crate::study::samples::sampling::Sampling;
 use crate::study::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary};
@@ -57,7 +58,7 @@ pub fn add_risk(
             break;
         };
         tried.insert(nanoseconds(candidate.interval));
-        let fresh = sampling.with_fresh_draws(tried.len());
+        let fresh = sampling.with_fresh_draws(ErrorShare::Nth(tried.len()));
         match judge(case, case.shot(&swept.order, candidate.interval), &fresh, compute, progress)? {
             None => partial = true,
             Some((as_planned, risk)) => {

@@ -9,7 +9,7 @@
 //!    neighbours; s is the steepest change of utilization with the interval in this gap and the one on either side.
 //! 4. A window is a row of passing intervals with calm gaps no wider than [`GAP`]. Its ends are intervals that were tried.
 //!
-//! The plan's own intervals, the ends of windows and the recommended interval are judged as `check` does, the others by a
+//! The plan's own intervals, the ends of windows and the recommended interval are checked as `check` does, the others by a
 //! quick check: at steps as coarse as their distance from the limits allows. Where utilization jumps, the interval of the jump
 //! depends on the step a little; so a window is narrowed until both ends pass.
 
@@ -148,13 +148,13 @@ fn sweep_as_planned(
             }
         };
         // Of the points between points that are known, all may fail.
-        let judged = match tried.is_empty() {
+        let checked = match tried.is_empty() {
             true => run_checks(&jobs, progress, work)?,
             false => run_checks_or_unknown(&jobs, progress, work)?,
         };
         // Out of time: gaps keep the width they have, and windows end there.
-        let partial = judged.contains(&None);
-        tried.extend(jobs.into_iter().zip(judged).filter_map(|(at, as_planned)| Some((at, as_planned?))));
+        let partial = checked.contains(&None);
+        tried.extend(jobs.into_iter().zip(checked).filter_map(|(at, as_planned)| Some((at, as_planned?))));
         let points: Vec<Point> = tried
             .iter()
             .map(|(&at, &as_planned)| Point { interval: in_seconds(at), as_planned, risk: Sampled::NotAsked })

@@ -1,6 +1,6 @@
 //! The changes that are tried for a delay option.
 
-use crate::plan::change::Change;
+use crate::plan::edit::change::Change;
 use crate::plan::{Layout, Plan, Timing};
 use crate::ropes::catalogue;
 

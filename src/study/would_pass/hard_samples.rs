@@ -6,10 +6,10 @@
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-use crate::study::samples::failure_bounds::FailureBounds;
+use crate::study::samples::failure_bounds::{ErrorShare, FailureBounds};
 use crate::study::samples::risk::Risk;
+use crate::study::samples::rounds::{ShotToSample, run_sample};
 use crate::study::samples::sample::Sample;
-use crate::study::samples::sampling::{ShotToSample, run_sample};
 use crate::study::work::batch::run_jobs;
 use crate::study::{NoResult, Progress};
 use crate::verdict::Verdict;
@@ -37,7 +37,7 @@ pub(super) struct HardDrawn {
 
 impl HardSamples {
     pub(super) fn new(accepted: f64, most: usize) -> Self {
-        Self { bounds: FailureBounds::new(accepted, 0), most, failed: BTreeMap::new() }
+        Self { bounds: FailureBounds::new(accepted, ErrorShare::Whole), most, failed: BTreeMap::new() }
     }
 
     /// Whether so many samples are allowed that a pass can come at all, where none of them fails.

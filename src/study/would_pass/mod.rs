@@ -23,11 +23,12 @@ use super::judge::OptionResults;
 use super::judgement::Judgement;
 use super::judgement::Sampled;
 use super::samples::risk::Risk;
-use super::samples::sampling::{Sampling, ShotToSample, find_risks};
+use super::samples::rounds::{ShotToSample, find_risks};
+use super::samples::sampling::Sampling;
 use super::work::batch::run_jobs;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, guarded};
 use crate::plan::PlanSource;
-use crate::plan::change::{Change, ChangeKind};
+use crate::plan::edit::change::{Change, ChangeKind};
 use crate::verdict::Verdict;
 
 /// The changes tried for one delay option, by kind; without the kinds that the plan has no candidate of.

@@ -20,7 +20,7 @@ pub fn draw(app: &App, prompt: &Prompt, frame: &mut Frame, line: Rect) {
         let style = if n == prompt.selected { app.theme.selected() } else { app.theme.base() };
         Line::from(vec![
             Span::styled(format!(" {:16}", binding.name), style),
-            Span::styled(format!(" {:9} ", app.keymap.label(binding.action, false)), app.theme.title()),
+            Span::styled(format!(" {:9} ", app.keymap.first_key(binding.action)), app.theme.title()),
             Span::styled(binding.text, app.theme.quiet()),
         ])
     });

@@ -5,7 +5,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Clear, List, ListState};
 
-use crate::plan::fields::Field;
+use crate::plan::edit::fields::Field;
 use crate::ropes::catalogue;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;

@@ -30,7 +30,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let row = |left: String, right: &'static str| {
         Line::from(vec![Span::styled(format!("{left:14} "), app.theme.title()), Span::raw(right)])
     };
-    let key = |binding: &Binding| row(app.keymap.label(binding.action, true), binding.text);
+    let key = |binding: &Binding| row(app.keymap.all_keys(binding.action), binding.text);
     let known = BINDINGS.iter().filter(|binding| binding.is_on(app.screen));
     let (here, everywhere): (Vec<_>, Vec<_>) = known.partition(|binding| !binding.on.is_empty());
     let head = |title: String| Line::styled(title, app.theme.quiet());

@@ -12,11 +12,11 @@
 mod accuracy;
 mod chart;
 mod command_palette;
+mod compare;
 mod detail;
 mod fields;
 mod flight;
 mod help;
-mod options;
 mod parts;
 mod plan;
 pub(super) mod report;
@@ -29,8 +29,8 @@ use ratatui::widgets::{Block, Paragraph, Wrap};
 
 use self::parts::draw_row;
 use super::app::{App, Areas, ClickTarget};
+use super::compare::OptionState;
 use super::keymap::{Action, BINDINGS};
-use super::options::OptionState;
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use crate::report::explain::compute_label;
@@ -83,7 +83,7 @@ fn draw_options(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let table = if app.zoom { 0 } else { rows.min(area.height / 2) };
     let [list, rest] = Layout::vertical([Constraint::Length(table), Constraint::Min(0)]).areas(area);
     if !app.zoom {
-        options::draw(app, frame, list, areas);
+        compare::draw(app, frame, list, areas);
     }
     detail::draw(app, frame, rest);
 }
@@ -98,9 +98,9 @@ fn draw_tabs(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     };
     let screens = Screen::ALL.into_iter().map(|screen| {
         let action = Action::Show(screen);
-        (tab(app.keymap.label(action, false), screen.name(), screen == app.screen), ClickTarget::Act(action))
+        (tab(app.keymap.first_key(action), screen.name(), screen == app.screen), ClickTarget::Act(action))
     });
-    let help = (tab(app.keymap.label(Action::Help, false), "Help", app.help), ClickTarget::Act(Action::Help));
+    let help = (tab(app.keymap.first_key(Action::Help), "Help", app.help), ClickTarget::Act(Action::Help));
     draw_row(screens.chain([help]), frame, area, areas);
 }
 
@@ -150,7 +150,7 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
     frame.render_widget(line, second);
 }
 
-/// State of the whole plan: options judged as planned, options that need more samples, or options that pass.
+/// State of the whole plan: options checked as planned, options that need more samples, or options that pass.
 fn summary(app: &App) -> String {
     let count = |has: fn(&OptionState) -> bool| app.options.iter().filter(|state| has(state)).count();
     let all = app.options.len();
@@ -166,7 +166,7 @@ fn summary(app: &App) -> String {
 /// Draws keys and labels: first the keys of the screen, then the keys of all screens, as many as fit; help and quit always.
 fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let label = |action: Action, short: &'static str| {
-        let key = Span::styled(format!(" {} ", app.keymap.label(action, false)), app.theme.title());
+        let key = Span::styled(format!(" {} ", app.keymap.first_key(action)), app.theme.title());
         let line = Line::from(vec![key, Span::styled(format!("{short} "), app.theme.quiet())]);
         (line, ClickTarget::Act(action))
     };

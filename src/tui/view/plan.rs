@@ -9,7 +9,7 @@ use ratatui::widgets::canvas::{self, Canvas, Points};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::parts::color;
-use super::{fields, options};
+use super::{compare, fields};
 use crate::report::explain::fires;
 use crate::report::warnings;
 use crate::study::Case;
@@ -29,7 +29,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let [shelter, verdicts] =
         Layout::vertical([Constraint::Min(0), Constraint::Length(options)]).areas(right);
     draw_shelter(app, frame, shelter);
-    options::draw(app, frame, verdicts, areas);
+    compare::draw(app, frame, verdicts, areas);
     // Their lists of names lie over the map.
     fields::draw(app, frame, list, areas);
     draw_message(app, &warnings, frame, message);

@@ -3,7 +3,7 @@
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
-use crate::report::model::{Align, Block, Cell, Column, Offer, Report, Row, Table};
+use crate::report::model::{Align, Block, Cell, Column, Offer, Report, Row, Shown, Table};
 use crate::tui::theme::Theme;
 
 /// Bars of a sparkline.
@@ -45,7 +45,7 @@ pub fn lines<'r>(report: &'r Report, filter: &str, theme: Theme, width: u16) -> 
                 lines.extend(sentences.flat_map(|sentence| wrapped(sentence, width)).map(Line::raw));
             }
             Block::Table(table) => {
-                let table = table_lines(table, &filter, theme);
+                let table = table_lines(table, &filter, theme, width);
                 offers.extend(table.offers.into_iter().map(|(line, offer)| (lines.len() + line, offer)));
                 lines.extend(table.lines.into_iter().map(|line| cut(line, width)));
             }
@@ -55,16 +55,14 @@ pub fn lines<'r>(report: &'r Report, filter: &str, theme: Theme, width: u16) -> 
     ReportLines { lines, offers }
 }
 
-/// Heading and rows of a table, with a blank line above; none where people see no column or no row is kept.
-fn table_lines<'r>(table: &'r Table, filter: &str, theme: Theme) -> ReportLines<'r> {
-    let columns: Vec<usize> = (0..table.columns.len()).filter(|&n| table.columns[n].is_in_text()).collect();
-    let (rows, left_out) = match table.rows.split_at(table.rows.len().min(RANKED)) {
-        (first, rest) if table.ranked && rest.len() > RANKED => {
-            let (left_out, last) = rest.split_at(rest.len() - RANKED);
-            (vec![first, last], left_out.len())
-        }
-        _ => (vec![&table.rows[..]], 0),
-    };
+/// What stands before the sentences below a row.
+const DETAIL: &str = "    ";
+
+/// Heading and rows of a table, with a blank line above; none where people see no column or no row is kept. Columns that `width`
+/// [cells] has no room for are left out: half a number is a wrong number.
+fn table_lines<'r>(table: &'r Table, filter: &str, theme: Theme, width: usize) -> ReportLines<'r> {
+    let (mut columns, left_out) = (table.columns_for(Shown::is_in_text), table.left_out(RANKED));
+    let rows = [&table.rows[..left_out.start], &table.rows[left_out.end..]];
     let (mut lines, mut offers) = (Vec::new(), Vec::new());
     if columns.is_empty() {
         return ReportLines { lines, offers };
@@ -84,6 +82,14 @@ fn table_lines<'r>(table: &'r Table, filter: &str, theme: Theme) -> ReportLines<
             *width = Span::raw(cell).width().max(*width);
         }
     }
+    let mut end = 0;
+    let has_room = widths.iter().take_while(|&&column| {
+        end += column + GAP;
+        end - GAP <= width
+    });
+    let has_room = has_room.count().max(1);
+    let no_room = columns.len().saturating_sub(has_room);
+    columns.truncate(has_room);
     let padded = |text: String, column: usize, style: Style| {
         let blank = " ".repeat(widths[column].saturating_sub(Span::raw(&text).width()));
         let gap = " ".repeat(if column + 1 < columns.len() { GAP } else { 0 });
@@ -94,19 +100,16 @@ fn table_lines<'r>(table: &'r Table, filter: &str, theme: Theme) -> ReportLines<
     };
     lines.push(Line::default());
     for heading in headings {
-        let cells = heading.into_iter().enumerate();
+        let cells = heading.into_iter().take(has_room).enumerate();
         lines.push(Line::from_iter(cells.flat_map(|(n, text)| padded(text, n, theme.quiet()))));
     }
     let count = lines.len();
     for (part, rows) in rows.iter().enumerate() {
-        if part > 0 {
-            lines.push(Line::styled(format!("… {left_out} more"), theme.quiet()));
+        if part > 0 && !left_out.is_empty() {
+            lines.push(Line::styled(format!("… {} more", left_out.len()), theme.quiet()));
         }
         for row in rows.iter() {
-            let known = match &row.missing {
-                Some(_) => columns.iter().take_while(|&&n| row.cells[n] != Cell::Nothing).count(),
-                None => columns.len(),
-            };
+            let known = row.known(&columns);
             let cells = columns[..known].iter().enumerate();
             let mut line = Line::from_iter(
                 cells.flat_map(|(column, &n)| padded(label(row, n), column, style(&row.cells[n], theme))),
@@ -115,15 +118,19 @@ fn table_lines<'r>(table: &'r Table, filter: &str, theme: Theme) -> ReportLines<
             if row.contains(&table.columns, filter) {
                 offers.extend(row.offer.as_ref().map(|offer| (lines.len(), offer)));
                 lines.push(line);
-                let details = row.details.iter();
-                lines.extend(details.map(|detail| {
-                    Line::styled(format!("    {}", detail.text), theme.verdict(detail.verdict))
+                let room = width.saturating_sub(DETAIL.len()).max(1);
+                lines.extend(row.details.iter().flat_map(|detail| {
+                    let parts = wrapped(&detail.text, room).into_iter();
+                    parts.map(|part| Line::styled(format!("{DETAIL}{part}"), theme.verdict(detail.verdict)))
                 }));
             }
         }
     }
     if lines.len() == count {
         lines.clear();
+    } else if no_room > 0 {
+        let columns = if no_room == 1 { "column" } else { "columns" };
+        lines.push(Line::styled(format!("… {no_room} more {columns} on a wider screen"), theme.quiet()));
     }
     ReportLines { lines, offers }
 }

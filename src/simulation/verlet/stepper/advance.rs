@@ -52,26 +52,26 @@ impl Stepper<'_> {
             for lane in (0..LANES).step_by(Wide::<S>::LEN) {
                 let at = pack * LANES + lane;
                 let tires = events.tires(simd, State::new(&u, &v, forces, masses), at);
-                let kicked = tires.kick::<SLOPED>(simd);
+                let moved = tires.kick_and_drift::<SLOPED>(simd);
                 let is_higher = highest.less(tires.u[2]).any();
                 let end = at + Wide::<S>::LEN;
                 let fires = due.first().is_some_and(|due| due.tire < end);
                 let mut any_integrated = false;
-                if is_higher || fires || kicked.u[2].less(zero).any() {
+                if is_higher || fires || moved.u[2].less(zero).any() {
                     let (fired, later) = due.split_at(due.partition_point(|due| due.tire < end));
                     let state = State::new(&u, &v, forces, masses);
                     any_integrated =
-                        events.integrate_single_tires::<SLOPED>(state, at..end, kicked.u[2].pack(), fired);
+                        events.integrate_single_tires::<SLOPED>(state, at..end, moved.u[2].pack(), fired);
                     highest = Wide::splat(simd, events.record.height.value);
                     due = later;
                 }
-                kicked.energy.add_to(&mut energy, lane);
-                kicked.dissipated.add_to(&mut dissipated, lane);
+                moved.energy.add_to(&mut energy, lane);
+                moved.dissipated.add_to(&mut dissipated, lane);
                 tires.u[2].max(Wide::load(simd, &height, lane)).store(&mut height, lane);
-                kicked.motion.max(Wide::load(simd, &motion, lane)).store(&mut motion, lane);
+                moved.motion.max(Wide::load(simd, &motion, lane)).store(&mut motion, lane);
                 for c in 0..3 {
-                    kicked.u[c].store(u[c], at);
-                    kicked.v[c].store(v[c], at);
+                    moved.u[c].store(u[c], at);
+                    moved.v[c].store(v[c], at);
                 }
                 if any_integrated {
                     for Integrated { tire, displacement, velocity } in events.integrated.drain(..) {
@@ -82,7 +82,7 @@ impl Stepper<'_> {
                     }
                     moving = true;
                 }
-                moving |= zero.less(kicked.motion).any();
+                moving |= zero.less(moved.motion).any();
             }
             wake.set_moving(pack, moving);
         }
@@ -96,7 +96,7 @@ impl Stepper<'_> {
     }
 
     /// Lets damped cables forget how the tires moved that were launched or landed in this step. The force of a cable that is taut
-    /// at a launch is greatest at the launch, between two samples.
+    /// at a launch is greatest at the launch, between two steps.
     pub(super) fn forget_jumps(&mut self) {
         // Images still stand where the step began, and jump with their kept tires.
         self.copy_images();
@@ -107,7 +107,7 @@ impl Stepper<'_> {
             let of_jump = images.filter(|image| image.from == jump.tire && image.to != jump.tire);
             self.jumped.extend(of_jump.map(|image| Jump { tire: image.to, ..jump }));
         }
-        let Self { part, tension, u, v, jumped, step, clock, record, scene, sampled, .. } = self;
+        let Self { part, tension, u, v, jumped, step, clock, record, scene, peak_to_refine, .. } = self;
         let end = clock.now() + *step;
         for Jump { tire, since_launch } in jumped.drain(..) {
             for &element in part.blocks.ends.of(tire / LANES).into_iter().flatten() {
@@ -126,7 +126,7 @@ impl Stepper<'_> {
                 let value = force / scene.strength(index);
                 if length > cable.rest_length && value > record.force.value {
                     record.force = Peak { value, at: end - since, index };
-                    *sampled = None;
+                    *peak_to_refine = None;
                 }
             }
         }

@@ -118,11 +118,11 @@ impl Events<'_> {
                 continue;
             }
             let alone = self.tires(Scalar::new(), state, tire);
-            let kicked = alone.kick::<SLOPED>(Scalar::new());
+            let moved = alone.kick_and_drift::<SLOPED>(Scalar::new());
             let number = |wide: Wide<Scalar>| wide.pack()[0];
             let vector = |of: [Wide<Scalar>; 3]| Vector3::from(of.map(number));
             let (displacement, inverse) = (vector(alone.u), number(alone.inverse));
-            let unpushed = 0.5 * (vector(alone.v) + vector(kicked.v));
+            let unpushed = 0.5 * (vector(alone.v) + vector(moved.v));
             let free = vector(alone.f) * inverse + self.scene.gravity();
             let pushed = push_at_start(here, tire);
             let pushed_on_ground = self.pushes.on_ground(tire);
@@ -135,14 +135,14 @@ impl Events<'_> {
             });
             if displacement.z > self.record.height.value {
                 let index = self.part.reduction.tire(tire);
-                let sample = Peak { value: displacement.z, at: self.now, index };
-                self.record.note_height(sample, velocity.z, free.z + pushed.z);
+                let peak = Peak { value: displacement.z, at: self.now, index };
+                self.record.note_height(peak, velocity.z, free.z + pushed.z);
             }
             if has_event {
                 let missing = velocity.norm_squared() - unpushed.norm_squared();
                 self.totals.energy[0] += 0.5 * self.part.mass[tire] * missing;
                 // Half of what the kick dissipates lies before this step. Under a push it dissipates nothing: the tire does.
-                let mut undone = 0.5 * number(kicked.dissipated);
+                let mut undone = 0.5 * number(moved.dissipated);
                 if pushed_on_ground.is_some() {
                     self.totals.dissipated[0] -= 2.0 * undone;
                     undone = 0.0;

@@ -79,7 +79,7 @@ impl Stepper<'_> {
                     Some(force) => force / self.strength(n, slot),
                     None => self.stretch_over_strength(n, slot, -self.step),
                 };
-                self.sampled = Some(PeakCable { block: n, slot, before });
+                self.peak_to_refine = Some(PeakCable { block: n, slot, before });
             }
         }
     }
@@ -96,7 +96,7 @@ impl Stepper<'_> {
             return;
         }
         self.record.note_break(self.breaking_force);
-        self.sampled = None;
+        self.peak_to_refine = None;
         totals.force.iter_mut().for_each(|force| *force = force.min(self.breaking_force));
         for &n in &self.wake.blocks {
             let block = &self.part.blocks.blocks[n];
@@ -117,9 +117,9 @@ impl Stepper<'_> {
         self.record.broken.extend(new.map(|cable| BrokenCable { at, cable }));
     }
 
-    /// Moves the greatest force to the top of the parabola through the samples around it, one step after it was sampled.
+    /// Moves the greatest force to the top of the parabola through the forces of the steps around it, one step after it was seen.
     fn interpolate_peak(&mut self) {
-        if let Some(PeakCable { block, slot, before }) = self.sampled.take() {
+        if let Some(PeakCable { block, slot, before }) = self.peak_to_refine.take() {
             let damped = self.tension.slot_force_before(&self.part.blocks.blocks[block], slot).is_some();
             let after = match damped {
                 true => self.force_over_strength(block, slot),

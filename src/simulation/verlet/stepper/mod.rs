@@ -31,7 +31,7 @@ struct Jump {
     since_launch: Option<f64>,
 }
 
-/// Cable in which the greatest force was sampled.
+/// Cable in which the greatest force was seen.
 #[derive(Clone, Copy, Debug)]
 struct PeakCable {
     block: usize,
@@ -77,8 +77,8 @@ pub(super) struct Stepper<'a> {
     /// Whether any tire moved in the last step.
     moving: bool,
     record: Record,
-    /// Cable of the greatest force, if that force was sampled one step ago.
-    sampled: Option<PeakCable>,
+    /// Cable of the greatest force, if that force was seen one step ago.
+    peak_to_refine: Option<PeakCable>,
     /// Impulses of the present step, in order of tires, then of time.
     due: Vec<DueImpulse>,
     pushes: Pushes,
@@ -129,7 +129,7 @@ impl<'a> Stepper<'a> {
             clock: Clock::new(shot, settings, slides),
             moving: slides,
             record: Record::new(settings.step),
-            sampled: None,
+            peak_to_refine: None,
             due: Vec::with_capacity(2 * firings.len()),
             pushes: Pushes::with_capacity(firings.len()),
             jumped: Vec::with_capacity(if scene.damping > 0.0 { tires } else { 0 }),
@@ -156,7 +156,7 @@ impl<'a> Stepper<'a> {
             self.copy_images();
             if self.wake.refresh() {
                 self.move_stored_energy();
-                self.move_energy_on_slope();
+                self.sum_energy_on_slope();
             }
             let mut totals = match self.scene.damping > 0.0 {
                 false => arch.dispatch(EvaluateCables::<false>(&mut self)),
@@ -187,7 +187,7 @@ impl<'a> Stepper<'a> {
     }
 
     /// Sums the potential energy of the tires asleep, which have none on level ground.
-    fn move_energy_on_slope(&mut self) {
+    fn sum_energy_on_slope(&mut self) {
         let Self { scene, part, wake, u, .. } = self;
         if scene.downhill == Vector2::zeros() {
             return;

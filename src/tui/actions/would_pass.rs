@@ -1,12 +1,12 @@
 //! The list of changes with which an option would pass: asked for, walked, and one of them made.
 
-use super::app::{App, Request};
-use super::keymap::Action;
-use super::options::OptionState;
-use super::studies::ChangeList;
 use crate::jobs::StudyKind;
 use crate::report::would_pass::words;
 use crate::study::would_pass::WouldPass;
+use crate::tui::app::{App, Request};
+use crate::tui::compare::OptionState;
+use crate::tui::keymap::Action;
+use crate::tui::studies::ChangeList;
 use crate::verdict::Verdict;
 
 impl App {

@@ -2,8 +2,8 @@
 
 use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
 
-use super::edit::{as_number, free_name, with_line_ends_of};
-use super::keys::{DefaultValue, Key, Kind, Offered, delay, plan};
+use super::{as_number, free_name, with_line_ends_of};
+use crate::plan::keys::{DefaultValue, Key, Kind, Offered, delay, plan};
 
 /// One value of a plan's text.
 #[derive(Clone, Debug)]
@@ -168,7 +168,7 @@ pub fn set(text: &str, path: &Path, new: &str) -> Result<String, String> {
     if path.section == plan::DELAY.name && path.key.name == delay::INTERVAL_MS.name {
         rename_with_interval(table, &value, &names);
     }
-    super::edit::set(table, path.key.name, value);
+    super::set(table, path.key.name, value);
     Ok(with_line_ends_of(text, &document))
 }
 
@@ -193,7 +193,7 @@ fn rename_with_interval(table: &mut dyn TableLike, interval: &Value, names: &[St
     let number = rest.strip_prefix(" (").and_then(|rest| rest.strip_suffix(')'));
     let is_number = number.is_some_and(|number| number.bytes().all(|letter| letter.is_ascii_digit()));
     let new = free_name(&format!("{new}{}", if is_number { "" } else { rest }), is_taken);
-    super::edit::set(table, delay::NAME.name, new.into());
+    super::set(table, delay::NAME.name, new.into());
 }
 
 fn table_mut<'d>(document: &'d mut DocumentMut, path: &Path) -> Option<&'d mut dyn TableLike> {
@@ -217,7 +217,7 @@ pub fn copy_delay(text: &str, index: usize) -> Option<String> {
     let names: Vec<String> = all.iter().map(name).collect();
     let mut copy = all.get(index)?.clone();
     let new = free_name(&names[index], |new| names.iter().any(|taken| taken == new));
-    super::edit::set(&mut copy, "name", Value::from(new));
+    super::set(&mut copy, "name", Value::from(new));
     copy.decor_mut().set_prefix("\n");
     all.insert(index + 1, copy);
     replace(tables, all);
@@ -246,7 +246,7 @@ fn replace(tables: &mut toml_edit::ArrayOfTables, all: Vec<Table>) {
 mod tests {
     use super::*;
 
-    const PLAN: &str = include_str!("../../plans/amur-three-rows.toml");
+    const PLAN: &str = include_str!("../../../plans/amur-three-rows.toml");
 
     fn find(text: &str, section: &str, index: Option<usize>, key: &str) -> Field {
         let mut all = fields(text).into_iter();

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use crate::choice::{LayoutKind, Link};
 use crate::plan::keys::{MOST_TIRES, listed_cable, listed_tire, plan, shelter, spacing, tire};
-use crate::plan::read::{Mistakes, SectionReader};
+use crate::plan::reader::{Mistakes, SectionReader};
 use crate::plan::{Layout, ListedTire, Mesh, TireSpec};
 
 pub fn read_layout(section: SectionReader<'_>, mistakes: &Mistakes) -> Option<Layout> {

@@ -75,13 +75,13 @@ pub enum ShardResults {
 }
 
 /// Name of this format of shards.
-const SCHEMA: &str = "shelter.shard/9";
+const SCHEMA: &str = "shelter.shard/10";
 /// Version of this program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 impl ShardResults {
     /// Whether these can be results of a study of `case`, each once.
-    pub fn belong_to(&self, case: &Case) -> bool {
+    pub(super) fn belong_to(&self, case: &Case) -> bool {
         let rows: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
         match self {
             ShardResults::Orders(tried) => {
@@ -190,7 +190,7 @@ struct Origin {
 }
 
 /// Joins shards, given as `(name, text)`; says what is wrong with them.
-pub fn merge(shards: &[(String, String)]) -> Result<(Head, ShardResults), String> {
+pub(super) fn join(shards: &[(String, String)]) -> Result<(Head, ShardResults), String> {
     let mut heads: Vec<(&str, Head)> = Vec::new();
     let (mut orders, mut samples, mut schedules) = (Vec::new(), Vec::new(), Vec::new());
     for (name, text) in shards {

@@ -1,4 +1,4 @@
-//! Samples of the state before each step: peaks, history, ledger, cables that break.
+//! What is noted of the state before each step: peaks, history, ledger, cables that break.
 
 use nalgebra::Vector3;
 
@@ -7,9 +7,9 @@ use crate::outcome::{BrokenCable, EndReason, Outcome, Peak};
 
 impl Stepper<'_> {
     /// Notes peaks, history and ledger of the present state.
-    pub(super) fn sample(&mut self) {
+    pub(super) fn observe(&mut self) {
         let now = self.clock.now();
-        if let Some((cable, before)) = self.sampled.take() {
+        if let Some((cable, before)) = self.peak_to_refine.take() {
             let after = self.stretch_over_strength(cable, &self.u);
             self.record.interpolate_force(before, after);
         }
@@ -23,7 +23,7 @@ impl Stepper<'_> {
             force = force.max(value);
             if value > self.record.force.value {
                 self.record.force = Peak { value, at: now, index };
-                self.sampled = Some((index, self.stretch_over_strength(index, &self.earlier)));
+                self.peak_to_refine = Some((index, self.stretch_over_strength(index, &self.earlier)));
             }
         }
         for &tire in &self.wake.awake {
@@ -32,8 +32,8 @@ impl Stepper<'_> {
             let potential = -self.scene.gravity().dot(&self.u[tire]);
             energy += mass * (0.5 * self.v[tire].norm_squared() + potential);
             if value > self.record.height.value {
-                let sample = Peak { value, at: now, index: tire };
-                self.record.note_height(sample, self.v[tire].z, self.a[tire].z);
+                let peak = Peak { value, at: now, index: tire };
+                self.record.note_height(peak, self.v[tire].z, self.a[tire].z);
             }
         }
         self.record.balance_energy(energy, 0.0);
@@ -48,7 +48,7 @@ impl Stepper<'_> {
     fn break_cables(&mut self, breaking_force: f64) {
         let at = self.clock.now();
         self.record.note_break(breaking_force);
-        self.sampled = None;
+        self.peak_to_refine = None;
         for n in 0..self.wake.blocks.len() {
             let index = self.wake.blocks[n];
             let strength = self.scene.strength(index);

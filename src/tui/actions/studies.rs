@@ -1,12 +1,12 @@
 //! The screen of studies: its tabs, and rows that offer a change of the plan.
 
-use super::actions::PAGE;
-use super::app::{App, Request};
-use super::editor::EditOutcome;
-use super::keymap::Action;
-use super::screen::Screen;
+use super::PAGE;
 use crate::plan::edit;
 use crate::report::model::Offer;
+use crate::tui::app::{App, Request};
+use crate::tui::editor::EditOutcome;
+use crate::tui::keymap::Action;
+use crate::tui::screen::Screen;
 
 impl App {
     pub(super) fn act_on_studies(&mut self, action: Action) -> Request {

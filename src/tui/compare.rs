@@ -42,7 +42,7 @@ impl OptionState {
         self.judgement().map_or(Verdict::Undecided, Judgement::verdict)
     }
 
-    /// Whether the option is not yet judged as planned.
+    /// Whether the option is not yet checked as planned.
     pub fn is_computing(&self) -> bool {
         matches!(self, OptionState::Waiting | OptionState::Running { .. })
     }

@@ -1,5 +1,8 @@
 //! Changes to the text of a plan. Everything else in the text stays, comments and formatting too.
 
+pub mod change;
+pub mod fields;
+
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike, Value, value};
 
 use super::keys::blast_row::{FREE_FLIGHT_HEIGHT_M, HOLES, LAUNCH_M_S};
@@ -8,26 +11,6 @@ use super::keys::shelter::BORDER_ROWS;
 use super::keys::tire::MASS_KG;
 use super::keys::{self, Key, plan};
 use super::{BlastRow, DelayOption, Plan, Timing};
-use crate::ropes::Rope;
-
-impl Plan {
-    /// The plan with another rope, tire mass and border. The holes give the same momentum: a tire of another mass leaves at
-    /// another speed. All other values stay.
-    pub fn with_sizes(&self, rope: &Rope, tire_mass_kg: f64, border_rows: usize) -> Plan {
-        let mut plan = self.clone();
-        plan.cable.rope = Some(rope.name.clone());
-        plan.cable.axial_stiffness_kn = rope.axial_stiffness_kn;
-        plan.cable.breaking_force_kn = rope.breaking_force_kn * plan.cable.termination_percent * 1e-2;
-        plan.tire.mass_kg = tire_mass_kg;
-        for launch in plan.launches_mut() {
-            launch.speed_m_s = launch.speed_m_s * self.tire.mass_kg / tire_mass_kg;
-        }
-        if let super::Layout::Grid(mesh) | super::Layout::Quincunx(mesh) = &mut plan.layout {
-            mesh.border_rows = border_rows;
-        }
-        plan
-    }
-}
 
 /// The text of a plan with another rope, tire mass and border, and the launch velocities of tires of that mass.
 pub fn write_sizes(

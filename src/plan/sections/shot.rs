@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::choice::{HoleOrder, Method};
 use crate::plan::keys::{blast_row, delay, hole, plan};
-use crate::plan::read::{Mistakes, SectionReader, nearest};
+use crate::plan::reader::{Mistakes, SectionReader, nearest};
 use crate::plan::{
     BlastRow, DelayOption, Hole, HoleTiming, Launch, LaunchTargets, Layout, Plan, SimulationSpec, Timing,
 };

@@ -2,9 +2,10 @@
 
 use toml_edit::{DocumentMut, Item, Value};
 
-use super::edit::{as_number, change_launches, change_section, number, replace_keys, set, with_line_ends_of};
-use super::fields::{self, Path};
-use super::keys::{cable, delay, plan, shelter, uncertainty};
+use super::fields;
+use super::fields::Path;
+use super::{as_number, change_launches, change_section, number, replace_keys, set, with_line_ends_of};
+use crate::plan::keys::{cable, delay, plan, shelter, uncertainty};
 use crate::ropes::{Rope, Termination};
 use crate::units::{self, Unit};
 
@@ -138,7 +139,7 @@ mod tests {
     use crate::plan::Plan;
     use crate::ropes::catalogue;
 
-    const PLAN: &str = include_str!("../../plans/amur-three-rows.toml");
+    const PLAN: &str = include_str!("../../../plans/amur-three-rows.toml");
 
     fn changed(text: &str, change: Change) -> String {
         change.apply(text).expect("a place for it")

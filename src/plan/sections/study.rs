@@ -1,10 +1,10 @@
-//! Reads what is not known of the shot, and the choices of `shelter size`.
+//! Reads what is not known of the shot, and the choices of `shelter size` and `shelter search`.
 
 use itertools::Itertools;
 
 use crate::choice::{Detonator, HoleOrder, SearchedOrders};
 use crate::plan::keys::{Key, intervals, search, size, uncertainty};
-use crate::plan::read::SectionReader;
+use crate::plan::reader::SectionReader;
 use crate::plan::{DelayScatter, HoleTiming, SearchSpec, SizeSpec, Uncertainty};
 use crate::ropes::catalogue;
 

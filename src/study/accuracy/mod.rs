@@ -2,6 +2,8 @@
 //!
 //! The errors are differences from a converged run.
 
+pub mod paper_table;
+
 use std::time::{Duration, Instant};
 
 use super::as_planned::check::SURE_ERROR_FACTOR;

@@ -6,8 +6,8 @@
 //!
 //! Factors on launch velocities, masses and breaking forces are lognormal with mean 1. A hole's launch velocity belongs to a
 //! tire of the plan's mass: a tire of another mass leaves with the same momentum. Each gap between blast rows scatters by itself
-//! and shifts all later rows; so does each gap between the holes
-//! of a row, which shifts the later holes of its side.
+//! and shifts all later rows; so does each gap between the holes of a row, which shifts the later
+//! holes of its side.
 
 use nalgebra::{Rotation3, Vector3};
 use rand::{Rng, SeedableRng};

@@ -2,10 +2,10 @@
 
 use std::ops::ControlFlow;
 
-use super::Case;
 use crate::choice::Method;
 use crate::plan::Timing;
 use crate::simulation::RunSettings;
+use crate::study::Case;
 
 /// A row of Table 1.
 #[derive(Clone, Copy, Debug, PartialEq)]

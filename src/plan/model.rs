@@ -1,0 +1,426 @@
+//! The values of a plan, in the units of its keys.
+
+use std::path::Path;
+
+use super::{Diagnostics, PlanSource, Uncertainty, sections};
+use crate::choice::{Accuracy, HoleOrder, Link, Method, OnOverload, SearchedOrders};
+use crate::ropes::Rope;
+
+/// A blast row, the shelter over it, and the delay options to choose from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Free text shown above every view.
+    pub title: Option<String>,
+    /// Tires and the ties between them.
+    pub layout: Layout,
+    /// The tire at every position of the layout.
+    pub tire: TireSpec,
+    /// The rope of every tie.
+    pub cable: CableSpec,
+    /// The ground under the tires.
+    pub ground: GroundSpec,
+    /// Blast rows in the order listed.
+    pub blast_rows: Vec<BlastRow>,
+    /// Limits that an option must keep to pass.
+    pub limits: LimitsSpec,
+    /// Delay options in the order listed; never empty.
+    pub delays: Vec<DelayOption>,
+    /// Settings of the simulation.
+    pub simulation: SimulationSpec,
+    /// What is not known of the shot, and how far.
+    pub uncertainty: Uncertainty,
+    /// SHA-256 of every file of observations that a fit has written into this plan, in hexadecimal digits.
+    pub fitted_from: Vec<String>,
+    /// Choices of `shelter size`.
+    pub size: SizeSpec,
+    /// Choices of `shelter search`.
+    pub search: SearchSpec,
+}
+
+/// Choices of `shelter search`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SearchSpec {
+    /// Intervals between successive rows [ms], ascending; empty: those of the delay options.
+    pub intervals_ms: Vec<f64>,
+    /// Whether all rows of a schedule follow one another at one interval.
+    pub equal_intervals: bool,
+    /// Orders of the rows.
+    pub orders: SearchedOrders,
+    /// Intervals and orders of the holes of a row; never empty.
+    pub holes: Vec<HoleTiming>,
+    /// Greatest time from the first hole to the last [ms].
+    pub longest_ms: Option<f64>,
+    /// Most holes that fire within any 8 ms.
+    pub most_holes_in_8_ms: Option<usize>,
+}
+
+/// Choices of `shelter size`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SizeSpec {
+    /// Masses of the tires at hand [kg]; empty: only the mass of `[tire]`.
+    pub tire_mass_kg: Vec<f64>,
+    /// Family of ropes; `None`: that of the plan's rope, or the whole catalogue where it has none.
+    pub family: Option<String>,
+    /// Most rows of ballast on each side.
+    pub most_border_rows: usize,
+}
+
+impl Plan {
+    /// The plan with another rope, tire mass and border. The holes give the same momentum: a tire of another mass leaves at
+    /// another speed. All other values stay.
+    pub fn with_sizes(&self, rope: &Rope, tire_mass_kg: f64, border_rows: usize) -> Plan {
+        let mut plan = self.clone();
+        plan.cable.rope = Some(rope.name.clone());
+        plan.cable.axial_stiffness_kn = rope.axial_stiffness_kn;
+        plan.cable.breaking_force_kn = rope.breaking_force_kn * plan.cable.termination_percent * 1e-2;
+        plan.tire.mass_kg = tire_mass_kg;
+        for launch in plan.launches_mut() {
+            launch.speed_m_s = launch.speed_m_s * self.tire.mass_kg / tire_mass_kg;
+        }
+        if let Layout::Grid(mesh) | Layout::Quincunx(mesh) = &mut plan.layout {
+            mesh.border_rows = border_rows;
+        }
+        plan
+    }
+
+    /// Reads and validates a plan file; `-` is standard input.
+    pub fn load(path: &Path) -> Result<Self, Diagnostics> {
+        PlanSource::read(path)?.plan()
+    }
+
+    /// Validates the text of a plan; messages name the file `path`.
+    pub fn parse(path: &str, text: &str) -> Result<Self, Diagnostics> {
+        sections::parse(path, text)
+    }
+
+    /// How the holes of each row fire in every delay option; `None` where options differ.
+    pub fn shared_hole_timing(&self) -> Option<HoleTiming> {
+        let mut all = self.delays.iter().map(|delay| delay.hole_timing);
+        let first = all.next().unwrap_or(HoleTiming::TOGETHER);
+        all.all(|holes| holes.is_same(&first)).then_some(first)
+    }
+
+    /// Launch velocities of all blast rows and holes.
+    pub fn launches(&self) -> impl Iterator<Item = &Launch> {
+        self.blast_rows.iter().flat_map(|row| -> Vec<&Launch> {
+            match &row.targets {
+                LaunchTargets::UnderRow { launch, .. } | LaunchTargets::UnderTires { launch, .. } => {
+                    vec![launch]
+                }
+                LaunchTargets::Holes(holes) => holes.iter().map(|hole| &hole.launch).collect(),
+            }
+        })
+    }
+
+    /// The same, to change them.
+    pub fn launches_mut(&mut self) -> impl Iterator<Item = &mut Launch> {
+        self.blast_rows.iter_mut().flat_map(|row| -> Vec<&mut Launch> {
+            match &mut row.targets {
+                LaunchTargets::UnderRow { launch, .. } | LaunchTargets::UnderTires { launch, .. } => {
+                    vec![launch]
+                }
+                LaunchTargets::Holes(holes) => holes.iter_mut().map(|hole| &mut hole.launch).collect(),
+            }
+        })
+    }
+}
+
+/// Positions of the tires, and the neighbours that are tied.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Layout {
+    /// `rows` × `columns` tires.
+    Grid(Mesh),
+    /// `rows` × `columns` corner tires, and one more tire at the centre of every cell.
+    Quincunx(Mesh),
+    /// Tires and cables one by one.
+    List {
+        /// Tires in the order listed.
+        tires: Vec<ListedTire>,
+        /// Pairs of tire indices, from 0.
+        cables: Vec<(usize, usize)>,
+    },
+}
+
+impl Layout {
+    /// Distance of a point from the area of a mesh, or from the nearest listed tire [m].
+    pub fn distance_outside(&self, x: f64, y: f64) -> f64 {
+        match self {
+            Layout::Grid(mesh) | Layout::Quincunx(mesh) => {
+                let border = mesh.border_rows as f64;
+                let beyond = |at: f64, count: usize, spacing: f64| {
+                    (-border * spacing - at).max(at - (count as f64 - 1.0 + border) * spacing).max(0.0)
+                };
+                let (across, along) = (mesh.column_spacing_m, mesh.row_spacing_m);
+                beyond(x, mesh.columns, across).hypot(beyond(y, mesh.rows, along))
+            }
+            Layout::List { tires, .. } => {
+                let distances = tires.iter().map(|tire| (tire.x_m - x).hypot(tire.y_m - y));
+                distances.fold(f64::INFINITY, f64::min)
+            }
+        }
+    }
+
+    /// Greatest distance between the centres of tied tires [m]; of a mesh its greater spacing.
+    pub fn widest_tie(&self) -> f64 {
+        match self {
+            Layout::Grid(mesh) | Layout::Quincunx(mesh) => mesh.column_spacing_m.max(mesh.row_spacing_m),
+            Layout::List { tires, cables } => {
+                let length = |&(a, b): &(usize, usize)| {
+                    Some((tires.get(a)?, tires.get(b)?)).map(|(a, b)| (a.x_m - b.x_m).hypot(a.y_m - b.y_m))
+                };
+                // Tires without ties say nothing about a distance; no tire is wider.
+                cables.iter().filter_map(length).reduce(f64::max).unwrap_or(5.0)
+            }
+        }
+    }
+}
+
+/// A regular layout.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// Tires along y.
+    pub rows: usize,
+    /// Tires along x.
+    pub columns: usize,
+    /// Distance between rows [m].
+    pub row_spacing_m: f64,
+    /// Distance between columns [m].
+    pub column_spacing_m: f64,
+    /// Neighbours that are tied.
+    pub links: Vec<Link>,
+    /// Rows of ballast around the mesh, on each side. No blast row lies under them; tire (1,1) stays at the origin.
+    pub border_rows: usize,
+}
+
+impl Mesh {
+    /// Number of tires of a grid, or at the corners of a quincunx, with the border.
+    pub fn corners(&self) -> usize {
+        let with_border = |n: usize| n.saturating_add(2 * self.border_rows);
+        with_border(self.rows).saturating_mul(with_border(self.columns))
+    }
+}
+
+/// One tire of a `list` layout.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ListedTire {
+    /// Along the rows [m].
+    pub x_m: f64,
+    /// Across the rows [m].
+    pub y_m: f64,
+    /// Mass [kg]; `None`: that of `[tire]`.
+    pub mass_kg: Option<f64>,
+}
+
+/// A tire.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TireSpec {
+    /// Mass [kg].
+    pub mass_kg: f64,
+    /// Outer diameter [m]: cables run from rim to rim. 0: cables run from centre to centre.
+    pub outer_diameter_m: f64,
+    /// Normal speed after a landing over normal speed before it.
+    pub restitution: f64,
+}
+
+/// The ground under the tires; x and y of a plan lie in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GroundSpec {
+    /// Coefficient of friction between tire and ground.
+    pub friction: f64,
+    /// Slope [%]: the tangent of its angle to the level.
+    pub slope_percent: f64,
+    /// Direction downhill: azimuth from +x toward +y [°].
+    pub slope_toward_deg: f64,
+}
+
+/// The cable between two tires, with the figures of the catalogue.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CableSpec {
+    /// Name in the rope catalogue; `None` where the plan gives stiffness and breaking force.
+    pub rope: Option<String>,
+    /// Axial stiffness EA [kN].
+    pub axial_stiffness_kn: f64,
+    /// Breaking force used [kN]: that of the rope × the efficiency of the termination.
+    pub breaking_force_kn: f64,
+    /// Slack [%]: unstretched length over distance at rest, less one.
+    pub slack_percent: f64,
+    /// Name of the termination in the rope catalogue; `None` where the plan gives its efficiency, or has none.
+    pub termination: Option<String>,
+    /// Efficiency of the termination [%]; 100 where the plan has none.
+    pub termination_percent: f64,
+    /// Stiffness of tie and tire at each end of a cable [kN/m]; `None`: stiff ends.
+    pub end_stiffness_kn_m: Option<f64>,
+    /// Damping of a cable with its two tires over critical damping [%].
+    pub damping_percent: f64,
+    /// Effect of a force past the breaking force.
+    pub on_overload: OnOverload,
+}
+
+impl CableSpec {
+    /// Stiffness of tie and tire at each end of a cable [N/m]; `None`: stiff ends.
+    pub fn end_stiffness(&self) -> Option<f64> {
+        self.end_stiffness_kn_m.map(|stiffness| stiffness * 1e3)
+    }
+}
+
+/// Holes that fire together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BlastRow {
+    /// Name; delay options address the row by it.
+    pub name: String,
+    /// Tires launched by the row.
+    pub targets: LaunchTargets,
+}
+
+/// Tires launched by a blast row, and how fast.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LaunchTargets {
+    /// Every tire of one shelter row; half numbers address the centres of a quincunx.
+    UnderRow {
+        /// Number of the shelter row, from 1, in steps of one half.
+        row: f64,
+        /// Launch velocity.
+        launch: Launch,
+    },
+    /// Tires of a list layout.
+    UnderTires {
+        /// Tire indices, from 0.
+        tires: Vec<usize>,
+        /// Launch velocity.
+        launch: Launch,
+    },
+    /// Holes, each launching the nearest tire.
+    Holes(Vec<Hole>),
+}
+
+/// One hole; tire (1,1) of a mesh is at the origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hole {
+    /// Along the rows [m].
+    pub x_m: f64,
+    /// Across the rows [m].
+    pub y_m: f64,
+    /// Launch velocity.
+    pub launch: Launch,
+}
+
+/// What a hole does to its tire.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Launch {
+    /// Speed [m/s].
+    pub speed_m_s: f64,
+    /// Angle to the ground's normal [°].
+    pub tilt_deg: f64,
+    /// Direction of the tilt along the ground: azimuth from +x toward +y [°].
+    pub tilt_toward_deg: f64,
+    /// Time over which the hole pushes [ms]; 0: at once.
+    pub push_ms: f64,
+    /// Explosive in the hole [kg]; all holes of a plan have a charge, or none has.
+    pub charge_kg: Option<f64>,
+}
+
+/// Limits of a passing option.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LimitsSpec {
+    /// Greatest flight height of any tire [m].
+    pub flight_height_m: f64,
+    /// Smallest ratio of breaking force to greatest force.
+    pub cable_safety_factor: f64,
+    /// Greatest horizontal shift of any tire at the end [m].
+    pub drift_m: Option<f64>,
+    /// Most holes that fire within any 8 ms.
+    pub holes_in_8_ms: Option<usize>,
+    /// Heaviest charge within any 8 ms [kg].
+    pub charge_in_8_ms_kg: Option<f64>,
+    /// Share of the shots that `[uncertainty]` describes that may go past a limit [%].
+    pub accepted_risk_percent: f64,
+}
+
+/// One delay option.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DelayOption {
+    /// Name in every view; unique.
+    pub name: String,
+    /// Firing times of the rows: of the first hole of each.
+    pub timing: Timing,
+    /// Firing times of the holes of each row.
+    pub hole_timing: HoleTiming,
+}
+
+impl DelayOption {
+    /// Whether two options fire every hole at the same time.
+    pub fn fires_like(&self, other: &Self) -> bool {
+        self.timing.fire_at_ms() == other.timing.fire_at_ms() && self.hole_timing.is_same(&other.hole_timing)
+    }
+}
+
+/// How the holes of each row fire, from the firing time of the row on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HoleTiming {
+    /// Time between successive holes [ms]; 0: together.
+    pub interval_ms: f64,
+    /// Where the holes begin.
+    pub order: HoleOrder,
+}
+
+impl HoleTiming {
+    /// The holes of a row fire together.
+    pub const TOGETHER: Self = Self { interval_ms: 0.0, order: HoleOrder::DEFAULT };
+
+    /// Whether the holes of every row fire alike: without an interval the order says nothing.
+    pub fn is_same(&self, other: &Self) -> bool {
+        self == other || self.interval_ms == 0.0 && other.interval_ms == 0.0
+    }
+
+    /// In words, such as `holes 17 ms left`; `None` where they fire together.
+    pub fn words(&self) -> Option<String> {
+        let Self { interval_ms, order } = self;
+        (*interval_ms > 0.0).then(|| format!("holes {interval_ms} ms {order}"))
+    }
+}
+
+/// Firing times of the blast rows.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Timing {
+    /// The rows fire one after another.
+    Interval {
+        /// Indices of the blast rows in firing order.
+        order: Vec<usize>,
+        /// Time between successive rows [ms].
+        interval_ms: f64,
+    },
+    /// Firing time of each blast row [ms], in the order of the plan (`n_blast_rows`).
+    At(Vec<f64>),
+}
+
+impl Timing {
+    /// Firing time of each blast row [ms] (`n_blast_rows`).
+    pub fn fire_at_ms(&self) -> Vec<f64> {
+        match self {
+            Timing::At(times) => times.clone(),
+            Timing::Interval { order, interval_ms } => fire_in_turn(order, *interval_ms),
+        }
+    }
+}
+
+/// Firing time of each blast row where the rows fire in `order`, `interval` apart (`n_blast_rows`), in the unit of `interval`.
+pub fn fire_in_turn(order: &[usize], interval: f64) -> Vec<f64> {
+    let mut at = vec![0.0; order.len()];
+    for (turn, &row) in order.iter().enumerate() {
+        at[row] = turn as f64 * interval;
+    }
+    at
+}
+
+/// Settings of the simulation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SimulationSpec {
+    /// End of the run [s]; `None`: until every tire is at rest.
+    pub duration_s: Option<f64>,
+    /// Accuracy level.
+    pub accuracy: Accuracy,
+    /// Time integration method.
+    pub method: Method,
+    /// Gravity [m/s²].
+    pub gravity_m_s2: f64,
+}

@@ -1,0 +1,241 @@
+//! Samples of many shots, drawn and run in rounds until each risk is sure.
+
+use std::collections::BTreeSet;
+use std::ops::{ControlFlow, Range};
+
+use super::draw::{Input, RandomShot, draw};
+use super::risk::{LEAST_AUDITS, Risk};
+use super::sample::{Sample, SampleRun};
+use super::sampling::Sampling;
+use crate::choice::Accuracy;
+use crate::scene::{Scene, Shot};
+use crate::study::as_planned::shot_reason::closes;
+use crate::study::compute::step_factor;
+use crate::study::work::batch::run_jobs;
+use crate::study::{Case, ComputeSettings, Finding, Found, NoResult, Progress, Shard, ShotSummary, guarded};
+
+/// A shot whose risk is asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct ShotToSample<'c> {
+    /// The plan.
+    pub case: &'c Case,
+    /// The shot as planned.
+    pub shot: &'c Shot,
+    /// The shot as planned, judged by finer runs; `None` where it is not known.
+    pub as_planned: Option<ShotSummary>,
+    /// Method and accuracy.
+    pub compute: ComputeSettings,
+    /// Number of samples and seed.
+    pub sampling: Sampling,
+    /// Samples at the usual step that other machines drew, in order of their numbers.
+    pub precomputed: &'c [Sample],
+    /// Whether only a pass is of interest: sampling ends where none can come.
+    pub only_pass: bool,
+}
+
+impl<'c> ShotToSample<'c> {
+    /// A shot that nobody has judged or sampled yet.
+    pub fn new(case: &'c Case, shot: &'c Shot, compute: ComputeSettings, sampling: Sampling) -> Self {
+        Self { case, shot, as_planned: None, compute, sampling, precomputed: &[], only_pass: false }
+    }
+
+    /// The same shot, checked `as_planned`.
+    pub fn as_planned(self, as_planned: ShotSummary) -> Self {
+        Self { as_planned: Some(as_planned), ..self }
+    }
+
+    /// The same shot, of which other machines drew samples at the usual step, in order of their numbers.
+    pub fn precomputed(self, precomputed: &'c [Sample]) -> Self {
+        Self { precomputed, ..self }
+    }
+
+    /// The same shot, of which only a pass is of interest. A pass has the samples that it has otherwise.
+    pub fn only_pass(self) -> Self {
+        Self { only_pass: true, ..self }
+    }
+
+    /// Numbers of the samples to draw next.
+    fn next_round(&self, risk: &Risk) -> Range<usize> {
+        let drawn = risk.samples.len();
+        if self.only_pass && !risk.bounds.can_pass(self.sampling.most) {
+            return drawn..drawn;
+        }
+        self.sampling.next_round(risk)
+    }
+
+    /// The sample of a number, where another machine drew it.
+    fn drawn_elsewhere(&self, number: usize) -> Option<&Sample> {
+        let found = self.precomputed.binary_search_by_key(&number, |sample| sample.number);
+        found.ok().map(|n| &self.precomputed[n])
+    }
+
+    fn no_samples(&self) -> Risk {
+        Risk::new(self.case, self.as_planned, self.sampling.error_share, self.compute.step.is_none())
+    }
+}
+
+/// One sample in so many is audited: 5 %, and more of the first ones.
+const AUDIT_EVERY: usize = 20;
+const AUDIT_EVERY_AT_FIRST: usize = 10;
+/// Number of samples of which more are audited: enough for [`LEAST_AUDITS`].
+const FIRST_SAMPLES: usize = AUDIT_EVERY_AT_FIRST * LEAST_AUDITS;
+/// Step of a sample over the step of its audit.
+const AUDIT_FINER: f64 = 4.0;
+
+/// Most times that a shot is sampled anew at half the step.
+const MOST_HALVINGS: u32 = 3;
+
+/// Draws and judges samples of every shot, until its risk is sure.
+///
+/// The result is partial where a shot has no more samples than the time sufficed for.
+pub fn find_risks(targets: &[ShotToSample<'_>], progress: &Progress) -> Finding<Vec<Risk>> {
+    find_risks_watched(targets, progress, &mut |_, _| ControlFlow::Continue(()))
+}
+
+/// Like [`find_risks`]; `watch` sees every shot after each of its rounds, and may end the sampling of all.
+pub fn find_risks_watched(
+    targets: &[ShotToSample<'_>],
+    progress: &Progress,
+    watch: &mut dyn FnMut(usize, &Risk) -> ControlFlow<()>,
+) -> Finding<Vec<Risk>> {
+    let mut risks: Vec<Risk> = targets.iter().map(ShotToSample::no_samples).collect();
+    loop {
+        let round = |(n, risk): (usize, &Risk)| {
+            let (numbers, halvings) = (targets[n].next_round(risk), risk.halvings);
+            numbers.map(move |number| (n, number, halvings))
+        };
+        let jobs: Vec<(usize, usize, u32)> = risks.iter().enumerate().flat_map(round).collect();
+        if jobs.is_empty() {
+            return Ok(Found { value: risks, partial: false });
+        }
+        let drawn =
+            run_jobs(&jobs, progress, |&(n, number, halvings)| match targets[n].drawn_elsewhere(number) {
+                Some(sample) if halvings == 0 => Ok(*sample),
+                _ => run_sample(&targets[n], number, halvings, progress),
+            })?;
+        let out_of_time = drawn.contains(&None);
+        let mut complete = vec![true; targets.len()];
+        for (&(n, ..), sample) in jobs.iter().zip(drawn) {
+            // Samples are counted in order, so that a result is that of so many samples.
+            complete[n] &= sample.is_some();
+            if let Some(sample) = sample.filter(|_| complete[n]) {
+                risks[n].push(sample);
+            }
+        }
+        for n in jobs.iter().map(|&(n, ..)| n).collect::<BTreeSet<_>>() {
+            let (target, risk) = (&targets[n], &mut risks[n]);
+            let may_halve = !out_of_time && risk.halvings < MOST_HALVINGS && target.compute.step.is_none();
+            if may_halve && risk.is_contradicted() {
+                let halvings = risk.halvings + 1;
+                *risk = target.no_samples();
+                risk.halvings = halvings;
+            }
+            if watch(n, risk).is_break() {
+                return Ok(Found { value: risks, partial: false });
+            }
+        }
+        if out_of_time {
+            return Ok(Found { value: risks, partial: true });
+        }
+    }
+}
+
+/// Draws one sample and runs it once, without an audit: for a first look at a shot among many.
+pub(in crate::study) fn run_sample_once(
+    target: &ShotToSample<'_>,
+    number: usize,
+    progress: &Progress,
+) -> Result<Sample, NoResult> {
+    undecided_if_panicked(guarded(|| try_sample(target, number, 0, false, progress)), number)
+}
+
+/// Draws one sample and runs it, at a step halved `halvings` times; where the sample is one of the audit, also at a finer step.
+pub(in crate::study) fn run_sample(
+    target: &ShotToSample<'_>,
+    number: usize,
+    halvings: u32,
+    progress: &Progress,
+) -> Result<Sample, NoResult> {
+    undecided_if_panicked(guarded(|| try_sample(target, number, halvings, true, progress)), number)
+}
+
+/// A sample in which the program panicked shows nothing; the others go on.
+fn undecided_if_panicked(sample: Result<Sample, NoResult>, number: usize) -> Result<Sample, NoResult> {
+    match sample {
+        Err(NoResult::Panicked(_)) => {
+            Ok(Sample { number, run: SampleRun::FAILED, finer: None, inputs: [f64::NAN; Input::ALL.len()] })
+        }
+        sample => sample,
+    }
+}
+
+/// Draws and judges the samples of every shot that belong to `shard`; `None` for those that the time did not suffice for.
+pub fn draw_shard(
+    targets: &[ShotToSample<'_>],
+    shard: Shard,
+    progress: &Progress,
+) -> Result<Vec<(usize, Option<Sample>)>, NoResult> {
+    let of_target = |n: usize| (0..targets[n].sampling.most).map(move |number| (n, number));
+    let jobs: Vec<(usize, usize)> =
+        (0..targets.len()).flat_map(of_target).filter(|&(_, number)| shard.has(number)).collect();
+    let drawn = run_jobs(&jobs, progress, |&(n, number)| run_sample(&targets[n], number, 0, progress))?;
+    Ok(jobs.into_iter().map(|(n, _)| n).zip(drawn).collect())
+}
+
+/// Longest step of a sample [s]: it resolves a landing.
+const LONGEST_STEP: f64 = 2e-3;
+/// Greatest step of a sample over the critical step of its own scene.
+const OF_CRITICAL_STEP: f64 = 0.55;
+/// Factor on the step of a sample where accuracy `reference` is asked for; draft and field use one step.
+const OF_REFERENCE: f64 = 0.25;
+
+/// Step of a sample [s]: the fixed step where there is one.
+pub(in crate::study) fn step(compute: &ComputeSettings, scene: &Scene) -> f64 {
+    let level = if compute.accuracy == Accuracy::Reference { OF_REFERENCE } else { 1.0 };
+    let usual = LONGEST_STEP.min(OF_CRITICAL_STEP * scene.critical_step());
+    compute.step.unwrap_or(step_factor(compute.method) * level * usual)
+}
+
+fn try_sample(
+    target: &ShotToSample<'_>,
+    number: usize,
+    halvings: u32,
+    may_audit: bool,
+    progress: &Progress,
+) -> Result<Sample, NoResult> {
+    let ShotToSample { case, shot, compute, sampling, .. } = *target;
+    let RandomShot { scene, shot, inputs } = draw(case, shot, sampling.seed, number);
+    // The run, and whether it failed or has no energy balance.
+    let run = |step: f64| {
+        let settings = case.run_settings(compute.method, step);
+        match case.model.run_variant(&scene, &shot, &settings, &mut |_| progress.flow()) {
+            Ok(outcome) => Ok((SampleRun::new(case, &shot, &outcome), !closes(outcome.ledger.residual()))),
+            Err(failure) => match progress.no_result(failure) {
+                NoResult::Failed(_) => Ok((SampleRun::FAILED, true)),
+                ended => Err(ended),
+            },
+        }
+    };
+    let step = step(&compute, &scene) * 0.5_f64.powi(halvings as i32);
+    let (coarse, shows_nothing) = run(step)?;
+    if compute.step.is_some() {
+        return Ok(Sample { number, run: coarse, finer: None, inputs });
+    }
+    let every = if number < FIRST_SAMPLES { AUDIT_EVERY_AT_FIRST } else { AUDIT_EVERY };
+    let is_audited = may_audit && number % every == every / 2;
+    let fine = if shows_nothing || is_audited { Some(run(step / AUDIT_FINER)?.0) } else { None };
+    let best = fine.filter(|_| shows_nothing).unwrap_or(coarse);
+    Ok(Sample { number, run: best, finer: fine.filter(|_| is_audited), inputs })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sample_that_panics_is_undecided_and_a_stop_stays_a_stop() {
+        let panicked = undecided_if_panicked(Err(NoResult::Panicked("why".to_owned())), 7).expect("a sample");
+        assert_eq!((panicked.number, panicked.run), (7, SampleRun::FAILED));
+        assert_eq!(undecided_if_panicked(Err(NoResult::Stopped), 7), Err(NoResult::Stopped));
+    }
+}

@@ -1,0 +1,35 @@
+//! Keys of the comparison: the selected option, sorting, filter.
+
+use super::PAGE;
+use crate::tui::app::{App, Request};
+use crate::tui::keymap::Action;
+
+impl App {
+    pub(super) fn act_on_compare(&mut self, action: Action) -> Request {
+        if let Some(request) = self.act_on_changes(action) {
+            return request;
+        }
+        let page = PAGE as isize;
+        match action {
+            Action::Up => self.select_listed(-1),
+            Action::Down => self.select_listed(1),
+            Action::PageUp => self.select_listed(-page),
+            Action::PageDown => self.select_listed(page),
+            Action::First => self.select_listed(isize::MIN),
+            Action::Last => self.select_listed(isize::MAX),
+            Action::Open => self.zoom = !self.zoom,
+            Action::Sort => {
+                self.listing.sort = self.listing.sort.next();
+                self.listing.reversed = false;
+            }
+            Action::Reverse => self.listing.reversed = !self.listing.reversed,
+            Action::Why => return self.ask_for_changes(),
+            Action::Baseline => {
+                let same = self.listing.baseline == Some(self.selected);
+                self.listing.baseline = (!same).then_some(self.selected);
+            }
+            other => return self.act_anywhere(other),
+        }
+        Request::None
+    }
+}

@@ -1,0 +1,201 @@
+//! Effects of keys, clicks and commands on the app: here those of all screens, in a file of its own those of each screen.
+
+mod accuracy;
+mod compare;
+mod flight;
+mod plan;
+mod prompt;
+mod studies;
+mod would_pass;
+
+use std::path::Path;
+
+use ratatui::layout::Position;
+
+use super::app::{App, ClickTarget, Request};
+use super::compare::OptionState;
+use super::keymap::{Action, BINDINGS};
+use super::prompt::{Prompt, Purpose};
+use super::screen::Screen;
+use crate::choice::Accuracy;
+use crate::jobs::StudyKind;
+
+/// Lines that a page key moves.
+pub(super) const PAGE: usize = 10;
+
+impl App {
+    /// Does the action of a key or of a chosen command.
+    pub fn act(&mut self, action: Action) -> Request {
+        self.notice = None;
+        if action != Action::Quit {
+            self.warned = false;
+        }
+        if self.help && self.scroll_help(action) {
+            return Request::None;
+        }
+        match self.screen {
+            Screen::Plan => self.act_on_plan(action),
+            Screen::Compare => self.act_on_compare(action),
+            Screen::Flight => self.act_on_flight(action),
+            Screen::Studies => self.act_on_studies(action),
+            Screen::Accuracy => self.act_on_accuracy(action),
+        }
+    }
+
+    /// Scrolls the open help. Returns whether the action was for the help.
+    fn scroll_help(&mut self, action: Action) -> bool {
+        let lines = match action {
+            Action::Up => -1,
+            Action::Down => 1,
+            Action::PageUp => -(PAGE as i16),
+            Action::PageDown => PAGE as i16,
+            Action::First => i16::MIN,
+            Action::Last => i16::MAX,
+            _ => return false,
+        };
+        self.help_scroll = self.help_scroll.saturating_add_signed(lines).min(BINDINGS.len() as u16);
+        true
+    }
+
+    /// Does what a click at a position of the screen asks for.
+    pub fn click(&mut self, at: Position) -> Request {
+        let hit = self.areas.iter().rev().find(|(area, _)| area.contains(at)).copied();
+        let Some((area, target)) = hit else { return Request::None };
+        match target {
+            ClickTarget::Act(action) => return self.act(action),
+            ClickTarget::Option(option) if option == self.selected => return self.act(Action::Open),
+            ClickTarget::Option(option) => self.selected = option,
+            ClickTarget::Sort(sort) => self.listing.sort_by(sort),
+            ClickTarget::Field(field) if field == self.editor.selected => return self.act(Action::Open),
+            ClickTarget::Field(field) => {
+                return self.select_field(field as isize - self.editor.selected as isize);
+            }
+            ClickTarget::Lines(_) => {}
+            ClickTarget::Study(kind) => self.studies.show(kind),
+            ClickTarget::Offer(n) if n == self.studies.selected => return self.act(Action::Open),
+            ClickTarget::Offer(n) => self.studies.selected = n,
+            ClickTarget::Time(end) => {
+                let share = f64::from(at.x - area.x) / f64::from(area.width.saturating_sub(1).max(1));
+                self.player.seek(share * end, end);
+            }
+        }
+        Request::None
+    }
+
+    /// Does an action that is the same on every screen.
+    pub(super) fn act_anywhere(&mut self, action: Action) -> Request {
+        match action {
+            Action::Show(screen) => self.screen = screen,
+            Action::NextScreen => self.screen = self.screen.turned(1),
+            Action::PreviousScreen => self.screen = self.screen.turned(Screen::ALL.len() - 1),
+            Action::Undo => {
+                let edit = self.editor.undo();
+                return self.edited(edit);
+            }
+            Action::Redo => {
+                let edit = self.editor.redo();
+                return self.edited(edit);
+            }
+            Action::Save => return Request::Save,
+            Action::SaveAs => return Request::NamePlan,
+            Action::Find => self.prompt = Some(Prompt::new(Purpose::Find, "")),
+            Action::Palette => self.prompt = Some(Prompt::new(Purpose::Palette, "")),
+            Action::Export => return self.name_export(),
+            Action::Page => return Request::NamePage(format!("{}-to-be-fired", self.stem())),
+            Action::Yank => return Request::Yank,
+            Action::Theme => self.theme = self.theme.next(),
+            Action::Help => {
+                self.help = !self.help;
+                self.help_scroll = 0;
+            }
+            Action::Rerun => return self.rerun(self.compute.accuracy),
+            Action::Finer => return self.rerun(finer(self.compute.accuracy)),
+            Action::Coarser => return self.rerun(coarser(self.compute.accuracy)),
+            Action::Suspend => return Request::Suspend,
+            Action::Quit => return self.quit(),
+            _ => {}
+        }
+        Request::None
+    }
+
+    /// Asks for the file to export to; the name offered says plan and screen.
+    fn name_export(&self) -> Request {
+        let ending = if self.screen == Screen::Plan { "svg" } else { "csv" };
+        Request::NameExport(format!("{}-{}", self.stem(), self.screen.name().to_lowercase()), ending)
+    }
+
+    /// Name of the plan's file without its ending.
+    fn stem(&self) -> &str {
+        Path::new(&self.case.source.path).file_stem().and_then(|stem| stem.to_str()).unwrap_or("plan")
+    }
+
+    /// Closes the uppermost open thing; never leaves the program.
+    pub fn escape(&mut self) -> Request {
+        self.warned = false;
+        if self.notice.take().is_some() {
+            return Request::None;
+        }
+        if self.help {
+            self.help = false;
+        } else if let Some(kind) = self.cancellable() {
+            return self.cancel_study(kind);
+        } else if self.screen == Screen::Compare && self.studies.changes.take().is_some() {
+            return Request::None;
+        } else if !self.listing.filter.is_empty() || !self.studies.filter.is_empty() {
+            self.listing.filter.clear();
+            self.studies.filter.clear();
+        } else if self.screen != Screen::Compare {
+            self.screen = Screen::Compare;
+        } else if self.zoom {
+            self.zoom = false;
+        } else {
+            self.notice = Some(format!("{} leaves", self.keymap.hint(Action::Quit)));
+        }
+        Request::None
+    }
+
+    /// The study shown, while it computes.
+    fn cancellable(&self) -> Option<StudyKind> {
+        let kind = match self.screen {
+            Screen::Studies => self.studies.shown,
+            Screen::Accuracy => StudyKind::Accuracy,
+            Screen::Compare => StudyKind::WouldPass,
+            Screen::Plan | Screen::Flight => return None,
+        };
+        self.studies.is_running(kind).then_some(kind)
+    }
+
+    /// Asks to quit; the first time with unsaved changes only warns.
+    fn quit(&mut self) -> Request {
+        if !self.editor.unsaved() || self.warned {
+            return Request::Quit;
+        }
+        self.warned = true;
+        let [save, quit] = [Action::Save, Action::Quit].map(|action| self.keymap.hint(action));
+        self.notice = Some(format!("changes are not saved: {save} saves, {quit} again leaves without"));
+        Request::None
+    }
+
+    /// Asks to check every option at an accuracy.
+    fn rerun(&mut self, accuracy: Accuracy) -> Request {
+        self.compute.accuracy = accuracy;
+        self.studies.changes = None;
+        self.options.fill(OptionState::Waiting);
+        self.player.option = None;
+        Request::Check
+    }
+}
+
+fn finer(accuracy: Accuracy) -> Accuracy {
+    match accuracy {
+        Accuracy::Draft => Accuracy::Field,
+        Accuracy::Field | Accuracy::Reference => Accuracy::Reference,
+    }
+}
+
+fn coarser(accuracy: Accuracy) -> Accuracy {
+    match accuracy {
+        Accuracy::Reference => Accuracy::Field,
+        Accuracy::Field | Accuracy::Draft => Accuracy::Draft,
+    }
+}

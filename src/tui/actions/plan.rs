@@ -1,0 +1,66 @@
+//! Keys of the plan: its values, its options.
+
+use super::PAGE;
+use crate::tui::app::{App, Request};
+use crate::tui::editor::EditOutcome;
+use crate::tui::keymap::Action;
+use crossterm::event::{KeyCode, KeyEvent};
+
+impl App {
+    pub(super) fn act_on_plan(&mut self, action: Action) -> Request {
+        let page = PAGE as isize;
+        let edit = match action {
+            Action::Up => return self.select_field(-1),
+            Action::Down => return self.select_field(1),
+            Action::PageUp => return self.select_field(-page),
+            Action::PageDown => return self.select_field(page),
+            Action::First => return self.select_field(isize::MIN),
+            Action::Last => return self.select_field(isize::MAX),
+            Action::Open => {
+                self.editor.begin();
+                return Request::None;
+            }
+            Action::Left => self.editor.step(false),
+            Action::Right => self.editor.step(true),
+            Action::AddOption => {
+                let edit = self.editor.copy_option(self.selected);
+                let request = self.edited(edit);
+                self.follow_field();
+                return request;
+            }
+            Action::RemoveOption => self.editor.remove(),
+            other => return self.act_anywhere(other),
+        };
+        self.edited(edit)
+    }
+
+    /// Selects the field `lines` further down, and the option of that field.
+    pub(super) fn select_field(&mut self, lines: isize) -> Request {
+        self.editor.select(lines);
+        self.follow_field();
+        Request::None
+    }
+
+    /// Selects the option of the selected field.
+    pub(super) fn follow_field(&mut self) {
+        if let Some(field) = self.editor.field().filter(|field| field.path.section == "delay") {
+            self.selected = field.path.index.unwrap_or(0).min(self.options.len().saturating_sub(1));
+        }
+    }
+
+    /// Passes a key to the value being typed, or to the blast rows being put in order.
+    pub fn type_key(&mut self, key: &KeyEvent) -> Request {
+        let edit = match (self.editor.order.is_some(), self.keymap.action(key)) {
+            (true, Some(action)) if key.code != KeyCode::Esc => self.editor.arrange(action),
+            _ => self.editor.type_key(key),
+        };
+        self.edited(edit)
+    }
+
+    pub(super) fn edited(&mut self, edit: EditOutcome) -> Request {
+        match edit {
+            EditOutcome::None => Request::None,
+            EditOutcome::Changed(plan) => self.take_edited(*plan),
+        }
+    }
+}

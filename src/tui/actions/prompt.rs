@@ -1,0 +1,70 @@
+//! The line at the foot of the screen: what its keys, a paste and its end do.
+
+use crate::tui::app::{App, Request};
+use crate::tui::paste::paste;
+use crate::tui::prompt::{Purpose, Typed};
+use crate::tui::screen::Screen;
+use crossterm::event::{KeyCode, KeyEvent};
+
+impl App {
+    /// Passes a key to the line being typed at the foot of the screen.
+    pub fn type_in_prompt(&mut self, key: &KeyEvent) -> Request {
+        let Some(mut prompt) = self.prompt.take() else { return Request::None };
+        let typed = prompt.key(key);
+        let text = prompt.input.value().to_owned();
+        match (prompt.purpose, typed) {
+            (Purpose::Find, Typed::Cancelled) => self.find("", false),
+            (Purpose::Find, Typed::Changed) => self.find(&text, key.code == KeyCode::Down),
+            (Purpose::Palette, Typed::Done) => {
+                let Some(chosen) = prompt.commands().get(prompt.selected).copied() else {
+                    return Request::None;
+                };
+                // The command belongs to another screen: show that screen first.
+                if let Some(&screen) = chosen.on.first().filter(|_| !chosen.is_on(self.screen)) {
+                    self.screen = screen;
+                }
+                return self.act(chosen.action);
+            }
+            (Purpose::Export, Typed::Done) if !text.is_empty() => return Request::Export(text.into()),
+            (Purpose::Page, Typed::Done) if !text.is_empty() => return Request::Page(text.into()),
+            (Purpose::SaveAs, Typed::Done) if !text.is_empty() => return Request::SaveAs(text.into()),
+            _ => {}
+        }
+        if typed == Typed::Changed {
+            self.prompt = Some(prompt);
+        }
+        Request::None
+    }
+
+    /// Puts a pasted text into the line being typed, if there is one.
+    pub fn paste(&mut self, text: &str) {
+        self.notice = if let Some(prompt) = &mut self.prompt {
+            prompt.selected = 0;
+            let note = paste(&mut prompt.input, text);
+            if prompt.purpose == Purpose::Find {
+                let typed = prompt.input.value().to_owned();
+                self.find(&typed, false);
+            }
+            note
+        } else if self.editor.typing() {
+            self.editor.paste(text)
+        } else {
+            Some("nothing was pasted: no value is being typed".to_owned())
+        };
+    }
+
+    /// Finds a text: lists only the options or lines that contain it, or selects the value of the plan that does.
+    pub(super) fn find(&mut self, text: &str, next: bool) {
+        match self.screen {
+            Screen::Plan => {
+                self.editor.find(text, next);
+                self.follow_field();
+            }
+            Screen::Studies => self.studies.filter = text.to_owned(),
+            Screen::Compare | Screen::Flight | Screen::Accuracy => {
+                self.listing.filter = text.to_owned();
+                self.select_listed(0);
+            }
+        }
+    }
+}

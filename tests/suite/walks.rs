@@ -1,0 +1,123 @@
+//! What a person came for, in how many keys: the real program on terminals of two sizes.
+
+use std::fs;
+use std::path::Path;
+
+use super::support::{PROGRAM, text};
+use super::watched::Watched;
+
+const SIZES: [(u16, u16); 2] = [(80, 24), (120, 36)];
+const ENTER: &str = "\r";
+const RIGHT: &str = "\x1b[C";
+const DOWN: &str = "\x1b[B";
+
+/// Sixteen tires; two options, whose cables hold at a safety factor of 3.
+const PLAN: &str = r#"
+title = "Walk"
+shelter = { layout = "grid", rows = 4, columns = 4, spacing_m = 2.6 }
+tire = { mass_kg = 280 }
+cable = { rope = "GOST 2688-80 6.2" }
+ground = { friction = 0.5 }
+limits = { flight_height_m = 2, cable_safety_factor = 3 }
+simulation = { accuracy = "draft" }
+search = { intervals_ms = [9, 25] }
+blast_row = [{ name = "1", under_row = 2, launch_m_s = 5 }, { name = "2", under_row = 3, launch_m_s = 5 }]
+
+[[delay]]
+name = "42 ms"
+interval_ms = 42
+"#;
+
+/// A program that is used key by key.
+struct Walk {
+    watched: Watched,
+    keys: usize,
+}
+
+impl Walk {
+    fn begin(arguments: &[&str], folder: &Path, (columns, rows): (u16, u16)) -> Self {
+        Self { watched: Watched::start(arguments, folder, columns, rows), keys: 0 }
+    }
+
+    /// Presses keys one by one, then waits for a text on the screen.
+    fn press(&mut self, keys: &[&str], then: &str) {
+        keys.iter().for_each(|key| self.watched.press(key));
+        self.keys += keys.len();
+        self.watched.until(then);
+    }
+
+    /// Leaves; returns the number of keys pressed before.
+    fn leave(mut self) -> usize {
+        self.watched.press("q");
+        assert_eq!(self.watched.ends(), 0);
+        self.keys
+    }
+}
+
+fn written(folder: &Path, plan: &str) {
+    fs::write(folder.join("plan.toml"), plan).expect("written");
+}
+
+/// The plan that was saved passes in a script, too.
+fn passes(folder: &Path) {
+    let mut check = std::process::Command::new(PROGRAM);
+    let output =
+        check.args(["check", "plan.toml", "--any", "--accuracy", "draft"]).current_dir(folder).output();
+    let output = output.expect("it runs");
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stdout));
+}
+
+#[test]
+fn a_newcomer_has_a_passing_plan_in_forty_keys() {
+    for size in SIZES {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut walk = Walk::begin(&["--accuracy", "draft"], folder.path(), size);
+        walk.press(&[], "A new plan by a few questions");
+        walk.press(&[ENTER], "launch, m/s");
+        // Seven questions are answered as offered, the launch and the intervals are typed.
+        walk.press(&[ENTER; 7], "launch, m/s");
+        walk.press(&["3", ENTER, "2", "5", ",", " ", "4", "2", ENTER], "safety factor");
+        walk.press(&[ENTER, ENTER], "of 2 pass");
+        walk.press(&["s"], "save the plan as");
+        walk.press(&[ENTER], "saved plan.toml");
+        let keys = walk.leave();
+        assert!(keys <= 40, "{keys} keys");
+        passes(folder.path());
+    }
+}
+
+#[test]
+fn a_failing_option_passes_by_the_programs_own_proposal_in_six_keys() {
+    for size in SIZES {
+        let folder = tempfile::tempdir().expect("a folder");
+        written(folder.path(), &PLAN.replace("cable_safety_factor = 3", "cable_safety_factor = 4.5"));
+        let mut walk = Walk::begin(&["plan.toml"], folder.path(), size);
+        walk.press(&[], "0 of 1 pass");
+        walk.press(&["w"], "rope GOST 2688-80 8.3 instead of");
+        walk.press(&[ENTER], "1 of 1 pass");
+        walk.press(&["s"], "saved plan.toml");
+        let keys = walk.leave();
+        assert!(keys <= 6, "{keys} keys");
+        passes(folder.path());
+    }
+}
+
+#[test]
+fn a_found_schedule_becomes_a_page_to_sign_in_eight_keys() {
+    for size in SIZES {
+        let folder = tempfile::tempdir().expect("a folder");
+        written(folder.path(), &PLAN.replace("cable_safety_factor = 3", "cable_safety_factor = 1.5"));
+        let mut walk = Walk::begin(&["plan.toml"], folder.path(), size);
+        walk.press(&[], "1 of 1 pass");
+        walk.press(&["4", RIGHT, RIGHT, RIGHT, ENTER], "the best schedule found");
+        walk.keys = 0;
+        walk.press(&[DOWN, ENTER], "2 of 2 pass");
+        walk.press(&["s"], "saved plan.toml");
+        walk.press(&["P"], "to be fired: ");
+        walk.press(&[ENTER], "wrote plan-to-be-fired.html");
+        let keys = walk.leave();
+        assert!(keys <= 8, "{keys} keys");
+        let page = fs::read_to_string(folder.path().join("plan-to-be-fired.html")).expect("a page");
+        assert!(page.contains("To be fired: ") && !page.contains("Not saved"), "{page}");
+    }
+}
