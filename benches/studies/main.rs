@@ -4,12 +4,14 @@
 //! random ones, rim to rim. `cargo bench --bench studies -- orders 6 10` checks all orders of 6 rows of 10 random plans, rim to
 //! rim and centre to centre in turn, at three intervals. Of more than [`MOST_CHECKED_ROWS`] rows every order is run once at the
 //! step of the level, and the [`ENDS`] worst and best by that run are checked. `cargo bench --bench studies -- search 20` samples
-//! every schedule of 20 random plans 2,000 times, `search 20 11` only of those from number 11 on.
+//! every schedule of 20 random plans 2,000 times, `search 20 11` only of those from number 11 on. `cargo bench --bench studies -- fit
+//! 200` estimates 200 unknowns of random plans whose truth is known.
 
 mod plans;
 #[allow(dead_code)]
 #[path = "../calibration/random.rs"]
 mod random;
+mod round_trip;
 mod schedules;
 
 use std::ops::ControlFlow;
@@ -37,6 +39,7 @@ fn main() {
     let number =
         |n: usize, default: usize| words.get(n).and_then(|word| word.parse().ok()).unwrap_or(default);
     match words.first().map(String::as_str) {
+        Some("fit") => round_trip::compare(number(1, 200)),
         Some("search") => schedules::compare(number(2, 0) as u64..number(1, 20) as u64),
         Some("orders") => compare_orders(number(1, 6), number(2, 10) as u64),
         _ => compare_windows(number(1, 10) as u64),

@@ -281,6 +281,15 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
             ));
         }
     }
+    let computed_badly = observed_rows(case, fit).filter(|row| row.residual.error > row.observed.sd);
+    let badly: Vec<String> =
+        computed_badly.map(|row| place(case, row.observed.option, &row.observed.watched)).collect();
+    if !badly.is_empty() {
+        all.push(format!(
+            "the error of computing is larger than the sd of what was seen, which says little then: {}: choose a finer --accuracy",
+            badly.join("; ")
+        ));
+    }
     let suspicious: Vec<String> = observed_rows(case, fit)
         .filter(|row| row.residual.is_suspicious())
         .map(|row| {

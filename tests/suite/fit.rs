@@ -7,6 +7,7 @@ use shelter::Sampling;
 use shelter::choice::{ObservedQuantity, Unknown};
 use shelter::plan::observations::{Observations, Watched, template};
 use shelter::plan::{Plan, PlanSource};
+use shelter::study::fit::possible::{as_fired, next_observation};
 use shelter::study::fit::{Answer, Fit, FitResult, NotDetermined, Request, addresses, fit};
 use shelter::study::{Case, ComputeSettings, Progress};
 
@@ -53,7 +54,7 @@ fn lone_tire(uncertainty: &str) -> Case {
 const EXACT: &str = "[uncertainty]\ndelay_sd_ms = 0\nlaunch_cv_percent = 0\nfriction = 0\nslack_percent = 0\naxial_stiffness_percent = [0, 0]\ntire_mass_cv_percent = 0\n";
 
 /// A height h is seen of a tire that leaves with V0: the factor is √(2 g h)/V0, its standard deviation that of h over 2 h, times
-/// the factor. Differences over one standard deviation err by its square.
+/// the factor. Means over a spread of 1.5 standard deviations err by 1.5² times the square of one, twice that is allowed.
 #[test]
 fn a_free_flight_gives_its_launch() {
     for (height, sd) in [(1.2, 0.02), (1.8349, 0.02), (3.0, 0.05)] {
@@ -62,16 +63,17 @@ fn a_free_flight_gives_its_launch() {
             let fit = fitted(&lone_tire(EXACT), &lines, &[Unknown::Launch], sampling);
             let [(factor, factor_sd)] = estimates(&fit.answers[0])[..] else { panic!("one estimate") };
             let exact = f64::sqrt(2.0 * 9.81 * height) / 6.0;
-            assert!((factor - exact).abs() < 1e-4, "{factor} {exact}");
-            assert!((factor_sd / (exact * 0.5 * sd / height) - 1.0).abs() < 1e-3, "{factor_sd}");
+            let bend = if sampling.is_some() { 4.5 * (factor_sd / factor).powi(2) } else { 0.0 };
+            assert!((factor - exact).abs() < 1e-4 + bend, "{factor} {exact}");
+            assert!((factor_sd / (exact * 0.5 * sd / height) - 1.0).abs() < 3e-3, "{factor_sd}");
             assert_eq!(fit.answers.len(), 1);
         }
     }
 }
 
 /// What is known beforehand, seen, and scattered from hole to hole weighs by the inverse of the variances of the logarithm of the
-/// launch velocity: 0.05² stated; of the height (0.04/1.8 / 2)² seen and 0.03² scattered. The scatter comes from 64 samples, so
-/// that its variance is known to 18 %, the weights to 13 %, and the estimate to 4 %; the tolerances are three times that.
+/// launch velocity: 0.05² stated; of the height (0.04/1.8 / 2)² seen and 0.03² scattered. The scatter comes from 96 samples, so
+/// that its variance is known to 15 %, the weights to 11 %, and the estimate to 4 %; the tolerances are three times that.
 #[test]
 fn prior_scatter_and_observation_weigh_as_they_should() {
     let section = EXACT.replace("launch_cv_percent = 0", "launch_cv_percent = 3\nlaunch_common_percent = 5");
@@ -217,13 +219,79 @@ fn two_unknowns_are_those_of_brute_force() {
 fn fitted_as_planned(case: &Case, lines: &str) -> Vec<(f64, f64, f64)> {
     let list = observations(case, lines).list;
     let compute = ComputeSettings::of(&case.plan);
-    let fired = shelter::study::fit::possible::as_fired(case, &list, None, &compute, &Progress::default());
+    let fired = as_fired(case, &list, None, &compute, &Progress::default());
     fired
         .expect("a run")
         .iter()
         .zip(&list)
         .map(|(fired, seen)| (fired.planned, seen.value, seen.sd))
         .collect()
+}
+
+/// Height of a lone tire: lognormal with twice the standard deviation of the launch, of 5 % in common and 3 % of the hole. The
+/// percentiles of 2,000 samples are known to 4 % of that.
+#[test]
+fn bands_are_those_of_what_could_be_seen() {
+    let section = EXACT.replace("launch_cv_percent = 0", "launch_cv_percent = 3\nlaunch_common_percent = 5");
+    let case = lone_tire(&section);
+    let compute = ComputeSettings::of(&case.plan);
+    for sd in [0.001, 0.3] {
+        let list = observations(&case, &format!("tire,quantity,value,sd\n1,flight_height_m,1.8,{sd}\n")).list;
+        let sampling = Sampling::exactly(2000, 7);
+        let fired = as_fired(&case, &list, Some(&sampling), &compute, &Progress::default()).expect("runs");
+        let planned = 36.0 / 2.0 / 9.81;
+        assert!((fired[0].planned - planned).abs() < 1e-6);
+        let spread = 2.0 * planned * f64::sqrt(0.05 * 0.05 + 0.03 * 0.03);
+        let [low, high] = fired[0].band.expect("samples");
+        let exact = 1.645 * spread.hypot(sd);
+        // The lognormal leans by a part of its standard deviation.
+        assert!((0.5 * (high - low) / exact - 1.0).abs() < 0.08, "{low} {high} {exact}");
+        assert!((0.5 * (low + high) - planned).abs() < 0.15 * exact, "{low} {high}");
+        assert_eq!(fired[0].holds(planned), Some(true));
+        assert_eq!(fired[0].holds(high + 0.1), Some(false));
+    }
+}
+
+/// Of a lone tire nothing but its launch counts: with A the variance of its height by the launch in common, B that by the hole and s
+/// that of observing, a height takes A²/((A + B)(A + B + s)) from the variance of the next height. 1,000 samples know it to 5 %.
+#[test]
+fn what_to_observe_next_takes_most_from_the_variance() {
+    let section = EXACT.replace("launch_cv_percent = 0", "launch_cv_percent = 3\nlaunch_common_percent = 5");
+    let case = lone_tire(&section);
+    let compute = ComputeSettings::of(&case.plan);
+    let next = next_observation(&case, 0, &Sampling::exactly(1000, 3), &compute, &Progress::default());
+    let next = next.expect("runs").expect("something tells");
+    let variance = |share: f64| (2.0 * share * 36.0 / 2.0 / 9.81).powi(2);
+    let (common, hole) = (variance(0.05), variance(0.03));
+    let exact = common * common / ((common + hole) * (common + hole + 0.05 * 0.05));
+    assert!((next.share / exact - 1.0).abs() < 0.1, "{next:?} {exact}");
+    let exact =
+        lone_tire(EXACT.replace("delay_sd_ms = 0", "delay_sd_ms = 0\nlaunch_common_percent = 0").as_str());
+    let none = next_observation(&exact, 0, &Sampling::exactly(100, 3), &compute, &Progress::default());
+    assert_eq!(none.expect("runs"), None);
+}
+
+/// What was seen of two shots of one option counts twice where each scatters by itself: the variance by holes halves.
+#[test]
+fn two_files_are_two_shots() {
+    let section = EXACT.replace("launch_cv_percent = 0", "launch_cv_percent = 3");
+    let case = lone_tire(&section);
+    let file = |value: f64| {
+        observations(&case, &format!("tire,quantity,value,sd\n1,flight_height_m,{value},0.01\n"))
+    };
+    let files = [file(1.8), file(1.9), file(1.7), file(2.0)];
+    let sd_of = |files: &[Observations]| {
+        let request =
+            Request { files, unknowns: &[Unknown::Launch], sampling: Some(Sampling::exactly(50, 1)) };
+        let compute = ComputeSettings::of(&case.plan);
+        match fit(&case, &request, &compute, &Progress::default()).expect("a result").value {
+            FitResult::Fitted(fit) => fit.answers[0].estimates[0].sd,
+            other => panic!("{other:?}"),
+        }
+    };
+    // 96 samples know a standard deviation to 7 %.
+    let share = sd_of(&files) / sd_of(&files[..1]);
+    assert!((share - 0.5).abs() < 0.1, "{share}");
 }
 
 /// What is replaced in the good file, and by what.

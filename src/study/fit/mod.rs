@@ -27,8 +27,8 @@ pub use self::determined::{Candidate, NotDetermined};
 use self::parameter::{Parameter, Prior};
 use self::possible::{AsFired, NextObservation, as_fired, next_observation};
 use self::predict::Predictor;
-use self::search::{Minimum, SearchBox, distinct};
-use self::weights::{Seen, Weighing, Weights};
+use self::search::{Minimum, SearchBox};
+use self::weights::{Local, Seen, Weighing, Weights};
 use super::samples::sampling::Sampling;
 use super::work::batch::run_jobs;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress};
@@ -111,7 +111,7 @@ pub struct Estimated {
 /// How an observation lies beside the shot of the estimates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residual {
-    /// The predicted value; not a number where the tire never lifts, or never lands.
+    /// The predicted value, on average over what scatters; not a number where the tire never lifts, or never lands.
     pub fitted: f64,
     /// Standard deviation of the observation about its prediction: stated, of computing, of the scatter of the plan.
     pub sd: f64,
@@ -205,17 +205,14 @@ pub fn fit(
         seen,
         seed: request.sampling.map(|sampling| sampling.seed),
     };
-    let weighed = fitting.answers(case)?;
-    let (best, weights) = &weighed[0];
-    let slopes = fitting.slopes(best, weights)?;
-    let refused = determined::refuse(&fitting.predictor, &fitting.space, &fitting.own(&case.plan), &slopes)?;
-    if let Some(refused) = refused {
+    let settled = fitting.answers(case)?;
+    let best = &settled[0];
+    let slopes = best.weights.whiten(&best.slopes).unwrap_or_else(|| best.slopes.clone());
+    let own = fitting.own(&case.plan);
+    if let Some(refused) = determined::refuse(&fitting.predictor, &fitting.space, &own, &slopes)? {
         return Ok(whole(FitResult::NotDetermined(refused)));
     }
-    let answers: Vec<Answer> = weighed
-        .iter()
-        .map(|(minimum, weights)| fitting.answer(case, minimum, weights))
-        .collect::<Result<Vec<_>, _>>()?;
+    let answers = settled.iter().map(|settled| fitting.answer(case, settled)).collect();
     let Seen { list: observed, file } = fitting.seen;
     let as_fired = as_fired(case, &observed, request.sampling.as_ref(), compute, progress)?;
     let mut fit = Fit { answers, observed, file, as_fired, next: None };
@@ -297,6 +294,30 @@ struct Fitting<'p> {
     seed: Option<u64>,
 }
 
+/// An answer with what is known of its neighbourhood.
+struct Settled {
+    minimum: Minimum,
+    /// The predictions there.
+    fitted: Vec<f64>,
+    /// Their derivatives (`n_observations` × `n_parameters`).
+    slopes: DMatrix<f64>,
+    weights: Weights,
+}
+
+impl Settled {
+    /// −2 × the logarithm of the likelihood, but for a constant.
+    fn unlikelihood(&self) -> f64 {
+        self.minimum.misfit + self.weights.log_determinant
+    }
+}
+
+/// Spread of the samples about an answer, over its standard deviation: wide enough for slopes that samples hardly blur.
+const SPREAD: f64 = 1.5;
+/// Least and greatest spread, as a share of the range.
+const SPREADS: [f64; 2] = [5e-3, 0.15];
+/// Most times that samples are drawn about an answer.
+const MOST_ROUNDS: usize = 6;
+
 impl Fitting<'_> {
     /// Where the search begins: at what the plan states, or at its own numbers.
     fn own(&self, plan: &Plan) -> Vec<f64> {
@@ -321,38 +342,110 @@ impl Fitting<'_> {
         Ok(Some(DVector::from_vec(all)))
     }
 
-    /// Answers of nearly equal misfit, the best first, each with the weights there.
-    fn answers(&self, case: &Case) -> Result<Vec<(Minimum, Weights)>, NoResult> {
+    /// Answers of nearly equal misfit, the best first.
+    fn answers(&self, case: &Case) -> Result<Vec<Settled>, NoResult> {
         let own = self.own(&case.plan);
         let weighing =
-            Weighing { predictor: &self.predictor, others: &self.others, seen: &self.seen, seed: self.seed };
-        let weights = weighing.weights(&own)?.ok_or_else(|| self.failure(&own))?;
+            Weighing { predictor: &self.predictor, plan: &case.plan, others: &self.others, seen: &self.seen };
+        let weights = match self.seed {
+            Some(seed) => weighing.local(&own, &self.spread(|_| 0.0), seed)?.map(|local| local.weights),
+            None => weighing.exact(&own)?,
+        };
+        let weights = weights.ok_or_else(|| self.failure(&own))?;
         let minima = self.space.minima(&own, &|at| self.residuals(at, &weights), self.predictor.progress)?;
         let least = minima.first().map_or(f64::INFINITY, |best| best.misfit);
-        let worth: Vec<Minimum> = minima
-            .into_iter()
-            .take_while(|minimum| minimum.misfit <= least + WORTH_WEIGHING)
-            .take(MOST_WEIGHED)
-            .collect();
-        let weighed = run_jobs(&worth, self.predictor.progress, |minimum| {
-            let Some(weights) = weighing.weights(&minimum.at)? else { return Ok(None) };
-            let refined = self.space.refine(&minimum.at, &|at| self.residuals(at, &weights))?;
-            Ok(refined.map(|refined| (refined, weights)))
+        let is_worth = |minimum: &Minimum| minimum.misfit <= least + WORTH_WEIGHING;
+        let worth: Vec<Minimum> = minima.into_iter().take_while(is_worth).take(MOST_WEIGHED).collect();
+        let settled = run_jobs(&worth, self.predictor.progress, |minimum| match self.seed {
+            Some(seed) => self.settle_among_samples(&weighing, minimum, seed),
+            None => self.settle(&weighing, minimum),
         })?;
-        let mut weighed: Vec<(Minimum, Weights)> = weighed
-            .into_iter()
-            .collect::<Option<Vec<_>>>()
-            .ok_or(NoResult::OutOfTime)?
-            .into_iter()
-            .flatten()
-            .collect();
-        let unlikelihood = |(minimum, weights): &(Minimum, Weights)| minimum.misfit + weights.log_determinant;
-        weighed.sort_by(|a, b| unlikelihood(a).total_cmp(&unlikelihood(b)));
-        let least = weighed.first().map(unlikelihood).ok_or_else(|| self.failure(&own))?;
-        weighed.retain(|answer| unlikelihood(answer) <= least + NEARLY_EQUAL);
-        let kept = distinct(weighed.iter().map(|(minimum, _)| minimum.clone()).collect());
-        weighed.retain(|(minimum, _)| kept.iter().any(|kept| kept.at == minimum.at));
-        Ok(weighed)
+        let settled: Option<Vec<Option<Settled>>> = settled.into_iter().collect();
+        let mut settled: Vec<Settled> = settled.ok_or(NoResult::OutOfTime)?.into_iter().flatten().collect();
+        settled.sort_by(|a, b| a.unlikelihood().total_cmp(&b.unlikelihood()));
+        let least = settled.first().map(Settled::unlikelihood).ok_or_else(|| self.failure(&own))?;
+        settled.retain(|answer| answer.unlikelihood() <= least + NEARLY_EQUAL);
+        Ok(settled.into_iter().fold(Vec::new(), |mut all: Vec<Settled>, settled| {
+            if !all.iter().any(|known| known.minimum.is_same(&settled.minimum)) {
+                all.push(settled);
+            }
+            all
+        }))
+    }
+
+    /// The spread of samples for these standard deviations of the coordinates.
+    fn spread(&self, sd: impl Fn(usize) -> f64) -> Vec<f64> {
+        let of_range = |(n, [low, high]): (usize, &[f64; 2])| {
+            let [least, most] = SPREADS.map(|share| share * (high - low));
+            (SPREAD * sd(n)).clamp(least, most)
+        };
+        self.space.ranges.iter().enumerate().map(of_range).collect()
+    }
+
+    /// The answer near a minimum where nothing scatters.
+    fn settle(&self, weighing: &Weighing<'_>, minimum: &Minimum) -> Result<Option<Settled>, NoResult> {
+        let Some(weights) = weighing.exact(&minimum.at)? else { return Ok(None) };
+        let Some(minimum) = self.space.refine(&minimum.at, &|at| self.residuals(at, &weights))? else {
+            return Ok(None);
+        };
+        let Some(fitted) = self.predictor.values(&minimum.at, 1.0)? else { return Ok(None) };
+        let slopes = self.slopes(&minimum, &fitted)?;
+        Ok(Some(Settled { minimum, fitted, slopes, weights }))
+    }
+
+    /// The answer near a minimum, for the mean of what scatter makes of the predictions: samples about the answer give the mean, its
+    /// slopes and the weights; these give the next answer.
+    fn settle_among_samples(
+        &self,
+        weighing: &Weighing<'_>,
+        minimum: &Minimum,
+        seed: u64,
+    ) -> Result<Option<Settled>, NoResult> {
+        let count = minimum.at.len();
+        let (mut at, mut spread) = (minimum.at.clone(), self.spread(|n| minimum.sd(n)));
+        let mut settled = None;
+        for _ in 0..MOST_ROUNDS {
+            let Some(Local { mean, slopes, weights }) = weighing.local(&at, &spread, seed)? else { break };
+            let (Some(residuals), Some(whitened)) =
+                (weights.whitened(&self.seen.list, &mean), weights.whiten(&slopes))
+            else {
+                break;
+            };
+            let mut precision = whitened.transpose() * &whitened;
+            let mut pull = whitened.transpose() * &residuals;
+            for n in 0..count {
+                if let Some(prior) = self.priors[n] {
+                    precision[(n, n)] += prior.sd.powi(-2);
+                    pull[n] += (prior.mean - at[n]) / prior.sd.powi(2);
+                }
+            }
+            let covariance = self.space.inverse(precision);
+            let step = &covariance * pull;
+            // A straight line holds no farther than the samples spread.
+            let share = (0..count).map(|n| step[n].abs() / (2.0 * spread[n])).fold(1.0, f64::max);
+            let next: Vec<f64> = (0..count).map(|n| at[n] + step[n] / share).collect();
+            let next = self.space.held(&next);
+            let moved = DVector::from_fn(count, |n, _| next[n] - at[n]);
+            let stated = self
+                .priors
+                .iter()
+                .zip(&next)
+                .filter_map(|(prior, at)| prior.map(|prior| ((at - prior.mean) / prior.sd).powi(2)));
+            let misfit = (residuals - whitened * &moved).norm_squared() + stated.sum::<f64>();
+            let fitted =
+                mean.iter().zip((&slopes * &moved).iter()).map(|(mean, change)| mean + change).collect();
+            let minimum = Minimum { at: next, misfit, covariance };
+            let wanted = self.spread(|n| minimum.sd(n));
+            let is_near =
+                |n: usize| moved[n].abs() <= 0.3 * spread[n] && (wanted[n] / spread[n]).ln().abs() < 0.4;
+            let is_settled = (0..count).all(is_near);
+            (at, spread) = (minimum.at.clone(), wanted);
+            settled = Some(Settled { minimum, fitted, slopes, weights });
+            if is_settled {
+                break;
+            }
+        }
+        Ok(settled)
     }
 
     /// Why the run at these coordinates fails.
@@ -368,24 +461,21 @@ impl Fitting<'_> {
         failure.map_or(NoResult::OutOfTime, |failure| self.predictor.progress.no_result(failure))
     }
 
-    /// Derivatives of the predictions at a minimum, made independent and of unit variance.
-    fn slopes(&self, minimum: &Minimum, weights: &Weights) -> Result<DMatrix<f64>, NoResult> {
+    /// Derivatives of the predictions at a minimum, whose `values` are these.
+    fn slopes(&self, minimum: &Minimum, values: &[f64]) -> Result<DMatrix<f64>, NoResult> {
         let predictions = |at: &[f64]| Ok(self.predictor.values(at, 1.0)?.map(DVector::from_vec));
-        let Some(values) = predictions(&minimum.at)? else { return Err(self.failure(&minimum.at)) };
         let difference = |n: usize| {
             let [low, high] = self.space.ranges[n];
             minimum.sd(n).clamp(1e-3 * (high - low), 0.1 * (high - low))
         };
         let difference: Vec<f64> = (0..minimum.at.len()).map(difference).collect();
+        let values = DVector::from_column_slice(values);
         let slopes = self.space.slopes(&minimum.at, &values, &difference, &predictions)?;
-        let known = slopes.map(|slope| if slope.is_finite() { slope } else { 0.0 });
-        Ok(weights.whiten(&known).unwrap_or(known))
+        Ok(slopes.map(|slope| if slope.is_finite() { slope } else { 0.0 }))
     }
 
-    fn answer(&self, case: &Case, minimum: &Minimum, weights: &Weights) -> Result<Answer, NoResult> {
-        let Some(predicted) = self.predictor.values(&minimum.at, 1.0)? else {
-            return Err(self.failure(&minimum.at));
-        };
+    fn answer(&self, case: &Case, settled: &Settled) -> Answer {
+        let Settled { minimum, fitted, weights, .. } = settled;
         let parameters = &self.predictor.parameters;
         let count = parameters.len();
         let estimate = |n: usize| {
@@ -402,19 +492,19 @@ impl Fitting<'_> {
         };
         let correlation = |a: usize, b: usize| minimum.covariance[(a, b)] / (minimum.sd(a) * minimum.sd(b));
         let residual = |n: usize| Residual {
-            fitted: predicted[n],
+            fitted: fitted[n],
             sd: weights.sds[n],
-            deviation: (self.seen.list[n].value - predicted[n]) / weights.sds[n],
+            deviation: (self.seen.list[n].value - fitted[n]) / weights.sds[n],
             error: weights.errors[n],
         };
         let stated = self.priors.iter().flatten().count();
-        Ok(Answer {
+        Answer {
             estimates: (0..count).map(estimate).collect(),
             correlation: (0..count).map(|a| (0..count).map(|b| correlation(a, b)).collect()).collect(),
-            residuals: (0..predicted.len()).map(residual).collect(),
+            residuals: (0..fitted.len()).map(residual).collect(),
             chi_square: minimum.misfit,
-            freedom: (predicted.len() + stated).saturating_sub(count),
-        })
+            freedom: (fitted.len() + stated).saturating_sub(count),
+        }
     }
 }
 

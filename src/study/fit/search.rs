@@ -69,7 +69,7 @@ impl SearchBox {
     }
 
     /// The point nearest to `at` within the box.
-    fn held(&self, at: &[f64]) -> Vec<f64> {
+    pub fn held(&self, at: &[f64]) -> Vec<f64> {
         at.iter().zip(&self.ranges).map(|(at, [low, high])| at.clamp(*low, *high)).collect()
     }
 
@@ -211,7 +211,11 @@ impl SearchBox {
 
     /// Inverse of JᵀJ; a coordinate on which the residuals do not depend has a standard deviation of [`UNKNOWN`] times its range.
     fn covariance(&self, slopes: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut normal = slopes.transpose() * slopes;
+        self.inverse(slopes.transpose() * slopes)
+    }
+
+    /// Inverse of a precision of the coordinates, likewise.
+    pub fn inverse(&self, mut normal: DMatrix<f64>) -> DMatrix<f64> {
         for n in 0..self.ranges.len() {
             normal[(n, n)] += (UNKNOWN * self.width(n)).powi(-2);
         }
@@ -242,7 +246,7 @@ impl SearchBox {
 }
 
 /// The minima, each once.
-pub fn distinct(minima: Vec<Minimum>) -> Vec<Minimum> {
+fn distinct(minima: Vec<Minimum>) -> Vec<Minimum> {
     minima.into_iter().fold(Vec::new(), |mut all: Vec<Minimum>, minimum| {
         if !all.iter().any(|known| known.is_same(&minimum)) {
             all.push(minimum);

@@ -1,28 +1,37 @@
-//! How far the observations of a shot may lie from what the plan predicts, for reasons other than the parameters.
+//! What a plan predicts of observations near some coordinates of the parameters, on average over what scatters, and how far the
+//! observations may lie from that.
 //!
-//! The covariance of the observations is the sum of four:
-//! 1. what was stated of each observation, and
-//! 2. the error of the time integration, both independent;
-//! 3. scatter from hole to hole and from tire to tire, as `[uncertainty]` has it: from [`SAMPLES`] samples of each shot in which the
-//!    inputs in common are held. The samples of a shot give covariances too, which are drawn toward 0 by the share n/(n + samples)
-//!    for n observations, so that chance does not tie observations together. Different shots are independent;
-//! 4. inputs in common that are not estimated: their slopes over one standard deviation to each side, times their variance. They tie
-//!    all shots together.
+//! The motion is not smooth: the prediction of the plan as it is jumps where a cable catches, and is not the mean of what scatter
+//! makes of it. So samples are drawn in which the parameters spread a little, inputs in common that are not estimated spread as
+//! `[uncertainty]` has it, and holes and tires scatter; the values seen are regressed on parameters and inputs. That gives
+//! 1. the mean prediction and its slopes over the parameters,
+//! 2. the covariance of observations about it, the sum of four: what was stated of each observation, and the error of the time
+//!    integration, both independent; what the slopes over the inputs in common make of their variance, which ties all shots
+//!    together; and the covariance of what remains, the scatter from hole to hole, within each shot. Different shots scatter
+//!    independently.
+//!
+//! Covariances of a finite number of samples tie observations by chance: for n observations of a shot those that remain are drawn
+//! toward 0 by the share n/(n + samples).
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::StandardNormal;
 
 use super::parameter::{Parameter, Prior};
 use super::predict::{Predictor, seen};
-use crate::plan::Uncertainty;
-use crate::plan::observations::Observation;
+use crate::plan::observations::{Observation, Watched};
+use crate::plan::{Plan, Uncertainty};
 use crate::study::as_planned::step_error;
 use crate::study::samples::draw::draw;
 use crate::study::samples::rounds::step;
 use crate::study::work::batch::run_jobs;
 use crate::study::{Case, NoResult};
 
-/// Samples of each shot behind the scatter from hole to hole.
-const SAMPLES: usize = 64;
+/// Samples behind a mean, its slopes, and its covariance.
+const SAMPLES: usize = 96;
+/// Least share of the samples that have a value, for the prediction to have one.
+const OFTEN: f64 = 0.5;
 
 /// Observations, each with the number of its file, in the order of their options.
 pub struct Seen {
@@ -75,36 +84,146 @@ impl Weights {
     pub fn whiten(&self, slopes: &DMatrix<f64>) -> Option<DMatrix<f64>> {
         self.factor.l().solve_lower_triangular(slopes)
     }
+
+    fn new(covariance: DMatrix<f64>, errors: Vec<f64>) -> Option<Self> {
+        let sds = covariance.diagonal().iter().map(|variance| variance.sqrt()).collect();
+        let factor = covariance.cholesky()?;
+        let log_determinant = 2.0 * factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>();
+        Some(Self { errors, sds, log_determinant, factor })
+    }
 }
 
-/// What the weights depend on besides the coordinates.
+/// What a plan predicts near some coordinates.
+pub struct Local {
+    /// The mean of each prediction at the coordinates; not a number where most samples have no value.
+    pub mean: Vec<f64>,
+    /// Its derivatives (`n_observations` × `n_parameters`).
+    pub slopes: DMatrix<f64>,
+    /// The covariance of the observations about it.
+    pub weights: Weights,
+}
+
+/// What predictions depend on besides the coordinates.
 pub struct Weighing<'a> {
     /// The predictions of the parameters.
     pub predictor: &'a Predictor<'a>,
+    /// The plan as it is.
+    pub plan: &'a Plan,
     /// Inputs in common that are not estimated, each with what the plan knows of it.
     pub others: &'a [(Parameter, Prior)],
     /// The observations.
     pub seen: &'a Seen,
-    /// Seed of the samples; `None`: nothing scatters.
-    pub seed: Option<u64>,
 }
 
 impl Weighing<'_> {
-    /// The weights at these coordinates; `None` where the run there fails.
-    pub fn weights(&self, at: &[f64]) -> Result<Option<Weights>, NoResult> {
+    /// The weights at these coordinates where nothing scatters and all inputs are exact; `None` where the run there fails.
+    pub fn exact(&self, at: &[f64]) -> Result<Option<Weights>, NoResult> {
         let Some(errors) = self.integration_errors(at)? else { return Ok(None) };
-        let list = &self.seen.list;
-        let mut covariance = DMatrix::from_diagonal(&DVector::from_fn(list.len(), |n, _| {
-            list[n].sd.powi(2) + errors[n].powi(2)
-        }));
-        if let Some(seed) = self.seed {
-            self.add_scatter(at, seed, &mut covariance)?;
-            self.add_others(at, &mut covariance)?;
+        Ok(Weights::new(self.of_each(&errors), errors))
+    }
+
+    /// The predictions near these coordinates, from samples drawn with this seed in which each coordinate spreads by a standard
+    /// deviation `spread`; `None` where the run at the coordinates fails.
+    pub fn local(&self, at: &[f64], spread: &[f64], seed: u64) -> Result<Option<Local>, NoResult> {
+        let Some(errors) = self.integration_errors(at)? else { return Ok(None) };
+        let shots = self.seen.shots();
+        let numbers: Vec<usize> = (0..SAMPLES).collect();
+        let samples = run_jobs(&numbers, self.predictor.progress, |&number| {
+            let (case, from) = self.sample(at, spread, seed, number);
+            // A seed for each shot: what scatters in one does not repeat in another.
+            let see =
+                |(n, shot): (usize, &Vec<usize>)| self.see(&case, shot, seed.wrapping_add(n as u64), number);
+            Ok((from, shots.iter().enumerate().map(see).collect::<Result<Vec<_>, _>>()?))
+        })?;
+        let samples: Option<Vec<_>> = samples.into_iter().collect();
+        let samples = samples.ok_or(NoResult::OutOfTime)?;
+        let (count, inputs) = (self.seen.list.len(), 1 + at.len() + self.others.len());
+        let mut values = DMatrix::from_element(SAMPLES, count, f64::NAN);
+        let mut regressors = DMatrix::from_element(SAMPLES, inputs, 1.0);
+        for (number, (from, runs)) in samples.iter().enumerate() {
+            from.iter().enumerate().for_each(|(n, from)| regressors[(number, 1 + n)] = *from);
+            for (shot, run) in shots.iter().zip(runs) {
+                let seen = shot.iter().zip(run.iter().flatten());
+                seen.for_each(|(&n, &value)| values[(number, n)] = value);
+            }
         }
-        let sds = covariance.diagonal().iter().map(|variance| variance.sqrt()).collect();
-        let Some(factor) = covariance.cholesky() else { return Ok(None) };
-        let log_determinant = 2.0 * factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>();
-        Ok(Some(Weights { errors, sds, log_determinant, factor }))
+        let often = fill_gaps(&mut values);
+        // A coordinate that cannot spread has no slope.
+        let normal =
+            regressors.transpose() * &regressors + DMatrix::from_diagonal_element(inputs, inputs, 1e-9);
+        let Some(factor) = normal.cholesky() else { return Ok(None) };
+        let found = factor.solve(&(regressors.transpose() * &values));
+        let rest = &values - &regressors * &found;
+        let mut covariance = self.of_each(&errors);
+        let of_others = found.rows(1 + at.len(), self.others.len());
+        covariance += of_others.transpose() * of_others;
+        let freedom = (SAMPLES - inputs) as f64;
+        for shot in &shots {
+            let toward_zero = SAMPLES as f64 / (SAMPLES + shot.len()) as f64;
+            for (&a, &b) in itertools::iproduct!(shot, shot) {
+                let kept = if a == b { 1.0 } else { toward_zero };
+                covariance[(a, b)] += kept * rest.column(a).dot(&rest.column(b)) / freedom;
+            }
+        }
+        let mean = (0..count).map(|n| if often[n] { found[(0, n)] } else { f64::NAN }).collect();
+        // Slopes per coordinate, not per standard deviation of its spread.
+        let slopes =
+            DMatrix::from_fn(count, at.len(), |n, parameter| found[(1 + parameter, n)] / spread[parameter]);
+        Ok(Weights::new(covariance, errors).map(|weights| Local { mean, slopes, weights }))
+    }
+
+    /// Covariance of what was stated of each observation and of the error of each prediction.
+    fn of_each(&self, errors: &[f64]) -> DMatrix<f64> {
+        let variance = |n: usize| self.seen.list[n].sd.powi(2) + errors[n].powi(2);
+        DMatrix::from_diagonal(&DVector::from_fn(errors.len(), |n, _| variance(n)))
+    }
+
+    /// The case of a sample, in which only holes and tires scatter still, and how far its parameters and other inputs lie from their
+    /// means [standard deviations of their spread].
+    fn sample(&self, at: &[f64], spread: &[f64], seed: u64, number: usize) -> (Case, Vec<f64>) {
+        let mut random = ChaCha8Rng::seed_from_u64(!seed);
+        // In pairs to both sides, so that a bend of the predictions makes no slope.
+        random.set_stream((number / 2) as u64);
+        let side = if number.is_multiple_of(2) { 1.0 } else { -1.0 };
+        let mut plan = self.plan.clone();
+        let mut put = |parameter: &Parameter, mean: f64, sd: f64| -> f64 {
+            let [least, most] = parameter.range(self.plan);
+            let normal: f64 = random.sample(StandardNormal);
+            let coordinate = (mean + side * sd * normal).clamp(least, most);
+            parameter.put_into(&mut plan, coordinate);
+            (coordinate - mean) / sd
+        };
+        let others: Vec<f64> =
+            self.others.iter().map(|(other, prior)| put(other, prior.mean, prior.sd)).collect();
+        let parameters = self.predictor.parameters.iter().zip(at.iter().zip(spread));
+        let mut from: Vec<f64> =
+            parameters.map(|(parameter, (&mean, &sd))| put(parameter, mean, sd)).collect();
+        from.extend(others);
+        let exact = |value: f64| [value; 2];
+        plan.uncertainty = Uncertainty {
+            launch_common_percent: 0.0,
+            friction: exact(plan.ground.friction),
+            slack_percent: exact(plan.cable.slack_percent),
+            axial_stiffness_percent: exact(0.0),
+            ..plan.uncertainty
+        };
+        (Case::new(plan), from)
+    }
+
+    /// The values seen of one shot of a sample; `None` where its run fails.
+    fn see(
+        &self,
+        case: &Case,
+        shot: &[usize],
+        seed: u64,
+        number: usize,
+    ) -> Result<Option<Vec<f64>>, NoResult> {
+        let Predictor { compute, progress, .. } = self.predictor;
+        let option = self.seen.list[shot[0]].option;
+        let watched: Vec<Watched> = shot.iter().map(|&n| self.seen.list[n].watched).collect();
+        let sample = draw(case, &case.shots[option], seed, number);
+        let settings = case.run_settings(compute.method, step(compute, &sample.scene));
+        seen(case, Some(&sample.scene), &sample.shot, &watched, &settings, progress)
     }
 
     /// Error of each prediction, from runs at coarser steps; 0 where none of these has the value.
@@ -118,104 +237,19 @@ impl Weighing<'_> {
                 coarser.iter().zip(&runs).filter_map(|(&step, run)| Some((step, run.as_ref()?.as_ref()?[n])));
             step_error::estimate(1.0, values[n], near.filter(|(_, value)| value.is_finite()))
         };
-        Ok(Some(
-            (0..values.len()).map(error).map(|error| if error.is_finite() { error } else { 0.0 }).collect(),
-        ))
-    }
-
-    fn add_scatter(&self, at: &[f64], seed: u64, covariance: &mut DMatrix<f64>) -> Result<(), NoResult> {
-        let case = with_holes_alone(&self.predictor.case(at));
-        if !scatters(&case.plan.uncertainty) {
-            return Ok(());
-        }
-        let compute = self.predictor.compute;
-        let shots = self.seen.shots();
-        let jobs: Vec<(usize, usize)> = itertools::iproduct!(0..shots.len(), 0..SAMPLES).collect();
-        let runs = run_jobs(&jobs, self.predictor.progress, |&(shot, number)| {
-            let option = self.seen.list[shots[shot][0]].option;
-            let watched: Vec<_> = shots[shot].iter().map(|&n| self.seen.list[n].watched).collect();
-            // A seed for each shot: what scatters in one does not repeat in another.
-            let sample = draw(&case, &case.shots[option], seed.wrapping_add(shot as u64), number);
-            let settings = case.run_settings(compute.method, step(&compute, &sample.scene));
-            seen(&case, Some(&sample.scene), &sample.shot, &watched, &settings, self.predictor.progress)
-        })?;
-        if runs.contains(&None) {
-            return Err(NoResult::OutOfTime);
-        }
-        for (observations, runs) in shots.iter().zip(runs.chunks(SAMPLES)) {
-            let samples: Vec<&Vec<f64>> = runs.iter().flatten().flatten().collect();
-            let toward_zero = samples.len() as f64 / (samples.len() + observations.len()) as f64;
-            for (i, &a) in observations.iter().enumerate() {
-                for (j, &b) in observations.iter().enumerate() {
-                    let kept = if i == j { 1.0 } else { toward_zero };
-                    covariance[(a, b)] +=
-                        kept * covariance_of(samples.iter().map(|sample| [sample[i], sample[j]]));
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn add_others(&self, at: &[f64], covariance: &mut DMatrix<f64>) -> Result<(), NoResult> {
-        let Predictor { plan, parameters, options, compute, progress } = self.predictor;
-        let beside = |&(other, side): &(usize, f64)| {
-            let (parameter, prior) = self.others[other];
-            let mut plan = plan.clone();
-            if parameter.unknown == crate::choice::Unknown::Launch {
-                parameter.put_into(&mut plan, side * prior.sd);
-            } else {
-                let [least, most] = parameter.range(&plan);
-                parameter.put_into(&mut plan, (prior.mean + side * prior.sd).clamp(least, most));
-            }
-            let (parameters, options) = (parameters.clone(), options.clone());
-            Predictor { plan, parameters, options, compute: *compute, progress }.values(at, 1.0)
-        };
-        let jobs: Vec<(usize, f64)> = itertools::iproduct!(0..self.others.len(), [1.0, -1.0]).collect();
-        let runs = run_jobs(&jobs, progress, beside)?;
-        if runs.contains(&None) {
-            return Err(NoResult::OutOfTime);
-        }
-        for pair in runs.chunks(2) {
-            let [Some(Some(more)), Some(Some(less))] = pair else { continue };
-            let half = DVector::from_fn(more.len(), |n, _| 0.5 * (more[n] - less[n]));
-            let known = half.map(|change| if change.is_finite() { change } else { 0.0 });
-            *covariance += &known * known.transpose();
-        }
-        Ok(())
+        let errors = (0..values.len()).map(error);
+        Ok(Some(errors.map(|error| if error.is_finite() { error } else { 0.0 }).collect()))
     }
 }
 
-/// The case whose inputs in common are known exactly, so that only holes and tires scatter.
-fn with_holes_alone(case: &Case) -> Case {
-    let mut plan = case.plan.clone();
-    let exact = |value: f64| [value; 2];
-    plan.uncertainty = Uncertainty {
-        launch_common_percent: 0.0,
-        friction: exact(plan.ground.friction),
-        slack_percent: exact(plan.cable.slack_percent),
-        axial_stiffness_percent: exact(0.0),
-        ..plan.uncertainty
-    };
-    Case::new(plan)
-}
-
-/// Whether anything scatters from hole to hole or from tire to tire.
-fn scatters(unknown: &Uncertainty) -> bool {
-    let Uncertainty { launch_cv_percent, launch_tilt_deg, tire_mass_cv_percent, delay, .. } = *unknown;
-    [launch_cv_percent, launch_tilt_deg, tire_mass_cv_percent, delay.sd_ms, delay.cv_percent]
-        .iter()
-        .any(|&x| x > 0.0)
-}
-
-/// Covariance of pairs, without those of which a value is missing; 0 for fewer than two.
-fn covariance_of(pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
-    let pairs: Vec<[f64; 2]> = pairs.filter(|pair| pair.iter().all(|value| value.is_finite())).collect();
-    let count = pairs.len() as f64;
-    let mean = |n: usize| pairs.iter().map(|pair| pair[n]).sum::<f64>() / count;
-    let [a, b] = [mean(0), mean(1)];
-    if pairs.len() < 2 {
-        0.0
-    } else {
-        pairs.iter().map(|[x, y]| (x - a) * (y - b)).sum::<f64>() / (count - 1.0)
+/// Puts the mean of a column in place of the values that it lacks. Whether each column had values often enough.
+fn fill_gaps(values: &mut DMatrix<f64>) -> Vec<bool> {
+    let mut often = Vec::new();
+    for mut column in values.column_iter_mut() {
+        let known: Vec<f64> = column.iter().copied().filter(|value| value.is_finite()).collect();
+        let mean = known.iter().sum::<f64>() / known.len().max(1) as f64;
+        column.iter_mut().filter(|value| !value.is_finite()).for_each(|value| *value = mean);
+        often.push(known.len() as f64 >= OFTEN * column.len() as f64);
     }
+    often
 }
