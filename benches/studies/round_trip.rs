@@ -15,7 +15,7 @@ use shelter::plan::PlanSource;
 use shelter::plan::observations::Observations;
 use shelter::study::fit::possible::as_fired;
 use shelter::study::fit::{FitResult, Request, addresses, fit};
-use shelter::study::samples::random_shot::draw;
+use shelter::study::samples::draw::draw;
 use shelter::study::{Case, ComputeSettings, Progress};
 use shelter::{Model, Sampling};
 

@@ -28,8 +28,10 @@ use crate::study::samples::rounds::step;
 use crate::study::work::batch::run_jobs;
 use crate::study::{Case, NoResult};
 
-/// Samples behind a mean, its slopes, and its covariance.
+/// Least number of samples behind a mean, its slopes, and its covariance.
 const SAMPLES: usize = 96;
+/// Least number of samples for each observation: slopes by chance add the share 1/4 or less to what the observations tell.
+const SAMPLES_EACH: usize = 4;
 /// Least share of the samples that have a value, for the prediction to have one.
 const OFTEN: f64 = 0.5;
 
@@ -127,7 +129,8 @@ impl Weighing<'_> {
     pub fn local(&self, at: &[f64], spread: &[f64], seed: u64) -> Result<Option<Local>, NoResult> {
         let Some(errors) = self.integration_errors(at)? else { return Ok(None) };
         let shots = self.seen.shots();
-        let numbers: Vec<usize> = (0..SAMPLES).collect();
+        let drawn = SAMPLES.max(SAMPLES_EACH * self.seen.list.len());
+        let numbers: Vec<usize> = (0..drawn).collect();
         let samples = run_jobs(&numbers, self.predictor.progress, |&number| {
             let (case, from) = self.sample(at, spread, seed, number);
             // A seed for each shot: what scatters in one does not repeat in another.
@@ -138,8 +141,8 @@ impl Weighing<'_> {
         let samples: Option<Vec<_>> = samples.into_iter().collect();
         let samples = samples.ok_or(NoResult::OutOfTime)?;
         let (count, inputs) = (self.seen.list.len(), 1 + at.len() + self.others.len());
-        let mut values = DMatrix::from_element(SAMPLES, count, f64::NAN);
-        let mut regressors = DMatrix::from_element(SAMPLES, inputs, 1.0);
+        let mut values = DMatrix::from_element(drawn, count, f64::NAN);
+        let mut regressors = DMatrix::from_element(drawn, inputs, 1.0);
         for (number, (from, runs)) in samples.iter().enumerate() {
             from.iter().enumerate().for_each(|(n, from)| regressors[(number, 1 + n)] = *from);
             for (shot, run) in shots.iter().zip(runs) {
@@ -157,9 +160,9 @@ impl Weighing<'_> {
         let mut covariance = self.of_each(&errors);
         let of_others = found.rows(1 + at.len(), self.others.len());
         covariance += of_others.transpose() * of_others;
-        let freedom = (SAMPLES - inputs) as f64;
+        let freedom = (drawn - inputs) as f64;
         for shot in &shots {
-            let toward_zero = SAMPLES as f64 / (SAMPLES + shot.len()) as f64;
+            let toward_zero = drawn as f64 / (drawn + shot.len()) as f64;
             for (&a, &b) in itertools::iproduct!(shot, shot) {
                 let kept = if a == b { 1.0 } else { toward_zero };
                 covariance[(a, b)] += kept * rest.column(a).dot(&rest.column(b)) / freedom;
