@@ -65,7 +65,7 @@
 //!
 //! - A [`Scene`](scene::Scene) is never changed once built; everything that moves lives in a stepper.
 //! - Plan units become SI where a plan becomes a [`Case`]: scene, shots and limits. What a study changes in the plan itself keeps
-//!   the units of its keys: `[uncertainty]` until samples are drawn, the intervals of a search, the changes of `would_pass`. SI
+//!   the units of its keys: `[uncertainty]` until samples are drawn, the intervals of a search, the changes of `remedies`. SI
 //!   becomes words in `units`.
 //! - What goes wrong in a run is a value, never a panic and never a pass. Functions that take the index of an option panic where
 //!   there is no such option.
@@ -111,7 +111,7 @@ pub mod verdict;
 pub use plan::Plan;
 pub use simulation::{Model, Motion, RunSettings};
 pub use study::as_planned::check::{CheckedShot, check_as_planned};
-pub use study::judge::judge_all;
+pub use study::judge_options::judge_all;
 pub use study::judgement::Judgement;
 pub use study::samples::sampling::Sampling;
 pub use study::{Case, ComputeSettings, Progress};

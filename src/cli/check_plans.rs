@@ -11,9 +11,9 @@ use super::status::{REMEDY_AS_ARGUMENTS, Status};
 use crate::report::check::report;
 use crate::report::json::CheckDocument;
 use crate::report::model::Report;
-use crate::study::judge::{OptionResults, UNWATCHED, judge_all, judge_all_with_margins};
+use crate::study::judge_options::{OptionResults, UNWATCHED, judge_all, judge_all_with_margins};
+use crate::study::remedies::{Remedies, find_all_remedies, not_passing};
 use crate::study::samples::sampling::Sampling;
-use crate::study::would_pass::{WouldPass, find_all_changes, not_passing};
 use crate::study::{Case, Finding, Found, NoResult};
 
 /// The results of one plan.
@@ -21,7 +21,7 @@ pub struct CheckedPlan {
     /// The results of its options.
     pub results: OptionResults,
     /// The changes that were tried for options that do not pass; `None` where nobody asked.
-    pub would_pass: Option<Vec<WouldPass>>,
+    pub remedies: Option<Vec<Remedies>>,
 }
 
 /// Checks all options of all cases in parallel; the results stand in the order of plans and options. With `why` the changes of the
@@ -41,14 +41,14 @@ pub fn check_plans(
         };
         let mut checked = Vec::new();
         for (results, (case, compute)) in results.into_iter().zip(&cases) {
-            let mut would_pass = None;
+            let mut remedies = None;
             if why {
                 let options = not_passing(&results);
-                let found = find_all_changes(case, &options, sampling.as_ref(), compute, progress)?;
+                let found = find_all_remedies(case, &options, sampling.as_ref(), compute, progress)?;
                 partial |= found.partial;
-                would_pass = Some(found.value);
+                remedies = Some(found.value);
             }
-            checked.push(CheckedPlan { results, would_pass });
+            checked.push(CheckedPlan { results, remedies });
         }
         Ok(Found { value: checked, partial })
     })
@@ -72,13 +72,13 @@ pub fn print_checks(
 ) -> io::Result<Status> {
     let Found { value: checked, partial } = checked;
     let pairs = || cases.iter().zip(checked);
-    let reported = |(case, CheckedPlan { results, would_pass }): (&Case, &CheckedPlan)| {
-        report(case, results, would_pass.as_deref(), any, *partial)
+    let reported = |(case, CheckedPlan { results, remedies }): (&Case, &CheckedPlan)| {
+        report(case, results, remedies.as_deref(), any, *partial)
     };
     let reports: Vec<Report> = pairs().map(reported).collect();
     let documents = || {
-        let document = |(case, CheckedPlan { results, would_pass }): (&Case, &CheckedPlan)| {
-            CheckDocument::new(case, results, would_pass.as_deref(), any, *partial)
+        let document = |(case, CheckedPlan { results, remedies }): (&Case, &CheckedPlan)| {
+            CheckDocument::new(case, results, remedies.as_deref(), any, *partial)
         };
         let mut all: Vec<_> = pairs().map(document).collect();
         match all.len() {

@@ -8,7 +8,7 @@ use super::status::Status;
 use crate::report::json::{OrdersDocument, RiskDocument, SearchDocument};
 use crate::report::{orders, risk, search};
 use crate::study::Case;
-use crate::study::judge::OptionResults;
+use crate::study::judge_options::OptionResults;
 use crate::study::orders::Orders;
 use crate::study::samples::sampling::Sampling;
 use crate::study::search::Search;

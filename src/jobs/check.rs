@@ -4,7 +4,7 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use super::{Job, News};
-use crate::study::judge::{CaseOption, JudgeEvent, judge_all_with_margins};
+use crate::study::judge_options::{CaseOption, JudgeEvent, judge_all_with_margins};
 use crate::study::samples::sampling::Sampling;
 use crate::study::{NoResult, guarded};
 

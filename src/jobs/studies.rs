@@ -5,13 +5,13 @@ use std::time::Duration;
 use super::Job;
 use crate::study::effects::{EffectsOnOptions, SAMPLES, effects};
 use crate::study::flight::{Flight, record};
-use crate::study::judge::OptionResults;
+use crate::study::judge_options::OptionResults;
 use crate::study::orders::{Orders, orders};
+use crate::study::remedies::{Remedies, find_remedies};
 use crate::study::samples::sampling::Sampling;
 use crate::study::search::{Search, search};
 use crate::study::size::{Demand, Sizing, size};
 use crate::study::sweep::{GAP, Sweep, sweep};
-use crate::study::would_pass::{WouldPass, find_changes};
 use crate::study::{Intervals, NoResult, accuracy};
 
 /// Declares the kinds of studies and the list of all of them, in one order.
@@ -48,7 +48,7 @@ study_kinds! {
     /// The cost of accuracy, measured on one option.
     Accuracy,
     /// The changes of the plan with which one option would pass.
-    WouldPass,
+    Remedies,
 }
 
 impl StudyKind {
@@ -82,8 +82,8 @@ pub enum StudyResult {
     Flight(Flight),
     /// Result of [`StudyKind::Accuracy`].
     Accuracy(accuracy::AccuracyTable),
-    /// Result of [`StudyKind::WouldPass`].
-    WouldPass(WouldPass),
+    /// Result of [`StudyKind::Remedies`].
+    Remedies(Remedies),
 }
 
 /// Samples of every option.
@@ -99,7 +99,7 @@ impl Job {
     pub(super) fn study(&self, kind: StudyKind, option: usize) -> Result<StudyResult, NoResult> {
         let Self { case, compute, progress, .. } = self;
         // Where the options differ in how the holes of a row fire, the selected one is meant.
-        let with_holes = || case.with_hole_timing_of(option);
+        let with_holes = || case.with_hole_timing_or_of(option);
         match kind {
             StudyKind::Sweep => {
                 let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
@@ -135,10 +135,10 @@ impl Job {
             StudyKind::Accuracy => {
                 Ok(StudyResult::Accuracy(accuracy::measure(case, option, LONGEST_RUN, progress)?.value))
             }
-            StudyKind::WouldPass => {
+            StudyKind::Remedies => {
                 let sampling = Some(&Sampling::OF_VERDICT);
-                let found = find_changes(case, option, sampling, compute, progress)?;
-                Ok(StudyResult::WouldPass(found.value))
+                let found = find_remedies(case, option, sampling, compute, progress)?;
+                Ok(StudyResult::Remedies(found.value))
             }
         }
     }

@@ -5,12 +5,12 @@ use super::model::{Block, Cell, Column, Conclusion, Detail, Field, Report, Shown
 use super::option_row::{OptionRow, option_rows};
 use super::reasons;
 use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
-use super::{no_result, report_head, warnings, would_pass};
+use super::{no_result, remedies, report_head, warnings};
 use crate::study::Case;
 use crate::study::as_planned::check::CheckedShot;
-use crate::study::judge::{OptionResults, verdict_on_plan};
+use crate::study::judge_options::{OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
-use crate::study::would_pass::WouldPass;
+use crate::study::remedies::Remedies;
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Quantity, Verdict};
 
@@ -141,7 +141,7 @@ const DRIFT: Column = Column::numbers(&["drift_m", "drift_error_m"], "drift", Un
 pub fn report(
     case: &Case,
     results: &OptionResults,
-    would_pass: Option<&[WouldPass]>,
+    remedies: Option<&[Remedies]>,
     any: bool,
     partial: bool,
 ) -> Report {
@@ -165,7 +165,7 @@ pub fn report(
     }
     let mut report = report_head(case, sampled);
     report.blocks.push(Block::Table(table));
-    report.blocks.extend(would_pass.iter().flat_map(|changes| would_pass::blocks(case, changes)));
+    report.blocks.extend(remedies.iter().flat_map(|changes| remedies::blocks(case, changes)));
     report.warnings.extend(warnings::of_options(case, results, None));
     report.conclusion = Some(Conclusion { verdict: verdict_on_plan(results, any), text });
     report

@@ -6,11 +6,11 @@ use crate::scene::{Scene, Shot, fire_at_s};
 use crate::study::ComputeSettings;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::as_planned::margin::LaunchMargin;
-use crate::study::as_planned::together::Together;
 use crate::study::judgement::Judgement;
 use crate::study::samples::draw::Input;
 use crate::study::samples::influence;
 use crate::study::samples::risk::Risk;
+use crate::study::together::Together;
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 

@@ -3,7 +3,7 @@
 //! | what | where |
 //! |---|---|
 //! | what a report is | [`model`] |
-//! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`mod@fit`], [`would_pass`], [`accuracy`], `paper_table`, [`ropes`], [`trace`] |
+//! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`mod@fit`], [`remedies`], [`accuracy`], `paper_table`, [`ropes`], [`trace`] |
 //! | words, charts and columns that reports share | [`explain`], [`reasons`], [`limits`], [`no_result`], [`notes`], [`warnings`], [`charts`], [`shared_columns`], rows of options |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |
 //! | what faces share | [`palette`], [`ascii`], [`spark`], labels of cells |
@@ -31,6 +31,7 @@ pub mod orders;
 pub mod palette;
 mod paper_table;
 pub mod reasons;
+pub mod remedies;
 pub mod risk;
 pub mod ropes;
 pub mod search;
@@ -41,7 +42,6 @@ pub mod sweep;
 pub mod text;
 pub mod trace;
 pub mod warnings;
-pub mod would_pass;
 
 use self::model::Report;
 use crate::study::Case;

@@ -4,10 +4,10 @@ use super::model::Cell;
 use crate::plan::DelayOption;
 use crate::scene::Shot;
 use crate::study::as_planned::check::CheckedShot;
-use crate::study::as_planned::together::Together;
-use crate::study::judge::OptionResults;
+use crate::study::judge_options::OptionResults;
 use crate::study::judgement::Judgement;
 use crate::study::samples::risk::Risk;
+use crate::study::together::Together;
 use crate::study::{Case, NoResult};
 use crate::verdict::Verdict;
 

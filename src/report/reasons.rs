@@ -3,11 +3,11 @@
 use super::explain::grams;
 use super::model::Detail;
 use crate::choice::Accuracy;
-use crate::study::as_planned::shot_reason::{EarlyEnd, ShotReason};
 use crate::study::judgement::Judgement;
 use crate::study::reasons::Reason;
+use crate::study::reasons::risk::RiskReason;
+use crate::study::reasons::shot::{EarlyEnd, ShotReason};
 use crate::study::samples::risk::Risk;
-use crate::study::samples::risk_reason::RiskReason;
 use crate::study::samples::sample::SampleRun;
 use crate::study::{Case, ComputeSettings};
 use crate::units::{self, Unit, value_and_error};

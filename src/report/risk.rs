@@ -8,7 +8,7 @@ use super::option_row::{OptionRow, option_rows};
 use super::shared_columns::{FAILURES, VERDICT};
 use super::{report_head, warnings};
 use crate::study::Case;
-use crate::study::judge::{OptionResults, verdict_on_plan};
+use crate::study::judge_options::{OptionResults, verdict_on_plan};
 use crate::study::samples::sampling::Sampling;
 use crate::units::Unit;
 use crate::verdict::{Quantity, Verdict};
@@ -27,12 +27,6 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 10] {
     [
         Field::new(Column::words(&["name"], "option"), |row| Cell::Text(row.delay.name.clone())),
         Field::new(VERDICT, |row| Cell::Verdict(row.verdict())),
-        Field::new(Column::numbers(&["samples"], "samples", Unit::One), |row| {
-            row.sampled(|risk| Cell::Count(risk.samples.len()))
-        }),
-        Field::new(Column::numbers(&["failures"], "failures", Unit::One), |row| {
-            row.sampled(|risk| Cell::Count(risk.bounds.failures))
-        }),
         Field::new(Column::scripts(&["undecided"]), |row| {
             row.sampled(|risk| Cell::Count(risk.bounds.undecided))
         }),
@@ -45,6 +39,12 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 10] {
         }),
         Field::new(column(force_keys, "force", Unit::Kilonewton), |row| {
             spread(row, Quantity::Force, Unit::Kilonewton)
+        }),
+        Field::new(Column::numbers(&["samples"], "samples", Unit::One), |row| {
+            row.sampled(|risk| Cell::Count(risk.samples.len()))
+        }),
+        Field::new(Column::numbers(&["failures"], "failures", Unit::One), |row| {
+            row.sampled(|risk| Cell::Count(risk.bounds.failures))
         }),
         Field::new(Column::words(&["inputs"], "what decides it"), |row| {
             row.sampled(|risk| Cell::Text(inputs(risk, &row.case.limits).unwrap_or_default()))

@@ -149,10 +149,10 @@ pub(super) fn nearest(sizing: &Sizing) -> Option<(&Combination, Trial)> {
 fn sentence(combination: &Combination, trial: &Trial) -> String {
     let risk = match trial.risk {
         None => " (the plan's own numbers only)".to_owned(),
-        Some(WorstShotRisk { failures, samples, most, .. }) => {
+        Some(WorstShotRisk { failures, samples, failure_upper_bound, .. }) => {
             format!(
                 ", at most {} of the possible shots fail ({failures} of {samples})",
-                units::percent(most, 2)
+                units::percent(failure_upper_bound, 2)
             )
         }
     };

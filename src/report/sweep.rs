@@ -239,7 +239,7 @@ fn conclusion(sweep: &Sweep, partial: bool) -> Conclusion {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::judgement::Sampled;
+    use crate::study::judgement::Evidence;
 
     #[test]
     fn a_sweep_passes_only_where_every_interval_passes() {
@@ -248,7 +248,7 @@ mod tests {
             let point = |(n, &verdict): (usize, &Verdict)| Point {
                 interval: n as f64,
                 as_planned: as_planned(verdict),
-                risk: Sampled::NotAsked,
+                risk: Evidence::NotAsked,
             };
             let points = verdicts.iter().enumerate().map(point).collect();
             let Conclusion { verdict, text } = conclusion(

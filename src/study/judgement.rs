@@ -2,6 +2,7 @@
 
 use super::as_planned::check::CheckedShot;
 use super::as_planned::margin::LaunchMargin;
+use super::reasons::Reason;
 use super::samples::risk::Risk;
 use crate::verdict::Verdict;
 
@@ -11,7 +12,7 @@ pub struct Judgement {
     /// The shot as planned.
     pub as_planned: CheckedShot,
     /// The shots that `[uncertainty]` describes. Of a sampling that the time cut short there may be no sample.
-    pub risk: Sampled<Risk>,
+    pub risk: Evidence<Risk>,
     /// How much faster than planned the tires may leave; `None` where it was not asked for, or the time was up.
     pub launch_margin: Option<LaunchMargin>,
 }
@@ -30,7 +31,7 @@ impl Judgement {
 
     /// The judgement of the shot as planned alone.
     pub fn of_planned_alone(as_planned: CheckedShot) -> Self {
-        Self { as_planned, risk: Sampled::NotAsked, launch_margin: None }
+        Self { as_planned, risk: Evidence::NotAsked, launch_margin: None }
     }
 
     /// Pass where the shot as planned passes and surely fewer shots than accepted fail; fail where the shot as planned
@@ -38,11 +39,23 @@ impl Judgement {
     pub fn verdict(&self) -> Verdict {
         verdict_of_both(self.as_planned.verdict, self.risk.map(Risk::verdict))
     }
+
+    /// Why the verdict is no pass; empty for a pass.
+    pub fn reasons(&self) -> Vec<Reason> {
+        let as_planned = self.as_planned.reasons.iter().copied().map(Reason::AsPlanned);
+        let of_samples = match &self.risk {
+            Evidence::NotAsked => None,
+            Evidence::NotDrawn => Some(Reason::NoSamples),
+            Evidence::Drawn(risk) if risk.samples.is_empty() => Some(Reason::NoSamples),
+            Evidence::Drawn(risk) => risk.reason().map(Reason::Samples),
+        };
+        as_planned.chain(of_samples).collect()
+    }
 }
 
 /// What the samples of a shot tell, where they were asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Sampled<R> {
+pub enum Evidence<R> {
     /// Only the shot as planned was asked for.
     NotAsked,
     /// Samples were asked for, and none was drawn.
@@ -51,37 +64,37 @@ pub enum Sampled<R> {
     Drawn(R),
 }
 
-impl<R> Sampled<R> {
+impl<R> Evidence<R> {
     /// What the samples tell; `None` where none were asked for, or none was drawn.
     pub fn drawn(&self) -> Option<&R> {
         match self {
-            Sampled::Drawn(told) => Some(told),
-            Sampled::NotAsked | Sampled::NotDrawn => None,
+            Evidence::Drawn(told) => Some(told),
+            Evidence::NotAsked | Evidence::NotDrawn => None,
         }
     }
 
     /// Whether samples were asked for.
     pub fn is_asked(&self) -> bool {
-        !matches!(self, Sampled::NotAsked)
+        !matches!(self, Evidence::NotAsked)
     }
 
     /// The same with `change` of what the samples tell.
-    pub fn map<'r, T>(&'r self, change: impl FnOnce(&'r R) -> T) -> Sampled<T> {
+    pub fn map<'r, T>(&'r self, change: impl FnOnce(&'r R) -> T) -> Evidence<T> {
         match self {
-            Sampled::NotAsked => Sampled::NotAsked,
-            Sampled::NotDrawn => Sampled::NotDrawn,
-            Sampled::Drawn(told) => Sampled::Drawn(change(told)),
+            Evidence::NotAsked => Evidence::NotAsked,
+            Evidence::NotDrawn => Evidence::NotDrawn,
+            Evidence::Drawn(told) => Evidence::Drawn(change(told)),
         }
     }
 }
 
 /// The verdict on a shot, from the verdicts on the shot as planned and on its samples: the worse of both. Where samples were asked
 /// for and none was drawn, the verdict is no pass.
-pub fn verdict_of_both(as_planned: Verdict, samples: Sampled<Verdict>) -> Verdict {
+pub fn verdict_of_both(as_planned: Verdict, samples: Evidence<Verdict>) -> Verdict {
     match samples {
-        Sampled::NotAsked => as_planned,
-        Sampled::NotDrawn => as_planned.max(Verdict::Undecided),
-        Sampled::Drawn(sampled) => as_planned.max(sampled),
+        Evidence::NotAsked => as_planned,
+        Evidence::NotDrawn => as_planned.max(Verdict::Undecided),
+        Evidence::Drawn(sampled) => as_planned.max(sampled),
     }
 }
 
@@ -93,11 +106,11 @@ mod tests {
     fn only_a_pass_of_all_that_was_asked_for_is_a_pass() {
         use Verdict::{Fail, Pass, Undecided};
         for as_planned in [Pass, Undecided, Fail] {
-            assert_eq!(verdict_of_both(as_planned, Sampled::NotAsked), as_planned);
-            assert_eq!(verdict_of_both(as_planned, Sampled::Drawn(Pass)), as_planned);
-            assert_eq!(verdict_of_both(as_planned, Sampled::Drawn(Fail)), Fail);
+            assert_eq!(verdict_of_both(as_planned, Evidence::NotAsked), as_planned);
+            assert_eq!(verdict_of_both(as_planned, Evidence::Drawn(Pass)), as_planned);
+            assert_eq!(verdict_of_both(as_planned, Evidence::Drawn(Fail)), Fail);
         }
-        for samples in [Sampled::NotDrawn, Sampled::Drawn(Undecided)] {
+        for samples in [Evidence::NotDrawn, Evidence::Drawn(Undecided)] {
             assert_eq!(
                 [Pass, Undecided, Fail].map(|planned| verdict_of_both(planned, samples)),
                 [Undecided, Undecided, Fail]

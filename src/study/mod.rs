@@ -5,15 +5,15 @@
 //! | a plan made ready to run; method, accuracy and step | [`Case`], [`ComputeSettings`] |
 //! | one shot as planned: checked, and what speaks against it | [`as_planned`] |
 //! | the shots that are possible: drawn, run, counted | [`samples`] |
-//! | both together: the judgement on an option, on all options | [`judgement`], [`judge`] |
+//! | both together: the judgement on an option, on all options | [`judgement`], [`judge_options`] |
 //! | why an option fails, or its verdict stays open | [`reasons`] |
-//! | other questions of the user, one each | [`sweep`], [`orders`], [`search`], [`size`], [`would_pass`], [`effects`], [`mod@fit`], [`accuracy`], [`flight`], [`trace`] |
+//! | other questions of the user, one each | [`sweep`], [`orders`], [`search`], [`size`], [`remedies`], [`effects`], [`mod@fit`], [`accuracy`], [`flight`], [`trace`] |
 //! | how work runs: on all cores, with progress, to be stopped | [`work`]; on many machines: [`merge`] |
 //!
 //! Three verbs: a shot as planned is *checked*, possible shots are *sampled*, and both together are *judged*.
 //!
 //! A study takes a case and returns plain data, which every face draws; `size` takes a plan and makes a case of each combination,
-//! `would_pass` one of each change.
+//! `remedies` one of each change.
 //! Studies do not print and do not compute physics. Only `merge` reads and writes a file format: that of shards.
 
 pub mod accuracy;
@@ -23,18 +23,19 @@ mod compute;
 pub mod effects;
 pub mod fit;
 pub mod flight;
-pub mod judge;
+pub mod judge_options;
 pub mod judgement;
 pub mod merge;
 pub mod orders;
 pub mod reasons;
+pub mod remedies;
 pub mod samples;
 pub mod search;
 pub mod size;
 pub mod sweep;
+pub mod together;
 pub mod trace;
 pub mod work;
-pub mod would_pass;
 
 pub use as_planned::shot_summary::{ShotSummary, ValueWithError};
 pub use case::Case;

@@ -20,10 +20,10 @@ use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
-use super::as_planned::full_check::{full_check, run_checks_or_unknown};
+use super::as_planned::check_many::{check_summary, run_checks_or_unknown};
 use super::as_planned::quick_check::{quick_check_is_sure, quick_check_until};
 use super::judgement;
-use super::judgement::Sampled;
+use super::judgement::Evidence;
 use super::samples::risk_summary::{RiskSummary, find_risk_summaries};
 use super::samples::sampling::Sampling;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, Shard, ShotSummary};
@@ -116,10 +116,10 @@ impl Orders {
     }
 
     /// What the samples of the order ranked `n` tell.
-    pub fn risk(&self, n: usize) -> Sampled<&RiskSummary> {
+    pub fn risk(&self, n: usize) -> Evidence<&RiskSummary> {
         match &self.risks {
-            None => Sampled::NotAsked,
-            Some(risks) => risks.get(&n).map_or(Sampled::NotDrawn, Sampled::Drawn),
+            None => Evidence::NotAsked,
+            Some(risks) => risks.get(&n).map_or(Evidence::NotDrawn, Evidence::Drawn),
         }
     }
 
@@ -196,7 +196,7 @@ pub fn try_orders(
     let known = |found: Found<Vec<TriedOrder>>| {
         if found.value.iter().all(|tried| tried.as_planned == ShotSummary::UNKNOWN) {
             for tried in found.value.iter().take(1) {
-                full_check(case, &case.shot(&tried.order, tried.interval), compute, progress)?;
+                check_summary(case, &case.shot(&tried.order, tried.interval), compute, progress)?;
             }
         }
         Ok(found)
@@ -316,7 +316,7 @@ pub fn refine(
             }
             let shots: Vec<Shot> = next.iter().map(|&n| case.shot(&tried[n].order, interval)).collect();
             let checked =
-                run_checks_or_unknown(&shots, progress, |shot| full_check(case, shot, compute, progress))?;
+                run_checks_or_unknown(&shots, progress, |shot| check_summary(case, shot, compute, progress))?;
             for (n, as_planned) in next.into_iter().zip(checked) {
                 let Some(as_planned) = as_planned else { return Ok(Found { value: tried, partial: true }) };
                 for n in images[n].into_iter().chain([n]) {

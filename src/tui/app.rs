@@ -21,8 +21,8 @@ use super::unsaved::Kept;
 use crate::jobs::{News, StudyKind};
 use crate::plan::{Plan, PlanSource};
 use crate::study::as_planned::step_error;
+use crate::study::judgement::Evidence;
 use crate::study::judgement::Judgement;
-use crate::study::judgement::Sampled;
 use crate::study::{Case, ComputeSettings};
 
 /// What the event loop must do after an update.
@@ -332,8 +332,8 @@ impl App {
             }
             News::Checked { option, result } => {
                 let state = result.map_or_else(OptionState::Failed, |checked| {
-                    // Nobody takes its verdict as planned for the verdict.
-                    let risk = Sampled::NotDrawn;
+                    // Until samples arrive the option stays OPEN: a shot that passes as planned shows no PASS.
+                    let risk = Evidence::NotDrawn;
                     let judgement = Box::new(Judgement { risk, ..Judgement::of_planned_alone(*checked) });
                     OptionState::Done { judgement, sampling: true }
                 });
@@ -341,7 +341,7 @@ impl App {
             }
             News::Sampled { option, risk, more } => {
                 if let Some(OptionState::Done { judgement, sampling }) = self.options.get_mut(option) {
-                    judgement.risk = Sampled::Drawn(*risk);
+                    judgement.risk = Evidence::Drawn(*risk);
                     *sampling = more;
                 }
             }

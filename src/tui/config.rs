@@ -37,6 +37,9 @@ impl Config {
     /// Reads the user's configuration; the default where the user has none.
     pub fn load() -> Result<Self, String> {
         let Some(path) = path() else { return Ok(Self::default()) };
+        if path.exists() && !path.is_file() {
+            return Err(format!("{}: not a file", path.display()));
+        }
         match fs::read_to_string(&path) {
             Ok(text) => Self::parse(&text).map_err(|mistake| format!("{}: {mistake}", path.display())),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Self::default()),

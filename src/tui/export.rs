@@ -10,7 +10,7 @@ use crate::file;
 use crate::jobs::{StudyKind, StudyResult};
 use crate::report::html::{self, Page};
 use crate::report::{self, charts};
-use crate::study::judge::OptionResults;
+use crate::study::judge_options::OptionResults;
 use crate::study::samples::sampling::Sampling;
 
 /// Writes the contents of the screen to a new file, in the format of the file's ending; or says why not.

@@ -45,7 +45,7 @@ pub enum Action {
     /// Compare with the selected option.
     Baseline,
     /// Find what would make the selected option pass.
-    Why,
+    Remedies,
     /// Play or pause.
     Play,
     /// Show the next firing or peak.
@@ -70,7 +70,7 @@ pub enum Action {
     Redo,
     /// Write the plan.
     Save,
-    /// Saves the plan under another name.
+    /// Write the plan under another name.
     SaveAs,
     /// Find.
     Find,
@@ -196,7 +196,14 @@ pub const BINDINGS: &[Binding] = &[
         "show differences from the selected option",
         COMPARE,
     ),
-    bind(Action::Why, "why", &["w"], "why", "what would make the option pass; Enter makes a change", COMPARE),
+    bind(
+        Action::Remedies,
+        "why",
+        &["w"],
+        "why",
+        "what would make the option pass; Enter makes a change",
+        COMPARE,
+    ),
     bind(Action::Finer, "finer", &["+", "="], "finer", "finer accuracy: draft, field, reference", ALL),
     bind(Action::Coarser, "coarser", &["-"], "coarser", "coarser accuracy", ALL),
     bind(Action::Rerun, "rerun", &["r"], "", "compute again", ALL),

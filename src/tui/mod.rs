@@ -97,7 +97,7 @@ pub fn run(app: App, jobs: Jobs, look: Look, plan: Option<&Path>) -> io::Result<
     session.take_unsaved();
     session.serve(Request::Check);
     let exit = session.serve_events(&mut display, &signals, look);
-    // What is told now must not go with the screen.
+    // Messages printed on the alternate screen would vanish with it.
     drop(display);
     session.keep_or_drop_edits(matches!(exit, Ok(Exit::Quit)));
     exit

@@ -7,7 +7,7 @@ use crate::jobs::{StudyKind, StudyResult};
 use crate::report::model::{Block, Report};
 use crate::report::{self, charts};
 use crate::study::flight::Flight;
-use crate::study::would_pass::WouldPass;
+use crate::study::remedies::Remedies;
 use crate::study::{Case, ComputeSettings, NoResult};
 
 /// State of one study.
@@ -50,8 +50,8 @@ impl ShownStudy {
             StudyResult::Search(search) => report::search::report(case, search, false),
             StudyResult::Effects(effects) => report::effects::report(case, effects, false),
             StudyResult::Size(sizing) => report::size::report(case, sizing),
-            StudyResult::WouldPass(would_pass) => {
-                let blocks = report::would_pass::blocks(case, std::slice::from_ref(would_pass));
+            StudyResult::Remedies(remedies) => {
+                let blocks = report::remedies::blocks(case, std::slice::from_ref(remedies));
                 Report { blocks, ..Report::default() }
             }
             StudyResult::Accuracy(study) => report::accuracy::report(case, study, &[]),
@@ -81,7 +81,7 @@ impl fmt::Display for StudyState {
 
 /// The open list of changes with which an option would pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ChangeList {
+pub struct RemedyList {
     /// Index of the option.
     pub option: usize,
     /// Line selected.
@@ -99,8 +99,8 @@ pub struct Studies {
     pub filter: String,
     /// Index of the selected row among those that offer a change of the plan.
     pub selected: usize,
-    /// The list of [`StudyKind::WouldPass`]; `None` while it is closed.
-    pub changes: Option<ChangeList>,
+    /// The list of [`StudyKind::Remedies`]; `None` while it is closed.
+    pub changes: Option<RemedyList>,
     /// Text of the plan on the screen.
     plan: Arc<str>,
     states: [StudyState; StudyKind::ALL.len()],
@@ -171,10 +171,10 @@ impl Studies {
     }
 
     /// The changes with which an option would pass, as found by a computation with these settings.
-    pub fn would_pass(&self, option: usize, compute: &ComputeSettings) -> Option<&WouldPass> {
-        let finished = self.finished(StudyKind::WouldPass).filter(|finished| finished.compute == *compute)?;
+    pub fn remedies(&self, option: usize, compute: &ComputeSettings) -> Option<&Remedies> {
+        let finished = self.finished(StudyKind::Remedies).filter(|finished| finished.compute == *compute)?;
         match &*finished.found {
-            StudyResult::WouldPass(would_pass) if would_pass.option == option => Some(would_pass),
+            StudyResult::Remedies(remedies) if remedies.option == option => Some(remedies),
             _ => None,
         }
     }

@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 
 use shelter::plan::Plan;
 use shelter::scene::Firing;
-use shelter::study::as_planned::together::Together;
 use shelter::study::orders::try_orders;
 use shelter::study::samples::draw::draw;
 use shelter::study::sweep::sweep;
+use shelter::study::together::Together;
 use shelter::study::{Case, ComputeSettings, Intervals, NoResult, Progress, Shard};
 use shelter::verdict::Verdict;
 
@@ -268,8 +268,8 @@ fn studies_keep_the_holes_of_the_options() {
     assert!(matches!(swept, Err(NoResult::HolesDiffer)), "which of them is meant?");
     let tried = try_orders(&differing, &[0.009], Shard::WHOLE, &compute, &Progress::default());
     assert!(matches!(tried, Err(NoResult::HolesDiffer)));
-    assert_eq!(differing.with_hole_timing_of(1).shot(&[0, 1], 0.042), differing.shots[1]);
-    let differing = differing.with_hole_timing_of(0);
+    assert_eq!(differing.with_hole_timing_or_of(1).shot(&[0, 1], 0.042), differing.shots[1]);
+    let differing = differing.with_hole_timing_or_of(0);
     assert_eq!(differing.intervals(), [0.009], "the option whose rows fire together");
     let compute = ComputeSettings::of(&differing.plan);
     let flow = &mut |_: shelter::study::as_planned::check::CheckStep| ControlFlow::Continue(());

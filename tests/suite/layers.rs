@@ -1,4 +1,4 @@
-//! The house stands as its map says: imports point one way, no files inside a module use each other in a circle.
+//! Dependencies follow the table in `src/lib.rs`: imports point one way, no files inside a module use each other in a circle.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

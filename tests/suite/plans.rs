@@ -7,7 +7,7 @@ use shelter::choice::Accuracy;
 use shelter::plan::starter::{self, QUESTIONS};
 use shelter::plan::{DelayScatter, LaunchTargets, Layout, Plan, Timing, Uncertainty};
 use shelter::scene::TireId;
-use shelter::study::judge::verdict_on_plan;
+use shelter::study::judge_options::verdict_on_plan;
 use shelter::study::samples::sampling::Sampling;
 use shelter::study::{Case, ComputeSettings, Progress};
 use shelter::verdict::Verdict;

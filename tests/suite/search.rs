@@ -2,12 +2,12 @@
 
 use shelter::plan::{Plan, PlanSource, edit};
 use shelter::study::as_planned::check::check_shot;
-use shelter::study::as_planned::together::Together;
-use shelter::study::judge::OptionResults;
+use shelter::study::judge_options::OptionResults;
 use shelter::study::orders::try_orders;
 use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::sampling::Sampling;
 use shelter::study::search::{MOST_JUDGED, Search, duration, search};
+use shelter::study::together::Together;
 use shelter::study::{Case, ComputeSettings, NoResult, Progress, Shard};
 use shelter::verdict::Verdict;
 

@@ -14,10 +14,10 @@ use shelter::ropes::catalogue;
 use shelter::study::accuracy::{AccuracyTable, LevelStep, Measured, StepRow};
 use shelter::study::as_planned::check::CheckedShot;
 use shelter::study::as_planned::cover::Cover;
-use shelter::study::as_planned::shot_reason::ShotReason;
+use shelter::study::judgement::Evidence;
 use shelter::study::judgement::Judgement;
-use shelter::study::judgement::Sampled;
 use shelter::study::orders::{Orders, TriedOrder};
+use shelter::study::reasons::shot::ShotReason;
 use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::risk::Risk;
 use shelter::study::samples::sample::{Sample, SampleRun};
@@ -100,7 +100,7 @@ pub fn samples(case: &Case, count: usize, some_fail: bool) -> Risk {
 pub fn judgement(case: &Case, option: usize) -> Judgement {
     let verdict = if option.is_multiple_of(3) { Verdict::Fail } else { Verdict::Pass };
     let risk = samples(case, 200, option.is_multiple_of(2));
-    Judgement { risk: Sampled::Drawn(risk), ..Judgement::of_planned_alone(checked(verdict)) }
+    Judgement { risk: Evidence::Drawn(risk), ..Judgement::of_planned_alone(checked(verdict)) }
 }
 
 /// A judged option.
@@ -115,7 +115,7 @@ pub fn finished() -> App {
     for (n, row) in app.options.iter_mut().enumerate() {
         let risk = if n == 4 { samples(&app.case, 500, false) } else { samples(&app.case, 200, n % 2 == 0) };
         let nominal = Judgement::of_planned_alone(checked(verdicts[n % 3]));
-        *row = done(Judgement { risk: Sampled::Drawn(risk), ..nominal }, false);
+        *row = done(Judgement { risk: Evidence::Drawn(risk), ..nominal }, false);
     }
     app
 }
@@ -169,7 +169,7 @@ pub fn swept() -> StudyResult {
                 drift: ValueWithError::default(),
                 cover: Cover::NONE,
             },
-            risk: Sampled::NotAsked,
+            risk: Evidence::NotAsked,
         }
     };
     let windows = vec![[0.0, 0.03], [0.08, 0.13], [0.18, 0.24], [0.29, 0.34], [0.39, 0.44], [0.5, 0.5]];
@@ -242,7 +242,12 @@ pub fn spreads(app: &App) -> [(StudyKind, StudyResult); 3] {
     let judged = app.options.iter().enumerate().map(|(n, _)| Ok(judgement(&app.case, n)));
     let combinations = catalogue().ropes.iter().take(8).enumerate().map(|(n, rope)| {
         let share = 1.5 - 0.1 * n as f64;
-        let risk = Some(WorstShotRisk { verdict: Verdict::Pass, samples: 3045, failures: 2, most: 0.004 });
+        let risk = Some(WorstShotRisk {
+            verdict: Verdict::Pass,
+            samples: 3045,
+            failures: 2,
+            failure_upper_bound: 0.004,
+        });
         let holds = share < 1.0;
         let worst = shot_summary(share);
         let trial = Trial { holds, worst, utilization: share, shots: 7, risk, is_choice: holds };

@@ -8,9 +8,9 @@ use shelter::choice::Accuracy;
 use shelter::plan::{DelayScatter, LaunchTargets, Plan, Timing};
 use shelter::ropes::{Kind, catalogue};
 use shelter::study::as_planned::check::{check_as_planned, check_shot};
-use shelter::study::judge::{UNWATCHED, judge_all};
+use shelter::study::judge_options::{UNWATCHED, judge_all};
+use shelter::study::judgement::Evidence;
 use shelter::study::judgement::Judgement;
-use shelter::study::judgement::Sampled;
 use shelter::study::orders::{Orders, TriedOrder, orders, refine, try_orders};
 use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::risk::Risk;
@@ -205,7 +205,7 @@ fn the_ends_of_the_ranking_are_sampled() {
     assert_eq!((&ranked.ranked, ranked.ranked.len()), (&nominal.ranked, 72));
     for (n, tried) in ranked.ranked.iter().enumerate() {
         assert_eq!(nominal.verdict_on(n), tried.as_planned.verdict);
-        let Sampled::Drawn(risk) = ranked.risk(n) else {
+        let Evidence::Drawn(risk) = ranked.risk(n) else {
             assert!((20..52).contains(&n));
             assert!(ranked.verdict_on(n) != Verdict::Pass, "not sampled, so not sure");
             continue;

@@ -8,7 +8,7 @@ use crate::plan::{
 };
 use crate::report::limits::limits;
 use crate::ropes::catalogue;
-use crate::study::judge::OptionResults;
+use crate::study::judge_options::OptionResults;
 use crate::study::samples::sampling::Sampling;
 use crate::study::{Case, ComputeSettings};
 use crate::units::{self, Unit};

@@ -8,9 +8,9 @@ use crate::report::{check, explain, no_result, reasons};
 use crate::scene::Shot;
 use crate::study::Case;
 use crate::study::as_planned::margin::LaunchMargin;
-use crate::study::as_planned::together::Together;
+use crate::study::judgement::Evidence;
 use crate::study::judgement::Judgement;
-use crate::study::judgement::Sampled;
+use crate::study::together::Together;
 use crate::units;
 use crate::verdict::{Quantity, Verdict};
 
@@ -69,8 +69,8 @@ fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str,
 fn risk(case: &Case, judged: &Judgement) -> String {
     let accepted = format!("accepted {} %", units::short(case.plan.limits.accepted_risk_percent));
     match &judged.risk {
-        Sampled::NotAsked => "not judged: the plan's own numbers only, nothing varied".to_owned(),
-        Sampled::Drawn(risk) if !risk.samples.is_empty() => {
+        Evidence::NotAsked => "not judged: the plan's own numbers only, nothing varied".to_owned(),
+        Evidence::Drawn(risk) if !risk.samples.is_empty() => {
             let bounds = &risk.bounds;
             format!(
                 "{} % of the possible shots fail (95 % bounds; {} of {} samples fail); {accepted}",
@@ -79,7 +79,7 @@ fn risk(case: &Case, judged: &Judgement) -> String {
                 bounds.samples
             )
         }
-        Sampled::Drawn(_) | Sampled::NotDrawn => {
+        Evidence::Drawn(_) | Evidence::NotDrawn => {
             format!("not known: no sample was drawn, the time was up; {accepted}")
         }
     }

@@ -23,7 +23,7 @@ use super::model::{Block, Report};
 use super::warnings;
 use super::{charts, check, explain};
 use crate::study::Case;
-use crate::study::judge::OptionResults;
+use crate::study::judge_options::OptionResults;
 use crate::study::judgement::Judgement;
 use crate::study::samples::sampling::Sampling;
 use crate::verdict::Verdict;

@@ -3,8 +3,8 @@
 use serde::Serialize;
 use serde_json::Number;
 
+use super::remedies::{PassingChange, RefusedKind};
 use super::risk::{Share, input_shares};
-use super::would_pass::{PassingChange, RefusedKind};
 use super::{Bounds, Failures, LimitsObject};
 use crate::choice::HoleOrder;
 use crate::outcome::BrokenCable;
@@ -14,11 +14,11 @@ use crate::report::reasons;
 use crate::report::{no_result, warnings};
 use crate::scene::{Scene, TireId, fire_at_s, seconds};
 use crate::study::Case;
-use crate::study::as_planned::together::Together;
-use crate::study::judge::{OptionResults, verdict_on_plan};
+use crate::study::judge_options::{OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
+use crate::study::remedies::Remedies;
 use crate::study::samples::risk::Risk;
-use crate::study::would_pass::WouldPass;
+use crate::study::together::Together;
 use crate::verdict::{Estimate, Quantity};
 
 /// The document of one plan.
@@ -197,7 +197,7 @@ impl CheckDocument {
     pub fn new(
         case: &Case,
         results: &OptionResults,
-        would_pass: Option<&[WouldPass]>,
+        remedies: Option<&[Remedies]>,
         any: bool,
         partial: bool,
     ) -> Self {
@@ -208,7 +208,7 @@ impl CheckDocument {
             .next()
             .map_or(plan.simulation.method, |judged| judged.as_planned.compute.method);
         let options = option_rows(case, results).enumerate().map(|(n, row)| {
-            let tried = would_pass.map(|all| all.iter().find(|would_pass| would_pass.option == n));
+            let tried = remedies.map(|all| all.iter().find(|remedies| remedies.option == n));
             let Together { holes, charge } = row.together();
             CheckedOption {
                 name: row.delay.name.clone(),

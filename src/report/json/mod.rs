@@ -5,13 +5,13 @@ mod check;
 mod effects;
 mod fit;
 mod orders;
+mod remedies;
 mod risk;
 mod ropes;
 mod search;
 mod size;
 mod sweep;
 mod trace;
-mod would_pass;
 
 use std::io;
 

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::LimitsObject;
 use crate::report::warnings;
-use crate::study::judge::{OptionResults, verdict_on_plan};
+use crate::study::judge_options::{OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
 use crate::study::samples::influence;
 use crate::study::samples::risk::Risk;

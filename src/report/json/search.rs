@@ -11,9 +11,9 @@ use crate::report::reasons;
 use crate::report::row_names;
 use crate::scene::{fire_at_s, seconds};
 use crate::study::Case;
-use crate::study::as_planned::together::Together;
 use crate::study::judgement::Judgement;
 use crate::study::search::{FrontPoint, Schedule, Search, duration};
+use crate::study::together::Together;
 use crate::verdict::Quantity;
 
 /// The document of a search.

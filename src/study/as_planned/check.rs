@@ -9,12 +9,12 @@ use std::time::{Duration, Instant};
 
 use super::cover::{Cover, CoverWatch};
 use super::peaks::{error_runs, peaks_with_rivals};
-use super::shot_reason::{ShotReason, closes, find_reasons_as_planned, with_limits};
 use super::step_error;
 use crate::choice::Accuracy;
 use crate::outcome::{BrokenCable, History, Outcome, RunEnd};
 use crate::scene::Shot;
 use crate::simulation::{Failure, Motion};
+use crate::study::reasons::shot::{ShotReason, closes, find_reasons_as_planned, with_limits};
 use crate::study::{Case, ComputeSettings};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 

@@ -1,6 +1,6 @@
 //! How much faster than planned the tires may leave before the shot as planned no longer passes.
 
-use super::full_check::or_unknown;
+use super::check_many::or_unknown;
 use super::quick_check::quick_check;
 use crate::scene::Shot;
 use crate::study::{Case, ComputeSettings, NoResult, Progress};

@@ -2,21 +2,17 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | the check: run ever finer until the verdict is sure | [`check`]; one of thousands of shots: [`quick_check`]; many: [`full_check`] |
+//! | the check: run ever finer until the verdict is sure | [`check`]; one of thousands of shots: [`quick_check`]; many: [`check_many`] |
 //! | greatest values of a run, with the error of its step | `peaks`, [`step_error`] |
-//! | why it fails or stays open | [`shot_reason`] |
-//! | what fires within 8 ms | [`together`] |
 //! | the cover over unfired holes, which no limit judges | [`cover`] |
 //! | how much faster the tires may leave | [`margin`] |
 //! | what a study keeps of a check | [`shot_summary`] |
 
 pub mod check;
+pub mod check_many;
 pub mod cover;
-pub mod full_check;
 pub mod margin;
 mod peaks;
 pub mod quick_check;
-pub mod shot_reason;
 pub mod shot_summary;
 pub mod step_error;
-pub mod together;

@@ -5,15 +5,15 @@
 //! check begins. Unlike a check it does not look for rival peaks ([`peaks`](super::peaks)). Where the step is fixed, or too few
 //! of the coarse runs succeed, the shot is checked instead.
 
+use super::check_many::check_summary;
 use super::cover::{Cover, CoverWatch};
-use super::full_check::full_check;
 use super::peaks::peaks;
-use super::shot_reason::{ShotReason, find_reasons_as_planned};
 use super::step_error;
 use crate::choice::Accuracy;
 use crate::outcome::Outcome;
 use crate::scene::Shot;
 use crate::simulation::Motion;
+use crate::study::reasons::shot::{ShotReason, find_reasons_as_planned};
 use crate::study::{Case, ComputeSettings, NoResult, Progress, ShotSummary};
 use crate::verdict::Verdict;
 
@@ -46,7 +46,7 @@ pub fn quick_check_until(
     enough: impl Fn(&ShotSummary, usize) -> bool,
 ) -> Result<ShotSummary, NoResult> {
     if compute.step.is_some() {
-        return full_check(case, shot, compute, progress);
+        return check_summary(case, shot, compute, progress);
     }
     let last = compute.first_step(case);
     let field = ComputeSettings { accuracy: Accuracy::Field, step: None, ..*compute };
@@ -65,7 +65,7 @@ pub fn quick_check_until(
             Err(failure) => return Err(progress.no_result(failure)),
         }
         if is_last && runs.len() < RUNS_OF_PASS {
-            return full_check(case, shot, compute, progress);
+            return check_summary(case, shot, compute, progress);
         }
         if runs.len() > 1 {
             let summary = summary_of_runs(case, shot, &runs, cover.cover());

@@ -14,7 +14,7 @@ use std::cmp::Ordering;
 use std::time::Instant;
 
 pub use self::effect::Effect;
-use super::as_planned::full_check::or_unknown;
+use super::as_planned::check_many::or_unknown;
 use super::as_planned::quick_check::quick_check;
 use super::samples::risk::percentiles;
 use super::samples::rounds::{ShotToSample, run_sample_once};
@@ -25,12 +25,13 @@ use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSumma
 use crate::plan::Plan;
 use crate::verdict::{Limits, Quantity, Verdict};
 
-/// Samples behind a median where nobody asks for another number.
+/// Number of samples behind a median, unless another is asked for.
 pub const SAMPLES: usize = 49;
 /// Change of a median from which an effect is required.
 pub const REQUIRED: f64 = 0.05;
 /// Change of a median over the limit below which the effect is not required: a few newtons more or less.
 pub const FLOOR: f64 = 0.01;
+
 /// What an effect does to one delay option.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EffectOnOption {

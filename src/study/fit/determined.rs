@@ -1,7 +1,7 @@
 //! Whether observations determine the parameters, and what else would.
 //!
-//! 1. Symbols: J the derivatives of the predictions, made independent and of unit variance; S the diagonal of the standard deviations
-//!    that uniform distributions over the plausible ranges have.
+//! 1. Symbols: J the derivatives of the predictions, made independent and of unit variance; S the diagonal of the standard
+//!    deviations that uniform distributions over the plausible ranges have.
 //! 2. A unit vector v with ‖J S v‖ = σ is a combination of the parameters that the observations know to 1/σ of its range.
 //! 3. A combination with σ below [`DETERMINED`] is not determined, and neither is any parameter that is a good part of it.
 //!

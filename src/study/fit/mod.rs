@@ -1,8 +1,8 @@
 //! What observations of earlier shots tell of launch velocities and other unknowns.
 //!
 //! Weighted least squares: of the parameters within plausible ranges those whose predictions fit the observations best, with what
-//! `[uncertainty]` of the plan states of them as observations of their own. The weights are those of [`weights`], first at the plan,
-//! then at each answer. Inputs that are not estimated are not taken for exact: they weaken the weights.
+//! `[uncertainty]` of the plan states of them as observations of their own. The weights are those of [`weights`], first at the
+//! plan, then at each answer. Inputs that are not estimated are not taken for exact: they weaken the weights.
 //!
 //! | question | where |
 //! |---|---|

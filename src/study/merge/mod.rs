@@ -3,7 +3,7 @@
 mod shard_file;
 
 pub use self::shard_file::{Head, Question, ShardResults, write_shard};
-use super::judge::{OptionResults, judge_from_samples};
+use super::judge_options::{OptionResults, judge_from_samples};
 use super::orders::{Orders, rank, refine};
 use super::samples::sampling::Sampling;
 use super::search::{Search, search_after};

@@ -33,7 +33,7 @@ pub enum Input {
 }
 
 impl Input {
-    /// Every input, in the order of the values of [`RandomShot::inputs`].
+    /// Every input, in the order of the values of [`DrawnShot::inputs`].
     pub const ALL: [Input; 4] = [Input::LaunchCommon, Input::Friction, Input::Slack, Input::AxialStiffness];
 
     /// The key of a plan that says how well the input is known.
@@ -47,9 +47,9 @@ impl Input {
     }
 }
 
-/// One sample.
+/// What was drawn for one sample: its shelter and its shot.
 #[derive(Clone, Debug)]
-pub struct RandomShot {
+pub struct DrawnShot {
     /// The shelter with the numbers of the sample.
     pub scene: Scene,
     /// The shot with the numbers of the sample.
@@ -103,7 +103,7 @@ fn normal(random: &mut ChaCha8Rng) -> f64 {
 }
 
 /// Draws sample `number` of the shots that the plan describes beside `nominal`.
-pub fn draw(case: &Case, nominal: &Shot, seed: u64, number: usize) -> RandomShot {
+pub fn draw(case: &Case, nominal: &Shot, seed: u64, number: usize) -> DrawnShot {
     let unknown = &case.plan.uncertainty;
     let mut random = Random::new(seed, number);
     let whole = random.at(Draws::WholeShot);
@@ -135,7 +135,7 @@ pub fn draw(case: &Case, nominal: &Shot, seed: u64, number: usize) -> RandomShot
     let first = firings.iter().map(|firing| firing.at).fold(0.0, f64::min);
     firings.iter_mut().for_each(|firing| firing.at -= first);
     let shot = Shot { friction: Some(friction), ..Shot::from_firings(firings) };
-    RandomShot { scene, shot, inputs: [launch_common, friction, slack_percent, stiffness] }
+    DrawnShot { scene, shot, inputs: [launch_common, friction, slack_percent, stiffness] }
 }
 
 /// Shifts the firings [s], which are in order of time, by the scatter of the gaps before them: of the gaps between the rows, and

@@ -5,7 +5,6 @@
 //! | one drawn at random, and its run | [`draw`], [`sample`] |
 //! | how many; which are run when | [`sampling`], [`rounds`] |
 //! | what they tell: the risk and its verdict | [`risk`]; of thousands of shots: [`risk_summary`] |
-//! | why they fail too often or leave the verdict open | [`risk_reason`] |
 //! | how sure a count of failures is | [`failure_bounds`] |
 //! | which input decides | [`influence`] |
 //! | rows that may fire the wrong way round | [`swaps`] |
@@ -14,7 +13,6 @@ pub mod draw;
 pub mod failure_bounds;
 pub mod influence;
 pub mod risk;
-pub mod risk_reason;
 pub mod risk_summary;
 pub mod rounds;
 pub mod sample;

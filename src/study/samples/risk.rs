@@ -7,6 +7,7 @@
 
 use super::failure_bounds::{ErrorShare, FailureBounds};
 use super::sample::{Sample, SampleRun};
+use crate::study::reasons::risk::RiskReason;
 use crate::study::{Case, ShotSummary};
 use crate::verdict::{Limits, Quantity, Verdict};
 
@@ -58,15 +59,30 @@ impl Risk {
 
     /// The verdict of the samples; undecided where finer runs contradict them, or where a pass has too few of these.
     pub fn verdict(&self) -> Verdict {
-        match self.bounds_of_audited() {
+        match self.verdict_once_audited() {
             Verdict::Undecided => Verdict::Undecided,
             _ if self.is_contradicted() => Verdict::Undecided,
             verdict => verdict,
         }
     }
 
+    /// Why the samples do not pass; `None` where they do.
+    pub fn reason(&self) -> Option<RiskReason> {
+        match self.verdict() {
+            Verdict::Pass => None,
+            Verdict::Fail => Some(RiskReason::TooManyFail),
+            Verdict::Undecided => Some(match self {
+                _ if self.planned_exceeds_samples() => RiskReason::PlannedExceedsSamples,
+                _ if self.is_contradicted() => RiskReason::Contradicted,
+                _ if self.bounds.verdict() == Verdict::Pass => RiskReason::FewAudited,
+                _ if self.bounds.undecided > 0 => RiskReason::UndecidedSamples,
+                _ => RiskReason::NotSure,
+            }),
+        }
+    }
+
     /// The verdict of the bounds; no pass before [`LEAST_AUDITS`] samples are audited.
-    pub fn bounds_of_audited(&self) -> Verdict {
+    pub fn verdict_once_audited(&self) -> Verdict {
         match self.bounds.verdict() {
             Verdict::Pass if self.is_audited && self.audited().count() < LEAST_AUDITS => Verdict::Undecided,
             verdict => verdict,

@@ -3,14 +3,14 @@
 use std::collections::BTreeSet;
 use std::ops::{ControlFlow, Range};
 
-use super::draw::{Input, RandomShot, draw};
+use super::draw::{DrawnShot, Input, draw};
 use super::risk::{LEAST_AUDITS, Risk};
 use super::sample::{Sample, SampleRun};
 use super::sampling::Sampling;
 use crate::choice::Accuracy;
 use crate::scene::{Scene, Shot};
-use crate::study::as_planned::shot_reason::closes;
 use crate::study::compute::step_factor;
+use crate::study::reasons::shot::closes;
 use crate::study::work::batch::run_jobs;
 use crate::study::{Case, ComputeSettings, Finding, Found, NoResult, Progress, Shard, ShotSummary, guarded};
 
@@ -80,7 +80,7 @@ const AUDIT_EVERY_AT_FIRST: usize = 10;
 /// Number of samples of which more are audited: enough for [`LEAST_AUDITS`].
 const FIRST_SAMPLES: usize = AUDIT_EVERY_AT_FIRST * LEAST_AUDITS;
 /// Step of a sample over the step of its audit.
-const AUDIT_FINER: f64 = 4.0;
+const AUDIT_STEP_DIVISOR: f64 = 4.0;
 
 /// Most times that a shot is sampled anew at half the step.
 const MOST_HALVINGS: u32 = 3;
@@ -92,7 +92,8 @@ pub fn find_risks(targets: &[ShotToSample<'_>], progress: &Progress) -> Finding<
     find_risks_watched(targets, progress, &mut |_, _| ControlFlow::Continue(()))
 }
 
-/// Like [`find_risks`]; `watch` sees every shot after each of its rounds, and may end the sampling of all.
+/// Like [`find_risks`]; `watch` sees every shot after each of its rounds, and may end the sampling of all: what it ended is not
+/// partial.
 pub fn find_risks_watched(
     targets: &[ShotToSample<'_>],
     progress: &Progress,
@@ -185,14 +186,14 @@ pub fn draw_shard(
 /// Longest step of a sample [s]: it resolves a landing.
 const LONGEST_STEP: f64 = 2e-3;
 /// Greatest step of a sample over the critical step of its own scene.
-const OF_CRITICAL_STEP: f64 = 0.55;
+const CRITICAL_STEP_FRACTION: f64 = 0.55;
 /// Factor on the step of a sample where accuracy `reference` is asked for; draft and field use one step.
-const OF_REFERENCE: f64 = 0.25;
+const REFERENCE_STEP_FACTOR: f64 = 0.25;
 
 /// Step of a sample [s]: the fixed step where there is one.
 pub(in crate::study) fn step(compute: &ComputeSettings, scene: &Scene) -> f64 {
-    let level = if compute.accuracy == Accuracy::Reference { OF_REFERENCE } else { 1.0 };
-    let usual = LONGEST_STEP.min(OF_CRITICAL_STEP * scene.critical_step());
+    let level = if compute.accuracy == Accuracy::Reference { REFERENCE_STEP_FACTOR } else { 1.0 };
+    let usual = LONGEST_STEP.min(CRITICAL_STEP_FRACTION * scene.critical_step());
     compute.step.unwrap_or(step_factor(compute.method) * level * usual)
 }
 
@@ -204,7 +205,7 @@ fn try_sample(
     progress: &Progress,
 ) -> Result<Sample, NoResult> {
     let ShotToSample { case, shot, compute, sampling, .. } = *target;
-    let RandomShot { scene, shot, inputs } = draw(case, shot, sampling.seed, number);
+    let DrawnShot { scene, shot, inputs } = draw(case, shot, sampling.seed, number);
     // The run, and whether it failed or has no energy balance.
     let run = |step: f64| {
         let settings = case.run_settings(compute.method, step);
@@ -223,7 +224,7 @@ fn try_sample(
     }
     let every = if number < FIRST_SAMPLES { AUDIT_EVERY_AT_FIRST } else { AUDIT_EVERY };
     let is_audited = may_audit && number % every == every / 2;
-    let fine = if shows_nothing || is_audited { Some(run(step / AUDIT_FINER)?.0) } else { None };
+    let fine = if shows_nothing || is_audited { Some(run(step / AUDIT_STEP_DIVISOR)?.0) } else { None };
     let best = fine.filter(|_| shows_nothing).unwrap_or(coarse);
     Ok(Sample { number, run: best, finer: fine.filter(|_| is_audited), inputs })
 }

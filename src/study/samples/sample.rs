@@ -6,8 +6,8 @@ use super::draw::Input;
 use crate::outcome::{Outcome, Peak};
 use crate::scene::Shot;
 use crate::study::Case;
-use crate::study::as_planned::shot_reason::{ShotReason, closes, find_reasons};
 use crate::study::as_planned::shot_summary::or_infinite;
+use crate::study::reasons::shot::{ShotReason, closes, find_reasons};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
 /// One sample of a shot.

@@ -47,7 +47,7 @@ impl Sampling {
     /// Whether no more samples are needed: there are as many as there may be, or enough for a verdict that the audit bears out.
     pub fn is_complete(&self, risk: &Risk) -> bool {
         let drawn = risk.samples.len();
-        drawn >= self.most || drawn >= self.least && risk.bounds_of_audited() != Verdict::Undecided
+        drawn >= self.most || drawn >= self.least && risk.verdict_once_audited() != Verdict::Undecided
     }
 
     /// Numbers of the samples to draw next; none once they are complete.

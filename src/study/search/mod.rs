@@ -23,7 +23,7 @@ use self::schedule::Choices;
 pub use self::schedule::{BrokenLimit, RefusedCounts};
 pub use self::schedule::{Schedule, duration};
 use super::as_planned::margin::LaunchMargin;
-use super::judge::{OptionResults, UNWATCHED, judge_all_with_margins};
+use super::judge_options::{OptionResults, UNWATCHED, judge_all_with_margins};
 use super::judgement::Judgement;
 use super::samples::failure_bounds::ErrorShare;
 use super::samples::risk::Risk;

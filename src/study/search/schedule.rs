@@ -10,7 +10,7 @@ use rand_chacha::ChaCha8Rng;
 use crate::choice::SearchedOrders;
 use crate::plan::{BlastRow, DelayOption, HoleTiming, Timing};
 use crate::scene::{Firing, Shot, seconds};
-use crate::study::as_planned::together::Together;
+use crate::study::together::Together;
 use crate::study::{Case, NoResult};
 
 /// A firing schedule.

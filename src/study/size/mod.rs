@@ -14,8 +14,8 @@ use std::cmp::Ordering;
 
 use itertools::Itertools;
 
-use self::trial::{Candidate, Hardest};
-use super::judgement::{Sampled, verdict_of_both};
+use self::trial::{Hardest, SizeCandidate};
+use super::judgement::{Evidence, verdict_of_both};
 use super::samples::failure_bounds::ErrorShare;
 use super::samples::sampling::Sampling;
 use super::{ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary};
@@ -88,7 +88,7 @@ pub struct WorstShotRisk {
     /// Number of those that failed.
     pub failures: usize,
     /// Upper bound of the failure probability.
-    pub most: f64,
+    pub failure_upper_bound: f64,
 }
 
 impl WorstShotRisk {
@@ -196,7 +196,7 @@ fn try_all(task: &SizingTask<'_>) -> Result<Vec<(Combination, Hardest)>, NoResul
     {
         let mut stronger_holds = true;
         for rope in ropes {
-            let candidate = Candidate::new(task, rope, tire_mass, border_rows);
+            let candidate = SizeCandidate::new(task, rope, tire_mass, border_rows);
             let (mut hardest, mut trial) = (Hardest::new(), Err(Untried::StrongerRopeDoesNotHold));
             if task.progress.expired() {
                 trial = Err(Untried::OutOfTime);
@@ -246,17 +246,17 @@ fn choose(
         if !trial.holds || trial.utilization >= least {
             continue;
         }
-        let mut sampled = Sampled::NotAsked;
+        let mut sampled = Evidence::NotAsked;
         if let Some(sampling) = sampling {
             candidates += 1;
             let Combination { rope, tire_mass, border_rows, .. } = *combination;
-            let candidate = Candidate::new(task, rope, tire_mass, border_rows);
+            let candidate = SizeCandidate::new(task, rope, tire_mass, border_rows);
             let sampling = Sampling { least: 0, error_share: ErrorShare::Nth(candidates), ..*sampling };
             let Some(risk) = candidate.sample(hardest, &sampling)? else {
                 combination.trial = Err(Untried::OutOfTime);
                 continue;
             };
-            sampled = Sampled::Drawn(risk);
+            sampled = Evidence::Drawn(risk);
         }
         trial.risk = sampled.drawn().copied();
         trial.is_choice = verdict_of_both(Verdict::Pass, sampled.map(|risk| risk.verdict)) == Verdict::Pass;

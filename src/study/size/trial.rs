@@ -7,8 +7,8 @@ use itertools::Itertools;
 use super::{Combination, Demand, SizingTask, Trial, Untried, WorstShotRisk};
 use crate::ropes::Rope;
 use crate::scene::Shot;
+use crate::study::as_planned::check_many::check_summaries;
 use crate::study::as_planned::cover::Cover;
-use crate::study::as_planned::full_check::full_checks;
 use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::risk::Risk;
 use crate::study::samples::rounds::{ShotToSample, find_risks_watched};
@@ -26,7 +26,7 @@ const AT_ONCE: usize = 32;
 pub(super) type Hardest = Vec<(usize, ShotSummary)>;
 
 /// A combination made ready to run.
-pub(super) struct Candidate<'q> {
+pub(super) struct SizeCandidate<'q> {
     task: &'q SizingTask<'q>,
     rope: &'static Rope,
     tire_mass: f64,
@@ -35,7 +35,7 @@ pub(super) struct Candidate<'q> {
     shots: Vec<Shot>,
 }
 
-impl<'q> Candidate<'q> {
+impl<'q> SizeCandidate<'q> {
     pub(super) fn new(
         task: &'q SizingTask<'q>,
         rope: &'static Rope,
@@ -76,7 +76,7 @@ impl<'q> Candidate<'q> {
         let mut holds = true;
         for chunk in order.chunks(AT_ONCE) {
             let part: Vec<Shot> = chunk.iter().map(|&n| self.shots[n].clone()).collect();
-            let chunk_judged = full_checks(case, &part, compute, progress)?;
+            let chunk_judged = check_summaries(case, &part, compute, progress)?;
             let Some(chunk_judged) = chunk_judged.into_iter().collect::<Option<Vec<_>>>() else {
                 return Ok(None);
             };
@@ -133,10 +133,11 @@ impl<'q> Candidate<'q> {
         let Found { value: risks, partial } =
             find_risks_watched(&targets, self.task.progress, until_one_fails)?;
         let worst = risks.iter().map(|risk| {
-            let FailureBounds { samples, failures, interval: [_, most], .. } = risk.bounds;
-            WorstShotRisk { verdict: risk.verdict(), samples, failures, most }
+            let FailureBounds { samples, failures, interval: [_, failure_upper_bound], .. } = risk.bounds;
+            WorstShotRisk { verdict: risk.verdict(), samples, failures, failure_upper_bound }
         });
-        let nothing = WorstShotRisk { verdict: Verdict::Pass, samples: 0, failures: 0, most: 1.0 };
+        let nothing =
+            WorstShotRisk { verdict: Verdict::Pass, samples: 0, failures: 0, failure_upper_bound: 1.0 };
         let worst = worst.max_by(WorstShotRisk::compare).unwrap_or(nothing);
         Ok((!partial).then_some(worst))
     }

@@ -11,8 +11,8 @@ use std::collections::BTreeSet;
 
 use super::{MOST_SAMPLED_GAP, Point, Sweep, deepest, nanoseconds, windows};
 use crate::scene::Shot;
-use crate::study::as_planned::full_check::{full_check, or_unknown};
-use crate::study::judgement::Sampled;
+use crate::study::as_planned::check_many::{check_summary, or_unknown};
+use crate::study::judgement::Evidence;
 use crate::study::samples::failure_bounds::ErrorShare;
 use crate::study::samples::risk_summary::{RiskSummary, find_risk_summaries};
 use crate::study::samples::sampling::Sampling;
@@ -38,9 +38,9 @@ pub fn add_risk(
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
     let sampled = find_risk_summaries(case, &shots, &sampling.first_look(), compute, progress)?;
     partial |= sampled.contains(&None);
-    swept.points.iter_mut().for_each(|point| point.risk = Sampled::NotDrawn);
+    swept.points.iter_mut().for_each(|point| point.risk = Evidence::NotDrawn);
     for (&n, sampled) in chosen.iter().zip(sampled) {
-        swept.points[n].risk = sampled.map_or(Sampled::NotDrawn, Sampled::Drawn);
+        swept.points[n].risk = sampled.map_or(Evidence::NotDrawn, Evidence::Drawn);
     }
     swept.recommended = None;
     let mut tried = BTreeSet::new();
@@ -64,7 +64,7 @@ pub fn add_risk(
             Some((as_planned, risk)) => {
                 let point = &mut swept.points[n];
                 point.as_planned = as_planned;
-                point.risk = risk.map_or(point.risk, Sampled::Drawn);
+                point.risk = risk.map_or(point.risk, Evidence::Drawn);
                 if point.verdict() == Verdict::Pass {
                     swept.recommended = Some(candidate);
                     break;
@@ -84,7 +84,7 @@ fn judge(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Option<(ShotSummary, Option<RiskSummary>)>, NoResult> {
-    let as_planned = match or_unknown(full_check(case, &shot, compute, progress)) {
+    let as_planned = match or_unknown(check_summary(case, &shot, compute, progress)) {
         Err(NoResult::OutOfTime) => return Ok(None),
         judged => judged?,
     };

@@ -17,10 +17,10 @@ mod accepted;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::as_planned::full_check::{full_check, run_checks, run_checks_or_unknown};
+use super::as_planned::check_many::{check_summary, run_checks, run_checks_or_unknown};
 use super::as_planned::quick_check::quick_check;
 use super::judgement;
-use super::judgement::Sampled;
+use super::judgement::Evidence;
 use super::samples::risk_summary::RiskSummary;
 use super::samples::sampling::Sampling;
 use super::{Case, ComputeSettings, Finding, Found, Intervals, NoResult, Progress, ShotSummary};
@@ -36,7 +36,7 @@ pub struct Point {
     /// Verdict, height, force and drift of the shot as planned.
     pub as_planned: ShotSummary,
     /// What the samples tell.
-    pub risk: Sampled<RiskSummary>,
+    pub risk: Evidence<RiskSummary>,
 }
 
 impl Point {
@@ -143,7 +143,7 @@ fn sweep_as_planned(
         let work = |&at: &i64| {
             let shot = case.shot(order, in_seconds(at));
             match exact.contains(&at) {
-                true => full_check(case, &shot, compute, progress),
+                true => check_summary(case, &shot, compute, progress),
                 false => quick_check(case, &shot, compute, progress),
             }
         };
@@ -157,7 +157,11 @@ fn sweep_as_planned(
         tried.extend(jobs.into_iter().zip(checked).filter_map(|(at, as_planned)| Some((at, as_planned?))));
         let points: Vec<Point> = tried
             .iter()
-            .map(|(&at, &as_planned)| Point { interval: in_seconds(at), as_planned, risk: Sampled::NotAsked })
+            .map(|(&at, &as_planned)| Point {
+                interval: in_seconds(at),
+                as_planned,
+                risk: Evidence::NotAsked,
+            })
             .collect();
         next = if partial { BTreeSet::new() } else { middles(case, &points).into_iter().collect() };
         if !next.is_empty() {
@@ -364,7 +368,7 @@ mod tests {
                 drift: ValueWithError::default(),
                 cover: Cover::NONE,
             };
-            Point { interval: in_seconds(at), as_planned, risk: Sampled::NotAsked }
+            Point { interval: in_seconds(at), as_planned, risk: Evidence::NotAsked }
         };
         let count = (20.0 / step) as i64;
         let mut points: Vec<Point> = (0..=count).map(|n| point((n as f64 * step * 1e6) as i64)).collect();
@@ -423,7 +427,7 @@ mod tests {
                     drift: ValueWithError::default(),
                     cover: Cover::NONE,
                 };
-                Point { interval: in_seconds(i64::from(n) * 100_000), as_planned, risk: Sampled::NotAsked }
+                Point { interval: in_seconds(i64::from(n) * 100_000), as_planned, risk: Evidence::NotAsked }
             })
             .collect();
         let windows = windows(&case, &points);

@@ -6,7 +6,7 @@ use crate::tui::keymap::Action;
 
 impl App {
     pub(super) fn act_on_compare(&mut self, action: Action) -> Request {
-        if let Some(request) = self.act_on_changes(action) {
+        if let Some(request) = self.act_on_remedies(action) {
             return request;
         }
         let page = PAGE as isize;
@@ -23,7 +23,7 @@ impl App {
                 self.listing.reversed = false;
             }
             Action::Reverse => self.listing.reversed = !self.listing.reversed,
-            Action::Why => return self.ask_for_changes(),
+            Action::Remedies => return self.ask_for_remedies(),
             Action::Baseline => {
                 let same = self.listing.baseline == Some(self.selected);
                 self.listing.baseline = (!same).then_some(self.selected);

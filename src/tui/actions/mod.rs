@@ -5,8 +5,8 @@ mod compare;
 mod flight;
 mod plan;
 mod prompt;
+mod remedies;
 mod studies;
-mod would_pass;
 
 use std::path::Path;
 
@@ -159,7 +159,7 @@ impl App {
         let kind = match self.screen {
             Screen::Studies => self.studies.shown,
             Screen::Accuracy => StudyKind::Accuracy,
-            Screen::Compare => StudyKind::WouldPass,
+            Screen::Compare => StudyKind::Remedies,
             Screen::Plan | Screen::Flight => return None,
         };
         self.studies.is_running(kind).then_some(kind)

@@ -86,7 +86,7 @@ impl App {
         if matches!(offer, Offer::Option(_)) {
             self.studies.keep(&kept);
         }
-        // Its verdict stands there.
+        // Compare shows the verdict of the new option.
         self.screen = Screen::Compare;
         let told = match (offer, self.case.plan.delays.last()) {
             (Offer::Option(_), Some(added)) => {

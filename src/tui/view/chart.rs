@@ -10,6 +10,7 @@ use ratatui::widgets::{self, Block, Dataset, GraphType};
 use crate::report::model::{Axis, Chart, Scale, SeriesKind};
 use crate::tui::app::App;
 use crate::units::Unit;
+use crate::verdict::Verdict;
 
 /// Least width and height of a chart that can be read.
 const LEAST: (u16, u16) = (20, 4);
@@ -65,21 +66,30 @@ pub fn draw(app: &App, chart: &Chart, mark: Option<Mark>, frame: &mut Frame, are
     let mut sets: Vec<Set> = Vec::new();
     let mut line =
         |points, style, marker| sets.push(Set { points, style, marker, kind: GraphType::Line, name: "" });
-    for window in &chart.windows {
-        let [from, to] = window.map(|x| chart.x.coordinate(x));
-        let cells = usize::from(area.width);
-        let points = (0..=cells).map(|n| from + (to - from) * n as f64 / cells as f64);
-        line(points.map(|x| (x, height(BAR))).collect(), theme.curve(), Marker::Block);
-    }
+    let dots = [2, 4].map(|dots| f64::from(dots)).into_iter().zip([area.width, area.height]);
+    let dots: Vec<f64> = dots.map(|(dots, cells)| dots * f64::from(cells)).collect();
+    let dot = [(across[1] - across[0]) / dots[0], (up[1] - up[0]) / dots[1]];
+    let dots_across = (0..dots[0] as usize).map(|n| across[0] + n as f64 * dot[0]);
     for &firing in &chart.firings {
         line(column(firing, height(TICK)), theme.firing(), Marker::Braille);
     }
-    if let Some(limit) = chart.limit {
-        let limit = chart.y.coordinate(limit);
-        line(across.map(|x| (x, limit)).to_vec(), theme.limit(), Marker::Dot);
-    }
     if let Some(Mark::Across(x)) = mark {
         line(column(x, up[1]), theme.base(), Marker::Braille);
+    }
+    let mut dotted = |points, style, marker| {
+        sets.push(Set { points, style, marker, kind: GraphType::Scatter, name: "" });
+    };
+    // A dot passes where all of its width does: a bar hides no gap.
+    let passes = |x: &f64| {
+        let whole =
+            |[from, to]: [f64; 2]| chart.x.coordinate(from) <= *x && x + dot[0] <= chart.x.coordinate(to);
+        chart.windows.iter().copied().any(whole)
+    };
+    let bar = dots_across.clone().filter(passes).map(|x| (x, height(BAR)));
+    dotted(bar.collect(), theme.curve(), Marker::Braille);
+    let limit = chart.limit.map(|limit| chart.y.coordinate(limit));
+    if let Some(limit) = limit {
+        dotted(dots_across.step_by(3).map(|x| (x, limit)).collect(), theme.limit(), Marker::Braille);
     }
     let compared = chart.series.iter().any(|series| series.kind == SeriesKind::Comparison);
     for series in &chart.series {
@@ -88,11 +98,16 @@ pub fn draw(app: &App, chart: &Chart, mark: Option<Mark>, frame: &mut Frame, are
             SeriesKind::Comparison => (theme.limit(), Marker::Braille, GraphType::Line),
             SeriesKind::Points => (theme.firing(), Marker::Dot, GraphType::Scatter),
         };
-        let points = series.points.iter().map(|&point| at(point)).collect();
+        let points: Vec<(f64, f64)> = series.points.iter().map(|&point| at(point)).collect();
+        let over = limit.filter(|_| kind == GraphType::Line).map(|limit| part_over(&points, limit, dot));
         sets.push(Set { points, style, marker, kind, name: if compared { series.name } else { "" } });
+        if let Some(points) = over {
+            let (style, kind) = (theme.verdict(Verdict::Fail), GraphType::Scatter);
+            sets.push(Set { points, style, marker, kind, name: "" });
+        }
     }
     if let Some(Mark::Point(x, y)) = mark {
-        let (style, marker) = (theme.firing(), Marker::Block);
+        let (style, marker) = (theme.base(), Marker::Block);
         let (points, kind) = (vec![at((x, y))], GraphType::Scatter);
         sets.push(Set { points, style, marker, kind, name: "chosen" });
     }
@@ -117,6 +132,21 @@ pub fn draw(app: &App, chart: &Chart, mark: Option<Mark>, frame: &mut Frame, are
         .hidden_legend_constraints((Constraint::Percentage(50), Constraint::Percentage(60)));
     frame.render_widget(drawn, area);
 }
+
+/// The part of a line that lies over a limit, as points no farther apart than a `dot` is wide and high.
+fn part_over(line: &[(f64, f64)], limit: f64, dot: [f64; 2]) -> Vec<(f64, f64)> {
+    let points = |ends: &[(f64, f64)]| {
+        let [(x1, y1), (x2, y2)] = [ends[0], ends[1]];
+        let count = ((x2 - x1) / dot[0]).abs().max(((y2 - y1) / dot[1]).abs());
+        let count = if count.is_finite() { count.ceil().min(MOST_DOTS) } else { 0.0 };
+        let at = move |n: usize| n as f64 / count.max(1.0);
+        (0..=count as usize).map(move |n| (x1 + at(n) * (x2 - x1), y1 + at(n) * (y2 - y1)))
+    };
+    line.windows(2).flat_map(points).filter(|(_, y)| *y > limit).collect()
+}
+
+/// Most points between two ends of a line.
+const MOST_DOTS: f64 = 1e4;
 
 /// Title with the key to the lines: as much of both as the width holds.
 fn title(chart: &Chart, width: u16) -> String {

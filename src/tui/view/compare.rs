@@ -8,8 +8,8 @@ use ratatui::widgets::{Row as Cells, Table, TableState};
 use crate::report::no_result;
 use crate::report::spark::sparkline;
 use crate::study::as_planned::check::CheckedShot;
+use crate::study::judgement::Evidence;
 use crate::study::judgement::Judgement;
-use crate::study::judgement::Sampled;
 use crate::study::samples::risk::Risk;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::compare::OptionState;
@@ -19,7 +19,7 @@ use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict};
 
 /// A column: head, width, and the least width of a screen that shows the column.
-struct Column {
+struct CompareColumn {
     head: &'static str,
     sort: SortBy,
     width: u16,
@@ -33,46 +33,52 @@ const LEAST_NAME: u16 = 8;
 /// Least width of a screen whose table may have sparklines: below, bands and names are more useful.
 const SPARKS: u16 = 150;
 
-const COLUMNS: &[Column] = &[
-    Column { head: "of limit", sort: SortBy::Verdict, width: 8, from: 0, cell: of_limit },
-    Column { head: "fails, %", sort: SortBy::Risk, width: 15, from: 0, cell: |_, _, judged| fails(judged) },
-    Column { head: "samples", sort: SortBy::Risk, width: 7, from: 0, cell: samples },
-    Column {
+const COLUMNS: &[CompareColumn] = &[
+    CompareColumn { head: "of limit", sort: SortBy::Verdict, width: 8, from: 0, cell: of_limit },
+    CompareColumn {
+        head: "fails, %",
+        sort: SortBy::Risk,
+        width: 15,
+        from: 0,
+        cell: |_, _, judged| fails(judged),
+    },
+    CompareColumn { head: "samples", sort: SortBy::Risk, width: 7, from: 0, cell: samples },
+    CompareColumn {
         head: "height, m",
         sort: SortBy::Height,
         width: 10,
         from: 0,
         cell: |app, option, _| against(app, option, |checked| checked.height.value, Unit::Metre),
     },
-    Column {
+    CompareColumn {
         head: "5 to 95 %",
         sort: SortBy::Height,
         width: 14,
         from: 110,
         cell: |_, _, judged| band(judged, Quantity::Height, Unit::Metre),
     },
-    Column {
+    CompareColumn {
         head: "force, kN",
         sort: SortBy::Force,
         width: 10,
         from: 0,
         cell: |app, option, _| against(app, option, |checked| checked.force.value, Unit::Kilonewton),
     },
-    Column {
+    CompareColumn {
         head: "5 to 95 %",
         sort: SortBy::Force,
         width: 18,
         from: 110,
         cell: |_, _, judged| band(judged, Quantity::Force, Unit::Kilonewton),
     },
-    Column {
+    CompareColumn {
         head: "factor",
         sort: SortBy::Force,
         width: 6,
         from: 125,
         cell: |_, _, judged| units::factor(judged.as_planned.safety_factor),
     },
-    Column {
+    CompareColumn {
         head: "drift, m",
         sort: SortBy::Drift,
         width: 9,
@@ -95,7 +101,7 @@ fn fails(judged: &Judgement) -> String {
 fn samples(app: &App, option: usize, judged: &Judgement) -> String {
     let more = if app.options[option].is_sampling() { "…" } else { "" };
     match &judged.risk {
-        Sampled::NotAsked => String::new(),
+        Evidence::NotAsked => String::new(),
         risk => format!("{}{more}", risk.drawn().map_or(0, |risk| risk.samples.len())),
     }
 }
@@ -136,12 +142,12 @@ fn of_limit(app: &App, _: usize, judged: &Judgement) -> String {
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     // A column whose numbers would be cut is left out.
     let mut room = area.width.saturating_sub(LEAST_NAME + VERDICT + 2);
-    let fits = |column: &&Column| {
+    let fits = |column: &&CompareColumn| {
         let fits = area.width >= column.from && room > column.width;
         room -= if fits { column.width + 1 } else { 0 };
         fits
     };
-    let columns: Vec<&Column> = COLUMNS.iter().filter(fits).collect();
+    let columns: Vec<&CompareColumn> = COLUMNS.iter().filter(fits).collect();
     let longest = app.case.plan.delays.iter().map(|delay| delay.name.chars().count()).max().unwrap_or(0);
     let fixed: u16 = columns.iter().map(|column| column.width + 1).sum::<u16>() + VERDICT + 2;
     let sparks = if area.width >= SPARKS { 34 } else { 0 };
@@ -182,7 +188,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     }
 }
 
-fn row<'r>(app: &'r App, option: usize, columns: &[&Column], (name, spark): (u16, u16)) -> Cells<'r> {
+fn row<'r>(app: &'r App, option: usize, columns: &[&CompareColumn], (name, spark): (u16, u16)) -> Cells<'r> {
     let style = if option == app.selected { app.theme.selected() } else { app.theme.base() };
     let mark = if app.listing.baseline == Some(option) { "=" } else { "" };
     let label = format!("{mark}{}", app.case.plan.delays[option].name);
@@ -191,7 +197,8 @@ fn row<'r>(app: &'r App, option: usize, columns: &[&Column], (name, spark): (u16
     match &app.options[option] {
         OptionState::Done { judgement, .. } => {
             cells.push(verdict(app, judgement.verdict()));
-            let cell = |column: &&Column| Line::from((column.cell)(app, option, judgement)).right_aligned();
+            let cell =
+                |column: &&CompareColumn| Line::from((column.cell)(app, option, judgement)).right_aligned();
             cells.extend(columns.iter().map(cell));
             let width = usize::from(spark);
             let (history, limits) = (&judgement.as_planned.history, &app.case.limits);

@@ -22,7 +22,7 @@ use crate::outcome::EndReason;
 use crate::report::explain::{bands, broken, fires, inputs, launch_limit, peaks};
 use crate::report::model::Chart;
 use crate::report::reasons;
-use crate::report::would_pass::{sentence, without_pass};
+use crate::report::remedies::{sentence, without_pass};
 use crate::report::{charts, no_result, warnings};
 use crate::study::judgement;
 use crate::study::judgement::Judgement;
@@ -104,28 +104,26 @@ fn is_listed(app: &App) -> bool {
 }
 
 /// The changes with which the selected option would pass, the selected one marked; or how far their study is.
-fn change_lines<'a>(app: &App) -> Vec<Line<'a>> {
+fn remedy_lines<'a>(app: &App) -> Vec<Line<'a>> {
     let (case, theme) = (&app.case, app.theme);
-    let Some((would_pass, selected)) = app.open_changes() else {
-        let text = match app.studies.state(StudyKind::WouldPass) {
+    let Some((remedies, selected)) = app.open_remedies() else {
+        let text = match app.studies.state(StudyKind::Remedies) {
             StudyState::Failed(failed) => no_result::message(failed),
             state => format!("looking for changes with which it would pass… {state}"),
         };
         return vec![Line::styled(text, theme.firing())];
     };
     let mut lines = Vec::new();
-    if would_pass.passing().next().is_some() {
+    if remedies.passing().next().is_some() {
         let enter = app.keymap.hint(Action::Open);
         let head = format!("it would pass with any one of these changes; {enter} makes the selected one:");
         lines.push(Line::styled(head, theme.title()));
     }
-    lines.extend(would_pass.passing().enumerate().map(|(n, passing)| {
+    lines.extend(remedies.passing().enumerate().map(|(n, passing)| {
         let (mark, style) = if n == selected { ("> ", theme.selected()) } else { ("· ", theme.base()) };
         Line::styled(format!("{mark}{}", sentence(case, passing)), style)
     }));
-    lines.extend(
-        without_pass(&app.case, would_pass).into_iter().map(|line| Line::styled(line, theme.quiet())),
-    );
+    lines.extend(without_pass(&app.case, remedies).into_iter().map(|line| Line::styled(line, theme.quiet())));
     lines
 }
 
@@ -146,7 +144,7 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
         lines.push(Line::styled(broken(case.scene(), checked), theme.limit()));
     }
     if is_listed(app) {
-        lines.extend(change_lines(app));
+        lines.extend(remedy_lines(app));
     }
     let warnings = warnings::of_option(case, app.selected, judged);
     lines.extend(warnings.into_iter().map(|warning| Line::styled(format!("! {warning}"), theme.firing())));

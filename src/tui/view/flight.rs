@@ -22,6 +22,7 @@ use super::chart::{self, Mark};
 use super::parts::color;
 use crate::jobs::StudyKind;
 use crate::outcome::Outcome;
+use crate::plan;
 use crate::report::no_result;
 use crate::study::flight::Flight;
 use crate::tui::app::{App, Areas, ClickTarget};
@@ -97,6 +98,7 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
     // A cell of a terminal is about twice as high as wide.
     let width =
         ((right - left) / (columns - 1.0)).max((top - bottom) / (2.0 * (rows - 1.0).max(1.0))).max(1e-9);
+    let width = even_width(&app.case.plan.layout, width);
     let position = |tire: usize| (scene.position[tire].x, scene.position[tire].y);
     let canvas = Canvas::default()
         .background_color(theme.base().bg.unwrap_or(Color::Reset))
@@ -188,8 +190,15 @@ fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area
     let tires: Vec<(f64, f64)> = (0..scene.mass.len()).map(position).collect();
     let seen = if axis == 0 { "across rows" } else { "along rows" };
     let count = forces.iter().filter(|force| **force > 0.0).count();
+    // A cell of a terminal is about twice as high as wide.
+    let cells = [f64::from(area.width.max(1)), 2.0 * f64::from(area.height.saturating_sub(1).max(1))];
+    let higher = (right - left + 2.0 * margin) / cells[0] / (1.03 * top / cells[1]);
+    let scale = units::rounded(higher, if higher < 10.0 { 1 } else { 0 });
     let canvas = Canvas::default()
-        .block(titled(app, format!("{seen}: {count} of {} cables taut", scene.cables.len())))
+        .block(titled(
+            app,
+            format!("{seen}, heights x {scale}: {count} of {} cables taut", scene.cables.len()),
+        ))
         .background_color(theme.base().bg.unwrap_or(Color::Reset))
         .marker(Marker::Braille)
         .x_bounds([left - margin, right + margin])
@@ -215,6 +224,14 @@ fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area
             context.print(from, limit, Span::styled(label, theme.limit()));
         });
     frame.render_widget(canvas, area);
+}
+
+/// The width of a cell [m], at least `least`, with which the columns of a grid stand evenly: so many whole cells apart.
+fn even_width(layout: &plan::Layout, least: f64) -> f64 {
+    let plan::Layout::Grid(mesh) = layout else { return least };
+    let spacing = mesh.column_spacing_m;
+    let cells = (spacing / least).floor();
+    if cells >= 1.0 { spacing / cells } else { least }
 }
 
 /// The highest tire and the hardest pulled cable at the time shown, and those of the whole flight: a peak lies between two times

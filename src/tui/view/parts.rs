@@ -41,7 +41,10 @@ pub fn draw_progress(
     frame.render_widget(Paragraph::new(question).wrap(Wrap { trim: true }), text);
     let share = if total > 0 { done as f64 / total as f64 } else { 0.0 };
     let label = format!("{done} of {total} shots · {} cancels", app.keymap.hint(Action::Cancel));
-    let gauge = Gauge::default().ratio(share.clamp(0.0, 1.0)).label(label).gauge_style(app.theme.curve());
+    // The text on the filled part has the colour of the paper; a terminal's own background has no colour that is known.
+    let paper = app.theme.base().bg.filter(|color| *color != Color::Reset).unwrap_or(Color::Black);
+    let style = app.theme.curve().bg(paper);
+    let gauge = Gauge::default().ratio(share.clamp(0.0, 1.0)).label(label).gauge_style(style);
     frame.render_widget(gauge, bar);
 }
 

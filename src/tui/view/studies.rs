@@ -48,7 +48,7 @@ fn about(kind: StudyKind) -> (&'static str, &'static str) {
             ("Effects", "Which effects does this scene require? Each switched on or taken away, by itself.")
         }
         // Flight and accuracy have screens of their own; what would make an option pass stands beside the option.
-        StudyKind::Flight | StudyKind::Accuracy | StudyKind::WouldPass => ("", ""),
+        StudyKind::Flight | StudyKind::Accuracy | StudyKind::Remedies => ("", ""),
     }
 }
 
@@ -59,8 +59,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         let style = if kind == app.studies.shown { app.theme.selected() } else { app.theme.base() };
         let name = Span::styled(format!(" {} ", about(kind).0), style);
         let state = match app.studies.of_plan_before(kind) {
-            Some(_) => "before ".to_owned(),
-            None => format!("{} ", app.studies.state(kind)),
+            Some(_) => " before ".to_owned(),
+            None => format!(" {} ", app.studies.state(kind)),
         };
         Line::from(vec![name, Span::styled(state, app.theme.quiet())])
     };

@@ -1,6 +1,5 @@
 //! Why the possible shots fail too often or leave a verdict open.
 
-use super::risk::Risk;
 use crate::verdict::Verdict;
 
 /// Why the samples of a shot do not pass.
@@ -21,21 +20,6 @@ pub enum RiskReason {
 }
 
 impl RiskReason {
-    /// Why samples do not pass; `None` where they do.
-    pub fn of(risk: &Risk) -> Option<Self> {
-        match risk.verdict() {
-            Verdict::Pass => None,
-            Verdict::Fail => Some(RiskReason::TooManyFail),
-            Verdict::Undecided => Some(match risk {
-                _ if risk.planned_exceeds_samples() => RiskReason::PlannedExceedsSamples,
-                _ if risk.is_contradicted() => RiskReason::Contradicted,
-                _ if risk.bounds.verdict() == Verdict::Pass => RiskReason::FewAudited,
-                _ if risk.bounds.undecided > 0 => RiskReason::UndecidedSamples,
-                _ => RiskReason::NotSure,
-            }),
-        }
-    }
-
     /// The verdict that this reason leads to: fail or undecided.
     pub fn verdict(self) -> Verdict {
         if self == RiskReason::TooManyFail { Verdict::Fail } else { Verdict::Undecided }

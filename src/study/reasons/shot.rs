@@ -1,9 +1,9 @@
 //! Why one run fails or leaves a verdict open: limits, broken cables, an early end.
 
-use super::together::Together;
 use crate::outcome::{EndReason, Outcome};
 use crate::scene::Shot;
 use crate::study::Case;
+use crate::study::together::Together;
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
 /// Greatest energy residual of a run that may pass, over the energy put in. A greater one says that the step is too long for

@@ -18,10 +18,10 @@ use self::candidates::candidates;
 use self::hard_samples::{HardDrawn, HardSamples};
 use super::as_planned::check::{CheckedShot, check_as_planned};
 use super::as_planned::quick_check::quick_check;
-use super::as_planned::shot_reason::exceeds_together;
-use super::judge::OptionResults;
+use super::judge_options::OptionResults;
+use super::judgement::Evidence;
 use super::judgement::Judgement;
-use super::judgement::Sampled;
+use super::reasons::shot::exceeds_together;
 use super::samples::risk::Risk;
 use super::samples::rounds::{ShotToSample, find_risks};
 use super::samples::sampling::Sampling;
@@ -33,7 +33,7 @@ use crate::verdict::Verdict;
 
 /// The changes tried for one delay option, by kind; without the kinds that the plan has no candidate of.
 #[derive(Clone, Debug)]
-pub struct WouldPass {
+pub struct Remedies {
     /// Index of the option.
     pub option: usize,
     /// Whether a pass needs no more samples than were allowed. Otherwise nothing was tried.
@@ -42,9 +42,9 @@ pub struct WouldPass {
     pub kinds: Vec<TriedKind>,
 }
 
-impl WouldPass {
+impl Remedies {
     /// The changes with which the option passes, at most one a kind.
-    pub fn passing(&self) -> impl Iterator<Item = &Passing> {
+    pub fn passing(&self) -> impl Iterator<Item = &Remedy> {
         self.kinds.iter().filter_map(|tried| tried.passing.as_ref())
     }
 }
@@ -61,12 +61,12 @@ pub struct TriedKind {
     /// Whether the time was up before a change passed or all were tried.
     pub out_of_time: bool,
     /// The smallest change that passes.
-    pub passing: Option<Passing>,
+    pub passing: Option<Remedy>,
 }
 
 /// A change with which an option passes.
 #[derive(Clone, Debug)]
-pub struct Passing {
+pub struct Remedy {
     /// The change.
     pub change: Change,
     /// The judgement of the option in the changed plan.
@@ -116,25 +116,25 @@ struct Task<'t> {
 }
 
 /// Tries changes for one option, until the time is up. Without a `sampling` only the shot as planned counts.
-pub fn find_changes(
+pub fn find_remedies(
     case: &Case,
     option: usize,
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<WouldPass> {
-    let Found { mut value, partial } = find_all_changes(case, &[option], sampling, compute, progress)?;
+) -> Finding<Remedies> {
+    let Found { mut value, partial } = find_all_remedies(case, &[option], sampling, compute, progress)?;
     Ok(Found { value: value.remove(0), partial })
 }
 
 /// Tries changes for the options with these indices, until the time is up. Without a `sampling` only the shots as planned count.
-pub fn find_all_changes(
+pub fn find_all_remedies(
     case: &Case,
     options: &[usize],
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<Vec<WouldPass>> {
+) -> Finding<Vec<Remedies>> {
     let task = Task { case, sampling, compute, progress };
     let accepted = case.plan.limits.accepted_risk_percent * 1e-2;
     let mut hard = HardSamples::new(accepted, sampling.map_or(0, |sampling| sampling.most));
@@ -144,8 +144,8 @@ pub fn find_all_changes(
         judge_next(&task, &mut chains, &mut hard)?;
     }
     let partial = chains.iter().any(|chain| chain.found.out_of_time);
-    let mut found: Vec<WouldPass> =
-        options.iter().map(|&option| WouldPass { option, enough_samples, kinds: Vec::new() }).collect();
+    let mut found: Vec<Remedies> =
+        options.iter().map(|&option| Remedies { option, enough_samples, kinds: Vec::new() }).collect();
     for Chain { option, found: tried, .. } in chains {
         if let Some(of_option) = found.iter_mut().find(|of_option| of_option.option == option) {
             of_option.kinds.push(tried);
@@ -220,7 +220,7 @@ fn judge_next(task: &Task<'_>, chains: &mut [Chain], hard: &mut HardSamples) -> 
     let Some(sampling) = task.sampling else {
         for (turn, checked) in passing {
             let judgement = Judgement::of_planned_alone(checked);
-            chains[turn.chain].found.passing = Some(Passing { change: turn.change, judgement });
+            chains[turn.chain].found.passing = Some(Remedy { change: turn.change, judgement });
         }
         return Ok(());
     };
@@ -234,14 +234,14 @@ fn judge_next(task: &Task<'_>, chains: &mut [Chain], hard: &mut HardSamples) -> 
     for ((turn, checked), risk) in passing.into_iter().zip(risks) {
         let chain = &mut chains[turn.chain];
         match risk {
-            Sampled::NotAsked => chain.note(Verdict::Undecided),
-            Sampled::NotDrawn => chain.found.out_of_time = true,
-            Sampled::Drawn(risk) => {
+            Evidence::NotAsked => chain.note(Verdict::Undecided),
+            Evidence::NotDrawn => chain.found.out_of_time = true,
+            Evidence::Drawn(risk) => {
                 let judgement =
-                    Judgement { risk: Sampled::Drawn(risk), ..Judgement::of_planned_alone(checked) };
+                    Judgement { risk: Evidence::Drawn(risk), ..Judgement::of_planned_alone(checked) };
                 chain.note(judgement.verdict());
                 if judgement.verdict() == Verdict::Pass {
-                    chain.found.passing = Some(Passing { change: turn.change, judgement });
+                    chain.found.passing = Some(Remedy { change: turn.change, judgement });
                 }
             }
         }
@@ -286,12 +286,12 @@ fn sample(
     targets: &[(usize, ShotToSample<'_>)],
     hard: &mut HardSamples,
     progress: &Progress,
-) -> Result<Vec<Sampled<Risk>>, NoResult> {
+) -> Result<Vec<Evidence<Risk>>, NoResult> {
     let first = hard.draw(targets, progress)?;
-    let mut risks: Vec<Sampled<Risk>> = Vec::new();
+    let mut risks: Vec<Evidence<Risk>> = Vec::new();
     let (mut left, mut places) = (Vec::new(), Vec::new());
     for (n, ((_, target), first)) in targets.iter().zip(&first).enumerate() {
-        risks.push(if first.is_some() { Sampled::NotAsked } else { Sampled::NotDrawn });
+        risks.push(if first.is_some() { Evidence::NotAsked } else { Evidence::NotDrawn });
         if let Some(HardDrawn { samples, can_pass: true }) = first {
             left.push(target.precomputed(samples));
             places.push(n);
@@ -301,7 +301,7 @@ fn sample(
         hard.note(targets[n].0, &risk);
         let sampling = target.sampling;
         let is_complete = sampling.is_complete(&risk) || !risk.bounds.can_pass(sampling.most);
-        risks[n] = if is_complete { Sampled::Drawn(risk) } else { Sampled::NotDrawn };
+        risks[n] = if is_complete { Evidence::Drawn(risk) } else { Evidence::NotDrawn };
     }
     Ok(risks)
 }

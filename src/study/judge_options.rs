@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use super::as_planned::check::{CheckStep, CheckedShot, check_as_planned};
 use super::as_planned::margin::{LaunchMargin, launch_margin};
+use super::judgement::Evidence;
 use super::judgement::Judgement;
-use super::judgement::Sampled;
 use super::samples::risk::Risk;
 use super::samples::rounds::{ShotToSample, find_risks, find_risks_watched};
 use super::samples::sample::{OptionSample, Sample};
@@ -154,7 +154,7 @@ fn add_risks(
     let Found { value: risks, partial } = find_risks_watched(&targets, progress, &mut sampled)?;
     for ((at, judgement), risk) in judged.iter_mut().zip(risks) {
         watch(*at, JudgeEvent::SampledFully(&risk));
-        judgement.risk = Sampled::Drawn(risk);
+        judgement.risk = Evidence::Drawn(risk);
     }
     Ok(Found { value: (), partial })
 }
@@ -213,7 +213,7 @@ pub fn judge_from_samples(
             let drawn: Vec<Sample> = of_option.map(|drawn| drawn.sample).collect();
             let as_planned = ShotSummary::of(&judged.as_planned);
             let target = target(case, option, &as_planned, sampling, *compute).precomputed(&drawn);
-            judged.risk = Sampled::Drawn(find_risks(&[target], progress)?.value.remove(0));
+            judged.risk = Evidence::Drawn(find_risks(&[target], progress)?.value.remove(0));
         }
     }
     Ok(results)

@@ -8,17 +8,17 @@ use crate::study::work::batch::run_jobs;
 use crate::study::{Case, ComputeSettings, NoResult, Progress};
 
 /// Checks every shot, refined until its verdict is sure; `None` for the shots that the time did not suffice for.
-pub fn full_checks(
+pub fn check_summaries(
     case: &Case,
     shots: &[Shot],
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Vec<Option<ShotSummary>>, NoResult> {
-    run_checks(shots, progress, |shot| full_check(case, shot, compute, progress))
+    run_checks(shots, progress, |shot| check_summary(case, shot, compute, progress))
 }
 
 /// Checks one shot, refined until its verdict is sure.
-pub fn full_check(
+pub fn check_summary(
     case: &Case,
     shot: &Shot,
     compute: &ComputeSettings,

@@ -7,8 +7,8 @@ use shelter::plan::edit::change::{Change, ChangeKind};
 use shelter::plan::{Layout, Plan, PlanSource, Timing};
 use shelter::ropes::catalogue;
 use shelter::study::judgement::Judgement;
+use shelter::study::remedies::{Remedies, find_all_remedies, find_remedies};
 use shelter::study::samples::sampling::Sampling;
-use shelter::study::would_pass::{WouldPass, find_all_changes, find_changes};
 use shelter::study::{Case, ComputeSettings, NoResult, Progress};
 use shelter::tui::app::{App, Request};
 use shelter::tui::compare::OptionState;
@@ -72,9 +72,9 @@ fn parse(text: &str) -> Case {
     Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"))
 }
 
-fn changes(case: &Case, option: usize, sampling: Option<&Sampling>) -> WouldPass {
+fn changes(case: &Case, option: usize, sampling: Option<&Sampling>) -> Remedies {
     let compute = ComputeSettings::of(&case.plan);
-    let found = find_changes(case, option, sampling, &compute, &Progress::default()).expect("it computes");
+    let found = find_remedies(case, option, sampling, &compute, &Progress::default()).expect("it computes");
     assert!(!found.partial);
     found.value
 }
@@ -286,13 +286,13 @@ fn the_time_or_the_user_ends_it() {
     let case = parse(SMALL);
     let compute = ComputeSettings::of(&case.plan);
     let find = |progress: &Progress| {
-        find_all_changes(&case, &[0, 1], Some(&Sampling::OF_VERDICT), &compute, progress)
+        find_all_remedies(&case, &[0, 1], Some(&Sampling::OF_VERDICT), &compute, progress)
     };
     let progress = Progress::default();
     progress.expire();
     let found = find(&progress).expect("what is known by then");
     assert!(found.partial);
-    let open = found.value.iter().flat_map(|would_pass| &would_pass.kinds);
+    let open = found.value.iter().flat_map(|remedies| &remedies.kinds);
     assert!(
         open.clone().count() > 0 && open.clone().all(|tried| tried.out_of_time && tried.passing.is_none())
     );
@@ -309,16 +309,16 @@ fn screen(app: &App) -> String {
 fn w_lists_changes_and_enter_makes_one_that_undo_takes_back() {
     let mut app = finished();
     let before = app.editor.text.clone();
-    assert_eq!(key(&mut app, KeyCode::Char('w')), Request::Study(StudyKind::WouldPass));
+    assert_eq!(key(&mut app, KeyCode::Char('w')), Request::Study(StudyKind::Remedies));
     assert!(screen(&app).contains("looking for changes with which it would pass"));
-    assert_eq!(key(&mut app, KeyCode::Esc), Request::Cancel(StudyKind::WouldPass));
+    assert_eq!(key(&mut app, KeyCode::Esc), Request::Cancel(StudyKind::Remedies));
     key(&mut app, KeyCode::Esc);
     assert!(!screen(&app).contains("looking for changes"));
-    assert_eq!(key(&mut app, KeyCode::Char('w')), Request::Study(StudyKind::WouldPass));
+    assert_eq!(key(&mut app, KeyCode::Char('w')), Request::Study(StudyKind::Remedies));
     let found = changes(&app.case, 0, None);
     let all: Vec<Change> = found.passing().map(|passing| passing.change).collect();
     assert!(all.len() >= 3, "its shots as planned pass already: {all:?}");
-    study_ends(&mut app, StudyKind::WouldPass, Ok(StudyResult::WouldPass(found)));
+    study_ends(&mut app, StudyKind::Remedies, Ok(StudyResult::Remedies(found)));
     assert!(screen(&app).contains("Enter makes the selected one") && screen(&app).contains("> rope "));
     assert_eq!(key(&mut app, KeyCode::Char('w')), Request::None, "closed");
     assert!(!screen(&app).contains("> rope "));
@@ -330,7 +330,7 @@ fn w_lists_changes_and_enter_makes_one_that_undo_takes_back() {
     assert_eq!(Ok(&app.editor.text), all[1].apply(&before).as_ref());
     assert_eq!(Some(&app.case.plan), Plan::parse("", &app.editor.text).ok().as_ref());
     assert!(screen(&app).contains("; u takes it back"), "{}", screen(&app));
-    assert!(app.editor.unsaved() && app.open_changes().is_none());
+    assert!(app.editor.unsaved() && app.open_remedies().is_none());
     assert_eq!(key(&mut app, KeyCode::Char('u')), Request::CheckNewPlan);
     assert_eq!(app.editor.text, before);
 }
@@ -348,7 +348,7 @@ fn w_on_an_option_that_passes_or_is_not_judged_says_so() {
     key(&mut app, KeyCode::Char('w'));
     key(&mut app, KeyCode::Down);
     assert_eq!(app.selected, 1, "without a list the arrows move among the options");
-    study_ends(&mut app, StudyKind::WouldPass, Err(NoResult::OutOfTime));
+    study_ends(&mut app, StudyKind::Remedies, Err(NoResult::OutOfTime));
     app.selected = 0;
     assert!(screen(&app).contains("the time was up"));
 }

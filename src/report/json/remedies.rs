@@ -5,9 +5,9 @@ use serde::Serialize;
 use super::Failures;
 use crate::plan::edit::change::Change;
 use crate::plan::keys::{Key, blast_row, cable, delay, plan, shelter};
-use crate::report::would_pass::FromTo;
+use crate::report::remedies::FromTo;
 use crate::study::Case;
-use crate::study::would_pass::{Passing, TriedKind, WouldPass};
+use crate::study::remedies::{Remedies, Remedy, TriedKind};
 
 /// A change with which the option passes.
 #[derive(Serialize)]
@@ -43,12 +43,12 @@ enum Value {
 
 impl PassingChange {
     /// The changes with which an option passes.
-    pub fn all(case: &Case, would_pass: &WouldPass) -> Vec<Self> {
-        would_pass.passing().map(|passing| Self::new(case, passing)).collect()
+    pub fn all(case: &Case, remedies: &Remedies) -> Vec<Self> {
+        remedies.passing().map(|passing| Self::new(case, passing)).collect()
     }
 
-    fn new(case: &Case, passing: &Passing) -> Self {
-        let Passing { change, judgement } = passing;
+    fn new(case: &Case, passing: &Remedy) -> Self {
+        let Remedy { change, judgement } = passing;
         let FromTo { from, to } = FromTo::new(case, change);
         let (section, key, value): (&Key, &Key, Value) = match *change {
             Change::Rope(rope) => (&plan::CABLE, &cable::ROPE, Value::Name(&rope.name)),
@@ -76,8 +76,8 @@ impl PassingChange {
 
 impl RefusedKind {
     /// The kinds of which no change tried passes.
-    pub fn all(would_pass: &WouldPass) -> Vec<Self> {
-        let refused = would_pass.kinds.iter().filter(|tried| tried.passing.is_none());
+    pub fn all(remedies: &Remedies) -> Vec<Self> {
+        let refused = remedies.kinds.iter().filter(|tried| tried.passing.is_none());
         let object = |tried: &TriedKind| Self {
             kind: tried.kind.name(),
             tried: tried.tried.len(),

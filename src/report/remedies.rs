@@ -4,28 +4,28 @@ use super::model::Block;
 use crate::plan::edit::change::Change;
 use crate::plan::{Launch, Layout, Timing};
 use crate::study::Case;
-use crate::study::as_planned::shot_reason::exceeds_together;
 use crate::study::judgement::Judgement;
-use crate::study::would_pass::{Passing, TriedKind, WouldPass};
+use crate::study::reasons::shot::exceeds_together;
+use crate::study::remedies::{Remedies, Remedy, TriedKind};
 use crate::units::{self, Unit};
 use crate::verdict::Quantity;
 
 /// A block for each option: the changes with which it passes, then those that do not suffice.
-pub fn blocks(case: &Case, all: &[WouldPass]) -> Vec<Block> {
-    all.iter().map(|would_pass| Block::Text(lines(case, would_pass))).collect()
+pub fn blocks(case: &Case, all: &[Remedies]) -> Vec<Block> {
+    all.iter().map(|remedies| Block::Text(lines(case, remedies))).collect()
 }
 
-fn lines(case: &Case, would_pass: &WouldPass) -> Vec<String> {
-    let name = &case.plan.delays[would_pass.option].name;
+fn lines(case: &Case, remedies: &Remedies) -> Vec<String> {
+    let name = &case.plan.delays[remedies.option].name;
     let passing: Vec<String> =
-        would_pass.passing().map(|passing| format!("    {}", sentence(case, passing))).collect();
+        remedies.passing().map(|passing| format!("    {}", sentence(case, passing))).collect();
     let head = match passing.len() {
-        0 if !would_pass.enough_samples => format!("{name}: no change was tried"),
+        0 if !remedies.enough_samples => format!("{name}: no change was tried"),
         0 => format!("{name} would pass with none of the changes tried"),
         1 => format!("{name} would pass with this change:"),
         _ => format!("{name} would pass with any one of these changes:"),
     };
-    let rest = without_pass(case, would_pass).into_iter().map(|line| format!("    {line}"));
+    let rest = without_pass(case, remedies).into_iter().map(|line| format!("    {line}"));
     [head].into_iter().chain(passing).chain(rest).collect()
 }
 
@@ -81,7 +81,7 @@ fn launches(case: &Case, factor: f64) -> (String, String) {
 }
 
 /// A change with which an option passes, and its judgement: `rope … instead of … (at most 0.88 % fail, height …)`.
-pub fn sentence(case: &Case, passing: &Passing) -> String {
+pub fn sentence(case: &Case, passing: &Remedy) -> String {
     let what = words(case, &passing.change);
     format!("{what} ({})", result(&passing.judgement))
 }
@@ -131,9 +131,9 @@ fn result(judgement: &Judgement) -> String {
 }
 
 /// The kinds of which no change suffices, in one sentence, and whether all were tried; none where there is nothing to tell.
-pub fn without_pass(case: &Case, would_pass: &WouldPass) -> Vec<String> {
-    let too_much_together = exceeds_together(case, &case.shots[would_pass.option]);
-    let failed = would_pass.kinds.iter().filter(|tried| tried.passing.is_none() && !tried.out_of_time);
+pub fn without_pass(case: &Case, remedies: &Remedies) -> Vec<String> {
+    let too_much_together = exceeds_together(case, &case.shots[remedies.option]);
+    let failed = remedies.kinds.iter().filter(|tried| tried.passing.is_none() && !tried.out_of_time);
     let sentences: Vec<String> = failed.filter_map(refusal).collect();
     let mut lines = Vec::new();
     if too_much_together {
@@ -142,13 +142,13 @@ pub fn without_pass(case: &Case, would_pass: &WouldPass) -> Vec<String> {
                 .to_owned(),
         );
     }
-    if !would_pass.enough_samples {
+    if !remedies.enough_samples {
         lines.push("so few samples prove no pass: give more".to_owned());
     }
     if !sentences.is_empty() {
         lines.push(sentences.join("; "));
     }
-    if would_pass.kinds.iter().any(|tried| tried.out_of_time) {
+    if remedies.kinds.iter().any(|tried| tried.out_of_time) {
         lines.push("not all changes were tried: the time was up".to_owned());
     }
     lines

@@ -1,8 +1,10 @@
 //! Why the verdict on an option is no pass: why it fails, or stays open. `report::reasons` has the words.
 
-use super::as_planned::shot_reason::ShotReason;
-use super::judgement::{Judgement, Sampled};
-use super::samples::risk_reason::RiskReason;
+pub mod risk;
+pub mod shot;
+
+use self::risk::RiskReason;
+use self::shot::ShotReason;
 use crate::verdict::Verdict;
 
 /// Why an option does not pass.
@@ -24,19 +26,5 @@ impl Reason {
             Reason::NoSamples => Verdict::Undecided,
             Reason::Samples(reason) => reason.verdict(),
         }
-    }
-}
-
-impl Judgement {
-    /// Why the verdict is no pass; empty for a pass.
-    pub fn reasons(&self) -> Vec<Reason> {
-        let as_planned = self.as_planned.reasons.iter().copied().map(Reason::AsPlanned);
-        let of_samples = match &self.risk {
-            Sampled::NotAsked => None,
-            Sampled::NotDrawn => Some(Reason::NoSamples),
-            Sampled::Drawn(risk) if risk.samples.is_empty() => Some(Reason::NoSamples),
-            Sampled::Drawn(risk) => RiskReason::of(risk).map(Reason::Samples),
-        };
-        as_planned.chain(of_samples).collect()
     }
 }
