@@ -213,7 +213,7 @@ mod tests {
 
     #[test]
     fn a_plan_without_the_section_gets_it() {
-        let text = &PLAN[..PLAN.find("[uncertainty]").expect("the section")];
+        let text = &PLAN[..PLAN.find("\n[uncertainty]").expect("the section") + 1];
         assert_eq!(StatedKeys::of(text), StatedKeys::default());
         let (text, plan) = written(text, &[fitted(Unknown::Launch, 0.9, 0.018)]);
         assert_eq!(plan.uncertainty.launch_common_percent, 2.0);

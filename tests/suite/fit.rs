@@ -88,8 +88,8 @@ fn prior_scatter_and_observation_weigh_as_they_should() {
     assert!((sd / factor * (stated + about).sqrt() - 1.0).abs() < 0.15, "{sd}");
 }
 
-/// The heights of a tied tire at V0 of 5, 6 and 7 m/s, known to the millimetre; a height to within 0.1 m gives V0 to within 0.2
-/// m/s.
+/// The heights of a tied tire at V0 of 5, 6 and 7 m/s, known to the millimetre; a height to within 0.1 m gives V0 to within
+/// 0.2 m/s.
 #[test]
 fn heights_of_a_tied_tire_give_the_launch_velocities_behind_them() {
     let case = case_of(include_str!("../../plans/amur-three-rows.toml"));
@@ -109,8 +109,8 @@ fn paper(old: &str, new: &str) -> Case {
     case_of(&plan.replacen(old, new, 1))
 }
 
-/// The central tire rises and falls with the slack: less up to 7 %, more from there on, and more up to 0.5 %. Every slack at
-/// which it crosses an observed height is an answer, and no other; the crossings come from a scan.
+/// The central tire rises and falls with the slack: less up to 7 %, more from there on, and more up to 0.5 %. Every slack at which
+/// it crosses an observed height is an answer, and no other; the crossings come from a scan.
 #[test]
 fn separate_answers_are_all_told() {
     let step = 0.05;

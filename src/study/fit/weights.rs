@@ -181,8 +181,8 @@ impl Weighing<'_> {
         DMatrix::from_diagonal(&DVector::from_fn(errors.len(), |n, _| variance(n)))
     }
 
-    /// The case of a sample, in which only holes and tires scatter still, and how far its parameters and other inputs lie from their
-    /// means [standard deviations of their spread].
+    /// The case of a sample, in which only holes and tires scatter still, and how far its parameters and other inputs lie from
+    /// their means [standard deviations of their spread].
     fn sample(&self, at: &[f64], spread: &[f64], seed: u64, number: usize) -> (Case, Vec<f64>) {
         let mut random = ChaCha8Rng::seed_from_u64(!seed);
         // In pairs to both sides, so that a bend of the predictions makes no slope.

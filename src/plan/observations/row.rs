@@ -1,0 +1,183 @@
+//! One line of observations: each value checked, each mistake with its remedy.
+
+use itertools::Itertools;
+
+use super::{
+    AT, Addresses, CABLE, COLUMNS, Columns, OPTION, Observation, QUANTITY, SD, TIRE, VALUE, Watched, mistake,
+    unit,
+};
+use crate::choice::ObservedQuantity;
+use crate::plan::diagnostic::Mistake;
+use crate::plan::import::number::value;
+use crate::plan::import::table::Line;
+use crate::plan::reader::nearest;
+
+/// A line being read.
+pub(super) struct Row<'r> {
+    pub(super) line: &'r Line,
+    pub(super) columns: &'r Columns,
+    pub(super) known: &'r Addresses,
+    /// Whether numbers have decimal commas.
+    pub(super) comma: bool,
+}
+
+impl Row<'_> {
+    /// The text in a column; `None` where it is empty.
+    fn text(&self, column: usize) -> Option<&str> {
+        let text = self.line.values.get(self.columns.at[column]?)?;
+        Some(text.as_str()).filter(|text| !text.is_empty())
+    }
+
+    /// The observation; notes every mistake of the line.
+    pub(super) fn read(&self, mistakes: &mut Vec<Mistake>) -> Option<Observation> {
+        let (line, width) = (self.line, self.columns.width);
+        if line.runs_on {
+            mistakes.push(mistake(line, "a value runs over several lines", "is a quotation mark missing?"));
+            return None;
+        }
+        let extra = line.values.iter().skip(width).any(|value| !value.is_empty());
+        if line.values.len() < width || extra {
+            let message = format!("the line has {} values, the header {width}", line.values.len());
+            let remedy = "leave a value that is not known empty between its separators; numbers with decimal commas need semicolons between them";
+            mistakes.push(mistake(line, message, remedy));
+            return None;
+        }
+        let mut keep = |found: Result<f64, (String, String)>| match found {
+            Ok(number) => number,
+            Err((message, remedy)) => {
+                mistakes.push(mistake(line, message, remedy));
+                f64::NAN
+            }
+        };
+        let (quantity, is_known) = match self.quantity() {
+            Ok(quantity) => (quantity, true),
+            Err(wrong) => {
+                keep(Err(wrong));
+                (ObservedQuantity::FlightHeight, false)
+            }
+        };
+        let option = keep(self.option().map(|option| option as f64));
+        let index = if is_known { keep(self.index(quantity).map(|index| index as f64)) } else { 0.0 };
+        let at = if is_known { keep(self.at(quantity)) } else { 0.0 };
+        let value = keep(self.number(VALUE, quantity, 0.0));
+        let sd = keep(self.number(SD, quantity, f64::MIN_POSITIVE));
+        let whole = is_known && [option, index, at, value, sd].iter().all(|number| number.is_finite());
+        let watched = Watched { quantity, index: index as usize, at };
+        whole.then_some(Observation { option: option as usize, watched, value, sd, line: line.number })
+    }
+
+    fn quantity(&self) -> Result<ObservedQuantity, (String, String)> {
+        let names = ObservedQuantity::NAMES;
+        let Some(name) = self.text(QUANTITY) else {
+            return Err((
+                "the line has no quantity".to_owned(),
+                format!("write one of {}", names.join(", ")),
+            ));
+        };
+        name.to_lowercase().parse().map_err(|_| {
+            let near = nearest(&name.to_lowercase(), names.iter().copied());
+            let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+            (
+                format!("no quantity is called `{name}`"),
+                format!("{near}write one of {}; values are in m, s and N", names.join(", ")),
+            )
+        })
+    }
+
+    fn option(&self) -> Result<usize, (String, String)> {
+        let options = &self.known.options;
+        let Some(name) = self.text(OPTION) else {
+            return match options.len() {
+                1 => Ok(0),
+                _ => Err((
+                    "the line does not say which delay option was fired".to_owned(),
+                    format!("the plan has: {}", options.join("; ")),
+                )),
+            };
+        };
+        options.iter().position(|option| option == name).ok_or_else(|| {
+            (format!("the plan has no delay option `{name}`"), format!("it has: {}", options.join("; ")))
+        })
+    }
+
+    fn index(&self, quantity: ObservedQuantity) -> Result<usize, (String, String)> {
+        let [wanted, other] = match quantity {
+            ObservedQuantity::Force => [CABLE, TIRE],
+            _ => [TIRE, CABLE],
+        };
+        if self.text(other).is_some() {
+            let message =
+                format!("`{quantity}` is a quantity of a {}, not of a {}", COLUMNS[wanted], COLUMNS[other]);
+            return Err((message, format!("leave the column `{}` empty", COLUMNS[other])));
+        }
+        let Some(text) = self.text(wanted) else {
+            let example = if wanted == TIRE { "3:1" } else { "3:1-4:1" };
+            let message = format!("`{quantity}` needs a {}", COLUMNS[wanted]);
+            return Err((message, format!("write its address, such as {example}")));
+        };
+        if wanted == TIRE {
+            return self.tire(text);
+        }
+        let (from, to) = text.split_once('-').ok_or_else(|| {
+            (format!("`{text}` is no cable"), "write its two tires, such as 3:1-4:1".to_owned())
+        })?;
+        let ends = [self.tire(from)?, self.tire(to)?];
+        let joins = |cable: &[usize; 2]| *cable == ends || *cable == [ends[1], ends[0]];
+        self.known.cables.iter().position(joins).ok_or_else(|| {
+            (format!("no cable joins the tires {from} and {to}"), "name two tires that are tied".to_owned())
+        })
+    }
+
+    fn tire(&self, text: &str) -> Result<usize, (String, String)> {
+        let parts: Vec<&str> = text.split(':').map(str::trim).collect();
+        let numbers: Option<Vec<f64>> =
+            parts.iter().map(|part| part.replace(',', ".").parse().ok()).collect();
+        let tires = &self.known.tires;
+        let last = tires.last().map_or_else(String::new, |numbers| numbers.iter().join(":"));
+        match numbers {
+            Some(numbers) if numbers.len() == 3 => Err((
+                format!("`{text}` is no tire, but a time of day"),
+                "a spreadsheet took ROW:COLUMN for a time: format the column as text".to_owned(),
+            )),
+            Some(numbers) => tires.iter().position(|tire| *tire == numbers).ok_or_else(|| {
+                (format!("the shelter has no tire {text}"), format!("its last tire is {last}"))
+            }),
+            None => Err((format!("`{text}` is no tire"), format!("write its address as in {last}"))),
+        }
+    }
+
+    fn at(&self, quantity: ObservedQuantity) -> Result<f64, (String, String)> {
+        match (quantity == ObservedQuantity::Height, self.text(AT).is_some()) {
+            (true, _) => self.number(AT, quantity, 0.0),
+            (false, false) => Ok(0.0),
+            (false, true) => {
+                let message = format!("`{quantity}` is no quantity of one time");
+                Err((message, "leave `at_s` empty, or observe `height_m`".to_owned()))
+            }
+        }
+    }
+
+    /// A number that is at least `least`.
+    fn number(&self, column: usize, quantity: ObservedQuantity, least: f64) -> Result<f64, (String, String)> {
+        let unit = if column == AT { "s" } else { unit(quantity) };
+        let name = COLUMNS[column];
+        let Some(text) = self.text(column) else {
+            let remedy = match column {
+                SD => format!("write the standard deviation of the value, in {unit}"),
+                _ => format!("write a number, in {unit}"),
+            };
+            return Err((format!("the line has no `{name}`"), remedy));
+        };
+        match value(text, self.comma) {
+            Some(number) if number >= least => Ok(number),
+            Some(_) if column == SD => Err((
+                format!("`{text}` is no standard deviation"),
+                format!("write a number above 0, in {unit}: nothing is seen exactly"),
+            )),
+            Some(_) => {
+                Err((format!("`{text}` is negative"), format!("write a number of 0 or more, in {unit}")))
+            }
+            None => Err((format!("`{text}` is no number"), format!("write the number alone, in {unit}"))),
+        }
+    }
+}
