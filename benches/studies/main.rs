@@ -4,8 +4,8 @@
 //! random ones, rim to rim. `cargo bench --bench studies -- orders 6 10` checks all orders of 6 rows of 10 random plans, rim to
 //! rim and centre to centre in turn, at three intervals. Of more than [`MOST_CHECKED_ROWS`] rows every order is run once at the
 //! step of the level, and the [`ENDS`] worst and best by that run are checked. `cargo bench --bench studies -- search 20` samples
-//! every schedule of 20 random plans 2,000 times, `search 20 11` only of those from number 11 on. `cargo bench --bench studies -- fit
-//! 200` estimates 200 unknowns of random plans whose truth is known.
+//! every schedule of 20 random plans 2,000 times, `search 20 11` only of those from number 11 on. `cargo bench --bench studies --
+//! fit 200` estimates 200 unknowns of random plans whose truth is known.
 
 mod plans;
 #[allow(dead_code)]

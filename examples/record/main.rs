@@ -24,12 +24,11 @@ const PATIENCE: Duration = Duration::from_secs(120);
 const LOOK: Duration = Duration::from_millis(1500);
 
 /// Keys, the text for which the recording then waits, and the name of a picture of that screen.
-const SCRIPT: [(&str, &str, Option<&str>); 7] = [
+const SCRIPT: [(&str, &str, Option<&str>); 6] = [
     ("", "1 of 7 pass", None),
-    ("j", "all at once", None),
-    ("jjj", "42 ms", Some("compare")),
-    ("w", "instead of", Some("would_pass")),
-    ("w3", "heights x", None),
+    ("jjjj", "42 ms ─", Some("compare")),
+    ("kkkw", "it would pass with any one", Some("remedies")),
+    ("wjjj3", "42 ms, from above", None),
     (" ", "playing", Some("flight")),
     ("4\r", "PASS", Some("sweep")),
 ];

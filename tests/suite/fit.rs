@@ -253,8 +253,9 @@ fn bands_are_those_of_what_could_be_seen() {
     }
 }
 
-/// Of a lone tire nothing but its launch counts: with A the variance of its height by the launch in common, B that by the hole and s
-/// that of observing, a height takes A²/((A + B)(A + B + s)) from the variance of the next height. 1,000 samples know it to 5 %.
+/// Of a lone tire nothing but its launch counts: with A the variance of its height by the launch in common, B that by the hole
+/// and s that of observing, a height takes A²/((A + B)(A + B + s)) from the variance of the next height. 1,000 samples know it to
+/// 5 %.
 #[test]
 fn what_to_observe_next_takes_most_from_the_variance() {
     let section = EXACT.replace("launch_cv_percent = 0", "launch_cv_percent = 3\nlaunch_common_percent = 5");

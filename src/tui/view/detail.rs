@@ -132,7 +132,7 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     // As long as samples come, how many there are says more than that they do not suffice.
     let open = app.options[app.selected].is_sampling()
         && judgement::verdict_of_both(Verdict::Pass, judged.risk.map(Risk::verdict)) == Verdict::Undecided;
-    let reasons = judged.reasons().into_iter().filter(|why| !(open && !matches!(why, Reason::AsPlanned(_))));
+    let reasons = judged.reasons().into_iter().filter(|why| !open || matches!(why, Reason::AsPlanned(_)));
     let mut lines: Vec<Line> = reasons
         .map(|why| {
             let sign = theme::label(why.verdict()).chars().next().unwrap_or(' ');
