@@ -21,6 +21,9 @@ pub struct Arguments {
     /// Page to write; `-` writes it to standard output
     #[arg(short, long, value_name = "FILE.html")]
     output: PathBuf,
+    /// Overwrite the file though it is no page that this program wrote
+    #[arg(long)]
+    force: bool,
     /// Name of the delay option to be fired: it heads the page
     #[arg(long, value_name = "NAME")]
     option: Option<String>,
@@ -33,6 +36,11 @@ pub struct Arguments {
     compute: Compute,
 }
 
+/// Whether a file is there that this program did not write as a page.
+fn is_of_another(path: &Path) -> bool {
+    path.is_file() && !std::fs::read_to_string(path).is_ok_and(|text| text.is_empty() || html::is_page(&text))
+}
+
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let asked = arguments.option.as_deref();
     let Some((case, option)) = open_option(&arguments.plan, asked, look) else { return Ok(Status::Wrong) };
@@ -40,6 +48,12 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let same = |a: &Path, b: &Path| a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b));
     if same(plan, output) {
         return wrong(&format!("{} is the plan itself: give the page another name", output.display()));
+    }
+    if !arguments.force && is_of_another(output) {
+        return wrong(&format!(
+            "{} is there and is no page of this program: give another name, or --force",
+            output.display()
+        ));
     }
     if output.as_os_str() == "-" && arguments.format.is_some() {
         return wrong("page and results cannot both go to standard output: write the page to a file");

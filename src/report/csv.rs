@@ -42,9 +42,18 @@ fn write(tables: &[&Table]) -> Result<String, csv::Error> {
 enum CsvValue<'a> {
     Nothing,
     Text(&'a str),
+    Quoted(String),
     Flag(bool),
     Count(usize),
     Number(f64),
+}
+
+/// A text that no spreadsheet runs as a formula: an apostrophe stands before one that would be.
+fn as_text(text: &str) -> CsvValue<'_> {
+    match text.starts_with(['=', '+', '-', '@', '\t', '\r']) {
+        true => CsvValue::Quoted(format!("'{text}")),
+        false => CsvValue::Text(text),
+    }
 }
 
 /// One field a key.
@@ -53,7 +62,7 @@ fn fields<'a>(table: &Table, row: &'a Row) -> Vec<CsvValue<'a>> {
     for (column, cell) in table.columns.iter().zip(&row.cells) {
         let written = match cell {
             Cell::Nothing | Cell::Sparkline { .. } => Vec::new(),
-            Cell::Text(text) => vec![CsvValue::Text(text)],
+            Cell::Text(text) => vec![as_text(text)],
             Cell::Verdict(verdict) => vec![CsvValue::Text(verdict.name())],
             Cell::Flag(flag) => vec![CsvValue::Flag(*flag)],
             Cell::Count(count) => vec![CsvValue::Count(*count)],

@@ -510,3 +510,21 @@ fn accuracy_has_the_fields_scripts_read_and_the_paper_table() {
     assert!(document["reference"]["dt_s"].is_f64());
     assert!(text(&on("paper-5-tire.toml", &["accuracy"]).stdout).contains("Table 1 of the source paper"));
 }
+
+/// A spreadsheet runs a cell that begins with one of these as a formula.
+#[test]
+fn names_in_csv_are_no_formulas() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plan.toml");
+    for name in ["=1+1", "+1", "-1", "@a"] {
+        let plan = include_str!("../../plans/paper-5-tire.toml");
+        let mut document: toml_edit::DocumentMut = plan.parse().expect("TOML");
+        document["delay"][0]["name"] = toml_edit::value(name);
+        std::fs::write(&path, document.to_string()).expect("written");
+        let path = path.to_str().expect("UTF-8");
+        let output = shelter(&["check", path, "--nominal", "--accuracy", "draft", "--format", "csv"]);
+        let mut reader = csv::Reader::from_reader(output.stdout.as_slice());
+        let row = reader.records().next().expect("a row").expect("CSV");
+        assert!(row.iter().any(|cell| cell == format!("'{name}")), "{row:?}");
+    }
+}

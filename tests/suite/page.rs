@@ -420,3 +420,24 @@ fn the_page_prints_on_any_paper_and_reads_on_a_phone() {
     let options = of_class(&parsed, "options").expect("the options");
     assert!(options.attribute("class").is_some_and(|names| names.contains("scroll")), "wide tables scroll");
 }
+
+#[test]
+fn a_file_that_is_no_page_of_this_program_is_not_overwritten() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let page = folder.path().join("page.html");
+    let page = page.to_str().expect("UTF-8");
+    let plan = shipped("paper-5-tire.toml");
+    let report = |more: &[&str]| {
+        let arguments = ["report", &plan, "-o", page, "--nominal", "--accuracy", "draft"];
+        shelter(&[&arguments[..], more].concat())
+    };
+    std::fs::write(page, "mine").expect("written");
+    let refused = report(&[]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(text(&refused.stderr).contains("--force"), "{}", text(&refused.stderr));
+    assert_eq!(std::fs::read_to_string(page).expect("a file"), "mine");
+    for more in [&["--force"][..], &[]] {
+        assert_ne!(report(more).status.code(), Some(2), "{more:?}");
+        assert!(std::fs::read_to_string(page).expect("a file").starts_with("<!DOCTYPE html>"));
+    }
+}

@@ -46,6 +46,11 @@ pub struct Page<'a> {
     pub date: &'a str,
 }
 
+/// Whether a text is a page that this program wrote.
+pub fn is_page(text: &str) -> bool {
+    text.contains(r#"<meta name="generator" content="shelter">"#)
+}
+
 /// The page as a text.
 pub fn page(page: &Page<'_>) -> String {
     let Page { case, results, fired, sampling, .. } = *page;
@@ -63,6 +68,7 @@ pub fn page(page: &Page<'_>) -> String {
         html lang="en" {
             head {
                 meta charset="utf-8";
+                meta name="generator" content="shelter";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (case.title()) }
                 style { (PreEscaped(style::sheet(&foot(page, &hash)))) }

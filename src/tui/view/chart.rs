@@ -38,10 +38,13 @@ struct Set {
     name: &'static str,
 }
 
-/// Draws charts side by side where two readable charts would not fit one above the other.
+/// Draws charts side by side where two readable charts would not fit one above the other; the last ones where not all have room.
 pub fn draw_all(app: &App, charts: &[&Chart], frame: &mut Frame, area: Rect) {
-    let count = charts.len() as u16;
-    let side_by_side = area.height < 2 * LEAST.1 * count && area.width >= 2 * LEAST.0 * count;
+    let beside = |count: u16| 2 * area.width >= 3 * LEAST.0 * count;
+    let fits = |&count: &u16| area.height >= LEAST.1 * count || beside(count);
+    let count = (1..=charts.len() as u16).rev().find(fits).unwrap_or(0);
+    let charts = &charts[charts.len() - usize::from(count)..];
+    let side_by_side = area.height < 2 * LEAST.1 * count && beside(count);
     let direction = if side_by_side { Layout::horizontal } else { Layout::vertical };
     let areas =
         direction(vec![Constraint::Fill(1); charts.len()]).spacing(u16::from(side_by_side)).split(area);
