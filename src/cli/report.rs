@@ -9,10 +9,14 @@ use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments};
 use super::check_plans::{check_plans, print_checks};
 use super::load_plans::open_option;
 use super::print::{print_beside_verdict, print_warnings};
+use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::file;
+use crate::plan::Timing;
 use crate::report::check;
 use crate::report::html::{self, Page};
+
+use crate::study::sweep::{INTERVALS, sweep};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -27,6 +31,9 @@ pub struct Arguments {
     /// Name of the delay option to be fired: it heads the page
     #[arg(long, value_name = "NAME")]
     option: Option<String>,
+    /// Also sweep the interval between rows, from 0 to 500 ms, in the order of the option to be fired
+    #[arg(long)]
+    sweep: bool,
     /// Also print the results, as `check` does
     #[arg(long, value_enum)]
     format: Option<FormatArg>,
@@ -64,12 +71,28 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Ok(checked) => checked,
         Err(reason) => return failed(&reason),
     };
+    let compute = arguments.compute.settings(&cases[0].plan);
+    let order = match (asked, &cases[0].plan.delays[option].timing) {
+        (Some(_), Timing::Interval { order, .. }) => order.clone(),
+        _ => (0..cases[0].plan.blast_rows.len()).collect(),
+    };
+    let case = cases[0].with_hole_timing_or_of(option);
+    let swept = arguments.sweep.then(|| {
+        run_study(&arguments.compute, |progress| {
+            sweep(&case, &order, &INTERVALS, sampling.as_ref(), &compute, progress)
+        })
+    });
+    let swept = match swept.transpose() {
+        Ok(swept) => swept,
+        Err(reason) => return failed(&reason),
+    };
     let page = html::page(&Page {
         case: &cases[0],
         results: &checked.value[0].results,
         fired: asked.map(|_| option),
         sampling: sampling.as_ref(),
-        partial: checked.partial,
+        sweep: swept.as_ref().map(|swept| &swept.value),
+        partial: checked.partial || swept.as_ref().is_some_and(|swept| swept.partial),
         unsaved: false,
         date: &html::today(),
     });

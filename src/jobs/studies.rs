@@ -11,8 +11,8 @@ use crate::study::remedies::{Remedies, find_remedies};
 use crate::study::samples::sampling::Sampling;
 use crate::study::search::{Search, search};
 use crate::study::size::{Demand, Sizing, size};
-use crate::study::sweep::{GAP, Sweep, sweep};
-use crate::study::{Intervals, NoResult, accuracy};
+use crate::study::sweep::{INTERVALS, Sweep, sweep};
+use crate::study::{NoResult, accuracy};
 
 /// Declares the kinds of studies and the list of all of them, in one order.
 macro_rules! study_kinds {
@@ -90,8 +90,6 @@ pub enum StudyResult {
 const SAMPLING: Sampling = Sampling::OF_RISK;
 /// Samples of a study of effects.
 const EFFECTS: Sampling = Sampling::exactly(SAMPLES, Sampling::OF_RISK.seed);
-/// Intervals swept [s].
-const INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: GAP };
 /// Longest run that [`StudyKind::Accuracy`] makes.
 const LONGEST_RUN: Duration = Duration::from_secs(1);
 

@@ -12,6 +12,7 @@ use crate::report::html::{self, Page};
 use crate::report::{self, charts};
 use crate::study::judge_options::OptionResults;
 use crate::study::samples::sampling::Sampling;
+use crate::study::sweep::Sweep;
 
 /// Writes the contents of the screen to a new file, in the format of the file's ending; or says why not.
 pub fn write(app: &App, path: &Path) -> Result<(), String> {
@@ -40,10 +41,19 @@ fn page(app: &App, fired: Option<usize>) -> Result<String, String> {
         results: &results(app)?,
         fired,
         sampling: Some(&Sampling::OF_VERDICT),
+        sweep: swept(app),
         partial: false,
         unsaved: !is_saved(app),
         date: &html::today(),
     }))
+}
+
+/// The sweep on the screen of studies, where it is one of this plan.
+fn swept(app: &App) -> Option<&Sweep> {
+    match &*app.studies.finished(StudyKind::Sweep)?.found {
+        StudyResult::Sweep(sweep) => Some(sweep),
+        _ => None,
+    }
 }
 
 /// Whether the file of the plan holds the very text that was computed.

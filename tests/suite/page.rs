@@ -441,3 +441,15 @@ fn a_file_that_is_no_page_of_this_program_is_not_overwritten() {
         assert!(std::fs::read_to_string(page).expect("a file").starts_with("<!DOCTYPE html>"));
     }
 }
+
+#[test]
+fn a_sweep_stands_on_the_page_where_it_is_asked_for() {
+    let without = words(Document::parse(&PLAIN).expect("XML").root());
+    assert!(!without.contains("Other intervals between rows"));
+    let (_, page) = report(PLAN, &["--sweep", "--nominal"]);
+    let page = xml(&page.expect("a page"));
+    let page = Document::parse(&page).expect("XML");
+    let swept = section(&page, "Other intervals between rows");
+    assert!(words(swept).contains("0 ms to 500 ms"), "{}", words(swept));
+    assert_eq!(swept.descendants().filter(|node| node.has_tag_name("svg")).count(), 2);
+}

@@ -21,11 +21,12 @@ use sha2::{Digest, Sha256};
 
 use super::model::{Block, Report};
 use super::warnings;
-use super::{charts, check, explain};
+use super::{charts, check, explain, sweep};
 use crate::study::Case;
 use crate::study::judge_options::OptionResults;
 use crate::study::judgement::Judgement;
 use crate::study::samples::sampling::Sampling;
+use crate::study::sweep::Sweep;
 use crate::verdict::Verdict;
 
 /// What a page is about.
@@ -38,6 +39,8 @@ pub struct Page<'a> {
     pub fired: Option<usize>,
     /// The samples behind the verdicts; `None` where only the shots as planned were judged.
     pub sampling: Option<&'a Sampling>,
+    /// A sweep of the interval between rows, whose charts the page shows.
+    pub sweep: Option<&'a Sweep>,
     /// Whether the time was up before all was computed.
     pub partial: bool,
     /// Whether the text of the plan differs from its file.
@@ -108,6 +111,7 @@ pub fn page(page: &Page<'_>) -> String {
                     }
                     @for warning in others { p { strong { "Warning: " } (warning) } }
                 }
+                @if let Some(sweep) = page.sweep { (intervals(page, sweep)) }
                 @for option in in_turn(page) { (over_time(page, option)) }
                 @if sampling.is_some() {
                     section {
@@ -191,6 +195,23 @@ fn over_time(page: &Page<'_>, option: usize) -> Markup {
                 @for chart in charts::history(case, &judged.as_planned.history, shot) {
                     div { (PreEscaped(svg(&chart).unwrap_or_default())) }
                 }
+            }
+        }
+    }
+}
+
+/// What other intervals between rows would give.
+fn intervals(page: &Page<'_>, sweep: &Sweep) -> Markup {
+    let report = sweep::report(page.case, sweep, page.partial);
+    html! {
+        section.whole {
+            h2 { "Other intervals between rows" }
+            (conclusion(&report))
+            div.charts {
+                @for chart in report.charts() { div { (PreEscaped(svg(chart).unwrap_or_default())) } }
+            }
+            @for block in &report.blocks {
+                @if let Block::Text(sentences) = block { @for sentence in sentences { p.quiet { (sentence) } } }
             }
         }
     }

@@ -101,6 +101,8 @@ pub const GAP: f64 = 0.25e-3;
 const MOST_SAMPLED_GAP: f64 = 1e-3;
 /// Gaps as narrow as this are not halved [s].
 const NARROWEST: f64 = GAP / 8.0;
+/// What is swept where nobody asks for other intervals; between them more are tried where the answer changes.
+pub const INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: GAP };
 /// Factor on the errors of two points, with which the limits must be out of reach between them.
 const CALM_ERROR_FACTOR: f64 = 1.5;
 /// Room that counts for a recommended interval [s]: more than detonators scatter.
