@@ -31,7 +31,7 @@ pub struct Arguments {
     /// What to estimate
     #[arg(long, value_delimiter = ',', default_value = "launch", value_parser = named::<Unknown>(Unknown::NAMES))]
     unknown: Vec<Unknown>,
-    /// Write the estimates into the plan, and their standard deviations into its [uncertainty]
+    /// Write the estimates into the plan; widens its [uncertainty] where they are less sure
     #[arg(long)]
     write: bool,
     /// Print a file of observations to begin with
@@ -49,6 +49,11 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     }
     if arguments.write && case.source.path == "-" {
         return wrong("--write has no file to write into: give the plan by its name");
+    }
+    if arguments.write && arguments.study.verdict.sampling().is_none() {
+        return wrong(
+            "--nominal takes all that scatters for exact, and its estimates for surer than they are: leave out --nominal or --write",
+        );
     }
     let unknowns = &arguments.unknown;
     if let Some(message) = contradiction(unknowns) {
@@ -113,8 +118,8 @@ fn used_twice(case: &Case, files: &[Observations]) -> Option<String> {
             file.path, case.source.path
         ));
     }
-    let file = files.iter().duplicates_by(|file| &file.checksum).next()?;
-    Some(format!("{} holds the same observations as a file before it: name each once", file.path))
+    let (_, file) = files.iter().tuple_combinations().find(|(one, other)| one.overlaps(other))?;
+    Some(format!("{} holds mostly the same observations as another file: name each shot once", file.path))
 }
 
 /// A file of observations with a tire and a cable of the plan.
@@ -132,8 +137,8 @@ fn write(path: &Path, case: &Case, files: &[Observations], fit: &Fit) -> io::Res
         return Err(io::Error::other("the plan has changed meanwhile; nothing was written"));
     }
     let checksums: Vec<String> = files.iter().map(|file| file.checksum.clone()).collect();
-    let text =
-        fitted::write(&case.source.text, &fit.answers[0].fitted(), &checksums).map_err(io::Error::other)?;
+    let text = fitted::write(&case.source.text, &case.plan.uncertainty, &fit.answers[0].fitted(), &checksums);
+    let text = text.map_err(io::Error::other)?;
     if let Err(mistakes) = Plan::parse(&case.source.path, &text) {
         return Err(io::Error::other(format!(
             "the plan would not be valid; nothing was written: {}",
@@ -141,6 +146,9 @@ fn write(path: &Path, case: &Case, files: &[Observations], fit: &Fit) -> io::Res
         )));
     }
     file::save(path, &text)?;
-    eprintln!("written: {}", path.display());
+    eprintln!(
+        "written: {}; [uncertainty] is widened where an estimate is less sure, and never narrowed: the next shot may differ from those seen",
+        path.display()
+    );
     Ok(())
 }

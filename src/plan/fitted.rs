@@ -2,6 +2,7 @@
 
 use toml_edit::{Array, DocumentMut, Item, TableLike, Value};
 
+use super::Uncertainty;
 use super::edit::{change_launches, change_section, replace_keys, set, with_line_ends_of};
 use super::keys::{cable, ground, plan, uncertainty};
 use crate::choice::Unknown;
@@ -57,16 +58,24 @@ impl Fitted {
         1e2 * self.sd / self.value
     }
 
-    /// The ends of the uniform distribution with this mean and standard deviation, not below 0.
-    fn ends(&self) -> [f64; 2] {
-        let half = 3.0_f64.sqrt() * self.sd;
+    /// The ends of the uniform distribution with this mean and standard deviation, at least as wide as `before`, and not below 0.
+    fn ends(&self, before: [f64; 2]) -> [f64; 2] {
+        let half = (3.0_f64.sqrt() * self.sd).max(0.5 * (before[1] - before[0]));
         [(self.value - half).max(0.0), self.value + half]
     }
 }
 
 /// The text of a plan with these estimates, and with the checksums of the observations behind them. Comments and formatting stay.
 /// A stiffness of rope takes the place of the rope's name. Launches by row leave the greatest of their standard deviations.
-pub fn write(text: &str, fitted: &[Fitted], checksums: &[String]) -> Result<String, String> {
+///
+/// What is not known is widened where an estimate is less sure than `before`, and never narrowed: how well the launches, friction or
+/// slack of past shots are known does not say how far the next shot differs from them.
+pub fn write(
+    text: &str,
+    before: &Uncertainty,
+    fitted: &[Fitted],
+    checksums: &[String],
+) -> Result<String, String> {
     let mut document: DocumentMut =
         text.parse().map_err(|error: toml_edit::TomlError| error.message().to_owned())?;
     for estimate in fitted {
@@ -75,16 +84,25 @@ pub fn write(text: &str, fitted: &[Fitted], checksums: &[String]) -> Result<Stri
     let launches = fitted.iter().filter(|one| matches!(one.unknown, Unknown::Launch | Unknown::LaunchByRow));
     let launch_percent = launches.map(Fitted::percent).reduce(f64::max);
     change_section(&mut document, &plan::UNCERTAINTY, |section| {
-        if let Some(percent) = launch_percent {
+        if let Some(percent) = launch_percent.filter(|percent| *percent > before.launch_common_percent) {
             set(section, uncertainty::LAUNCH_COMMON_PERCENT.name, short(percent).into());
         }
         for estimate in fitted {
             match estimate.unknown {
-                Unknown::Friction => set_range(section, &uncertainty::FRICTION, estimate.ends()),
-                Unknown::Slack => set_range(section, &uncertainty::SLACK_PERCENT, estimate.ends()),
+                Unknown::Friction => {
+                    set_range(section, &uncertainty::FRICTION, estimate.ends(before.friction));
+                }
+                Unknown::Slack => {
+                    set_range(section, &uncertainty::SLACK_PERCENT, estimate.ends(before.slack_percent));
+                }
                 Unknown::AxialStiffness => {
                     let half = 3.0_f64.sqrt() * estimate.percent();
-                    set_range(section, &uncertainty::AXIAL_STIFFNESS_PERCENT, [-half, half]);
+                    let [low, high] = before.axial_stiffness_percent;
+                    set_range(
+                        section,
+                        &uncertainty::AXIAL_STIFFNESS_PERCENT,
+                        [low.min(-half), high.max(half)],
+                    );
                 }
                 Unknown::Launch | Unknown::LaunchByRow | Unknown::EndStiffness | Unknown::Damping => {}
             }
@@ -148,7 +166,9 @@ mod tests {
     const PLAN: &str = include_str!("../../plans/amur-three-rows.toml");
 
     fn written(text: &str, fitted: &[Fitted]) -> (String, Plan) {
-        let text = write(text, fitted, &["ab12".to_owned()]).expect("TOML");
+        let before = Plan::parse("plan.toml", text)
+            .map_or_else(|mistakes| panic!("{mistakes}"), |plan| plan.uncertainty);
+        let text = write(text, &before, fitted, &["ab12".to_owned()]).expect("TOML");
         let plan = Plan::parse("plan.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         (text, plan)
     }
@@ -157,7 +177,7 @@ mod tests {
         Fitted { unknown, row: None, value, sd }
     }
 
-    /// Every line that no estimate is about stays as it is, with its comment.
+    /// Every line that no estimate is about stays as it is, with its comment; so does an uncertainty that an estimate would narrow.
     #[test]
     fn only_the_lines_of_estimates_change() {
         let all = [
@@ -175,16 +195,17 @@ mod tests {
                 "launch_m_s = 6.6",
                 "launch_m_s = 6.6",
                 "launch_m_s = 6.6",
-                "launch_common_percent = 2.0        # of the whole shot at once; assumed: put in yours",
-                "friction = [0.415359, 0.484641]            # rocky soil",
-                "slack_percent = [0.0, 0.273205]       # assumed: measure yours",
+                "friction = [0.35, 0.55]            # rocky soil",
+                "slack_percent = [0.0, 0.6]       # assumed: measure yours",
                 "fitted_from = [\"ab12\"]",
             ]
         );
         assert_eq!(plan.fitted_from, ["ab12"]);
-        let again = write(&text, &[], &["cd34".to_owned()]).expect("TOML");
+        let again = write(&text, &plan.uncertainty, &[], &["cd34".to_owned()]).expect("TOML");
         assert!(again.contains("fitted_from = [\"ab12\", \"cd34\"]"), "{again}");
-        let windows = write(&PLAN.replace('\n', "\r\n"), &all, &["ab12".to_owned()]).expect("TOML");
+        let before = Plan::parse("", PLAN).unwrap_or_else(|mistakes| panic!("{mistakes}")).uncertainty;
+        let windows = PLAN.replace('\n', "\r\n");
+        let windows = write(&windows, &before, &all, &["ab12".to_owned()]).expect("TOML");
         assert_eq!(windows, text.replace('\n', "\r\n"));
     }
 

@@ -19,6 +19,12 @@ pub struct Unusual {
 impl Plan {
     /// Values of the plan that are not usual, at most one a key: the farthest out.
     pub fn unusual(&self) -> Vec<Unusual> {
+        let all = self.with_usual_ranges().into_iter();
+        all.filter_map(|(section, key, values)| farthest_out(section, key, &values)).collect()
+    }
+
+    /// The values of every key that has a usual range.
+    fn with_usual_ranges(&self) -> Vec<(&'static Section, &'static Key, Vec<f64>)> {
         let (masses, spacings) = match &self.layout {
             Layout::Grid(mesh) | Layout::Quincunx(mesh) => {
                 (vec![self.tire.mass_kg], vec![mesh.row_spacing_m, mesh.column_spacing_m])
@@ -31,7 +37,7 @@ impl Plan {
         let launches = self.launches().map(|launch| launch.speed_m_s).collect();
         // 0 is no diameter: cables run from centre to centre.
         let diameters = Some(self.tire.outer_diameter_m).filter(|diameter| *diameter > 0.0);
-        let values: [(&'static Section, &'static Key, Vec<f64>); 10] = [
+        vec![
             (&tire::SECTION, &tire::MASS_KG, masses),
             (&tire::SECTION, &tire::OUTER_DIAMETER_M, diameters.into_iter().collect()),
             (&shelter::SECTION, &shelter::SPACING_M, spacings),
@@ -42,8 +48,8 @@ impl Plan {
             (&blast_row::SECTION, &blast_row::LAUNCH_M_S, launches),
             (&limits::SECTION, &limits::FLIGHT_HEIGHT_M, vec![self.limits.flight_height_m]),
             (&limits::SECTION, &limits::CABLE_SAFETY_FACTOR, vec![self.limits.cable_safety_factor]),
-        ];
-        values.into_iter().filter_map(|(section, key, values)| farthest_out(section, key, &values)).collect()
+            (&limits::SECTION, &limits::ACCEPTED_RISK_PERCENT, vec![self.limits.accepted_risk_percent]),
+        ]
     }
 }
 
@@ -57,6 +63,7 @@ fn farthest_out(section: &'static Section, key: &'static Key, values: &[f64]) ->
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plan::keys::plan;
 
     /// Names and values of what is unusual in the example with `new` in place of `old`.
     fn told(old: &str, new: &str) -> Vec<(&'static str, f64)> {
@@ -64,6 +71,30 @@ mod tests {
         assert!(text.contains(old), "{old}");
         let plan = Plan::parse("", &text.replace(old, new)).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         plan.unusual().iter().map(|unusual| (unusual.key.name, unusual.value)).collect()
+    }
+
+    fn keys_below(section: &'static Section) -> Vec<(&'static Section, &'static Key)> {
+        let below = |&key: &&'static Key| match key.kind.section() {
+            Some(inner) => keys_below(inner),
+            None => vec![(section, key)],
+        };
+        section.keys.iter().flat_map(below).collect()
+    }
+
+    #[test]
+    fn every_key_with_a_usual_range_is_looked_at() {
+        let plan = Plan::parse("", include_str!("../../plans/amur-three-rows.toml"));
+        let plan = plan.unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let looked_at = plan.with_usual_ranges();
+        for (section, key) in keys_below(&plan::SECTION).into_iter().filter(|(_, key)| key.usual.is_some()) {
+            let found =
+                looked_at.iter().any(|(own, one, _)| own.title == section.title && one.name == key.name);
+            assert!(found, "{} {}", section.title, key.name);
+        }
+        assert_eq!(
+            told("accepted_risk_percent = 1 ", "accepted_risk_percent = 50 "),
+            [("accepted_risk_percent", 50.0)]
+        );
     }
 
     #[test]

@@ -274,7 +274,7 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
                 "{name} lies at an end of its plausible range: another unknown is perhaps behind it"
             ));
         }
-        if let Some(from) = estimate.from_stated.filter(|from| from.abs() > 3.0) {
+        if let Some(from) = estimate.from_stated.filter(|from| from.abs() > 2.0) {
             let from = units::rounded(from.abs(), 1);
             all.push(format!(
                 "{name} lies {from} sd from what [uncertainty] states of it: is the range there too narrow?"
@@ -311,6 +311,8 @@ fn conclusion(fit: &Fit) -> Option<Conclusion> {
     let text = if !best.explains() {
         "the model does not explain what was observed: the residuals are larger than chance makes them"
             .to_owned()
+    } else if best.estimates.iter().any(|estimate| estimate.is_at_end) {
+        "an estimate lies at an end of its plausible range: it is no estimate".to_owned()
     } else if fit.answers.len() > 1 {
         format!(
             "{} separate answers fit nearly as well: observe something that tells them apart",

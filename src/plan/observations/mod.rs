@@ -33,7 +33,7 @@ const SD: usize = 6;
 pub struct Observations {
     /// The file as the user named it.
     pub path: String,
-    /// SHA-256 of the file, in hexadecimal digits.
+    /// SHA-256 of what was seen, in hexadecimal digits.
     pub checksum: String,
     /// Lines of the file; never empty.
     pub list: Vec<Observation>,
@@ -52,6 +52,16 @@ pub struct Observation {
     pub sd: f64,
     /// Line of the file, from 1.
     pub line: u64,
+}
+
+impl Observation {
+    fn what_was_seen(&self) -> (Watched, f64, f64) {
+        (self.watched, self.value, self.sd)
+    }
+
+    fn is_as(&self, other: &Self) -> bool {
+        self.option == other.option && self.what_was_seen() == other.what_was_seen()
+    }
 }
 
 /// A quantity of a tire or a cable.
@@ -103,8 +113,19 @@ impl Observations {
     pub fn parse(path: &str, text: &str, known: &Addresses) -> Result<Self, Diagnostics> {
         let source = text.strip_prefix('\u{feff}').unwrap_or(text);
         let list = read(source, known).map_err(|mistakes| Diagnostics::new(path, source, mistakes))?;
-        let checksum = Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
+        // Of what was seen, not of the text: a comment or another order of the lines makes no other shot.
+        let seen = |seen: &Observation| format!("{} {:?}", known.options[seen.option], seen.what_was_seen());
+        let mut lines: Vec<String> = list.iter().map(seen).collect();
+        lines.sort();
+        let checksum = Sha256::digest(lines.join("\n")).iter().map(|byte| format!("{byte:02x}")).collect();
         Ok(Self { path: path.to_owned(), checksum, list })
+    }
+
+    /// Whether more than half of the observations of one file are in the other: two shots are not so alike.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        let is_in_other = |seen: &&Observation| other.list.iter().any(|one| one.is_as(seen));
+        let common = self.list.iter().filter(is_in_other).count();
+        2 * common > self.list.len().min(other.list.len())
     }
 }
 

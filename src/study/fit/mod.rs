@@ -412,7 +412,8 @@ fn next(
     progress: &Progress,
 ) -> Result<Option<NextObservation>, NoResult> {
     let Some(sampling) = request.sampling else { return Ok(None) };
-    let text = crate::plan::fitted::write(&case.source.text, &fit.answers[0].fitted(), &[]);
+    let text =
+        crate::plan::fitted::write(&case.source.text, &case.plan.uncertainty, &fit.answers[0].fitted(), &[]);
     let Some(plan) = text.ok().and_then(|text| Plan::parse("", &text).ok()) else { return Ok(None) };
     let shots = fit.observed.chunk_by(|a, b| a.option == b.option);
     let Some(most) = shots.max_by_key(|shot| shot.len()) else { return Ok(None) };
