@@ -68,8 +68,8 @@ impl Fitted {
 /// The text of a plan with these estimates, and with the checksums of the observations behind them. Comments and formatting stay.
 /// A stiffness of rope takes the place of the rope's name. Launches by row leave the greatest of their standard deviations.
 ///
-/// What is not known is widened where an estimate is less sure than `before`, and never narrowed: how well the launches, friction or
-/// slack of past shots are known does not say how far the next shot differs from them.
+/// What is not known is widened where an estimate is less sure than `before`, and never narrowed: how well the launches, friction
+/// or slack of past shots are known does not say how far the next shot differs from them.
 pub fn write(
     text: &str,
     before: &Uncertainty,
