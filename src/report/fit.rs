@@ -264,6 +264,9 @@ fn next(case: &Case, fit: &Fit) -> Option<String> {
     ))
 }
 
+/// Factor between plan and estimate from which a mistake is likelier than a surprise.
+const FAR_MOVE: f64 = 1.5;
+
 fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
     let best = &fit.answers[0];
     let mut all = Vec::new();
@@ -272,6 +275,13 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
         if estimate.is_at_end {
             all.push(format!(
                 "{name} lies at an end of its plausible range: another unknown is perhaps behind it"
+            ));
+        }
+        let times = estimate.was.filter(|was| *was > 0.0).map_or(1.0, |was| estimate.value / was);
+        if !(1.0 / FAR_MOVE..=FAR_MOVE).contains(&times) {
+            let times = units::short(times);
+            all.push(format!(
+                "{name} is {times} times what the plan says: are the units, the option and the tire right?"
             ));
         }
         if let Some(from) = estimate.from_stated.filter(|from| from.abs() > 2.0) {

@@ -510,3 +510,11 @@ fn a_shot_that_was_copied_is_the_same_shot() {
     let again = folder.fit(&["--write"]);
     assert_eq!(again.status.code(), Some(2), "{}", text(&again.stderr));
 }
+
+/// Heights of half a metre where 1.7 m were planned: the launch of such a shot is about half as fast.
+#[test]
+fn an_estimate_far_from_the_plan_is_told() {
+    let lines = "option,tire,quantity,value,sd\n20 ms,1:1,flight_height_m,0.5,0.02\n20 ms,3:1,flight_height_m,0.4,0.02\n";
+    let output = Folder::with(lines).fit(&["--nominal"]);
+    assert!(text(&output.stdout).contains("times what the plan says"), "{}", text(&output.stdout));
+}
