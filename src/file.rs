@@ -1,10 +1,16 @@
-//! Writing text files: whole or not at all.
+//! Writing text files: whole or not at all. Their checksums.
 
 use std::fs::OpenOptions;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 
+use sha2::{Digest, Sha256};
 use tempfile::NamedTempFile;
+
+/// SHA-256 in hexadecimal digits.
+pub fn checksum(bytes: impl AsRef<[u8]>) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
 
 /// Replaces the contents of a file by `text`, all at once: a reader, also after a loss of power, finds the old text or the new
 /// text, never a part.

@@ -11,8 +11,8 @@ use super::load_plans::open_option;
 use super::print::{print_beside_verdict, print_warnings};
 use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
+use super::sweep::swept_order;
 use crate::file;
-use crate::plan::Timing;
 use crate::report::check;
 use crate::report::html::{self, Page};
 
@@ -65,21 +65,21 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if output.as_os_str() == "-" && arguments.format.is_some() {
         return wrong("page and results cannot both go to standard output: write the page to a file");
     }
-    let cases = [case];
+    let order = match arguments.sweep.then(|| swept_order(&case, asked, option)).transpose() {
+        Ok(order) => order.unwrap_or_default(),
+        Err(message) => return wrong(&message),
+    };
+    // A sweep needs one way to fire the holes of a row; without an option named, options that differ have none.
+    let cases = [if asked.is_some() { case.with_hole_timing_or_of(option) } else { case }];
     let sampling = arguments.verdict.sampling();
     let checked = match check_plans(&cases, sampling, &arguments.compute, false) {
         Ok(checked) => checked,
         Err(reason) => return failed(&reason),
     };
     let compute = arguments.compute.settings(&cases[0].plan);
-    let order = match (asked, &cases[0].plan.delays[option].timing) {
-        (Some(_), Timing::Interval { order, .. }) => order.clone(),
-        _ => (0..cases[0].plan.blast_rows.len()).collect(),
-    };
-    let case = cases[0].with_hole_timing_or_of(option);
     let swept = arguments.sweep.then(|| {
         run_study(&arguments.compute, |progress| {
-            sweep(&case, &order, &INTERVALS, sampling.as_ref(), &compute, progress)
+            sweep(&cases[0], &order, &INTERVALS, sampling.as_ref(), &compute, progress)
         })
     });
     let swept = match swept.transpose() {

@@ -14,7 +14,7 @@ use crate::plan::Timing;
 use crate::report::json::SweepDocument;
 use crate::report::sweep::report;
 use crate::study::sweep::sweep;
-use crate::study::{Found, Intervals};
+use crate::study::{Case, Found, Intervals};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -30,16 +30,24 @@ pub struct Arguments {
     study: StudyArguments,
 }
 
+/// The rows in the order of the option of this name, or in the order listed.
+pub fn swept_order(case: &Case, name: Option<&str>, option: usize) -> Result<Vec<usize>, String> {
+    match (name, &case.plan.delays[option].timing) {
+        (None, _) => Ok((0..case.plan.blast_rows.len()).collect()),
+        (Some(_), Timing::Interval { order, .. }) => Ok(order.clone()),
+        (Some(name), Timing::At(_)) => {
+            Err(format!("option '{name}' has firing times of its own, no interval to sweep"))
+        }
+    }
+}
+
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some((mut case, option)) = open_option(&arguments.plan, arguments.option.as_deref(), look) else {
         return Ok(Status::Wrong);
     };
-    let order = match (&arguments.option, &case.plan.delays[option].timing) {
-        (None, _) => (0..case.plan.blast_rows.len()).collect(),
-        (Some(_), Timing::Interval { order, .. }) => order.clone(),
-        (Some(name), Timing::At(_)) => {
-            return wrong(&format!("option '{name}' has firing times of its own, no interval to sweep"));
-        }
+    let order = match swept_order(&case, arguments.option.as_deref(), option) {
+        Ok(order) => order,
+        Err(message) => return wrong(&message),
     };
     if arguments.option.is_some() {
         case.hole_timing = Some(case.plan.delays[option].hole_timing);

@@ -96,11 +96,13 @@ pub fn enough(case: &Case, study: &AccuracyTable) -> String {
     let percent =
         |share: f64| if share < 1e-4 { "under 0.01 %".to_owned() } else { units::percent(share, 2) };
     match found {
-        Some((level, NearestLimit { error, margin })) => format!(
-            "{} is enough as planned: error {}, nearest limit {} away",
+        Some((level, NearestLimit { error, margin, is_exceeded })) => format!(
+            "{} is enough as planned: error {}, nearest limit {} {}{}",
             level.name(),
             percent(error),
-            units::percent(margin, 1)
+            units::percent(margin.abs(), 1),
+            if margin < 0.0 { "below" } else { "above" },
+            if is_exceeded { "; a limit is EXCEEDED" } else { "" }
         ),
         None => "no level decides by its first run: a check refines until it is sure".to_owned(),
     }

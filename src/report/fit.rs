@@ -277,6 +277,11 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
                 "{name} lies at an end of its plausible range: another unknown is perhaps behind it"
             ));
         }
+        if matches!(estimate.parameter.unknown, Unknown::EndStiffness | Unknown::Damping) {
+            all.push(format!(
+                "{name} has no place in [uncertainty]: once written, a check takes it for exact"
+            ));
+        }
         let times = estimate.was.filter(|was| *was > 0.0).map_or(1.0, |was| estimate.value / was);
         if !(1.0 / FAR_MOVE..=FAR_MOVE).contains(&times) {
             let times = units::short(times);

@@ -48,9 +48,11 @@ fn page(app: &App, fired: Option<usize>) -> Result<String, String> {
     }))
 }
 
-/// The sweep on the screen of studies, where it is one of this plan.
+/// The sweep on the screen of studies, where it is one of this plan, computed as its options are.
 fn swept(app: &App) -> Option<&Sweep> {
-    match &*app.studies.finished(StudyKind::Sweep)?.found {
+    let finished =
+        app.studies.finished(StudyKind::Sweep).filter(|finished| finished.compute == app.compute)?;
+    match &*finished.found {
         StudyResult::Sweep(sweep) => Some(sweep),
         _ => None,
     }

@@ -5,10 +5,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use sha2::{Digest, Sha256};
-
 use super::config::state_folder;
-use crate::file;
+use crate::file::{self, checksum};
 
 /// The file with the unsaved edits of a plan; of a plan without a file where `plan` is `None`.
 fn path(plan: Option<&Path>) -> Option<PathBuf> {
@@ -33,19 +31,15 @@ pub struct Kept {
 impl Kept {
     /// Whether they are edits of this text of the file; if not, another program has changed the file since.
     pub fn are_of(&self, saved: &str) -> bool {
-        self.before == checksum(saved.as_bytes())
+        self.before == checksum(saved)
     }
-}
-
-fn checksum(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Keeps the text of a plan whose file holds `saved`.
 pub fn keep(plan: Option<&Path>, saved: &str, text: &str) -> io::Result<()> {
     let path = path(plan).ok_or(io::ErrorKind::NotFound)?;
     path.parent().map_or(Ok(()), fs::create_dir_all)?;
-    file::save(&path, &format!("# {}\n{text}", checksum(saved.as_bytes())))
+    file::save(&path, &format!("# {}\n{text}", checksum(saved)))
 }
 
 /// The edits that were kept of a plan.

@@ -7,8 +7,6 @@ mod row;
 
 use std::path::Path;
 
-use sha2::{Digest, Sha256};
-
 use self::row::Row;
 use super::Diagnostics;
 use super::diagnostic::Mistake;
@@ -17,6 +15,7 @@ use super::import::table::{Line, lines};
 use super::reader::nearest;
 use super::source::{read_bytes, text_of};
 use crate::choice::ObservedQuantity;
+use crate::file::checksum;
 
 /// Names of the columns.
 pub const COLUMNS: [&str; 7] = ["option", "tire", "cable", "quantity", "at_s", "value", "sd"];
@@ -117,7 +116,7 @@ impl Observations {
         let seen = |seen: &Observation| format!("{} {:?}", known.options[seen.option], seen.what_was_seen());
         let mut lines: Vec<String> = list.iter().map(seen).collect();
         lines.sort();
-        let checksum = Sha256::digest(lines.join("\n")).iter().map(|byte| format!("{byte:02x}")).collect();
+        let checksum = checksum(lines.join("\n"));
         Ok(Self { path: path.to_owned(), checksum, list })
     }
 

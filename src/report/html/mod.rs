@@ -17,11 +17,11 @@ pub use self::top_view::svg as top_view;
 
 use chrono::{DateTime, Local};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use sha2::{Digest, Sha256};
 
 use super::model::{Block, Report};
 use super::warnings;
 use super::{charts, check, explain, sweep};
+use crate::file;
 use crate::study::Case;
 use crate::study::judge_options::OptionResults;
 use crate::study::judgement::Judgement;
@@ -57,8 +57,7 @@ pub fn is_page(text: &str) -> bool {
 /// The page as a text.
 pub fn page(page: &Page<'_>) -> String {
     let Page { case, results, fired, sampling, .. } = *page;
-    let hash = Sha256::digest(case.source.text.as_bytes());
-    let hash: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
+    let hash = file::checksum(&case.source.text);
     let report = check::report(case, results, None, false, page.partial);
     let fired_judged = fired.and_then(|option| Some((option, results[option].as_ref().ok()?)));
     let checked = fired_judged.map(|(_, judged)| &judged.as_planned);
@@ -202,11 +201,15 @@ fn over_time(page: &Page<'_>, option: usize) -> Markup {
 
 /// What other intervals between rows would give.
 fn intervals(page: &Page<'_>, sweep: &Sweep) -> Markup {
-    let report = sweep::report(page.case, sweep, page.partial);
+    let (report, of_plan) = (sweep::report(page.case, sweep, page.partial), warnings::of_plan(page.case));
     html! {
         section.whole {
             h2 { "Other intervals between rows" }
             (conclusion(&report))
+            // Those of the plan stand at the head.
+            @for warning in report.warnings.iter().filter(|warning| !of_plan.contains(warning)) {
+                p { strong { "Warning: " } (warning) }
+            }
             div.charts {
                 @for chart in report.charts() { div { (PreEscaped(svg(chart).unwrap_or_default())) } }
             }

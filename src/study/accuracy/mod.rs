@@ -84,14 +84,16 @@ pub struct ErrorClass {
 pub struct NearestLimit {
     /// Error over value.
     pub error: f64,
-    /// Distance between value and limit, over the value.
+    /// Limit less value, over the value: negative past the limit.
     pub margin: f64,
+    /// Whether the run is past this or another limit.
+    pub is_exceeded: bool,
 }
 
 impl NearestLimit {
     /// Whether the limit is so far that a check needs no finer run.
     pub fn is_enough(&self) -> bool {
-        SURE_ERROR_FACTOR * self.error < self.margin
+        SURE_ERROR_FACTOR * self.error < self.margin.abs()
     }
 }
 
@@ -170,12 +172,13 @@ impl AccuracyTable {
         ];
         let from_limit = |(quantity, value, error): (Quantity, f64, f64)| {
             let limit = limits.get(quantity).filter(|_| value > 0.0)?;
-            Some(NearestLimit { error, margin: (limit / value - 1.0).abs() })
+            Some(NearestLimit { error, margin: limit / value - 1.0, is_exceeded: false })
         };
-        let all = values.into_iter().filter_map(from_limit);
-        all.min_by(|a, b| {
-            (a.margin - SURE_ERROR_FACTOR * a.error).total_cmp(&(b.margin - SURE_ERROR_FACTOR * b.error))
-        })
+        let all: Vec<NearestLimit> = values.into_iter().filter_map(from_limit).collect();
+        let is_exceeded = all.iter().any(|limit| limit.margin < 0.0);
+        let room = |limit: &NearestLimit| limit.margin.abs() - SURE_ERROR_FACTOR * limit.error;
+        let nearest = all.into_iter().min_by(|a, b| room(a).total_cmp(&room(b)))?;
+        Some(NearestLimit { is_exceeded, ..nearest })
     }
 
     /// The longest step of a method at which this step and all shorter steps are within a class; with its computing time.

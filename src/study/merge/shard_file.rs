@@ -6,8 +6,8 @@
 use itertools::Itertools;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
+use crate::file::checksum;
 use crate::study::orders::TriedOrder;
 use crate::study::samples::sample::OptionSample;
 use crate::study::samples::sampling::Sampling;
@@ -132,11 +132,6 @@ pub fn write_shard(
     Ok(text + &serde_json::to_string(&foot)? + "\n")
 }
 
-/// SHA-256 of a text, in hexadecimal digits.
-fn checksum(text: &str) -> String {
-    Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
 /// Reads a shard; says what is wrong with it. `name` stands for the file in messages.
 fn read_shard(name: &str, text: &str) -> Result<(Head, ShardResults), String> {
     let wrong = |line: usize, error: &dyn std::fmt::Display| {
@@ -155,7 +150,7 @@ fn read_shard(name: &str, text: &str) -> Result<(Head, ShardResults), String> {
     let (before, last) = body.rsplit_once('\n').unwrap_or((body, ""));
     let foot: Foot = serde_json::from_str(last)
         .map_err(|_| format!("{name}: the last line, a checksum, is missing; copy the shard again"))?;
-    if foot.sha256 != checksum(&format!("{before}\n")) {
+    if foot.sha256 != checksum(format!("{before}\n")) {
         return Err(format!(
             "{name}: the shard is not as it was written: its checksum differs; copy it again"
         ));

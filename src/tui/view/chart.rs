@@ -69,8 +69,7 @@ pub fn draw(app: &App, chart: &Chart, mark: Option<Mark>, frame: &mut Frame, are
     let mut sets: Vec<Set> = Vec::new();
     let mut line =
         |points, style, marker| sets.push(Set { points, style, marker, kind: GraphType::Line, name: "" });
-    let dots = [2.0, 4.0].into_iter().zip([area.width, area.height]);
-    let dots: Vec<f64> = dots.map(|(dots, cells)| dots * f64::from(cells)).collect();
+    let dots = [2.0 * f64::from(area.width), 4.0 * f64::from(area.height)];
     let dot = [(across[1] - across[0]) / dots[0], (up[1] - up[0]) / dots[1]];
     let dots_across = (0..dots[0] as usize).map(|n| across[0] + n as f64 * dot[0]);
     for &firing in &chart.firings {
