@@ -51,7 +51,7 @@
 //! | [`outcome`] | | peaks, ledger, histories of a run | any other module |
 //! | [`simulation`] | scene, shot, step | an [`Outcome`](outcome::Outcome) or a [`Failure`](simulation::Failure) | [`plan`], [`ropes`], [`file`], [`units`]; options, limits, screens |
 //! | [`verdict`] | value, error, limit | pass, fail, undecided | any other module |
-//! | [`study`] | a plan made ready | verdicts refined until sure; sweeps, orders, searches and other studies | formats, except that of a shard (`study::merge`) |
+//! | [`study`] | a plan made ready | verdicts refined until sure; sweeps, orders, searches and other studies | formats, except that of its results (`study::results_file`) |
 //! | [`report`] | study results | text, JSON, CSV, a page of HTML | terminals |
 //! | [`jobs`] | a check or a study to begin | news: progress, results; the newest request of a kind wins | [`report`]; screens |
 //! | [`tui`] | keys and events | a screen | physics |
@@ -86,8 +86,8 @@
 //! its own, and the table and detail of Compare draw judgements as they come.
 //!
 //! *Nominal* is as planned, nothing varied. *Undecided* reads OPEN on screens. A *quick check* is a coarse check of one shot
-//! among thousands. An *audit* runs some samples again at a finer step. A *shard* is one machine's part of a study; `--shard`
-//! writes it. A word in brackets behind a field, such as (`n_tires`), is its length.
+//! among thousands. An *audit* runs some samples again at a finer step. A *shard* is one machine's part of a study. A *journal*
+//! keeps what a study has computed; `--save` puts it into a file. A word in brackets behind a field, such as (`n_tires`), is its length.
 
 pub mod choice;
 #[cfg(feature = "cli")]

@@ -135,6 +135,15 @@ pub fn milliseconds(time: f64) -> String {
     format!("{} ms", short(time * 1e3))
 }
 
+/// A time to wait, roughly: `40 s`, `3 min`, `2.5 h`.
+pub fn rough_duration(time: f64) -> String {
+    match time {
+        ..60.0 => format!("{time:.0} s"),
+        ..7200.0 => format!("{:.0} min", (time / 60.0).ceil()),
+        _ => format!("{:.1} h", time / 3600.0),
+    }
+}
+
 /// A number with three digits at least and no needless decimals: `20`, `0.125`.
 pub fn short(number: f64) -> String {
     let digits = if number == 0.0 { 0.0 } else { 3.0 - number.abs().log10().floor() - 1.0 };
@@ -179,6 +188,11 @@ mod tests {
         assert_eq!(exact(0.001_551_14, Unit::Metre), "0.00155114");
         assert_eq!(exact(61_019.333, Unit::Kilonewton), "61.0193");
         assert_eq!(exact(2.0, Unit::Metre), "2");
+    }
+
+    #[test]
+    fn a_time_to_wait_has_the_unit_of_its_size() {
+        assert_eq!([40.2, 61.0, 9000.0].map(rough_duration), ["40 s", "2 min", "2.5 h"]);
     }
 
     #[test]

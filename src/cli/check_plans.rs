@@ -94,7 +94,7 @@ pub fn print_checks(
         .flat_map(|checked| &checked.results)
         .any(|result| result.as_ref().is_err_and(needs_finer_step))
     {
-        eprintln!("a run failed: {REMEDY_AS_ARGUMENTS}");
+        tell!("a run failed: {REMEDY_AS_ARGUMENTS}");
     }
     Ok(status)
 }

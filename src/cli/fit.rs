@@ -10,7 +10,7 @@ use super::arguments::{LookArguments, StudyArguments, named};
 use super::load_plans::open;
 use super::print::{print, print_text};
 use super::run_study::run_study;
-use super::status::{Status, failed, wrong};
+use super::status::{Status, failed, was_interrupted, wrong};
 use crate::choice::Unknown;
 use crate::file;
 use crate::plan::Plan;
@@ -19,7 +19,7 @@ use crate::plan::observations::{Observations, template};
 use crate::report::fit::{refusal, report};
 use crate::report::json::FitDocument;
 use crate::study::fit::{Fit, FitResult, Request, addresses, fit};
-use crate::study::{Case, Found};
+use crate::study::{Case, Found, NoResult};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -71,6 +71,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(reason) => return failed(&reason),
         Ok(Found { value: found, .. }) => found,
     };
+    if was_interrupted() {
+        return failed(&NoResult::Stopped);
+    }
     if let Some(message) = refusal(&case, &found) {
         return wrong(&message);
     }
@@ -80,7 +83,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let status = print(&reports, document, arguments.study.format, look)?;
     if arguments.write {
         match reports[0].conclusion.as_ref() {
-            Some(conclusion) => eprintln!("nothing was written: {}", conclusion.text),
+            Some(conclusion) => tell!("nothing was written: {}", conclusion.text),
             None => write(&arguments.plan, &case, &files, fit)?,
         }
     }
@@ -92,8 +95,10 @@ fn read(case: &Case, paths: &[PathBuf], look: &LookArguments) -> Option<Vec<Obse
     let known = addresses(case);
     let open = |path: &PathBuf| {
         let read = Observations::read(path, &known);
-        read.inspect_err(|mistakes| eprint!("{}", mistakes.render(look.colored(io::stderr().is_terminal()))))
-            .ok()
+        read.inspect_err(|mistakes| {
+            tell!("{}", mistakes.render(look.colored(io::stderr().is_terminal())).trim_end())
+        })
+        .ok()
     };
     // All of them are read before the first mistake ends the command.
     let files: Vec<Option<Observations>> = paths.iter().map(open).collect();
@@ -146,7 +151,7 @@ fn write(path: &Path, case: &Case, files: &[Observations], fit: &Fit) -> io::Res
         )));
     }
     file::save(path, &text)?;
-    eprintln!(
+    tell!(
         "written: {}; [uncertainty] is widened where an estimate is less sure, and never narrowed: the next shot may differ from those seen",
         path.display()
     );

@@ -31,11 +31,11 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         None => STARTER.to_owned(),
         Some(list) => match plan_from_file(list, directions) {
             Ok(imported) => {
-                imported.notes.iter().for_each(|note| eprintln!("note: {note}"));
+                imported.notes.iter().for_each(|note| tell!("note: {note}"));
                 imported.text
             }
             Err(mistakes) => {
-                eprint!("{}", mistakes.render(look.colored(io::stderr().is_terminal())));
+                tell!("{}", mistakes.render(look.colored(io::stderr().is_terminal())).trim_end());
                 return Ok(Status::Wrong);
             }
         },
@@ -45,6 +45,6 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         return Ok(Status::Pass);
     };
     file::create(path, &text)?;
-    eprintln!("wrote {0}; open it with: shelter {0}", path.display());
+    tell!("wrote {0}; open it with: shelter {0}", path.display());
     Ok(Status::Pass)
 }

@@ -17,7 +17,7 @@ pub fn open_all<'a>(paths: impl IntoIterator<Item = &'a PathBuf>, look: &LookArg
 pub fn open(path: &Path, look: &LookArguments) -> Option<Case> {
     let opened = Case::load(path);
     if let Err(mistakes) = &opened {
-        eprint!("{}", mistakes.render(look.colored(io::stderr().is_terminal())));
+        tell!("{}", mistakes.render(look.colored(io::stderr().is_terminal())).trim_end());
     }
     opened.ok()
 }
@@ -29,7 +29,7 @@ pub fn open_option(plan: &Path, option: Option<&str>, look: &LookArguments) -> O
     match find_option(&case, option) {
         Ok(option) => Some((case, option)),
         Err(message) => {
-            eprintln!("error: {message}");
+            tell!("error: {message}");
             None
         }
     }

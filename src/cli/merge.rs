@@ -8,12 +8,11 @@ use clap::Args;
 use super::arguments::{FormatArg, LookArguments};
 use super::print_sharded::{print_orders, print_risks, print_search};
 use super::status::{Status, failed, wrong};
-use crate::study::Progress;
 use crate::study::merge::{Answer, MergeFailure, Merged, merge};
 
 #[derive(Args)]
 pub struct Arguments {
-    /// Files that `orders`, `risk` or `search` wrote with --shard, all of them
+    /// Files that `orders`, `risk` or `search` saved with --shard, all of them
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
     /// Output format
@@ -29,7 +28,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             Err(error) => return wrong(&format!("cannot read {}: {error}", file.display())),
         }
     }
-    let Merged { case, answer } = match merge(&shards, &Progress::default()) {
+    let Merged { case, answer } = match merge(&shards) {
         Ok(merged) => merged,
         Err(MergeFailure::Shards(message)) => return wrong(&message),
         Err(MergeFailure::NoResult(reason)) => return failed(&reason),

@@ -4,6 +4,9 @@
 //! progress, signals), [`print`](mod@print) (formats) and [`status`] (exit status). Results that several commands print are
 //! in [`check_plans`] and [`print_sharded`].
 
+#[macro_use]
+mod tell;
+
 mod accuracy;
 mod arguments;
 mod check;
@@ -24,6 +27,7 @@ mod report;
 mod risk;
 mod ropes;
 mod run_study;
+mod save;
 mod schema;
 mod search;
 mod size;

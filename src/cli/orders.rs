@@ -5,15 +5,15 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{LookArguments, StudyArguments, intervals, shard};
+use super::arguments::{LookArguments, StudyArguments, intervals};
 use super::load_plans::open_option;
-use super::print::print_text;
 use super::print_sharded::print_orders;
-use super::run_study::run_study;
-use super::status::{Status, failed, wrong};
-use crate::study::merge::{Question, ShardResults, write_shard};
+use super::run_study::run_saved_study;
+use super::save::SharedArguments;
+use super::status::{Status, failed, saved, wrong};
 use crate::study::orders::{MOST_ROWS, count, orders, tries_all, try_orders};
-use crate::study::{Found, Intervals, Shard};
+use crate::study::results_file::Question;
+use crate::study::{Found, Intervals};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -25,9 +25,8 @@ pub struct Arguments {
     /// Delay option whose holes fire as in every order; needed where the options differ in that
     #[arg(long, value_name = "NAME")]
     option: Option<String>,
-    /// This machine's shard; `shelter merge` joins the shards
-    #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with_all = ["timeout", "format"])]
-    shard: Option<Shard>,
+    #[command(flatten)]
+    saved: SharedArguments,
     #[command(flatten)]
     study: StudyArguments,
 }
@@ -36,14 +35,12 @@ pub struct Arguments {
 const MOST_ORDERS: usize = 5_000_000;
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
-    let Some((mut case, option)) = open_option(&arguments.plan, arguments.option.as_deref(), look) else {
+    let Some((mut case, _)) = open_option(&arguments.plan, arguments.option.as_deref(), look) else {
         return Ok(Status::Wrong);
     };
-    if arguments.option.is_some() {
-        case.hole_timing = Some(case.plan.delays[option].hole_timing);
-    }
+    case.set_hole_timing_of(arguments.option.as_deref());
     let intervals_s = arguments.interval.map_or_else(|| case.intervals(), |interval| interval.values());
-    if arguments.shard.is_some() && !tries_all(&case) {
+    if arguments.saved.shard.is_some() && !tries_all(&case) {
         return wrong(&format!(
             "orders of more than {MOST_ROWS} rows are searched, not shared: leave out --shard"
         ));
@@ -56,20 +53,19 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     }
     let compute = arguments.study.compute.settings(&case.plan);
     let sampling = arguments.study.verdict.sampling();
-    if let Some(shard) = arguments.shard {
-        let tried = run_study(&arguments.study.compute, |progress| {
-            try_orders(&case, &intervals_s, shard, &compute, progress)
-        });
-        return match tried {
-            Err(reason) => failed(&reason),
-            Ok(Found { value: tried, .. }) => {
-                let question = Question::Orders { intervals_s, sampling };
-                print_text(&write_shard(&case, question, compute, shard, &ShardResults::Orders(tried))?)?;
-                Ok(Status::Pass)
-            }
-        };
+    let (option, intervals) = (arguments.option.clone(), intervals_s.clone());
+    let question = Question::Orders { intervals_s: intervals, option, sampling };
+    let journal = match arguments.saved.journal(&case, question, compute) {
+        Ok(journal) => journal,
+        Err(message) => return wrong(&message),
+    };
+    if let Some(shard) = arguments.saved.shard {
+        return saved(run_saved_study(&arguments.study.compute, journal, |progress| {
+            let tried = try_orders(&case, &intervals_s, shard, &compute, progress)?;
+            Ok(Found { value: (), partial: tried.partial })
+        }));
     }
-    let ranked = run_study(&arguments.study.compute, |progress| {
+    let ranked = run_saved_study(&arguments.study.compute, journal, |progress| {
         orders(&case, &intervals_s, sampling.as_ref(), &compute, progress)
     });
     match ranked {

@@ -35,7 +35,7 @@ pub fn print<D: Serialize>(
 pub fn print_warnings(reports: &[Report]) {
     for report in reports {
         let title = if reports.len() > 1 { format!("{}: ", report.title) } else { String::new() };
-        report.warnings.iter().for_each(|warning| eprintln!("warning: {title}{warning}"));
+        report.warnings.iter().for_each(|warning| tell!("warning: {title}{warning}"));
     }
 }
 

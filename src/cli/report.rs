@@ -10,12 +10,13 @@ use super::check_plans::{check_plans, print_checks};
 use super::load_plans::open_option;
 use super::print::{print_beside_verdict, print_warnings};
 use super::run_study::run_study;
-use super::status::{Status, failed, wrong};
+use super::status::{Status, failed, was_interrupted, wrong};
 use super::sweep::swept_order;
 use crate::file;
 use crate::report::check;
 use crate::report::html::{self, Page};
 
+use crate::study::NoResult;
 use crate::study::sweep::{INTERVALS, sweep};
 
 #[derive(Args)]
@@ -77,7 +78,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(reason) => return failed(&reason),
     };
     let compute = arguments.compute.settings(&cases[0].plan);
-    let swept = arguments.sweep.then(|| {
+    let swept = (arguments.sweep && !was_interrupted()).then(|| {
         run_study(&arguments.compute, |progress| {
             sweep(&cases[0], &order, &INTERVALS, sampling.as_ref(), &compute, progress)
         })
@@ -86,6 +87,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Ok(swept) => swept,
         Err(reason) => return failed(&reason),
     };
+    // Who interrupts wants no page, and keeps the page that is there.
+    if was_interrupted() {
+        return failed(&NoResult::Stopped);
+    }
     let page = html::page(&Page {
         case: &cases[0],
         results: &checked.value[0].results,
@@ -100,7 +105,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         print_beside_verdict(&page)?;
     } else {
         file::save(output, &page)?;
-        eprintln!("wrote {}", output.display());
+        tell!("wrote {}", output.display());
     }
     match arguments.format {
         Some(format) => print_checks(&cases, &checked, false, format, look),

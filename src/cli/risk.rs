@@ -5,17 +5,16 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, LookArguments, SamplingArguments, shard};
+use super::arguments::{Compute, FormatArg, LookArguments, SamplingArguments};
 use super::load_plans::open;
-use super::print::print_text;
 use super::print_sharded::print_risks;
-use super::run_study::run_study;
-use super::status::{Status, failed, wrong};
-use crate::study::merge::{Question, ShardResults, write_shard};
+use super::run_study::run_saved_study;
+use super::save::SharedArguments;
+use super::status::{Status, failed, saved, wrong};
+use crate::study::results_file::Question;
 use crate::study::samples::rounds::{ShotToSample, draw_shard};
-use crate::study::samples::sample::OptionSample;
 use crate::study::samples::sampling::Sampling;
-use crate::study::{Case, Found, Shard};
+use crate::study::{Case, Found, Journal, Shard};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -23,9 +22,8 @@ pub struct Arguments {
     plan: PathBuf,
     #[command(flatten)]
     sampling: SamplingArguments,
-    /// This machine's shard; `shelter merge` joins the shards
-    #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with_all = ["timeout", "format"])]
-    shard: Option<Shard>,
+    #[command(flatten)]
+    saved: SharedArguments,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: FormatArg,
@@ -46,12 +44,16 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             format!("more than {MOST_SAMPLES} samples of all options do not fit into memory: take fewer");
         return wrong(&message);
     }
-    if let Some(shard) = arguments.shard {
-        return draw(arguments, &case, &sampling, shard);
-    }
     let compute = arguments.compute.settings(&case.plan);
+    let journal = match arguments.saved.journal(&case, Question::Risk { sampling }, compute) {
+        Ok(journal) => journal,
+        Err(message) => return wrong(&message),
+    };
+    if let Some(shard) = arguments.saved.shard {
+        return draw(arguments, &case, &sampling, shard, journal);
+    }
     let judge = |progress: &_| case.judge_options(&compute, Some(&sampling), progress);
-    match run_study(&arguments.compute, judge) {
+    match run_saved_study(&arguments.compute, journal, judge) {
         Err(reason) => failed(&reason),
         Ok(Found { value: results, partial }) => {
             print_risks(&case, &results, &sampling, partial, arguments.format, look)
@@ -59,23 +61,20 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     }
 }
 
-/// Draws and prints this machine's shard of the samples.
-fn draw(arguments: &Arguments, case: &Case, sampling: &Sampling, shard: Shard) -> io::Result<Status> {
+/// Draws this machine's shard of the samples into the journal.
+fn draw(
+    arguments: &Arguments,
+    case: &Case,
+    sampling: &Sampling,
+    shard: Shard,
+    journal: Journal,
+) -> io::Result<Status> {
     let compute = arguments.compute.settings(&case.plan);
     let target = |shot| ShotToSample::new(case, shot, compute, *sampling);
     let targets: Vec<_> = case.shots.iter().map(target).collect();
-    let drawn = run_study(&arguments.compute, |progress| {
+    let drawn = run_saved_study(&arguments.compute, journal, |progress| {
         let drawn = draw_shard(&targets, shard, progress)?;
-        let samples =
-            drawn.into_iter().filter_map(|(option, sample)| Some(OptionSample { option, sample: sample? }));
-        Ok(Found { value: samples.collect(), partial: false })
+        Ok(Found { value: (), partial: drawn.iter().any(|(_, sample)| sample.is_none()) })
     });
-    match drawn {
-        Err(reason) => failed(&reason),
-        Ok(Found { value: samples, .. }) => {
-            let question = Question::Risk { sampling: *sampling };
-            print_text(&write_shard(case, question, compute, shard, &ShardResults::Risk(samples))?)?;
-            Ok(Status::Pass)
-        }
-    }
+    saved(drawn)
 }

@@ -9,7 +9,9 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::arguments::Compute;
-use crate::study::{Finding, NoResult, Progress, thread_pool};
+use super::status::note_interrupt;
+use crate::study::{Finding, Found, Journal, NoResult, Progress, thread_pool};
+use crate::units::rough_duration;
 
 /// Time between two looks at progress and signals.
 const LOOK: Duration = Duration::from_millis(50);
@@ -24,16 +26,25 @@ pub fn run_study<T: Send>(
     compute: &Compute,
     work: impl FnOnce(&Progress) -> Finding<T> + Send,
 ) -> Finding<T> {
-    let (progress, signal) = (Progress::default(), Arc::new(AtomicBool::new(false)));
+    run_saved_study(compute, Journal::default(), work)
+}
+
+/// Like [`run_study`], with a journal that keeps the results.
+pub fn run_saved_study<T: Send>(
+    compute: &Compute,
+    journal: Journal,
+    work: impl FnOnce(&Progress) -> Finding<T> + Send,
+) -> Finding<T> {
+    let (progress, signal) = (Progress::with_journal(journal), Arc::new(AtomicBool::new(false)));
     #[cfg(unix)]
     for number in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM, signal_hook::consts::SIGHUP] {
         // Without a handler the signal ends the program at once, which is as good.
         let _ = signal_hook::flag::register(number, Arc::clone(&signal));
     }
-    let template = "{bar:30} {pos} of {len} shots, {eta} left";
+    let template = "{bar:30} {pos} of {len} shots, {msg}";
     let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
     let bar = ProgressBar::new(0).with_style(style);
-    let (begun, mut told) = (Instant::now(), !io::stderr().is_terminal());
+    let (begun, mut told, mut interrupted) = (Instant::now(), !io::stderr().is_terminal(), false);
     let result = std::thread::scope(|scope| {
         let (ended, end) = std::sync::mpsc::channel::<()>();
         let study = scope.spawn(|| {
@@ -45,30 +56,66 @@ pub fn run_study<T: Send>(
             let (done, total) = progress.counts();
             bar.set_length(total as u64);
             bar.set_position(done as u64);
-            if signal.load(Ordering::Relaxed) {
-                progress.stop();
+            if signal.swap(false, Ordering::Relaxed) {
+                // Who interrupts twice does not want what there is.
+                if interrupted {
+                    progress.stop()
+                } else {
+                    progress.expire()
+                }
+                interrupted = true;
             }
             if compute.timeout.is_some_and(|timeout| begun.elapsed().as_secs_f64() > timeout) {
                 progress.expire();
             }
-            let expected = begun.elapsed().mul_f64(total as f64 / done.max(1) as f64);
-            if !told && done > 0 && begun.elapsed() > WATCHED && expected > LONG {
+            let Some(left) = time_left(&progress, begun.elapsed()) else { continue };
+            bar.set_message(format!("about {} left", rough_duration(left.as_secs_f64())));
+            if !told && begun.elapsed() + left > LONG {
                 told = true;
-                let minutes = (expected.as_secs_f64() / 60.0).ceil();
+                let expected = rough_duration(left.as_secs_f64());
                 bar.suspend(|| {
-                    eprintln!("about {minutes} min; --timeout SECONDS ends it with what is computed by then");
+                    tell!(
+                        "about {expected}; Ctrl-C or --timeout SECONDS ends it with what is computed by then"
+                    )
                 });
             }
         }
         study.join()
     });
     bar.finish_and_clear();
-    let found = result.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
-    if found.partial {
-        let (done, total) = progress.counts();
-        eprintln!("the time was up after {done} of {total} shots; what follows is partial");
+    let (done, total) = progress.counts();
+    let found = result.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+    close(progress.into_journal(), found.as_ref().is_ok_and(|found| !found.partial));
+    if interrupted {
+        note_interrupt();
     }
-    Ok(found)
+    match &found {
+        Ok(Found { partial: true, .. }) => {
+            let why = if interrupted { "interrupted" } else { "the time was up" };
+            tell!("{why} after {done} of {total} shots; what follows is partial");
+        }
+        Err(NoResult::OutOfTime) if interrupted => return Err(NoResult::Stopped),
+        _ => {}
+    }
+    found
+}
+
+/// The time that a study takes from now on, from the pace of what it computed itself; `None` while too little is known.
+fn time_left(progress: &Progress, elapsed: Duration) -> Option<Duration> {
+    let (done, total) = progress.counts();
+    let computed = done.saturating_sub(progress.journal().recalled());
+    (computed > 0 && elapsed > WATCHED)
+        .then(|| elapsed.mul_f64(total.saturating_sub(done) as f64 / computed as f64))
+}
+
+/// Closes the journal of a study, which is complete or not.
+fn close(journal: Journal, is_complete: bool) {
+    if is_complete {
+        journal.complete();
+    }
+    if let Err(error) = journal.close() {
+        tell!("warning: not all results are saved: {error}");
+    }
 }
 
 /// Runs `work` on the threads asked for.

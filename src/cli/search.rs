@@ -5,17 +5,17 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{LookArguments, StudyArguments, shard};
+use super::arguments::{LookArguments, StudyArguments};
 use super::load_plans::open;
-use super::print::print_text;
 use super::print_sharded::print_search;
-use super::run_study::run_study;
-use super::status::{Status, failed, wrong};
+use super::run_study::run_saved_study;
+use super::save::SharedArguments;
+use super::status::{Status, failed, saved, was_interrupted, wrong};
 use crate::file;
 use crate::plan::{DelayOption, edit};
-use crate::study::merge::{Question, ShardResults, write_shard};
+use crate::study::results_file::Question;
 use crate::study::search::{MOST_JUDGED, Search, search, try_schedules};
-use crate::study::{Case, Found, Shard};
+use crate::study::{Case, Found};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -24,9 +24,8 @@ pub struct Arguments {
     /// Write the best schedules that pass into the plan, as delay options
     #[arg(long, value_name = "COUNT", num_args = 0..=1, default_missing_value = "1", value_parser = clap::value_parser!(u8).range(1..=10))]
     write: Option<u8>,
-    /// This machine's shard; `shelter merge` joins the shards
-    #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with_all = ["timeout", "format", "write"])]
-    shard: Option<Shard>,
+    #[command(flatten)]
+    saved: SharedArguments,
     #[command(flatten)]
     study: StudyArguments,
 }
@@ -38,28 +37,29 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     }
     let compute = arguments.study.compute.settings(&case.plan);
     let sampling = arguments.study.verdict.sampling();
-    if let Some(shard) = arguments.shard {
-        let tried = run_study(&arguments.study.compute, |progress| {
+    let journal = match arguments.saved.journal(&case, Question::Search { sampling }, compute) {
+        Ok(journal) => journal,
+        Err(message) => return wrong(&message),
+    };
+    if let Some(shard) = arguments.saved.shard {
+        let tried = run_saved_study(&arguments.study.compute, journal, |progress| {
             try_schedules(&case, sampling.as_ref(), &compute, shard, progress)
         });
         return match tried {
-            Err(reason) => failed(&reason),
-            Ok(Found { value: None, .. }) => wrong(&format!(
+            Ok(Found { value: false, .. }) => wrong(&format!(
                 "of more than {MOST_JUDGED} schedules the best are searched, not shared: leave out --shard"
             )),
-            Ok(Found { value: Some(tried), .. }) => {
-                let question = Question::Search { sampling };
-                print_text(&write_shard(&case, question, compute, shard, &ShardResults::Search(tried))?)?;
-                Ok(Status::Pass)
-            }
+            tried => saved(tried.map(|Found { partial, .. }| Found { value: (), partial })),
         };
     }
-    match run_study(&arguments.study.compute, |progress| search(&case, sampling.as_ref(), &compute, progress))
-    {
+    let searched = run_saved_study(&arguments.study.compute, journal, |progress| {
+        search(&case, sampling.as_ref(), &compute, progress)
+    });
+    match searched {
         Err(reason) => failed(&reason),
         Ok(Found { value: found, partial }) => {
             let status = print_search(&case, &found, partial, arguments.study.format, look)?;
-            if let Some(count) = arguments.write {
+            if let Some(count) = arguments.write.filter(|_| !was_interrupted()) {
                 write(arguments, &case, &found, count.into())?;
             }
             Ok(status)
@@ -74,18 +74,18 @@ fn write(arguments: &Arguments, case: &Case, found: &Search, count: usize) -> io
     }
     let best: Vec<_> = found.passing().take(count).collect();
     if best.is_empty() {
-        eprintln!("nothing was written: no schedule found passes");
+        tell!("nothing was written: no schedule found passes");
         return Ok(());
     }
     let is_known = |delay: &&&DelayOption| case.plan.delays.iter().any(|own| own.fires_like(delay));
     let (known, delays): (Vec<&DelayOption>, Vec<&DelayOption>) = best.iter().partition(is_known);
-    known.iter().for_each(|delay| eprintln!("in the plan already: {}", delay.name));
+    known.iter().for_each(|delay| tell!("in the plan already: {}", delay.name));
     if delays.is_empty() {
         return Ok(());
     }
     let text = edit::add_delays(&case.source.text, &case.plan, &delays).map_err(io::Error::other)?;
     file::save(&arguments.plan, &text)?;
     let names: Vec<&str> = delays.iter().map(|delay| delay.name.as_str()).collect();
-    eprintln!("written: {}: {}", arguments.plan.display(), names.join("; "));
+    tell!("written: {}: {}", arguments.plan.display(), names.join("; "));
     Ok(())
 }

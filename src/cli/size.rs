@@ -8,14 +8,16 @@ use clap::Args;
 use super::arguments::{LookArguments, StudyArguments, intervals};
 use super::load_plans::open;
 use super::print::print;
-use super::run_study::run_study;
-use super::status::{Status, failed, wrong};
+use super::run_study::run_saved_study;
+use super::save::SaveArguments;
+use super::status::{Status, failed, was_interrupted, wrong};
 use crate::file;
 use crate::plan::{Layout, Plan, SizeSpec, edit};
 use crate::report::json::SizeDocument;
 use crate::report::size::report;
 use crate::ropes::catalogue;
 use crate::study::orders::{MOST_ROWS, tries_all};
+use crate::study::results_file::Question;
 use crate::study::size::{Combination, Demand, size};
 use crate::study::{Case, Intervals, NoResult};
 
@@ -42,6 +44,8 @@ pub struct Arguments {
     #[arg(long)]
     write: bool,
     #[command(flatten)]
+    saved: SaveArguments,
+    #[command(flatten)]
     study: StudyArguments,
 }
 
@@ -60,7 +64,12 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     };
     let compute = arguments.study.compute.settings(&case.plan);
     let sampling = arguments.study.verdict.sampling();
-    let sized = run_study(&arguments.study.compute, |progress| {
+    let question = Question::Size { choices: plan.size.clone(), demand: demand.clone(), sampling };
+    let journal = match arguments.saved.journal(&case, question, compute) {
+        Ok(journal) => journal,
+        Err(message) => return wrong(&message),
+    };
+    let sized = run_saved_study(&arguments.study.compute, journal, |progress| {
         size(&plan, &demand, sampling.as_ref(), &compute, progress)
     });
     let sizing = match sized {
@@ -69,7 +78,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     };
     let document = || SizeDocument::new(&case, &sizing);
     let status = print(&[report(&case, &sizing)], document, arguments.study.format, look)?;
-    if let (Status::Pass, true, Some(found)) = (status, arguments.write, sizing.lightest_choice()) {
+    if let (Status::Pass, true, Some(found)) =
+        (status, arguments.write && !was_interrupted(), sizing.lightest_choice())
+    {
         write(arguments, &case, found)?;
     }
     Ok(status)
@@ -143,6 +154,6 @@ fn write(arguments: &Arguments, case: &Case, found: &Combination) -> io::Result<
     let text = edit::write_sizes(&case.source.text, &found.rope.name, found.tire_mass, found.border_rows)
         .map_err(io::Error::other)?;
     file::save(&arguments.plan, &text)?;
-    eprintln!("written: {}", arguments.plan.display());
+    tell!("written: {}", arguments.plan.display());
     Ok(())
 }

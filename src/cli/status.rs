@@ -2,10 +2,11 @@
 
 use std::io;
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::report::model::Report;
 use crate::report::no_result;
-use crate::study::NoResult;
+use crate::study::{Finding, Found, NoResult};
 use crate::verdict::Verdict;
 
 /// What a command says to the shell.
@@ -38,21 +39,47 @@ impl From<Status> for ExitCode {
     }
 }
 
+/// Whether a signal ended a study; its results are partial.
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// Takes note that a signal ended a study.
+pub fn note_interrupt() {
+    INTERRUPTED.store(true, Ordering::Relaxed);
+}
+
+/// Whether a signal ended a study: nothing is written then.
+pub fn was_interrupted() -> bool {
+    INTERRUPTED.load(Ordering::Relaxed)
+}
+
 /// The status of a command that ended, after its error is told.
 pub fn ended(result: io::Result<Status>) -> ExitCode {
-    match result {
-        Ok(status) => status.into(),
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Status::Pass.into(),
+    let status = match result {
+        Ok(status) => status,
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Status::Pass,
         Err(error) => {
-            eprintln!("error: {error}");
-            Status::Wrong.into()
+            tell!("error: {error}");
+            Status::Wrong
         }
+    };
+    if was_interrupted() { Status::Interrupted.into() } else { status.into() }
+}
+
+/// The status of a shard that was saved.
+pub fn saved(finding: Finding<()>) -> io::Result<Status> {
+    match finding {
+        Err(reason) => failed(&reason),
+        Ok(Found { partial: true, .. }) => {
+            tell!("the shard is not complete: the same command goes on from there");
+            Ok(Status::Fail)
+        }
+        Ok(Found { partial: false, .. }) => Ok(Status::Pass),
     }
 }
 
 /// Tells a mistake in the arguments.
 pub fn wrong(message: &str) -> io::Result<Status> {
-    eprintln!("error: {message}");
+    tell!("error: {message}");
     Ok(Status::Wrong)
 }
 
@@ -63,11 +90,11 @@ pub const REMEDY_AS_ARGUMENTS: &str = "choose a finer --accuracy or a smaller --
 pub fn failed(reason: &NoResult) -> io::Result<Status> {
     match reason {
         NoResult::Stopped => {
-            eprintln!("{reason}");
+            tell!("{reason}");
             Ok(Status::Interrupted)
         }
         NoResult::OutOfTime => {
-            eprintln!("{reason}");
+            tell!("the time was up before there was a result");
             Ok(Status::Fail)
         }
         NoResult::NoInterval => wrong(&format!("{reason}: give --interval FROM..TO:STEP")),

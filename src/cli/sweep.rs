@@ -8,11 +8,13 @@ use clap::Args;
 use super::arguments::{LookArguments, StudyArguments, intervals};
 use super::load_plans::open_option;
 use super::print::print;
-use super::run_study::run_study;
+use super::run_study::run_saved_study;
+use super::save::SaveArguments;
 use super::status::{Status, failed, wrong};
 use crate::plan::Timing;
 use crate::report::json::SweepDocument;
 use crate::report::sweep::report;
+use crate::study::results_file::Question;
 use crate::study::sweep::sweep;
 use crate::study::{Case, Found, Intervals};
 
@@ -26,6 +28,8 @@ pub struct Arguments {
     /// Delay option whose order of rows is swept; default: rows in the order listed
     #[arg(long, value_name = "NAME")]
     option: Option<String>,
+    #[command(flatten)]
+    saved: SaveArguments,
     #[command(flatten)]
     study: StudyArguments,
 }
@@ -49,12 +53,20 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Ok(order) => order,
         Err(message) => return wrong(&message),
     };
-    if arguments.option.is_some() {
-        case.hole_timing = Some(case.plan.delays[option].hole_timing);
-    }
+    case.set_hole_timing_of(arguments.option.as_deref());
     let compute = arguments.study.compute.settings(&case.plan);
     let sampling = arguments.study.verdict.sampling();
-    let swept = run_study(&arguments.study.compute, |progress| {
+    let question = Question::Sweep {
+        order: order.clone(),
+        intervals: arguments.interval,
+        option: arguments.option.clone(),
+        sampling,
+    };
+    let journal = match arguments.saved.journal(&case, question, compute) {
+        Ok(journal) => journal,
+        Err(message) => return wrong(&message),
+    };
+    let swept = run_saved_study(&arguments.study.compute, journal, |progress| {
         sweep(&case, &order, &arguments.interval, sampling.as_ref(), &compute, progress)
     });
     match swept {

@@ -75,7 +75,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
 
 fn failed(failure: &Failure) -> io::Result<Status> {
     if let Failure::Stopped { at } = failure {
-        eprintln!("the time was up at {at:.3} s of the motion");
+        tell!("the time was up at {at:.3} s of the motion");
         return Ok(Status::Fail);
     }
     status::failed(&failure.clone().into())

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use serde::{Deserialize, Serialize};
+
 use super::{Diagnostics, PlanSource, Uncertainty, sections};
 use crate::choice::{Accuracy, HoleOrder, Link, Method, OnOverload, SearchedOrders};
 use crate::ropes::Rope;
@@ -55,7 +57,7 @@ pub struct SearchSpec {
 }
 
 /// Choices of `shelter size`.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SizeSpec {
     /// Masses of the tires at hand [kg]; empty: only the mass of `[tire]`.
     pub tire_mass_kg: Vec<f64>,

@@ -157,7 +157,7 @@ pub fn report(
     table.columns = table.columns.iter().map(shown).collect();
     complete_rows(&mut table, case, results);
     let passed = results.iter().flatten().filter(|judged| judged.verdict() == Verdict::Pass).count();
-    let so_far = if partial { " so far, the time was up" } else { "" };
+    let so_far = if partial { " so far, ended early" } else { "" };
     let mut text =
         format!("{passed} of {} options pass{so_far}{}", results.len(), pass_caveat(case, sampled));
     if let Some(judged) = results.iter().flatten().next() {

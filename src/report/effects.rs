@@ -75,7 +75,7 @@ pub fn report(case: &Case, effects: &EffectsOnOptions, partial: bool) -> Report 
     ];
     let conclusion = partial.then(|| Conclusion {
         verdict: Verdict::Undecided,
-        text: "the time was up: not every option was tried".to_owned(),
+        text: "ended early: not every option was tried".to_owned(),
     });
     Report { blocks, conclusion, ..report_head(case, false) }
 }

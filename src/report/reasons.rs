@@ -30,7 +30,7 @@ pub fn sentence(case: &Case, judged: &Judgement, reason: &Reason) -> String {
         (Reason::AsPlanned(reason), _) => of_shot(reason),
         (Reason::Samples(reason), Some(risk)) => of_risk(case, &judged.as_planned.compute, risk, *reason),
         (Reason::Samples(_) | Reason::NoSamples, _) => {
-            "no sample of the possible shots was drawn: the time was up".to_owned()
+            "no sample of the possible shots was drawn: ended early".to_owned()
         }
     }
 }

@@ -149,7 +149,7 @@ pub fn without_pass(case: &Case, remedies: &Remedies) -> Vec<String> {
         lines.push(sentences.join("; "));
     }
     if remedies.kinds.iter().any(|tried| tried.out_of_time) {
-        lines.push("not all changes were tried: the time was up".to_owned());
+        lines.push("not all changes were tried: ended early".to_owned());
     }
     lines
 }

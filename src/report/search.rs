@@ -93,7 +93,7 @@ pub fn report(case: &Case, search: &Search, partial: bool) -> Report {
         blocks.push(Block::Text(front(case, &search.front)));
         blocks.push(Block::Picture(charts::front(case, &search.front)));
     }
-    let so_far = if partial { " so far, the time was up" } else { "" };
+    let so_far = if partial { " so far, ended early" } else { "" };
     let mut text = match search.case.plan.delays.first() {
         None if search.complete => "no schedule keeps the limits of the search".to_owned(),
         None => format!("no schedule was judged{so_far}"),

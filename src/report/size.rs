@@ -99,7 +99,7 @@ fn tried(sizing: &Sizing) -> Vec<String> {
     let unstable = format!("the motion cannot be computed at this step: {REMEDY_IN_PLAN_WORDS}");
     let reasons = [
         (Untried::StrongerRopeDoesNotHold, "a stronger rope of the same stiffness does not hold"),
-        (Untried::OutOfTime, "the time was up"),
+        (Untried::OutOfTime, "ended early"),
         (Untried::RunFailed, unstable.as_str()),
     ];
     for (why, reason) in reasons {

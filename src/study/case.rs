@@ -1,8 +1,9 @@
 //! A plan made ready to run.
 
 use std::path::Path;
+use std::sync::OnceLock;
 
-use super::work::NoResult;
+use super::work::{Key, NoResult};
 use crate::choice::Method;
 use crate::plan::{DelayOption, Diagnostics, HoleTiming, Plan, PlanSource, Timing};
 use crate::scene::{Scene, Shot, seconds};
@@ -25,6 +26,8 @@ pub struct Case {
     /// How the holes of each row fire in studies that vary order and interval: as in all options of the plan; `None` where the
     /// options differ, and such a study needs to be told.
     pub hole_timing: Option<HoleTiming>,
+    /// Filled by [`Case::key`].
+    pub(in crate::study) key: OnceLock<Key>,
 }
 
 impl Case {
@@ -51,7 +54,8 @@ impl Case {
             drift: plan.limits.drift_m,
             breaking_force,
         };
-        Self { source: PlanSource::default(), plan, model: Model::new(scene), shots, limits, hole_timing }
+        let (source, key) = (PlanSource::default(), OnceLock::new());
+        Self { source, plan, model: Model::new(scene), shots, limits, hole_timing, key }
     }
 
     /// The same case, of a plan with this file and text.
@@ -63,7 +67,12 @@ impl Case {
     pub fn with_options(&self, options: &[usize]) -> Self {
         let delays = options.iter().map(|&n| self.plan.delays[n].clone()).collect();
         let shots = options.iter().map(|&n| self.shots[n].clone()).collect();
-        Self { plan: Plan { delays, ..self.plan.clone() }, shots, ..self.clone() }
+        Self { plan: Plan { delays, ..self.plan.clone() }, shots, key: OnceLock::new(), ..self.clone() }
+    }
+
+    /// Key of everything that the plan says, but for what a shot says of itself.
+    pub(in crate::study) fn key(&self) -> Key {
+        *self.key.get_or_init(|| Key::of(&self.plan))
     }
 
     /// Title of the plan; the path of its file where the plan has no title.
@@ -86,6 +95,12 @@ impl Case {
     /// The case with the holes of each row fired as in a delay option, where the options differ.
     pub fn with_hole_timing_or_of(&self, option: usize) -> Self {
         Self { hole_timing: self.hole_timing.or(Some(self.plan.delays[option].hole_timing)), ..self.clone() }
+    }
+
+    /// Fires the holes of each row as in the delay option of this name, where there is one.
+    pub fn set_hole_timing_of(&mut self, option: Option<&str>) {
+        let delay = option.and_then(|name| self.plan.delays.iter().find(|delay| delay.name == name));
+        self.hole_timing = delay.map(|delay| delay.hole_timing).or(self.hole_timing);
     }
 
     /// Intervals of the delay options whose holes fire as [`Case::hole_timing`] says [s], ascending, without repetitions.

@@ -7,8 +7,7 @@ use super::as_planned::margin::{LaunchMargin, launch_margin};
 use super::judgement::Evidence;
 use super::judgement::Judgement;
 use super::samples::risk::Risk;
-use super::samples::rounds::{ShotToSample, find_risks, find_risks_watched};
-use super::samples::sample::{OptionSample, Sample};
+use super::samples::rounds::{ShotToSample, find_risks_watched};
 use super::samples::sampling::Sampling;
 use super::work::batch::run_jobs;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, guarded};
@@ -196,27 +195,6 @@ pub fn find_launch_margins(
         judgement.launch_margin = margin.flatten();
     }
     Ok(Found { value: (), partial })
-}
-
-/// Judges every option of a case as planned, and by samples that other machines drew, in order of their numbers.
-pub fn judge_from_samples(
-    case: &Case,
-    compute: &ComputeSettings,
-    sampling: &Sampling,
-    samples: &[OptionSample],
-    progress: &Progress,
-) -> Result<OptionResults, NoResult> {
-    let mut results = case.judge_options(compute, None, progress)?.value;
-    for (option, result) in results.iter_mut().enumerate() {
-        if let Ok(judged) = result {
-            let of_option = samples.iter().filter(|drawn| drawn.option == option);
-            let drawn: Vec<Sample> = of_option.map(|drawn| drawn.sample).collect();
-            let as_planned = ShotSummary::of(&judged.as_planned);
-            let target = target(case, option, &as_planned, sampling, *compute).precomputed(&drawn);
-            judged.risk = Evidence::Drawn(find_risks(&[target], progress)?.value.remove(0));
-        }
-    }
-    Ok(results)
 }
 
 /// The verdict on a plan: the worst of its options, or the best where one passing option is enough.

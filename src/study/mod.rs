@@ -8,13 +8,13 @@
 //! | both together: the judgement on an option, on all options | [`judgement`], [`judge_options`] |
 //! | why an option fails, or its verdict stays open | [`reasons`] |
 //! | other questions of the user, one each | [`sweep`], [`orders`], [`search`], [`size`], [`remedies`], [`effects`], [`mod@fit`], [`accuracy`], [`flight`], [`trace`] |
-//! | how work runs: on all cores, with progress, to be stopped | [`work`]; on many machines: [`merge`] |
+//! | how work runs: on all cores, with progress, to be stopped | [`work`]; on many machines: [`merge`]; results on the disk: [`results_file`] |
 //!
 //! Three verbs: a shot as planned is *checked*, possible shots are *sampled*, and both together are *judged*.
 //!
 //! A study takes a case and returns plain data, which every face draws; `size` takes a plan and makes a case of each combination,
 //! `remedies` one of each change.
-//! Studies do not print and do not compute physics. Only `merge` reads and writes a file format: that of shards.
+//! Studies do not print and do not compute physics. Only `results_file` reads and writes a file format.
 
 pub mod accuracy;
 pub mod as_planned;
@@ -29,6 +29,7 @@ pub mod merge;
 pub mod orders;
 pub mod reasons;
 pub mod remedies;
+pub mod results_file;
 pub mod samples;
 pub mod search;
 pub mod size;
@@ -40,4 +41,4 @@ pub mod work;
 pub use as_planned::shot_summary::{ShotSummary, ValueWithError};
 pub use case::Case;
 pub use compute::ComputeSettings;
-pub use work::{Finding, Found, Intervals, NoResult, Progress, Shard, guarded, thread_pool};
+pub use work::{Finding, Found, Intervals, Journal, Key, NoResult, Progress, Shard, guarded, thread_pool};

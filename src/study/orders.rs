@@ -18,7 +18,6 @@ use itertools::Itertools;
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
-use serde::{Deserialize, Serialize};
 
 use super::as_planned::check_many::{check_summary, run_checks_or_unknown};
 use super::as_planned::quick_check::{quick_check_is_sure, quick_check_until};
@@ -26,7 +25,7 @@ use super::judgement;
 use super::judgement::Evidence;
 use super::samples::risk_summary::{RiskSummary, find_risk_summaries};
 use super::samples::sampling::Sampling;
-use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, Shard, ShotSummary};
+use super::{Case, ComputeSettings, Finding, Found, Key, NoResult, Progress, Shard, ShotSummary};
 use crate::plan::BlastRow;
 use crate::scene::{Firing, Shot};
 use crate::verdict::Verdict;
@@ -50,7 +49,7 @@ const RANDOM: usize = 1000;
 const SAMPLED_AT_EACH_END: usize = 20;
 
 /// One order at one interval.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct TriedOrder {
     /// Number of this trial, in the order in which one machine tries them.
     pub number: usize,
@@ -341,7 +340,11 @@ fn quick_check_orders(
             || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= RUNS
     };
     let summaries = run_checks_or_unknown(&orders, progress, |OrderToTry { order, interval, .. }| {
-        quick_check_until(case, &case.shot(order, *interval), compute, progress, enough)
+        let shot = case.shot(order, *interval);
+        progress.journal().recall_or(
+            || Key::of(("order", case.key(), &shot, compute)),
+            || quick_check_until(case, &shot, compute, progress, enough),
+        )
     })?;
     let tried = |(OrderToTry { number, order, interval }, as_planned): (_, Option<ShotSummary>)| {
         as_planned.map(|as_planned| TriedOrder { number, order, interval, as_planned })

@@ -27,6 +27,8 @@ mod properties;
 mod reference;
 mod remedies;
 mod risk;
+#[cfg(unix)]
+mod saved;
 mod scenes;
 mod schema;
 mod screens;

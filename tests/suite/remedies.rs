@@ -350,5 +350,5 @@ fn w_on_an_option_that_passes_or_is_not_judged_says_so() {
     assert_eq!(app.selected, 1, "without a list the arrows move among the options");
     study_ends(&mut app, StudyKind::Remedies, Err(NoResult::OutOfTime));
     app.selected = 0;
-    assert!(screen(&app).contains("the time was up"));
+    assert!(screen(&app).contains("ended early"));
 }

@@ -1,5 +1,6 @@
 //! Verdicts on the shots that `[uncertainty]` describes: draws, variants, and probabilities known in closed form.
 
+use std::collections::HashMap;
 use std::ops::ControlFlow;
 
 use shelter::choice::{Accuracy, Method};
@@ -8,17 +9,16 @@ use shelter::plan::{DelayScatter, Plan, Uncertainty};
 use shelter::scene::{Scene, Shot};
 use shelter::simulation::{Model, RunSettings};
 use shelter::study::as_planned::margin::LaunchMargin;
-use shelter::study::judge_options::{UNWATCHED, find_launch_margins, judge_all, judge_from_samples};
-use shelter::study::judgement::Evidence;
+use shelter::study::judge_options::{UNWATCHED, find_launch_margins, judge_all};
 use shelter::study::judgement::Judgement;
+use shelter::study::results_file::{self, Head, Question};
 use shelter::study::samples::draw::{DrawnShot, draw};
 use shelter::study::samples::influence::input_shares;
 use shelter::study::samples::risk::Risk;
 use shelter::study::samples::risk_summary::find_risk_summaries;
 use shelter::study::samples::rounds::{ShotToSample, draw_shard, find_risks};
-use shelter::study::samples::sample::OptionSample;
 use shelter::study::samples::sampling::Sampling;
-use shelter::study::{Case, ComputeSettings, Progress, Shard, ShotSummary, thread_pool};
+use shelter::study::{Case, ComputeSettings, Journal, Progress, Shard, ShotSummary, thread_pool};
 use shelter::verdict::{Quantity, Verdict};
 
 use crate::scenes::{GRAVITY, METHODS, fire, tie, tires};
@@ -282,19 +282,24 @@ fn shards_that_the_audit_contradicts_are_sampled_anew() {
     let compute = ComputeSettings::of(&case.plan);
     let (sampling, progress) = (Sampling::exactly(600, 1), Progress::default());
     let target = ShotToSample::new(&case, &case.shots[0], compute, sampling);
-    let shard = |index| draw_shard(&[target], Shard { index, of: 2 }, &progress).expect("samples");
-    let mut drawn: Vec<OptionSample> = [shard(0), shard(1)]
-        .into_iter()
-        .flatten()
-        .map(|(option, sample)| OptionSample { option, sample: sample.expect("time for all") })
-        .collect();
-    drawn.sort_by_key(|drawn| drawn.sample.number);
-    let joined =
-        judge_from_samples(&case, &compute, &sampling, &drawn, &progress).expect("a result").remove(0);
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut known = HashMap::new();
+    for index in [0, 1] {
+        let (file, shard) = (folder.path().join(index.to_string()), Shard { index, of: 2 });
+        let head = Head::new(&case, Question::Risk { sampling }, compute, shard);
+        let saved = Progress::with_journal(results_file::open(&file, &head).expect("a new file"));
+        draw_shard(&[target], shard, &saved).expect("samples");
+        let text = std::fs::read_to_string(&file).expect("a shard");
+        known.extend(results_file::read("a shard", &text).expect("results").known);
+    }
+    assert_eq!(known.len(), 600);
+    let joined = Progress::with_journal(Journal::of_known(known));
+    let mut of_shards = case.judge_options(&compute, Some(&sampling), &joined).expect("a result").value;
+    assert!(joined.journal().recalled() >= 100, "until the audit contradicts them");
     let whole = case.judge_options(&compute, Some(&sampling), &progress).expect("a result").value;
     let whole = whole[0].as_ref().expect("a result").risk.drawn().expect("samples");
     assert!(whole.halvings > 0, "a test that can fail");
-    assert_eq!(joined.expect("a result").risk.drawn(), Some(whole));
+    assert_eq!(of_shards.remove(0).expect("a result").risk.drawn(), Some(whole));
 }
 
 /// Mean and standard deviation.
@@ -507,14 +512,4 @@ fn samples_are_the_same_on_any_number_of_threads() {
     };
     let one = on(1);
     assert_eq!(one, on(3));
-    let drawn: Vec<OptionSample> = one
-        .iter()
-        .enumerate()
-        .flat_map(|(option, risk)| risk.samples.iter().map(move |&sample| OptionSample { option, sample }))
-        .collect();
-    let joined =
-        judge_from_samples(&case, &compute, &sampling, &drawn, &Progress::default()).expect("a result");
-    for (joined, one) in joined.into_iter().zip(one) {
-        assert_eq!(joined.expect("a result").risk, Evidence::Drawn(one));
-    }
 }

@@ -80,7 +80,7 @@ fn risk(case: &Case, judged: &Judgement) -> String {
             )
         }
         Evidence::Drawn(_) | Evidence::NotDrawn => {
-            format!("not known: no sample was drawn, the time was up; {accepted}")
+            format!("not known: no sample was drawn, ended early; {accepted}")
         }
     }
 }

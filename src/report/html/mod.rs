@@ -84,7 +84,7 @@ pub fn page(page: &Page<'_>) -> String {
                 @if page.unsaved {
                     p { strong { "Not saved: " } "the plan that was computed is not the one in its file. Its text stands at the end of this page." }
                 }
-                @if page.partial { p { strong { "The time was up before all was computed." } } }
+                @if page.partial { p { strong { "Ended early, before all was computed." } } }
                 (fired::head(page, &at_head))
                 @if fired.is_none() { (conclusion(&report)) }
                 section {
@@ -131,7 +131,7 @@ pub fn page(page: &Page<'_>) -> String {
                     h2 { "Reproduce" }
                     @if page.unsaved { p { "After the plan below is saved as a file:" } }
                     p { code { (facts::command(case, results, sampling)) } }
-                    @if page.partial { p { "The time was up before all was computed: the same command computes more." } }
+                    @if page.partial { p { "Ended early, before all was computed: the same command computes more." } }
                     p.quiet { "SHA-256 of the plan: " code { (hash) } }
                 }
                 @if !case.source.text.is_empty() {

@@ -5,7 +5,7 @@ use super::shot_summary::ShotSummary;
 use crate::scene::Shot;
 use crate::simulation::Failure;
 use crate::study::work::batch::run_jobs;
-use crate::study::{Case, ComputeSettings, NoResult, Progress};
+use crate::study::{Case, ComputeSettings, Key, NoResult, Progress};
 
 /// Checks every shot, refined until its verdict is sure; `None` for the shots that the time did not suffice for.
 pub fn check_summaries(
@@ -24,8 +24,13 @@ pub fn check_summary(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<ShotSummary, NoResult> {
-    let checked = check_shot(case, shot, compute, &mut |_| progress.flow());
-    checked.map(|checked| ShotSummary::of(&checked)).map_err(|failure| progress.no_result(failure))
+    progress.journal().recall_or(
+        || Key::of(("check", case.key(), shot, compute)),
+        || {
+            let checked = check_shot(case, shot, compute, &mut |_| progress.flow());
+            checked.map(|checked| ShotSummary::of(&checked)).map_err(|failure| progress.no_result(failure))
+        },
+    )
 }
 
 /// Checks the shot of every job, like [`run_jobs`]. A job whose run fails has the result [`ShotSummary::UNKNOWN`]; where every run

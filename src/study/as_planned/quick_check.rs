@@ -14,7 +14,7 @@ use crate::outcome::Outcome;
 use crate::scene::Shot;
 use crate::simulation::Motion;
 use crate::study::reasons::shot::{ShotReason, find_reasons_as_planned};
-use crate::study::{Case, ComputeSettings, NoResult, Progress, ShotSummary};
+use crate::study::{Case, ComputeSettings, Key, NoResult, Progress, ShotSummary};
 use crate::verdict::Verdict;
 
 /// Number of steps above the first step of `field`: the coarsest is 8 times that, with `verlet` at most 0.8 of the critical
@@ -34,7 +34,11 @@ pub fn quick_check(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<ShotSummary, NoResult> {
-    quick_check_until(case, shot, compute, progress, |summary, runs| quick_check_is_sure(case, summary, runs))
+    let is_sure = |summary: &ShotSummary, runs| quick_check_is_sure(case, summary, runs);
+    progress.journal().recall_or(
+        || Key::of(("quick check", case.key(), shot, compute)),
+        || quick_check_until(case, shot, compute, progress, is_sure),
+    )
 }
 
 /// Checks a shot at ever finer steps until `enough`, which gets the last run checked and the number of runs, returns true.

@@ -11,8 +11,10 @@ use crate::choice::Accuracy;
 use crate::scene::{Scene, Shot};
 use crate::study::compute::step_factor;
 use crate::study::reasons::shot::closes;
-use crate::study::work::batch::run_jobs;
-use crate::study::{Case, ComputeSettings, Finding, Found, NoResult, Progress, Shard, ShotSummary, guarded};
+use crate::study::work::batch::{run_expected_jobs, run_jobs};
+use crate::study::{
+    Case, ComputeSettings, Finding, Found, Key, NoResult, Progress, Shard, ShotSummary, guarded,
+};
 
 /// A shot whose risk is asked for.
 #[derive(Clone, Copy, Debug)]
@@ -69,6 +71,16 @@ impl<'c> ShotToSample<'c> {
         found.ok().map(|n| &self.precomputed[n])
     }
 
+    /// Key of all that its samples depend on, but for their numbers.
+    pub(in crate::study) fn key(&self) -> Key {
+        Key::of((self.case.key(), self.shot, self.compute, self.sampling.seed))
+    }
+
+    /// Number of samples that are drawn whatever they tell.
+    fn least(&self) -> usize {
+        if self.only_pass { 0 } else { self.sampling.least.min(self.sampling.most) }
+    }
+
     fn no_samples(&self) -> Risk {
         Risk::new(self.case, self.as_planned, self.sampling.error_share, self.compute.step.is_none())
     }
@@ -100,6 +112,10 @@ pub fn find_risks_watched(
     watch: &mut dyn FnMut(usize, &Risk) -> ControlFlow<()>,
 ) -> Finding<Vec<Risk>> {
     let mut risks: Vec<Risk> = targets.iter().map(ShotToSample::no_samples).collect();
+    let keys = keys(targets, progress);
+    // All samples that are drawn in any case are expected at once: how long it takes shows from the first round on.
+    let mut expected: usize = targets.iter().map(ShotToSample::least).sum();
+    progress.expect(expected);
     loop {
         let round = |(n, risk): (usize, &Risk)| {
             let (numbers, halvings) = (targets[n].next_round(risk), risk.halvings);
@@ -109,11 +125,14 @@ pub fn find_risks_watched(
         if jobs.is_empty() {
             return Ok(Found { value: risks, partial: false });
         }
-        let drawn =
-            run_jobs(&jobs, progress, |&(n, number, halvings)| match targets[n].drawn_elsewhere(number) {
+        progress.expect(jobs.len().saturating_sub(expected));
+        expected = expected.saturating_sub(jobs.len());
+        let drawn = run_expected_jobs(&jobs, progress, |&(n, number, halvings)| {
+            match targets[n].drawn_elsewhere(number) {
                 Some(sample) if halvings == 0 => Ok(*sample),
-                _ => run_sample(&targets[n], number, halvings, progress),
-            })?;
+                _ => recall_sample(&targets[n], keys[n], number, halvings, progress),
+            }
+        })?;
         let out_of_time = drawn.contains(&None);
         let mut complete = vec![true; targets.len()];
         for (&(n, ..), sample) in jobs.iter().zip(drawn) {
@@ -139,6 +158,24 @@ pub fn find_risks_watched(
             return Ok(Found { value: risks, partial: true });
         }
     }
+}
+
+/// Keys of shots in the journal; `None` where there is no journal.
+fn keys(targets: &[ShotToSample<'_>], progress: &Progress) -> Vec<Option<Key>> {
+    let is_on = progress.journal().is_on();
+    targets.iter().map(|target| is_on.then(|| target.key())).collect()
+}
+
+/// The sample of [`run_sample`], taken from the journal where it is there; `key` is that of the shot.
+fn recall_sample(
+    target: &ShotToSample<'_>,
+    key: Option<Key>,
+    number: usize,
+    halvings: u32,
+    progress: &Progress,
+) -> Result<Sample, NoResult> {
+    let key = || Key::of(("sample", key, number, halvings));
+    progress.journal().recall_or(key, || run_sample(target, number, halvings, progress))
 }
 
 /// Draws one sample and runs it once, without an audit: for a first look at a shot among many.
@@ -179,7 +216,9 @@ pub fn draw_shard(
     let of_target = |n: usize| (0..targets[n].sampling.most).map(move |number| (n, number));
     let jobs: Vec<(usize, usize)> =
         (0..targets.len()).flat_map(of_target).filter(|&(_, number)| shard.has(number)).collect();
-    let drawn = run_jobs(&jobs, progress, |&(n, number)| run_sample(&targets[n], number, 0, progress))?;
+    let keys = keys(targets, progress);
+    let recall = |&(n, number): &(usize, usize)| recall_sample(&targets[n], keys[n], number, 0, progress);
+    let drawn = run_jobs(&jobs, progress, recall)?;
     Ok(jobs.into_iter().map(|(n, _)| n).zip(drawn).collect())
 }
 

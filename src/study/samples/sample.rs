@@ -93,13 +93,3 @@ impl SampleRun {
         }
     }
 }
-
-/// A sample of a delay option.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct OptionSample {
-    /// Index of the delay option.
-    pub option: usize,
-    /// The sample.
-    #[serde(flatten)]
-    pub sample: Sample,
-}

@@ -17,7 +17,6 @@ use itertools::Itertools;
 
 pub use self::pool::MOST_JUDGED;
 use self::pool::{FIRST_OF_SEARCH, Listed, Pool};
-pub use self::race::TriedSchedule;
 use self::race::{Contender, Race};
 use self::schedule::Choices;
 pub use self::schedule::{BrokenLimit, RefusedCounts};
@@ -97,49 +96,6 @@ pub fn search(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Finding<Search> {
-    search_after(case, &[], sampling, compute, progress)
-}
-
-/// Draws the first samples of the schedules of one shard; `None` where there are more than [`MOST_JUDGED`]: a search that does not
-/// judge all cannot be shared.
-pub fn try_schedules(
-    case: &Case,
-    sampling: Option<&Sampling>,
-    compute: &ComputeSettings,
-    shard: Shard,
-    progress: &Progress,
-) -> Finding<Option<Vec<TriedSchedule>>> {
-    let choices = Choices::new(case)?;
-    let listed = Listed::new(case, &choices);
-    if !listed.are_all_judged() {
-        return Ok(Found { value: None, partial: false });
-    }
-    let mut pool = Pool::new(case, &choices);
-    pool.add(listed.allowed.unwrap_or_default());
-    let own = pool.contenders.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
-    let (numbers, mut contenders): (Vec<usize>, Vec<Contender>) = own.unzip();
-    let partial = race(case, sampling, compute).draw(&mut contenders, FIRST_OF_ALL, progress)?;
-    let tried = numbers.into_iter().zip(contenders);
-    let tried = tried.map(|(number, one)| TriedSchedule { number, tally: one.tally }).collect();
-    Ok(Found { value: Some(tried), partial })
-}
-
-fn race<'c>(case: &'c Case, sampling: Option<&Sampling>, compute: &ComputeSettings) -> Race<'c> {
-    Race {
-        case,
-        compute: *compute,
-        sampling: sampling.map(|sampling| sampling.with_fresh_draws(ErrorShare::Whole)),
-    }
-}
-
-/// Like [`search`], where the first samples of some schedules are drawn already.
-pub fn search_after(
-    case: &Case,
-    tried: &[TriedSchedule],
-    sampling: Option<&Sampling>,
-    compute: &ComputeSettings,
-    progress: &Progress,
-) -> Finding<Search> {
     let choices = Choices::new(case)?;
     let race = race(case, sampling, compute);
     let listed = Listed::new(case, &choices);
@@ -151,11 +107,6 @@ pub fn search_after(
         allowed => out_of_time = pool.explore(allowed.as_deref(), &race, progress)?,
     }
     let mut contenders = pool.contenders;
-    for TriedSchedule { number, tally } in tried {
-        if let Some(contender) = contenders.get_mut(*number) {
-            contender.tally = *tally;
-        }
-    }
     let first = if complete { FIRST_OF_ALL } else { FIRST_OF_SEARCH };
     out_of_time |= race.run(&mut contenders, first, progress)?;
     let finalists = choose_finalists(&choices, &contenders);
@@ -182,6 +133,36 @@ pub fn search_after(
     };
     found.rank();
     Ok(Found { value: found, partial: partial || out_of_time })
+}
+
+/// Draws the first samples of the schedules of one shard, for the journal; returns whether it could: a search that does not judge
+/// all, of more than [`MOST_JUDGED`], cannot be shared.
+pub fn try_schedules(
+    case: &Case,
+    sampling: Option<&Sampling>,
+    compute: &ComputeSettings,
+    shard: Shard,
+    progress: &Progress,
+) -> Finding<bool> {
+    let choices = Choices::new(case)?;
+    let listed = Listed::new(case, &choices);
+    if !listed.are_all_judged() {
+        return Ok(Found { value: false, partial: false });
+    }
+    let mut pool = Pool::new(case, &choices);
+    pool.add(listed.allowed.unwrap_or_default());
+    let own = pool.contenders.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
+    let mut own: Vec<Contender> = own.map(|(_, contender)| contender).collect();
+    let partial = race(case, sampling, compute).draw(&mut own, FIRST_OF_ALL, progress)?;
+    Ok(Found { value: true, partial })
+}
+
+fn race<'c>(case: &'c Case, sampling: Option<&Sampling>, compute: &ComputeSettings) -> Race<'c> {
+    Race {
+        case,
+        compute: *compute,
+        sampling: sampling.map(|sampling| sampling.with_fresh_draws(ErrorShare::Whole)),
+    }
 }
 
 impl RoughShare {

@@ -1,7 +1,5 @@
 //! Which of many schedules fail least: few samples of all, and ever more of ever fewer.
 
-use serde::{Deserialize, Serialize};
-
 use super::schedule::Candidate;
 use crate::scene::Shot;
 use crate::study::as_planned::quick_check::quick_check;
@@ -9,7 +7,7 @@ use crate::study::samples::rounds::{ShotToSample, run_sample_once};
 use crate::study::samples::sample::SampleRun;
 use crate::study::samples::sampling::Sampling;
 use crate::study::work::batch::run_jobs;
-use crate::study::{Case, ComputeSettings, NoResult, Progress};
+use crate::study::{Case, ComputeSettings, Key, NoResult, Progress};
 use crate::verdict::Verdict;
 
 /// Schedules that stay to the end, at least.
@@ -37,18 +35,8 @@ impl Contender {
     }
 }
 
-/// What the first samples of a schedule came to, by its number among all that are judged.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct TriedSchedule {
-    /// Number of the schedule.
-    pub number: usize,
-    /// What its samples came to.
-    #[serde(flatten)]
-    pub tally: Tally,
-}
-
 /// What the samples of a schedule came to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tally {
     /// Number of samples.
     pub samples: usize,
@@ -140,7 +128,10 @@ impl Race<'_> {
             let run: SampleRun = run_sample_once(&target, number, progress)?.run;
             Ok((run.verdict, run.utilization(&case.limits)))
         };
-        (contender.tally.samples..samples).map(one).collect()
+        let numbers = contender.tally.samples..samples;
+        progress
+            .journal()
+            .recall_or(|| Key::of(("race", target.key(), &numbers)), || numbers.clone().map(one).collect())
     }
 
     /// Sorts the contenders, the best first, after twice as many samples of each better half as before, and so on; `first` samples

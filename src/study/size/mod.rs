@@ -13,6 +13,7 @@ mod trial;
 use std::cmp::Ordering;
 
 use itertools::Itertools;
+use serde::{Deserialize, Serialize};
 
 use self::trial::{Hardest, SizeCandidate};
 use super::judgement::{Evidence, verdict_of_both};
@@ -24,7 +25,7 @@ use crate::ropes::{Rope, catalogue};
 use crate::verdict::Verdict;
 
 /// The shots that a shelter must hold.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Demand {
     /// Delay options of the plan, by their indices.
     Options(Vec<usize>),

@@ -18,6 +18,15 @@ pub fn run_jobs<J: Sync, T: Send>(
     work: impl Fn(&J) -> Result<T, NoResult> + Sync,
 ) -> Result<Vec<Option<T>>, NoResult> {
     progress.expect(jobs.len());
+    run_expected_jobs(jobs, progress, work)
+}
+
+/// Like [`run_jobs`], for jobs that [`Progress::expect`] knows of already.
+pub fn run_expected_jobs<J: Sync, T: Send>(
+    jobs: &[J],
+    progress: &Progress,
+    work: impl Fn(&J) -> Result<T, NoResult> + Sync,
+) -> Result<Vec<Option<T>>, NoResult> {
     let one = |job: &J| {
         if progress.stopped() {
             return Err(NoResult::Stopped);

@@ -1,7 +1,9 @@
 //! The intervals that a sweep or a ranking of orders is asked for.
 
+use serde::{Deserialize, Serialize};
+
 /// Evenly spaced intervals between rows.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Intervals {
     /// First interval [s].
     pub from: f64,

@@ -3,6 +3,7 @@
 //! | what | where |
 //! |---|---|
 //! | jobs on all cores | [`batch`] |
+//! | results that survive the end of the program | [`journal`] |
 //! | how far it is, and how it is stopped | `progress` |
 //! | a result, whole or partial; why there is none | `found`, `no_result` |
 //! | intervals to be tried | `intervals` |
@@ -11,6 +12,7 @@
 pub mod batch;
 mod found;
 mod intervals;
+pub mod journal;
 mod no_result;
 mod progress;
 mod shard;
@@ -18,6 +20,7 @@ mod shard;
 pub use batch::thread_pool;
 pub use found::{Finding, Found};
 pub use intervals::Intervals;
+pub use journal::{Journal, Key};
 pub use no_result::{NoResult, guarded};
 pub use progress::Progress;
 pub use shard::Shard;

@@ -14,7 +14,7 @@ pub enum NoResult {
     #[error("interrupted before there was a result")]
     Stopped,
     /// The time was up.
-    #[error("not computed: the time was up")]
+    #[error("not computed: ended early")]
     OutOfTime,
     /// The program panicked; the text is that of the panic.
     #[error("internal error: {0}")]

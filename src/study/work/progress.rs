@@ -1,8 +1,9 @@
-//! How far a study is, and the two ways to end it early.
+//! How far a study is, what of it was computed before, and the two ways to end it early.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
+use super::Journal;
 use crate::simulation::Failure;
 use crate::study::NoResult;
 
@@ -13,9 +14,25 @@ pub struct Progress {
     out_of_time: AtomicBool,
     done: AtomicUsize,
     total: AtomicUsize,
+    journal: Journal,
 }
 
 impl Progress {
+    /// The progress of a study whose results are kept in a journal.
+    pub fn with_journal(journal: Journal) -> Self {
+        Self { journal, ..Self::default() }
+    }
+
+    /// The results computed before.
+    pub fn journal(&self) -> &Journal {
+        &self.journal
+    }
+
+    /// The journal, once the study has ended.
+    pub fn into_journal(self) -> Journal {
+        self.journal
+    }
+
     /// Ends the study within a step, without a result.
     pub fn stop(&self) {
         self.stopped.store(true, Ordering::Relaxed);

@@ -1,0 +1,62 @@
+//! `--save`: a long study that goes on where it was stopped; `--shard`, which saves one machine's part.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::arguments::shard;
+use crate::study::results_file::{self, Head, Question};
+use crate::study::{Case, ComputeSettings, Journal, Shard};
+
+/// The file of a study's results.
+#[derive(Args, Clone)]
+pub struct SaveArguments {
+    /// File to which results are appended as they come; the same command goes on from it
+    #[arg(short = 'o', long, value_name = "FILE")]
+    save: Option<PathBuf>,
+}
+
+impl SaveArguments {
+    /// The journal of a study of `case`; says what speaks against its file.
+    pub fn journal(
+        &self,
+        case: &Case,
+        question: Question,
+        compute: ComputeSettings,
+    ) -> Result<Journal, String> {
+        self.journal_of(case, question, compute, Shard::WHOLE)
+    }
+
+    fn journal_of(
+        &self,
+        case: &Case,
+        question: Question,
+        compute: ComputeSettings,
+        shard: Shard,
+    ) -> Result<Journal, String> {
+        let Some(path) = &self.save else { return Ok(Journal::default()) };
+        results_file::open(path, &Head::new(case, question, compute, shard))
+    }
+}
+
+/// The file of the results of a study that can be shared.
+#[derive(Args, Clone)]
+pub struct SharedArguments {
+    #[command(flatten)]
+    file: SaveArguments,
+    /// Compute this machine's shard only, into the file of --save; `shelter merge` joins the shards
+    #[arg(long, value_name = "I/N", value_parser = shard, requires = "save", conflicts_with = "format")]
+    pub shard: Option<Shard>,
+}
+
+impl SharedArguments {
+    /// The journal of a study of `case`, or of the shard asked for; says what speaks against its file.
+    pub fn journal(
+        &self,
+        case: &Case,
+        question: Question,
+        compute: ComputeSettings,
+    ) -> Result<Journal, String> {
+        self.file.journal_of(case, question, compute, self.shard.unwrap_or(Shard::WHOLE))
+    }
+}

@@ -1,0 +1,106 @@
+//! A study that several machines computed, a shard each: joined, and completed by what only all shards together tell.
+//!
+//! The study is computed as on one machine. What a shard holds is taken from there.
+
+use super::judge_options::OptionResults;
+use super::orders::{Orders, orders};
+use super::results_file::{self, Contents, Question};
+use super::samples::sampling::Sampling;
+use super::search::{Search, search};
+use super::{Case, Journal, NoResult, Progress};
+use crate::plan::PlanSource;
+
+/// A study whose shards are joined.
+#[derive(Clone, Debug)]
+pub struct Merged {
+    /// The plan that all shards hold.
+    pub case: Case,
+    /// What the study found.
+    pub answer: Answer,
+}
+
+/// What a study that was shared found.
+#[derive(Clone, Debug)]
+pub enum Answer {
+    /// Of `orders`.
+    Orders(Orders),
+    /// Of `risk`, with its samples.
+    Risk(Sampling, OptionResults),
+    /// Of `search`.
+    Search(Box<Search>),
+}
+
+/// Why shards make no study.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MergeFailure {
+    /// What is wrong with the shards.
+    Shards(String),
+    /// What they leave to be computed has no result.
+    NoResult(NoResult),
+}
+
+impl From<NoResult> for MergeFailure {
+    fn from(reason: NoResult) -> Self {
+        Self::NoResult(reason)
+    }
+}
+
+/// Joins shards, given as `(name, text)`, and completes their study.
+pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
+    let Contents { head, known, .. } = join(shards).map_err(MergeFailure::Shards)?;
+    let progress = &Progress::with_journal(Journal::of_known(known));
+    let source = PlanSource { path: head.plan, text: head.text };
+    let mut case = Case::parse(source).map_err(|mistakes| MergeFailure::Shards(mistakes.to_string()))?;
+    let compute = &head.compute;
+    let answer = match head.question {
+        Question::Orders { intervals_s, option, sampling } => {
+            case.set_hole_timing_of(option.as_deref());
+            Answer::Orders(orders(&case, &intervals_s, sampling.as_ref(), compute, progress)?.value)
+        }
+        Question::Risk { sampling } => {
+            Answer::Risk(sampling, case.judge_options(compute, Some(&sampling), progress)?.value)
+        }
+        Question::Search { sampling } => {
+            Answer::Search(Box::new(search(&case, sampling.as_ref(), compute, progress)?.value))
+        }
+        Question::Sweep { .. } | Question::Size { .. } => {
+            let message =
+                "only `orders`, `risk` and `search` have shards: run the command itself, with --save";
+            return Err(MergeFailure::Shards(message.to_owned()));
+        }
+    };
+    Ok(Merged { case, answer })
+}
+
+/// The results of all shards, given as `(name, text)`; says what is wrong with them.
+fn join(shards: &[(String, String)]) -> Result<Contents, String> {
+    let mut all = Vec::new();
+    for (name, text) in shards {
+        let contents = results_file::read(name, text)?;
+        if !contents.is_complete {
+            return Err(format!("{name} is not complete: run its command again, which goes on from there"));
+        }
+        all.push((name, contents));
+    }
+    let (first_name, Contents { head: first, .. }) = all.first().ok_or("no shard to merge")?;
+    for (name, Contents { head, .. }) in &all {
+        if !head.is_of_same_study(first) {
+            return Err(format!("{name}: a shard of another study than {first_name}"));
+        }
+    }
+    let count = first.shard.of;
+    for index in 0..count {
+        let which = format!("shard {}/{count}", index + 1);
+        match all.iter().filter(|(_, contents)| contents.head.shard.index == index).count() {
+            0 => return Err(format!("{which} is missing")),
+            1 => {}
+            _ => return Err(format!("{which} is there twice")),
+        }
+    }
+    let mut all = all.into_iter().map(|(_, contents)| contents);
+    let first = all.next().ok_or("no shard to merge")?;
+    Ok(all.fold(first, |mut joined, next| {
+        joined.known.extend(next.known);
+        joined
+    }))
+}

@@ -1,0 +1,226 @@
+//! The file of a study's results: what `--save` goes on from, what `--shard` writes, what `merge` joins.
+//!
+//! Each line is an object of JSON with a checksum of its own. The first line is the [`Head`]: the question, and the plan itself, so
+//! that merging needs no other file. Each further line is one result with its key, in any order; results are appended as they
+//! come. Once the study was computed to its end, a line says so, with the number of results. A program that is killed leaves
+//! at most a last line without its end, which is dropped.
+
+use std::collections::HashMap;
+use std::fs::{OpenOptions, TryLockError};
+use std::io::{self, Read};
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::samples::sampling::Sampling;
+use super::size::Demand;
+use super::work::journal::{Line, read_body, sealed, unsealed};
+use super::{Case, ComputeSettings, Intervals, Journal, Key, Shard};
+use crate::file;
+use crate::plan::SizeSpec;
+
+/// The question that a study answers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "study", rename_all = "lowercase")]
+pub enum Question {
+    /// Every order at these intervals.
+    Orders {
+        /// Between successive rows [s].
+        intervals_s: Vec<f64>,
+        /// Delay option whose holes fire as in every order.
+        option: Option<String>,
+        /// Samples of the worst and the best; `None` where only the shots as planned were asked for.
+        sampling: Option<Sampling>,
+    },
+    /// Samples of every option.
+    Risk {
+        /// Number of samples and seed.
+        sampling: Sampling,
+    },
+    /// The schedules with the least risk.
+    Search {
+        /// Samples behind a verdict; `None` where only the shots as planned were asked for.
+        sampling: Option<Sampling>,
+    },
+    /// Height, force and risk against the interval.
+    Sweep {
+        /// Blast rows in firing order.
+        order: Vec<usize>,
+        /// Intervals between successive rows.
+        intervals: Intervals,
+        /// Delay option whose holes fire as at every interval.
+        option: Option<String>,
+        /// Samples of intervals; `None` where only the shots as planned were asked for.
+        sampling: Option<Sampling>,
+    },
+    /// The lightest shelter that holds.
+    Size {
+        /// What may be chosen.
+        choices: SizeSpec,
+        /// What the shelter must hold.
+        demand: Demand,
+        /// Samples behind a verdict; `None` where only the shots as planned were asked for.
+        sampling: Option<Sampling>,
+    },
+}
+
+/// The first line of a file of results.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Head {
+    schema: String,
+    /// Version of the program that wrote the file.
+    version: String,
+    /// The question.
+    pub question: Question,
+    /// Method and accuracy.
+    pub compute: ComputeSettings,
+    /// Path of the plan.
+    pub plan: String,
+    /// Text of the plan.
+    pub text: String,
+    /// Which shard of the results this is.
+    pub shard: Shard,
+}
+
+/// Name of this format.
+const SCHEMA: &str = "shelter.results/1";
+/// Version of this program.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+/// How every first line of this format begins, in any version.
+const BEGINNING: &str = "{\"schema\":\"shelter.results/";
+
+impl Head {
+    /// The head of a study of `case`.
+    pub fn new(case: &Case, question: Question, compute: ComputeSettings, shard: Shard) -> Self {
+        Self {
+            schema: SCHEMA.to_owned(),
+            version: VERSION.to_owned(),
+            question,
+            compute,
+            plan: case.source.path.clone(),
+            text: case.source.text.clone(),
+            shard,
+        }
+    }
+
+    fn line(&self) -> io::Result<String> {
+        let text = serde_json::to_string(self)?;
+        Ok(sealed(text.strip_suffix('}').unwrap_or(&text)))
+    }
+
+    /// Whether it heads a shard of the same study, this one or another.
+    pub fn is_of_same_study(&self, other: &Head) -> bool {
+        let shard = Shard { index: other.shard.index, ..self.shard };
+        Head { shard, ..self.clone() } == *other
+    }
+
+    /// What makes it the head of another study than `other`; the path of the plan does not.
+    fn difference(&self, other: &Head) -> Option<&'static str> {
+        match other {
+            _ if self.text != other.text => Some("another plan, or of this plan before it was changed"),
+            _ if self.question != other.question => Some("another question"),
+            _ if self.compute != other.compute => Some("another method, accuracy or step"),
+            _ if self.shard != other.shard => Some("another shard"),
+            _ => None,
+        }
+    }
+}
+
+/// What a file of results holds.
+pub struct Contents {
+    /// Its first line.
+    pub head: Head,
+    /// Its results, as JSON.
+    pub known: HashMap<Key, Box<str>>,
+    /// Whether the study was computed to its end.
+    pub is_complete: bool,
+    /// Number of lines of results.
+    results: usize,
+    /// Length of all whole lines [bytes].
+    length: usize,
+}
+
+/// What the first line of any version says.
+#[derive(Deserialize)]
+struct Origin {
+    schema: String,
+    version: String,
+}
+
+/// Reads a file of results; says what is wrong with it. `name` stands for the file in messages.
+pub fn read(name: &str, text: &str) -> Result<Contents, String> {
+    if !text.starts_with(BEGINNING) {
+        return Err(format!("{name} holds no results of a study, and stays as it is: name another file"));
+    }
+    let whole = text.rfind('\n').map_or(0, |end| end + 1);
+    let mut lines = text[..whole].lines().enumerate();
+    let damaged = |line: usize| {
+        let remedy =
+            if line == 0 { "delete the file" } else { "delete this line: its result is computed again" };
+        format!("{name}:{}: the line is not as it was written; copy the file again, or {remedy}", line + 1)
+    };
+    let first = lines.next().map(|(_, line)| line).ok_or_else(|| damaged(0))?;
+    let Origin { schema, version } = serde_json::from_str(first).map_err(|_| damaged(0))?;
+    if schema != SCHEMA || version != VERSION {
+        return Err(format!(
+            "{name}: results of version {version} of the program ({schema}), but this is version {VERSION} ({SCHEMA}): go on with that version, or begin another file"
+        ));
+    }
+    let body = unsealed(first).ok_or_else(|| damaged(0))?;
+    let head: Head = serde_json::from_str(&format!("{body}}}")).map_err(|_| damaged(0))?;
+    if head.shard.index >= head.shard.of {
+        return Err(damaged(0));
+    }
+    let (mut known, mut results, mut is_complete) = (HashMap::new(), 0, false);
+    for (n, line) in lines {
+        match unsealed(line).and_then(read_body).ok_or_else(|| damaged(n))? {
+            Line::Result(key, result) => {
+                known.insert(key, result.into());
+                results += 1;
+            }
+            Line::Complete(count) if count == results => is_complete = true,
+            Line::Complete(count) => {
+                return Err(format!(
+                    "{name}:{}: {count} results were written and {results} are there; copy the file again, or delete this line: what is missing is computed again",
+                    n + 1
+                ));
+            }
+        }
+    }
+    Ok(Contents { head, known, is_complete, results, length: whole })
+}
+
+/// Begins a file of results, or goes on with one that an earlier run of the same study left; says what speaks against it.
+pub fn open(path: &Path, head: &Head) -> Result<Journal, String> {
+    let name = path.display().to_string();
+    let cannot = |error: io::Error| format!("cannot save results: {name}: {error}");
+    match path.metadata() {
+        Ok(data) if !data.is_file() => return Err(format!("cannot save results: {name} is no file")),
+        // An empty file is nobody's.
+        Ok(data) if data.len() > 0 => {}
+        Ok(_) => file::save(path, &head.line().map_err(cannot)?).map_err(cannot)?,
+        // The first line comes whole or not at all.
+        Err(_) => {
+            let line = head.line().map_err(cannot)?;
+            file::create(path, &line).map_err(|error| format!("cannot save results: {error}"))?;
+        }
+    }
+    let mut file = OpenOptions::new().read(true).append(true).open(path).map_err(cannot)?;
+    match file.try_lock() {
+        // A file system without locks is taken as it is.
+        Ok(()) | Err(TryLockError::Error(_)) => {}
+        Err(TryLockError::WouldBlock) => {
+            return Err(format!("{name}: another run saves its results there: name another file"));
+        }
+    }
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes).map_err(cannot)?;
+    let contents = read(&name, &String::from_utf8_lossy(&bytes))?;
+    if let Some(other) = contents.head.difference(head) {
+        return Err(format!("{name} holds results of {other}: name another file, or delete this one"));
+    }
+    if contents.length < bytes.len() {
+        file.set_len(contents.length as u64).map_err(cannot)?;
+    }
+    Ok(Journal::of_known(contents.known).appending(file, contents.results))
+}

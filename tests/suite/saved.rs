@@ -1,0 +1,241 @@
+//! `--save`: studies that are stopped and go on, and the files they go on from.
+
+use std::collections::HashSet;
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use super::support::{self, PROGRAM, shelter};
+
+/// A small plan in a folder, and the path of a file of results there.
+fn plan_and_file(folder: &Path) -> [String; 2] {
+    let path = |name: &str| folder.join(name).to_str().expect("UTF-8").to_owned();
+    let [plan, file] = ["plan.toml", "saved.jsonl"].map(path);
+    fs::write(&plan, support::small_plan()).expect("written");
+    [plan, file]
+}
+
+fn start(arguments: &[&str]) -> Child {
+    let mut command = Command::new(PROGRAM);
+    command.args(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("it starts")
+}
+
+/// Keys of the results in a file, and whether each stands there once.
+fn keys(file: &str) -> (usize, bool) {
+    let text = fs::read_to_string(file).expect("results");
+    let keys: Vec<&str> =
+        text.lines().filter_map(|line| line.strip_prefix("{\"key\":\"")?.get(..32)).collect();
+    let each: HashSet<&str> = keys.iter().copied().collect();
+    (keys.len(), each.len() == keys.len())
+}
+
+/// Runs a study that saves its results, killed by SIGKILL `kills` times, later each time. Returns the output of the last run, and
+/// how many kills left a study that was begun and not complete.
+fn killed(command: &[&str], file: &str, whole: Duration, kills: u32) -> (Output, usize) {
+    let saving = [command, &["--save", file]].concat();
+    let mut midway = 0;
+    for n in 0..kills {
+        let mut child = start(&saving);
+        thread::sleep(whole.mul_f64(f64::from(n % 7 + 1) / f64::from(kills)));
+        // It may have ended by itself.
+        let _ = child.kill();
+        child.wait().expect("it ended");
+        let text = fs::read_to_string(file).unwrap_or_default();
+        midway += usize::from(text.lines().count() > 1 && !text.contains("{\"complete\":"));
+    }
+    (shelter(&saving), midway)
+}
+
+/// Killed at any moment and started again, a study gives the bytes of one that was never stopped, and computes nothing twice.
+#[test]
+fn a_study_that_was_killed_ends_as_one_that_was_not() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [plan, file] = plan_and_file(folder.path());
+    let draft = ["--accuracy", "draft"];
+    let mut midway = 0;
+    for (command, format) in [
+        (&["risk", &plan, "--samples", "400", "--seed", "4"][..], "json"),
+        (&["orders", &plan, "--samples", "60"], "csv"),
+        (&["search", &plan, "--samples", "40"], "json"),
+        (&["sweep", &plan, "--interval", "40..60:1", "--samples", "60"], "text"),
+        (&["size", &plan, "--option", "42 ms", "--ropes", "EN 12385-4 6x36 FC", "--samples", "60"], "json"),
+        (&["size", &plan, "--any-order", "--nominal", "--ropes", "EN 12385-4 6x36 FC"], "text"),
+    ] {
+        let command = [command, &draft[..], &["--format", format]].concat();
+        let begun = Instant::now();
+        let whole = shelter(&command);
+        let (last, midways) = killed(&command, &file, begun.elapsed(), 6);
+        assert_eq!(support::text(&last.stdout), support::text(&whole.stdout), "{command:?}");
+        assert_eq!(last.status.code(), whole.status.code());
+        midway += midways;
+        // All is there now: no result is computed again, so that none is appended.
+        let (count, each_once) = keys(&file);
+        let again = shelter(&[&command[..], &["--save", &file, "--threads", "1"]].concat());
+        assert_eq!(again.stdout, whole.stdout);
+        assert!(count > 0 && keys(&file).0 == count, "{command:?}: {count}, then {}", keys(&file).0);
+        // The best order is sampled twice, and at an interval of 0 all orders are one shot.
+        assert!(each_once || command[0] == "orders" || command.contains(&"--any-order"), "{command:?}");
+        fs::remove_file(&file).expect("removed");
+    }
+    assert!(midway > 5, "a test that can fail: {midway}");
+}
+
+/// An interrupt prints what there is, as partial, with the status of a signal; the same command goes on from there. A second
+/// interrupt prints nothing.
+#[test]
+fn an_interrupt_prints_what_there_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [plan, file] = plan_and_file(folder.path());
+    let command = ["risk", &plan, "--samples", "40000", "--format", "json", "--save", &file];
+    let child = start(&command);
+    let saved = || fs::read_to_string(&file).map_or(0, |text| text.lines().count());
+    let begun = Instant::now();
+    while saved() < 300 && begun.elapsed() < Duration::from_secs(60) {
+        thread::sleep(Duration::from_millis(5));
+    }
+    interrupt(&child);
+    let output = child.wait_with_output().expect("it ends");
+    let told = support::text(&output.stderr);
+    assert!(told.contains("interrupted after ") && told.contains("what follows is partial"), "{told}");
+    assert_eq!(output.status.code(), Some(130));
+    let document = support::json(&output);
+    assert_eq!(document["partial"], true);
+    assert!(document["options"][0]["failures"].is_number());
+    let text = fs::read_to_string(&file).expect("results");
+    assert!(text.ends_with("\"}\n") && !text.contains("{\"complete\":"), "the last line is whole");
+}
+
+fn interrupt(child: &Child) {
+    let killed = Command::new("kill").args(["-s", "INT", &child.id().to_string()]).status();
+    assert!(killed.expect("kill runs").success(), "it had ended");
+}
+
+/// The longest computation ends soon after an interrupt, with the status of a signal.
+#[test]
+fn an_interrupt_ends_a_command_with_130() {
+    let plan = support::shipped("large-50x50.toml");
+    for command in ["check", "sweep", "orders", "size", "report"] {
+        let page = ["-o", "never-written.html"];
+        let arguments =
+            [&[command, &plan, "--dt", "1e-6"][..], if command == "report" { &page } else { &[] }];
+        let child = start(&arguments.concat());
+        thread::sleep(Duration::from_millis(700));
+        let begun = Instant::now();
+        interrupt(&child);
+        let output = child.wait_with_output().expect("it ends");
+        assert_eq!(output.status.code(), Some(130), "{command}");
+        assert!(begun.elapsed() < Duration::from_secs(20), "{command}");
+        assert!(!Path::new("never-written.html").exists());
+    }
+}
+
+/// A last line without its end is dropped, wherever the program was killed; every other line must be as it was written.
+#[test]
+fn a_torn_line_is_dropped_and_a_damaged_line_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [plan, file] = plan_and_file(folder.path());
+    let command = ["risk", &plan, "--samples", "20", "--accuracy", "draft", "--save", &file];
+    let whole = shelter(&command);
+    let text = fs::read_to_string(&file).expect("results");
+    let lines: Vec<&str> = text.split_inclusive('\n').collect();
+    let head = lines[0].len();
+    for length in [head, head + 1, head + lines[1].len() - 1, text.len() / 2, text.len() - 1] {
+        fs::write(&file, &text[..length]).expect("written");
+        let output = shelter(&command);
+        assert_eq!(output.stdout, whole.stdout, "{length} bytes: {}", support::text(&output.stderr));
+        assert_eq!(fs::read_to_string(&file).expect("results").lines().count(), lines.len());
+    }
+    let without = |n: usize| {
+        lines.iter().enumerate().filter(|(m, _)| *m != n).map(|(_, line)| *line).collect::<String>()
+    };
+    let cases = [
+        (text.replacen("\"fail\"", "\"pass\"", 1), ": the line is not as it was written"),
+        (text.replacen("\"height\":1", "\"height\":3", 1), ": the line is not as it was written"),
+        (text.replacen("\"seed\":1", "\"seed\":2", 1), "saved.jsonl:1: the line is not as it was written"),
+        (text.replacen("\n{", "\n\n{", 1), "saved.jsonl:2: the line is not as it was written"),
+        (without(3), "results were written and"),
+        (text.replacen("\"version\":\"", "\"version\":\"9", 1), "go on with that version"),
+        (text.replacen("shelter.results/1", "shelter.results/99", 1), "go on with that version"),
+    ];
+    for (changed, message) in cases {
+        assert_ne!(changed, text, "{message}");
+        fs::write(&file, &changed).expect("written");
+        let output = shelter(&command);
+        let told = support::text(&output.stderr);
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{message}: {told}");
+        assert!(told.contains(message) && told.contains("saved.jsonl"), "{message}: {told}");
+        assert_eq!(fs::read_to_string(&file).expect("results"), changed, "it stays as it is");
+        let merged = shelter(&["merge", &file]);
+        assert_eq!(merged.status.code(), Some(2), "{message}");
+    }
+    // The remedy of a damaged line.
+    fs::write(&file, without(3).replace(lines[lines.len() - 1], "")).expect("written");
+    assert_eq!(shelter(&["merge", &file]).status.code(), Some(2), "not complete");
+    assert_eq!(shelter(&command).stdout, whole.stdout);
+    let merged = shelter(&["merge", &file]);
+    assert_eq!(merged.stdout, whole.stdout, "what is saved is a shard, too");
+}
+
+/// A file of another study, of another program, in use or no file at all stays as it is.
+#[test]
+fn results_of_another_study_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [plan, file] = plan_and_file(folder.path());
+    let command = ["risk", &plan, "--samples", "20", "--accuracy", "draft", "--save", &file];
+    assert!(!shelter(&command).stdout.is_empty());
+    let saved = fs::read_to_string(&file).expect("results");
+    let refused = |arguments: &[&str], message: &str| {
+        let output = shelter(arguments);
+        let told = support::text(&output.stderr);
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{arguments:?}: {told}");
+        assert!(told.contains(message), "{arguments:?}: {told}");
+    };
+    let others: [(&[&str], &str); 6] = [
+        (&["risk", &plan, "--samples", "21", "--accuracy", "draft"], "another question"),
+        (&["risk", &plan, "--samples", "20", "--accuracy", "draft", "--seed", "2"], "another question"),
+        (&["risk", &plan, "--samples", "20"], "another method, accuracy or step"),
+        (&["risk", &plan, "--samples", "20", "--accuracy", "draft", "--shard", "1/2"], "another shard"),
+        (&["orders", &plan, "--accuracy", "draft"], "another question"),
+        (&["sweep", &plan, "--accuracy", "draft"], "another question"),
+    ];
+    for (arguments, message) in others {
+        refused(&[arguments, &["--save", &file]].concat(), message);
+    }
+    let text = support::small_plan();
+    fs::write(&plan, text.replace("friction = 0.5", "friction = 0.4")).expect("written");
+    refused(&command, "another plan");
+    fs::write(&plan, text).expect("written");
+    assert_eq!(fs::read_to_string(&file).expect("results"), saved);
+    let notes = folder.path().join("notes.txt").to_str().expect("UTF-8").to_owned();
+    for theirs in ["{\"schema\":\"other/1\"}\n", "what the shotfirer noted", "\u{0}\u{1}"] {
+        fs::write(&notes, theirs).expect("written");
+        refused(&["risk", &plan, "--save", &notes], "holds no results of a study");
+        assert_eq!(fs::read_to_string(&notes).expect("notes"), theirs);
+    }
+    refused(&["risk", &plan, "--save", folder.path().to_str().expect("UTF-8")], "is no file");
+    refused(&["risk", &plan, "--save", "/none/saved.jsonl"], "there is no such folder");
+    // An empty file is nobody's.
+    fs::write(&notes, "").expect("written");
+    let begun = ["risk", &plan, "--samples", "20", "--accuracy", "draft", "--save", &notes];
+    assert_eq!(shelter(&begun).stdout, shelter(&command).stdout);
+    let held = fs::File::open(&file).expect("results");
+    held.lock().expect("locked");
+    refused(&command, "another run saves its results there");
+}
+
+/// Results that cannot be saved are said to be missing; those that are printed stand.
+#[test]
+fn a_full_disk_loses_no_result_that_was_saved() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [plan, file] = plan_and_file(folder.path());
+    let command = ["risk", &plan, "--samples", "100", "--accuracy", "draft", "--save", &file];
+    let script = "trap '' XFSZ; ulimit -f 40; exec \"$0\" \"$@\"";
+    let output = Command::new("sh").args(["-c", script, PROGRAM]).args(command).output().expect("it runs");
+    let told = support::text(&output.stderr);
+    assert!(told.contains("not all results are saved"), "{told}");
+    let again = shelter(&command);
+    assert!(!support::text(&again.stderr).contains("not all results are saved"));
+    assert_eq!(again.stdout, output.stdout);
+}
