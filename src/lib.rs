@@ -89,6 +89,9 @@
 //! among thousands. An *audit* runs some samples again at a finer step. A *shard* is one machine's part of a study. A *journal*
 //! keeps what a study has computed; `--save` puts it into a file. A word in brackets behind a field, such as (`n_tires`), is its length.
 
+// Both panic where the stream is gone; `cli::tell` does not.
+#![deny(clippy::print_stderr, clippy::print_stdout)]
+
 pub mod choice;
 #[cfg(feature = "cli")]
 #[doc(hidden)]

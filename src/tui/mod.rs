@@ -167,7 +167,7 @@ impl Session {
         match (self.app.editor.unsaved(), given_up, plan) {
             (true, false, _) => {
                 if let Err(error) = unsaved::keep(plan, self.app.editor.saved(), &self.app.editor.text) {
-                    eprintln!("edits that were not saved are lost: {error}");
+                    let _ = writeln!(io::stderr(), "edits that were not saved are lost: {error}");
                 }
             }
             (true, true, _) | (false, _, Some(_)) => unsaved::drop(plan),
@@ -329,7 +329,8 @@ pub fn update(app: &mut App, event: &Event) -> Request {
 
 /// The terminal while the program draws on it.
 struct Display {
-    terminal: Terminal<CrosstermBackend<Stdout>>,
+    /// There until it is given back.
+    terminal: Option<Terminal<CrosstermBackend<Stdout>>>,
 }
 
 impl Display {
@@ -337,12 +338,13 @@ impl Display {
         enter()?;
         // From here on `drop` gives the terminal back.
         Terminal::new(CrosstermBackend::new(io::stdout()))
-            .map(|terminal| Self { terminal })
+            .map(|terminal| Self { terminal: Some(terminal) })
             .inspect_err(|_| leave())
     }
 
     fn draw(&mut self, look: Look, content: impl FnOnce(&mut Frame)) -> io::Result<()> {
-        self.terminal.draw(|frame| {
+        let Some(terminal) = &mut self.terminal else { return Ok(()) };
+        terminal.draw(|frame| {
             content(frame);
             let buffer = frame.buffer_mut();
             if look.ascii {
@@ -361,7 +363,7 @@ impl Display {
         signal_hook::low_level::raise(signal_hook::consts::SIGSTOP)?;
         enter()?;
         // A new one draws every cell. `clear` would ask the terminal for its cursor, and wait for the answer.
-        self.terminal = Terminal::new(CrosstermBackend::new(io::stdout()))?;
+        self.terminal = Some(Terminal::new(CrosstermBackend::new(io::stdout()))?);
         Ok(())
     }
 }
@@ -369,6 +371,12 @@ impl Display {
 impl Drop for Display {
     fn drop(&mut self) {
         leave();
+        // A `Terminal` that cannot show its cursor says so on standard error, and panics where that is gone, too.
+        if let Some(mut terminal) = self.terminal.take()
+            && terminal.show_cursor().is_err()
+        {
+            std::mem::forget(terminal);
+        }
     }
 }
 
@@ -410,7 +418,7 @@ fn restore_on_panic() {
 
 /// Flags that signals set.
 struct Signals {
-    /// Terminate, interrupt or hang up.
+    /// Terminate, interrupt, quit or hang up.
     end: Arc<AtomicBool>,
     /// Stop.
     stop: Arc<AtomicBool>,
@@ -421,8 +429,8 @@ impl Signals {
         let signals = Self { end: Arc::default(), stop: Arc::default() };
         #[cfg(unix)]
         {
-            use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGTSTP};
-            for signal in [SIGHUP, SIGINT, SIGTERM] {
+            use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP};
+            for signal in [SIGHUP, SIGINT, SIGQUIT, SIGTERM] {
                 signal_hook::flag::register(signal, Arc::clone(&signals.end))?;
             }
             signal_hook::flag::register(SIGTSTP, Arc::clone(&signals.stop))?;

@@ -160,6 +160,48 @@ fn output_that_cannot_be_written_is_said() {
     assert!(String::from_utf8_lossy(&output.stderr).contains("No space left"));
 }
 
+/// Where nothing can be written any more, neither results nor errors, the program ends with a status: it does not panic.
+#[cfg(target_os = "linux")]
+#[test]
+fn output_and_errors_that_nobody_takes_end_in_a_status() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let bad = folder.path().join("bad.toml");
+    fs::write(&bad, "rows = ").expect("written");
+    let (plan, bad) = (shipped("paper-5-tire.toml"), bad.to_str().expect("UTF-8").to_owned());
+    let draft = ["--accuracy", "draft", "--nominal"];
+    let cases: &[&[&str]] = &[
+        &["check", &plan],
+        &["check", &bad],
+        &["check", &plan, "--timeout", "0.001", "--accuracy", "reference"],
+        &["size", &plan],
+        &["sweep", &plan],
+        &["merge", &bad],
+        &["trace", &plan],
+        &["fit", &plan, "--observed", &bad],
+        &["ropes"],
+        &["man"],
+        &["schema"],
+        &["config"],
+        &["completions", "bash"],
+        &["init", "-"],
+        &["no-such-command", "-x"],
+        &[],
+    ];
+    for arguments in cases {
+        let full = || fs::OpenOptions::new().write(true).open("/dev/full").expect("the full device");
+        let more = if ["check", "size", "sweep"].contains(arguments.first().unwrap_or(&"")) {
+            &draft[..]
+        } else {
+            &[]
+        };
+        let more = if arguments.contains(&"--timeout") { &[] } else { more };
+        let mut command = Command::new(PROGRAM);
+        let status = command.args(*arguments).args(more).stdout(full()).stderr(full()).status();
+        let code = status.expect("it runs").code();
+        assert!([Some(1), Some(2)].contains(&code), "{arguments:?}: {code:?}");
+    }
+}
+
 /// Whoever reads the output may stop reading: nothing is said about it.
 #[test]
 fn a_closed_pipe_ends_it_quietly() {

@@ -49,7 +49,7 @@ fn a_timeout_is_for_commands_and_refused_by_the_terminal() {
 
 #[test]
 fn signals_and_control_c_restore_the_terminal() {
-    for signal in ["TERM", "HUP", "INT"] {
+    for signal in ["TERM", "HUP", "INT", "QUIT"] {
         let watched = Watched::open("large-50x50.toml", &["--dt", "1e-5"], 100, 30);
         watched.until("computing");
         watched.signal(signal);
@@ -398,19 +398,26 @@ fn a_mistake_in_the_configuration_is_named() {
     assert!(told.contains("config.toml: TOML parse error at line 1, column 9"), "{told}");
 }
 
-/// The window is closed while options compute: nobody is left to quit it, and it ends by itself.
+/// The window is closed, while options compute and while nothing does: the program ends by itself, with a status. It neither
+/// panics, nor needs the signal of a terminal that hangs up.
 #[test]
 fn a_terminal_that_is_closed_ends_the_program() {
-    let watched = Watched::open("large-50x50.toml", &["--dt", "1e-6"], 100, 30);
-    watched.until("computing");
-    let Watched { mut child, keyboard, master, .. } = watched;
-    // Its reader goes with the last of the terminal's ends.
-    drop((keyboard, master));
-    let id = child.process_id().expect("a process").to_string();
-    std::process::Command::new("kill").args(["-s", "HUP", &id]).status().expect("kill runs");
-    let start = Instant::now();
-    while child.try_wait().expect("a child").is_none() {
-        assert!(start.elapsed() < PATIENCE, "still running");
-        thread::sleep(Duration::from_millis(10));
+    for (plan, arguments, shown) in
+        [("large-50x50.toml", &["--dt", "1e-6"][..], "computing"), ("paper-5-tire.toml", &[], " of 1 pass")]
+    {
+        let watched = Watched::open(plan, arguments, 100, 30);
+        watched.until(shown);
+        let Watched { mut child, keyboard, master, .. } = watched;
+        // Its reader goes with the last of the terminal's ends.
+        drop((keyboard, master));
+        let start = Instant::now();
+        let status = loop {
+            if let Some(status) = child.try_wait().expect("a child") {
+                break status;
+            }
+            assert!(start.elapsed() < PATIENCE, "still running");
+            thread::sleep(Duration::from_millis(10));
+        };
+        assert!([2, 130].contains(&status.exit_code()), "{status:?}");
     }
 }
