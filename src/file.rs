@@ -1,8 +1,11 @@
 //! Writing text files: whole or not at all. Their checksums.
 
-use std::fs::OpenOptions;
+use std::fs::{File, Metadata, OpenOptions};
 use std::io::{self, ErrorKind, Write};
+#[cfg(unix)]
+use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
 use std::path::Path;
+use std::time::Duration;
 
 use sha2::{Digest, Sha256};
 use tempfile::NamedTempFile;
@@ -25,22 +28,61 @@ pub fn save(path: &Path, text: &str) -> io::Result<()> {
 fn replace(path: &Path, text: &str) -> io::Result<()> {
     let old = path.metadata().ok();
     if old.as_ref().is_some_and(|old| !old.is_file()) {
-        return OpenOptions::new().write(true).open(path)?.write_all(text.as_bytes());
+        return write_to_device(path, text);
     }
     if old.as_ref().is_some_and(|old| old.permissions().readonly()) {
         return Err(ErrorKind::ReadOnlyFilesystem.into());
     }
-    let new = beside(path, text)?;
-    if let Some(old) = old {
-        new.as_file().set_permissions(old.permissions())?;
+    if old.is_some() {
+        // Who may not write a file may not replace it either, though the folder lets anybody.
+        OpenOptions::new().write(true).open(path)?;
     }
-    new.persist(path)?;
+    beside(path, text, old.as_ref())?.persist(path)?;
     Ok(())
+}
+
+/// Writes to what is no file. A pipe that nobody reads from is an error.
+fn write_to_device(path: &Path, text: &str) -> io::Result<()> {
+    let mut device = open_device(path)?;
+    let mut left = text.as_bytes();
+    while !left.is_empty() {
+        match device.write(left) {
+            Ok(0) => return Err(ErrorKind::WriteZero.into()),
+            Ok(count) => left = &left[count..],
+            // Its reader is slow.
+            Err(error) if error.kind() == ErrorKind::WouldBlock => std::thread::sleep(PIPE_PAUSE),
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(())
+}
+
+/// Time between two looks at a pipe, and number of looks for a reader.
+const PIPE_PAUSE: Duration = Duration::from_millis(20);
+#[cfg(unix)]
+const PIPE_LOOKS: usize = 100;
+
+#[cfg(unix)]
+fn open_device(path: &Path) -> io::Result<File> {
+    use std::os::unix::fs::OpenOptionsExt;
+    for _ in 0..PIPE_LOOKS {
+        match OpenOptions::new().write(true).custom_flags(libc::O_NONBLOCK).open(path) {
+            Err(error) if error.raw_os_error() == Some(libc::ENXIO) => std::thread::sleep(PIPE_PAUSE),
+            opened => return opened,
+        }
+    }
+    Err(ErrorKind::NotConnected.into())
+}
+
+#[cfg(not(unix))]
+fn open_device(path: &Path) -> io::Result<File> {
+    OpenOptions::new().write(true).open(path)
 }
 
 /// Writes a new file whole, never over one that is there.
 pub fn create(path: &Path, text: &str) -> io::Result<()> {
-    let created = beside(path, text).and_then(|new| Ok(new.persist_noclobber(path).map(drop)?));
+    let created = beside(path, text, None).and_then(|new| Ok(new.persist_noclobber(path).map(drop)?));
     created.map_err(|error| named(path, &error))
 }
 
@@ -51,16 +93,36 @@ pub fn unused_path(stem: &str, ending: &str) -> String {
     names.find(|name| !Path::new(name).exists()).unwrap_or_default()
 }
 
-/// The text in a file without a name of its own yet, in the folder of `path`.
-fn beside(path: &Path, text: &str) -> io::Result<NamedTempFile> {
+/// The text in a file without a name of its own yet, in the folder of `path`, with owner and rights of the file that is there.
+fn beside(path: &Path, text: &str, old: Option<&Metadata>) -> io::Result<NamedTempFile> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
+    // A file that is replaced may be secret: until it has the rights of the old one, nobody else reads the new one.
     #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.permissions(PermissionsExt::from_mode(if old.is_some() { 0o600 } else { 0o666 }));
     let mut new = builder.tempfile_in(folder)?;
+    if let Some(old) = old {
+        keep_owner(new.as_file(), old)?;
+        new.as_file().set_permissions(old.permissions())?;
+    }
     new.write_all(text.as_bytes())?;
     new.as_file().sync_all()?;
     Ok(new)
+}
+
+/// Gives a new file the owner and the group of the old one.
+#[cfg(unix)]
+fn keep_owner(new: &File, old: &Metadata) -> io::Result<()> {
+    let own = new.metadata()?;
+    if (own.uid(), own.gid()) == (old.uid(), old.gid()) {
+        return Ok(());
+    }
+    fchown(new, Some(old.uid()), Some(old.gid())).map_err(|_| ErrorKind::Unsupported.into())
+}
+
+#[cfg(not(unix))]
+fn keep_owner(_: &File, _: &Metadata) -> io::Result<()> {
+    Ok(())
 }
 
 /// An error with the name of the file and what it means for it.
@@ -70,6 +132,10 @@ fn named(path: &Path, error: &io::Error) -> io::Error {
         ErrorKind::AlreadyExists => "it is there already and is not overwritten".to_owned(),
         ErrorKind::ReadOnlyFilesystem => "it may only be read".to_owned(),
         ErrorKind::PermissionDenied => "it may not be written".to_owned(),
+        ErrorKind::Unsupported => {
+            "it belongs to somebody else, and would not after a save; give another name".to_owned()
+        }
+        ErrorKind::NotConnected => "nobody reads from it".to_owned(),
         ErrorKind::StorageFull => "the disk is full".to_owned(),
         kind => kind.to_string(),
     };

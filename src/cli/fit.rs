@@ -47,7 +47,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         print_text(&template_of(&case))?;
         return Ok(Status::Pass);
     }
-    if arguments.write && case.source.path == "-" {
+    if arguments.write && !arguments.plan.is_file() {
         return wrong("--write has no file to write into: give the plan by its name");
     }
     if arguments.write && arguments.study.verdict.sampling().is_none() {

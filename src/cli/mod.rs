@@ -13,6 +13,7 @@ mod check;
 mod check_plans;
 mod completions;
 mod config;
+mod deadline;
 mod effects;
 mod fit;
 mod init;
@@ -40,7 +41,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::error::ErrorKind;
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use self::arguments::{Compute, LookArguments};
 
@@ -151,9 +152,19 @@ fn misspelt(error: &clap::Error) -> Option<clap::Error> {
     Some(Cli::command().error(ErrorKind::InvalidSubcommand, words))
 }
 
+/// The `--timeout` of a command that takes one [s].
+fn timeout(matches: &ArgMatches) -> Option<f64> {
+    let (_, of_command) = matches.subcommand()?;
+    of_command.try_get_one("timeout").ok().flatten().copied()
+}
+
 /// Runs the command line.
 pub fn run() -> ExitCode {
-    let cli = Cli::try_parse().unwrap_or_else(|error| misspelt(&error).unwrap_or(error).exit());
+    let parsed = Cli::command().try_get_matches().and_then(|matches| {
+        deadline::watch(timeout(&matches));
+        Cli::from_arg_matches(&matches)
+    });
+    let cli = parsed.unwrap_or_else(|error| misspelt(&error).unwrap_or(error).exit());
     let done = match (cli.command, cli.plan) {
         (Some(Command::Check(arguments)), _) => check::run(&arguments, &cli.look),
         (Some(Command::Trace(arguments)), _) => trace::run(&arguments, &cli.look),

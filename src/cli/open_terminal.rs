@@ -33,8 +33,9 @@ pub fn plan(plan: &Path, compute: &Compute, look: &LookArguments) -> io::Result<
         config::remember(file);
     }
     let settings = compute.settings(&case.plan);
-    let config = config()?;
-    let app = App::new(Arc::new(case), settings, &config);
+    let (config, mistake) = Config::load_or_default();
+    let mut app = App::new(Arc::new(case), settings, &config);
+    app.notice = mistake;
     show(app, file, &config, compute, look)
 }
 
@@ -45,7 +46,7 @@ pub fn start(compute: &Compute, look: &LookArguments) -> io::Result<Status> {
         return Ok(Status::Wrong);
     }
     needs_keyboard(compute)?;
-    let config = config()?;
+    let (config, mistake) = Config::load_or_default();
     let unsaved = unsaved::kept(None).map(|kept| kept.text);
     let start = Start::new(Path::new("."), config::recent(), unsaved);
     let (name, text, kept) = match tui::choose(start, &config, screen(&config, look))? {
@@ -58,6 +59,7 @@ pub fn start(compute: &Compute, look: &LookArguments) -> io::Result<Status> {
         Ok(case) => {
             let settings = compute.settings(&case.plan);
             let mut app = App::new(Arc::new(case), settings, &config);
+            app.notice = mistake;
             if !kept {
                 app.editor.set_saved("");
                 app.notice = Some(starter::ASSUMED.to_owned());
@@ -66,10 +68,6 @@ pub fn start(compute: &Compute, look: &LookArguments) -> io::Result<Status> {
         }
         Err(mistakes) => wrong(&mistakes.to_string()),
     }
-}
-
-fn config() -> io::Result<Config> {
-    Config::load().map_err(io::Error::other)
 }
 
 fn needs_keyboard(compute: &Compute) -> io::Result<()> {

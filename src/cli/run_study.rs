@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::arguments::Compute;
+use super::deadline;
 use super::status::note_interrupt;
 use crate::study::{Finding, Found, Journal, NoResult, Progress, thread_pool};
 use crate::units::rough_duration;
@@ -18,6 +19,9 @@ const LOOK: Duration = Duration::from_millis(50);
 
 /// A study that will take longer is announced.
 const LONG: Duration = Duration::from_secs(60);
+/// How late after the timeout a study may end by itself [s], and the share of the timeout that comes on top.
+const LATE: f64 = 2.0;
+const LATE_SHARE: f64 = 0.1;
 /// Time that a study runs before its duration is estimated.
 const WATCHED: Duration = Duration::from_secs(1);
 
@@ -35,11 +39,15 @@ pub fn run_saved_study<T: Send>(
     journal: Journal,
     work: impl FnOnce(&Progress) -> Finding<T> + Send,
 ) -> Finding<T> {
+    deadline::note_loaded();
     let (progress, signal) = (Progress::with_journal(journal), Arc::new(AtomicBool::new(false)));
+    // Once it is set, a signal ends the program by itself: a second interrupt, and whatever follows the study.
+    let may_end = Arc::new(AtomicBool::new(false));
     #[cfg(unix)]
     for number in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM, signal_hook::consts::SIGHUP] {
         // Without a handler the signal ends the program at once, which is as good.
-        let _ = signal_hook::flag::register(number, Arc::clone(&signal));
+        let _ = signal_hook::flag::register_conditional_default(number, Arc::clone(&may_end))
+            .and_then(|_| signal_hook::flag::register(number, Arc::clone(&signal)));
     }
     let template = "{bar:30} {pos} of {len} shots, {msg}";
     let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
@@ -57,16 +65,19 @@ pub fn run_saved_study<T: Send>(
             bar.set_length(total as u64);
             bar.set_position(done as u64);
             if signal.swap(false, Ordering::Relaxed) {
-                // Who interrupts twice does not want what there is.
-                if interrupted {
-                    progress.stop()
-                } else {
-                    progress.expire()
-                }
+                progress.expire();
+                may_end.store(true, Ordering::Relaxed);
                 interrupted = true;
             }
-            if compute.timeout.is_some_and(|timeout| begun.elapsed().as_secs_f64() > timeout) {
-                progress.expire();
+            if let Some(timeout) = compute.timeout {
+                let late = deadline::elapsed().as_secs_f64() - timeout;
+                if late > 0.0 {
+                    progress.expire();
+                }
+                // What is built between two runs does not look at the time.
+                if late > LATE + LATE_SHARE * timeout {
+                    deadline::end("the time was up before there was a result");
+                }
             }
             let Some(left) = time_left(&progress, begun.elapsed()) else { continue };
             bar.set_message(format!("about {} left", rough_duration(left.as_secs_f64())));
@@ -83,6 +94,7 @@ pub fn run_saved_study<T: Send>(
         study.join()
     });
     bar.finish_and_clear();
+    may_end.store(true, Ordering::Relaxed);
     let (done, total) = progress.counts();
     let found = result.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
     close(progress.into_journal(), found.as_ref().is_ok_and(|found| !found.partial));

@@ -32,7 +32,7 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(case) = open(&arguments.plan, look) else { return Ok(Status::Wrong) };
-    if arguments.write.is_some() && case.source.path == "-" {
+    if arguments.write.is_some() && !arguments.plan.is_file() {
         return wrong("--write has no file to write into: give the plan by its name");
     }
     let compute = arguments.study.compute.settings(&case.plan);

@@ -3,12 +3,12 @@
 use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
-use std::time::Instant;
 
 use clap::Args;
 use itertools::Itertools;
 
 use super::arguments::{Compute, FormatArg, LookArguments, positive};
+use super::deadline;
 use super::load_plans::open_option;
 use super::status::{self, Status, wrong};
 use crate::report;
@@ -50,9 +50,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     };
     let compute = arguments.compute.settings(&case.plan);
     let settings = case.run_settings(compute.method, compute.first_step(&case));
-    let (begun, timeout) = (Instant::now(), arguments.compute.timeout);
+    deadline::note_loaded();
+    let timeout = arguments.compute.timeout;
     let in_time = || match timeout {
-        Some(timeout) if begun.elapsed().as_secs_f64() > timeout => ControlFlow::Break(()),
+        Some(timeout) if deadline::elapsed().as_secs_f64() > timeout => ControlFlow::Break(()),
         _ => ControlFlow::Continue(()),
     };
     if chosen == Chosen::default() {

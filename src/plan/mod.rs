@@ -21,6 +21,7 @@ pub mod fitted;
 pub mod import;
 pub mod keys;
 mod model;
+mod nearest_point;
 pub mod observations;
 mod reader;
 pub mod schema;
@@ -35,6 +36,7 @@ pub use model::{
     BlastRow, CableSpec, DelayOption, GroundSpec, Hole, HoleTiming, Launch, LaunchTargets, Layout,
     LimitsSpec, ListedTire, Mesh, Plan, SearchSpec, SimulationSpec, SizeSpec, Timing, TireSpec, fire_in_turn,
 };
+pub use nearest_point::NearestPoint;
 pub use reader::nearest;
 pub use source::PlanSource;
 pub use uncertainty::{DelayScatter, Uncertainty};

@@ -144,24 +144,6 @@ pub enum Layout {
 }
 
 impl Layout {
-    /// Distance of a point from the area of a mesh, or from the nearest listed tire [m].
-    pub fn distance_outside(&self, x: f64, y: f64) -> f64 {
-        match self {
-            Layout::Grid(mesh) | Layout::Quincunx(mesh) => {
-                let border = mesh.border_rows as f64;
-                let beyond = |at: f64, count: usize, spacing: f64| {
-                    (-border * spacing - at).max(at - (count as f64 - 1.0 + border) * spacing).max(0.0)
-                };
-                let (across, along) = (mesh.column_spacing_m, mesh.row_spacing_m);
-                beyond(x, mesh.columns, across).hypot(beyond(y, mesh.rows, along))
-            }
-            Layout::List { tires, .. } => {
-                let distances = tires.iter().map(|tire| (tire.x_m - x).hypot(tire.y_m - y));
-                distances.fold(f64::INFINITY, f64::min)
-            }
-        }
-    }
-
     /// Greatest distance between the centres of tied tires [m]; of a mesh its greater spacing.
     pub fn widest_tie(&self) -> f64 {
         match self {
@@ -195,6 +177,16 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// Distance of a point from the area of the mesh and its border [m].
+    pub fn distance_outside(&self, x: f64, y: f64) -> f64 {
+        let border = self.border_rows as f64;
+        let beyond = |at: f64, count: usize, spacing: f64| {
+            (-border * spacing - at).max(at - (count as f64 - 1.0 + border) * spacing).max(0.0)
+        };
+        let (across, along) = (self.column_spacing_m, self.row_spacing_m);
+        beyond(x, self.columns, across).hypot(beyond(y, self.rows, along))
+    }
+
     /// Number of tires of a grid, or at the corners of a quincunx, with the border.
     pub fn corners(&self) -> usize {
         let with_border = |n: usize| n.saturating_add(2 * self.border_rows);

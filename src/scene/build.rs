@@ -6,7 +6,8 @@ use nalgebra::{Vector2, Vector3};
 use super::{Cable, Firing, Scene, Shot, TireId, with_ends};
 use crate::choice::{HoleOrder, Link, OnOverload};
 use crate::plan::{
-    BlastRow, DelayOption, HoleTiming, Launch, LaunchTargets, Layout, Mesh, Plan, Timing, fire_in_turn,
+    BlastRow, DelayOption, Hole, HoleTiming, Launch, LaunchTargets, Layout, Mesh, NearestPoint, Plan, Timing,
+    fire_in_turn,
 };
 
 /// Firing time of each blast row [s] (`n_blast_rows`).
@@ -264,7 +265,7 @@ impl Scene {
         ties
     }
 
-    /// Firings of the holes of a blast row at time 0.
+    /// Firings of the holes of a blast row at time 0; a hole fires under the nearest tire, of two equally near under the first.
     pub fn firings(&self, targets: &LaunchTargets) -> Vec<Firing> {
         match targets {
             LaunchTargets::UnderRow { row, launch } => {
@@ -275,10 +276,11 @@ impl Scene {
             LaunchTargets::UnderTires { tires, launch } => {
                 tires.iter().map(|&tire| firing(tire, launch)).collect()
             }
-            LaunchTargets::Holes(holes) => holes
-                .iter()
-                .filter_map(|hole| Some(firing(self.nearest(hole.x_m, hole.y_m)?, &hole.launch)))
-                .collect(),
+            LaunchTargets::Holes(holes) => {
+                let nearest = NearestPoint::of(self.position.iter().map(|at| [at.x, at.y]).collect());
+                let under = |hole: &Hole| Some(firing(nearest.to([hole.x_m, hole.y_m])?, &hole.launch));
+                holes.iter().filter_map(under).collect()
+            }
         }
     }
 
@@ -293,15 +295,6 @@ impl Scene {
                 firings.iter().map(|firing| self.position[firing.tire].xy()).collect()
             }
         }
-    }
-
-    /// Tire nearest to a point on the ground [m]; of two tires at the same distance, the first.
-    fn nearest(&self, x: f64, y: f64) -> Option<usize> {
-        let distance2 = |tire: &usize| {
-            let p = self.position[*tire];
-            (p.x - x).powi(2) + (p.y - y).powi(2)
-        };
-        (0..self.position.len()).min_by(|a, b| distance2(a).total_cmp(&distance2(b)))
     }
 }
 

@@ -34,6 +34,19 @@ struct Written {
 }
 
 impl Config {
+    /// The user's configuration, or the default with what is wrong with the user's: a plan can be looked at in any case.
+    pub fn load_or_default() -> (Self, Option<String>) {
+        match Self::load() {
+            Ok(config) => (config, None),
+            Err(mistake) => {
+                // Without the excerpt that `toml` shows.
+                let lines = mistake.lines().filter(|line| !line.contains('|'));
+                let words = lines.collect::<Vec<_>>().join(": ");
+                (Self::default(), Some(format!("the configuration is not used: {words}")))
+            }
+        }
+    }
+
     /// Reads the user's configuration; the default where the user has none.
     pub fn load() -> Result<Self, String> {
         let Some(path) = path() else { return Ok(Self::default()) };

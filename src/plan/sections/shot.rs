@@ -6,7 +6,8 @@ use crate::choice::{HoleOrder, Method};
 use crate::plan::keys::{blast_row, delay, hole, plan};
 use crate::plan::reader::{Mistakes, SectionReader, nearest};
 use crate::plan::{
-    BlastRow, DelayOption, Hole, HoleTiming, Launch, LaunchTargets, Layout, Plan, SimulationSpec, Timing,
+    BlastRow, DelayOption, Hole, HoleTiming, Launch, LaunchTargets, Layout, NearestPoint, Plan,
+    SimulationSpec, Timing,
 };
 
 pub fn read_blast_rows(
@@ -15,6 +16,7 @@ pub fn read_blast_rows(
     simulation: &SimulationSpec,
     mistakes: &Mistakes,
 ) -> Vec<BlastRow> {
+    let ground = layout.map(Ground::of);
     let mut rows: Vec<BlastRow> = Vec::new();
     for section in root.sections(&plan::BLAST_ROW) {
         let name = section.text(&blast_row::NAME);
@@ -22,7 +24,7 @@ pub fn read_blast_rows(
             let message = format!("two blast rows are named \"{}\"", name.value);
             mistakes.add(name.span.clone(), message, "give each its own name");
         }
-        let targets = read_targets(&section, layout, simulation, mistakes);
+        let targets = read_targets(&section, ground.as_ref(), simulation, mistakes);
         rows.push(BlastRow { name: name.value.to_owned(), targets });
         section.finish();
     }
@@ -45,9 +47,39 @@ pub fn check_charges(plan: &Plan, root: &SectionReader<'_>) {
     }
 }
 
+/// The shelter as the holes under it see it.
+struct Ground<'l> {
+    layout: &'l Layout,
+    /// Tires listed one by one.
+    listed: NearestPoint,
+    /// Greatest distance between the centres of tied tires [m].
+    widest_tie: f64,
+}
+
+impl<'l> Ground<'l> {
+    fn of(layout: &'l Layout) -> Self {
+        let listed = match layout {
+            Layout::List { tires, .. } => tires.iter().map(|tire| [tire.x_m, tire.y_m]).collect(),
+            Layout::Grid(_) | Layout::Quincunx(_) => Vec::new(),
+        };
+        Self { layout, listed: NearestPoint::of(listed), widest_tie: layout.widest_tie() }
+    }
+
+    /// Distance of a point from the area of a mesh, or from the nearest listed tire [m].
+    fn distance_outside(&self, x: f64, y: f64) -> f64 {
+        match self.layout {
+            Layout::Grid(mesh) | Layout::Quincunx(mesh) => mesh.distance_outside(x, y),
+            Layout::List { tires, .. } => {
+                let tire = self.listed.to([x, y]).and_then(|nearest| tires.get(nearest));
+                tire.map_or(f64::INFINITY, |tire| (tire.x_m - x).hypot(tire.y_m - y))
+            }
+        }
+    }
+}
+
 fn read_targets(
     section: &SectionReader<'_>,
-    layout: Option<&Layout>,
+    ground: Option<&Ground<'_>>,
     simulation: &SimulationSpec,
     mistakes: &Mistakes,
 ) -> LaunchTargets {
@@ -76,10 +108,11 @@ fn read_targets(
                 section.wrong(key, message, "write it in each hole of `holes`, behind its x_m and y_m");
             }
         }
-        return LaunchTargets::Holes(read_holes(section, layout, simulation));
+        return LaunchTargets::Holes(read_holes(section, ground, simulation));
     }
     let launch = read_launch(section, simulation);
     if let Some(tires) = section.wholes(&blast_row::UNDER_TIRES) {
+        let layout = ground.map(|ground| ground.layout);
         let count = match layout {
             Some(Layout::List { tires, .. }) => tires.len(),
             Some(_) => {
@@ -111,27 +144,27 @@ fn read_targets(
         return LaunchTargets::UnderTires { tires, launch };
     }
     let row = section.number_if(&blast_row::UNDER_ROW).unwrap_or(1.0);
-    check_row(section, layout, row);
+    check_row(section, ground.map(|ground| ground.layout), row);
     LaunchTargets::UnderRow { row, launch }
 }
 
 fn read_holes(
     section: &SectionReader<'_>,
-    layout: Option<&Layout>,
+    ground: Option<&Ground<'_>>,
     simulation: &SimulationSpec,
 ) -> Vec<Hole> {
     let holes = section.sections(&blast_row::HOLES);
     if holes.is_empty() {
         section.wrong(&blast_row::HOLES, "a blast row without a hole", "list its holes, or remove the row");
     }
-    holes.into_iter().map(|hole| read_hole(hole, layout, simulation)).collect()
+    holes.into_iter().map(|hole| read_hole(hole, ground, simulation)).collect()
 }
 
-fn read_hole(section: SectionReader<'_>, layout: Option<&Layout>, simulation: &SimulationSpec) -> Hole {
+fn read_hole(section: SectionReader<'_>, ground: Option<&Ground<'_>>, simulation: &SimulationSpec) -> Hole {
     let x_m = section.number(&hole::X_M);
     let y_m = section.number(&hole::Y_M);
     let launch = read_launch(&section, simulation);
-    let distances = layout.map(|layout| (layout.distance_outside(x_m, y_m), layout.widest_tie()));
+    let distances = ground.map(|ground| (ground.distance_outside(x_m, y_m), ground.widest_tie));
     if let Some((away, most)) = distances.filter(|(away, most)| away > most) {
         let message =
             format!("this hole lies {away:.1} m beside the shelter, whose tires lie {most:.1} m apart");
