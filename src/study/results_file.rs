@@ -150,7 +150,9 @@ struct Origin {
 /// Reads a file of results; says what is wrong with it. `name` stands for the file in messages.
 pub fn read(name: &str, text: &str) -> Result<Contents, String> {
     if !text.starts_with(BEGINNING) {
-        return Err(format!("{name} holds no results of a study, and stays as it is: name another file"));
+        return Err(format!(
+            "{name} holds no results of a study, as --save writes them; it stays as it is: name another file"
+        ));
     }
     let whole = text.rfind('\n').map_or(0, |end| end + 1);
     let mut lines = text[..whole].lines().enumerate();

@@ -257,3 +257,87 @@ fn a_plan_is_read_from_a_fifo_and_from_standard_input() {
     child.stdin.take().expect("a pipe").write_all(text.as_bytes()).expect("written");
     assert!(child.wait_with_output().expect("it ends").status.success());
 }
+
+/// A pipe that nobody reads from, or writes to, holds up neither --timeout nor a signal.
+#[cfg(unix)]
+#[test]
+fn a_pipe_without_a_partner_holds_nothing_up() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let fifo = folder.path().join("fifo");
+    assert!(Command::new("mkfifo").arg(&fifo).status().expect("mkfifo runs").success());
+    let (fifo, plan) = (fifo.to_str().expect("UTF-8"), shipped("paper-5-tire.toml"));
+    let begun = Instant::now();
+    let start = |arguments: &[&str]| {
+        let mut command = Command::new(PROGRAM);
+        command.args(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("it starts")
+    };
+    let output =
+        start(&["report", &plan, "-o", fifo, "--force", "--nominal"]).wait_with_output().expect("it ends");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("nobody reads from it"));
+    let output = start(&["check", fifo, "--timeout", "0.5"]).wait_with_output().expect("it ends");
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("the time was up before the plan was read"));
+    let output = start(&["search", fifo, "--write", "--timeout", "0.5"]).wait_with_output().expect("it ends");
+    assert!(!output.status.success());
+    let mut waiting = start(&["check", fifo]);
+    thread::sleep(Duration::from_millis(300));
+    let id = waiting.id().to_string();
+    assert!(Command::new("kill").args(["-s", "TERM", &id]).status().expect("kill runs").success());
+    assert!(!waiting.wait().expect("it ends").success());
+    assert!(begun.elapsed() < Duration::from_secs(60), "{:?}", begun.elapsed());
+    // With a partner, however slow, all of it arrives.
+    let reader = thread::spawn({
+        let fifo = fifo.to_owned();
+        move || {
+            let mut file = fs::File::open(fifo).expect("the fifo");
+            thread::sleep(Duration::from_millis(200));
+            let mut text = String::new();
+            std::io::Read::read_to_string(&mut file, &mut text).map(|_| text)
+        }
+    });
+    let text = "what the shotfirer noted\n".repeat(100_000);
+    file::save(Path::new(fifo), &text).expect("written");
+    assert!(reader.join().expect("a reader").expect("read") == text);
+}
+
+/// A plan of somebody else stays theirs, though anybody may write into its folder. Only root can set this up.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_save_keeps_the_owner_or_refuses() {
+    use std::os::unix::fs::{MetadataExt, PermissionsExt, chown};
+    use std::os::unix::process::CommandExt;
+    const NOBODY: u32 = 65_534;
+    let folder = tempfile::tempdir().expect("a folder");
+    let plan = folder.path().join("plan.toml");
+    fs::write(&plan, "old").expect("written");
+    if fs::metadata(&plan).expect("a file").uid() != 0 {
+        return;
+    }
+    let rights =
+        |path: &Path, mode: u32| fs::set_permissions(path, fs::Permissions::from_mode(mode)).expect("set");
+    chown(&plan, Some(NOBODY), Some(NOBODY)).expect("given");
+    rights(&plan, 0o640);
+    file::save(&plan, "new").expect("saved");
+    let kept = fs::metadata(&plan).expect("a file");
+    assert_eq!((kept.uid(), kept.gid(), kept.mode() & 0o777), (NOBODY, NOBODY, 0o640));
+    rights(folder.path(), 0o777);
+    chown(&plan, Some(0), Some(0)).expect("given");
+    // The program where anybody may run it.
+    let program = folder.path().join("shelter");
+    fs::copy(PROGRAM, &program).expect("copied");
+    let text = include_str!("../../plans/paper-5-tire.toml");
+    for (mode, said) in [(0o644, "it may not be written"), (0o666, "it belongs to somebody else")] {
+        fs::write(&plan, text).expect("written");
+        rights(&plan, mode);
+        let mut command = Command::new(&program);
+        command.args(["size", "--write", "--accuracy", "draft"]).arg(&plan).uid(NOBODY).gid(NOBODY);
+        let output = command.output().expect("it runs");
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        assert!(told.contains(said), "{told}");
+        assert_eq!(fs::read_to_string(&plan).expect("the plan"), text);
+        assert_eq!(fs::metadata(&plan).expect("a file").uid(), 0);
+    }
+    assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 2, "nothing is left beside it");
+}
