@@ -30,7 +30,7 @@ fn replace(path: &Path, text: &str) -> io::Result<()> {
     if old.as_ref().is_some_and(|old| old.permissions().readonly()) {
         return Err(ErrorKind::ReadOnlyFilesystem.into());
     }
-    let new = beside(path, text)?;
+    let new = write_temporary(path, text)?;
     if let Some(old) = old {
         new.as_file().set_permissions(old.permissions())?;
     }
@@ -40,7 +40,7 @@ fn replace(path: &Path, text: &str) -> io::Result<()> {
 
 /// Writes a new file whole, never over one that is there.
 pub fn create(path: &Path, text: &str) -> io::Result<()> {
-    let created = beside(path, text).and_then(|new| Ok(new.persist_noclobber(path).map(drop)?));
+    let created = write_temporary(path, text).and_then(|new| Ok(new.persist_noclobber(path).map(drop)?));
     created.map_err(|error| named(path, &error))
 }
 
@@ -52,7 +52,7 @@ pub fn unused_path(stem: &str, ending: &str) -> String {
 }
 
 /// The text in a file without a name of its own yet, in the folder of `path`.
-fn beside(path: &Path, text: &str) -> io::Result<NamedTempFile> {
+fn write_temporary(path: &Path, text: &str) -> io::Result<NamedTempFile> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]

@@ -18,7 +18,7 @@ use crate::plan::fitted;
 use crate::plan::observations::{Observations, template};
 use crate::report::fit::{refusal, report};
 use crate::report::json::FitDocument;
-use crate::study::fit::{Fit, FitResult, Request, addresses, fit};
+use crate::study::fit::{Fit, FitResult, Request, fit, observable_names};
 use crate::study::{Case, Found};
 
 #[derive(Args)]
@@ -89,7 +89,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
 
 /// The observations of all files; prints every mistake, `None` where there is one.
 fn read(case: &Case, paths: &[PathBuf], look: &LookArguments) -> Option<Vec<Observations>> {
-    let known = addresses(case);
+    let known = observable_names(case);
     let open = |path: &PathBuf| {
         let read = Observations::read(path, &known);
         read.inspect_err(|mistakes| eprint!("{}", mistakes.render(look.colored(io::stderr().is_terminal()))))

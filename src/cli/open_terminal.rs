@@ -14,7 +14,7 @@ use crate::study::Case;
 use crate::study::samples::sampling::Sampling;
 use crate::tui::config::{self, Config};
 use crate::tui::start::{Opened, Start};
-use crate::tui::{self, app::App, unsaved};
+use crate::tui::{self, app::App, recovery};
 
 /// Opens a plan in the terminal; where output is no terminal or only words are wanted, says the same as `check`.
 pub fn plan(plan: &Path, compute: &Compute, look: &LookArguments) -> io::Result<Status> {
@@ -46,7 +46,7 @@ pub fn start(compute: &Compute, look: &LookArguments) -> io::Result<Status> {
     }
     needs_keyboard(compute)?;
     let config = config()?;
-    let unsaved = unsaved::kept(None).map(|kept| kept.text);
+    let unsaved = recovery::find(None).map(|kept| kept.text);
     let start = Start::new(Path::new("."), config::recent(), unsaved);
     let (name, text, kept) = match tui::choose(start, &config, screen(&config, look))? {
         Err(exit) => return Ok(status(&exit)),
@@ -83,8 +83,8 @@ fn needs_keyboard(compute: &Compute) -> io::Result<()> {
     Err(io::Error::other(wrong))
 }
 
-fn screen(config: &Config, look: &LookArguments) -> tui::Look {
-    tui::Look { ascii: config.ascii || look.style(true).ascii, color: look.colored(true) }
+fn screen(config: &Config, look: &LookArguments) -> tui::ScreenStyle {
+    tui::ScreenStyle { ascii: config.ascii || look.style(true).ascii, color: look.colored(true) }
 }
 
 fn show(

@@ -12,7 +12,7 @@ use super::print_sharded::print_orders;
 use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::study::merge::{Question, ShardResults, write_shard};
-use crate::study::orders::{MOST_ROWS, count, orders, tries_all, try_orders};
+use crate::study::orders::{MOST_ROWS, count_orders, orders, tries_all, try_orders};
 use crate::study::{Found, Intervals, Shard};
 
 #[derive(Args)]
@@ -48,7 +48,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             "orders of more than {MOST_ROWS} rows are searched, not shared: leave out --shard"
         ));
     }
-    if tries_all(&case) && count(&case, intervals_s.len()) > MOST_ORDERS {
+    if tries_all(&case) && count_orders(&case, intervals_s.len()) > MOST_ORDERS {
         let message = format!(
             "more than {MOST_ORDERS} orders and intervals do not fit into memory: take fewer intervals"
         );

@@ -15,7 +15,7 @@ use crate::report;
 use crate::report::json::TraceDocument;
 use crate::scene::{Scene, TireId, seconds};
 use crate::simulation::Failure;
-use crate::study::trace::{Chosen, trace};
+use crate::study::trace::{TracedItems, trace};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -55,9 +55,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Some(timeout) if begun.elapsed().as_secs_f64() > timeout => ControlFlow::Break(()),
         _ => ControlFlow::Continue(()),
     };
-    if chosen == Chosen::default() {
+    if chosen == TracedItems::default() {
         match case.model.run(&case.shots[option], &settings, &mut |_| in_time()) {
-            Ok(outcome) => chosen = Chosen::of(&outcome),
+            Ok(outcome) => chosen = TracedItems::of(&outcome),
             Err(failure) => return failed(&failure),
         }
     }
@@ -116,10 +116,10 @@ impl Rows {
     }
 }
 
-fn choose(scene: &Scene, arguments: &Arguments) -> Result<Chosen, String> {
+fn choose(scene: &Scene, arguments: &Arguments) -> Result<TracedItems, String> {
     let tires = arguments.tire.iter().map(|text| find_tire(scene, text)).collect::<Result<_, _>>()?;
     let cables = arguments.cable.iter().map(|text| find_cable(scene, text)).collect::<Result<_, _>>()?;
-    Ok(Chosen { tires, cables })
+    Ok(TracedItems { tires, cables })
 }
 
 fn find_tire(scene: &Scene, text: &str) -> Result<usize, String> {

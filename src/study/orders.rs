@@ -36,15 +36,15 @@ pub const MOST_ROWS: usize = 8;
 /// Greatest number of blast rows at which the quick check of every order goes on until its verdict is sure.
 const MOST_SURE_ROWS: usize = 7;
 /// Number of runs of a quick check with more rows than [`MOST_SURE_ROWS`].
-const RUNS: usize = 3;
+const COARSE_RUNS: usize = 3;
 /// Factor on the error of a quick check within which an order may still be the worst or the best.
 const REACH_ERROR_FACTOR: f64 = 6.0;
 /// Number of orders refined together: a fixed number, so that the number of threads changes nothing.
-const AT_ONCE: usize = 32;
+const REFINED_TOGETHER: usize = 32;
 /// Number of orders of a search that are improved by exchanges towards the worst, and towards the best.
 const CLIMBERS: usize = 24;
 /// Number of random orders of a search, per interval.
-const RANDOM: usize = 1000;
+const RANDOM_STARTS: usize = 1000;
 
 /// Number of orders sampled at each end of the ranking.
 const SAMPLED_AT_EACH_END: usize = 20;
@@ -76,7 +76,7 @@ pub struct Orders {
 impl Orders {
     /// Ranks the orders that one or many machines tried, at `intervals` intervals.
     pub fn new(case: &Case, mut tried: Vec<TriedOrder>, intervals: usize) -> Self {
-        let complete = tries_all(case) && tried.len() == count(case, intervals);
+        let complete = tries_all(case) && tried.len() == count_orders(case, intervals);
         tried.sort_by(|a, b| {
             utilization(case, b).total_cmp(&utilization(case, a)).then(a.number.cmp(&b.number))
         });
@@ -158,7 +158,7 @@ pub fn rank(
 }
 
 /// Number of possible orders, times the number of intervals.
-pub fn count(case: &Case, intervals: usize) -> usize {
+pub fn count_orders(case: &Case, intervals: usize) -> usize {
     (1..=case.plan.blast_rows.len()).fold(intervals, usize::saturating_mul)
 }
 
@@ -208,7 +208,7 @@ pub fn try_orders(
     let all = intervals
         .iter()
         .flat_map(|&interval| (0..rows).permutations(rows).map(move |order| (order, interval)));
-    let per_interval = count(case, 1);
+    let per_interval = count_orders(case, 1);
     let all = all.enumerate().map(|(number, (order, interval))| OrderToTry { number, order, interval });
     let own = |one: &OrderToTry| shard.has(one.number) && one.order <= mirrored(&one.order, &mirror_rows);
     let found = quick_check_orders(case, all.filter(own).collect(), compute, progress)?;
@@ -309,7 +309,7 @@ pub fn refine(
                 .filter(|n| mine(n) && !refined.contains(n) && reach(*n) > farthest)
                 .filter(|&n| images[n].is_none_or(|image| n <= image))
                 .sorted_by(|&a, &b| reach(b).total_cmp(&reach(a)))
-                .take(AT_ONCE)
+                .take(REFINED_TOGETHER)
                 .collect();
             if next.is_empty() {
                 break;
@@ -338,7 +338,7 @@ fn quick_check_orders(
 ) -> Finding<Vec<TriedOrder>> {
     let enough = |summary: &ShotSummary, runs: usize| {
         quick_check_is_sure(case, summary, runs)
-            || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= RUNS
+            || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= COARSE_RUNS
     };
     let summaries = run_checks_or_unknown(&orders, progress, |OrderToTry { order, interval, .. }| {
         quick_check_until(case, &case.shot(order, *interval), compute, progress, enough)
@@ -361,7 +361,7 @@ fn climb_orders(
     for (n, &interval) in intervals.iter().enumerate() {
         let mut random = ChaCha8Rng::seed_from_u64(n as u64);
         let mut starts = vec![rows.clone(), rows.iter().rev().copied().collect()];
-        starts.extend((0..RANDOM).map(|_| {
+        starts.extend((0..RANDOM_STARTS).map(|_| {
             let mut order = rows.clone();
             order.shuffle(&mut random);
             order
@@ -372,8 +372,8 @@ fn climb_orders(
         }
         let mut climbers: Vec<(f64, Vec<usize>)> = Vec::new();
         for sign in [1.0, -1.0] {
-            let rank = |tried: &&TriedOrder| -sign * utilization(case, tried);
-            let hardest = tried[first..].iter().sorted_by(|a, b| rank(a).total_cmp(&rank(b)));
+            let hardness = |tried: &&TriedOrder| -sign * utilization(case, tried);
+            let hardest = tried[first..].iter().sorted_by(|a, b| hardness(a).total_cmp(&hardness(b)));
             climbers.extend(hardest.take(CLIMBERS).map(|tried| (sign, tried.order.clone())));
         }
         // All climbers take a step at once; those that meet become one.
@@ -384,14 +384,14 @@ fn climb_orders(
             }
             let known: HashMap<&[usize], f64> =
                 tried[first..].iter().map(|t| (t.order.as_slice(), utilization(case, t))).collect();
-            let step = |(sign, order): (f64, Vec<usize>)| {
+            let improved = |(sign, order): (f64, Vec<usize>)| {
                 let value = |order: &Vec<usize>| sign * known[order.as_slice()];
                 let next = exchanges(&order).max_by(|a, b| value(a).total_cmp(&value(b)))?;
                 (value(&next) > value(&order)).then_some((sign, next))
             };
             climbers = climbers
                 .into_iter()
-                .filter_map(step)
+                .filter_map(improved)
                 .unique_by(|(sign, order)| (*sign > 0.0, order.clone()))
                 .collect();
         }

@@ -95,7 +95,7 @@ fn svg(app: &App) -> Result<String, String> {
         }
         _ => finished(app)?.report.charts().filter_map(html::svg).collect(),
     };
-    Ok(html::stack(&pictures))
+    Ok(html::stack_charts(&pictures))
 }
 
 /// The study on the screen, once it has a result.

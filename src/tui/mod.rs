@@ -4,7 +4,7 @@
 //! |---|---|
 //! | what the screen shows, and how news changes it | [`app`]; of each option [`compare`], of the studies [`studies`] |
 //! | what a key does: its action, the effect of that action | [`keymap`], `actions`, a file a screen |
-//! | the plan being edited | [`editor`], [`order`], [`name_list`], `stepped`, `paste`; its file: `plan_file`, [`unsaved`] |
+//! | the plan being edited | [`editor`], [`order_editor`], [`name_list`], `arrow_keys`, `paste`; its file: `plan_file`, [`recovery`] |
 //! | how it is drawn | [`view`], a file a screen; styles: [`theme`] |
 //! | the line being typed, the flight being played, what is written to a file | [`prompt`], [`player`], [`export`] |
 //! | the start screen; the user's configuration | [`start`], [`config`] |
@@ -14,23 +14,23 @@
 
 mod actions;
 pub mod app;
+mod arrow_keys;
 pub mod compare;
 pub mod config;
 pub mod editor;
 pub mod export;
 pub mod keymap;
 pub mod name_list;
-pub mod order;
+pub mod order_editor;
 mod paste;
 mod plan_file;
 pub mod player;
 pub mod prompt;
+pub mod recovery;
 pub mod screen;
 pub mod start;
-mod stepped;
 pub mod studies;
 pub mod theme;
-pub mod unsaved;
 pub mod view;
 
 use std::io::{self, Stdout, Write};
@@ -65,7 +65,7 @@ use crate::jobs::{Jobs, StudyKind};
 
 /// How the screen is drawn.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Look {
+pub struct ScreenStyle {
     /// Plain characters only.
     pub ascii: bool,
     /// With colours.
@@ -87,7 +87,7 @@ const FRAME: Duration = Duration::from_millis(16);
 const IDLE: Duration = Duration::from_millis(250);
 
 /// Shows the app until the user leaves. `plan` is the file of the plan, if there is one; a changed file is read again.
-pub fn run(app: App, jobs: Jobs, look: Look, plan: Option<&Path>) -> io::Result<Exit> {
+pub fn run(app: App, jobs: Jobs, look: ScreenStyle, plan: Option<&Path>) -> io::Result<Exit> {
     // Under NO_COLOR crossterm would reset bold and reverse as well; `draw` removes the colours instead.
     crossterm::style::force_color_output(true);
     let signals = Signals::register()?;
@@ -95,7 +95,7 @@ pub fn run(app: App, jobs: Jobs, look: Look, plan: Option<&Path>) -> io::Result<
     let mut display = Display::open()?;
     let mut session = Session { app, jobs, file: plan.map(PlanFile::new) };
     session.take_unsaved();
-    session.serve(Request::Check);
+    session.carry_out(Request::Check);
     let exit = session.serve_events(&mut display, &signals, look);
     // Messages printed on the alternate screen would vanish with it.
     drop(display);
@@ -112,7 +112,12 @@ struct Session {
 
 impl Session {
     /// Draws and listens until the user leaves.
-    fn serve_events(&mut self, display: &mut Display, signals: &Signals, look: Look) -> io::Result<Exit> {
+    fn serve_events(
+        &mut self,
+        display: &mut Display,
+        signals: &Signals,
+        look: ScreenStyle,
+    ) -> io::Result<Exit> {
         let (mut dirty, mut drawn) = (true, Instant::now());
         loop {
             dirty |= self.listen();
@@ -148,7 +153,7 @@ impl Session {
                     display.suspend()?;
                     dirty = true;
                 }
-                other => self.serve(other),
+                other => self.carry_out(other),
             }
         }
     }
@@ -156,9 +161,11 @@ impl Session {
     /// Takes back the edits that the last session could not save; they can be undone.
     fn take_unsaved(&mut self) {
         // A plan without a file is offered by the start screen.
-        let Some(kept) = self.file.as_ref().and_then(|file| unsaved::kept(Some(file.path()))) else { return };
+        let Some(kept) = self.file.as_ref().and_then(|file| recovery::find(Some(file.path()))) else {
+            return;
+        };
         let request = self.app.take_unsaved(kept);
-        self.serve(request);
+        self.carry_out(request);
     }
 
     /// Keeps the edits that are not saved, unless the user gave them up.
@@ -166,11 +173,11 @@ impl Session {
         let plan = self.file.as_ref().map(PlanFile::path);
         match (self.app.editor.unsaved(), given_up, plan) {
             (true, false, _) => {
-                if let Err(error) = unsaved::keep(plan, self.app.editor.saved(), &self.app.editor.text) {
+                if let Err(error) = recovery::save(plan, self.app.editor.saved(), &self.app.editor.text) {
                     eprintln!("edits that were not saved are lost: {error}");
                 }
             }
-            (true, true, _) | (false, _, Some(_)) => unsaved::drop(plan),
+            (true, true, _) | (false, _, Some(_)) => recovery::drop(plan),
             // An example that was only looked at says nothing about a new plan kept before.
             (false, _, None) => {}
         }
@@ -185,18 +192,18 @@ impl Session {
         }
         if self.app.behind && !self.app.is_changing() {
             self.app.behind = false;
-            self.file.iter_mut().for_each(PlanFile::forget);
+            self.file.iter_mut().for_each(PlanFile::expect_change);
         }
         if let Some(read) = self.file.as_mut().and_then(PlanFile::changed) {
             let request = self.app.reload(read);
-            self.serve(request);
+            self.carry_out(request);
             heard = true;
         }
         heard
     }
 
     /// Serves a request of the app.
-    fn serve(&mut self, request: Request) {
+    fn carry_out(&mut self, request: Request) {
         match request {
             Request::None | Request::Quit | Request::Suspend => {}
             Request::Check => self.jobs.check(&self.app.case, self.app.compute),
@@ -269,7 +276,7 @@ impl Session {
     fn save_as(&mut self, path: &Path) {
         let written = file::create(path, &self.app.editor.text).map_err(|error| error.to_string());
         if written.is_ok() {
-            unsaved::drop(self.file.as_ref().map(PlanFile::path));
+            recovery::drop(self.file.as_ref().map(PlanFile::path));
             self.file = Some(PlanFile::new(path));
             self.app.rename(path);
             config::remember(path);
@@ -281,7 +288,7 @@ impl Session {
 }
 
 /// Lets the user choose a plan to open, or leave.
-pub fn choose(mut start: Start, config: &Config, look: Look) -> io::Result<Result<Opened, Exit>> {
+pub fn choose(mut start: Start, config: &Config, look: ScreenStyle) -> io::Result<Result<Opened, Exit>> {
     crossterm::style::force_color_output(true);
     let signals = Signals::register()?;
     restore_on_panic();
@@ -341,7 +348,7 @@ impl Display {
             .inspect_err(|_| leave())
     }
 
-    fn draw(&mut self, look: Look, content: impl FnOnce(&mut Frame)) -> io::Result<()> {
+    fn draw(&mut self, look: ScreenStyle, content: impl FnOnce(&mut Frame)) -> io::Result<()> {
         self.terminal.draw(|frame| {
             content(frame);
             let buffer = frame.buffer_mut();

@@ -14,7 +14,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 pub use self::value::nearest;
-use self::value::{article, as_number, as_whole, out_of};
+use self::value::{article, as_number, as_whole, range_mistake};
 use super::diagnostic::Mistake;
 use super::keys::{DefaultValue, Key, RENAMED, Section};
 
@@ -128,7 +128,7 @@ impl<'s> SectionReader<'s> {
             return None;
         };
         let range = key.kind.range();
-        let Some(message) = out_of(range, number) else { return Some(number) };
+        let Some(message) = range_mistake(range, number) else { return Some(number) };
         let (name, example) = (key.name, key.example);
         self.mistakes.add(
             value.span(),

@@ -31,20 +31,20 @@ use self::parameter::{Parameter, Prior};
 use self::possible::{NextObservation, as_fired, next_observation};
 use self::predict::Predictor;
 use self::search::{Minimum, SearchBox};
-use self::weights::{Local, Seen, Weighing, Weights};
+use self::weights::{ObservedShots, SampledWeights, Weighing, Weights};
 use super::samples::sampling::Sampling;
 use super::work::batch::run_jobs;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress};
 use crate::choice::{Method, Unknown};
 use crate::plan::Plan;
 use crate::plan::fitted::StatedKeys;
-use crate::plan::observations::{Addresses, Observation, Observations, Watched};
+use crate::plan::observations::{ObservableNames, Observation, Observations, Watched};
 use crate::scene::TireId;
 
 /// What observations of a plan may name.
-pub fn addresses(case: &Case) -> Addresses {
+pub fn observable_names(case: &Case) -> ObservableNames {
     let scene = case.scene();
-    Addresses {
+    ObservableNames {
         options: case.plan.delays.iter().map(|delay| delay.name.clone()).collect(),
         tires: scene.tire.iter().map(TireId::numbers).collect(),
         cables: scene.cables.iter().map(|cable| cable.ends).collect(),
@@ -103,12 +103,12 @@ pub fn fit(
     let settled = fitting.answers(case)?;
     let best = &settled[0];
     let slopes = best.weights.whiten(&best.slopes).unwrap_or_else(|| best.slopes.clone());
-    let own = fitting.own(&case.plan);
+    let own = fitting.start_coordinates(&case.plan);
     if let Some(refused) = determined::refuse(&fitting.predictor, &fitting.space, &own, &slopes)? {
         return Ok(whole(FitResult::NotDetermined(refused)));
     }
     let answers = settled.iter().map(|settled| fitting.answer(case, settled)).collect();
-    let Seen { list: observed, file } = fitting.seen;
+    let ObservedShots { list: observed, file } = fitting.seen;
     let as_fired = as_fired(case, &observed, request.sampling.as_ref(), compute, progress)?;
     let mut fit = Fit { answers, observed, file, as_fired, next: None };
     fit.next = next(case, &fit, request, compute, progress)?;
@@ -120,13 +120,13 @@ fn whole(value: FitResult) -> Found<FitResult> {
 }
 
 /// Observations of all files in the order of their options.
-fn in_order(files: &[Observations]) -> Seen {
+fn in_order(files: &[Observations]) -> ObservedShots {
     let of_file =
         |(n, file): (usize, &Observations)| file.list.iter().map(move |seen| (n, *seen)).collect::<Vec<_>>();
     let mut all: Vec<(usize, Observation)> = files.iter().enumerate().flat_map(of_file).collect();
     all.sort_by_key(|(_, seen)| seen.option);
     let (file, list) = all.into_iter().unzip();
-    Seen { list, file }
+    ObservedShots { list, file }
 }
 
 /// What `[uncertainty]` states of each parameter; an unknown of which it says that it is exact is an error.
@@ -158,7 +158,7 @@ fn others(case: &Case, request: &Request<'_>) -> Vec<(Parameter, Prior)> {
 /// The plan with the inputs that are not estimated at their means.
 fn plan_of_others(case: &Case, request: &Request<'_>) -> Plan {
     let mut plan = case.plan.clone();
-    others(case, request).iter().for_each(|(other, prior)| other.put_into(&mut plan, prior.mean));
+    others(case, request).iter().for_each(|(other, prior)| other.set_in(&mut plan, prior.mean));
     plan
 }
 
@@ -185,12 +185,12 @@ struct Fitting<'p> {
     space: SearchBox,
     priors: Vec<Option<Prior>>,
     others: Vec<(Parameter, Prior)>,
-    seen: Seen,
+    seen: ObservedShots,
     seed: Option<u64>,
 }
 
 /// An answer with what is known of its neighbourhood.
-struct Settled {
+struct ExactAnswer {
     minimum: Minimum,
     /// The predictions there.
     fitted: Vec<f64>,
@@ -199,7 +199,7 @@ struct Settled {
     weights: Weights,
 }
 
-impl Settled {
+impl ExactAnswer {
     /// −2 × the logarithm of the likelihood, but for a constant.
     fn unlikelihood(&self) -> f64 {
         self.minimum.misfit + self.weights.log_determinant
@@ -215,7 +215,7 @@ const MOST_ROUNDS: usize = 6;
 
 impl Fitting<'_> {
     /// Where the search begins: at what the plan states, or at its own numbers.
-    fn own(&self, plan: &Plan) -> Vec<f64> {
+    fn start_coordinates(&self, plan: &Plan) -> Vec<f64> {
         let own = |(n, parameter): (usize, &Parameter)| {
             let planned = || parameter.planned(plan).map(|planned| parameter.coordinate(planned));
             // Stiff ends are at the stiff end of their range.
@@ -227,7 +227,9 @@ impl Fitting<'_> {
     /// Independent residuals of unit variance: those of the observations, then those of what the plan states.
     fn residuals(&self, at: &[f64], weights: &Weights) -> Result<Option<DVector<f64>>, NoResult> {
         let Some(predicted) = self.predictor.values(at, 1.0)? else { return Ok(None) };
-        let Some(of_observations) = weights.whitened(&self.seen.list, &predicted) else { return Ok(None) };
+        let Some(of_observations) = weights.whitened_residuals(&self.seen.list, &predicted) else {
+            return Ok(None);
+        };
         let stated = self
             .priors
             .iter()
@@ -238,13 +240,15 @@ impl Fitting<'_> {
     }
 
     /// Answers of nearly equal misfit, the best first.
-    fn answers(&self, case: &Case) -> Result<Vec<Settled>, NoResult> {
-        let own = self.own(&case.plan);
+    fn answers(&self, case: &Case) -> Result<Vec<ExactAnswer>, NoResult> {
+        let own = self.start_coordinates(&case.plan);
         let weighing =
             Weighing { predictor: &self.predictor, plan: &case.plan, others: &self.others, seen: &self.seen };
         let weights = match self.seed {
-            Some(seed) => weighing.local(&own, &self.spread(|_| 0.0), seed)?.map(|local| local.weights),
-            None => weighing.exact(&own)?,
+            Some(seed) => {
+                weighing.weigh_samples(&own, &self.sample_spread(|_| 0.0), seed)?.map(|local| local.weights)
+            }
+            None => weighing.weigh_without_scatter(&own)?,
         };
         let weights = weights.ok_or_else(|| self.failure(&own))?;
         let minima = self.space.minima(&own, &|at| self.residuals(at, &weights), self.predictor.progress)?;
@@ -255,12 +259,13 @@ impl Fitting<'_> {
             Some(seed) => self.settle_among_samples(&weighing, minimum, seed),
             None => self.settle(&weighing, minimum),
         })?;
-        let settled: Option<Vec<Option<Settled>>> = settled.into_iter().collect();
-        let mut settled: Vec<Settled> = settled.ok_or(NoResult::OutOfTime)?.into_iter().flatten().collect();
+        let settled: Option<Vec<Option<ExactAnswer>>> = settled.into_iter().collect();
+        let mut settled: Vec<ExactAnswer> =
+            settled.ok_or(NoResult::OutOfTime)?.into_iter().flatten().collect();
         settled.sort_by(|a, b| a.unlikelihood().total_cmp(&b.unlikelihood()));
-        let least = settled.first().map(Settled::unlikelihood).ok_or_else(|| self.failure(&own))?;
+        let least = settled.first().map(ExactAnswer::unlikelihood).ok_or_else(|| self.failure(&own))?;
         settled.retain(|answer| answer.unlikelihood() <= least + NEARLY_EQUAL);
-        Ok(settled.into_iter().fold(Vec::new(), |mut all: Vec<Settled>, settled| {
+        Ok(settled.into_iter().fold(Vec::new(), |mut all: Vec<ExactAnswer>, settled| {
             if !all.iter().any(|known| known.minimum.is_same(&settled.minimum)) {
                 all.push(settled);
             }
@@ -269,7 +274,7 @@ impl Fitting<'_> {
     }
 
     /// The spread of samples for these standard deviations of the coordinates.
-    fn spread(&self, sd: impl Fn(usize) -> f64) -> Vec<f64> {
+    fn sample_spread(&self, sd: impl Fn(usize) -> f64) -> Vec<f64> {
         let of_range = |(n, [low, high]): (usize, &[f64; 2])| {
             let [least, most] = SPREADS.map(|share| share * (high - low));
             (SPREAD * sd(n)).clamp(least, most)
@@ -278,14 +283,14 @@ impl Fitting<'_> {
     }
 
     /// The answer near a minimum where nothing scatters.
-    fn settle(&self, weighing: &Weighing<'_>, minimum: &Minimum) -> Result<Option<Settled>, NoResult> {
-        let Some(weights) = weighing.exact(&minimum.at)? else { return Ok(None) };
+    fn settle(&self, weighing: &Weighing<'_>, minimum: &Minimum) -> Result<Option<ExactAnswer>, NoResult> {
+        let Some(weights) = weighing.weigh_without_scatter(&minimum.at)? else { return Ok(None) };
         let Some(minimum) = self.space.refine(&minimum.at, &|at| self.residuals(at, &weights))? else {
             return Ok(None);
         };
         let Some(fitted) = self.predictor.values(&minimum.at, 1.0)? else { return Ok(None) };
         let slopes = self.slopes(&minimum, &fitted)?;
-        Ok(Some(Settled { minimum, fitted, slopes, weights }))
+        Ok(Some(ExactAnswer { minimum, fitted, slopes, weights }))
     }
 
     /// The answer near a minimum, for the mean of what scatter makes of the predictions: samples about the answer give the mean,
@@ -295,14 +300,18 @@ impl Fitting<'_> {
         weighing: &Weighing<'_>,
         minimum: &Minimum,
         seed: u64,
-    ) -> Result<Option<Settled>, NoResult> {
+    ) -> Result<Option<ExactAnswer>, NoResult> {
         let count = minimum.at.len();
-        let (mut at, mut spread) = (minimum.at.clone(), self.spread(|n| minimum.sd(n)));
+        let (mut at, mut spread) = (minimum.at.clone(), self.sample_spread(|n| minimum.sd(n)));
         let mut settled = None;
         for _ in 0..MOST_ROUNDS {
-            let Some(Local { mean, slopes, weights }) = weighing.local(&at, &spread, seed)? else { break };
+            let Some(SampledWeights { mean, slopes, weights }) =
+                weighing.weigh_samples(&at, &spread, seed)?
+            else {
+                break;
+            };
             let (Some(residuals), Some(whitened)) =
-                (weights.whitened(&self.seen.list, &mean), weights.whiten(&slopes))
+                (weights.whitened_residuals(&self.seen.list, &mean), weights.whiten(&slopes))
             else {
                 break;
             };
@@ -330,12 +339,12 @@ impl Fitting<'_> {
             let fitted =
                 mean.iter().zip((&slopes * &moved).iter()).map(|(mean, change)| mean + change).collect();
             let minimum = Minimum { at: next, misfit, covariance };
-            let wanted = self.spread(|n| minimum.sd(n));
+            let wanted = self.sample_spread(|n| minimum.sd(n));
             let is_near =
                 |n: usize| moved[n].abs() <= 0.3 * spread[n] && (wanted[n] / spread[n]).ln().abs() < 0.4;
             let is_settled = (0..count).all(is_near);
             (at, spread) = (minimum.at.clone(), wanted);
-            settled = Some(Settled { minimum, fitted, slopes, weights });
+            settled = Some(ExactAnswer { minimum, fitted, slopes, weights });
             if is_settled {
                 break;
             }
@@ -369,8 +378,8 @@ impl Fitting<'_> {
         Ok(slopes.map(|slope| if slope.is_finite() { slope } else { 0.0 }))
     }
 
-    fn answer(&self, case: &Case, settled: &Settled) -> Answer {
-        let Settled { minimum, fitted, weights, .. } = settled;
+    fn answer(&self, case: &Case, settled: &ExactAnswer) -> Answer {
+        let ExactAnswer { minimum, fitted, weights, .. } = settled;
         let parameters = &self.predictor.parameters;
         let count = parameters.len();
         let estimate = |n: usize| {

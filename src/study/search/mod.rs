@@ -16,7 +16,7 @@ use std::cmp::Ordering;
 use itertools::Itertools;
 
 pub use self::pool::MOST_JUDGED;
-use self::pool::{FIRST_OF_SEARCH, Listed, Pool};
+use self::pool::{FIRST_OF_SEARCH, ListedSchedule, Pool};
 pub use self::race::TriedSchedule;
 use self::race::{Contender, Race};
 use self::schedule::Choices;
@@ -110,7 +110,7 @@ pub fn try_schedules(
     progress: &Progress,
 ) -> Finding<Option<Vec<TriedSchedule>>> {
     let choices = Choices::new(case)?;
-    let listed = Listed::new(case, &choices);
+    let listed = ListedSchedule::new(case, &choices);
     if !listed.are_all_judged() {
         return Ok(Found { value: None, partial: false });
     }
@@ -118,13 +118,13 @@ pub fn try_schedules(
     pool.add(listed.allowed.unwrap_or_default());
     let own = pool.contenders.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
     let (numbers, mut contenders): (Vec<usize>, Vec<Contender>) = own.unzip();
-    let partial = race(case, sampling, compute).draw(&mut contenders, FIRST_OF_ALL, progress)?;
+    let partial = start_race(case, sampling, compute).draw(&mut contenders, FIRST_OF_ALL, progress)?;
     let tried = numbers.into_iter().zip(contenders);
     let tried = tried.map(|(number, one)| TriedSchedule { number, tally: one.tally }).collect();
     Ok(Found { value: Some(tried), partial })
 }
 
-fn race<'c>(case: &'c Case, sampling: Option<&Sampling>, compute: &ComputeSettings) -> Race<'c> {
+fn start_race<'c>(case: &'c Case, sampling: Option<&Sampling>, compute: &ComputeSettings) -> Race<'c> {
     Race {
         case,
         compute: *compute,
@@ -141,8 +141,8 @@ pub fn search_after(
     progress: &Progress,
 ) -> Finding<Search> {
     let choices = Choices::new(case)?;
-    let race = race(case, sampling, compute);
-    let listed = Listed::new(case, &choices);
+    let race = start_race(case, sampling, compute);
+    let listed = ListedSchedule::new(case, &choices);
     let (complete, keeping) = (listed.are_all_judged(), listed.allowed.as_ref().map(Vec::len));
     let mut pool = Pool::new(case, &choices);
     let mut out_of_time = false;
@@ -203,7 +203,7 @@ fn choose_finalists<'r>(
     let mut chosen: Vec<(Schedule, &Contender)> = Vec::new();
     for contender in contenders.iter().filter(|one| one.tally.samples > 0) {
         let schedule = choices.schedule(&contender.candidate);
-        if chosen.len() < JUDGED_IN_FULL && !chosen.iter().any(|(other, _)| other.is_near(&schedule)) {
+        if chosen.len() < JUDGED_IN_FULL && !chosen.iter().any(|(other, _)| other.is_nearly_same(&schedule)) {
             chosen.push((schedule, contender));
         }
     }

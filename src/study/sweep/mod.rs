@@ -123,7 +123,7 @@ pub fn sweep(
     case.require_hole_timing()?;
     let as_planned = sweep_as_planned(case, order, intervals, compute, progress)?;
     let Some(sampling) = sampling else { return Ok(as_planned) };
-    let own = own_intervals(case, order).into_iter().map(nanoseconds).collect();
+    let own = plan_intervals(case, order).into_iter().map(nanoseconds).collect();
     accepted::add_risk(case, as_planned, &own, sampling, compute, progress)
 }
 
@@ -135,7 +135,7 @@ fn sweep_as_planned(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Finding<Sweep> {
-    let mut exact: BTreeSet<i64> = own_intervals(case, order).into_iter().map(nanoseconds).collect();
+    let mut exact: BTreeSet<i64> = plan_intervals(case, order).into_iter().map(nanoseconds).collect();
     let [from, to] = [intervals.from, intervals.to].map(nanoseconds);
     let mut next: BTreeSet<i64> = intervals.values().into_iter().map(nanoseconds).collect();
     next.extend(exact.range(from..=to));
@@ -165,7 +165,7 @@ fn sweep_as_planned(
                 risk: Evidence::NotAsked,
             })
             .collect();
-        next = if partial { BTreeSet::new() } else { middles(case, &points).into_iter().collect() };
+        next = if partial { BTreeSet::new() } else { midpoints(case, &points).into_iter().collect() };
         if !next.is_empty() {
             continue;
         }
@@ -185,7 +185,7 @@ fn sweep_as_planned(
 }
 
 /// Intervals of the options that fire the rows at one interval [s], and of the options that fire them in this order.
-fn own_intervals(case: &Case, order: &[usize]) -> Vec<f64> {
+fn plan_intervals(case: &Case, order: &[usize]) -> Vec<f64> {
     let mut own = case.intervals();
     for (delay, shot) in case.plan.delays.iter().zip(&case.shots) {
         if let Timing::At(at_ms) = &delay.timing {
@@ -212,7 +212,7 @@ fn passes(point: &Point) -> bool {
 }
 
 /// Middles of the gaps to be halved [ns].
-fn middles(case: &Case, points: &[Point]) -> Vec<i64> {
+fn midpoints(case: &Case, points: &[Point]) -> Vec<i64> {
     let halved = |&n: &usize| {
         let (a, b) = (&points[n], &points[n + 1]);
         let width = b.interval - a.interval;
@@ -246,7 +246,7 @@ fn utilization(case: &Case, point: &Point) -> f64 {
 }
 
 /// Utilization with the errors added.
-fn upper(case: &Case, point: &Point) -> f64 {
+fn utilization_with_errors(case: &Case, point: &Point) -> f64 {
     point.as_planned.with_errors(1.0).utilization(&case.limits)
 }
 
@@ -267,7 +267,7 @@ fn windows(case: &Case, points: &[Point]) -> Vec<[f64; 2]> {
 
 /// The interval deepest inside a window of the shots as planned, by their utilization with errors.
 fn recommend(case: &Case, points: &[Point], windows: &[[f64; 2]]) -> Option<Recommended> {
-    deepest(points, windows, |point| upper(case, point), |_| true)
+    deepest(points, windows, |point| utilization_with_errors(case, point), |_| true)
 }
 
 /// The interval and the room r around it for which r × (1 − greatest utilization within r) is greatest; `used` tells the
@@ -375,7 +375,7 @@ mod tests {
         let count = (20.0 / step) as i64;
         let mut points: Vec<Point> = (0..=count).map(|n| point((n as f64 * step * 1e6) as i64)).collect();
         loop {
-            let next = middles(&case, &points);
+            let next = midpoints(&case, &points);
             if next.is_empty() {
                 return windows(&case, &points);
             }

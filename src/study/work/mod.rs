@@ -18,6 +18,6 @@ mod shard;
 pub use batch::thread_pool;
 pub use found::{Finding, Found};
 pub use intervals::Intervals;
-pub use no_result::{NoResult, guarded};
+pub use no_result::{NoResult, catch_panic};
 pub use progress::Progress;
 pub use shard::Shard;
