@@ -5,6 +5,7 @@
 //! | what the screen shows, and how news changes it | [`app`]; of each option [`compare`], of the studies [`studies`] |
 //! | what a key does: its action, the effect of that action | [`keymap`], `actions`, a file a screen |
 //! | the plan being edited | [`editor`], [`order_editor`], [`name_list`], `arrow_keys`, `paste`; its file: `plan_file`, [`recovery`] |
+//! | the terminal, taken and given back; signals | `display` |
 //! | how it is drawn | [`view`], a file a screen; styles: [`theme`] |
 //! | the line being typed, the flight being played, what is written to a file | [`prompt`], [`player`], [`export`] |
 //! | the start screen; the user's configuration | [`start`], [`config`] |
@@ -17,6 +18,7 @@ pub mod app;
 mod arrow_keys;
 pub mod compare;
 pub mod config;
+mod display;
 pub mod editor;
 pub mod export;
 pub mod keymap;
@@ -33,44 +35,24 @@ pub mod studies;
 pub mod theme;
 pub mod view;
 
-use std::io::{self, Stdout, Write};
+use std::io;
 use std::path::Path;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread;
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use crossterm::clipboard::CopyToClipboard;
-use crossterm::cursor::Show;
-use crossterm::event::{
-    self, DisableBracketedPaste, DisableMouseCapture, EnableBracketedPaste, EnableMouseCapture, Event,
-    KeyCode, KeyEvent, KeyEventKind, MouseButton, MouseEventKind,
-};
-use crossterm::terminal::{
-    Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
-};
-use crossterm::{ExecutableCommand, QueueableCommand};
-use ratatui::backend::CrosstermBackend;
-use ratatui::layout::Position;
-use ratatui::{Frame, Terminal};
+use crossterm::{ExecutableCommand, event};
 
+pub use self::actions::dispatch::dispatch;
 use self::app::{App, Areas, Request};
 use self::config::Config;
-use self::keymap::{Action, ctrl_c_as_esc};
+pub use self::display::ScreenStyle;
+use self::display::{Display, Signals, restore_on_panic};
 use self::plan_file::{PlanFile, Refusal};
 use self::prompt::Purpose;
 use self::start::{Next, Opened, Start};
 use crate::file;
 use crate::jobs::{Jobs, StudyKind};
-
-/// How the screen is drawn.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct ScreenStyle {
-    /// Plain characters only.
-    pub ascii: bool,
-    /// With colours.
-    pub color: bool,
-}
 
 /// How the user left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -140,7 +122,7 @@ impl Session {
                 Request::Suspend
             } else if event::poll(if busy { FRAME } else { IDLE })? {
                 dirty = true;
-                match update(&mut self.app, &event::read()?) {
+                match dispatch(&mut self.app, &event::read()?) {
                     Request::None => self.app.request_flight(),
                     request => request,
                 }
@@ -308,132 +290,5 @@ pub fn choose(mut start: Start, config: &Config, look: ScreenStyle) -> io::Resul
             Next::Open(opened) => return Ok(Ok(opened)),
             Next::Quit => return Ok(Err(Exit::Quit)),
         }
-    }
-}
-
-/// Passes a terminal event to the app.
-pub fn update(app: &mut App, event: &Event) -> Request {
-    match event {
-        Event::Key(key) if key.kind == KeyEventKind::Release => Request::None,
-        Event::Key(key) if app.prompt.is_some() => app.type_in_prompt(&ctrl_c_as_esc(key)),
-        Event::Key(key) if app.editor.typing() => app.type_key(&ctrl_c_as_esc(key)),
-        Event::Key(KeyEvent { code: KeyCode::Esc, .. }) => app.escape(),
-        Event::Key(key) => app.keymap.action(key).map_or(Request::None, |action| app.act(action)),
-        Event::Paste(text) => {
-            app.paste(text);
-            Request::None
-        }
-        Event::Mouse(_) if app.prompt.is_some() || app.editor.typing() => Request::None,
-        Event::Mouse(mouse) => match mouse.kind {
-            MouseEventKind::Down(MouseButton::Left) => app.click(Position::new(mouse.column, mouse.row)),
-            MouseEventKind::ScrollUp => app.act(Action::Up),
-            MouseEventKind::ScrollDown => app.act(Action::Down),
-            _ => Request::None,
-        },
-        _ => Request::None,
-    }
-}
-
-/// The terminal while the program draws on it.
-struct Display {
-    terminal: Terminal<CrosstermBackend<Stdout>>,
-}
-
-impl Display {
-    fn open() -> io::Result<Self> {
-        enter()?;
-        // From here on `drop` gives the terminal back.
-        Terminal::new(CrosstermBackend::new(io::stdout()))
-            .map(|terminal| Self { terminal })
-            .inspect_err(|_| leave())
-    }
-
-    fn draw(&mut self, look: ScreenStyle, content: impl FnOnce(&mut Frame)) -> io::Result<()> {
-        self.terminal.draw(|frame| {
-            content(frame);
-            let buffer = frame.buffer_mut();
-            if look.ascii {
-                theme::to_ascii(buffer);
-            }
-            if !look.color {
-                theme::without_color(buffer);
-            }
-        })?;
-        Ok(())
-    }
-
-    fn suspend(&mut self) -> io::Result<()> {
-        leave();
-        #[cfg(unix)]
-        signal_hook::low_level::raise(signal_hook::consts::SIGSTOP)?;
-        enter()?;
-        // A new one draws every cell. `clear` would ask the terminal for its cursor, and wait for the answer.
-        self.terminal = Terminal::new(CrosstermBackend::new(io::stdout()))?;
-        Ok(())
-    }
-}
-
-impl Drop for Display {
-    fn drop(&mut self) {
-        leave();
-    }
-}
-
-fn enter() -> io::Result<()> {
-    enable_raw_mode()?;
-    let mut out = io::stdout();
-    // Some terminals do not clear the alternate screen.
-    let entered = out
-        .execute(EnterAlternateScreen)
-        .and_then(|out| out.execute(Clear(ClearType::All)))
-        .and_then(|out| out.execute(EnableMouseCapture))
-        .and_then(|out| out.execute(EnableBracketedPaste));
-    entered.map(|_| ()).inspect_err(|_| leave())
-}
-
-/// Gives the terminal back. A terminal that is gone is no error: nothing is left to do.
-fn leave() {
-    let mut out = io::stdout();
-    let _ = out
-        .queue(DisableBracketedPaste)
-        .and_then(|out| out.queue(DisableMouseCapture))
-        .and_then(|out| out.queue(LeaveAlternateScreen))
-        .and_then(|out| out.queue(Show))
-        .map(Write::flush);
-    let _ = disable_raw_mode();
-}
-
-/// Makes a panic of this thread give the terminal back before the panic is reported. A panic of a job is the result of that
-/// job, and the screen shows it.
-fn restore_on_panic() {
-    let (ours, report) = (thread::current().id(), std::panic::take_hook());
-    std::panic::set_hook(Box::new(move |panic| {
-        if thread::current().id() == ours {
-            leave();
-            report(panic);
-        }
-    }));
-}
-
-/// Flags that signals set.
-struct Signals {
-    /// Terminate, interrupt or hang up.
-    end: Arc<AtomicBool>,
-    /// Stop.
-    stop: Arc<AtomicBool>,
-}
-
-impl Signals {
-    fn register() -> io::Result<Self> {
-        let signals = Self { end: Arc::default(), stop: Arc::default() };
-        #[cfg(unix)]
-        {
-            use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGTSTP};
-            for signal in [SIGHUP, SIGINT, SIGTERM] {
-                signal_hook::flag::register(signal, Arc::clone(&signals.end))?;
-            }
-            signal_hook::flag::register(SIGTSTP, Arc::clone(&signals.stop))?;
-        }
-        Ok(signals)
     }
 }

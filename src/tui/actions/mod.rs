@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod compare;
+pub mod dispatch;
 mod flight;
 mod plan;
 mod prompt;
