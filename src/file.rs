@@ -37,7 +37,7 @@ fn replace(path: &Path, text: &str) -> io::Result<()> {
         // Who may not write a file may not replace it either, though the folder lets anybody.
         OpenOptions::new().write(true).open(path)?;
     }
-    beside(path, text, old.as_ref())?.persist(path)?;
+    write_temporary(path, text, old.as_ref())?.persist(path)?;
     Ok(())
 }
 
@@ -82,7 +82,8 @@ fn open_device(path: &Path) -> io::Result<File> {
 
 /// Writes a new file whole, never over one that is there.
 pub fn create(path: &Path, text: &str) -> io::Result<()> {
-    let created = beside(path, text, None).and_then(|new| Ok(new.persist_noclobber(path).map(drop)?));
+    let created =
+        write_temporary(path, text, None).and_then(|new| Ok(new.persist_noclobber(path).map(drop)?));
     created.map_err(|error| named(path, &error))
 }
 
@@ -94,7 +95,7 @@ pub fn unused_path(stem: &str, ending: &str) -> String {
 }
 
 /// The text in a file without a name of its own yet, in the folder of `path`, with owner and rights of the file that is there.
-fn beside(path: &Path, text: &str, old: Option<&Metadata>) -> io::Result<NamedTempFile> {
+fn write_temporary(path: &Path, text: &str, old: Option<&Metadata>) -> io::Result<NamedTempFile> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
     // A file that is replaced may be secret: until it has the rights of the old one, nobody else reads the new one.

@@ -73,6 +73,17 @@
 //!
 //! # Words
 //!
+//! ```text
+//! from above                                from the side, 20 ms after row 1 has fired
+//!
+//! shelter row 3   O───O───O───O                     O   launched, in the air
+//!                 │ ╳ │ ╳ │ ╳ │                   ╱   ╲   taut cables: longer than they were laid, they pull
+//! shelter row 2   O───O───O───O  over row 2     O       O───O   O   at rest: their cables are slack
+//!                 │ ╳ │ ╳ │ ╳ │              ▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔
+//! shelter row 1   O───O───O───O  over row 1      ·   ·   ·   ·   ·   holes in the ground
+//!     O tire   ─ │ ╳ cables
+//! ```
+//!
 //! A *hole* fires under a tire and launches it; holes that fire together are a *blast row*; the *interval* between rows, or
 //! their *order*, makes a *delay option*. A *shelter* is tires (point masses) tied by *cables* that only pull. A cable is
 //! *taut* or *slack*; a tire on the ground *sticks* or *slips*.

@@ -78,7 +78,7 @@ pub fn value_and_sd(value: f64, sd: f64) -> String {
 }
 
 /// A value with the digits that its error leaves, without the error: `132`.
-pub fn known(value: f64, error: f64, unit: Unit) -> String {
+pub fn value_by_error(value: f64, error: f64, unit: Unit) -> String {
     let both = value_and_error(value, error, unit);
     both.split(' ').next().unwrap_or_default().to_owned()
 }

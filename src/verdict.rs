@@ -61,7 +61,7 @@ pub struct Estimate {
 
 impl Estimate {
     /// The verdict on this estimate for an upper limit.
-    pub fn against(&self, limit: f64) -> Verdict {
+    pub fn judge_against(&self, limit: f64) -> Verdict {
         if self.value + self.error <= limit {
             Verdict::Pass
         } else if self.value - self.error > limit {
@@ -125,7 +125,7 @@ mod tests {
 
     #[test]
     fn an_error_that_reaches_over_the_limit_leaves_the_verdict_open() {
-        let at = |value, error| Estimate { value, error, ..Estimate::default() }.against(1.0);
+        let at = |value, error| Estimate { value, error, ..Estimate::default() }.judge_against(1.0);
         assert_eq!(at(0.9, 0.1), Verdict::Pass);
         assert_eq!(at(0.95, 0.1), Verdict::Undecided);
         assert_eq!(at(1.05, 0.1), Verdict::Undecided);

@@ -14,7 +14,7 @@ use shelter::choice::Unknown;
 use shelter::plan::PlanSource;
 use shelter::plan::observations::Observations;
 use shelter::study::fit::possible::as_fired;
-use shelter::study::fit::{FitResult, Request, addresses, fit};
+use shelter::study::fit::{FitResult, Request, fit, observable_names};
 use shelter::study::samples::draw::draw;
 use shelter::study::{Case, ComputeSettings, Progress};
 use shelter::{Model, Sampling};
@@ -156,7 +156,7 @@ fn try_one(seed: u64, unknowns: &[Unknown], tally: &mut Tally) {
     let lines = watched(&case, random);
     let header = "tire,cable,quantity,value,sd\n";
     let blank: String = lines.iter().map(|(line, sd)| format!("{line},1,{sd}\n")).collect();
-    let known = addresses(&case);
+    let known = observable_names(&case);
     let read = |text: &str| {
         Observations::parse("seen.csv", text, &known).unwrap_or_else(|mistakes| panic!("{mistakes}"))
     };

@@ -51,7 +51,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             let methods = [Method::Verlet, Method::Newmark].into_iter();
             methods.filter_map(|method| Some((method, paper_table(&case, method)?))).collect()
         }
-        FormatArg::Json | FormatArg::Csv => Vec::new(),
+        FormatArg::Json | FormatArg::Csv | FormatArg::CsvSemicolon => Vec::new(),
     };
     let status = print(&[report(&case, &study, &paper)], document, arguments.format, look)?;
     Ok(if partial { Status::Fail } else { status })

@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 
 use crate::choice::{Accuracy, Method, UnknownName};
 use crate::plan::Plan;
+use crate::report::csv::Separators;
 use crate::report::text::Style;
 use crate::scene::seconds;
 use crate::study::samples::sampling::Sampling;
@@ -99,6 +100,18 @@ pub enum FormatArg {
     Text,
     Json,
     Csv,
+    /// For spreadsheets where 0,5 is one half: semicolons, decimal commas, a byte order mark
+    CsvSemicolon,
+}
+
+impl FormatArg {
+    /// What separates the fields of CSV.
+    pub fn separators(self) -> Separators {
+        match self {
+            FormatArg::CsvSemicolon => Separators::Semicolon,
+            FormatArg::Text | FormatArg::Json | FormatArg::Csv => Separators::Comma,
+        }
+    }
 }
 
 /// How many samples, from which seed.

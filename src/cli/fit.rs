@@ -11,6 +11,7 @@ use super::load_plans::open;
 use super::print::{print, print_text};
 use super::run_study::run_study;
 use super::status::{Status, failed, was_interrupted, wrong};
+use super::tell;
 use crate::choice::Unknown;
 use crate::file;
 use crate::plan::Plan;
@@ -18,7 +19,7 @@ use crate::plan::fitted;
 use crate::plan::observations::{Observations, template};
 use crate::report::fit::{refusal, report};
 use crate::report::json::FitDocument;
-use crate::study::fit::{Fit, FitResult, Request, addresses, fit};
+use crate::study::fit::{Fit, FitResult, Request, fit, observable_names};
 use crate::study::{Case, Found, NoResult};
 
 #[derive(Args)]
@@ -92,13 +93,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
 
 /// The observations of all files; prints every mistake, `None` where there is one.
 fn read(case: &Case, paths: &[PathBuf], look: &LookArguments) -> Option<Vec<Observations>> {
-    let known = addresses(case);
+    let known = observable_names(case);
     let open = |path: &PathBuf| {
         let read = Observations::read(path, &known);
-        read.inspect_err(|mistakes| {
-            tell!("{}", mistakes.render(look.colored(io::stderr().is_terminal())).trim_end())
-        })
-        .ok()
+        read.inspect_err(|mistakes| tell::mistakes(mistakes, look.colored(io::stderr().is_terminal()))).ok()
     };
     // All of them are read before the first mistake ends the command.
     let files: Vec<Option<Observations>> = paths.iter().map(open).collect();

@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::arguments::LookArguments;
 use super::status::Status;
+use super::tell;
 use crate::file;
 use crate::plan::import::{Directions, plan_from_file};
 
@@ -35,7 +36,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
                 imported.text
             }
             Err(mistakes) => {
-                tell!("{}", mistakes.render(look.colored(io::stderr().is_terminal())).trim_end());
+                tell::mistakes(&mistakes, look.colored(io::stderr().is_terminal()));
                 return Ok(Status::Wrong);
             }
         },

@@ -4,6 +4,7 @@ use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 
 use super::arguments::LookArguments;
+use super::tell;
 use crate::study::Case;
 
 /// Opens plans. Prints every mistake of every plan; `None` where there is a mistake.
@@ -17,7 +18,7 @@ pub fn open_all<'a>(paths: impl IntoIterator<Item = &'a PathBuf>, look: &LookArg
 pub fn open(path: &Path, look: &LookArguments) -> Option<Case> {
     let opened = Case::load(path);
     if let Err(mistakes) = &opened {
-        tell!("{}", mistakes.render(look.colored(io::stderr().is_terminal())).trim_end());
+        tell::mistakes(mistakes, look.colored(io::stderr().is_terminal()));
     }
     opened.ok()
 }

@@ -6,7 +6,8 @@ use std::sync::Arc;
 
 use super::arguments::{Compute, FormatArg, LookArguments};
 use super::check_plans::{check_plans, print_checks};
-use super::status::{Status, failed, wrong};
+use super::status::{Status, failed};
+use super::tell;
 use super::{load_plans, print_help};
 use crate::jobs::Jobs;
 use crate::plan::{PlanSource, starter};
@@ -14,7 +15,7 @@ use crate::study::Case;
 use crate::study::samples::sampling::Sampling;
 use crate::tui::config::{self, Config};
 use crate::tui::start::{Opened, Start};
-use crate::tui::{self, app::App, unsaved};
+use crate::tui::{self, app::App, recovery};
 
 /// Opens a plan in the terminal; where output is no terminal or only words are wanted, says the same as `check`.
 pub fn plan(plan: &Path, compute: &Compute, look: &LookArguments) -> io::Result<Status> {
@@ -47,7 +48,7 @@ pub fn start(compute: &Compute, look: &LookArguments) -> io::Result<Status> {
     }
     needs_keyboard(compute)?;
     let (config, mistake) = Config::load_or_default();
-    let unsaved = unsaved::kept(None).map(|kept| kept.text);
+    let unsaved = recovery::find(None).map(|kept| kept.text);
     let start = Start::new(Path::new("."), config::recent(), unsaved);
     let (name, text, kept) = match tui::choose(start, &config, screen(&config, look))? {
         Err(exit) => return Ok(status(&exit)),
@@ -66,7 +67,10 @@ pub fn start(compute: &Compute, look: &LookArguments) -> io::Result<Status> {
             }
             show(app, None, &config, compute, look)
         }
-        Err(mistakes) => wrong(&mistakes.to_string()),
+        Err(mistakes) => {
+            tell::mistakes(&mistakes, look.colored(io::stderr().is_terminal()));
+            Ok(Status::Wrong)
+        }
     }
 }
 
@@ -81,8 +85,8 @@ fn needs_keyboard(compute: &Compute) -> io::Result<()> {
     Err(io::Error::other(wrong))
 }
 
-fn screen(config: &Config, look: &LookArguments) -> tui::Look {
-    tui::Look { ascii: config.ascii || look.style(true).ascii, color: look.colored(true) }
+fn screen(config: &Config, look: &LookArguments) -> tui::ScreenStyle {
+    tui::ScreenStyle { ascii: config.ascii || look.style(true).ascii, color: look.colored(true) }
 }
 
 fn show(

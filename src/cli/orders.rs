@@ -11,7 +11,7 @@ use super::print_sharded::print_orders;
 use super::run_study::run_saved_study;
 use super::save::SharedArguments;
 use super::status::{Status, failed, saved, wrong};
-use crate::study::orders::{MOST_ROWS, count, orders, tries_all, try_orders};
+use crate::study::orders::{MOST_ROWS, count_orders, orders, tries_all, try_orders};
 use crate::study::results_file::Question;
 use crate::study::{Found, Intervals};
 
@@ -45,7 +45,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             "orders of more than {MOST_ROWS} rows are searched, not shared: leave out --shard"
         ));
     }
-    if tries_all(&case) && count(&case, intervals_s.len()) > MOST_ORDERS {
+    if tries_all(&case) && count_orders(&case, intervals_s.len()) > MOST_ORDERS {
         let message = format!(
             "more than {MOST_ORDERS} orders and intervals do not fit into memory: take fewer intervals"
         );

@@ -25,7 +25,7 @@ pub fn print<D: Serialize>(
     let text = match format {
         FormatArg::Text => reports.iter().map(|report| text::text(report, style)).collect(),
         FormatArg::Json => json::text(&document())?,
-        FormatArg::Csv => csv::csv(reports)?,
+        FormatArg::Csv | FormatArg::CsvSemicolon => csv::csv(reports, format.separators())?,
     };
     print_beside_verdict(&text)?;
     Ok(Status::of(reports))

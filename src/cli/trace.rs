@@ -12,10 +12,11 @@ use super::deadline;
 use super::load_plans::open_option;
 use super::status::{self, Status, wrong};
 use crate::report;
+use crate::report::csv::Separators;
 use crate::report::json::TraceDocument;
 use crate::scene::{Scene, TireId, seconds};
 use crate::simulation::Failure;
-use crate::study::trace::{Chosen, trace};
+use crate::study::trace::{TracedItems, trace};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -56,9 +57,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Some(timeout) if deadline::elapsed().as_secs_f64() > timeout => ControlFlow::Break(()),
         _ => ControlFlow::Continue(()),
     };
-    if chosen == Chosen::default() {
+    if chosen == TracedItems::default() {
         match case.model.run(&case.shots[option], &settings, &mut |_| in_time()) {
-            Ok(outcome) => chosen = Chosen::of(&outcome),
+            Ok(outcome) => chosen = TracedItems::of(&outcome),
             Err(failure) => return failed(&failure),
         }
     }
@@ -84,7 +85,7 @@ fn failed(failure: &Failure) -> io::Result<Status> {
 
 /// Writes rows as they come.
 enum Rows {
-    Csv(Out),
+    Csv(Out, Separators),
     Json(TraceDocument<Out>),
 }
 
@@ -95,32 +96,41 @@ impl Rows {
         let mut out = BufWriter::new(io::stdout().lock());
         match format {
             FormatArg::Json => TraceDocument::begin(out, columns).map(Rows::Json),
-            FormatArg::Text | FormatArg::Csv => {
-                writeln!(out, "{}", columns.join(","))?;
-                Ok(Rows::Csv(out))
+            FormatArg::Text | FormatArg::Csv | FormatArg::CsvSemicolon => {
+                let separators = format.separators();
+                let header = columns.iter().join(&separators.between_fields().to_string());
+                writeln!(out, "{}{header}", separators.mark())?;
+                Ok(Rows::Csv(out, separators))
             }
         }
     }
 
     fn row(&mut self, row: &[f64]) -> io::Result<()> {
         match self {
-            Rows::Csv(out) => writeln!(out, "{}", row.iter().join(",")),
+            Rows::Csv(out, separators) => {
+                let numbers = row.iter().map(|&number| separators.number(number));
+                writeln!(
+                    out,
+                    "{}",
+                    numbers.collect::<Vec<_>>().join(&separators.between_fields().to_string())
+                )
+            }
             Rows::Json(document) => document.row(row),
         }
     }
 
     fn end(self) -> io::Result<()> {
         match self {
-            Rows::Csv(mut out) => out.flush(),
+            Rows::Csv(mut out, _) => out.flush(),
             Rows::Json(document) => document.end(),
         }
     }
 }
 
-fn choose(scene: &Scene, arguments: &Arguments) -> Result<Chosen, String> {
+fn choose(scene: &Scene, arguments: &Arguments) -> Result<TracedItems, String> {
     let tires = arguments.tire.iter().map(|text| find_tire(scene, text)).collect::<Result<_, _>>()?;
     let cables = arguments.cable.iter().map(|text| find_cable(scene, text)).collect::<Result<_, _>>()?;
-    Ok(Chosen { tires, cables })
+    Ok(TracedItems { tires, cables })
 }
 
 fn find_tire(scene: &Scene, text: &str) -> Result<usize, String> {

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::{Job, News};
 use crate::study::judge_options::{CaseOption, JudgeEvent, judge_all_with_margins};
 use crate::study::samples::sampling::Sampling;
-use crate::study::{NoResult, guarded};
+use crate::study::{NoResult, catch_panic};
 
 /// Least time between two pieces of news about an option that computes.
 const CHECKING_EVERY: Duration = Duration::from_millis(50);
@@ -33,26 +33,27 @@ impl Job {
                 JudgeEvent::Running(step) => {
                     if last.checking.elapsed() > CHECKING_EVERY {
                         last.checking = Instant::now();
-                        self.tell(News::Checking { option, runs: step.runs, time: step.time });
+                        self.send(News::Checking { option, runs: step.runs, time: step.time });
                     }
                 }
                 JudgeEvent::AsPlanned(result) => {
-                    self.tell(News::Checked { option, result: result.clone().map(Box::new) });
+                    self.send(News::Checked { option, result: result.clone().map(Box::new) });
                 }
                 JudgeEvent::SampledSoFar(risk) => {
                     if last.sampled.is_none_or(|told| told.elapsed() >= SAMPLED_EVERY) {
                         last.sampled = Some(Instant::now());
-                        self.tell(News::Sampled { option, risk: Box::new(risk.clone()), more: true });
+                        self.send(News::Sampled { option, risk: Box::new(risk.clone()), more: true });
                     }
                 }
                 JudgeEvent::SampledFully(risk) => {
-                    self.tell(News::Sampled { option, risk: Box::new(risk.clone()), more: false });
+                    self.send(News::Sampled { option, risk: Box::new(risk.clone()), more: false });
                 }
-                JudgeEvent::Margin(margin) => self.tell(News::Margin { option, margin }),
+                JudgeEvent::Margin(margin) => self.send(News::Margin { option, margin }),
             }
         };
-        let judged =
-            guarded(|| judge_all_with_margins(&cases, Some(&Sampling::OF_VERDICT), &self.progress, &watch));
+        let judged = catch_panic(|| {
+            judge_all_with_margins(&cases, Some(&Sampling::OF_VERDICT), &self.progress, &watch)
+        });
         if let Err(none) = judged {
             self.tell_no_result(&none);
         }
@@ -61,7 +62,7 @@ impl Job {
     /// Tells that no option has a result. The news of a job that was stopped has no reader.
     pub(super) fn tell_no_result(&self, none: &NoResult) {
         for option in 0..self.case.shots.len() {
-            self.tell(News::Checked { option, result: Err(none.clone()) });
+            self.send(News::Checked { option, result: Err(none.clone()) });
         }
     }
 }

@@ -16,7 +16,7 @@ pub use studies::{StudyKind, StudyResult};
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::samples::risk::Risk;
-use crate::study::{Case, ComputeSettings, NoResult, Progress, guarded, thread_pool};
+use crate::study::{Case, ComputeSettings, NoResult, Progress, catch_panic, thread_pool};
 
 /// News of a job.
 #[derive(Debug)]
@@ -106,7 +106,7 @@ impl Jobs {
     /// itself.
     pub fn check(&mut self, case: &Arc<Case>, compute: ComputeSettings) {
         let job = self.job(case, compute);
-        end(self.check.replace(Arc::clone(&job.progress)));
+        stop(self.check.replace(Arc::clone(&job.progress)));
         match thread_pool(self.threads) {
             Ok(pool) => pool.spawn(move || job.judge_all()),
             Err(none) => job.tell_no_result(&none),
@@ -116,18 +116,18 @@ impl Jobs {
     /// Begins a study; `option` is the option of a study of one option.
     pub fn study(&mut self, kind: StudyKind, case: &Arc<Case>, option: usize, compute: ComputeSettings) {
         let job = self.job(case, compute);
-        end(self.studies[kind as usize].replace(Arc::clone(&job.progress)));
+        stop(self.studies[kind as usize].replace(Arc::clone(&job.progress)));
         self.told[kind as usize] = (0, 0);
-        let tell = move |job: &Job, result| job.tell(News::Studied { kind, compute, result });
+        let tell = move |job: &Job, result| job.send(News::Studied { kind, compute, result });
         match thread_pool(self.threads) {
-            Ok(pool) => pool.spawn(move || tell(&job, guarded(|| job.study(kind, option).map(Box::new)))),
+            Ok(pool) => pool.spawn(move || tell(&job, catch_panic(|| job.study(kind, option).map(Box::new)))),
             Err(none) => tell(&job, Err(none)),
         }
     }
 
     /// Ends a study without a result.
     pub fn cancel(&mut self, kind: StudyKind) {
-        end(self.studies[kind as usize].take());
+        stop(self.studies[kind as usize].take());
     }
 
     /// News since the last call; a job that was replaced or cancelled has none.
@@ -156,17 +156,17 @@ impl Jobs {
 
 impl Drop for Jobs {
     fn drop(&mut self) {
-        end(self.check.take());
+        stop(self.check.take());
         StudyKind::ALL.into_iter().for_each(|kind| self.cancel(kind));
     }
 }
 
-fn end(job: Option<Arc<Progress>>) {
+fn stop(job: Option<Arc<Progress>>) {
     job.iter().for_each(|progress| progress.stop());
 }
 
 impl Job {
-    fn tell(&self, news: News) {
+    fn send(&self, news: News) {
         // No receiver: the program quits, and nobody waits for the news.
         let _ = self.sender.send((Arc::clone(&self.progress), news));
     }

@@ -6,6 +6,8 @@ use std::ops::Range;
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
+use super::visible;
+
 /// Most mistakes shown at once; a file that is no plan has thousands.
 const SHOWN: usize = 20;
 
@@ -77,12 +79,12 @@ impl Diagnostics {
                 Snippet::source(self.source.as_str()).path(self.path.as_str()).annotation(annotation)
             });
             let title = match snippet {
-                Some(_) => mistake.message.clone(),
-                None => format!("{}: {}", self.path, mistake.message),
+                Some(_) => visible(&mistake.message).into_owned(),
+                None => format!("{}: {}", self.path, visible(&mistake.message)),
             };
             let mut group = Level::ERROR.primary_title(title).elements(snippet);
             if !mistake.remedy.is_empty() {
-                group = group.element(Level::HELP.message(mistake.remedy.as_str()));
+                group = group.element(Level::HELP.message(visible(&mistake.remedy)));
             }
             text += &renderer.render(&[group]);
             text += "\n\n";

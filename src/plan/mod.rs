@@ -30,6 +30,7 @@ mod source;
 pub mod starter;
 mod uncertainty;
 pub mod usual;
+mod visible;
 
 pub use diagnostic::Diagnostics;
 pub use model::{
@@ -40,3 +41,4 @@ pub use nearest_point::NearestPoint;
 pub use reader::nearest;
 pub use source::PlanSource;
 pub use uncertainty::{DelayScatter, Uncertainty};
+pub use visible::visible;

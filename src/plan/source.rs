@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::path::Path;
 
-use super::{Diagnostics, Plan, sections};
+use super::{Diagnostics, Plan, sections, visible};
 
 /// Largest file read [bytes].
 pub(super) const MOST_BYTES: u64 = 64 << 20;
@@ -20,7 +20,7 @@ pub struct PlanSource {
 impl PlanSource {
     /// Reads a file; `-` is standard input.
     pub fn read(path: &Path) -> Result<Self, Diagnostics> {
-        let name = path.display().to_string();
+        let name = visible(&path.display().to_string()).into_owned();
         match read_bytes(path).and_then(text_of) {
             Ok(text) => Ok(Self { path: name, text }),
             Err((message, remedy)) => Err(Diagnostics::unreadable(&name, message, remedy)),

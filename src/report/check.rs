@@ -72,7 +72,7 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 34] {
             row.sampled(|risk| Cell::Probability(risk.breaks.interval))
         }),
         Field::new(Column::scripts(&["launch_margin"]), |row| {
-            let margin = row.result.as_ref().ok().and_then(Judgement::known_launch_margin);
+            let margin = row.result.as_ref().ok().and_then(Judgement::launch_margin_or_zero);
             margin.map_or(Cell::Nothing, Cell::Number)
         }),
         Field::new(LAUNCH_MARGIN, |row| {
@@ -173,7 +173,7 @@ pub fn report(
 
 /// A value of the shot as planned, with no more digits than its error leaves.
 pub(super) fn planned(peak: Estimate, unit: Unit) -> Cell {
-    Cell::Text(units::known(peak.value, peak.error, unit))
+    Cell::Text(units::value_by_error(peak.value, peak.error, unit))
 }
 
 /// What was judged, as scripts read it.

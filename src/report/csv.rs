@@ -2,34 +2,68 @@
 
 use std::io;
 
-use csv::Writer;
+use csv::WriterBuilder;
 use serde::Serialize;
 
 use super::model::{Block, Cell, Report, Row, Table};
 
+/// What stands between fields, and within numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Separators {
+    /// `0.5,1`: what scripts read.
+    Comma,
+    /// `0,5;1` behind a byte order mark: what spreadsheets read where 0,5 is one half.
+    Semicolon,
+}
+
+impl Separators {
+    /// What a text begins with.
+    pub fn mark(self) -> &'static str {
+        if self == Separators::Semicolon { "\u{feff}" } else { "" }
+    }
+
+    /// Between two fields.
+    pub fn between_fields(self) -> char {
+        if self == Separators::Semicolon { ';' } else { ',' }
+    }
+
+    /// A number with all its digits.
+    pub fn number(self, number: f64) -> String {
+        let text = number.to_string();
+        if self == Separators::Semicolon { text.replace('.', ",") } else { text }
+    }
+}
+
 /// All tables of all reports that have the same keys, below one header.
-pub fn csv(reports: &[Report]) -> io::Result<String> {
+pub fn csv(reports: &[Report], separators: Separators) -> io::Result<String> {
     let blocks = reports.iter().flat_map(|report| &report.blocks);
     let tables = blocks.filter_map(|block| match block {
         Block::Table(table) if !keys(table).is_empty() => Some(table),
         _ => None,
     });
-    Ok(write(&tables.collect::<Vec<_>>())?)
+    Ok(separators.mark().to_owned() + &write(&tables.collect::<Vec<_>>(), separators)?)
 }
 
 fn keys(table: &Table) -> Vec<&'static str> {
     table.columns.iter().flat_map(|column| column.keys).copied().collect()
 }
 
-fn write(tables: &[&Table]) -> Result<String, csv::Error> {
-    let mut writer = Writer::from_writer(Vec::new());
+fn write(tables: &[&Table], separators: Separators) -> Result<String, csv::Error> {
+    let mut writer =
+        WriterBuilder::new().delimiter(separators.between_fields() as u8).from_writer(Vec::new());
     let header = tables.first().map(|table| keys(table)).unwrap_or_default();
     if !header.is_empty() {
         writer.write_record(&header)?;
     }
     for table in tables {
         for row in &table.rows {
-            writer.serialize(fields(table, row))?;
+            let written = fields(table, row).into_iter().map(|field| match field {
+                CsvValue::Number(number) if separators == Separators::Semicolon => {
+                    CsvValue::Quoted(separators.number(number))
+                }
+                field => field,
+            });
+            writer.serialize(written.collect::<Vec<_>>())?;
         }
     }
     let bytes = writer.into_inner().map_err(|error| error.into_error())?;

@@ -6,11 +6,11 @@ use crate::scene::{Scene, Shot, fire_at_s};
 use crate::study::ComputeSettings;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::as_planned::margin::LaunchMargin;
+use crate::study::eight_ms::WithinEightMs;
 use crate::study::judgement::Judgement;
 use crate::study::samples::draw::Input;
 use crate::study::samples::influence;
 use crate::study::samples::risk::Risk;
-use crate::study::together::Together;
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
@@ -22,13 +22,13 @@ pub const VERDICTS: [&str; 3] = [
 ];
 
 /// What fires within any 8 ms: the most holes, and the heaviest charge where the plan names charges.
-pub fn together(Together { holes, charge }: Together) -> String {
+pub fn together(WithinEightMs { holes, charge }: WithinEightMs) -> String {
     let holes = if holes == 1 { "1 hole".to_owned() } else { format!("{holes} holes") };
     charge.map_or(holes.clone(), |charge| format!("{holes}, {} kg", grams(charge)))
 }
 
 /// When each blast row of an option fires, and how its holes do: `1: 0 ms, 2: 42 ms · holes 17 ms left`.
-pub fn fires(rows: &[BlastRow], delay: &DelayOption) -> String {
+pub fn firing_times_text(rows: &[BlastRow], delay: &DelayOption) -> String {
     let times = fire_at_s(&delay.timing);
     let row = |(row, &at): (&BlastRow, &f64)| format!("{}: {}", row.name, units::exact_milliseconds(at));
     let rows: Vec<String> = rows.iter().zip(&times).map(row).collect();

@@ -36,7 +36,12 @@ fn estimate_fields<'a>() -> [Field<EstimateRow<'a>>; 6] {
             Cell::Text(row.estimate.parameter.unit().to_owned())
         }),
         Field::new(Column::words(&[], "what it means"), |row| {
-            Cell::Text(meaning(row.case, row.estimate.parameter, row.estimate.value, row.estimate.sd))
+            Cell::Text(launch_velocities(
+                row.case,
+                row.estimate.parameter,
+                row.estimate.value,
+                row.estimate.sd,
+            ))
         }),
     ]
 }
@@ -73,16 +78,16 @@ fn observed_fields<'a>() -> [Field<ObservedRow<'a>>; 7] {
         Field::new(words("value ± sd"), |row| {
             Cell::Text(units::value_and_sd(row.observed.value, row.observed.sd))
         }),
-        Field::new(words("planned"), |row| Cell::Text(like(row.as_fired.planned, row.observed.sd))),
+        Field::new(words("planned"), |row| Cell::Text(value_by_sd(row.as_fired.planned, row.observed.sd))),
         Field::new(words("predicted, 90 %"), |row| {
             row.as_fired.band.map_or(Cell::Nothing, |band| {
-                Cell::Text(band.map(|end| like(end, row.observed.sd)).join(" to "))
+                Cell::Text(band.map(|end| value_by_sd(end, row.observed.sd)).join(" to "))
             })
         }),
         Field::new(Column::words(&[], "within"), |row| {
-            row.as_fired.holds(row.observed.value).map_or(Cell::Nothing, Cell::Flag)
+            row.as_fired.contains(row.observed.value).map_or(Cell::Nothing, Cell::Flag)
         }),
-        Field::new(words("fitted"), |row| Cell::Text(like(row.residual.fitted, row.observed.sd))),
+        Field::new(words("fitted"), |row| Cell::Text(value_by_sd(row.residual.fitted, row.observed.sd))),
         Field::new(words("residual"), |row| {
             let deviation = units::rounded(row.residual.deviation, 1);
             let mark = if row.residual.is_suspicious() { "  suspicious" } else { "" };
@@ -126,7 +131,7 @@ pub fn report(case: &Case, files: &[Observations], fit: &Fit, sampled: bool) -> 
     let all: Vec<_> = [number, name].into_iter().chain(rest).chain(estimate_numbers()).collect();
     let mut blocks =
         vec![Block::Text(vec![basis(files, fit, sampled)]), Block::Table(Table::of(&all, rows()))];
-    blocks.push(Block::Text(ties(case, &fit.answers[0])));
+    blocks.push(Block::Text(correlated_pairs(case, &fit.answers[0])));
     blocks.push(Block::Table(observed_table(case, fit)));
     blocks.push(Block::Text(bands(case, fit).into_iter().chain(next(case, fit)).collect()));
     let head = report_head(case, false);
@@ -164,7 +169,7 @@ fn estimate(estimate: &Estimated) -> String {
 }
 
 /// A value with the digits of another's standard deviation.
-fn like(value: f64, sd: f64) -> String {
+fn value_by_sd(value: f64, sd: f64) -> String {
     if value.is_nan() {
         return "never".to_owned();
     }
@@ -172,7 +177,7 @@ fn like(value: f64, sd: f64) -> String {
 }
 
 /// The launch velocities that a factor makes of those of the plan; else nothing.
-pub fn meaning(case: &Case, parameter: Parameter, factor: f64, sd: f64) -> String {
+pub fn launch_velocities(case: &Case, parameter: Parameter, factor: f64, sd: f64) -> String {
     let mut speeds = launch_speeds(case, parameter);
     speeds.truncate(4);
     let words: Vec<String> = speeds
@@ -216,7 +221,7 @@ pub fn place(case: &Case, option: usize, watched: &Watched) -> String {
 }
 
 /// Which estimates hang together.
-fn ties(case: &Case, answer: &Answer) -> Vec<String> {
+fn correlated_pairs(case: &Case, answer: &Answer) -> Vec<String> {
     let count = answer.estimates.len();
     let pairs = itertools::iproduct!(0..count, 0..count).filter(|(a, b)| a < b);
     let tied = pairs.filter(|&(a, b)| answer.correlation[a][b].abs() > TIED);
@@ -231,7 +236,7 @@ fn ties(case: &Case, answer: &Answer) -> Vec<String> {
 /// How many observations lie in their bands: of each shot, and of all.
 fn bands(case: &Case, fit: &Fit) -> Vec<String> {
     let held: Vec<(usize, bool)> = observed_rows(case, fit)
-        .filter_map(|row| Some((row.observed.option, row.as_fired.holds(row.observed.value)?)))
+        .filter_map(|row| Some((row.observed.option, row.as_fired.contains(row.observed.value)?)))
         .collect();
     let words = |of: &[(usize, bool)]| {
         let within = of.iter().filter(|(_, held)| *held).count();

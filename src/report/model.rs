@@ -142,7 +142,7 @@ impl Table {
 
 impl Row {
     /// How many of the columns `seen` have a value before the reason why the others have none.
-    pub fn known(&self, seen: &[usize]) -> usize {
+    pub fn count_known(&self, seen: &[usize]) -> usize {
         match self.missing {
             Some(_) => seen.iter().take_while(|&&n| self.cells[n] != Cell::Nothing).count(),
             None => seen.len(),

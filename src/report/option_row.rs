@@ -4,10 +4,10 @@ use super::model::Cell;
 use crate::plan::DelayOption;
 use crate::scene::Shot;
 use crate::study::as_planned::check::CheckedShot;
+use crate::study::eight_ms::WithinEightMs;
 use crate::study::judge_options::OptionResults;
 use crate::study::judgement::Judgement;
 use crate::study::samples::risk::Risk;
-use crate::study::together::Together;
 use crate::study::{Case, NoResult};
 use crate::verdict::Verdict;
 
@@ -41,8 +41,8 @@ impl OptionRow<'_> {
     }
 
     /// What fires together in the shot as planned.
-    pub fn together(&self) -> Together {
-        Together::of(self.case, self.shot)
+    pub fn together(&self) -> WithinEightMs {
+        WithinEightMs::of(self.case, self.shot)
     }
 
     pub fn verdict(&self) -> Verdict {

@@ -107,7 +107,7 @@ fn result(judgement: &Judgement) -> String {
     let Some(risk) = judgement.risk.drawn() else {
         let checked = &judgement.as_planned;
         let value = |estimate: f64, error: f64, unit: Unit| {
-            format!("{} {}", units::known(estimate, error, unit), unit.symbol())
+            format!("{} {}", units::value_by_error(estimate, error, unit), unit.symbol())
         };
         return format!(
             "height {}, force {} as planned",

@@ -62,7 +62,7 @@ fn fields<'a>() -> [Field<FoundRow<'a>>; 19] {
         }),
         Field::new(FORCE_BAND, |row| band(&row.option, Quantity::Force, Unit::Kilonewton)),
         Field::new(Column::scripts(&["launch_margin"]), |row| {
-            let margin = row.option.result.as_ref().ok().and_then(Judgement::known_launch_margin);
+            let margin = row.option.result.as_ref().ok().and_then(Judgement::launch_margin_or_zero);
             margin.map_or(Cell::Nothing, Cell::Number)
         }),
         Field::new(Column::scripts(&["holes_in_8_ms"]), |row| Cell::Count(row.option.together().holes)),
@@ -85,7 +85,7 @@ pub fn report(case: &Case, search: &Search, partial: bool) -> Report {
     }
     complete_rows(&mut table, &search.case, &search.results);
     table = table.offering(search.case.plan.delays.iter().cloned().map(Offer::Option));
-    let mut blocks = vec![Block::Text(reach(case, search, sampled))];
+    let mut blocks = vec![Block::Text(coverage_lines(case, search, sampled))];
     if !search.results.is_empty() {
         blocks.push(Block::Table(table));
     }
@@ -111,7 +111,7 @@ pub fn report(case: &Case, search: &Search, partial: bool) -> Report {
 }
 
 /// How many schedules there are, how many were judged, and how sure it is that none better was missed.
-fn reach(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
+fn coverage_lines(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
     let Search { possible, keeping, refused, judged, complete, without_failure, .. } = search;
     let possible = match *possible {
         usize::MAX => "more schedules than can be counted are possible".to_owned(),

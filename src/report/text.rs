@@ -129,7 +129,7 @@ fn table_lines(table: &Table, style: Style) -> Vec<String> {
             continue;
         }
         lines.push(match &row.missing {
-            Some(missing) => format!("{}  {missing}", join(&labels[..row.known(&seen)])),
+            Some(missing) => format!("{}  {missing}", join(&labels[..row.count_known(&seen)])),
             None => join(labels),
         });
         lines.extend(row.details.iter().map(|detail| format!("    {}", detail.text)));
@@ -141,7 +141,7 @@ fn table_lines(table: &Table, style: Style) -> Vec<String> {
 fn chart_lines(chart: &Chart) -> Vec<String> {
     match chart.x.scale {
         Scale::Linear => chart.series.iter().map(|series| bars(chart, &series.points)).collect(),
-        Scale::Logarithmic => plot(chart),
+        Scale::Logarithmic => plot_lines(chart),
     }
 }
 
@@ -164,7 +164,7 @@ fn evenly([from, to]: [f64; 2], points: &[(f64, f64)]) -> Vec<f64> {
 }
 
 /// Every line of a chart, each point as the first letter of its series.
-fn plot(chart: &Chart) -> Vec<String> {
+fn plot_lines(chart: &Chart) -> Vec<String> {
     let ([left, right], [bottom, top]) = (chart.x.ends(), chart.y.ends());
     let slot = |part: f64, size: usize| ((part * (size - 1) as f64).round() as usize).min(size - 1);
     let mut grid = vec![vec![' '; PLOT.0]; PLOT.1];

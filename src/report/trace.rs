@@ -3,11 +3,11 @@
 use super::model::{Block, Cell, Column, Report, Table};
 use crate::outcome::History;
 use crate::scene::Scene;
-use crate::study::trace::Chosen;
+use crate::study::trace::TracedItems;
 use crate::units::Unit;
 
 /// Column names: time, then per tire and per cable, each addressed as in the plan.
-pub fn header(scene: &Scene, chosen: &Chosen) -> Vec<String> {
+pub fn header(scene: &Scene, chosen: &TracedItems) -> Vec<String> {
     let mut names = vec!["t_s".to_owned()];
     for &tire in &chosen.tires {
         let id = scene.tire[tire];

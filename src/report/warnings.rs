@@ -85,7 +85,7 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
 /// Warnings of an option that need no other option beside them.
 fn swaps_and_cover(case: &Case, option: usize, judged: &Judgement) -> impl Iterator<Item = String> {
     let swaps = if judged.risk.is_asked() { swaps(case, option, SWAP) } else { Vec::new() };
-    let swaps = swaps.into_iter().map(|found| swap(case, &found));
+    let swaps = swaps.into_iter().map(|found| swap_warning(case, &found));
     swaps.chain(uncovered(&judged.as_planned.cover))
 }
 
@@ -102,7 +102,7 @@ fn far_drift(case: &Case, judged: &Judgement) -> Option<f64> {
 }
 
 /// The warning that two blast rows may fire in the wrong order.
-fn swap(case: &Case, swap: &Swap) -> String {
+fn swap_warning(case: &Case, swap: &Swap) -> String {
     let [first, second] = swap.rows.map(|row| &case.plan.blast_rows[row].name);
     format!(
         "{} between rows {first} and {second} is short for the scatter of the detonators; a given hole of row {second} fires before a given hole of row {first} with a probability of {}",

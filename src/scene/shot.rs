@@ -106,17 +106,17 @@ impl Shot {
 
     /// Most holes that fire within any `window` [s], its end left out.
     pub fn most_holes_within(&self, window: f64) -> usize {
-        self.most_within(window, |_| 1.0) as usize
+        self.greatest_sum_within(window, |_| 1.0) as usize
     }
 
     /// Heaviest charge that fires within any `window` [s], its end left out [kg].
     pub fn heaviest_charge_within(&self, window: f64) -> f64 {
-        self.most_within(window, |firing| firing.charge)
+        self.greatest_sum_within(window, |firing| firing.charge)
     }
 
     /// Greatest sum of `weight` over the firings within any `window` [s], its end left out; times are rounded to 1 µs, so that
     /// holes planned a window apart do not count together.
-    fn most_within(&self, window: f64, weight: impl Fn(&Firing) -> f64) -> f64 {
+    fn greatest_sum_within(&self, window: f64, weight: impl Fn(&Firing) -> f64) -> f64 {
         let microseconds = |time: f64| (time * 1e6).round();
         let from = |first: usize| {
             let end = microseconds(self.firings[first].at) + microseconds(window);

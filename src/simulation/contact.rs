@@ -12,7 +12,7 @@
 use nalgebra::{Vector2, Vector3};
 
 /// Velocity of a tire on the ground after support and friction, and the normal impulse per mass [m/s], from its free velocity.
-pub fn support(free: Vector3<f64>, friction: f64) -> (Vector3<f64>, f64) {
+pub fn stop_at_ground(free: Vector3<f64>, friction: f64) -> (Vector3<f64>, f64) {
     if free.z >= 0.0 {
         return (free, 0.0);
     }
@@ -28,7 +28,7 @@ fn apply_friction(velocity: Vector2<f64>, loss: f64) -> Vector2<f64> {
 
 /// What a hole does to a tire within a step.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Impulse {
+pub struct HoleImpulse {
     /// Time since the start of the step [s].
     pub after: f64,
     /// Velocity added at once [m/s].
@@ -63,7 +63,7 @@ pub struct TireStep {
 }
 
 /// Rise to the top of a parabola [m] and time until the top [s]; `None` when the top is not reached within `time` [s].
-pub fn top(velocity: f64, acceleration: f64, time: f64) -> Option<(f64, f64)> {
+pub fn apex(velocity: f64, acceleration: f64, time: f64) -> Option<(f64, f64)> {
     let until = -velocity / acceleration;
     (velocity > 0.0 && acceleration < 0.0 && until <= time).then_some((0.5 * velocity * until, until))
 }
@@ -97,9 +97,9 @@ impl TireStep {
     /// Integrates the motion over a step of length `h` [s], with landings and the `impulses` of holes, in order of time.
     ///
     /// Returns the acceleration a of the last phase [m/s²]: v − a h/2 is the mid-step velocity of central differences.
-    pub fn integrate(&mut self, h: f64, impulses: impl Iterator<Item = Impulse>) -> Vector3<f64> {
+    pub fn integrate(&mut self, h: f64, impulses: impl Iterator<Item = HoleImpulse>) -> Vector3<f64> {
         let mut now = 0.0;
-        for Impulse { after, launch, push_acceleration } in impulses {
+        for HoleImpulse { after, launch, push_acceleration } in impulses {
             self.integrate_between(after - now, h);
             now = after;
             self.put_in += launch.dot(&(self.velocity + 0.5 * launch));
@@ -127,19 +127,19 @@ impl TireStep {
     /// acceleration of a free tire at its end [m/s²]. The work of pushes is not counted here.
     fn integrate_phases(&mut self, mut left: f64, h: f64) -> Vector3<f64> {
         while !(self.on_ground() && self.free.z <= 0.0) {
-            match self.landing().filter(|&landing| landing <= left) {
+            match self.time_to_landing().filter(|&landing| landing <= left) {
                 None => {
-                    self.fly(left);
+                    self.fly_freely(left);
                     return self.free;
                 }
                 Some(landing) => {
-                    self.fly(landing);
+                    self.fly_freely(landing);
                     self.land(self.rebound(h));
                     left -= landing;
                 }
             }
             if self.free.z > 0.0 {
-                self.fly(left);
+                self.fly_freely(left);
                 return self.free;
             }
         }
@@ -147,7 +147,7 @@ impl TireStep {
     }
 
     /// Time until the tire lands [s], for a tire in the air or leaving the ground; `None` when it does not come down.
-    fn landing(&self) -> Option<f64> {
+    fn time_to_landing(&self) -> Option<f64> {
         let (z, v, a) = (self.displacement.z, self.velocity.z, self.free.z);
         let discriminant = v * v - 2.0 * a * z;
         if discriminant < 0.0 {
@@ -159,8 +159,8 @@ impl TireStep {
         (time.is_finite() && time >= 0.0).then_some(time)
     }
 
-    fn fly(&mut self, time: f64) {
-        if let Some((rise, until)) = top(self.velocity.z, self.free.z, time)
+    fn fly_freely(&mut self, time: f64) {
+        if let Some((rise, until)) = apex(self.velocity.z, self.free.z, time)
             && self.displacement.z + rise > self.top.0
         {
             self.top = (self.displacement.z + rise, self.elapsed + until);
@@ -182,7 +182,7 @@ impl TireStep {
     fn land(&mut self, rebound: f64) {
         let before = self.velocity;
         self.displacement.z = 0.0;
-        let (mut after, _) = support(before - Vector3::z() * rebound, self.friction);
+        let (mut after, _) = stop_at_ground(before - Vector3::z() * rebound, self.friction);
         after.z += rebound;
         self.velocity = after;
         self.lost += 0.5 * (before.norm_squared() - after.norm_squared());
@@ -264,12 +264,12 @@ mod tests {
     /// |v_t+| = max(0, |v_t−| − μ |v_n−|) for an inelastic landing.
     #[test]
     fn an_oblique_landing_loses_mu_times_its_normal_speed() {
-        let (after, normal) = support(Vector3::new(3.0, 0.0, -4.0), 0.5);
+        let (after, normal) = stop_at_ground(Vector3::new(3.0, 0.0, -4.0), 0.5);
         assert_eq!((after, normal), (Vector3::new(1.0, 0.0, 0.0), 4.0));
-        let (after, _) = support(Vector3::new(1.2, 1.6, -4.0), 0.5);
+        let (after, _) = stop_at_ground(Vector3::new(1.2, 1.6, -4.0), 0.5);
         assert_eq!(after, Vector3::zeros());
         let up = Vector3::new(1.0, 2.0, 0.5);
-        assert_eq!(support(up, 0.5), (up, 0.0));
+        assert_eq!(stop_at_ground(up, 0.5), (up, 0.0));
     }
 
     /// A tire thrown up and sideways lands after 2 v/g at its launch speed, slides and stops, all in one step.
@@ -277,7 +277,10 @@ mod tests {
     fn one_step_holds_a_launch_a_landing_and_a_stop() {
         let (above, sideways) = (Vector3::z() * 1e-300, Vector3::x() * 3.0);
         let mut step = TireStep::new(above, sideways, -Vector3::z() * G, 0.5, 0.0);
-        step.integrate(5.0, [Impulse { launch: Vector3::z() * 2.0, ..Impulse::default() }].into_iter());
+        step.integrate(
+            5.0,
+            [HoleImpulse { launch: Vector3::z() * 2.0, ..HoleImpulse::default() }].into_iter(),
+        );
         let sideways = 3.0 - 0.5 * 2.0;
         let way = 3.0 * 2.0 * 2.0 / G + sideways * sideways / (2.0 * 0.5 * G);
         assert!((step.displacement.x - way).abs() < 1e-12);

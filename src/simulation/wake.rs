@@ -62,9 +62,9 @@ impl Ties {
 pub struct Wake<'a> {
     ties: &'a Ties,
     /// Awake packs, in ascending order.
-    pub awake: Vec<usize>,
+    pub awake_packs: Vec<usize>,
     /// Blocks to evaluate, in ascending order.
-    pub blocks: Vec<usize>,
+    pub awake_blocks: Vec<usize>,
     /// Blocks that woke at the last refresh; a block may also be in [`Self::fell_asleep`].
     pub woke: Vec<usize>,
     /// Blocks that fell asleep at the last refresh.
@@ -91,8 +91,8 @@ impl<'a> Wake<'a> {
         let (n_packs, n_blocks) = (ties.neighbours.keys(), ties.n_blocks);
         Self {
             ties,
-            awake: Vec::with_capacity(n_packs),
-            blocks: Vec::with_capacity(n_blocks),
+            awake_packs: Vec::with_capacity(n_packs),
+            awake_blocks: Vec::with_capacity(n_blocks),
             woke: Vec::with_capacity(n_blocks),
             fell_asleep: Vec::with_capacity(n_blocks),
             moving: FixedBitSet::with_capacity(n_packs),
@@ -117,6 +117,16 @@ impl<'a> Wake<'a> {
     /// Sets all packs moving, from the next refresh on.
     pub fn set_all_moving(&mut self) {
         (0..self.near.len()).for_each(|pack| self.set_moving(pack, true));
+    }
+
+    /// Awake tires, where every pack is one tire.
+    pub fn awake_tires(&self) -> &[usize] {
+        &self.awake_packs
+    }
+
+    /// Cables to evaluate, where every block is one cable.
+    pub fn awake_cables(&self) -> &[usize] {
+        &self.awake_blocks
     }
 
     /// Whether a pack was awake at the last refresh.
@@ -156,10 +166,10 @@ impl<'a> Wake<'a> {
                 }
             }
         }
-        self.awake.clear();
-        self.awake.extend(awake_set.ones());
-        self.blocks.clear();
-        self.blocks.extend(block_set.ones());
+        self.awake_packs.clear();
+        self.awake_packs.extend(awake_set.ones());
+        self.awake_blocks.clear();
+        self.awake_blocks.extend(block_set.ones());
         true
     }
 }

@@ -32,7 +32,7 @@ impl ComputeSettings {
     }
 
     /// Follows a change of plan from `old` to `new`: a setting that the user has not overridden takes its value from `new`.
-    pub fn follow(&mut self, old: &Plan, new: &Plan) {
+    pub fn adopt_changed_defaults(&mut self, old: &Plan, new: &Plan) {
         let (old, new) = (Self::of(old), Self::of(new));
         if self.method == old.method {
             self.method = new.method;

@@ -10,7 +10,7 @@ use super::samples::risk::Risk;
 use super::samples::rounds::{ShotToSample, find_risks_watched};
 use super::samples::sampling::Sampling;
 use super::work::batch::run_jobs;
-use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, guarded};
+use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, catch_panic};
 use crate::verdict::Verdict;
 
 /// Results of the options of one plan, in their order (`n_options`).
@@ -73,7 +73,7 @@ pub fn judge_all(
     let of_case = |case: usize| (0..cases[case].0.shots.len()).map(move |option| CaseOption { case, option });
     let options: Vec<CaseOption> = (0..cases.len()).flat_map(of_case).collect();
     let checked = run_jobs(&options, progress, |&at| {
-        let as_planned = guarded(|| check_one_as_planned(cases, at, progress, watch));
+        let as_planned = catch_panic(|| check_one_as_planned(cases, at, progress, watch));
         watch(at, JudgeEvent::AsPlanned(&as_planned));
         match as_planned {
             Err(ended @ (NoResult::Stopped | NoResult::OutOfTime)) => Err(ended),
@@ -182,7 +182,7 @@ pub fn find_launch_margins(
     let jobs: Vec<_> = judged.iter().map(|(at, judgement)| (*at, judgement.as_planned.verdict)).collect();
     let margins = run_jobs(&jobs, progress, |&(at, as_planned)| {
         let (case, compute) = &cases[at.case];
-        match guarded(|| launch_margin(case, &case.shots[at.option], as_planned, compute, progress)) {
+        match catch_panic(|| launch_margin(case, &case.shots[at.option], as_planned, compute, progress)) {
             // The verdicts stand without it.
             Err(NoResult::Panicked(_)) => Ok(None),
             margin => margin.map(Some).inspect(|margin| {

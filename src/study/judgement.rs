@@ -20,7 +20,7 @@ pub struct Judgement {
 impl Judgement {
     /// How much faster than planned the tires may leave, as a share; `None` where nothing fails up to the greatest rise tried,
     /// or where only a shot that passes as planned was asked for. A margin that is not known is none.
-    pub fn known_launch_margin(&self) -> Option<f64> {
+    pub fn launch_margin_or_zero(&self) -> Option<f64> {
         match self.launch_margin {
             Some(LaunchMargin::UpTo { rise, .. }) => Some(rise),
             Some(LaunchMargin::BeyondTried) => None,

@@ -50,7 +50,7 @@ pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
     let Contents { head, known, .. } = join(shards).map_err(MergeFailure::Shards)?;
     let progress = &Progress::with_journal(Journal::of_known(known));
     let source = PlanSource { path: head.plan, text: head.text };
-    let mut case = Case::parse(source).map_err(|mistakes| MergeFailure::Shards(mistakes.to_string()))?;
+    let mut case = Case::parse(source).map_err(|mistakes| MergeFailure::Shards(mistakes.first()))?;
     let compute = &head.compute;
     let answer = match head.question {
         Question::Orders { intervals_s, option, sampling } => {

@@ -21,6 +21,7 @@ pub mod as_planned;
 mod case;
 mod compute;
 pub mod effects;
+pub mod eight_ms;
 pub mod fit;
 pub mod flight;
 pub mod judge_options;
@@ -34,11 +35,12 @@ pub mod samples;
 pub mod search;
 pub mod size;
 pub mod sweep;
-pub mod together;
 pub mod trace;
 pub mod work;
 
 pub use as_planned::shot_summary::{ShotSummary, ValueWithError};
 pub use case::Case;
 pub use compute::ComputeSettings;
-pub use work::{Finding, Found, Intervals, Journal, Key, NoResult, Progress, Shard, guarded, thread_pool};
+pub use work::{
+    Finding, Found, Intervals, Journal, Key, NoResult, Progress, Shard, catch_panic, thread_pool,
+};

@@ -8,14 +8,14 @@ use crate::simulation::{Failure, Motion, RunSettings};
 
 /// Tires and cables to record.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Chosen {
+pub struct TracedItems {
     /// Indices of tires.
     pub tires: Vec<usize>,
     /// Indices of cables.
     pub cables: Vec<usize>,
 }
 
-impl Chosen {
+impl TracedItems {
     /// The highest tire and the most loaded cable of a run.
     pub fn of(outcome: &Outcome) -> Self {
         let cables = if outcome.force.value > 0.0 { vec![outcome.force.index] } else { Vec::new() };
@@ -30,7 +30,7 @@ pub fn trace(
     case: &Case,
     option: usize,
     settings: &RunSettings,
-    chosen: &Chosen,
+    chosen: &TracedItems,
     every: f64,
     emit: &mut dyn FnMut(&[f64]) -> ControlFlow<()>,
 ) -> Result<Outcome, Failure> {
@@ -48,7 +48,7 @@ pub fn trace(
     })
 }
 
-fn fill(row: &mut Vec<f64>, case: &Case, chosen: &Chosen, motion: &dyn Motion) {
+fn fill(row: &mut Vec<f64>, case: &Case, chosen: &TracedItems, motion: &dyn Motion) {
     row.clear();
     row.push(motion.time());
     for &tire in &chosen.tires {

@@ -14,10 +14,10 @@ use super::editor::{EditOutcome, Editor};
 use super::keymap::{Action, Keymap};
 use super::player::Player;
 use super::prompt::{Prompt, Purpose};
+use super::recovery::RecoveredEdits;
 use super::screen::Screen;
 use super::studies::{ShownStudy, Studies, StudyState};
 use super::theme::Theme;
-use super::unsaved::Kept;
 use crate::jobs::{News, StudyKind};
 use crate::plan::{Plan, PlanSource};
 use crate::study::as_planned::step_error;
@@ -232,12 +232,12 @@ impl App {
 
     /// Shows another plan; drops the studies of the old one.
     fn replace_plan(&mut self, case: Case) -> Request {
-        self.compute.follow(&self.case.plan, &case.plan);
+        self.compute.adopt_changed_defaults(&self.case.plan, &case.plan);
         self.case = Arc::new(case);
         self.options = vec![OptionState::Waiting; self.case.plan.delays.len()];
         self.selected = self.selected.min(self.options.len().saturating_sub(1));
         self.listing.baseline = None;
-        self.studies.follow(&self.case.source.text);
+        self.studies.mark_as_of_plan_before(&self.case.source.text);
         self.player.option = None;
         Request::CheckNewPlan
     }
@@ -249,9 +249,9 @@ impl App {
     }
 
     /// Takes back edits that the last session could not save.
-    pub fn take_unsaved(&mut self, kept: Kept) -> Request {
+    pub fn take_unsaved(&mut self, kept: RecoveredEdits) -> Request {
         let changed = !kept.are_of(self.editor.saved());
-        let edit = self.editor.take(Ok(kept.text));
+        let edit = self.editor.adopt(Ok(kept.text));
         let undo = self.keymap.hint(Action::Undo);
         if let EditOutcome::Changed(plan) = edit {
             let request = self.take_edited(*plan);
@@ -310,7 +310,8 @@ impl App {
 
     /// Notes that the plan stands in another file now.
     pub fn rename(&mut self, path: &Path) {
-        Arc::make_mut(&mut self.case).source.path = path.display().to_string();
+        Arc::make_mut(&mut self.case).source.path =
+            crate::plan::visible(&path.display().to_string()).into_owned();
     }
 
     /// Asks the user for a file; `path` stands in the line already.

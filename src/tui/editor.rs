@@ -4,11 +4,11 @@ use crossterm::event::{Event, KeyCode, KeyEvent};
 use tui_input::Input;
 use tui_input::backend::crossterm::EventHandler;
 
+use super::arrow_keys::{add_to_number, neighbouring_name, step_second_digit};
 use super::keymap::Action;
 use super::name_list::NameList;
-use super::order::Order;
+use super::order_editor::OrderEditor;
 use super::paste::paste;
-use super::stepped::{beside, moved, stepped};
 use crate::plan::edit::fields;
 use crate::plan::edit::fields::{Field, Path};
 use crate::plan::keys::{Kind, delay, plan};
@@ -40,7 +40,7 @@ pub struct Editor {
     /// The text being typed in place of the selected value.
     pub input: Option<Input>,
     /// Blast rows being put in order, in place of the selected value.
-    pub order: Option<Order>,
+    pub order: Option<OrderEditor>,
     /// Names to choose the selected value from.
     pub names: Option<NameList>,
     /// Message about the text being typed, or about the last edit.
@@ -114,7 +114,7 @@ impl Editor {
         let Some(field) = self.field() else { return };
         if matches!(field.path.key.kind, Kind::RowNames) {
             let names = fields::order(&self.text, &field.path);
-            self.order = (!names.is_empty()).then_some(Order { names, selected: 0 });
+            self.order = (!names.is_empty()).then_some(OrderEditor { names, selected: 0 });
         } else if let Kind::Catalogue(names) = field.path.key.kind {
             self.names = Some(NameList::new(names(), field.value.trim_matches('"')));
         } else {
@@ -156,7 +156,7 @@ impl Editor {
     }
 
     /// Does an action while blast rows are put in order.
-    pub fn arrange(&mut self, action: Action) -> EditOutcome {
+    pub fn act_on_order(&mut self, action: Action) -> EditOutcome {
         let Some(order) = &mut self.order else { return EditOutcome::None };
         match action {
             Action::Up => order.select(false),
@@ -201,11 +201,11 @@ impl Editor {
         if candidate.is_ok() {
             self.end_typing();
         }
-        self.settle(candidate)
+        self.adopt_if_valid(candidate)
     }
 
     /// Takes a checked text, or keeps its mistake as the problem.
-    fn settle(&mut self, checked: Result<(String, Plan), String>) -> EditOutcome {
+    fn adopt_if_valid(&mut self, checked: Result<(String, Plan), String>) -> EditOutcome {
         match checked {
             Ok((text, plan)) => self.replace(text, plan),
             Err(problem) => {
@@ -280,32 +280,32 @@ impl Editor {
         }
         let value = field.value.trim_matches('"');
         let next = match &field.path.key.kind {
-            Kind::Whole(_) => moved(value, if up { 1.0 } else { -1.0 }),
+            Kind::Whole(_) => add_to_number(value, if up { 1.0 } else { -1.0 }),
             Kind::ShelterRow(_) => {
                 let plan = Plan::parse("", &self.text);
                 let centres = plan.is_ok_and(|plan| matches!(plan.layout, Layout::Quincunx(_)));
                 let step = if centres { 0.5 } else { 1.0 };
-                moved(value, if up { step } else { -step })
+                add_to_number(value, if up { step } else { -step })
             }
             Kind::Number { .. } | Kind::NumberOrSection(..) => {
-                value.parse().ok().map(|number| stepped(number, up).to_string())
+                value.parse().ok().map(|number| step_second_digit(number, up).to_string())
             }
-            kind => beside(&kind.names(), value, up),
+            kind => neighbouring_name(&kind.names(), value, up),
         };
         let Some(next) = next else { return EditOutcome::None };
         let changed = fields::set(&self.text, &field.path, &next).and_then(Self::checked);
-        self.settle(changed)
+        self.adopt_if_valid(changed)
     }
 
     /// Takes a changed text, or keeps its mistake as the problem.
-    pub fn take(&mut self, changed: Result<String, String>) -> EditOutcome {
-        self.settle(changed.and_then(Self::checked))
+    pub fn adopt(&mut self, changed: Result<String, String>) -> EditOutcome {
+        self.adopt_if_valid(changed.and_then(Self::checked))
     }
 
     /// Copies a delay option, and begins to type the interval of the copy, or its firing times.
     pub fn copy_option(&mut self, option: usize) -> EditOutcome {
         let copied = fields::copy_delay(&self.text, option);
-        let outcome = self.take(copied.ok_or_else(|| "there is no delay option to copy".to_owned()));
+        let outcome = self.adopt(copied.ok_or_else(|| "there is no delay option to copy".to_owned()));
         let is_timing = |field: &Field| {
             let Path { section, index, key } = field.path;
             let times = [delay::INTERVAL_MS.name, delay::AT_MS.name].contains(&key.name);
@@ -327,7 +327,7 @@ impl Editor {
             _ if path.key.required => Err(format!("the plan needs `{}`", path.key.name)),
             _ => fields::set(&self.text, &path, ""),
         };
-        self.take(removed)
+        self.adopt(removed)
     }
 }
 
@@ -353,7 +353,7 @@ mod tests {
         editor.find("20 ms: order", false);
         editor.begin();
         for action in [Action::Down, Action::Left, Action::Open] {
-            if let EditOutcome::Changed(plan) = editor.arrange(action) {
+            if let EditOutcome::Changed(plan) = editor.act_on_order(action) {
                 assert_eq!(plan.delays[2].timing.fire_at_ms(), [20.0, 0.0, 40.0]);
                 assert!(editor.text.contains("order = [\"2\", \"1\", \"3\"]"), "{}", editor.text);
                 return;

@@ -8,6 +8,7 @@ use super::screen::Screen;
 use super::studies::ShownStudy;
 use crate::file;
 use crate::jobs::{StudyKind, StudyResult};
+use crate::report::csv::Separators;
 use crate::report::html::{self, Page};
 use crate::report::{self, charts};
 use crate::study::judge_options::OptionResults;
@@ -67,10 +68,11 @@ fn is_saved(app: &App) -> bool {
 /// The tables of the screen.
 pub fn csv(app: &App) -> Result<String, String> {
     let text = match app.screen {
-        Screen::Plan | Screen::Compare => {
-            report::csv::csv(&[report::check::report(&app.case, &results(app)?, None, false, false)])
-        }
-        _ => report::csv::csv(std::slice::from_ref(&finished(app)?.report)),
+        Screen::Plan | Screen::Compare => report::csv::csv(
+            &[report::check::report(&app.case, &results(app)?, None, false, false)],
+            Separators::Comma,
+        ),
+        _ => report::csv::csv(std::slice::from_ref(&finished(app)?.report), Separators::Comma),
     };
     text.map_err(|error| error.to_string())
 }
@@ -95,7 +97,7 @@ fn svg(app: &App) -> Result<String, String> {
         }
         _ => finished(app)?.report.charts().filter_map(html::svg).collect(),
     };
-    Ok(html::stack(&pictures))
+    Ok(html::stack_charts(&pictures))
 }
 
 /// The study on the screen, once it has a result.

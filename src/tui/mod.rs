@@ -4,7 +4,8 @@
 //! |---|---|
 //! | what the screen shows, and how news changes it | [`app`]; of each option [`compare`], of the studies [`studies`] |
 //! | what a key does: its action, the effect of that action | [`keymap`], `actions`, a file a screen |
-//! | the plan being edited | [`editor`], [`order`], [`name_list`], `stepped`, `paste`; its file: `plan_file`, [`unsaved`] |
+//! | the plan being edited | [`editor`], [`order_editor`], [`name_list`], `arrow_keys`, `paste`; its file: `plan_file`, [`recovery`] |
+//! | the terminal, taken and given back; signals | `display` |
 //! | how it is drawn | [`view`], a file a screen; styles: [`theme`] |
 //! | the line being typed, the flight being played, what is written to a file | [`prompt`], [`player`], [`export`] |
 //! | the start screen; the user's configuration | [`start`], [`config`] |
@@ -14,63 +15,44 @@
 
 mod actions;
 pub mod app;
+mod arrow_keys;
 pub mod compare;
 pub mod config;
+mod display;
 pub mod editor;
 pub mod export;
 pub mod keymap;
 pub mod name_list;
-pub mod order;
+pub mod order_editor;
 mod paste;
 mod plan_file;
 pub mod player;
 pub mod prompt;
+pub mod recovery;
 pub mod screen;
 pub mod start;
-mod stepped;
 pub mod studies;
 pub mod theme;
-pub mod unsaved;
 pub mod view;
 
-use std::io::{self, Stdout, Write};
+use std::io::{self, Write};
 use std::path::Path;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread;
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use crossterm::clipboard::CopyToClipboard;
-use crossterm::cursor::Show;
-use crossterm::event::{
-    self, DisableBracketedPaste, DisableMouseCapture, EnableBracketedPaste, EnableMouseCapture, Event,
-    KeyCode, KeyEvent, KeyEventKind, MouseButton, MouseEventKind,
-};
-use crossterm::terminal::{
-    Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
-};
-use crossterm::{ExecutableCommand, QueueableCommand};
-use ratatui::backend::CrosstermBackend;
-use ratatui::layout::Position;
-use ratatui::{Frame, Terminal};
+use crossterm::{ExecutableCommand, event};
 
+pub use self::actions::dispatch::dispatch;
 use self::app::{App, Areas, Request};
 use self::config::Config;
-use self::keymap::{Action, ctrl_c_as_esc};
+pub use self::display::ScreenStyle;
+use self::display::{Display, Signals, restore_on_panic};
 use self::plan_file::{PlanFile, Refusal};
 use self::prompt::Purpose;
 use self::start::{Next, Opened, Start};
 use crate::file;
 use crate::jobs::{Jobs, StudyKind};
-
-/// How the screen is drawn.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Look {
-    /// Plain characters only.
-    pub ascii: bool,
-    /// With colours.
-    pub color: bool,
-}
 
 /// How the user left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,7 +69,7 @@ const FRAME: Duration = Duration::from_millis(16);
 const IDLE: Duration = Duration::from_millis(250);
 
 /// Shows the app until the user leaves. `plan` is the file of the plan, if there is one; a changed file is read again.
-pub fn run(app: App, jobs: Jobs, look: Look, plan: Option<&Path>) -> io::Result<Exit> {
+pub fn run(app: App, jobs: Jobs, look: ScreenStyle, plan: Option<&Path>) -> io::Result<Exit> {
     // Under NO_COLOR crossterm would reset bold and reverse as well; `draw` removes the colours instead.
     crossterm::style::force_color_output(true);
     let signals = Signals::register()?;
@@ -95,7 +77,7 @@ pub fn run(app: App, jobs: Jobs, look: Look, plan: Option<&Path>) -> io::Result<
     let mut display = Display::open()?;
     let mut session = Session { app, jobs, file: plan.map(PlanFile::new) };
     session.take_unsaved();
-    session.serve(Request::Check);
+    session.carry_out(Request::Check);
     let exit = session.serve_events(&mut display, &signals, look);
     // Messages printed on the alternate screen would vanish with it.
     drop(display);
@@ -112,7 +94,12 @@ struct Session {
 
 impl Session {
     /// Draws and listens until the user leaves.
-    fn serve_events(&mut self, display: &mut Display, signals: &Signals, look: Look) -> io::Result<Exit> {
+    fn serve_events(
+        &mut self,
+        display: &mut Display,
+        signals: &Signals,
+        look: ScreenStyle,
+    ) -> io::Result<Exit> {
         let (mut dirty, mut drawn) = (true, Instant::now());
         loop {
             dirty |= self.listen();
@@ -135,7 +122,7 @@ impl Session {
                 Request::Suspend
             } else if event::poll(if busy { FRAME } else { IDLE })? {
                 dirty = true;
-                match update(&mut self.app, &event::read()?) {
+                match dispatch(&mut self.app, &event::read()?) {
                     Request::None => self.app.request_flight(),
                     request => request,
                 }
@@ -148,7 +135,7 @@ impl Session {
                     display.suspend()?;
                     dirty = true;
                 }
-                other => self.serve(other),
+                other => self.carry_out(other),
             }
         }
     }
@@ -156,9 +143,11 @@ impl Session {
     /// Takes back the edits that the last session could not save; they can be undone.
     fn take_unsaved(&mut self) {
         // A plan without a file is offered by the start screen.
-        let Some(kept) = self.file.as_ref().and_then(|file| unsaved::kept(Some(file.path()))) else { return };
+        let Some(kept) = self.file.as_ref().and_then(|file| recovery::find(Some(file.path()))) else {
+            return;
+        };
         let request = self.app.take_unsaved(kept);
-        self.serve(request);
+        self.carry_out(request);
     }
 
     /// Keeps the edits that are not saved, unless the user gave them up.
@@ -166,11 +155,15 @@ impl Session {
         let plan = self.file.as_ref().map(PlanFile::path);
         match (self.app.editor.unsaved(), given_up, plan) {
             (true, false, _) => {
-                if let Err(error) = unsaved::keep(plan, self.app.editor.saved(), &self.app.editor.text) {
-                    let _ = writeln!(io::stderr(), "edits that were not saved are lost: {error}");
+                if let Err(error) = recovery::save(plan, self.app.editor.saved(), &self.app.editor.text) {
+                    let _ = writeln!(
+                        io::stderr(),
+                        "edits that were not saved are lost: {}",
+                        crate::plan::visible(&error.to_string())
+                    );
                 }
             }
-            (true, true, _) | (false, _, Some(_)) => unsaved::drop(plan),
+            (true, true, _) | (false, _, Some(_)) => recovery::drop(plan),
             // An example that was only looked at says nothing about a new plan kept before.
             (false, _, None) => {}
         }
@@ -185,18 +178,18 @@ impl Session {
         }
         if self.app.behind && !self.app.is_changing() {
             self.app.behind = false;
-            self.file.iter_mut().for_each(PlanFile::forget);
+            self.file.iter_mut().for_each(PlanFile::expect_change);
         }
         if let Some(read) = self.file.as_mut().and_then(PlanFile::changed) {
             let request = self.app.reload(read);
-            self.serve(request);
+            self.carry_out(request);
             heard = true;
         }
         heard
     }
 
     /// Serves a request of the app.
-    fn serve(&mut self, request: Request) {
+    fn carry_out(&mut self, request: Request) {
         match request {
             Request::None | Request::Quit | Request::Suspend => {}
             Request::Check => self.jobs.check(&self.app.case, self.app.compute),
@@ -269,7 +262,7 @@ impl Session {
     fn save_as(&mut self, path: &Path) {
         let written = file::create(path, &self.app.editor.text).map_err(|error| error.to_string());
         if written.is_ok() {
-            unsaved::drop(self.file.as_ref().map(PlanFile::path));
+            recovery::drop(self.file.as_ref().map(PlanFile::path));
             self.file = Some(PlanFile::new(path));
             self.app.rename(path);
             config::remember(path);
@@ -281,7 +274,7 @@ impl Session {
 }
 
 /// Lets the user choose a plan to open, or leave.
-pub fn choose(mut start: Start, config: &Config, look: Look) -> io::Result<Result<Opened, Exit>> {
+pub fn choose(mut start: Start, config: &Config, look: ScreenStyle) -> io::Result<Result<Opened, Exit>> {
     crossterm::style::force_color_output(true);
     let signals = Signals::register()?;
     restore_on_panic();
@@ -301,140 +294,5 @@ pub fn choose(mut start: Start, config: &Config, look: Look) -> io::Result<Resul
             Next::Open(opened) => return Ok(Ok(opened)),
             Next::Quit => return Ok(Err(Exit::Quit)),
         }
-    }
-}
-
-/// Passes a terminal event to the app.
-pub fn update(app: &mut App, event: &Event) -> Request {
-    match event {
-        Event::Key(key) if key.kind == KeyEventKind::Release => Request::None,
-        Event::Key(key) if app.prompt.is_some() => app.type_in_prompt(&ctrl_c_as_esc(key)),
-        Event::Key(key) if app.editor.typing() => app.type_key(&ctrl_c_as_esc(key)),
-        Event::Key(KeyEvent { code: KeyCode::Esc, .. }) => app.escape(),
-        Event::Key(key) => app.keymap.action(key).map_or(Request::None, |action| app.act(action)),
-        Event::Paste(text) => {
-            app.paste(text);
-            Request::None
-        }
-        Event::Mouse(_) if app.prompt.is_some() || app.editor.typing() => Request::None,
-        Event::Mouse(mouse) => match mouse.kind {
-            MouseEventKind::Down(MouseButton::Left) => app.click(Position::new(mouse.column, mouse.row)),
-            MouseEventKind::ScrollUp => app.act(Action::Up),
-            MouseEventKind::ScrollDown => app.act(Action::Down),
-            _ => Request::None,
-        },
-        _ => Request::None,
-    }
-}
-
-/// The terminal while the program draws on it.
-struct Display {
-    /// There until it is given back.
-    terminal: Option<Terminal<CrosstermBackend<Stdout>>>,
-}
-
-impl Display {
-    fn open() -> io::Result<Self> {
-        enter()?;
-        // From here on `drop` gives the terminal back.
-        Terminal::new(CrosstermBackend::new(io::stdout()))
-            .map(|terminal| Self { terminal: Some(terminal) })
-            .inspect_err(|_| leave())
-    }
-
-    fn draw(&mut self, look: Look, content: impl FnOnce(&mut Frame)) -> io::Result<()> {
-        let Some(terminal) = &mut self.terminal else { return Ok(()) };
-        terminal.draw(|frame| {
-            content(frame);
-            let buffer = frame.buffer_mut();
-            if look.ascii {
-                theme::to_ascii(buffer);
-            }
-            if !look.color {
-                theme::without_color(buffer);
-            }
-        })?;
-        Ok(())
-    }
-
-    fn suspend(&mut self) -> io::Result<()> {
-        leave();
-        #[cfg(unix)]
-        signal_hook::low_level::raise(signal_hook::consts::SIGSTOP)?;
-        enter()?;
-        // A new one draws every cell. `clear` would ask the terminal for its cursor, and wait for the answer.
-        self.terminal = Some(Terminal::new(CrosstermBackend::new(io::stdout()))?);
-        Ok(())
-    }
-}
-
-impl Drop for Display {
-    fn drop(&mut self) {
-        leave();
-        // A `Terminal` that cannot show its cursor says so on standard error, and panics where that is gone, too.
-        if let Some(mut terminal) = self.terminal.take()
-            && terminal.show_cursor().is_err()
-        {
-            std::mem::forget(terminal);
-        }
-    }
-}
-
-fn enter() -> io::Result<()> {
-    enable_raw_mode()?;
-    let mut out = io::stdout();
-    // Some terminals do not clear the alternate screen.
-    let entered = out
-        .execute(EnterAlternateScreen)
-        .and_then(|out| out.execute(Clear(ClearType::All)))
-        .and_then(|out| out.execute(EnableMouseCapture))
-        .and_then(|out| out.execute(EnableBracketedPaste));
-    entered.map(|_| ()).inspect_err(|_| leave())
-}
-
-/// Gives the terminal back. A terminal that is gone is no error: nothing is left to do.
-fn leave() {
-    let mut out = io::stdout();
-    let _ = out
-        .queue(DisableBracketedPaste)
-        .and_then(|out| out.queue(DisableMouseCapture))
-        .and_then(|out| out.queue(LeaveAlternateScreen))
-        .and_then(|out| out.queue(Show))
-        .map(Write::flush);
-    let _ = disable_raw_mode();
-}
-
-/// Makes a panic of this thread give the terminal back before the panic is reported. A panic of a job is the result of that
-/// job, and the screen shows it.
-fn restore_on_panic() {
-    let (ours, report) = (thread::current().id(), std::panic::take_hook());
-    std::panic::set_hook(Box::new(move |panic| {
-        if thread::current().id() == ours {
-            leave();
-            report(panic);
-        }
-    }));
-}
-
-/// Flags that signals set.
-struct Signals {
-    /// Terminate, interrupt, quit or hang up.
-    end: Arc<AtomicBool>,
-    /// Stop.
-    stop: Arc<AtomicBool>,
-}
-
-impl Signals {
-    fn register() -> io::Result<Self> {
-        let signals = Self { end: Arc::default(), stop: Arc::default() };
-        #[cfg(unix)]
-        {
-            use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP};
-            for signal in [SIGHUP, SIGINT, SIGQUIT, SIGTERM] {
-                signal_hook::flag::register(signal, Arc::clone(&signals.end))?;
-            }
-            signal_hook::flag::register(SIGTSTP, Arc::clone(&signals.stop))?;
-        }
-        Ok(signals)
     }
 }

@@ -42,7 +42,7 @@ impl PlanFile {
     }
 
     /// Makes the next look find the file changed.
-    pub fn forget(&mut self) {
+    pub fn expect_change(&mut self) {
         self.seen = None;
     }
 

@@ -22,7 +22,7 @@ impl Screen {
         [Screen::Plan, Screen::Compare, Screen::Flight, Screen::Studies, Screen::Accuracy];
 
     /// The screen `by` places further; the first follows the last.
-    pub fn turned(self, by: usize) -> Self {
+    pub fn next_by(self, by: usize) -> Self {
         Self::ALL[(self as usize + by) % Self::ALL.len()]
     }
 

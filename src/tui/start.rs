@@ -217,7 +217,7 @@ impl Start {
                 "Up Down question · Enter next, at the last: make the plan · Esc back".to_owned()
             }
         };
-        let keys = Paragraph::new(Line::styled(keys, theme.quiet()));
+        let keys = Paragraph::new(Line::styled(keys, theme.muted()));
         frame.render_widget(keys.wrap(Wrap { trim: true }), foot);
     }
 
@@ -227,10 +227,10 @@ impl Start {
             let (name, kind) = match choice {
                 Choice::New => ("A new plan by a few questions".to_owned(), ""),
                 Choice::Unsaved(_) => ("The new plan of the last session, not saved".to_owned(), ""),
-                Choice::File(path) => (path.display().to_string(), ""),
+                Choice::File(path) => (crate::plan::visible(&path.display().to_string()).into_owned(), ""),
                 Choice::Example(name, _) => ((*name).to_owned(), "  example"),
             };
-            Line::from(vec![Span::styled(format!(" {name} "), style), Span::styled(kind, theme.quiet())])
+            Line::from(vec![Span::styled(format!(" {name} "), style), Span::styled(kind, theme.muted())])
         };
         let mut state = ListState::default().with_selected(Some(self.selected));
         frame.render_stateful_widget(List::new(self.choices.iter().enumerate().map(row)), area, &mut state);
@@ -298,7 +298,7 @@ impl Questions {
             .enumerate()
             .map(|(n, ((question, _), answer))| {
                 let style = if n == self.selected { theme.selected() } else { theme.base() };
-                let question = Span::styled(format!(" {question:width$}  "), theme.quiet());
+                let question = Span::styled(format!(" {question:width$}  "), theme.muted());
                 Line::from(vec![question, Span::styled(format!(" {} ", answer.value()), style)])
             })
             .collect();

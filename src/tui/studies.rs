@@ -180,7 +180,7 @@ impl Studies {
     }
 
     /// Follows a change of the plan to this text. Results stay, as those of the plan before; what computes has no result.
-    pub fn follow(&mut self, plan: &str) {
+    pub fn mark_as_of_plan_before(&mut self, plan: &str) {
         self.plan = plan.into();
         for state in &mut self.states {
             if !matches!(state, StudyState::Done(_)) {
@@ -193,14 +193,14 @@ impl Studies {
 
     /// Takes the result of the study that was shown before a change of the plan as one of the plan now: the change does not
     /// concern it.
-    pub fn keep(&mut self, before: &Self) {
+    pub fn keep_shown_result(&mut self, before: &Self) {
         let kind = before.shown;
         self.selected = before.selected;
         self.set(kind, before.states[kind as usize].clone());
     }
 
     /// Shows the study `by` tabs further; the first follows the last.
-    pub fn turn(&mut self, by: isize) {
+    pub fn show_neighbour(&mut self, by: isize) {
         let kinds = StudyKind::OF_PLAN;
         let shown = kinds.iter().position(|kind| *kind == self.shown).unwrap_or(0) as isize;
         self.show(kinds[(shown + by).rem_euclid(kinds.len() as isize) as usize]);

@@ -50,7 +50,7 @@ impl Theme {
     }
 
     /// Text of little importance.
-    pub fn quiet(self) -> Style {
+    pub fn muted(self) -> Style {
         match self {
             Theme::Dark => Style::new().fg(Color::Gray),
             Theme::Light => Style::new().fg(Color::Rgb(80, 80, 80)),

@@ -341,3 +341,40 @@ fn a_save_keeps_the_owner_or_refuses() {
     }
     assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 2, "nothing is left beside it");
 }
+
+/// A file name that clears the screen, turns text round or begins a line is shown, not done.
+#[cfg(unix)]
+#[test]
+fn a_file_name_with_characters_that_nobody_sees_is_shown() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = include_str!("../../plans/paper-5-tire.toml").replacen("title", "# title", 1);
+    let names = ["\u{1b}[2Ja.toml", "PASS\n\u{202e}b.toml"];
+    for (name, shown) in names.iter().zip(["\\u{1b}[2Ja.toml", "PASS\\n\\u{202e}b.toml"]) {
+        let plan = folder.path().join(name);
+        let page = folder.path().join("page.html");
+        let run = |arguments: &[&str]| {
+            let output =
+                Command::new(PROGRAM).args(arguments).current_dir(folder.path()).output().expect("it runs");
+            let all = [output.stdout, output.stderr].concat();
+            String::from_utf8(all).expect("UTF-8")
+        };
+        let hidden = |text: &str| text.contains(['\u{1b}', '\u{202e}']) || text.contains("PASS\n");
+        let path = plan.to_str().expect("UTF-8");
+        fs::write(&plan, &text).expect("written");
+        let checked = run(&["check", path, "--nominal"]);
+        assert!(checked.contains(shown) && !hidden(&checked), "{checked}");
+        let _ = run(&["report", path, "--nominal", "-o", page.to_str().expect("UTF-8")]);
+        let written = fs::read_to_string(&page).expect("the page");
+        assert!(written.contains(shown) && !written.contains(['\u{1b}', '\u{202e}']));
+        fs::remove_file(&page).expect("removed");
+        fs::write(&plan, "rows = \"\u{202e}\"\n\"\u{9b}2J\" = 1").expect("written");
+        for told in [
+            run(&["check", path]),
+            run(&["check", "none", path]),
+            run(&["init", path]),
+            run(&["merge", path]),
+        ] {
+            assert!(!told.is_empty() && told.contains(shown) && !hidden(&told), "{told}");
+        }
+    }
+}

@@ -8,7 +8,7 @@ use shelter::choice::{ObservedQuantity, Unknown};
 use shelter::plan::observations::{Observations, Watched, template};
 use shelter::plan::{Plan, PlanSource};
 use shelter::study::fit::possible::{as_fired, next_observation};
-use shelter::study::fit::{Answer, Fit, FitResult, NotDetermined, Request, addresses, fit};
+use shelter::study::fit::{Answer, Fit, FitResult, NotDetermined, Request, fit, observable_names};
 use shelter::study::{Case, ComputeSettings, Progress};
 
 use crate::support::{json, shelter, shipped, small_plan, text};
@@ -19,7 +19,7 @@ fn case_of(text: &str) -> Case {
 }
 
 fn observations(case: &Case, lines: &str) -> Observations {
-    let read = Observations::parse("seen.csv", lines, &addresses(case));
+    let read = Observations::parse("seen.csv", lines, &observable_names(case));
     read.unwrap_or_else(|mistakes| panic!("{mistakes}"))
 }
 
@@ -248,8 +248,8 @@ fn bands_are_those_of_what_could_be_seen() {
         // The lognormal leans by a part of its standard deviation.
         assert!((0.5 * (high - low) / exact - 1.0).abs() < 0.08, "{low} {high} {exact}");
         assert!((0.5 * (low + high) - planned).abs() < 0.15 * exact, "{low} {high}");
-        assert_eq!(fired[0].holds(planned), Some(true));
-        assert_eq!(fired[0].holds(high + 0.1), Some(false));
+        assert_eq!(fired[0].contains(planned), Some(true));
+        assert_eq!(fired[0].contains(high + 0.1), Some(false));
     }
 }
 
@@ -355,7 +355,7 @@ fn malformed_observations_have_their_line_and_remedy() {
     for (good, bad) in BAD {
         assert!(GOOD.contains(good), "{good:?} is in the good file");
         let lines = GOOD.replacen(good, bad, 1);
-        let mistakes = Observations::parse("seen.csv", &lines, &addresses(&case)).expect_err(bad);
+        let mistakes = Observations::parse("seen.csv", &lines, &observable_names(&case)).expect_err(bad);
         let _ = writeln!(all, "## {}", bad.replace('\n', " / "));
         for (line, column, message, remedy) in mistakes.iter() {
             let _ = writeln!(all, "{line}:{column} {message}\n    {remedy}");

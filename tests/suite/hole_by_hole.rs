@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 
 use shelter::plan::Plan;
 use shelter::scene::Firing;
+use shelter::study::eight_ms::WithinEightMs;
 use shelter::study::orders::try_orders;
 use shelter::study::samples::draw::draw;
 use shelter::study::sweep::sweep;
-use shelter::study::together::Together;
 use shelter::study::{Case, ComputeSettings, Intervals, NoResult, Progress, Shard};
 use shelter::verdict::Verdict;
 
@@ -175,19 +175,19 @@ fn a_schedule_written_out_hole_by_hole_is_the_same_shot() {
 fn most_holes_and_the_heaviest_charge_within_8_ms() {
     let together = |hole_ms: f64, row: &str| {
         let case = case(&plan(10, row, "", &format!("interval_ms = 500, hole_interval_ms = {hole_ms}")));
-        Together::of(&case, &case.shots[0])
+        WithinEightMs::of(&case, &case.shots[0])
     };
     for (hole_ms, holes) in [(2.0, 4), (8.0, 1), (7.999, 2), (8.0004, 1), (2.7, 3), (0.0, 10)] {
-        assert_eq!(together(hole_ms, ""), Together { holes, charge: None }, "{hole_ms} ms");
+        assert_eq!(together(hole_ms, ""), WithinEightMs { holes, charge: None }, "{hole_ms} ms");
         let charge = Some(12.5 * holes as f64);
-        assert_eq!(together(hole_ms, ", charge_kg = 12.5"), Together { holes, charge }, "{hole_ms} ms");
+        assert_eq!(together(hole_ms, ", charge_kg = 12.5"), WithinEightMs { holes, charge }, "{hole_ms} ms");
     }
     let text = plan(4, "", "", "interval_ms = 3")
         .replace("under_row = 1, launch_m_s = 5", "under_row = 1, launch_m_s = 5, charge_kg = 20")
         .replace("under_row = 2, launch_m_s = 6", "under_row = 2, launch_m_s = 6, charge_kg = 7");
     let case = case(&text);
-    let together = Together::of(&case, &case.shots[0]);
-    assert_eq!(together, Together { holes: 8, charge: Some(108.0) }, "both rows within 3 ms");
+    let together = WithinEightMs::of(&case, &case.shots[0]);
+    assert_eq!(together, WithinEightMs { holes: 8, charge: Some(108.0) }, "both rows within 3 ms");
 }
 
 #[test]

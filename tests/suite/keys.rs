@@ -9,10 +9,10 @@ use shelter::study::NoResult;
 use shelter::tui::app::{App, Request};
 use shelter::tui::compare::{OptionState, SortBy};
 use shelter::tui::config::Config;
+use shelter::tui::dispatch;
 use shelter::tui::prompt::Purpose;
 use shelter::tui::screen::Screen;
 use shelter::tui::start::{EXAMPLES, Next, Opened, Start};
-use shelter::tui::update;
 
 use super::stage::{draw, draw_areas, finished, key, recorded, spreads, study_ends, swept, text};
 
@@ -33,7 +33,7 @@ fn click(app: &mut App, words: &str) -> Request {
         row: at.y,
         modifiers: KeyModifiers::NONE,
     };
-    update(app, &Event::Mouse(mouse))
+    dispatch(app, &Event::Mouse(mouse))
 }
 
 fn names(app: &App) -> Vec<&str> {
@@ -122,7 +122,7 @@ fn clicks_do_what_keys_do() {
     let wheel =
         MouseEvent { kind: MouseEventKind::ScrollDown, column: 0, row: 9, modifiers: KeyModifiers::NONE };
     let before = app.editor.selected;
-    update(&mut app, &Event::Mouse(wheel));
+    dispatch(&mut app, &Event::Mouse(wheel));
     assert_eq!(app.editor.selected, before + 1);
     assert_eq!(click(&mut app, "q quit"), Request::Quit);
 }

@@ -240,3 +240,29 @@ fn studies_that_do_not_fit_into_memory_are_refused_beforehand() {
         assert!(told.contains("do not fit into memory"), "{told}");
     }
 }
+
+/// The same table twice: with commas for scripts, and for spreadsheets where 0,5 is one half.
+#[test]
+fn csv_for_spreadsheets_with_decimal_commas() {
+    let plan = shipped("paper-5-tire.toml");
+    for command in [&["check", &plan, "--nominal"][..], &["trace", &plan, "--every", "50"]] {
+        let [commas, semicolons] = ["csv", "csv-semicolon"].map(|format| {
+            let output = shelter(&[command, &["--format", format]].concat());
+            String::from_utf8(output.stdout).expect("UTF-8")
+        });
+        let text = semicolons.strip_prefix('\u{feff}').expect("a byte order mark");
+        let read = |text: &str, between: u8| -> Vec<Vec<String>> {
+            let mut reader = csv::ReaderBuilder::new().delimiter(between).from_reader(text.as_bytes());
+            reader.records().map(|row| row.expect("a row").iter().map(str::to_owned).collect()).collect()
+        };
+        let (commas, semicolons) = (read(&commas, b','), read(text, b';'));
+        assert!(!commas.is_empty() && commas.len() == semicolons.len());
+        for (a, b) in commas.concat().iter().zip(&semicolons.concat()) {
+            match a.parse::<f64>() {
+                Ok(number) => assert_eq!(b.replace(',', ".").parse(), Ok(number)),
+                Err(_) => assert_eq!(a, b),
+            }
+            assert!(a.parse::<f64>().is_err() || !b.contains('.'), "{b}");
+        }
+    }
+}

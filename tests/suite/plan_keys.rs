@@ -1,4 +1,4 @@
-//! The table of keys against all that use it: the reader, the schema, the editor, the README.
+//! The table of keys against all that use it: the reader, the schema, the editor, plans/README.md.
 
 use std::collections::BTreeSet;
 
@@ -244,13 +244,14 @@ fn a_value_replaced_by_itself_changes_nothing() {
 }
 
 #[test]
-fn the_plan_in_the_readme_has_only_keys_of_the_table() {
-    let readme = include_str!("../../README.md");
+fn the_plan_of_the_reference_has_only_keys_of_the_table() {
+    let reference = include_str!("../../plans/README.md");
     let known: BTreeSet<String> = all_keys(&plan::SECTION, &[])
         .into_iter()
         .map(|(path, key)| path.iter().chain([&key.name]).copied().collect::<Vec<_>>().join("."))
         .collect();
-    let listing = readme.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a plan");
+    let listing =
+        reference.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a plan");
     let document: DocumentMut = listing.parse().expect("TOML");
     let mut checked = 0;
     for (section, item) in document.iter() {

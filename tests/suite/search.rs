@@ -2,12 +2,12 @@
 
 use shelter::plan::{Plan, PlanSource, edit};
 use shelter::study::as_planned::check::check_shot;
+use shelter::study::eight_ms::WithinEightMs;
 use shelter::study::judge_options::OptionResults;
 use shelter::study::orders::try_orders;
 use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::sampling::Sampling;
 use shelter::study::search::{MOST_JUDGED, Search, duration, search};
-use shelter::study::together::Together;
 use shelter::study::{Case, ComputeSettings, NoResult, Progress, Shard};
 use shelter::verdict::Verdict;
 
@@ -134,7 +134,7 @@ fn what_is_found_keeps_the_limits_of_the_search() {
     assert!(found.judged > 0 && found.judged < found.possible);
     for shot in &found.case.shots {
         assert!(duration(shot) <= 0.08 + 1e-9);
-        assert!(Together::of(&case, shot).holes <= 2);
+        assert!(WithinEightMs::of(&case, shot).holes <= 2);
     }
     let none = searched(&self::case(&plan("intervals_ms = [67], longest_ms = 80")), None);
     assert_eq!((none.judged, none.verdict(), none.results.len()), (0, Verdict::Fail, 0));
@@ -163,7 +163,7 @@ fn too_many_schedules_are_searched() {
     let again = searched(&case, None);
     assert_eq!(found.schedules, again.schedules, "the same every time");
     for (n, schedule) in found.schedules.iter().enumerate() {
-        assert!(found.schedules[..n].iter().all(|other| !other.is_near(schedule)), "told apart");
+        assert!(found.schedules[..n].iter().all(|other| !other.is_nearly_same(schedule)), "told apart");
     }
 }
 

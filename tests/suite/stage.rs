@@ -29,7 +29,7 @@ use shelter::study::{ShotSummary, ValueWithError};
 use shelter::tui::app::{App, Areas, Request};
 use shelter::tui::compare::OptionState;
 use shelter::tui::config::Config;
-use shelter::tui::{update, view};
+use shelter::tui::{dispatch, view};
 use shelter::verdict::{Estimate, Quantity, Verdict};
 
 use super::support::shipped;
@@ -144,7 +144,7 @@ pub fn text(buffer: &Buffer) -> String {
 }
 
 pub fn key(app: &mut App, code: KeyCode) -> Request {
-    update(app, &Event::Key(KeyEvent::new(code, KeyModifiers::NONE)))
+    dispatch(app, &Event::Key(KeyEvent::new(code, KeyModifiers::NONE)))
 }
 
 /// A study has ended, computed with the settings of the screen.

@@ -49,7 +49,7 @@ pub struct Imported {
 /// A plan for the list of holes in a file; `-` is standard input. A ZIP archive is a design of SHOTPlus, anything else a table
 /// as [`plan_from_holes`] takes it.
 pub fn plan_from_file(path: &Path, directions: Directions) -> Result<Imported, Diagnostics> {
-    let name = path.display().to_string();
+    let name = crate::plan::visible(&path.display().to_string()).into_owned();
     let unreadable = |(message, remedy): Unreadable| Diagnostics::unreadable(&name, message, remedy);
     let bytes = read_bytes(path).map_err(unreadable)?;
     if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06") {

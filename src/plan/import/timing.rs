@@ -110,7 +110,7 @@ fn times(holes: &[ListedHole]) -> Result<Option<Vec<f64>>, Vec<Mistake>> {
     }
     let times = if absolute { firing_times(holes)? } else { chained_times(holes)? };
     if absolute && delays_are_whole(holes) {
-        agree(holes, &times)?;
+        require_agreement(holes, &times)?;
     }
     Ok(Some(times))
 }
@@ -130,7 +130,7 @@ pub fn delays_are_whole(holes: &[ListedHole]) -> bool {
 }
 
 /// Firing times and delays after other holes must tell the same, where a list has both.
-fn agree(holes: &[ListedHole], times: &[f64]) -> Result<(), Vec<Mistake>> {
+fn require_agreement(holes: &[ListedHole], times: &[f64]) -> Result<(), Vec<Mistake>> {
     let chained = chained_times(holes)?;
     let first = |times: &[f64]| times.iter().copied().fold(f64::INFINITY, f64::min);
     let (start, chained_start) = (first(times), first(&chained));

@@ -85,7 +85,7 @@ pub fn unit(quantity: ObservedQuantity) -> &'static str {
 
 /// What observations may name: the delay options of a plan, and the tires and cables of its shelter.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Addresses {
+pub struct ObservableNames {
     /// Names of the delay options.
     pub options: Vec<String>,
     /// Numbers of each tire: row and column, or its number in the list (`n_tires`).
@@ -96,8 +96,8 @@ pub struct Addresses {
 
 impl Observations {
     /// Reads a file; `-` is standard input.
-    pub fn read(path: &Path, known: &Addresses) -> Result<Self, Diagnostics> {
-        let name = path.display().to_string();
+    pub fn read(path: &Path, known: &ObservableNames) -> Result<Self, Diagnostics> {
+        let name = crate::plan::visible(&path.display().to_string()).into_owned();
         match read_bytes(path).and_then(text_of) {
             Ok(text) => Self::parse(&name, &text, known),
             Err((message, _)) => Err(Diagnostics::unreadable(
@@ -109,7 +109,7 @@ impl Observations {
     }
 
     /// Reads the text of the file `path`.
-    pub fn parse(path: &str, text: &str, known: &Addresses) -> Result<Self, Diagnostics> {
+    pub fn parse(path: &str, text: &str, known: &ObservableNames) -> Result<Self, Diagnostics> {
         let source = text.strip_prefix('\u{feff}').unwrap_or(text);
         let list = read(source, known).map_err(|mistakes| Diagnostics::new(path, source, mistakes))?;
         // Of what was seen, not of the text: a comment or another order of the lines makes no other shot.
@@ -148,7 +148,7 @@ fn mistake(line: &Line, message: impl Into<String>, remedy: impl Into<String>) -
     Mistake { span: line.span.clone(), message: message.into(), remedy: remedy.into() }
 }
 
-fn read(source: &str, known: &Addresses) -> Result<Vec<Observation>, Vec<Mistake>> {
+fn read(source: &str, known: &ObservableNames) -> Result<Vec<Observation>, Vec<Mistake>> {
     let separator = separator(source);
     let all = lines(source, separator).map_err(|error| {
         let message = format!("the table cannot be read: {error}");
@@ -207,7 +207,7 @@ struct Columns {
     width: usize,
 }
 
-fn read_header(header: &Line, known: &Addresses) -> Result<Columns, Vec<Mistake>> {
+fn read_header(header: &Line, known: &ObservableNames) -> Result<Columns, Vec<Mistake>> {
     let width = header.values.iter().rposition(|name| !name.is_empty()).map_or(0, |last| last + 1);
     let mut columns = Columns { at: [None; COLUMNS.len()], width };
     let mut mistakes = Vec::new();

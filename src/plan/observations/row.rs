@@ -3,8 +3,8 @@
 use itertools::Itertools;
 
 use super::{
-    AT, Addresses, CABLE, COLUMNS, Columns, OPTION, Observation, QUANTITY, SD, TIRE, VALUE, Watched, mistake,
-    unit,
+    AT, CABLE, COLUMNS, Columns, OPTION, ObservableNames, Observation, QUANTITY, SD, TIRE, VALUE, Watched,
+    mistake, unit,
 };
 use crate::choice::ObservedQuantity;
 use crate::plan::diagnostic::Mistake;
@@ -16,7 +16,7 @@ use crate::plan::reader::nearest;
 pub(super) struct Row<'r> {
     pub(super) line: &'r Line,
     pub(super) columns: &'r Columns,
-    pub(super) known: &'r Addresses,
+    pub(super) known: &'r ObservableNames,
     /// Whether numbers have decimal commas.
     pub(super) comma: bool,
 }

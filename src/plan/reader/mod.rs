@@ -14,9 +14,10 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 pub use self::value::nearest;
-use self::value::{article, as_number, as_whole, out_of};
+use self::value::{article, as_number, as_whole, range_mistake};
 use super::diagnostic::Mistake;
 use super::keys::{DefaultValue, Key, RENAMED, Section};
+use super::visible::turns_text;
 
 /// Mistakes found so far.
 #[derive(Debug, Default)]
@@ -128,7 +129,7 @@ impl<'s> SectionReader<'s> {
             return None;
         };
         let range = key.kind.range();
-        let Some(message) = out_of(range, number) else { return Some(number) };
+        let Some(message) = range_mistake(range, number) else { return Some(number) };
         let (name, example) = (key.name, key.example);
         self.mistakes.add(
             value.span(),
@@ -274,9 +275,4 @@ impl<'s> SectionReader<'s> {
             self.mistakes.add(key.span(), message, remedy);
         }
     }
-}
-
-/// Whether a character changes the direction of the text around it: what is read would not be what is written.
-fn turns_text(letter: char) -> bool {
-    matches!(letter, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }

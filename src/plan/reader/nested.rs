@@ -35,7 +35,7 @@ impl<'s> SectionReader<'s> {
     }
 
     /// A list of whole numbers, if the plan has the key; the caller checks their range.
-    pub fn wholes(&self, key: &Key) -> Option<At<Vec<At<usize>>>> {
+    pub fn whole_numbers(&self, key: &Key) -> Option<At<Vec<At<usize>>>> {
         self.list(key, |item| {
             let number = as_whole(item.get_ref());
             if number.is_none() {

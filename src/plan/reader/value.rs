@@ -11,7 +11,7 @@ pub fn nearest<'k>(name: &str, known: impl Iterator<Item = &'k str>) -> Option<&
 }
 
 /// Why a number is not in a range; `None` where it is.
-pub fn out_of(range: &RangeInclusive<f64>, number: f64) -> Option<String> {
+pub fn range_mistake(range: &RangeInclusive<f64>, number: f64) -> Option<String> {
     let (low, high) = (range.start(), range.end());
     if number.is_nan() {
         Some("is not a number".to_owned())

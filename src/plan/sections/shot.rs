@@ -111,7 +111,7 @@ fn read_targets(
         return LaunchTargets::Holes(read_holes(section, ground, simulation));
     }
     let launch = read_launch(section, simulation);
-    if let Some(tires) = section.wholes(&blast_row::UNDER_TIRES) {
+    if let Some(tires) = section.whole_numbers(&blast_row::UNDER_TIRES) {
         let layout = ground.map(|ground| ground.layout);
         let count = match layout {
             Some(Layout::List { tires, .. }) => tires.len(),

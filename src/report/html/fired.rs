@@ -8,9 +8,9 @@ use crate::report::{check, explain, no_result, reasons};
 use crate::scene::Shot;
 use crate::study::Case;
 use crate::study::as_planned::margin::LaunchMargin;
+use crate::study::eight_ms::WithinEightMs;
 use crate::study::judgement::Evidence;
 use crate::study::judgement::Judgement;
-use crate::study::together::Together;
 use crate::units;
 use crate::verdict::{Quantity, Verdict};
 
@@ -21,7 +21,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     };
     let case = page.case;
     let (delay, shot, result) = (&case.plan.delays[option], &case.shots[option], &page.results[option]);
-    let together = explain::together(Together::of(case, shot));
+    let together = explain::together(WithinEightMs::of(case, shot));
     let verdict = result.as_ref().map_or(Verdict::Undecided, Judgement::verdict);
     let caveat = check::pass_caveat(case, page.sampling.is_some());
     let reasons = match result {

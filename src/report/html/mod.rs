@@ -11,7 +11,7 @@ mod table;
 mod top_view;
 mod words;
 
-pub use self::svg::{stack, svg};
+pub use self::svg::{stack_charts, svg};
 use self::table::word;
 pub use self::top_view::svg as top_view;
 
@@ -73,7 +73,7 @@ pub fn page(page: &Page<'_>) -> String {
                 meta name="generator" content="shelter";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (case.title()) }
-                style { (PreEscaped(style::sheet(&foot(page, &hash)))) }
+                style { (PreEscaped(style::style_sheet(&foot(page, &hash)))) }
             }
             body {
                 h1 { (case.title()) }

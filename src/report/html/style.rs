@@ -39,7 +39,7 @@ tr, li, dt, dd, .charts, .view, .blank, .signatures, div.fired, section.whole { 
 ";
 
 /// The style sheet; at the foot of every printed page stand `foot` and the number of the page.
-pub fn sheet(foot: &str) -> String {
+pub fn style_sheet(foot: &str) -> String {
     let small = "font: 8pt system-ui, sans-serif; color: #555";
     // Without a size the page takes the paper of the printer: A4 or Letter.
     let page = format!(

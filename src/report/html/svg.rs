@@ -105,7 +105,7 @@ fn label(axis: Axis, coordinate: f64) -> String {
 }
 
 /// Several charts below each other as one picture.
-pub fn stack(charts: &[String]) -> String {
+pub fn stack_charts(charts: &[String]) -> String {
     if let [chart] = charts {
         return chart.clone();
     }

@@ -18,7 +18,7 @@ pub fn table(table: &Table, fired: Option<usize>) -> Markup {
             tbody {
                 @for (option, row) in table.rows.iter().enumerate() {
                     tr.fired[fired == Some(option)] {
-                        @let known = row.known(&seen);
+                        @let known = row.count_known(&seen);
                         @for &n in &seen[..known] { td class=[number(n)] { (cell(&row.cells[n])) } }
                         @if let Some(missing) = &row.missing { td colspan=(seen.len() - known) { (missing) } }
                     }

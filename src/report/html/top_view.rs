@@ -57,11 +57,11 @@ fn peaks(case: &Case, checked: Option<&CheckedShot>) -> Vec<Peak> {
     let Some(CheckedShot { height, force, .. }) = checked else { return Vec::new() };
     let scene = case.scene();
     let pulled = || {
-        let value = units::known(force.value, force.error, Unit::Kilonewton);
+        let value = units::value_by_error(force.value, force.error, Unit::Kilonewton);
         format!("greatest force: cable {}, {value} kN", scene.cable_name(force.index))
     };
     let lifted = || {
-        let value = units::known(height.value, height.error, Unit::Metre);
+        let value = units::value_by_error(height.value, height.error, Unit::Metre);
         format!("highest: tire {}, {value} m", scene.tire[height.index])
     };
     let cable = (force.value > 0.0).then(|| Peak::Cable(force.index, pulled()));

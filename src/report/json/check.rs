@@ -14,11 +14,11 @@ use crate::report::reasons;
 use crate::report::{no_result, warnings};
 use crate::scene::{Scene, TireId, fire_at_s, seconds};
 use crate::study::Case;
+use crate::study::eight_ms::WithinEightMs;
 use crate::study::judge_options::{OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
 use crate::study::remedies::Remedies;
 use crate::study::samples::risk::Risk;
-use crate::study::together::Together;
 use crate::verdict::{Estimate, Quantity};
 
 /// The document of one plan.
@@ -68,10 +68,10 @@ struct OptionValues {
     any_cable_breaks: Option<Bounds>,
     launch_margin: Option<f64>,
     inputs: Option<Vec<Share>>,
-    flight_height_m: AtTire,
-    cable_force_n: AtCable,
+    flight_height_m: TirePeakObject,
+    cable_force_n: CablePeakObject,
     cable_safety_factor: Option<f64>,
-    drift_m: AtTire,
+    drift_m: TirePeakObject,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     broken: Vec<BrokenAt>,
     cover: CoverAtFirings,
@@ -111,7 +111,7 @@ impl Percentiles {
 }
 
 #[derive(Serialize)]
-pub(super) struct AtTire {
+pub(super) struct TirePeakObject {
     value: f64,
     error: f64,
     #[serde(flatten)]
@@ -121,7 +121,7 @@ pub(super) struct AtTire {
 }
 
 #[derive(Serialize)]
-pub(super) struct AtCable {
+pub(super) struct CablePeakObject {
     value: f64,
     error: f64,
     #[serde(flatten)]
@@ -140,21 +140,27 @@ struct BrokenAt {
 impl BrokenAt {
     fn new(scene: &Scene, broken: &BrokenCable) -> Self {
         let ends = scene.cables[broken.cable].ends;
-        Self { cable: ends.map(|end| address(&scene.tire[end])), at_s: broken.at }
+        Self { cable: ends.map(|end| tire_address(&scene.tire[end])), at_s: broken.at }
     }
 }
 
-impl AtTire {
+impl TirePeakObject {
     pub(super) fn new(scene: &Scene, estimate: &Estimate, band: Percentiles) -> Self {
         let Estimate { value, error, at, index } = *estimate;
-        Self { value, error, band, at_s: at, tire: scene.tire.get(index).map(address).unwrap_or_default() }
+        Self {
+            value,
+            error,
+            band,
+            at_s: at,
+            tire: scene.tire.get(index).map(tire_address).unwrap_or_default(),
+        }
     }
 }
 
-impl AtCable {
+impl CablePeakObject {
     pub(super) fn new(scene: &Scene, estimate: &Estimate, band: Percentiles) -> Self {
         let Estimate { value, error, at, index } = *estimate;
-        let ends = |cable: &crate::scene::Cable| cable.ends.map(|end| address(&scene.tire[end]));
+        let ends = |cable: &crate::scene::Cable| cable.ends.map(|end| tire_address(&scene.tire[end]));
         Self { value, error, band, at_s: at, cable: scene.cables.get(index).map(ends) }
     }
 }
@@ -167,12 +173,24 @@ impl OptionValues {
             nominal_verdict: checked.verdict.name(),
             failure_probability: risk.map(Failures::of),
             any_cable_breaks: risk.map(|risk| risk.breaks.interval.into()),
-            launch_margin: judged.known_launch_margin(),
+            launch_margin: judged.launch_margin_or_zero(),
             inputs: risk.and_then(|risk| input_shares(risk, &case.limits)),
-            flight_height_m: AtTire::new(scene, &checked.height, Percentiles::of(risk, Quantity::Height)),
-            cable_force_n: AtCable::new(scene, &checked.force, Percentiles::of(risk, Quantity::Force)),
+            flight_height_m: TirePeakObject::new(
+                scene,
+                &checked.height,
+                Percentiles::of(risk, Quantity::Height),
+            ),
+            cable_force_n: CablePeakObject::new(
+                scene,
+                &checked.force,
+                Percentiles::of(risk, Quantity::Force),
+            ),
             cable_safety_factor: Some(checked.safety_factor).filter(|factor| factor.is_finite()),
-            drift_m: AtTire::new(scene, &checked.drift, Percentiles::of(drift_is_judged, Quantity::Drift)),
+            drift_m: TirePeakObject::new(
+                scene,
+                &checked.drift,
+                Percentiles::of(drift_is_judged, Quantity::Drift),
+            ),
             broken: checked.broken.iter().map(|broken| BrokenAt::new(scene, broken)).collect(),
             cover: CoverAtFirings {
                 holes: checked.cover.holes,
@@ -209,7 +227,7 @@ impl CheckDocument {
             .map_or(plan.simulation.method, |judged| judged.as_planned.compute.method);
         let options = option_rows(case, results).enumerate().map(|(n, row)| {
             let tried = remedies.map(|all| all.iter().find(|remedies| remedies.option == n));
-            let Together { holes, charge } = row.together();
+            let WithinEightMs { holes, charge } = row.together();
             CheckedOption {
                 name: row.delay.name.clone(),
                 fire_at_s: fire_at_s(&row.delay.timing),
@@ -252,7 +270,7 @@ impl CheckDocument {
 }
 
 /// The address of a tire: whole numbers but for the centres of a quincunx.
-fn address(tire: &TireId) -> Vec<Number> {
+fn tire_address(tire: &TireId) -> Vec<Number> {
     let number = |n: f64| {
         if n.fract() == 0.0 { Some(Number::from(n as i64)) } else { Number::from_f64(n) }
     };

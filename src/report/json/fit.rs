@@ -27,7 +27,7 @@ pub struct FitDocument<'a> {
     /// Null without samples.
     bands: Option<BandsObject>,
     /// Null where no single observation would narrow the verdict by a hundredth.
-    next: Option<NextObject>,
+    next: Option<NextObservationObject>,
 }
 
 #[derive(Serialize)]
@@ -86,7 +86,7 @@ struct BandsObject {
 }
 
 #[derive(Serialize)]
-struct NextObject {
+struct NextObservationObject {
     observe: String,
     sd: f64,
     variance_share: f64,
@@ -133,7 +133,7 @@ impl<'a> FitDocument<'a> {
     pub fn new(case: &'a Case, files: &'a [Observations], fit: &'a Fit) -> Self {
         let (best, others) = (&fit.answers[0], &fit.answers[1..]);
         let held: Vec<bool> =
-            observed_rows(case, fit).filter_map(|row| row.as_fired.holds(row.observed.value)).collect();
+            observed_rows(case, fit).filter_map(|row| row.as_fired.contains(row.observed.value)).collect();
         let within = held.iter().filter(|&&held| held).count();
         Self {
             schema: "shelter.fit/1",
@@ -155,7 +155,7 @@ impl<'a> FitDocument<'a> {
                 })
                 .collect(),
             bands: (!held.is_empty()).then_some(BandsObject { within, of: held.len() }),
-            next: fit.next.map(|next| NextObject {
+            next: fit.next.map(|next| NextObservationObject {
                 observe: place(case, next.candidate.option, &next.candidate.watched),
                 sd: next.sd,
                 variance_share: next.share,

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::LimitsObject;
-use super::check::{AtCable, AtTire, Percentiles};
+use super::check::{CablePeakObject, Percentiles, TirePeakObject};
 use crate::choice::HoleOrder;
 use crate::report::no_result;
 use crate::report::option_row::{OptionRow, option_rows};
@@ -11,9 +11,9 @@ use crate::report::reasons;
 use crate::report::row_names;
 use crate::scene::{fire_at_s, seconds};
 use crate::study::Case;
+use crate::study::eight_ms::WithinEightMs;
 use crate::study::judgement::Judgement;
 use crate::study::search::{FrontPoint, Schedule, Search, duration};
-use crate::study::together::Together;
 use crate::verdict::Quantity;
 
 /// The document of a search.
@@ -57,8 +57,8 @@ struct FoundSchedule {
 struct FoundValues {
     nominal_verdict: &'static str,
     launch_margin: Option<f64>,
-    flight_height_m: AtTire,
-    cable_force_n: AtCable,
+    flight_height_m: TirePeakObject,
+    cable_force_n: CablePeakObject,
 }
 
 #[derive(Serialize)]
@@ -95,9 +95,17 @@ impl FoundValues {
         let (scene, checked, risk) = (case.scene(), &judged.as_planned, judged.risk.drawn());
         Self {
             nominal_verdict: checked.verdict.name(),
-            launch_margin: judged.known_launch_margin(),
-            flight_height_m: AtTire::new(scene, &checked.height, Percentiles::of(risk, Quantity::Height)),
-            cable_force_n: AtCable::new(scene, &checked.force, Percentiles::of(risk, Quantity::Force)),
+            launch_margin: judged.launch_margin_or_zero(),
+            flight_height_m: TirePeakObject::new(
+                scene,
+                &checked.height,
+                Percentiles::of(risk, Quantity::Height),
+            ),
+            cable_force_n: CablePeakObject::new(
+                scene,
+                &checked.force,
+                Percentiles::of(risk, Quantity::Force),
+            ),
         }
     }
 }
@@ -106,7 +114,7 @@ impl SearchDocument {
     /// The document of a search, which is partial where the time was up.
     pub fn new(case: &Case, search: &Search, partial: bool) -> Self {
         let found = |(row, schedule): (OptionRow<'_>, &Schedule)| {
-            let Together { holes, charge } = row.together();
+            let WithinEightMs { holes, charge } = row.together();
             let judged = row.result.as_ref().ok();
             let risk = judged.and_then(|judged| judged.risk.drawn());
             FoundSchedule {

@@ -5,7 +5,7 @@ use nalgebra::{Vector2, Vector3};
 use super::Stepper;
 use super::region::Ground;
 use crate::outcome::Peak;
-use crate::simulation::contact::{support, top};
+use crate::simulation::contact::{apex, stop_at_ground};
 
 impl Stepper<'_> {
     /// Friction force per mass of a sliding tire [m/s²]: μ times the reaction, against the velocity, or against the cable force
@@ -30,17 +30,17 @@ impl Stepper<'_> {
     }
 
     /// Whether a tire that is on the ground at the end of the step landed within the step.
-    fn lands(&self, tire: usize) -> bool {
+    fn landed_within_step(&self, tire: usize) -> bool {
         self.u[tire].z > 0.0 || self.v[tire].z != 0.0
     }
 
     /// Sets the contact region that the solution implies.
-    pub(super) fn imply(&mut self, h: f64) {
-        for &n in &self.wake.blocks {
+    pub(super) fn set_implied_region(&mut self, h: f64) {
+        for &n in self.wake.awake_cables() {
             let cable = &self.scene.cables[n];
             self.implied.taut[n] = cable.displaced(&self.end).norm() > cable.rest_length;
         }
-        for &tire in &self.wake.awake {
+        for &tire in self.wake.awake_tires() {
             self.implied.ground[tire] = self.implied_ground(tire, h);
         }
     }
@@ -50,7 +50,7 @@ impl Stepper<'_> {
         let mass = self.scene.mass[tire];
         let free = self.f[tire] / mass - Vector3::z() * self.scene.gravity;
         let assumed = self.region.ground[tire];
-        let lands = self.lands(tire);
+        let lands = self.landed_within_step(tire);
         if assumed == Ground::Free {
             return if self.end[tire].z < 0.0 { Ground::Slip } else { Ground::Free };
         }
@@ -67,8 +67,8 @@ impl Stepper<'_> {
 
     /// Makes the end of the step the new state, with landings and with the energy that landings and friction dissipate.
     pub(super) fn accept(&mut self, h: f64) {
-        for n in 0..self.wake.awake.len() {
-            let tire = self.wake.awake[n];
+        for n in 0..self.wake.awake_tires().len() {
+            let tire = self.wake.awake_tires()[n];
             let mass = self.scene.mass[tire];
             let mut velocity = self.du[tire] * (2.0 / h) - self.v[tire];
             let ground = self.region.ground[tire];
@@ -83,7 +83,7 @@ impl Stepper<'_> {
                 let before = self.a[tire].xy() - self.f_start[tire].xy() / mass;
                 let friction = 0.5 * (before + self.end_friction(tire, free, h));
                 self.record.ledger.dissipated -= mass * friction.dot(&self.du[tire].xy());
-                if self.lands(tire) {
+                if self.landed_within_step(tire) {
                     velocity = self.land(tire, h, velocity);
                 }
             }
@@ -96,14 +96,14 @@ impl Stepper<'_> {
     /// sideways.
     fn land(&mut self, tire: usize, h: f64, velocity: Vector3<f64>) -> Vector3<f64> {
         let (height, rise, a) = (self.u[tire].z, self.v[tire].z, self.a[tire].z);
-        if let Some((more, until)) = top(rise, a, h) {
+        if let Some((more, until)) = apex(rise, a, h) {
             let at = self.clock.now() + until;
             self.record.note_top(Peak { value: height + more, at, index: tire });
         }
         let impact = (rise * rise - 2.0 * a * height).max(0.0).sqrt();
         let left = (h - 2.0 * height / (impact - rise).max(f64::MIN_POSITIVE)).clamp(0.0, h);
         let before = velocity.xy().push(-impact);
-        let (after, _) = support(before, self.friction);
+        let (after, _) = stop_at_ground(before, self.friction);
         self.end[tire] += (after.xy() - before.xy()).push(0.0) * left;
         let lost = 0.5 * self.scene.mass[tire] * (before.norm_squared() - after.norm_squared());
         self.record.ledger.dissipated += lost;

@@ -174,7 +174,7 @@ impl<'a> Stepper<'a> {
 
     /// Integrates one step, cut at the times at which holes fire.
     fn step_through_firings(&mut self) -> Result<(), Failure> {
-        for &tire in &self.wake.awake {
+        for &tire in self.wake.awake_tires() {
             self.earlier[tire] = self.u[tire];
         }
         let (start, mut done) = (self.clock.since_base(), 0.0);
@@ -223,8 +223,8 @@ impl<'a> Stepper<'a> {
     /// Finds the tires that did not move in the last step and stick to the ground.
     fn find_resting(&mut self) {
         self.moving = false;
-        for n in 0..self.wake.awake.len() {
-            let tire = self.wake.awake[n];
+        for n in 0..self.wake.awake_tires().len() {
+            let tire = self.wake.awake_tires()[n];
             let moved = self.v[tire] != Vector3::zeros() || self.u[tire] != self.earlier[tire];
             self.moving |= moved || self.u[tire].z > 0.0;
             let rests = !moved && self.region.ground[tire] == Ground::Stick;

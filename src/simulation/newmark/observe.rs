@@ -15,7 +15,7 @@ impl Stepper<'_> {
         }
         let breaking_force = self.scene.breaking_force.unwrap_or(f64::INFINITY);
         let (mut energy, mut height, mut force) = (self.asleep + self.asleep_on_slope, 0.0_f64, 0.0_f64);
-        for &index in &self.wake.blocks {
+        for &index in self.wake.awake_cables() {
             let cable = &self.scene.cables[index];
             let length = cable.displaced(&self.u).norm();
             let value = cable.force(length) / self.scene.strength(index);
@@ -26,7 +26,7 @@ impl Stepper<'_> {
                 self.peak_to_refine = Some((index, self.stretch_over_strength(index, &self.earlier)));
             }
         }
-        for &tire in &self.wake.awake {
+        for &tire in self.wake.awake_tires() {
             let (mass, value) = (self.scene.mass[tire], self.u[tire].z);
             height = height.max(value);
             let potential = -self.scene.gravity().dot(&self.u[tire]);
@@ -49,8 +49,8 @@ impl Stepper<'_> {
         let at = self.clock.now();
         self.record.note_break(breaking_force);
         self.peak_to_refine = None;
-        for n in 0..self.wake.blocks.len() {
-            let index = self.wake.blocks[n];
+        for n in 0..self.wake.awake_cables().len() {
+            let index = self.wake.awake_cables()[n];
             let strength = self.scene.strength(index);
             let cable = &mut self.scene.to_mut().cables[index];
             let length = cable.displaced(&self.u).norm();

@@ -38,13 +38,13 @@ impl Region {
     pub fn adopt(&mut self, implied: &Region, wake: &Wake<'_>, repeats: usize) -> bool {
         let most = if repeats < AT_ONCE { usize::MAX } else { 1 };
         let mut changes = 0;
-        for &tire in &wake.awake {
+        for &tire in wake.awake_tires() {
             if changes < most && self.ground[tire] != implied.ground[tire] {
                 self.ground[tire] = implied.ground[tire];
                 changes += 1;
             }
         }
-        for &cable in &wake.blocks {
+        for &cable in wake.awake_cables() {
             if changes < most && self.taut[cable] != implied.taut[cable] {
                 self.taut[cable] = implied.taut[cable];
                 changes += 1;

@@ -13,9 +13,9 @@ const MOST_ITERATIONS: usize = 20;
 /// Greatest number of times that a step is halved; after these the run fails.
 const MOST_HALVINGS: usize = 8;
 /// Newton stops at a correction of this size relative to the displacement over the step, while the contact region is sought.
-const ROUGHLY: f64 = 1e-4;
+const COARSE_TOLERANCE: f64 = 1e-4;
 /// The same size once the contact region no longer changes.
-const CONVERGED: f64 = 1e-10;
+const FINE_TOLERANCE: f64 = 1e-10;
 
 impl Stepper<'_> {
     /// Integrates one cut of a step over `h` [s]; halves the cut while its contact region does not settle.
@@ -35,18 +35,18 @@ impl Stepper<'_> {
         self.set_start_forces();
         self.set_accelerations();
         self.predict(h);
-        let mut enough = ROUGHLY;
+        let mut tolerance = COARSE_TOLERANCE;
         for repeats in 0..MOST_REPEATS {
-            self.solve(h, enough)?;
-            self.imply(h);
+            self.solve(h, tolerance)?;
+            self.set_implied_region(h);
             if self.region.adopt(&self.implied, &self.wake, repeats) {
-                self.spread();
-                enough = ROUGHLY;
-            } else if enough == CONVERGED {
+                self.wake_neighbours();
+                tolerance = COARSE_TOLERANCE;
+            } else if tolerance == FINE_TOLERANCE {
                 self.accept(h);
                 return Ok(());
             } else {
-                enough = CONVERGED;
+                tolerance = FINE_TOLERANCE;
             }
         }
         Err(Failure::Unsettled { what: Iteration::ContactRegion, at: self.clock.now() })
@@ -64,9 +64,9 @@ impl Stepper<'_> {
     }
 
     /// Sets the tires moving that no longer stick, so that their neighbours wake.
-    fn spread(&mut self) {
-        for n in 0..self.wake.awake.len() {
-            let tire = self.wake.awake[n];
+    fn wake_neighbours(&mut self) {
+        for n in 0..self.wake.awake_tires().len() {
+            let tire = self.wake.awake_tires()[n];
             if self.region.ground[tire] != Ground::Stick {
                 self.wake.set_moving(tire, true);
             }
@@ -78,7 +78,7 @@ impl Stepper<'_> {
 
     /// Sets the accelerations at the start of the cut from the balance of forces.
     fn set_accelerations(&mut self) {
-        for &tire in &self.wake.awake {
+        for &tire in self.wake.awake_tires() {
             let free = self.f_start[tire] / self.scene.mass[tire] - Vector3::z() * self.scene.gravity;
             self.a[tire] = match self.region.ground[tire] {
                 Ground::Free => free,
@@ -90,14 +90,14 @@ impl Stepper<'_> {
 
     /// Sets the displacement over the cut, for constant forces and without contact.
     fn predict(&mut self, h: f64) {
-        for &tire in &self.wake.awake {
+        for &tire in self.wake.awake_tires() {
             self.du[tire] = self.v[tire] * h + self.a[tire] * (0.5 * h * h);
         }
     }
 
     /// Solves equilibrium by Newton–Raphson for the assumed contact region, from the last displacement on.
-    fn solve(&mut self, h: f64, enough: f64) -> Result<(), Failure> {
-        for &tire in &self.wake.awake {
+    fn solve(&mut self, h: f64, tolerance: f64) -> Result<(), Failure> {
+        for &tire in self.wake.awake_tires() {
             match self.region.ground[tire] {
                 Ground::Free => {}
                 Ground::Slip => self.du[tire].z = -self.u[tire].z,
@@ -110,18 +110,18 @@ impl Stepper<'_> {
             if !self.system.solve() {
                 break;
             }
-            let (mut correction, mut way) = (0.0_f64, 0.0_f64);
+            let (mut correction, mut displacement) = (0.0_f64, 0.0_f64);
             for (tire, delta) in self.system.corrections() {
                 self.du[tire] += delta;
                 correction = correction.max(delta.amax());
             }
-            for &tire in &self.wake.awake {
-                way = way.max(self.du[tire].amax());
+            for &tire in self.wake.awake_tires() {
+                displacement = displacement.max(self.du[tire].amax());
             }
-            if !(correction + way).is_finite() {
+            if !(correction + displacement).is_finite() {
                 return Err(Failure::Diverged { at: self.clock.now() });
             }
-            if correction <= enough * way {
+            if correction <= tolerance * displacement {
                 self.set_residual(h);
                 return Ok(());
             }
@@ -131,14 +131,14 @@ impl Stepper<'_> {
 
     /// Sets the forces and the residual of equilibrium at the end of the cut.
     fn set_residual(&mut self, h: f64) {
-        for &tire in &self.wake.awake {
+        for &tire in self.wake.awake_tires() {
             self.end[tire] = self.u[tire] + self.du[tire];
         }
         let taut = &self.region.taut;
         let law =
             |n: usize, cable: &Cable, length: f64| if taut[n] { cable.stretch_force(length) } else { 0.0 };
         cable_forces(&self.scene, &self.wake, &self.end, law, &mut self.f);
-        for &tire in &self.wake.awake {
+        for &tire in self.wake.awake_tires() {
             let mass = self.scene.mass[tire];
             let mut force = self.f[tire] / mass - Vector3::z() * self.scene.gravity;
             if self.region.ground[tire] == Ground::Slip {
@@ -159,10 +159,10 @@ fn cable_forces(
     law: impl Fn(usize, &Cable, f64) -> f64,
     forces: &mut [Vector3<f64>],
 ) {
-    for &tire in &wake.awake {
+    for &tire in wake.awake_tires() {
         forces[tire] = (scene.downhill * scene.mass[tire]).push(0.0);
     }
-    for &n in &wake.blocks {
+    for &n in wake.awake_cables() {
         let cable = &scene.cables[n];
         let span = cable.displaced(u);
         let length = span.norm();

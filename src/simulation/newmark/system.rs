@@ -2,7 +2,7 @@
 //!
 //! The system has one row for each tire that can move and one link for each taut cable at such a tire. K is never assembled:
 //! a link of length L and direction d contributes k [(1 − L₀/L) I + (L₀/L) d dᵀ] between its ends. The matrix is symmetric,
-//! positive definite and, at useful steps, dominated by 4M/h². A few iterations are therefore enough, preconditioned with the
+//! positive definite and, at useful steps, dominated by 4M/h². A few iterations are therefore tolerance, preconditioned with the
 //! 3×3 diagonal blocks.
 
 use nalgebra::{Matrix3, Vector3};
@@ -81,7 +81,7 @@ impl System {
         self.rows.clear();
         self.links.clear();
         self.rows.push(Row::default());
-        for &tire in wake.awake.iter().filter(|&&tire| region.ground[tire] != Ground::Stick) {
+        for &tire in wake.awake_tires().iter().filter(|&&tire| region.ground[tire] != Ground::Stick) {
             self.row[tire] = self.rows.len() as u32;
             let (inertia, rises) = (4.0 * scene.mass[tire] / (h * h), region.ground[tire] == Ground::Free);
             let mut residual = right[tire];
@@ -89,7 +89,7 @@ impl System {
             let preconditioner = Matrix3::from_diagonal_element(inertia);
             self.rows.push(Row { tire, inertia, rises, preconditioner, residual, ..Row::default() });
         }
-        for cable in wake.blocks.iter().filter(|&&n| region.taut[n]).map(|&n| &scene.cables[n]) {
+        for cable in wake.awake_cables().iter().filter(|&&n| region.taut[n]).map(|&n| &scene.cables[n]) {
             let rows = cable.ends.map(|end| self.row[end] as usize);
             if rows != [HELD as usize; 2] {
                 let tangent = tangent(cable, u);
@@ -112,9 +112,9 @@ impl System {
             row.direction = row.scaled;
         }
         let mut along = self.sum(|row| row.residual.dot(&row.scaled));
-        let enough = along * TOLERANCE * TOLERANCE;
+        let tolerance = along * TOLERANCE * TOLERANCE;
         for _ in 0..20 + 3 * self.rows.len() {
-            if along <= enough {
+            if along <= tolerance {
                 return true;
             }
             self.multiply();

@@ -6,7 +6,7 @@ use crate::simulation::pack::Wide;
 
 /// Tires at the start of a step.
 #[derive(Clone, Copy)]
-pub struct Tires<S: Simd> {
+pub struct TirePack<S: Simd> {
     /// Displacement uₙ [m].
     pub u: [Wide<S>; 3],
     /// Velocity at mid-step n − ½ [m/s].
@@ -16,7 +16,7 @@ pub struct Tires<S: Simd> {
     /// Mass [kg].
     pub mass: Wide<S>,
     /// One over mass [1/kg].
-    pub inverse: Wide<S>,
+    pub inverse_mass: Wide<S>,
     /// Step h [s].
     pub step: Wide<S>,
     /// Coefficient of friction μ.
@@ -29,7 +29,7 @@ pub struct Tires<S: Simd> {
 
 /// Tires at the end of a step without landing and without firing, and their energies at tₙ.
 #[derive(Clone, Copy)]
-pub struct Moved<S: Simd> {
+pub struct MovedPack<S: Simd> {
     /// Displacement uₙ₊₁ [m].
     pub u: [Wide<S>; 3],
     /// Velocity at mid-step n + ½ [m/s].
@@ -42,22 +42,22 @@ pub struct Moved<S: Simd> {
     pub motion: Wide<S>,
 }
 
-impl<S: Simd> Tires<S> {
+impl<S: Simd> TirePack<S> {
     /// Kicks and drifts the tires: free velocity v* = v + h (f/m + g), then support and friction of the ground, then
     /// u + h v. Roots and quotients are computed only where a tire slips; `SLOPED`: the ground slopes.
     #[inline(always)]
-    pub fn kick_and_drift<const SLOPED: bool>(&self, simd: S) -> Moved<S> {
-        let Self { u, v, f, mass, inverse, step, friction, gravity, downhill } = *self;
+    pub fn kick_and_drift<const SLOPED: bool>(&self, simd: S) -> MovedPack<S> {
+        let Self { u, v, f, mass, inverse_mass, step, friction, gravity, downhill } = *self;
         let (zero, half) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5));
         let tiny = Wide::splat(simd, f64::MIN_POSITIVE);
         let along = |c: usize| {
-            let pulled = f[c] * inverse;
+            let pulled = f[c] * inverse_mass;
             if SLOPED { pulled + downhill[c] } else { pulled }
         };
         let free = [
             step.times_plus(along(0), v[0]),
             step.times_plus(along(1), v[1]),
-            step.times_plus(f[2] * inverse - gravity, v[2]),
+            step.times_plus(f[2] * inverse_mass - gravity, v[2]),
         ];
         let supported = u[2].at_most(zero).and(free[2].less(zero));
         // Sideways speed that friction can take from a supported tire: μ times the normal impulse per mass, −v*₃.
@@ -93,6 +93,12 @@ impl<S: Simd> Tires<S> {
         if SLOPED {
             height = height - (downhill[0] * u[0] + downhill[1] * u[1]);
         }
-        Moved { u: moved, v: after, energy: mass * (half * speed2 + height), dissipated: mass * work, motion }
+        MovedPack {
+            u: moved,
+            v: after,
+            energy: mass * (half * speed2 + height),
+            dissipated: mass * work,
+            motion,
+        }
     }
 }

@@ -51,7 +51,7 @@ pub struct Part {
     /// Mass of each tire × number of tires of the whole scene that the tire stands for [kg] (`n_tires` + [`LANES`]).
     mass: Vec<f64>,
     /// One over the mass of each tire; 0 for an image [1/kg] (`n_tires` + [`LANES`]).
-    inverse: Vec<f64>,
+    inverse_mass: Vec<f64>,
     /// Viscosity of each element [N s/m]; empty without damping.
     viscosity: Vec<f64>,
     /// Cable of each element, between tires of the part; empty without damping.
@@ -144,10 +144,10 @@ impl Part {
         let spare = |value: f64| std::iter::repeat_n(value, LANES);
         // Images are not kicked, because only some of their cables are modelled.
         let viscosity = |cable: usize| scene.viscosity(&scene.cables[reduction.cable(cable)]);
-        let inverse = |(mass, weight)| if weight > 0.0 { 1.0 / mass } else { 0.0 };
+        let inverse_mass = |(mass, weight)| if weight > 0.0 { 1.0 / mass } else { 0.0 };
         Self {
             mass: weighted().map(|(mass, weight)| mass * weight).chain(spare(0.0)).collect(),
-            inverse: weighted().map(inverse).chain(spare(1.0)).collect(),
+            inverse_mass: weighted().map(inverse_mass).chain(spare(1.0)).collect(),
             critical_step: scene.critical_step(),
             cables: if scene.damping > 0.0 { cables(&blocks) } else { Vec::new() },
             viscosity: if scene.damping > 0.0 { blocks.by_element(viscosity) } else { Vec::new() },

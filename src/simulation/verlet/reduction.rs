@@ -184,7 +184,7 @@ impl Reduction {
     }
 
     /// Kept tire of a tire of the whole scene, as index in the part, and the factors of x and y.
-    pub fn kept(&self, tire: usize) -> (usize, [f64; 2]) {
+    pub fn image_of(&self, tire: usize) -> (usize, [f64; 2]) {
         self.map.as_ref().map_or((tire, [1.0; 2]), |map| map.kept[tire])
     }
 

@@ -200,7 +200,7 @@ impl Slices<'_, '_> {
         let span: [Wide<S>; 3] = std::array::from_fn(|c| Wide::splat(simd, cable.span[c]));
         let slack2 = rest_length * rest_length;
         let eighth = Wide::splat(simd, 0.125) * stiffness;
-        let span2 = square(span);
+        let span2 = norm_squared(span);
         let excess_at_rest = span2 - slack2;
         // All slices have one length, so that one check of bounds serves them all.
         let room = len.next_multiple_of(LANES);
@@ -225,7 +225,7 @@ impl Slices<'_, '_> {
             for c in 0..3 {
                 d[c] = d[c] + span[c];
             }
-            let length2 = square(d);
+            let length2 = norm_squared(d);
             let weight = Wide::load(simd, weights, at);
             let exists = zero.less(weight);
             let (change, excess) = (length2 - span2, length2 - slack2);
@@ -321,7 +321,7 @@ impl CableForces<'_> {
 
 /// Square of the length of a vector.
 #[inline(always)]
-fn square<S: Simd>([x, y, z]: [Wide<S>; 3]) -> Wide<S> {
+fn norm_squared<S: Simd>([x, y, z]: [Wide<S>; 3]) -> Wide<S> {
     z.times_plus(z, y.times_plus(y, x * x))
 }
 

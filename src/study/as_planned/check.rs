@@ -96,7 +96,7 @@ impl CheckedShot {
         let verdict = |times: f64| {
             let larger = |estimate: Estimate| Estimate { error: times * estimate.error, ..estimate };
             let each = with_limits([self.height, self.force, self.drift], limits)
-                .map(|(_, estimate, limit)| larger(estimate).against(limit));
+                .map(|(_, estimate, limit)| larger(estimate).judge_against(limit));
             Verdict::worst(each)
         };
         let stands = verdict(1.0) == verdict(SURE_ERROR_FACTOR);
@@ -148,7 +148,7 @@ pub fn check_shot(
         let start = Instant::now();
         let mut cover = CoverWatch::new(case, &shot.firings, step);
         let look = |motion: &dyn Motion| {
-            cover.see(motion);
+            cover.observe(motion);
             (watch.borrow_mut())(CheckStep { runs: done.get(), time: motion.time() })
         };
         let outcome = case.model.run(shot, &settings, &mut { look })?;

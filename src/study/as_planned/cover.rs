@@ -46,7 +46,7 @@ impl<'s> CoverWatch<'s> {
     }
 
     /// Notes the tires over the holes that fire within the step that begins now.
-    pub fn see(&mut self, motion: &dyn Motion) {
+    pub fn observe(&mut self, motion: &dyn Motion) {
         let end = motion.time() + self.step;
         while let Some(firing) = self.firings.get(self.cover.holes).filter(|firing| firing.at < end) {
             let displacement = motion.displacement(firing.tire);

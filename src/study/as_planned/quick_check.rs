@@ -60,7 +60,7 @@ pub fn quick_check_until(
         let is_last = step < 1.01 * last;
         let mut cover = CoverWatch::new(case, &shot.firings, step);
         let watch = &mut |motion: &dyn Motion| {
-            cover.see(motion);
+            cover.observe(motion);
             progress.flow()
         };
         match case.model.run(shot, &case.run_settings(compute.method, step), watch) {

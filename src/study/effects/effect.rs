@@ -113,7 +113,7 @@ impl Effect {
     }
 
     /// Whether a method has the effect.
-    pub(super) fn is_in(self, method: Method) -> bool {
+    pub(super) fn is_computed_by(self, method: Method) -> bool {
         !matches!(self, Self::Push | Self::Restitution | Self::Damping) || method == Method::Verlet
     }
 

@@ -21,7 +21,7 @@ use super::samples::rounds::{ShotToSample, run_sample_once};
 use super::samples::sample::Sample;
 use super::samples::sampling::Sampling;
 use super::work::batch::run_jobs;
-use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, guarded};
+use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, catch_panic};
 use crate::plan::Plan;
 use crate::verdict::{Limits, Quantity, Verdict};
 
@@ -80,7 +80,7 @@ impl EffectOnOption {
 
     /// Whether the scene requires the effect for this option.
     pub fn is_required(&self) -> bool {
-        self.verdict_changes() || self.changes.iter().any(QuantityChange::matters)
+        self.verdict_changes() || self.changes.iter().any(QuantityChange::is_required)
     }
 
     /// Whether the effect brings the shot as planned to the other side of the limits.
@@ -129,7 +129,7 @@ impl QuantityChange {
     }
 
     /// Whether the effect may not be left out, as far as this quantity says.
-    fn matters(&self) -> bool {
+    fn is_required(&self) -> bool {
         let Some(limit) = self.limit else { return false };
         let matters = |without: f64, with: f64| {
             let relative = relative(without, with);
@@ -194,11 +194,11 @@ pub fn effects(
     progress: &Progress,
 ) -> Finding<EffectsOnOptions> {
     let mut cases = vec![case.clone()];
-    let all = Effect::ALL.into_iter().filter(|effect| effect.is_in(compute.method));
+    let all = Effect::ALL.into_iter().filter(|effect| effect.is_computed_by(compute.method));
     let variants: Vec<Variant> = all.filter_map(|effect| variant(effect, &case.plan, &mut cases)).collect();
     let jobs: Vec<(usize, usize)> = itertools::iproduct!(0..case.shots.len(), 0..cases.len()).collect();
     let measured = run_jobs(&jobs, progress, |&(option, n)| {
-        guarded(|| measure_option(&cases[n], option, sampling, compute, progress))
+        catch_panic(|| measure_option(&cases[n], option, sampling, compute, progress))
     })?;
     let partial = measured.iter().any(Option::is_none);
     let on_option = |figures: &[Option<OptionFigures>]| -> Option<Vec<EffectOnOption>> {

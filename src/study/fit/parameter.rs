@@ -158,7 +158,7 @@ impl Parameter {
     }
 
     /// Puts the number at a coordinate into a plan; launches count from those of the plan.
-    pub fn put_into(&self, plan: &mut Plan, at: f64) {
+    pub fn set_in(&self, plan: &mut Plan, at: f64) {
         let value = self.value(at);
         match self.unknown {
             Unknown::Launch => plan.launches_mut().for_each(|launch| launch.speed_m_s *= value),

@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 
 use super::determined::{Candidate, candidates, usual_sd};
-use super::predict::seen;
+use super::predict::observe_shot;
 use crate::choice::ObservedQuantity;
 use crate::plan::observations::{Observation, Watched};
 use crate::study::samples::draw::{Input, draw};
@@ -29,7 +29,7 @@ pub struct AsFired {
 
 impl AsFired {
     /// Whether an observed value lies in the band.
-    pub fn holds(&self, value: f64) -> Option<bool> {
+    pub fn contains(&self, value: f64) -> Option<bool> {
         self.band.map(|[low, high]| (low..=high).contains(&value))
     }
 }
@@ -65,7 +65,7 @@ fn samples(
     let runs = run_jobs(&numbers, progress, |&number| {
         let sample = draw(case, &case.shots[option], sampling.seed, number);
         let settings = case.run_settings(compute.method, step(compute, &sample.scene));
-        let values = seen(case, Some(&sample.scene), &sample.shot, watched, &settings, progress)?;
+        let values = observe_shot(case, Some(&sample.scene), &sample.shot, watched, &settings, progress)?;
         Ok(values.map(|values| (values, sample.inputs)))
     })?;
     if runs.contains(&None) {
@@ -89,7 +89,7 @@ pub fn as_fired(
         let option = shot[0].option;
         let watched: Vec<Watched> = shot.iter().map(|observation| observation.watched).collect();
         let settings = case.run_settings(compute.method, compute.first_step(case));
-        let planned = seen(case, None, &case.shots[option], &watched, &settings, progress)?;
+        let planned = observe_shot(case, None, &case.shots[option], &watched, &settings, progress)?;
         let planned = planned.unwrap_or_else(|| vec![f64::NAN; watched.len()]);
         let drawn = sampling.map(|sampling| samples(case, option, &watched, sampling, compute, progress));
         let drawn = drawn.transpose()?;

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::parameter::Parameter;
-use super::watch::Watch;
+use super::watch::ObservationWatch;
 use crate::plan::Plan;
 use crate::plan::observations::Watched;
 use crate::scene::{Scene, Shot};
@@ -29,7 +29,7 @@ impl Predictor<'_> {
     pub fn case(&self, at: &[f64]) -> Case {
         let mut plan = self.plan.clone();
         for (parameter, &coordinate) in self.parameters.iter().zip(at) {
-            parameter.put_into(&mut plan, coordinate);
+            parameter.set_in(&mut plan, coordinate);
         }
         Case::new(plan)
     }
@@ -42,7 +42,7 @@ impl Predictor<'_> {
         for (option, watched) in &self.options {
             let step = coarser * self.compute.first_step(&case);
             let settings = case.run_settings(self.compute.method, step);
-            let run = seen(&case, None, &case.shots[*option], watched, &settings, self.progress)?;
+            let run = observe_shot(&case, None, &case.shots[*option], watched, &settings, self.progress)?;
             let Some(values) = run else { return Ok(None) };
             all.extend(values);
         }
@@ -51,7 +51,7 @@ impl Predictor<'_> {
 }
 
 /// The values of what is watched in one shot, under a `variant` of the scene where there is one; `None` where the run fails.
-pub fn seen(
+pub fn observe_shot(
     case: &Case,
     variant: Option<&Scene>,
     shot: &Shot,
@@ -59,9 +59,9 @@ pub fn seen(
     settings: &RunSettings,
     progress: &Progress,
 ) -> Result<Option<Vec<f64>>, NoResult> {
-    let mut watch = Watch::new(watched);
+    let mut watch = ObservationWatch::new(watched);
     let mut look = |motion: &dyn Motion| -> ControlFlow<()> {
-        watch.see(motion);
+        watch.observe(motion);
         progress.flow()
     };
     let done = match variant {

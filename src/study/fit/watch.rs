@@ -8,7 +8,7 @@ use crate::simulation::Motion;
 const OFF_THE_GROUND: f64 = 1e-3;
 
 /// Watches quantities through one run.
-pub struct Watch<'w> {
+pub struct ObservationWatch<'w> {
     watched: &'w [Watched],
     tracks: Vec<Track>,
     time: f64,
@@ -31,14 +31,14 @@ struct Track {
     at_time: Option<f64>,
 }
 
-impl<'w> Watch<'w> {
+impl<'w> ObservationWatch<'w> {
     /// Watches these quantities from time 0 on.
     pub fn new(watched: &'w [Watched]) -> Self {
         Self { watched, tracks: vec![Track::default(); watched.len()], time: 0.0 }
     }
 
     /// Sees the motion after a step.
-    pub fn see(&mut self, motion: &dyn Motion) {
+    pub fn observe(&mut self, motion: &dyn Motion) {
         let time = motion.time();
         if time <= self.time {
             return;
@@ -122,7 +122,8 @@ mod tests {
             (t * (5.0 - 0.5 * gravity * t)).max(0.0) * f64::from(u8::from(t > 0.0))
         };
         let mut track =
-            Watch::new(&[Watched { quantity: ObservedQuantity::Height, index: 0, at: 0.4005 }]).tracks[0];
+            ObservationWatch::new(&[Watched { quantity: ObservedQuantity::Height, index: 0, at: 0.4005 }])
+                .tracks[0];
         (1..2000).map(|n| f64::from(n) * 1e-3).for_each(|time| track.note(time, height(time), 0.4005));
         // The parabola is exact but for rounding; a straight line errs by g h²/8 = 1.2 µm, the lift by up to g h²/v = 2 µs.
         assert!((track.greatest - 25.0 / 2.0 / gravity).abs() < 1e-9, "{}", track.greatest);

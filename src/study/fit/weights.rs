@@ -19,7 +19,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 
 use super::parameter::{Parameter, Prior};
-use super::predict::{Predictor, seen};
+use super::predict::{Predictor, observe_shot};
 use crate::plan::observations::{Observation, Watched};
 use crate::plan::{Plan, Uncertainty};
 use crate::study::as_planned::step_error;
@@ -36,14 +36,14 @@ const SAMPLES_EACH: usize = 4;
 const OFTEN: f64 = 0.5;
 
 /// Observations, each with the number of its file, in the order of their options.
-pub struct Seen {
+pub struct ObservedShots {
     /// The observations.
     pub list: Vec<Observation>,
     /// Index of the file of each.
     pub file: Vec<usize>,
 }
 
-impl Seen {
+impl ObservedShots {
     /// Indices of the observations of each shot: of one option in one file.
     fn shots(&self) -> Vec<Vec<usize>> {
         let mut shots: Vec<((usize, usize), Vec<usize>)> = Vec::new();
@@ -74,7 +74,7 @@ const NEVER: f64 = 10.0;
 
 impl Weights {
     /// The residuals of predictions, made independent and of unit variance.
-    pub fn whitened(&self, observed: &[Observation], predicted: &[f64]) -> Option<DVector<f64>> {
+    pub fn whitened_residuals(&self, observed: &[Observation], predicted: &[f64]) -> Option<DVector<f64>> {
         let residual = |n: usize| match predicted[n].is_nan() {
             true => NEVER * self.sds[n],
             false => observed[n].value - predicted[n],
@@ -96,7 +96,7 @@ impl Weights {
 }
 
 /// What a plan predicts near some coordinates.
-pub struct Local {
+pub struct SampledWeights {
     /// The mean of each prediction at the coordinates; not a number where most samples have no value.
     pub mean: Vec<f64>,
     /// Its derivatives (`n_observations` × `n_parameters`).
@@ -114,19 +114,24 @@ pub struct Weighing<'a> {
     /// Inputs in common that are not estimated, each with what the plan knows of it.
     pub others: &'a [(Parameter, Prior)],
     /// The observations.
-    pub seen: &'a Seen,
+    pub seen: &'a ObservedShots,
 }
 
 impl Weighing<'_> {
     /// The weights at these coordinates where nothing scatters and all inputs are exact; `None` where the run there fails.
-    pub fn exact(&self, at: &[f64]) -> Result<Option<Weights>, NoResult> {
+    pub fn weigh_without_scatter(&self, at: &[f64]) -> Result<Option<Weights>, NoResult> {
         let Some(errors) = self.integration_errors(at)? else { return Ok(None) };
-        Ok(Weights::new(self.of_each(&errors), errors))
+        Ok(Weights::new(self.observation_covariance(&errors), errors))
     }
 
     /// The predictions near these coordinates, from samples drawn with this seed in which each coordinate spreads by a standard
     /// deviation `spread`; `None` where the run at the coordinates fails.
-    pub fn local(&self, at: &[f64], spread: &[f64], seed: u64) -> Result<Option<Local>, NoResult> {
+    pub fn weigh_samples(
+        &self,
+        at: &[f64],
+        spread: &[f64],
+        seed: u64,
+    ) -> Result<Option<SampledWeights>, NoResult> {
         let Some(errors) = self.integration_errors(at)? else { return Ok(None) };
         let shots = self.seen.shots();
         let drawn = SAMPLES.max(SAMPLES_EACH * self.seen.list.len());
@@ -134,8 +139,9 @@ impl Weighing<'_> {
         let samples = run_jobs(&numbers, self.predictor.progress, |&number| {
             let (case, from) = self.sample(at, spread, seed, number);
             // A seed for each shot: what scatters in one does not repeat in another.
-            let see =
-                |(n, shot): (usize, &Vec<usize>)| self.see(&case, shot, seed.wrapping_add(n as u64), number);
+            let see = |(n, shot): (usize, &Vec<usize>)| {
+                self.observe_sample(&case, shot, seed.wrapping_add(n as u64), number)
+            };
             Ok((from, shots.iter().enumerate().map(see).collect::<Result<Vec<_>, _>>()?))
         })?;
         let samples: Option<Vec<_>> = samples.into_iter().collect();
@@ -157,7 +163,7 @@ impl Weighing<'_> {
         let Some(factor) = normal.cholesky() else { return Ok(None) };
         let found = factor.solve(&(regressors.transpose() * &values));
         let rest = &values - &regressors * &found;
-        let mut covariance = self.of_each(&errors);
+        let mut covariance = self.observation_covariance(&errors);
         let of_others = found.rows(1 + at.len(), self.others.len());
         covariance += of_others.transpose() * of_others;
         let freedom = (drawn - inputs) as f64;
@@ -172,11 +178,11 @@ impl Weighing<'_> {
         // Slopes per coordinate, not per standard deviation of its spread.
         let slopes =
             DMatrix::from_fn(count, at.len(), |n, parameter| found[(1 + parameter, n)] / spread[parameter]);
-        Ok(Weights::new(covariance, errors).map(|weights| Local { mean, slopes, weights }))
+        Ok(Weights::new(covariance, errors).map(|weights| SampledWeights { mean, slopes, weights }))
     }
 
     /// Covariance of what was stated of each observation and of the error of each prediction.
-    fn of_each(&self, errors: &[f64]) -> DMatrix<f64> {
+    fn observation_covariance(&self, errors: &[f64]) -> DMatrix<f64> {
         let variance = |n: usize| self.seen.list[n].sd.powi(2) + errors[n].powi(2);
         DMatrix::from_diagonal(&DVector::from_fn(errors.len(), |n, _| variance(n)))
     }
@@ -193,7 +199,7 @@ impl Weighing<'_> {
             let [least, most] = parameter.range(self.plan);
             let normal: f64 = random.sample(StandardNormal);
             let coordinate = (mean + side * sd * normal).clamp(least, most);
-            parameter.put_into(&mut plan, coordinate);
+            parameter.set_in(&mut plan, coordinate);
             (coordinate - mean) / sd
         };
         let others: Vec<f64> =
@@ -214,7 +220,7 @@ impl Weighing<'_> {
     }
 
     /// The values seen of one shot of a sample; `None` where its run fails.
-    fn see(
+    fn observe_sample(
         &self,
         case: &Case,
         shot: &[usize],
@@ -226,7 +232,7 @@ impl Weighing<'_> {
         let watched: Vec<Watched> = shot.iter().map(|&n| self.seen.list[n].watched).collect();
         let sample = draw(case, &case.shots[option], seed, number);
         let settings = case.run_settings(compute.method, step(compute, &sample.scene));
-        seen(case, Some(&sample.scene), &sample.shot, &watched, &settings, progress)
+        observe_shot(case, Some(&sample.scene), &sample.shot, &watched, &settings, progress)
     }
 
     /// Error of each prediction, from runs at coarser steps; 0 where none of these has the value.

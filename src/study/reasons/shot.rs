@@ -3,7 +3,7 @@
 use crate::outcome::{EndReason, Outcome};
 use crate::scene::Shot;
 use crate::study::Case;
-use crate::study::together::Together;
+use crate::study::eight_ms::WithinEightMs;
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
 /// Greatest energy residual of a run that may pass, over the energy put in. A greater one says that the step is too long for
@@ -78,7 +78,7 @@ pub enum EarlyEnd {
 }
 
 /// What the run of a shot leaves open, where the run ends too early for a verdict.
-fn early(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<EarlyEnd> {
+fn early_end(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<EarlyEnd> {
     let last = shot.firings.last().map_or(0.0, |firing| firing.at);
     if last >= case.plan.simulation.duration_s.unwrap_or(f64::INFINITY) {
         return Some(EarlyEnd::HolesUnfired(last));
@@ -104,16 +104,19 @@ pub fn find_reasons_as_planned(
     estimates: [Estimate; 3],
 ) -> Vec<ShotReason> {
     let of_run = find_reasons(case, shot, outcome, estimates);
-    of_run.into_iter().chain(too_much_together(case, Together::of(case, shot))).collect()
+    of_run.into_iter().chain(too_much_together(case, WithinEightMs::of(case, shot))).collect()
 }
 
 /// Whether a shot fires more within 8 ms than the plan allows.
 pub fn exceeds_together(case: &Case, shot: &Shot) -> bool {
-    too_much_together(case, Together::of(case, shot)).next().is_some()
+    too_much_together(case, WithinEightMs::of(case, shot)).next().is_some()
 }
 
 /// Which limits are exceeded by what fires together.
-fn too_much_together(case: &Case, Together { holes, charge }: Together) -> impl Iterator<Item = ShotReason> {
+fn too_much_together(
+    case: &Case,
+    WithinEightMs { holes, charge }: WithinEightMs,
+) -> impl Iterator<Item = ShotReason> {
     let limits = &case.plan.limits;
     let most = limits.holes_in_8_ms.filter(|&limit| holes > limit);
     let heaviest = charge.zip(limits.charge_in_8_ms_kg).filter(|(charge, limit)| charge > limit);
@@ -130,7 +133,7 @@ pub fn find_reasons(
 ) -> Vec<ShotReason> {
     let limits = with_limits(estimates, &case.limits).map(|(quantity, estimate, limit)| ShotReason::Limit {
         quantity,
-        verdict: estimate.against(limit),
+        verdict: estimate.judge_against(limit),
         estimate,
         limit,
     });
@@ -138,7 +141,7 @@ pub fn find_reasons(
     let residual = Some(outcome.ledger.residual()).filter(|&residual| !closes(residual));
     let residual = residual.map(ShotReason::EnergyResidual);
     let end = case.plan.simulation.duration_s.unwrap_or(outcome.end.at);
-    let early = early(case, shot, outcome).map(|open| ShotReason::EndsEarly { end, open });
+    let early = early_end(case, shot, outcome).map(|open| ShotReason::EndsEarly { end, open });
     let all = limits.chain(broken).chain(residual).chain(early);
     all.filter(|reason| reason.verdict() != Verdict::Pass).collect()
 }

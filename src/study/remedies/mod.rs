@@ -26,7 +26,7 @@ use super::samples::risk::Risk;
 use super::samples::rounds::{ShotToSample, find_risks};
 use super::samples::sampling::Sampling;
 use super::work::batch::run_jobs;
-use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, guarded};
+use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, catch_panic};
 use crate::plan::PlanSource;
 use crate::plan::edit::change::{Change, ChangeKind};
 use crate::verdict::Verdict;
@@ -173,7 +173,7 @@ fn coarse(task: &Task<'_>, options: &[usize]) -> Result<Vec<Chain>, NoResult> {
         all.iter().flat_map(|(option, changes)| changes.iter().map(|&change| (*option, change))).collect();
     let mut verdicts = run_jobs(&jobs, progress, |(option, change)| {
         let Some(changed) = changed(case, change) else { return Ok(None) };
-        match guarded(|| quick_check(&changed, &changed.shots[*option], compute, progress)) {
+        match catch_panic(|| quick_check(&changed, &changed.shots[*option], compute, progress)) {
             // The judgement in full tells.
             Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(Some(Verdict::Undecided)),
             coarse => Ok(Some(coarse?.verdict)),
@@ -262,7 +262,7 @@ fn check_turns(
             let checked = check_as_planned(case, *option, task.compute, &mut |_| task.progress.flow());
             checked.map_err(|failure| task.progress.no_result(failure))
         };
-        match guarded(check) {
+        match catch_panic(check) {
             Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(None),
             checked => checked.map(Some),
         }

@@ -151,7 +151,7 @@ fn scatter_gaps(firings: &mut [Firing], unknown: &Uncertainty, random: &mut Rand
     for (row, start) in by_start.into_iter().zip(scattered_starts) {
         let first = firings[row[0]].at;
         let random = random.at(Draws::BlastRow(firings[row[0]].row));
-        for side in sides(row, firings) {
+        for side in split_by_side(row, firings) {
             let planned: Vec<f64> = [first].into_iter().chain(side.iter().map(|&n| firings[n].at)).collect();
             let scattered = scatter_chain(&planned, unknown, random);
             for (n, at) in side.into_iter().zip(&scattered[1..]) {
@@ -163,7 +163,7 @@ fn scatter_gaps(firings: &mut [Firing], unknown: &Uncertainty, random: &mut Rand
 
 /// The chains in which the holes of a row fire one another, from its first hole on: of holes that are planned for one time, each
 /// belongs to a chain of its own, such as the two sides of a row fired from its middle.
-fn sides(row: &[usize], firings: &[Firing]) -> Vec<Vec<usize>> {
+fn split_by_side(row: &[usize], firings: &[Firing]) -> Vec<Vec<usize>> {
     let mut sides: Vec<Vec<usize>> = Vec::new();
     for together in row.chunk_by(|&a, &b| firings[a].at == firings[b].at) {
         for (side, &hole) in together.iter().enumerate() {

@@ -13,7 +13,7 @@ use crate::study::compute::step_factor;
 use crate::study::reasons::shot::closes;
 use crate::study::work::batch::{run_expected_jobs, run_jobs};
 use crate::study::{
-    Case, ComputeSettings, Finding, Found, Key, NoResult, Progress, Shard, ShotSummary, guarded,
+    Case, ComputeSettings, Finding, Found, Key, NoResult, Progress, Shard, ShotSummary, catch_panic,
 };
 
 /// A shot whose risk is asked for.
@@ -184,7 +184,7 @@ pub(in crate::study) fn run_sample_once(
     number: usize,
     progress: &Progress,
 ) -> Result<Sample, NoResult> {
-    undecided_if_panicked(guarded(|| try_sample(target, number, 0, false, progress)), number)
+    undecided_if_panicked(catch_panic(|| try_sample(target, number, 0, false, progress)), number)
 }
 
 /// Draws one sample and runs it, at a step halved `halvings` times; where the sample is one of the audit, also at a finer step.
@@ -194,7 +194,7 @@ pub(in crate::study) fn run_sample(
     halvings: u32,
     progress: &Progress,
 ) -> Result<Sample, NoResult> {
-    undecided_if_panicked(guarded(|| try_sample(target, number, halvings, true, progress)), number)
+    undecided_if_panicked(catch_panic(|| try_sample(target, number, halvings, true, progress)), number)
 }
 
 /// A sample in which the program panicked shows nothing; the others go on.

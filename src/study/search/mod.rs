@@ -16,7 +16,7 @@ use std::cmp::Ordering;
 use itertools::Itertools;
 
 pub use self::pool::MOST_JUDGED;
-use self::pool::{FIRST_OF_SEARCH, Listed, Pool};
+use self::pool::{FIRST_OF_SEARCH, ListedSchedule, Pool};
 use self::race::{Contender, Race};
 use self::schedule::Choices;
 pub use self::schedule::{BrokenLimit, RefusedCounts};
@@ -97,8 +97,8 @@ pub fn search(
     progress: &Progress,
 ) -> Finding<Search> {
     let choices = Choices::new(case)?;
-    let race = race(case, sampling, compute);
-    let listed = Listed::new(case, &choices);
+    let race = start_race(case, sampling, compute);
+    let listed = ListedSchedule::new(case, &choices);
     let (complete, keeping) = (listed.are_all_judged(), listed.allowed.as_ref().map(Vec::len));
     let mut pool = Pool::new(case, &choices);
     let mut out_of_time = false;
@@ -145,7 +145,7 @@ pub fn try_schedules(
     progress: &Progress,
 ) -> Finding<bool> {
     let choices = Choices::new(case)?;
-    let listed = Listed::new(case, &choices);
+    let listed = ListedSchedule::new(case, &choices);
     if !listed.are_all_judged() {
         return Ok(Found { value: false, partial: false });
     }
@@ -153,11 +153,11 @@ pub fn try_schedules(
     pool.add(listed.allowed.unwrap_or_default());
     let own = pool.contenders.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
     let mut own: Vec<Contender> = own.map(|(_, contender)| contender).collect();
-    let partial = race(case, sampling, compute).draw(&mut own, FIRST_OF_ALL, progress)?;
+    let partial = start_race(case, sampling, compute).draw(&mut own, FIRST_OF_ALL, progress)?;
     Ok(Found { value: true, partial })
 }
 
-fn race<'c>(case: &'c Case, sampling: Option<&Sampling>, compute: &ComputeSettings) -> Race<'c> {
+fn start_race<'c>(case: &'c Case, sampling: Option<&Sampling>, compute: &ComputeSettings) -> Race<'c> {
     Race {
         case,
         compute: *compute,
@@ -184,7 +184,7 @@ fn choose_finalists<'r>(
     let mut chosen: Vec<(Schedule, &Contender)> = Vec::new();
     for contender in contenders.iter().filter(|one| one.tally.samples > 0) {
         let schedule = choices.schedule(&contender.candidate);
-        if chosen.len() < JUDGED_IN_FULL && !chosen.iter().any(|(other, _)| other.is_near(&schedule)) {
+        if chosen.len() < JUDGED_IN_FULL && !chosen.iter().any(|(other, _)| other.is_nearly_same(&schedule)) {
             chosen.push((schedule, contender));
         }
     }

@@ -24,14 +24,14 @@ const CLIMBERS: usize = 24;
 pub const FIRST_OF_SEARCH: usize = 8;
 
 /// The schedules that keep the limits of the search.
-pub struct Listed {
+pub struct ListedSchedule {
     /// In order; `None` where there are too many to look at all.
     pub allowed: Option<Vec<Candidate>>,
     /// Schedules left out, by the limit that they break.
     pub refused: RefusedCounts,
 }
 
-impl Listed {
+impl ListedSchedule {
     /// Looks at all schedules of a plan, unless there are too many.
     pub fn new(case: &Case, choices: &Choices<'_>) -> Self {
         let mut refused = RefusedCounts::default();
@@ -102,7 +102,11 @@ impl<'c> Pool<'c> {
                 return Ok(true);
             }
             let unseen = self.contenders.iter().filter(|one| !seen.contains(&one.candidate));
-            let best = unseen.sorted_by(|a, b| a.tally.score().total_cmp(&b.tally.score())).take(CLIMBERS);
+            let best = unseen
+                .sorted_by(|a, b| {
+                    a.tally.estimated_failing_share().total_cmp(&b.tally.estimated_failing_share())
+                })
+                .take(CLIMBERS);
             let best: Vec<Candidate> = best.map(|one| one.candidate.clone()).collect();
             let room = MOST_JUDGED.saturating_sub(self.contenders.len());
             if best.is_empty() || room == 0 {

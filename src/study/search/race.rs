@@ -60,7 +60,7 @@ impl Tally {
 
     /// Guess of the failing share. While few samples or none fail, the utilizations tell more than the failures: of a normal
     /// distribution of their mean and deviation a share lies above 1, which counts like [`WEIGHT_OF_GUESS`] samples.
-    pub fn score(&self) -> f64 {
+    pub fn estimated_failing_share(&self) -> f64 {
         let [sum, squares, count] = self.utilization;
         if count == 0.0 {
             return 1.0;
@@ -145,7 +145,9 @@ impl Race<'_> {
         let (mut samples, mut left) = (first, contenders.len());
         loop {
             let out_of_time = self.draw(&mut contenders[..left], samples, progress)?;
-            contenders[..left].sort_by(|a, b| a.tally.score().total_cmp(&b.tally.score()));
+            contenders[..left].sort_by(|a, b| {
+                a.tally.estimated_failing_share().total_cmp(&b.tally.estimated_failing_share())
+            });
             if out_of_time || samples >= MOST_SAMPLES || self.sampling.is_none() {
                 return Ok(out_of_time);
             }
@@ -168,7 +170,7 @@ mod tests {
                 let verdict = if n < failures { Verdict::Fail } else { Verdict::Pass };
                 tally.push(verdict, if n % 2 == 0 { low } else { high });
             }
-            tally.score()
+            tally.estimated_failing_share()
         };
         assert!((score(0.7, 0.9, 0) - 0.5 * 0.02275).abs() < 1e-4);
         assert!(score(0.5, 0.7, 0) < score(0.7, 0.9, 0));

@@ -10,7 +10,7 @@ use rand_chacha::ChaCha8Rng;
 use crate::choice::SearchedOrders;
 use crate::plan::{BlastRow, DelayOption, HoleTiming, Timing};
 use crate::scene::{Firing, Shot, seconds};
-use crate::study::together::Together;
+use crate::study::eight_ms::WithinEightMs;
 use crate::study::{Case, NoResult};
 
 /// A firing schedule.
@@ -94,7 +94,7 @@ impl Schedule {
     }
 
     /// Whether two schedules differ so little that nobody needs both.
-    pub fn is_near(&self, other: &Self) -> bool {
+    pub fn is_nearly_same(&self, other: &Self) -> bool {
         let near = |(a, b): (&f64, &f64)| (a - b).abs() < NEAR_MS.max(NEAR * a.max(*b));
         self.order == other.order
             && self.hole_timing == other.hole_timing
@@ -287,7 +287,7 @@ impl<'c> Choices<'c> {
         }
         // The stricter of both.
         let most_holes = spec.most_holes_in_8_ms.into_iter().chain(limits.holes_in_8_ms).min();
-        let Together { holes, charge } = Together::of(self.case, shot);
+        let WithinEightMs { holes, charge } = WithinEightMs::of(self.case, shot);
         if most_holes.is_some_and(|most| holes > most) {
             return Some(BrokenLimit::Holes);
         }

@@ -9,7 +9,8 @@
 
 use std::collections::BTreeSet;
 
-use super::{MOST_SAMPLED_GAP, Point, Sweep, deepest, nanoseconds, windows};
+use super::windows::{deepest, windows};
+use super::{MOST_SAMPLED_GAP, Point, Sweep, nanoseconds};
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, or_unknown};
 use crate::study::judgement::Evidence;

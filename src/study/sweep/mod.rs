@@ -14,9 +14,11 @@
 //! depends on the step a little; so a window is narrowed until both ends pass.
 
 mod accepted;
+mod windows;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use self::windows::{midpoints, recommend, windows};
 use super::as_planned::check_many::{check_summary, run_checks, run_checks_or_unknown};
 use super::as_planned::quick_check::quick_check;
 use super::judgement;
@@ -99,14 +101,8 @@ pub struct Recommended {
 pub const GAP: f64 = 0.25e-3;
 /// Greatest distance between neighbouring sampled points inside a window [s].
 const MOST_SAMPLED_GAP: f64 = 1e-3;
-/// Gaps as narrow as this are not halved [s].
-const NARROWEST: f64 = GAP / 8.0;
 /// What is swept where nobody asks for other intervals; between them more are tried where the answer changes.
 pub const INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: GAP };
-/// Factor on the errors of two points, with which the limits must be out of reach between them.
-const CALM_ERROR_FACTOR: f64 = 1.5;
-/// Room that counts for a recommended interval [s]: more than detonators scatter.
-const ENOUGH_ROOM: f64 = 10e-3;
 
 /// Sweeps the interval between the rows of `order`. Without a `sampling` only the shots as planned count.
 pub fn sweep(
@@ -123,7 +119,7 @@ pub fn sweep(
     case.require_hole_timing()?;
     let as_planned = sweep_as_planned(case, order, intervals, compute, progress)?;
     let Some(sampling) = sampling else { return Ok(as_planned) };
-    let own = own_intervals(case, order).into_iter().map(nanoseconds).collect();
+    let own = plan_intervals(case, order).into_iter().map(nanoseconds).collect();
     accepted::add_risk(case, as_planned, &own, sampling, compute, progress)
 }
 
@@ -135,7 +131,7 @@ fn sweep_as_planned(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Finding<Sweep> {
-    let mut exact: BTreeSet<i64> = own_intervals(case, order).into_iter().map(nanoseconds).collect();
+    let mut exact: BTreeSet<i64> = plan_intervals(case, order).into_iter().map(nanoseconds).collect();
     let [from, to] = [intervals.from, intervals.to].map(nanoseconds);
     let mut next: BTreeSet<i64> = intervals.values().into_iter().map(nanoseconds).collect();
     next.extend(exact.range(from..=to));
@@ -165,7 +161,7 @@ fn sweep_as_planned(
                 risk: Evidence::NotAsked,
             })
             .collect();
-        next = if partial { BTreeSet::new() } else { middles(case, &points).into_iter().collect() };
+        next = if partial { BTreeSet::new() } else { midpoints(case, &points).into_iter().collect() };
         if !next.is_empty() {
             continue;
         }
@@ -185,7 +181,7 @@ fn sweep_as_planned(
 }
 
 /// Intervals of the options that fire the rows at one interval [s], and of the options that fire them in this order.
-fn own_intervals(case: &Case, order: &[usize]) -> Vec<f64> {
+fn plan_intervals(case: &Case, order: &[usize]) -> Vec<f64> {
     let mut own = case.intervals();
     for (delay, shot) in case.plan.delays.iter().zip(&case.shots) {
         if let Timing::At(at_ms) = &delay.timing {
@@ -211,105 +207,8 @@ fn passes(point: &Point) -> bool {
     point.as_planned.verdict == Verdict::Pass
 }
 
-/// Middles of the gaps to be halved [ns].
-fn middles(case: &Case, points: &[Point]) -> Vec<i64> {
-    let halved = |&n: &usize| {
-        let (a, b) = (&points[n], &points[n + 1]);
-        let width = b.interval - a.interval;
-        let count = usize::from(passes(a)) + usize::from(passes(b));
-        let wanted = match count {
-            0 => false,
-            1 => true,
-            _ => !is_calm(case, points, n),
-        };
-        width > 1.01 * NARROWEST && (wanted || count > 0 && width > 1.01 * GAP)
-    };
-    let middle = |n: usize| (nanoseconds(points[n].interval) + nanoseconds(points[n + 1].interval)) / 2;
-    (0..points.len().saturating_sub(1)).filter(halved).map(middle).collect()
-}
-
-/// Whether no interval in the gap after point `n` can reach a limit, as far as its neighbours tell.
-fn is_calm(case: &Case, points: &[Point], n: usize) -> bool {
-    let slope = |pair: &[Point]| {
-        let change = (utilization(case, &pair[1]) - utilization(case, &pair[0])).abs();
-        change / (pair[1].interval - pair[0].interval)
-    };
-    let near = &points[n.saturating_sub(1)..points.len().min(n + 3)];
-    let steepest = near.windows(2).map(slope).fold(0.0, f64::max);
-    let width = points[n + 1].interval - points[n].interval;
-    let highest = |point: &Point| point.as_planned.with_errors(CALM_ERROR_FACTOR).utilization(&case.limits);
-    highest(&points[n]).max(highest(&points[n + 1])) + steepest * width <= 1.0
-}
-
 fn utilization(case: &Case, point: &Point) -> f64 {
     point.as_planned.utilization(&case.limits)
-}
-
-/// Utilization with the errors added.
-fn upper(case: &Case, point: &Point) -> f64 {
-    point.as_planned.with_errors(1.0).utilization(&case.limits)
-}
-
-fn windows(case: &Case, points: &[Point]) -> Vec<[f64; 2]> {
-    let joined = |n: usize| {
-        let (a, b) = (&points[n], &points[n + 1]);
-        passes(a) && passes(b) && b.interval - a.interval <= 1.01 * GAP && is_calm(case, points, n)
-    };
-    let mut windows: Vec<[f64; 2]> = Vec::new();
-    for n in (0..points.len()).filter(|&n| passes(&points[n])) {
-        match windows.last_mut() {
-            Some(window) if n > 0 && joined(n - 1) => window[1] = points[n].interval,
-            _ => windows.push([points[n].interval; 2]),
-        }
-    }
-    windows
-}
-
-/// The interval deepest inside a window of the shots as planned, by their utilization with errors.
-fn recommend(case: &Case, points: &[Point], windows: &[[f64; 2]]) -> Option<Recommended> {
-    deepest(points, windows, |point| upper(case, point), |_| true)
-}
-
-/// The interval and the room r around it for which r × (1 − greatest utilization within r) is greatest; `used` tells the
-/// utilization of a point, and `may` which points may be recommended.
-fn deepest(
-    points: &[Point],
-    windows: &[[f64; 2]],
-    used: impl Fn(&Point) -> f64,
-    may: impl Fn(&Point) -> bool,
-) -> Option<Recommended> {
-    let mut best: Option<(f64, Recommended)> = None;
-    for &[from, to] in windows {
-        let first = points.partition_point(|point| point.interval < from);
-        let inside = &points[first..points.partition_point(|point| point.interval <= to)];
-        for (n, &Point { interval, .. }) in inside.iter().enumerate().filter(|(_, point)| may(point)) {
-            let most = ENOUGH_ROOM.min(interval - from).min(to - interval);
-            let (mut low, mut high, mut greatest) = (n, n, used(&inside[n]));
-            // The room grows point by point, to the nearer one first.
-            loop {
-                let left = low.checked_sub(1).map_or(f64::INFINITY, |n| interval - inside[n].interval);
-                let right = inside.get(high + 1).map_or(f64::INFINITY, |point| point.interval - interval);
-                let room = left.min(right).min(most);
-                // The points at the end of the room count.
-                if left <= room {
-                    low -= 1;
-                    greatest = greatest.max(used(&inside[low]));
-                }
-                if right <= room {
-                    high += 1;
-                    greatest = greatest.max(used(&inside[high]));
-                }
-                let score = room * (1.0 - greatest);
-                if best.is_none_or(|(least, _)| score > least) && score > 0.0 {
-                    best = Some((score, Recommended { interval, room, utilization: greatest }));
-                }
-                if left.min(right) > room {
-                    break;
-                }
-            }
-        }
-    }
-    best.map(|(_, recommended)| recommended)
 }
 
 impl Sweep {
@@ -375,7 +274,7 @@ mod tests {
         let count = (20.0 / step) as i64;
         let mut points: Vec<Point> = (0..=count).map(|n| point((n as f64 * step * 1e6) as i64)).collect();
         loop {
-            let next = middles(&case, &points);
+            let next = midpoints(&case, &points);
             if next.is_empty() {
                 return windows(&case, &points);
             }

@@ -49,7 +49,7 @@ pub fn run_expected_jobs<J: Sync, T: Send>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::work::guarded;
+    use crate::study::work::catch_panic;
 
     #[test]
     fn a_job_that_ends_as_the_time_is_up_keeps_its_result() {
@@ -65,7 +65,7 @@ mod tests {
     #[test]
     fn a_panic_is_told_and_the_others_go_on() {
         let jobs = [1, 2, 3];
-        let work = |&job: &i32| Ok(guarded(|| if job == 2 { panic!("job {job}") } else { Ok(10 * job) }));
+        let work = |&job: &i32| Ok(catch_panic(|| if job == 2 { panic!("job {job}") } else { Ok(10 * job) }));
         let results = run_jobs(&jobs, &Progress::default(), work).expect("nobody stopped it");
         assert_eq!(results, [Some(Ok(10)), Some(Err(NoResult::Panicked("job 2".to_owned()))), Some(Ok(30))]);
     }

@@ -21,6 +21,6 @@ pub use batch::thread_pool;
 pub use found::{Finding, Found};
 pub use intervals::Intervals;
 pub use journal::{Journal, Key};
-pub use no_result::{NoResult, guarded};
+pub use no_result::{NoResult, catch_panic};
 pub use progress::Progress;
 pub use shard::Shard;

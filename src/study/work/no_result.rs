@@ -34,7 +34,7 @@ pub enum NoResult {
 }
 
 /// Does one piece of work; turns a panic into [`NoResult::Panicked`], so that other work goes on.
-pub fn guarded<T>(work: impl FnOnce() -> Result<T, NoResult>) -> Result<T, NoResult> {
+pub fn catch_panic<T>(work: impl FnOnce() -> Result<T, NoResult>) -> Result<T, NoResult> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
         let message = panic.downcast_ref::<String>().map(String::as_str);
         let message = message.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("unknown cause");

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod compare;
+pub mod dispatch;
 mod flight;
 mod plan;
 mod prompt;
@@ -86,8 +87,8 @@ impl App {
     pub(super) fn act_anywhere(&mut self, action: Action) -> Request {
         match action {
             Action::Show(screen) => self.screen = screen,
-            Action::NextScreen => self.screen = self.screen.turned(1),
-            Action::PreviousScreen => self.screen = self.screen.turned(Screen::ALL.len() - 1),
+            Action::NextScreen => self.screen = self.screen.next_by(1),
+            Action::PreviousScreen => self.screen = self.screen.next_by(Screen::ALL.len() - 1),
             Action::Undo => {
                 let edit = self.editor.undo();
                 return self.edited(edit);
@@ -101,16 +102,16 @@ impl App {
             Action::Find => self.prompt = Some(Prompt::new(Purpose::Find, "")),
             Action::Palette => self.prompt = Some(Prompt::new(Purpose::Palette, "")),
             Action::Export => return self.name_export(),
-            Action::Page => return Request::NamePage(format!("{}-to-be-fired", self.stem())),
+            Action::Page => return Request::NamePage(format!("{}-to-be-fired", self.file_stem())),
             Action::Yank => return Request::Yank,
             Action::Theme => self.theme = self.theme.next(),
             Action::Help => {
                 self.help = !self.help;
                 self.help_scroll = 0;
             }
-            Action::Rerun => return self.rerun(self.compute.accuracy),
-            Action::Finer => return self.rerun(finer(self.compute.accuracy)),
-            Action::Coarser => return self.rerun(coarser(self.compute.accuracy)),
+            Action::Rerun => return self.check_again(self.compute.accuracy),
+            Action::Finer => return self.check_again(finer(self.compute.accuracy)),
+            Action::Coarser => return self.check_again(coarser(self.compute.accuracy)),
             Action::Suspend => return Request::Suspend,
             Action::Quit => return self.quit(),
             _ => {}
@@ -121,11 +122,11 @@ impl App {
     /// Asks for the file to export to; the name offered says plan and screen.
     fn name_export(&self) -> Request {
         let ending = if self.screen == Screen::Plan { "svg" } else { "csv" };
-        Request::NameExport(format!("{}-{}", self.stem(), self.screen.name().to_lowercase()), ending)
+        Request::NameExport(format!("{}-{}", self.file_stem(), self.screen.name().to_lowercase()), ending)
     }
 
     /// Name of the plan's file without its ending.
-    fn stem(&self) -> &str {
+    fn file_stem(&self) -> &str {
         Path::new(&self.case.source.path).file_stem().and_then(|stem| stem.to_str()).unwrap_or("plan")
     }
 
@@ -177,7 +178,7 @@ impl App {
     }
 
     /// Asks to check every option at an accuracy.
-    fn rerun(&mut self, accuracy: Accuracy) -> Request {
+    fn check_again(&mut self, accuracy: Accuracy) -> Request {
         self.compute.accuracy = accuracy;
         self.studies.changes = None;
         self.options.fill(OptionState::Waiting);

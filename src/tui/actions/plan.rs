@@ -51,7 +51,7 @@ impl App {
     /// Passes a key to the value being typed, or to the blast rows being put in order.
     pub fn type_key(&mut self, key: &KeyEvent) -> Request {
         let edit = match (self.editor.order.is_some(), self.keymap.action(key)) {
-            (true, Some(action)) if key.code != KeyCode::Esc => self.editor.arrange(action),
+            (true, Some(action)) if key.code != KeyCode::Esc => self.editor.act_on_order(action),
             _ => self.editor.type_key(key),
         };
         self.edited(edit)

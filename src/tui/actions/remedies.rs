@@ -58,7 +58,7 @@ impl App {
             Action::Open => {
                 let change = remedies.passing().nth(selected)?.change;
                 let words = words(&self.case, &change);
-                let edit = self.editor.take(change.apply(&self.editor.text));
+                let edit = self.editor.adopt(change.apply(&self.editor.text));
                 let request = self.edited(edit);
                 let undo = self.keymap.hint(Action::Undo);
                 self.notice = Some(match &self.editor.problem {

@@ -21,8 +21,8 @@ impl App {
             Action::PageDown => self.studies.scroll(PAGE as i16),
             Action::First => self.studies.scroll = 0,
             Action::Last => self.studies.scroll = u16::MAX,
-            Action::Left => self.studies.turn(-1),
-            Action::Right => self.studies.turn(1),
+            Action::Left => self.studies.show_neighbour(-1),
+            Action::Right => self.studies.show_neighbour(1),
             Action::Open | Action::Rerun => return self.begin_study(kind),
             Action::Cancel => return self.cancel_study(kind),
             other => return self.act_anywhere(other),
@@ -74,7 +74,7 @@ impl App {
                 format!("used: {rope}, tires of {tire_mass} kg, {border_rows} border rows"),
             ),
         };
-        let edit = self.editor.take(changed.map_err(|error| error.to_string()));
+        let edit = self.editor.adopt(changed.map_err(|error| error.to_string()));
         if matches!(edit, EditOutcome::None) {
             self.notice = self.editor.problem.clone();
             return Request::None;
@@ -84,7 +84,7 @@ impl App {
         let kept = self.studies.clone();
         let request = self.edited(edit);
         if matches!(offer, Offer::Option(_)) {
-            self.studies.keep(&kept);
+            self.studies.keep_shown_result(&kept);
         }
         // Compare shows the verdict of the new option.
         self.screen = Screen::Compare;

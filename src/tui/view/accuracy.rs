@@ -6,7 +6,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::chart::{self, Mark};
-use super::parts::{draw_message, draw_progress};
+use super::widgets::{draw_message, draw_progress};
 use crate::choice::Method;
 use crate::jobs::{StudyKind, StudyResult};
 use crate::report::accuracy::enough;
@@ -25,7 +25,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let name = app.case.plan.delays.get(app.selected).map_or("", |delay| &delay.name);
     let rule = Block::new()
         .borders(Borders::TOP)
-        .border_style(app.theme.quiet())
+        .border_style(app.theme.muted())
         .title(Line::styled(format!(" {name} "), app.theme.title()));
     let inside = rule.inner(area);
     frame.render_widget(rule, area);
@@ -70,7 +70,7 @@ fn levels<'l>(app: &App, study: &AccuracyTable) -> Vec<Line<'l>> {
         "  {:9} {:>9} {:>10} {:>10} {:>10} {:>8} {finer} and {coarser} choose",
         "level", "1st step", "height err", "force err", "drift err", "one run"
     );
-    let mut lines = vec![Line::styled(head, app.theme.quiet())];
+    let mut lines = vec![Line::styled(head, app.theme.muted())];
     let base = measured(study, study.levels[0].step);
     for LevelStep { level, step } in study.levels {
         let chosen = level == app.compute.accuracy && app.compute.step.is_none();

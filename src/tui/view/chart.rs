@@ -123,11 +123,11 @@ pub fn draw(app: &App, chart: &Chart, mark: Option<Mark>, frame: &mut Frame, are
         widgets::Axis::default()
             .bounds([from, to.max(from + f64::MIN_POSITIVE.max(from.abs() * 1e-9))])
             .labels(labels.into_iter().map(|coordinate| label(axis, coordinate)))
-            .style(theme.quiet())
+            .style(theme.muted())
     };
     let [x, y] = [(&chart.x, 3), (&chart.y, 2)].map(|(side, count)| axis(side, labelled(side, count)));
     let drawn = widgets::Chart::new(sets.collect())
-        .block(Block::new().title(Line::styled(title(chart, area.width), theme.quiet()).centered()))
+        .block(Block::new().title(Line::styled(title(chart, area.width), theme.muted()).centered()))
         .style(theme.base())
         .x_axis(x)
         .y_axis(y)

@@ -21,13 +21,13 @@ pub fn draw(app: &App, prompt: &Prompt, frame: &mut Frame, line: Rect) {
         Line::from(vec![
             Span::styled(format!(" {:16}", binding.name), style),
             Span::styled(format!(" {:9} ", app.keymap.first_key(binding.action)), app.theme.title()),
-            Span::styled(binding.text, app.theme.quiet()),
+            Span::styled(binding.text, app.theme.muted()),
         ])
     });
     let block = Block::bordered().style(app.theme.base()).title(" Commands ");
     frame.render_widget(Clear, area);
     if commands.is_empty() {
-        let none = Line::styled(" no command has these letters", app.theme.quiet());
+        let none = Line::styled(" no command has these letters", app.theme.muted());
         let inside = block.inner(area);
         frame.render_widget(block, area);
         return frame.render_widget(none, inside);

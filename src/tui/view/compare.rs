@@ -48,7 +48,7 @@ const COLUMNS: &[CompareColumn] = &[
         sort: SortBy::Height,
         width: 10,
         from: 0,
-        cell: |app, option, _| against(app, option, |checked| checked.height.value, Unit::Metre),
+        cell: |app, option, _| value_or_difference(app, option, |checked| checked.height.value, Unit::Metre),
     },
     CompareColumn {
         head: "5 to 95 %",
@@ -62,7 +62,9 @@ const COLUMNS: &[CompareColumn] = &[
         sort: SortBy::Force,
         width: 10,
         from: 0,
-        cell: |app, option, _| against(app, option, |checked| checked.force.value, Unit::Kilonewton),
+        cell: |app, option, _| {
+            value_or_difference(app, option, |checked| checked.force.value, Unit::Kilonewton)
+        },
     },
     CompareColumn {
         head: "5 to 95 %",
@@ -83,7 +85,7 @@ const COLUMNS: &[CompareColumn] = &[
         sort: SortBy::Drift,
         width: 9,
         from: SPARKS,
-        cell: |app, option, _| against(app, option, |checked| checked.drift.value, Unit::Metre),
+        cell: |app, option, _| value_or_difference(app, option, |checked| checked.drift.value, Unit::Metre),
     },
 ];
 
@@ -115,7 +117,7 @@ fn band(judged: &Judgement, quantity: Quantity, unit: Unit) -> String {
 }
 
 /// A quantity of the shot as planned, or its difference from the baseline.
-fn against(app: &App, option: usize, quantity: fn(&CheckedShot) -> f64, unit: Unit) -> String {
+fn value_or_difference(app: &App, option: usize, quantity: fn(&CheckedShot) -> f64, unit: Unit) -> String {
     let Some(mine) = app.judgement(option).map(|judged| quantity(&judged.as_planned)) else {
         return String::new();
     };
@@ -169,7 +171,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         let line = Line::from(format!("{}{}", head.0, if marked == Some(n) { mark } else { "" }));
         if (2..2 + columns.len()).contains(&n) { line.right_aligned() } else { line }
     });
-    let table = Table::new(rows, widths).header(Cells::new(cells).style(app.theme.quiet()));
+    let table = Table::new(rows, widths).header(Cells::new(cells).style(app.theme.muted()));
     let at = listed.iter().position(|&option| option == app.selected);
     let mut state = TableState::new().with_selected(at);
     frame.render_stateful_widget(table, area, &mut state);
@@ -184,7 +186,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     }
     if listed.is_empty() && area.height > 1 {
         let none = format!("no option has '{}' in its name or verdict; Esc shows all", app.listing.filter);
-        frame.render_widget(Line::styled(none, app.theme.quiet()), Rect { y: area.y + 1, height: 1, ..area });
+        frame.render_widget(Line::styled(none, app.theme.muted()), Rect { y: area.y + 1, height: 1, ..area });
     }
 }
 
@@ -210,11 +212,11 @@ fn row<'r>(app: &'r App, option: usize, columns: &[&CompareColumn], (name, spark
             cells.push(verdict(app, Verdict::Undecided));
             cells.push(Line::from(no_result::message(failed)));
         }
-        OptionState::Waiting => cells.push(Line::styled("waits", app.theme.quiet())),
+        OptionState::Waiting => cells.push(Line::styled("waits", app.theme.muted())),
         OptionState::Running { runs, done } => {
-            cells.push(Line::styled(format!("{:>3.0} %", done * 100.0), app.theme.quiet()));
-            cells.push(Line::styled(bar(*done, 15), app.theme.quiet()));
-            cells.push(Line::styled(format!("run {}", runs + 1), app.theme.quiet()));
+            cells.push(Line::styled(format!("{:>3.0} %", done * 100.0), app.theme.muted()));
+            cells.push(Line::styled(bar(*done, 15), app.theme.muted()));
+            cells.push(Line::styled(format!("run {}", runs + 1), app.theme.muted()));
         }
     }
     Cells::new(cells)

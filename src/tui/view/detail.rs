@@ -19,7 +19,7 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use super::chart;
 use crate::jobs::StudyKind;
 use crate::outcome::EndReason;
-use crate::report::explain::{bands, broken, fires, inputs, launch_limit, peaks};
+use crate::report::explain::{bands, broken, firing_times_text, inputs, launch_limit, peaks};
 use crate::report::model::Chart;
 use crate::report::reasons;
 use crate::report::remedies::{sentence, without_pass};
@@ -48,12 +48,12 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let Some(delay) = app.case.plan.delays.get(app.selected) else { return };
     let rule = Block::new()
         .borders(Borders::TOP)
-        .border_style(app.theme.quiet())
+        .border_style(app.theme.muted())
         .title(Line::styled(format!(" {} ", delay.name), app.theme.title()));
-    let times = format!(" rows fire at {} ", fires(&app.case.plan.blast_rows, delay));
+    let times = format!(" rows fire at {} ", firing_times_text(&app.case.plan.blast_rows, delay));
     // The name is worth more than the times.
     let fits = Span::raw(&times).width() + Span::raw(&delay.name).width() + 4 <= usize::from(area.width);
-    let rule = if fits { rule.title(Line::styled(times, app.theme.quiet()).right_aligned()) } else { rule };
+    let rule = if fits { rule.title(Line::styled(times, app.theme.muted()).right_aligned()) } else { rule };
     let inside = rule.inner(area);
     frame.render_widget(rule, area);
     let judged = match &app.options[app.selected] {
@@ -123,7 +123,7 @@ fn remedy_lines<'a>(app: &App) -> Vec<Line<'a>> {
         let (mark, style) = if n == selected { ("> ", theme.selected()) } else { ("· ", theme.base()) };
         Line::styled(format!("{mark}{}", sentence(case, passing)), style)
     }));
-    lines.extend(without_pass(&app.case, remedies).into_iter().map(|line| Line::styled(line, theme.quiet())));
+    lines.extend(without_pass(&app.case, remedies).into_iter().map(|line| Line::styled(line, theme.muted())));
     lines
 }
 
@@ -175,6 +175,6 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
         },
         units::seconds(checked.end.at),
     );
-    lines.push(Line::styled(how, theme.quiet()));
+    lines.push(Line::styled(how, theme.muted()));
     lines
 }

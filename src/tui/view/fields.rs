@@ -10,7 +10,7 @@ use crate::ropes::catalogue;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 use crate::tui::name_list::NameList;
-use crate::tui::order::Order;
+use crate::tui::order_editor::OrderEditor;
 
 /// Most names of a list shown at once.
 const MOST_NAMES: u16 = 12;
@@ -21,7 +21,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let title = if editor.unsaved() { " Plan, not saved, * changed " } else { " Plan " };
     let block = Block::new()
         .borders(Borders::TOP)
-        .border_style(app.theme.quiet())
+        .border_style(app.theme.muted())
         .title(Span::styled(title, app.theme.title()));
     let width = editor.fields.iter().map(|field| field.label.chars().count()).max().unwrap_or(0);
     let width = width.min(usize::from(area.width) / 2);
@@ -75,13 +75,13 @@ fn value_line<'l>(app: &'l App, n: usize, field: &'l Field, width: usize) -> Lin
     let style = if selected { app.theme.selected() } else { app.theme.base() };
     Line::from(vec![
         Span::styled(mark, app.theme.limit()),
-        Span::styled(format!(" {label:width$} "), app.theme.quiet()),
+        Span::styled(format!(" {label:width$} "), app.theme.muted()),
         Span::styled(format!(" {value} "), style),
     ])
 }
 
 /// An area of `height` lines below `value`, or above where there is no room below.
-fn beside(value: Rect, height: u16, frame: &Frame) -> Rect {
+fn area_beside(value: Rect, height: u16, frame: &Frame) -> Rect {
     let height = height.min(frame.area().height);
     let below = value.y + 1 + height <= frame.area().bottom();
     let y = if below { value.y + 1 } else { value.y.saturating_sub(height) };
@@ -89,8 +89,8 @@ fn beside(value: Rect, height: u16, frame: &Frame) -> Rect {
 }
 
 /// Draws the blast rows in order of firing.
-fn draw_order(app: &App, order: &Order, frame: &mut Frame, value: Rect) {
-    let area = beside(value, order.names.len() as u16 + 2, frame);
+fn draw_order(app: &App, order: &OrderEditor, frame: &mut Frame, value: Rect) {
+    let area = area_beside(value, order.names.len() as u16 + 2, frame);
     let rows = order.names.iter().enumerate().map(|(n, name)| {
         let style = if n == order.selected { app.theme.selected() } else { app.theme.base() };
         Line::styled(format!(" {}. row {name} ", n + 1), style)
@@ -107,12 +107,13 @@ fn draw_order(app: &App, order: &Order, frame: &mut Frame, value: Rect) {
 fn draw_names(app: &App, names: &NameList, frame: &mut Frame, value: Rect) {
     let matches = names.matches();
     let wide = frame.area().width.min(76);
-    let area = beside(Rect { width: wide, ..value }, (matches.len() as u16).clamp(1, MOST_NAMES) + 2, frame);
+    let area =
+        area_beside(Rect { width: wide, ..value }, (matches.len() as u16).clamp(1, MOST_NAMES) + 2, frame);
     let rows = matches.iter().enumerate().map(|(n, name)| {
         let style = if n == names.selected { app.theme.selected() } else { app.theme.base() };
         Line::from(vec![
             Span::styled(format!(" {name:34.34} "), style),
-            Span::styled(figures(name), app.theme.quiet()),
+            Span::styled(figures(name), app.theme.muted()),
         ])
     });
     let title = match names.input.value() {

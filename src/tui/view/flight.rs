@@ -19,7 +19,7 @@ use ratatui::widgets::canvas::{Canvas, Line as Stroke, Points};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::chart::{self, Mark};
-use super::parts::color;
+use super::widgets::color;
 use crate::jobs::StudyKind;
 use crate::outcome::Outcome;
 use crate::plan;
@@ -67,10 +67,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     }
 }
 
-fn titled<'t>(app: &App, title: String) -> Block<'t> {
+fn titled_block<'t>(app: &App, title: String) -> Block<'t> {
     Block::new()
         .borders(Borders::TOP)
-        .border_style(app.theme.quiet())
+        .border_style(app.theme.muted())
         .title(Line::styled(format!(" {title} "), app.theme.title()))
 }
 
@@ -87,7 +87,7 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
         }
         false => String::new(),
     };
-    let block = titled(app, format!("{name}, from above{slope}"));
+    let block = titled_block(app, format!("{name}, from above{slope}"));
     let inside = block.inner(area);
     frame.render_widget(block, area);
     let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
@@ -110,7 +110,7 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
                 let [(x1, y1), (x2, y2)] = scene.cables[cable].ends.map(position);
                 context.draw(&Stroke { x1, y1, x2, y2, color: color(style) });
             };
-            stroke(flight.outcome.force.index, theme.quiet());
+            stroke(flight.outcome.force.index, theme.muted());
             for (cable, &force) in forces.iter().enumerate().filter(|(_, force)| **force > 0.0) {
                 stroke(cable, cable_style(app, force));
             }
@@ -167,7 +167,7 @@ fn arrow(along: Vector2<f64>) -> &'static str {
 fn sign(app: &App, height: f32) -> (&'static str, Style) {
     let share = f64::from(height) / app.case.limits.height;
     if height < GROUND {
-        return ("·", app.theme.quiet());
+        return ("·", app.theme.muted());
     }
     let sign = LEVELS[((share * 8.0) as usize).min(7)];
     let verdict = if share > 1.0 { Verdict::Fail } else { Verdict::Pass };
@@ -195,7 +195,7 @@ fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area
     let higher = (right - left + 2.0 * margin) / cells[0] / (1.03 * top / cells[1]);
     let scale = units::rounded(higher, if higher < 10.0 { 1 } else { 0 });
     let canvas = Canvas::default()
-        .block(titled(
+        .block(titled_block(
             app,
             format!("{seen}, heights x {scale}: {count} of {} cables taut", scene.cables.len()),
         ))
@@ -206,12 +206,12 @@ fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area
         .paint(|context| {
             let stroke = |(x1, y1), (x2, y2), color| Stroke { x1, y1, x2, y2, color };
             let (from, to) = (left - margin, right + margin);
-            context.draw(&stroke((from, 0.0), (to, 0.0), color(theme.quiet())));
+            context.draw(&stroke((from, 0.0), (to, 0.0), color(theme.muted())));
             for wanted in [false, true] {
                 for (cable, &force) in scene.cables.iter().zip(forces).filter(|(cable, force)| {
                     (**force > 0.0) == wanted && cable.ends.iter().any(|&end| aloft(end))
                 }) {
-                    let style = if wanted { cable_style(app, force) } else { theme.quiet() };
+                    let style = if wanted { cable_style(app, force) } else { theme.muted() };
                     let [a, b] = cable.ends.map(|end| tires[end]);
                     context.draw(&stroke(a, b, color(style)));
                 }
@@ -259,7 +259,7 @@ fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<
         units::value(force.value, Unit::Kilonewton)
     );
     let mut line = Line::from(Span::styled(format!(" now: {tire} · {cable}"), app.theme.title()));
-    let marks = [peaks, " · peaks: ^, grey".to_owned()].map(|words| Span::styled(words, app.theme.quiet()));
+    let marks = [peaks, " · peaks: ^, grey".to_owned()].map(|words| Span::styled(words, app.theme.muted()));
     if let Some(marks) = marks.into_iter().find(|marks| line.width() + marks.width() <= usize::from(width)) {
         line.push_span(marks);
     }
@@ -285,7 +285,7 @@ fn draw_bar(app: &App, flight: &Flight, frame: &mut Frame, area: Rect, areas: &m
     let line = Line::from(vec![
         Span::styled("━".repeat(at.min(cells)), app.theme.curve()),
         Span::styled("●".repeat(cells.min(1)), app.theme.title()),
-        Span::styled("─".repeat(cells.saturating_sub(at + 1)), app.theme.quiet()),
+        Span::styled("─".repeat(cells.saturating_sub(at + 1)), app.theme.muted()),
     ]);
     frame.render_widget(line, bar);
     areas.push((bar, ClickTarget::Time(flight.end())));

@@ -33,7 +33,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let key = |binding: &Binding| row(app.keymap.all_keys(binding.action), binding.text);
     let known = BINDINGS.iter().filter(|binding| binding.is_on(app.screen));
     let (here, everywhere): (Vec<_>, Vec<_>) = known.partition(|binding| !binding.on.is_empty());
-    let head = |title: String| Line::styled(title, app.theme.quiet());
+    let head = |title: String| Line::styled(title, app.theme.muted());
     let mut lines = Vec::new();
     if !here.is_empty() {
         lines.push(head(format!("On the screen {}", app.screen.name())));

@@ -17,17 +17,17 @@ mod detail;
 mod fields;
 mod flight;
 mod help;
-mod parts;
 mod plan;
 pub(super) mod report;
 mod studies;
+mod widgets;
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Position, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph, Wrap};
 
-use self::parts::draw_row;
+use self::widgets::draw_row;
 use super::app::{App, Areas, ClickTarget};
 use super::compare::OptionState;
 use super::keymap::{Action, BINDINGS};
@@ -90,7 +90,7 @@ fn draw_options(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
 
 fn draw_tabs(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let tab = |key: String, name: &'static str, shown: bool| {
-        let style = if shown { app.theme.selected() } else { app.theme.quiet() };
+        let style = if shown { app.theme.selected() } else { app.theme.muted() };
         Line::from(vec![
             Span::styled(format!(" {key} "), if shown { style } else { app.theme.title() }),
             Span::styled(format!("{name} "), style),
@@ -119,7 +119,7 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
     let unsaved = if app.editor.unsaved() { " *not saved*" } else { "" };
     let title = Line::from(vec![
         Span::styled(case.title(), theme.title()),
-        Span::styled(format!("  {}", case.source.path), theme.quiet()),
+        Span::styled(format!("  {}", case.source.path), theme.muted()),
         Span::styled(unsaved, theme.limit()),
     ]);
     let state = Line::from(summary(app)).right_aligned().style(theme.title());
@@ -144,7 +144,7 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
                 ([only], _) => format!("! {only} · "),
                 (all, _) => format!("! {} warnings: see Plan · ", all.len()),
             };
-            Line::from(vec![Span::styled(warning, theme.limit()), Span::styled(about, theme.quiet())])
+            Line::from(vec![Span::styled(warning, theme.limit()), Span::styled(about, theme.muted())])
         }
     };
     frame.render_widget(line, second);
@@ -167,7 +167,7 @@ fn summary(app: &App) -> String {
 fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let label = |action: Action, short: &'static str| {
         let key = Span::styled(format!(" {} ", app.keymap.first_key(action)), app.theme.title());
-        let line = Line::from(vec![key, Span::styled(format!("{short} "), app.theme.quiet())]);
+        let line = Line::from(vec![key, Span::styled(format!("{short} "), app.theme.muted())]);
         (line, ClickTarget::Act(action))
     };
     let end = [label(Action::Help, "help"), label(Action::Quit, "quit")];

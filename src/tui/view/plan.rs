@@ -8,9 +8,9 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::canvas::{self, Canvas, Points};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
-use super::parts::color;
+use super::widgets::color;
 use super::{compare, fields};
-use crate::report::explain::fires;
+use crate::report::explain::firing_times_text;
 use crate::report::warnings;
 use crate::study::Case;
 use crate::tui::app::{App, Areas};
@@ -44,19 +44,19 @@ fn draw_message(app: &App, warnings: &[String], frame: &mut Frame, area: Rect) {
                 [Action::Up, Action::Down, Action::Left, Action::Right].map(|action| app.keymap.hint(action));
             let hint =
                 format!("{up} {down} select a row, {left} {right} move it · Enter takes it, Esc leaves it");
-            Line::styled(hint, app.theme.quiet())
+            Line::styled(hint, app.theme.muted())
         }
         None if editor.names.is_some() => {
-            Line::styled("letters find a name · Enter takes it, Esc leaves it", app.theme.quiet())
+            Line::styled("letters find a name · Enter takes it, Esc leaves it", app.theme.muted())
         }
         None if editor.input.is_some() => {
-            Line::styled("Enter takes it, Esc leaves it, Ctrl-u clears", app.theme.quiet())
+            Line::styled("Enter takes it, Esc leaves it, Ctrl-u clears", app.theme.muted())
         }
         None => {
             let [open, left, right] =
                 [Action::Open, Action::Left, Action::Right].map(|action| app.keymap.hint(action));
             let hint = format!("{open} edits · {left} {right} step through values, but not limits");
-            Line::styled(hint, app.theme.quiet())
+            Line::styled(hint, app.theme.muted())
         }
     };
     let mut lines: Vec<Line> = Vec::new();
@@ -86,9 +86,9 @@ fn draw_message(app: &App, warnings: &[String], frame: &mut Frame, area: Rect) {
 fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
     let (case, theme) = (&app.case, app.theme);
     let Some(delay) = case.plan.delays.get(app.selected) else { return };
-    let fires = fires(&case.plan.blast_rows, delay);
+    let fires = firing_times_text(&case.plan.blast_rows, delay);
     let title = Line::styled(format!(" {} · {fires} ", delay.name), theme.title());
-    let block = Block::new().borders(Borders::TOP).border_style(theme.quiet()).title(title);
+    let block = Block::new().borders(Borders::TOP).border_style(theme.muted()).title(title);
     let scene = case.scene();
     let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
     let margin = 0.05 * (right - left).max(top - bottom).max(1.0);
@@ -124,7 +124,7 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
         .x_bounds([left - margin, right + margin])
         .y_bounds([bottom - margin, top + margin])
         .paint(|context| {
-            context.draw(&Points { coords: &others, color: color(theme.quiet()) });
+            context.draw(&Points { coords: &others, color: color(theme.muted()) });
             context.layer();
             context.marker(Marker::Braille);
             for &[(x1, y1), (x2, y2)] in &lines {
@@ -147,7 +147,7 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
         false => "signs: 1 fires first, 2 next, after 9 a, b",
     };
     let lines = if lines.is_empty() { "" } else { " · lines: fire at once" };
-    let legend = Line::styled(format!(" {signs}{lines} · points: no hole "), theme.quiet());
+    let legend = Line::styled(format!(" {signs}{lines} · points: no hole "), theme.muted());
     let last = Rect { y: area.bottom().saturating_sub(1), height: 1.min(area.height), ..area };
     frame.render_widget(legend, last);
 }

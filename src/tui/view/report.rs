@@ -47,7 +47,7 @@ pub fn lines<'r>(report: &'r Report, filter: &str, theme: Theme, width: u16) -> 
             Block::Table(table) => {
                 let table = table_lines(table, &filter, theme, width);
                 offers.extend(table.offers.into_iter().map(|(line, offer)| (lines.len() + line, offer)));
-                lines.extend(table.lines.into_iter().map(|line| cut(line, width)));
+                lines.extend(table.lines.into_iter().map(|line| cut_line(line, width)));
             }
             Block::Chart(_) | Block::Picture(_) => {}
         }
@@ -101,15 +101,15 @@ fn table_lines<'r>(table: &'r Table, filter: &str, theme: Theme, width: usize) -
     lines.push(Line::default());
     for heading in headings {
         let cells = heading.into_iter().take(has_room).enumerate();
-        lines.push(Line::from_iter(cells.flat_map(|(n, text)| padded(text, n, theme.quiet()))));
+        lines.push(Line::from_iter(cells.flat_map(|(n, text)| padded(text, n, theme.muted()))));
     }
     let count = lines.len();
     for (part, rows) in rows.iter().enumerate() {
         if part > 0 && !left_out.is_empty() {
-            lines.push(Line::styled(format!("… {} more", left_out.len()), theme.quiet()));
+            lines.push(Line::styled(format!("… {} more", left_out.len()), theme.muted()));
         }
         for row in rows.iter() {
-            let known = row.known(&columns);
+            let known = row.count_known(&columns);
             let cells = columns[..known].iter().enumerate();
             let mut line = Line::from_iter(
                 cells.flat_map(|(column, &n)| padded(label(row, n), column, style(&row.cells[n], theme))),
@@ -130,7 +130,7 @@ fn table_lines<'r>(table: &'r Table, filter: &str, theme: Theme, width: usize) -
         lines.clear();
     } else if no_room > 0 {
         let columns = if no_room == 1 { "column" } else { "columns" };
-        lines.push(Line::styled(format!("… {no_room} more {columns} on a wider screen"), theme.quiet()));
+        lines.push(Line::styled(format!("… {no_room} more {columns} on a wider screen"), theme.muted()));
     }
     ReportLines { lines, offers }
 }
@@ -160,7 +160,7 @@ fn wrapped(sentence: &str, width: usize) -> Vec<String> {
 }
 
 /// A line without the part beyond `width` columns.
-fn cut(line: Line<'static>, width: usize) -> Line<'static> {
+fn cut_line(line: Line<'static>, width: usize) -> Line<'static> {
     let mut room = width;
     let spans = line.spans.into_iter().map(|span| {
         let mut text = String::new();

@@ -13,8 +13,8 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Paragraph};
 
 use super::chart;
-use super::parts::{draw_message, draw_progress, draw_row};
 use super::report::{ReportLines, lines};
+use super::widgets::{draw_message, draw_progress, draw_row};
 use crate::jobs::StudyKind;
 use crate::report::explain::compute_label;
 use crate::report::no_result;
@@ -26,7 +26,7 @@ use crate::tui::studies::{ShownStudy, StudyState};
 const ROOM_FOR_CHARTS: u16 = 15;
 
 /// Name of a study, and the question that it answers.
-fn about(kind: StudyKind) -> (&'static str, &'static str) {
+fn name_and_question(kind: StudyKind) -> (&'static str, &'static str) {
     match kind {
         StudyKind::Sweep => {
             ("Sweep", "Which intervals between rows pass? From 0 to 500 ms, closer where the answer changes.")
@@ -57,12 +57,12 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let [tabs, body] = Layout::vertical([Constraint::Length(1), Constraint::Min(0)]).areas(area);
     let tab = |kind: StudyKind| {
         let style = if kind == app.studies.shown { app.theme.selected() } else { app.theme.base() };
-        let name = Span::styled(format!(" {} ", about(kind).0), style);
+        let name = Span::styled(format!(" {} ", name_and_question(kind).0), style);
         let state = match app.studies.of_plan_before(kind) {
             Some(_) => " before ".to_owned(),
             None => format!(" {} ", app.studies.state(kind)),
         };
-        Line::from(vec![name, Span::styled(state, app.theme.quiet())])
+        Line::from(vec![name, Span::styled(state, app.theme.muted())])
     };
     let tabs_drawn = StudyKind::OF_PLAN.map(|kind| (tab(kind), ClickTarget::Study(kind)));
     draw_row(tabs_drawn, frame, tabs, areas);
@@ -74,11 +74,11 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     };
     let rule = Block::new()
         .borders(Borders::TOP)
-        .border_style(app.theme.quiet())
+        .border_style(app.theme.muted())
         .title(settings.unwrap_or_default());
     let inside = rule.inner(body);
     frame.render_widget(rule, body);
-    let question = Line::styled(about(kind).1, app.theme.title());
+    let question = Line::styled(name_and_question(kind).1, app.theme.title());
     match (app.studies.state(kind), before) {
         (StudyState::Idle, Some(before)) => draw_finished(app, before, frame, inside, areas),
         (StudyState::Idle, None) => {

@@ -5,7 +5,7 @@
 //! cable becomes taut within a step, it pulls from the sample after on: with the stretch x ≤ hv there, the energy counted
 //! at that sample is wrong by k x² / 2 − k x v h / 2, at most k (vh)² / 8, which is (ωh)² / 8 of m v² / 2. Becoming slack
 //! is the same backwards, with the other sign, so that swings do not add up. Between the two, both methods keep an energy
-//! that differs from the one counted by at most (ωh)² / 4. Together: (ωh)² / 2 of what was put in.
+//! that differs from the one counted by at most (ωh)² / 4. WithinEightMs: (ωh)² / 2 of what was put in.
 
 mod firing;
 

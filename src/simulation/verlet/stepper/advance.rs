@@ -41,13 +41,13 @@ impl Stepper<'_> {
         };
         let Self { part, wake, tension, u, v, due, .. } = self;
         let (u, v, forces) = (u.slices_mut(), v.slices_mut(), tension.forces());
-        let masses = [&part.mass[..u[0].len()], &part.inverse[..u[0].len()]];
+        let masses = [&part.mass[..u[0].len()], &part.inverse_mass[..u[0].len()]];
         let (mut energy, mut dissipated) = ([0.0; LANES], [0.0; LANES]);
         let (mut height, mut motion) = ([0.0; LANES], [0.0; LANES]);
         let mut highest = Wide::splat(simd, events.record.height.value);
         let mut due = &due[..];
-        for n in 0..wake.awake.len() {
-            let pack = wake.awake[n];
+        for n in 0..wake.awake_packs.len() {
+            let pack = wake.awake_packs[n];
             let mut moving = false;
             for lane in (0..LANES).step_by(Wide::<S>::LEN) {
                 let at = pack * LANES + lane;

@@ -9,10 +9,10 @@ use super::impulses::{DueImpulse, PushedTire, Pushes, push_at_start};
 use super::{Jump, Part, StepTotals};
 use crate::outcome::Peak;
 use crate::scene::Scene;
-use crate::simulation::contact::{TireStep, support};
+use crate::simulation::contact::{TireStep, stop_at_ground};
 use crate::simulation::pack::{LANES, Pack, Wide};
 use crate::simulation::record::Record;
-use crate::simulation::verlet::kick::Tires;
+use crate::simulation::verlet::kick::TirePack;
 use crate::simulation::verlet::tension::CableForces;
 
 /// Result of a tire that was integrated through the step by itself.
@@ -79,14 +79,14 @@ pub struct Events<'e> {
 impl Events<'_> {
     /// Tires of the register that begins at tire `at`.
     #[inline(always)]
-    pub fn tires<S: Simd>(&self, simd: S, state: State<'_>, at: usize) -> Tires<S> {
-        let State { u, v, forces, masses: [mass, inverse] } = state;
-        Tires {
+    pub fn tires<S: Simd>(&self, simd: S, state: State<'_>, at: usize) -> TirePack<S> {
+        let State { u, v, forces, masses: [mass, inverse_mass] } = state;
+        TirePack {
             u: std::array::from_fn(|c| Wide::load(simd, u[c], at)),
             v: std::array::from_fn(|c| Wide::load(simd, v[c], at)),
             f: forces.sum_at(simd, self.part.blocks.ends.of(at / LANES), at % LANES),
             mass: Wide::load(simd, mass, at),
-            inverse: Wide::load(simd, inverse, at),
+            inverse_mass: Wide::load(simd, inverse_mass, at),
             step: Wide::splat(simd, self.step),
             friction: Wide::splat(simd, self.friction),
             gravity: Wide::splat(simd, self.scene.gravity),
@@ -113,7 +113,7 @@ impl Events<'_> {
             let (here, later) = due.split_at(due.partition_point(|due| due.tire <= tire));
             due = later;
             let has_event = ahead < 0.0 || !here.is_empty();
-            let is_image = self.part.inverse[tire] == 0.0;
+            let is_image = self.part.inverse_mass[tire] == 0.0;
             if is_image || !has_event && state.u[2][tire] <= self.record.height.value {
                 continue;
             }
@@ -121,13 +121,13 @@ impl Events<'_> {
             let moved = alone.kick_and_drift::<SLOPED>(Scalar::new());
             let number = |wide: Wide<Scalar>| wide.pack()[0];
             let vector = |of: [Wide<Scalar>; 3]| Vector3::from(of.map(number));
-            let (displacement, inverse) = (vector(alone.u), number(alone.inverse));
+            let (displacement, inverse_mass) = (vector(alone.u), number(alone.inverse_mass));
             let unpushed = 0.5 * (vector(alone.v) + vector(moved.v));
-            let free = vector(alone.f) * inverse + self.scene.gravity();
+            let free = vector(alone.f) * inverse_mass + self.scene.gravity();
             let pushed = push_at_start(here, tire);
             let pushed_on_ground = self.pushes.on_ground(tire);
             let velocity = pushed_on_ground.map_or(unpushed, |before| {
-                support(
+                stop_at_ground(
                     before.velocity + (free + before.push_acceleration) * (0.5 * self.step),
                     self.friction,
                 )
@@ -166,7 +166,7 @@ impl Events<'_> {
     ) {
         let h = self.step;
         let last = motion.integrate(h, due.iter().map(|due| due.impulse));
-        let goes_on = self.pushes.go_on(tire);
+        let goes_on = self.pushes.is_pushed_after_step(tire);
         let in_air = motion.displacement.z > 0.0 || motion.velocity.z > 0.0;
         let unpushed = if goes_on && in_air { last - motion.push_acceleration } else { last };
         let velocity = motion.velocity - unpushed * (0.5 * h);
@@ -178,7 +178,11 @@ impl Events<'_> {
         // Friction of the whole step is counted here. The kicks before and after count half a step each, and are taken off.
         let next_half = if goes_on {
             if !in_air {
-                self.pushes.keep(PushedTire { tire, velocity, push_acceleration: motion.push_acceleration });
+                self.pushes.keep_on_ground(PushedTire {
+                    tire,
+                    velocity,
+                    push_acceleration: motion.push_acceleration,
+                });
             }
             0.0
         } else {

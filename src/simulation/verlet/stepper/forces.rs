@@ -32,7 +32,7 @@ impl Stepper<'_> {
         let (u, mut tension) = (u.slices(), tension.slices());
         let (mut energy, mut force, mut dissipated) = (self.asleep, [0.0; LANES], [0.0; LANES]);
         let mut greatest = Wide::splat(simd, weakest * self.record.force.value);
-        for &n in &wake.blocks {
+        for &n in &wake.awake_blocks {
             let stress = tension.evaluate::<S, DAMPED>(simd, &blocks[n], u, *step);
             stored[n] = stress.energy;
             if DAMPED {
@@ -92,13 +92,13 @@ impl Stepper<'_> {
             let slots = 0..self.part.blocks.blocks[n].len;
             slots.into_iter().any(|slot| self.force_over_strength(n, slot) > self.breaking_force)
         };
-        if !self.wake.blocks.iter().copied().any(breaks) {
+        if !self.wake.awake_blocks.iter().copied().any(breaks) {
             return;
         }
         self.record.note_break(self.breaking_force);
         self.peak_to_refine = None;
         totals.force.iter_mut().for_each(|force| *force = force.min(self.breaking_force));
-        for &n in &self.wake.blocks {
+        for &n in &self.wake.awake_blocks {
             let block = &self.part.blocks.blocks[n];
             for slot in 0..block.len {
                 if self.force_over_strength(n, slot) > self.breaking_force {

@@ -8,7 +8,7 @@
 use nalgebra::Vector3;
 
 use super::Stepper;
-use crate::simulation::contact::Impulse;
+use crate::simulation::contact::HoleImpulse;
 use crate::simulation::pack::LANES;
 
 /// Impulse on a tire within the present step.
@@ -17,7 +17,7 @@ pub struct DueImpulse {
     /// Index of the tire in the part.
     pub tire: usize,
     /// When and how.
-    pub impulse: Impulse,
+    pub impulse: HoleImpulse,
 }
 
 /// Pushes that go on after the present step.
@@ -64,12 +64,12 @@ impl Pushes {
     }
 
     /// Whether a push on a tire goes on after the present step.
-    pub fn go_on(&self, tire: usize) -> bool {
+    pub fn is_pushed_after_step(&self, tire: usize) -> bool {
         self.active.iter().any(|push| push.tire == tire)
     }
 
     /// Keeps a tire on the ground under a push that goes on.
-    pub fn keep(&mut self, pushed: PushedTire) {
+    pub fn keep_on_ground(&mut self, pushed: PushedTire) {
         self.next.push(pushed);
     }
 }
@@ -89,7 +89,7 @@ impl Stepper<'_> {
         let end = start + *step;
         let after = |at: f64| (at - start).clamp(0.0, *step);
         let pushed = |tire, after, push| {
-            let impulse = Impulse { after, push_acceleration: push, ..Impulse::default() };
+            let impulse = HoleImpulse { after, push_acceleration: push, ..HoleImpulse::default() };
             DueImpulse { tire, impulse }
         };
         std::mem::swap(&mut pushes.began, &mut pushes.next);
@@ -110,7 +110,8 @@ impl Stepper<'_> {
             }
             clock.fired += 1;
             if firing.push_time <= 0.0 {
-                let impulse = Impulse { after: after(at), launch: firing.launch, ..Impulse::default() };
+                let impulse =
+                    HoleImpulse { after: after(at), launch: firing.launch, ..HoleImpulse::default() };
                 due.push(DueImpulse { tire, impulse });
                 continue;
             }

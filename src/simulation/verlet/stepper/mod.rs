@@ -15,7 +15,7 @@ use super::Part;
 use crate::outcome::{EndReason, Outcome};
 use crate::scene::{Firing, Scene, Shot};
 use crate::simulation::clock::Clock;
-use crate::simulation::contact::support;
+use crate::simulation::contact::stop_at_ground;
 use crate::simulation::pack::{LANES, Pack, VectorArrays};
 use crate::simulation::record::Record;
 use crate::simulation::verlet::tension::Tension;
@@ -234,7 +234,7 @@ struct Snapshot<'s, 'a> {
 impl Snapshot<'_, '_> {
     /// Velocity of a tire of the scene at mid-step [m/s].
     fn velocity(&self, tire: usize) -> Vector3<f64> {
-        let (kept, [x, y]) = self.stepper.part.reduction.kept(tire);
+        let (kept, [x, y]) = self.stepper.part.reduction.image_of(tire);
         self.stepper.v.vector(kept).component_mul(&Vector3::new(x, y, 1.0))
     }
 }
@@ -245,7 +245,7 @@ impl Motion for Snapshot<'_, '_> {
     }
 
     fn displacement(&self, tire: usize) -> Vector3<f64> {
-        let (kept, [x, y]) = self.stepper.part.reduction.kept(tire);
+        let (kept, [x, y]) = self.stepper.part.reduction.image_of(tire);
         self.stepper.u.vector(kept).component_mul(&Vector3::new(x, y, 1.0))
     }
 
@@ -267,14 +267,15 @@ impl Motion for Snapshot<'_, '_> {
             return (0.0, 0.0);
         }
         let Stepper { part, tension, step, due, .. } = self.stepper;
-        let (tire, _) = part.reduction.kept(tire);
+        let (tire, _) = part.reduction.image_of(tire);
         let ends = part.blocks.ends.of(tire / LANES);
         let forces = tension.forces().sum_at(pulp::Scalar::new(), ends, tire % LANES);
         let force = Vector3::from(forces.map(|force| force.pack()[0]));
-        let (inverse, impulse_to_force) = (part.inverse[tire], 1.0 / (part.inverse[tire] * step));
-        let acceleration = force * inverse + self.stepper.scene.gravity() + push_at_start(due, tire);
+        let (inverse_mass, impulse_to_force) =
+            (part.inverse_mass[tire], 1.0 / (part.inverse_mass[tire] * step));
+        let acceleration = force * inverse_mass + self.stepper.scene.gravity() + push_at_start(due, tire);
         let free = self.stepper.v.vector(tire) + acceleration * *step;
-        let (after, normal) = support(free, self.stepper.friction);
+        let (after, normal) = stop_at_ground(free, self.stepper.friction);
         ((free - after).xy().norm() * impulse_to_force, self.stepper.friction * normal * impulse_to_force)
     }
 }

@@ -9,14 +9,14 @@ const TOGETHER: f64 = 8e-3;
 
 /// What fires together in a shot as planned.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Together {
+pub struct WithinEightMs {
     /// Most holes that fire within any 8 ms.
     pub holes: usize,
     /// Heaviest charge within any 8 ms [kg]; `None` where the plan names no charges.
     pub charge: Option<f64>,
 }
 
-impl Together {
+impl WithinEightMs {
     /// What fires together in a shot of a case. Only the planned times count: no scatter of detonators.
     pub fn of(case: &Case, shot: &Shot) -> Self {
         let charged = case.plan.launches().any(|launch| launch.charge_kg.is_some());

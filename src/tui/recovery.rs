@@ -21,14 +21,14 @@ fn path(plan: Option<&Path>) -> Option<PathBuf> {
 }
 
 /// Edits that were kept.
-pub struct Kept {
+pub struct RecoveredEdits {
     /// The text with the edits.
     pub text: String,
     /// Checksum of the text of the file that was edited.
     before: String,
 }
 
-impl Kept {
+impl RecoveredEdits {
     /// Whether they are edits of this text of the file; if not, another program has changed the file since.
     pub fn are_of(&self, saved: &str) -> bool {
         self.before == checksum(saved)
@@ -36,17 +36,17 @@ impl Kept {
 }
 
 /// Keeps the text of a plan whose file holds `saved`.
-pub fn keep(plan: Option<&Path>, saved: &str, text: &str) -> io::Result<()> {
+pub fn save(plan: Option<&Path>, saved: &str, text: &str) -> io::Result<()> {
     let path = path(plan).ok_or(io::ErrorKind::NotFound)?;
     path.parent().map_or(Ok(()), fs::create_dir_all)?;
     file::save(&path, &format!("# {}\n{text}", checksum(saved)))
 }
 
 /// The edits that were kept of a plan.
-pub fn kept(plan: Option<&Path>) -> Option<Kept> {
+pub fn find(plan: Option<&Path>) -> Option<RecoveredEdits> {
     let kept = fs::read_to_string(path(plan)?).ok()?;
     let (before, text) = kept.strip_prefix("# ")?.split_once('\n')?;
-    Some(Kept { text: text.to_owned(), before: before.to_owned() })
+    Some(RecoveredEdits { text: text.to_owned(), before: before.to_owned() })
 }
 
 /// Drops what was kept of a plan: it is saved now, or given up.

@@ -2,23 +2,27 @@
 //!
 //! 1. Up to [`MOST_ROWS`] rows all orders are checked quickly, at coarse steps. Where the shelter is its own mirror image,
 //!    an order and its mirrored order are checked once.
-//! 2. The hardest orders are checked first. An order stays in question while its coarse utilization + [`REACH_ERROR_FACTOR`] x
+//! 2. The hardest orders are checked first. An order stays in question while its coarse utilization + `REACH_ERROR_FACTOR` x
 //!    its error is above the greatest checked so far; this goes on until none is left. Likewise for the best, with the signs
 //!    reversed.
 //!
 //! The orders are ranked by the shots as planned. The [`SAMPLED_AT_EACH_END`] worst and the [`SAMPLED_AT_EACH_END`] best of them
 //! are sampled; the best gets a full verdict.
 //!
-//! With more rows the orders are searched: random orders first; then exchanges of two rows in the worst [`CLIMBERS`] of
+//! With more rows the orders are searched: random orders first; then exchanges of two rows in the worst `CLIMBERS` of
 //! them and in the best, until no exchange leads further. A search may miss the worst order; its result says so.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+mod climb;
+mod mirror_rows;
+mod refine;
+
+use std::collections::BTreeMap;
 
 use itertools::Itertools;
-use rand::SeedableRng;
-use rand::seq::SliceRandom;
-use rand_chacha::ChaCha8Rng;
 
+use self::climb::climb_orders;
+use self::mirror_rows::{mirror_rows, mirrored};
+pub use self::refine::refine;
 use super::as_planned::check_many::{check_summary, run_checks_or_unknown};
 use super::as_planned::quick_check::{quick_check_is_sure, quick_check_until};
 use super::judgement;
@@ -26,8 +30,6 @@ use super::judgement::Evidence;
 use super::samples::risk_summary::{RiskSummary, find_risk_summaries};
 use super::samples::sampling::Sampling;
 use super::{Case, ComputeSettings, Finding, Found, Key, NoResult, Progress, Shard, ShotSummary};
-use crate::plan::BlastRow;
-use crate::scene::{Firing, Shot};
 use crate::verdict::Verdict;
 
 /// Greatest number of blast rows whose orders are all tried: 40,320 orders.
@@ -35,15 +37,7 @@ pub const MOST_ROWS: usize = 8;
 /// Greatest number of blast rows at which the quick check of every order goes on until its verdict is sure.
 const MOST_SURE_ROWS: usize = 7;
 /// Number of runs of a quick check with more rows than [`MOST_SURE_ROWS`].
-const RUNS: usize = 3;
-/// Factor on the error of a quick check within which an order may still be the worst or the best.
-const REACH_ERROR_FACTOR: f64 = 6.0;
-/// Number of orders refined together: a fixed number, so that the number of threads changes nothing.
-const AT_ONCE: usize = 32;
-/// Number of orders of a search that are improved by exchanges towards the worst, and towards the best.
-const CLIMBERS: usize = 24;
-/// Number of random orders of a search, per interval.
-const RANDOM: usize = 1000;
+const COARSE_RUNS: usize = 3;
 
 /// Number of orders sampled at each end of the ranking.
 const SAMPLED_AT_EACH_END: usize = 20;
@@ -75,7 +69,7 @@ pub struct Orders {
 impl Orders {
     /// Ranks the orders that one or many machines tried, at `intervals` intervals.
     pub fn new(case: &Case, mut tried: Vec<TriedOrder>, intervals: usize) -> Self {
-        let complete = tries_all(case) && tried.len() == count(case, intervals);
+        let complete = tries_all(case) && tried.len() == count_orders(case, intervals);
         tried.sort_by(|a, b| {
             utilization(case, b).total_cmp(&utilization(case, a)).then(a.number.cmp(&b.number))
         });
@@ -157,7 +151,7 @@ pub fn rank(
 }
 
 /// Number of possible orders, times the number of intervals.
-pub fn count(case: &Case, intervals: usize) -> usize {
+pub fn count_orders(case: &Case, intervals: usize) -> usize {
     (1..=case.plan.blast_rows.len()).fold(intervals, usize::saturating_mul)
 }
 
@@ -207,7 +201,7 @@ pub fn try_orders(
     let all = intervals
         .iter()
         .flat_map(|&interval| (0..rows).permutations(rows).map(move |order| (order, interval)));
-    let per_interval = count(case, 1);
+    let per_interval = count_orders(case, 1);
     let all = all.enumerate().map(|(number, (order, interval))| OrderToTry { number, order, interval });
     let own = |one: &OrderToTry| shard.has(one.number) && one.order <= mirrored(&one.order, &mirror_rows);
     let found = quick_check_orders(case, all.filter(own).collect(), compute, progress)?;
@@ -237,30 +231,6 @@ struct OrderToTry {
     interval: f64,
 }
 
-/// Blast row that is the mirror image of each blast row; `None` where the shelter has no mirror plane that moves rows.
-fn mirror_rows(case: &Case) -> Option<Vec<usize>> {
-    let holes = |image: &dyn Fn(&Firing) -> Firing| -> Vec<Vec<Firing>> {
-        let row = |row: &BlastRow| {
-            let firings = case.scene().firings(&row.targets);
-            Shot::from_firings(firings.iter().map(image).collect()).firings
-        };
-        case.plan.blast_rows.iter().map(row).collect()
-    };
-    let rows = holes(&Firing::clone);
-    case.scene().mirrors_with_slope().find_map(|mirror| {
-        let images = holes(&|firing| firing.mirrored(mirror));
-        let mirror_row: Vec<usize> =
-            images.iter().map(|image| rows.iter().position(|row| row == image)).collect::<Option<_>>()?;
-        let returns = mirror_row.iter().enumerate().all(|(row, &other)| mirror_row[other] == row);
-        let moves = mirror_row.iter().enumerate().any(|(row, &other)| row != other);
-        (returns && moves).then_some(mirror_row)
-    })
-}
-
-fn mirrored(order: &[usize], mirror_rows: &Option<Vec<usize>>) -> Vec<usize> {
-    order.iter().map(|&row| mirror_rows.as_ref().map_or(row, |mirror_rows| mirror_rows[row])).collect()
-}
-
 /// Number of a permutation in lexicographic order.
 fn lexicographic_number(order: &[usize]) -> usize {
     let smaller = |n: usize| order[n + 1..].iter().filter(|&&later| later < order[n]).count();
@@ -269,63 +239,6 @@ fn lexicographic_number(order: &[usize]) -> usize {
 
 fn utilization(case: &Case, tried: &TriedOrder) -> f64 {
     tried.as_planned.utilization(&case.limits)
-}
-
-/// Checks as `check` does, at every interval, the orders that may be the worst or the best, until none is left.
-pub fn refine(
-    case: &Case,
-    mut tried: Vec<TriedOrder>,
-    compute: &ComputeSettings,
-    progress: &Progress,
-) -> Finding<Vec<TriedOrder>> {
-    let mirror_rows = mirror_rows(case);
-    let mut refined = HashSet::new();
-    let index: HashMap<(u64, Vec<usize>), usize> =
-        tried.iter().enumerate().map(|(n, t)| ((t.interval.to_bits(), t.order.clone()), n)).collect();
-    let image_of =
-        |t: &TriedOrder| index.get(&(t.interval.to_bits(), mirrored(&t.order, &mirror_rows))).copied();
-    let images: Vec<Option<usize>> = tried.iter().map(image_of).collect();
-    let intervals: Vec<f64> = tried.iter().map(|tried| tried.interval).dedup().collect();
-    // Towards the worst, then towards the best.
-    for (interval, sign) in itertools::iproduct!(intervals, [1.0, -1.0]) {
-        loop {
-            let mine = |n: &usize| tried[*n].interval == interval;
-            let is_known = |n: &usize| tried[*n].as_planned != ShotSummary::UNKNOWN;
-            let checked = (0..tried.len()).filter(|n| mine(n) && refined.contains(n) && is_known(n));
-            let farthest =
-                checked.map(|n| sign * utilization(case, &tried[n])).fold(f64::NEG_INFINITY, f64::max);
-            // An order whose runs failed may be the worst, and is not the best.
-            let reach = |n: usize| match is_known(&n) {
-                true => {
-                    sign * tried[n]
-                        .as_planned
-                        .with_errors(sign * REACH_ERROR_FACTOR)
-                        .utilization(&case.limits)
-                }
-                false => sign * f64::INFINITY,
-            };
-            let next: Vec<usize> = (0..tried.len())
-                .filter(|n| mine(n) && !refined.contains(n) && reach(*n) > farthest)
-                .filter(|&n| images[n].is_none_or(|image| n <= image))
-                .sorted_by(|&a, &b| reach(b).total_cmp(&reach(a)))
-                .take(AT_ONCE)
-                .collect();
-            if next.is_empty() {
-                break;
-            }
-            let shots: Vec<Shot> = next.iter().map(|&n| case.shot(&tried[n].order, interval)).collect();
-            let checked =
-                run_checks_or_unknown(&shots, progress, |shot| check_summary(case, shot, compute, progress))?;
-            for (n, as_planned) in next.into_iter().zip(checked) {
-                let Some(as_planned) = as_planned else { return Ok(Found { value: tried, partial: true }) };
-                for n in images[n].into_iter().chain([n]) {
-                    tried[n].as_planned = as_planned;
-                    refined.insert(n);
-                }
-            }
-        }
-    }
-    Ok(Found { value: tried, partial: false })
 }
 
 /// Checks orders quickly.
@@ -337,7 +250,7 @@ fn quick_check_orders(
 ) -> Finding<Vec<TriedOrder>> {
     let enough = |summary: &ShotSummary, runs: usize| {
         quick_check_is_sure(case, summary, runs)
-            || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= RUNS
+            || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= COARSE_RUNS
     };
     let summaries = run_checks_or_unknown(&orders, progress, |OrderToTry { order, interval, .. }| {
         let shot = case.shot(order, *interval);
@@ -351,82 +264,6 @@ fn quick_check_orders(
     };
     let partial = summaries.contains(&None);
     Ok(Found { value: orders.into_iter().zip(summaries).filter_map(tried).collect(), partial })
-}
-
-fn climb_orders(
-    case: &Case,
-    intervals: &[f64],
-    compute: &ComputeSettings,
-    progress: &Progress,
-) -> Finding<Vec<TriedOrder>> {
-    let rows: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
-    let mut tried: Vec<TriedOrder> = Vec::new();
-    for (n, &interval) in intervals.iter().enumerate() {
-        let mut random = ChaCha8Rng::seed_from_u64(n as u64);
-        let mut starts = vec![rows.clone(), rows.iter().rev().copied().collect()];
-        starts.extend((0..RANDOM).map(|_| {
-            let mut order = rows.clone();
-            order.shuffle(&mut random);
-            order
-        }));
-        let first = tried.len();
-        if quick_check_new_orders(case, &mut tried, first, starts, interval, compute, progress)? {
-            return Ok(Found { value: tried, partial: true });
-        }
-        let mut climbers: Vec<(f64, Vec<usize>)> = Vec::new();
-        for sign in [1.0, -1.0] {
-            let rank = |tried: &&TriedOrder| -sign * utilization(case, tried);
-            let hardest = tried[first..].iter().sorted_by(|a, b| rank(a).total_cmp(&rank(b)));
-            climbers.extend(hardest.take(CLIMBERS).map(|tried| (sign, tried.order.clone())));
-        }
-        // All climbers take a step at once; those that meet become one.
-        while !climbers.is_empty() {
-            let all = climbers.iter().flat_map(|(_, order)| exchanges(order)).unique().collect();
-            if quick_check_new_orders(case, &mut tried, first, all, interval, compute, progress)? {
-                return Ok(Found { value: tried, partial: true });
-            }
-            let known: HashMap<&[usize], f64> =
-                tried[first..].iter().map(|t| (t.order.as_slice(), utilization(case, t))).collect();
-            let step = |(sign, order): (f64, Vec<usize>)| {
-                let value = |order: &Vec<usize>| sign * known[order.as_slice()];
-                let next = exchanges(&order).max_by(|a, b| value(a).total_cmp(&value(b)))?;
-                (value(&next) > value(&order)).then_some((sign, next))
-            };
-            climbers = climbers
-                .into_iter()
-                .filter_map(step)
-                .unique_by(|(sign, order)| (*sign > 0.0, order.clone()))
-                .collect();
-        }
-    }
-    refine(case, tried, compute, progress)
-}
-
-/// All orders that differ by an exchange of two rows.
-fn exchanges(order: &[usize]) -> impl Iterator<Item = Vec<usize>> {
-    (0..order.len()).array_combinations().map(move |[a, b]| {
-        let mut order = order.to_vec();
-        order.swap(a, b);
-        order
-    })
-}
-
-/// Checks the orders that are not among `tried[first..]`, and adds them; returns whether the time was up.
-fn quick_check_new_orders(
-    case: &Case,
-    tried: &mut Vec<TriedOrder>,
-    first: usize,
-    orders: Vec<Vec<usize>>,
-    interval: f64,
-    compute: &ComputeSettings,
-    progress: &Progress,
-) -> Result<bool, NoResult> {
-    let known: HashSet<&[usize]> = tried[first..].iter().map(|t| t.order.as_slice()).collect();
-    let new = orders.into_iter().unique().filter(|order| !known.contains(order.as_slice()));
-    let new = new.enumerate().map(|(n, order)| OrderToTry { number: tried.len() + n, order, interval });
-    let Found { value, partial } = quick_check_orders(case, new.collect(), compute, progress)?;
-    tried.extend(value);
-    Ok(partial)
 }
 
 #[cfg(test)]

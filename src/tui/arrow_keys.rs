@@ -1,19 +1,19 @@
 //! Values one arrow key further.
 
 /// The name before or after `name` in a list; the first where the list has no such name.
-pub fn beside(names: &[&str], name: &str, up: bool) -> Option<String> {
+pub fn neighbouring_name(names: &[&str], name: &str, up: bool) -> Option<String> {
     let index = names.iter().position(|known| *known == name);
     let next = index.map_or(0, |index| index.saturating_add_signed(if up { 1 } else { -1 }));
     names.get(next).map(|name| (*name).to_owned())
 }
 
 /// A number moved by `step`, at least 0.
-pub fn moved(number: &str, step: f64) -> Option<String> {
+pub fn add_to_number(number: &str, step: f64) -> Option<String> {
     number.parse::<f64>().ok().map(|number| (number + step).max(0.0).to_string())
 }
 
 /// The number moved by one unit of its second digit: 20 to 21, 6 to 6.1, 280 to 290.
-pub fn stepped(number: f64, up: bool) -> f64 {
+pub fn step_second_digit(number: f64, up: bool) -> f64 {
     if number == 0.0 {
         return if up { 1.0 } else { 0.0 };
     }
@@ -29,7 +29,7 @@ mod tests {
 
     #[test]
     fn steps_follow_the_leading_digit() {
-        assert_eq!([20.0, 6.0, 280.0, 1.8].map(|n| stepped(n, true)), [21.0, 6.1, 290.0, 1.9]);
-        assert_eq!([20.0, 0.0].map(|n| stepped(n, false)), [19.0, 0.0]);
+        assert_eq!([20.0, 6.0, 280.0, 1.8].map(|n| step_second_digit(n, true)), [21.0, 6.1, 290.0, 1.9]);
+        assert_eq!([20.0, 0.0].map(|n| step_second_digit(n, false)), [19.0, 0.0]);
     }
 }

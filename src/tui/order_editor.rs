@@ -2,14 +2,14 @@
 
 /// A firing order being edited.
 #[derive(Clone, Debug)]
-pub struct Order {
+pub struct OrderEditor {
     /// Names of the blast rows in their order of firing.
     pub names: Vec<String>,
     /// Index of the selected row.
     pub selected: usize,
 }
 
-impl Order {
+impl OrderEditor {
     /// Selects the row that fires before or after.
     pub fn select(&mut self, down: bool) {
         let last = self.names.len().saturating_sub(1);

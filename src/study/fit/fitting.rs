@@ -1,0 +1,256 @@
+//! A fit under way: residuals, answers near minima, and what an answer tells.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::answer::{Answer, Estimated, Residual};
+use super::parameter::{Parameter, Prior};
+use super::predict::Predictor;
+use super::search::{Minimum, SearchBox};
+use super::weights::{ObservedShots, SampledWeights, Weighing, Weights};
+use crate::plan::Plan;
+use crate::study::work::batch::run_jobs;
+use crate::study::{Case, NoResult};
+
+/// Misfit above the least up to which another answer is told: its likelihood is 1/20 of the best.
+const NEARLY_EQUAL: f64 = 6.0;
+
+/// The same for answers whose weights are yet to be found.
+const WORTH_WEIGHING: f64 = 40.0;
+
+/// Most answers that are weighed.
+const MOST_WEIGHED: usize = 6;
+
+/// A fit under way.
+pub(super) struct Fitting<'p> {
+    pub predictor: Predictor<'p>,
+    pub space: SearchBox,
+    pub priors: Vec<Option<Prior>>,
+    pub others: Vec<(Parameter, Prior)>,
+    pub seen: ObservedShots,
+    pub seed: Option<u64>,
+}
+
+/// An answer with what is known of its neighbourhood.
+pub(super) struct ExactAnswer {
+    pub minimum: Minimum,
+    /// The predictions there.
+    pub fitted: Vec<f64>,
+    /// Their derivatives (`n_observations` × `n_parameters`).
+    pub slopes: DMatrix<f64>,
+    pub weights: Weights,
+}
+
+impl ExactAnswer {
+    /// −2 × the logarithm of the likelihood, but for a constant.
+    fn unlikelihood(&self) -> f64 {
+        self.minimum.misfit + self.weights.log_determinant
+    }
+}
+
+/// Spread of the samples about an answer, over its standard deviation: wide enough for slopes that samples hardly blur.
+const SPREAD: f64 = 1.5;
+
+/// Least and greatest spread, as a share of the range.
+const SPREADS: [f64; 2] = [5e-3, 0.15];
+
+/// Most times that samples are drawn about an answer.
+const MOST_ROUNDS: usize = 6;
+
+impl Fitting<'_> {
+    /// Where the search begins: at what the plan states, or at its own numbers.
+    pub fn start_coordinates(&self, plan: &Plan) -> Vec<f64> {
+        let own = |(n, parameter): (usize, &Parameter)| {
+            let planned = || parameter.planned(plan).map(|planned| parameter.coordinate(planned));
+            // Stiff ends are at the stiff end of their range.
+            self.priors[n].map(|prior| prior.mean).or_else(planned).unwrap_or(self.space.ranges[n][1])
+        };
+        self.predictor.parameters.iter().enumerate().map(own).collect()
+    }
+
+    /// Independent residuals of unit variance: those of the observations, then those of what the plan states.
+    fn residuals(&self, at: &[f64], weights: &Weights) -> Result<Option<DVector<f64>>, NoResult> {
+        let Some(predicted) = self.predictor.values(at, 1.0)? else { return Ok(None) };
+        let Some(of_observations) = weights.whitened_residuals(&self.seen.list, &predicted) else {
+            return Ok(None);
+        };
+        let stated = self
+            .priors
+            .iter()
+            .zip(at)
+            .filter_map(|(prior, at)| prior.map(|prior| (at - prior.mean) / prior.sd));
+        let all: Vec<f64> = of_observations.iter().copied().chain(stated).collect();
+        Ok(Some(DVector::from_vec(all)))
+    }
+
+    /// Answers of nearly equal misfit, the best first.
+    pub fn answers(&self, case: &Case) -> Result<Vec<ExactAnswer>, NoResult> {
+        let own = self.start_coordinates(&case.plan);
+        let weighing =
+            Weighing { predictor: &self.predictor, plan: &case.plan, others: &self.others, seen: &self.seen };
+        let weights = match self.seed {
+            Some(seed) => {
+                weighing.weigh_samples(&own, &self.sample_spread(|_| 0.0), seed)?.map(|local| local.weights)
+            }
+            None => weighing.weigh_without_scatter(&own)?,
+        };
+        let weights = weights.ok_or_else(|| self.failure(&own))?;
+        let minima = self.space.minima(&own, &|at| self.residuals(at, &weights), self.predictor.progress)?;
+        let least = minima.first().map_or(f64::INFINITY, |best| best.misfit);
+        let is_worth = |minimum: &Minimum| minimum.misfit <= least + WORTH_WEIGHING;
+        let worth: Vec<Minimum> = minima.into_iter().take_while(is_worth).take(MOST_WEIGHED).collect();
+        let settled = run_jobs(&worth, self.predictor.progress, |minimum| match self.seed {
+            Some(seed) => self.settle_among_samples(&weighing, minimum, seed),
+            None => self.settle(&weighing, minimum),
+        })?;
+        let settled: Option<Vec<Option<ExactAnswer>>> = settled.into_iter().collect();
+        let mut settled: Vec<ExactAnswer> =
+            settled.ok_or(NoResult::OutOfTime)?.into_iter().flatten().collect();
+        settled.sort_by(|a, b| a.unlikelihood().total_cmp(&b.unlikelihood()));
+        let least = settled.first().map(ExactAnswer::unlikelihood).ok_or_else(|| self.failure(&own))?;
+        settled.retain(|answer| answer.unlikelihood() <= least + NEARLY_EQUAL);
+        Ok(settled.into_iter().fold(Vec::new(), |mut all: Vec<ExactAnswer>, settled| {
+            if !all.iter().any(|known| known.minimum.is_same(&settled.minimum)) {
+                all.push(settled);
+            }
+            all
+        }))
+    }
+
+    /// The spread of samples for these standard deviations of the coordinates.
+    fn sample_spread(&self, sd: impl Fn(usize) -> f64) -> Vec<f64> {
+        let of_range = |(n, [low, high]): (usize, &[f64; 2])| {
+            let [least, most] = SPREADS.map(|share| share * (high - low));
+            (SPREAD * sd(n)).clamp(least, most)
+        };
+        self.space.ranges.iter().enumerate().map(of_range).collect()
+    }
+
+    /// The answer near a minimum where nothing scatters.
+    fn settle(&self, weighing: &Weighing<'_>, minimum: &Minimum) -> Result<Option<ExactAnswer>, NoResult> {
+        let Some(weights) = weighing.weigh_without_scatter(&minimum.at)? else { return Ok(None) };
+        let Some(minimum) = self.space.refine(&minimum.at, &|at| self.residuals(at, &weights))? else {
+            return Ok(None);
+        };
+        let Some(fitted) = self.predictor.values(&minimum.at, 1.0)? else { return Ok(None) };
+        let slopes = self.slopes(&minimum, &fitted)?;
+        Ok(Some(ExactAnswer { minimum, fitted, slopes, weights }))
+    }
+
+    /// The answer near a minimum, for the mean of what scatter makes of the predictions: samples about the answer give the mean,
+    /// its slopes and the weights; these give the next answer.
+    fn settle_among_samples(
+        &self,
+        weighing: &Weighing<'_>,
+        minimum: &Minimum,
+        seed: u64,
+    ) -> Result<Option<ExactAnswer>, NoResult> {
+        let count = minimum.at.len();
+        let (mut at, mut spread) = (minimum.at.clone(), self.sample_spread(|n| minimum.sd(n)));
+        let mut settled = None;
+        for _ in 0..MOST_ROUNDS {
+            let Some(SampledWeights { mean, slopes, weights }) =
+                weighing.weigh_samples(&at, &spread, seed)?
+            else {
+                break;
+            };
+            let (Some(residuals), Some(whitened)) =
+                (weights.whitened_residuals(&self.seen.list, &mean), weights.whiten(&slopes))
+            else {
+                break;
+            };
+            let mut precision = whitened.transpose() * &whitened;
+            let mut pull = whitened.transpose() * &residuals;
+            for n in 0..count {
+                if let Some(prior) = self.priors[n] {
+                    precision[(n, n)] += prior.sd.powi(-2);
+                    pull[n] += (prior.mean - at[n]) / prior.sd.powi(2);
+                }
+            }
+            let covariance = self.space.inverse(precision);
+            let step = &covariance * pull;
+            // A straight line holds no farther than the samples spread.
+            let share = (0..count).map(|n| step[n].abs() / (2.0 * spread[n])).fold(1.0, f64::max);
+            let next: Vec<f64> = (0..count).map(|n| at[n] + step[n] / share).collect();
+            let next = self.space.held(&next);
+            let moved = DVector::from_fn(count, |n, _| next[n] - at[n]);
+            let stated = self
+                .priors
+                .iter()
+                .zip(&next)
+                .filter_map(|(prior, at)| prior.map(|prior| ((at - prior.mean) / prior.sd).powi(2)));
+            let misfit = (residuals - whitened * &moved).norm_squared() + stated.sum::<f64>();
+            let fitted =
+                mean.iter().zip((&slopes * &moved).iter()).map(|(mean, change)| mean + change).collect();
+            let minimum = Minimum { at: next, misfit, covariance };
+            let wanted = self.sample_spread(|n| minimum.sd(n));
+            let is_near =
+                |n: usize| moved[n].abs() <= 0.3 * spread[n] && (wanted[n] / spread[n]).ln().abs() < 0.4;
+            let is_settled = (0..count).all(is_near);
+            (at, spread) = (minimum.at.clone(), wanted);
+            settled = Some(ExactAnswer { minimum, fitted, slopes, weights });
+            if is_settled {
+                break;
+            }
+        }
+        Ok(settled)
+    }
+
+    /// Why the run at these coordinates fails.
+    pub fn failure(&self, at: &[f64]) -> NoResult {
+        let case = self.predictor.case(at);
+        let settings =
+            case.run_settings(self.predictor.compute.method, self.predictor.compute.first_step(&case));
+        let run = |(option, _): &(usize, _)| {
+            let watch = &mut |_: &dyn crate::simulation::Motion| self.predictor.progress.flow();
+            case.model.run(&case.shots[*option], &settings, watch).err()
+        };
+        let failure = self.predictor.options.iter().find_map(run);
+        failure.map_or(NoResult::OutOfTime, |failure| self.predictor.progress.no_result(failure))
+    }
+
+    /// Derivatives of the predictions at a minimum, whose `values` are these.
+    fn slopes(&self, minimum: &Minimum, values: &[f64]) -> Result<DMatrix<f64>, NoResult> {
+        let predictions = |at: &[f64]| Ok(self.predictor.values(at, 1.0)?.map(DVector::from_vec));
+        let difference = |n: usize| {
+            let [low, high] = self.space.ranges[n];
+            minimum.sd(n).clamp(1e-3 * (high - low), 0.1 * (high - low))
+        };
+        let difference: Vec<f64> = (0..minimum.at.len()).map(difference).collect();
+        let values = DVector::from_column_slice(values);
+        let slopes = self.space.slopes(&minimum.at, &values, &difference, &predictions)?;
+        Ok(slopes.map(|slope| if slope.is_finite() { slope } else { 0.0 }))
+    }
+
+    pub fn answer(&self, case: &Case, settled: &ExactAnswer) -> Answer {
+        let ExactAnswer { minimum, fitted, weights, .. } = settled;
+        let parameters = &self.predictor.parameters;
+        let count = parameters.len();
+        let estimate = |n: usize| {
+            let (parameter, at, [low, high]) = (parameters[n], minimum.at[n], self.space.ranges[n]);
+            let near_end = 1e-6 * (high - low);
+            Estimated {
+                parameter,
+                value: parameter.value(at),
+                sd: parameter.sd_of_value(at, minimum.sd(n)),
+                was: parameter.planned(&case.plan),
+                from_stated: self.priors[n].map(|prior| (at - prior.mean) / prior.sd),
+                is_at_end: at - low <= near_end || high - at <= near_end,
+            }
+        };
+        let correlation = |a: usize, b: usize| minimum.covariance[(a, b)] / (minimum.sd(a) * minimum.sd(b));
+        let residual = |n: usize| Residual {
+            fitted: fitted[n],
+            sd: weights.sds[n],
+            deviation: (self.seen.list[n].value - fitted[n]) / weights.sds[n],
+            error: weights.errors[n],
+        };
+        let stated = self.priors.iter().flatten().count();
+        Answer {
+            estimates: (0..count).map(estimate).collect(),
+            correlation: (0..count).map(|a| (0..count).map(|b| correlation(a, b)).collect()).collect(),
+            residuals: (0..fitted.len()).map(residual).collect(),
+            chi_square: minimum.misfit,
+            freedom: (fitted.len() + stated).saturating_sub(count),
+        }
+    }
+}

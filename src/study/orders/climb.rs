@@ -1,0 +1,95 @@
+//! The search among more orders than can be tried: from random orders by exchanges of two rows.
+
+use std::collections::{HashMap, HashSet};
+
+use itertools::Itertools;
+use rand::SeedableRng;
+use rand::seq::SliceRandom;
+use rand_chacha::ChaCha8Rng;
+
+use super::refine::refine;
+use super::{OrderToTry, TriedOrder, quick_check_orders, utilization};
+use crate::study::{Case, ComputeSettings, Finding, Found, NoResult, Progress};
+
+/// Number of orders of a search that are improved by exchanges towards the worst, and towards the best.
+const CLIMBERS: usize = 24;
+
+/// Number of random orders of a search, per interval.
+const RANDOM_STARTS: usize = 1000;
+
+/// Searches at every interval [s] for the worst and the best order.
+pub(super) fn climb_orders(
+    case: &Case,
+    intervals: &[f64],
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Finding<Vec<TriedOrder>> {
+    let rows: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
+    let mut tried: Vec<TriedOrder> = Vec::new();
+    for (n, &interval) in intervals.iter().enumerate() {
+        let mut random = ChaCha8Rng::seed_from_u64(n as u64);
+        let mut starts = vec![rows.clone(), rows.iter().rev().copied().collect()];
+        starts.extend((0..RANDOM_STARTS).map(|_| {
+            let mut order = rows.clone();
+            order.shuffle(&mut random);
+            order
+        }));
+        let first = tried.len();
+        if quick_check_new_orders(case, &mut tried, first, starts, interval, compute, progress)? {
+            return Ok(Found { value: tried, partial: true });
+        }
+        let mut climbers: Vec<(f64, Vec<usize>)> = Vec::new();
+        for sign in [1.0, -1.0] {
+            let hardness = |tried: &&TriedOrder| -sign * utilization(case, tried);
+            let hardest = tried[first..].iter().sorted_by(|a, b| hardness(a).total_cmp(&hardness(b)));
+            climbers.extend(hardest.take(CLIMBERS).map(|tried| (sign, tried.order.clone())));
+        }
+        // All climbers take a step at once; those that meet become one.
+        while !climbers.is_empty() {
+            let all = climbers.iter().flat_map(|(_, order)| exchanges(order)).unique().collect();
+            if quick_check_new_orders(case, &mut tried, first, all, interval, compute, progress)? {
+                return Ok(Found { value: tried, partial: true });
+            }
+            let known: HashMap<&[usize], f64> =
+                tried[first..].iter().map(|t| (t.order.as_slice(), utilization(case, t))).collect();
+            let improved = |(sign, order): (f64, Vec<usize>)| {
+                let value = |order: &Vec<usize>| sign * known[order.as_slice()];
+                let next = exchanges(&order).max_by(|a, b| value(a).total_cmp(&value(b)))?;
+                (value(&next) > value(&order)).then_some((sign, next))
+            };
+            climbers = climbers
+                .into_iter()
+                .filter_map(improved)
+                .unique_by(|(sign, order)| (*sign > 0.0, order.clone()))
+                .collect();
+        }
+    }
+    refine(case, tried, compute, progress)
+}
+
+/// All orders that differ by an exchange of two rows.
+fn exchanges(order: &[usize]) -> impl Iterator<Item = Vec<usize>> {
+    (0..order.len()).array_combinations().map(move |[a, b]| {
+        let mut order = order.to_vec();
+        order.swap(a, b);
+        order
+    })
+}
+
+/// Checks the orders that are not among `tried[first..]`, and adds them; returns whether the time was up.
+fn quick_check_new_orders(
+    case: &Case,
+    tried: &mut Vec<TriedOrder>,
+    first: usize,
+    orders: Vec<Vec<usize>>,
+    interval: f64,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<bool, NoResult> {
+    let known: HashSet<&[usize]> = tried[first..].iter().map(|t| t.order.as_slice()).collect();
+    let new = orders.into_iter().unique().filter(|order| !known.contains(order.as_slice()));
+    let new = new.enumerate().map(|(n, order)| OrderToTry { number: tried.len() + n, order, interval });
+    let Found { value, partial } = quick_check_orders(case, new.collect(), compute, progress)?;
+    tried.extend(value);
+    Ok(partial)
+}

@@ -1,0 +1,74 @@
+//! Full checks of the orders that may be the worst or the best.
+
+use std::collections::{HashMap, HashSet};
+
+use itertools::Itertools;
+
+use super::mirror_rows::{mirror_rows, mirrored};
+use super::{TriedOrder, utilization};
+use crate::scene::Shot;
+use crate::study::as_planned::check_many::{check_summary, run_checks_or_unknown};
+use crate::study::{Case, ComputeSettings, Finding, Found, Progress, ShotSummary};
+
+/// Factor on the error of a quick check within which an order may still be the worst or the best.
+const REACH_ERROR_FACTOR: f64 = 6.0;
+
+/// Number of orders refined together: a fixed number, so that the number of threads changes nothing.
+const REFINED_TOGETHER: usize = 32;
+
+/// Checks as `check` does, at every interval, the orders that may be the worst or the best, until none is left.
+pub fn refine(
+    case: &Case,
+    mut tried: Vec<TriedOrder>,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Finding<Vec<TriedOrder>> {
+    let mirror_rows = mirror_rows(case);
+    let mut refined = HashSet::new();
+    let index: HashMap<(u64, Vec<usize>), usize> =
+        tried.iter().enumerate().map(|(n, t)| ((t.interval.to_bits(), t.order.clone()), n)).collect();
+    let image_of =
+        |t: &TriedOrder| index.get(&(t.interval.to_bits(), mirrored(&t.order, &mirror_rows))).copied();
+    let images: Vec<Option<usize>> = tried.iter().map(image_of).collect();
+    let intervals: Vec<f64> = tried.iter().map(|tried| tried.interval).dedup().collect();
+    // Towards the worst, then towards the best.
+    for (interval, sign) in itertools::iproduct!(intervals, [1.0, -1.0]) {
+        loop {
+            let mine = |n: &usize| tried[*n].interval == interval;
+            let is_known = |n: &usize| tried[*n].as_planned != ShotSummary::UNKNOWN;
+            let checked = (0..tried.len()).filter(|n| mine(n) && refined.contains(n) && is_known(n));
+            let farthest =
+                checked.map(|n| sign * utilization(case, &tried[n])).fold(f64::NEG_INFINITY, f64::max);
+            // An order whose runs failed may be the worst, and is not the best.
+            let reach = |n: usize| match is_known(&n) {
+                true => {
+                    sign * tried[n]
+                        .as_planned
+                        .with_errors(sign * REACH_ERROR_FACTOR)
+                        .utilization(&case.limits)
+                }
+                false => sign * f64::INFINITY,
+            };
+            let next: Vec<usize> = (0..tried.len())
+                .filter(|n| mine(n) && !refined.contains(n) && reach(*n) > farthest)
+                .filter(|&n| images[n].is_none_or(|image| n <= image))
+                .sorted_by(|&a, &b| reach(b).total_cmp(&reach(a)))
+                .take(REFINED_TOGETHER)
+                .collect();
+            if next.is_empty() {
+                break;
+            }
+            let shots: Vec<Shot> = next.iter().map(|&n| case.shot(&tried[n].order, interval)).collect();
+            let checked =
+                run_checks_or_unknown(&shots, progress, |shot| check_summary(case, shot, compute, progress))?;
+            for (n, as_planned) in next.into_iter().zip(checked) {
+                let Some(as_planned) = as_planned else { return Ok(Found { value: tried, partial: true }) };
+                for n in images[n].into_iter().chain([n]) {
+                    tried[n].as_planned = as_planned;
+                    refined.insert(n);
+                }
+            }
+        }
+    }
+    Ok(Found { value: tried, partial: false })
+}

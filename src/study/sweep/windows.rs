@@ -1,0 +1,111 @@
+//! Windows of passing intervals, the gaps in them that must be halved, and the interval deepest inside one.
+
+use super::{GAP, Point, Recommended, nanoseconds, passes, utilization};
+use crate::study::Case;
+
+/// Gaps as narrow as this are not halved [s].
+const NARROWEST: f64 = GAP / 8.0;
+
+/// Factor on the errors of two points, with which the limits must be out of reach between them.
+const CALM_ERROR_FACTOR: f64 = 1.5;
+
+/// Room that counts for a recommended interval [s]: more than detonators scatter.
+const ENOUGH_ROOM: f64 = 10e-3;
+
+/// Middles of the gaps to be halved [ns].
+pub(super) fn midpoints(case: &Case, points: &[Point]) -> Vec<i64> {
+    let halved = |&n: &usize| {
+        let (a, b) = (&points[n], &points[n + 1]);
+        let width = b.interval - a.interval;
+        let count = usize::from(passes(a)) + usize::from(passes(b));
+        let wanted = match count {
+            0 => false,
+            1 => true,
+            _ => !is_calm(case, points, n),
+        };
+        width > 1.01 * NARROWEST && (wanted || count > 0 && width > 1.01 * GAP)
+    };
+    let middle = |n: usize| (nanoseconds(points[n].interval) + nanoseconds(points[n + 1].interval)) / 2;
+    (0..points.len().saturating_sub(1)).filter(halved).map(middle).collect()
+}
+
+/// Whether no interval in the gap after point `n` can reach a limit, as far as its neighbours tell.
+fn is_calm(case: &Case, points: &[Point], n: usize) -> bool {
+    let slope = |pair: &[Point]| {
+        let change = (utilization(case, &pair[1]) - utilization(case, &pair[0])).abs();
+        change / (pair[1].interval - pair[0].interval)
+    };
+    let near = &points[n.saturating_sub(1)..points.len().min(n + 3)];
+    let steepest = near.windows(2).map(slope).fold(0.0, f64::max);
+    let width = points[n + 1].interval - points[n].interval;
+    let highest = |point: &Point| point.as_planned.with_errors(CALM_ERROR_FACTOR).utilization(&case.limits);
+    highest(&points[n]).max(highest(&points[n + 1])) + steepest * width <= 1.0
+}
+
+/// Utilization with the errors added.
+pub(super) fn utilization_with_errors(case: &Case, point: &Point) -> f64 {
+    point.as_planned.with_errors(1.0).utilization(&case.limits)
+}
+
+/// The windows of intervals that pass as planned [s].
+pub(super) fn windows(case: &Case, points: &[Point]) -> Vec<[f64; 2]> {
+    let joined = |n: usize| {
+        let (a, b) = (&points[n], &points[n + 1]);
+        passes(a) && passes(b) && b.interval - a.interval <= 1.01 * GAP && is_calm(case, points, n)
+    };
+    let mut windows: Vec<[f64; 2]> = Vec::new();
+    for n in (0..points.len()).filter(|&n| passes(&points[n])) {
+        match windows.last_mut() {
+            Some(window) if n > 0 && joined(n - 1) => window[1] = points[n].interval,
+            _ => windows.push([points[n].interval; 2]),
+        }
+    }
+    windows
+}
+
+/// The interval deepest inside a window of the shots as planned, by their utilization with errors.
+pub(super) fn recommend(case: &Case, points: &[Point], windows: &[[f64; 2]]) -> Option<Recommended> {
+    deepest(points, windows, |point| utilization_with_errors(case, point), |_| true)
+}
+
+/// The interval and the room r around it for which r × (1 − greatest utilization within r) is greatest; `used` tells the
+/// utilization of a point, and `may` which points may be recommended.
+pub(super) fn deepest(
+    points: &[Point],
+    windows: &[[f64; 2]],
+    used: impl Fn(&Point) -> f64,
+    may: impl Fn(&Point) -> bool,
+) -> Option<Recommended> {
+    let mut best: Option<(f64, Recommended)> = None;
+    for &[from, to] in windows {
+        let first = points.partition_point(|point| point.interval < from);
+        let inside = &points[first..points.partition_point(|point| point.interval <= to)];
+        for (n, &Point { interval, .. }) in inside.iter().enumerate().filter(|(_, point)| may(point)) {
+            let most = ENOUGH_ROOM.min(interval - from).min(to - interval);
+            let (mut low, mut high, mut greatest) = (n, n, used(&inside[n]));
+            // The room grows point by point, to the nearer one first.
+            loop {
+                let left = low.checked_sub(1).map_or(f64::INFINITY, |n| interval - inside[n].interval);
+                let right = inside.get(high + 1).map_or(f64::INFINITY, |point| point.interval - interval);
+                let room = left.min(right).min(most);
+                // The points at the end of the room count.
+                if left <= room {
+                    low -= 1;
+                    greatest = greatest.max(used(&inside[low]));
+                }
+                if right <= room {
+                    high += 1;
+                    greatest = greatest.max(used(&inside[high]));
+                }
+                let score = room * (1.0 - greatest);
+                if best.is_none_or(|(least, _)| score > least) && score > 0.0 {
+                    best = Some((score, Recommended { interval, room, utilization: greatest }));
+                }
+                if left.min(right) > room {
+                    break;
+                }
+            }
+        }
+    }
+    best.map(|(_, recommended)| recommended)
+}

@@ -1,0 +1,241 @@
+//! Every action with its keys and words.
+
+use crate::tui::screen::Screen;
+
+/// An action that a key asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    /// Show a screen.
+    Show(Screen),
+    /// Show the next screen.
+    NextScreen,
+    /// Show the screen before.
+    PreviousScreen,
+    /// Select the line above.
+    Up,
+    /// Select the line below.
+    Down,
+    /// Select the line a page up.
+    PageUp,
+    /// Select the line a page down.
+    PageDown,
+    /// Select the first.
+    First,
+    /// Select the last.
+    Last,
+    /// Go left, or a step down.
+    Left,
+    /// Go right, or a step up.
+    Right,
+    /// Open, edit or start the selected thing.
+    Open,
+    /// Compute everything again.
+    Rerun,
+    /// Next finer accuracy.
+    Finer,
+    /// Next coarser accuracy.
+    Coarser,
+    /// Sort by the next column.
+    Sort,
+    /// Reverse the order of the list.
+    Reverse,
+    /// Compare with the selected option.
+    Baseline,
+    /// Find what would make the selected option pass.
+    Remedies,
+    /// Play or pause.
+    Play,
+    /// Show the next firing or peak.
+    NextEvent,
+    /// Show the firing or peak before.
+    PreviousEvent,
+    /// Play faster.
+    Faster,
+    /// Play slower.
+    Slower,
+    /// Show the flight from the other side.
+    Turn,
+    /// End the study shown.
+    Cancel,
+    /// Copy the selected option.
+    AddOption,
+    /// Remove the selected option.
+    RemoveOption,
+    /// Take the last change back.
+    Undo,
+    /// Make the change again that was taken back last.
+    Redo,
+    /// Write the plan.
+    Save,
+    /// Write the plan under another name.
+    SaveAs,
+    /// Find.
+    Find,
+    /// Choose a command by name.
+    Palette,
+    /// Put the contents of the screen on the clipboard.
+    Yank,
+    /// Write the contents of the screen to a file.
+    Export,
+    /// Write the page of the selected option.
+    Page,
+    /// Switch to the next theme.
+    Theme,
+    /// Show or hide the help.
+    Help,
+    /// Stop and give the shell back until resumed.
+    Suspend,
+    /// Leave.
+    Quit,
+}
+
+/// An action with its keys and texts.
+pub struct Binding {
+    /// The action.
+    pub action: Action,
+    /// Name of the action in the configuration and in the command palette.
+    pub name: &'static str,
+    /// The default keys; the configuration may replace them.
+    pub keys: &'static [&'static str],
+    /// Label in the footer; empty for an action that the footer leaves out.
+    pub short: &'static str,
+    /// Description in the help and in the command palette.
+    pub text: &'static str,
+    /// The screens that know the action; empty for all screens.
+    pub on: &'static [Screen],
+}
+
+impl Binding {
+    /// Label in the footer of a screen.
+    pub fn short_on(&self, screen: Screen) -> &'static str {
+        match (self.action, screen) {
+            (Action::Open, Screen::Plan) => "edit",
+            (Action::Open, Screen::Compare) => "enlarge",
+            (Action::Open, Screen::Flight) => "back",
+            (Action::Open, Screen::Studies) => "start, use",
+            (Action::Open, Screen::Accuracy) => "start",
+            (Action::Right, Screen::Flight) => "on",
+            (Action::Right, Screen::Studies) => "next",
+            _ => self.short,
+        }
+    }
+
+    /// Whether a screen knows the action.
+    pub fn is_on(&self, screen: Screen) -> bool {
+        self.on.is_empty() || self.on.contains(&screen)
+    }
+}
+
+const fn bind(
+    action: Action,
+    name: &'static str,
+    keys: &'static [&'static str],
+    short: &'static str,
+    text: &'static str,
+    on: &'static [Screen],
+) -> Binding {
+    Binding { action, name, keys, short, text, on }
+}
+
+const ALL: &[Screen] = &[];
+
+const PLAN: &[Screen] = &[Screen::Plan];
+
+const COMPARE: &[Screen] = &[Screen::Compare];
+
+const FLIGHT: &[Screen] = &[Screen::Flight];
+
+const SIDEWAYS: &[Screen] = &[Screen::Plan, Screen::Flight, Screen::Studies];
+
+const ASKED: &[Screen] = &[Screen::Studies, Screen::Accuracy];
+
+/// Every action. Actions of few screens stand first, because the footer shows only as many as fit.
+pub const BINDINGS: &[Binding] = &[
+    bind(Action::Play, "play", &["space"], "play", "play or pause", FLIGHT),
+    bind(Action::Faster, "faster", &[">", "."], "faster", "play faster", FLIGHT),
+    bind(Action::Slower, "slower", &["<", ","], "slower", "play slower", FLIGHT),
+    bind(Action::NextEvent, "next", &["n", "]"], "next", "to the next firing or peak", FLIGHT),
+    bind(Action::PreviousEvent, "previous", &["p", "["], "", "to the firing or peak before", FLIGHT),
+    bind(Action::Turn, "turn", &["v"], "turn", "side view along the rows, or across them", FLIGHT),
+    bind(
+        Action::Open,
+        "open",
+        &["enter"],
+        "open",
+        "edit the value, enlarge the option, start the study",
+        ALL,
+    ),
+    bind(Action::Left, "left", &["left", "h"], "", "smaller value, study before, back in time", SIDEWAYS),
+    bind(Action::Right, "right", &["right", "l"], "step", "larger value, next study, on in time", SIDEWAYS),
+    bind(Action::Cancel, "cancel", &["x"], "cancel", "end what computes here", ASKED),
+    bind(
+        Action::AddOption,
+        "add-option",
+        &["a"],
+        "add",
+        "copy the selected delay option, and type its interval",
+        PLAN,
+    ),
+    bind(
+        Action::RemoveOption,
+        "remove-option",
+        &["d"],
+        "remove",
+        "remove the selected option, or value that may be left out",
+        PLAN,
+    ),
+    bind(Action::Undo, "undo", &["u"], "undo", "take the last change of the plan back", ALL),
+    bind(Action::Redo, "redo", &["U", "ctrl-r"], "", "make it again", ALL),
+    bind(Action::Save, "save", &["s", "ctrl-s"], "save", "save the plan; comments and formatting stay", ALL),
+    bind(Action::SaveAs, "save-as", &["W"], "", "save the plan under another name", ALL),
+    bind(Action::Sort, "sort", &["o"], "sort", "sort by the next column", COMPARE),
+    bind(Action::Reverse, "reverse", &["O"], "", "turn the sorting round", COMPARE),
+    bind(
+        Action::Baseline,
+        "baseline",
+        &["b"],
+        "baseline",
+        "show differences from the selected option",
+        COMPARE,
+    ),
+    bind(
+        Action::Remedies,
+        "why",
+        &["w"],
+        "why",
+        "what would make the option pass; Enter makes a change",
+        COMPARE,
+    ),
+    bind(Action::Finer, "finer", &["+", "="], "finer", "finer accuracy: draft, field, reference", ALL),
+    bind(Action::Coarser, "coarser", &["-"], "coarser", "coarser accuracy", ALL),
+    bind(Action::Rerun, "rerun", &["r"], "", "compute again", ALL),
+    bind(Action::Find, "search", &["/"], "find", "find: options by name or verdict, values, lines", ALL),
+    bind(Action::Export, "export", &["e"], "export", "write what is shown to a CSV, SVG or HTML file", ALL),
+    bind(Action::Page, "page", &["P"], "page", "write the page of the selected option, to sign", COMPARE),
+    bind(Action::Yank, "copy", &["y"], "", "copy what is shown to the clipboard", ALL),
+    bind(Action::Palette, "commands", &[":"], "", "choose a command by name", ALL),
+    bind(Action::Theme, "theme", &["t"], "theme", "next theme: dark, light, sunlight", ALL),
+    bind(Action::Show(Screen::Plan), "plan", &["1"], "", "the plan and its values", ALL),
+    bind(Action::Show(Screen::Compare), "compare", &["2"], "", "the delay options side by side", ALL),
+    bind(Action::Show(Screen::Flight), "flight", &["3"], "", "the selected option in motion", ALL),
+    bind(
+        Action::Show(Screen::Studies),
+        "studies",
+        &["4"],
+        "",
+        "sweep, orders, risk, search, size, effects",
+        ALL,
+    ),
+    bind(Action::Show(Screen::Accuracy), "accuracy", &["5"], "", "what accuracy costs on this plan", ALL),
+    bind(Action::NextScreen, "next-screen", &["tab"], "", "the next screen", ALL),
+    bind(Action::PreviousScreen, "previous-screen", &["backtab"], "", "the screen before", ALL),
+    bind(Action::Up, "up", &["up", "k"], "", "select what is above", ALL),
+    bind(Action::Down, "down", &["down", "j"], "", "select what is below", ALL),
+    bind(Action::PageUp, "page-up", &["pageup"], "", "a page up", ALL),
+    bind(Action::PageDown, "page-down", &["pagedown"], "", "a page down", ALL),
+    bind(Action::First, "first", &["home", "g"], "", "to the first", ALL),
+    bind(Action::Last, "last", &["end", "G"], "", "to the last", ALL),
+    bind(Action::Help, "help", &["?", "f1"], "", "show or hide the keys", ALL),
+    bind(Action::Suspend, "suspend", &["ctrl-z"], "", "back to the shell until `fg`", ALL),
+    bind(Action::Quit, "quit", &["q", "ctrl-c"], "", "leave; Esc only closes, cancels or goes back", ALL),
+];
