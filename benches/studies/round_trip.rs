@@ -150,8 +150,8 @@ fn try_one(seed: u64, unknowns: &[Unknown], tally: &mut Tally) {
         Unknown::Slack => sample.inputs[2],
         _ => sample.inputs[3] * case.plan.cable.axial_stiffness_kn,
     };
-    let fired =
-        Case { model: Model::new(sample.scene.clone()), shots: vec![sample.shot.clone()], ..case.clone() };
+    let mut fired = case.clone();
+    (fired.model, fired.shots) = (Model::new(sample.scene.clone()), vec![sample.shot.clone()]);
     let compute = ComputeSettings::of(&case.plan);
     let lines = watched(&case, random);
     let header = "tire,cable,quantity,value,sd\n";
