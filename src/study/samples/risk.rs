@@ -207,7 +207,9 @@ fn sign_test_rejects(more: usize, fewer: usize) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::draw::Input;
     use super::*;
+    use crate::plan::PlanSource;
 
     /// Of n changes, half are expected to each side: 8 of 8 have a probability of 2/256, 7 of 7 of 2/128; 10 of 11 one of
     /// 24/2048, 11 of 12 one of 26/4096.
@@ -231,5 +233,34 @@ mod tests {
         assert!(lies_to_one_side(&with_one(-0.01)) && !lies_to_one_side(&with_one(-0.1)));
         let both: Vec<f64> = (0..100).map(|n| if n % 2 == 0 { 0.01 } else { -0.01 }).collect();
         assert!(!lies_to_one_side(&both));
+    }
+
+    /// Samples of 0.98 times the limit that are 1.2 % higher at the finer step: twice that is past the limit, though none of them
+    /// changes its verdict. Of 0.8 %, twice that is not. A tenth of the error, or the error once, would pass both.
+    #[test]
+    fn an_error_to_one_side_counts_twice() {
+        let text = include_str!("../../../plans/paper-5-tire.toml").to_owned();
+        let source = PlanSource { path: String::new(), text };
+        let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let is_contradicted = |change: f64| {
+            let mut risk = Risk::new(&case, None, ErrorShare::Whole, true);
+            for number in 0..600 {
+                // No two changes are alike.
+                let finer = 1.0 + change * (1.0 + 1e-4 * number as f64);
+                let [run, finer] = [1.0, finer].map(|factor| SampleRun {
+                    verdict: Verdict::Pass,
+                    breaks: Verdict::Pass,
+                    height: 0.98 * factor * case.limits.height,
+                    force: 1.0,
+                    drift: 0.0,
+                });
+                let finer = (number % 20 == 0).then_some(finer);
+                risk.push(Sample { number, run, finer, inputs: [1.0; Input::ALL.len()] });
+            }
+            assert_eq!(risk.bounds.verdict(), Verdict::Pass);
+            (risk.is_contradicted(), risk.verdict())
+        };
+        assert_eq!(is_contradicted(0.012), (true, Verdict::Undecided));
+        assert_eq!(is_contradicted(0.008), (false, Verdict::Pass));
     }
 }
