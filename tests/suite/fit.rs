@@ -518,3 +518,25 @@ fn an_estimate_far_from_the_plan_is_told() {
     let output = Folder::with(lines).fit(&["--nominal"]);
     assert!(text(&output.stdout).contains("times what the plan says"), "{}", text(&output.stdout));
 }
+
+/// The error of the time integration is that of the motion: where all is known, samples have the same as the shot as planned.
+#[test]
+fn samples_have_the_error_of_the_motion_that_they_are_of() {
+    let text = small_plan();
+    let (before, after) = text.split_once("\n[uncertainty]").expect("the section");
+    let (_, after) = after.split_once("\n[size]").expect("the next section");
+    let exact = EXACT
+        .replace("friction = 0", "friction = [0.5, 0.5]")
+        .replace("slack_percent = 0", "slack_percent = [2, 2]");
+    let case = case_of(&format!("{before}\n{exact}[size]{after}"));
+    let lines = "option,tire,quantity,value,sd\n42 ms,2:2,flight_height_m,1.8,0.0001\n42 ms,1:1,flight_height_m,1.8,0.0001\n";
+    let errors = |sampling: Option<Sampling>| -> Vec<f64> {
+        let fit = fitted(&case, lines, &[Unknown::Launch], sampling);
+        fit.answers[0].residuals.iter().map(|residual| residual.error).collect()
+    };
+    let (as_planned, sampled) = (errors(None), errors(Some(Sampling::exactly(50, 1))));
+    assert!(as_planned.iter().all(|&error| error > 0.0), "a test that can fail: {as_planned:?}");
+    for (as_planned, sampled) in as_planned.iter().zip(&sampled) {
+        assert!((0.3..3.0).contains(&(sampled / as_planned)), "{as_planned} {sampled}");
+    }
+}
