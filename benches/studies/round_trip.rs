@@ -13,6 +13,7 @@ use rand_distr::{Distribution, StandardNormal};
 use shelter::choice::Unknown;
 use shelter::plan::PlanSource;
 use shelter::plan::observations::Observations;
+use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::possible::as_fired;
 use shelter::study::fit::{FitResult, Request, fit, observable_names};
 use shelter::study::samples::draw::draw;
@@ -160,8 +161,8 @@ fn try_one(seed: u64, unknowns: &[Unknown], tally: &mut Tally) {
     let read = |text: &str| {
         Observations::parse("seen.csv", text, &known).unwrap_or_else(|mistakes| panic!("{mistakes}"))
     };
-    let list = read(&format!("{header}{blank}")).list;
-    let shown = as_fired(&fired, &list, None, &compute, &Progress::default()).expect("a run");
+    let seen = ObservedShots::new(&[read(&format!("{header}{blank}"))]);
+    let shown = as_fired(&fired, &seen, None, &compute, &Progress::default()).expect("a run");
     let mut text = header.to_owned();
     for ((line, sd), shown) in lines.iter().zip(&shown) {
         let noise: f64 = StandardNormal.sample(random);

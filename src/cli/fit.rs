@@ -60,7 +60,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if let Some(message) = contradiction(unknowns) {
         return wrong(&message);
     }
-    let Some(files) = read(&case, &arguments.observed, look) else { return Ok(Status::Wrong) };
+    let Some(files) = read_observations(&case, &arguments.observed, look) else { return Ok(Status::Wrong) };
     if let Some(message) = used_twice(&case, &files) {
         return wrong(&message);
     }
@@ -92,7 +92,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
 }
 
 /// The observations of all files; prints every mistake, `None` where there is one.
-fn read(case: &Case, paths: &[PathBuf], look: &LookArguments) -> Option<Vec<Observations>> {
+pub fn read_observations(case: &Case, paths: &[PathBuf], look: &LookArguments) -> Option<Vec<Observations>> {
     let known = observable_names(case);
     let open = |path: &PathBuf| {
         let read = Observations::read(path, &known);

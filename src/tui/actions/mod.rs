@@ -20,6 +20,8 @@ use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use crate::choice::Accuracy;
 use crate::jobs::StudyKind;
+use crate::study::judgement::Judgement;
+use crate::verdict::Verdict;
 
 /// Lines that a page key moves.
 pub(super) const PAGE: usize = 10;
@@ -102,7 +104,7 @@ impl App {
             Action::Find => self.prompt = Some(Prompt::new(Purpose::Find, "")),
             Action::Palette => self.prompt = Some(Prompt::new(Purpose::Palette, "")),
             Action::Export => return self.name_export(),
-            Action::Page => return Request::NamePage(format!("{}-to-be-fired", self.file_stem())),
+            Action::Page => return self.name_page(),
             Action::Yank => return Request::Yank,
             Action::Theme => self.theme = self.theme.next(),
             Action::Help => {
@@ -123,6 +125,16 @@ impl App {
     fn name_export(&self) -> Request {
         let ending = if self.screen == Screen::Plan { "svg" } else { "csv" };
         Request::NameExport(format!("{}-{}", self.file_stem(), self.screen.name().to_lowercase()), ending)
+    }
+
+    /// Asks for the file of the page; the name offered says whether the selected option passes.
+    fn name_page(&self) -> Request {
+        let ending = match self.judgement(self.selected).map(Judgement::verdict) {
+            Some(Verdict::Pass) => "to-be-fired",
+            Some(Verdict::Fail) => "fails",
+            Some(Verdict::Undecided) | None => "open",
+        };
+        Request::NamePage(format!("{}-{ending}", self.file_stem()))
     }
 
     /// Name of the plan's file without its ending.
