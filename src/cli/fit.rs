@@ -19,7 +19,7 @@ use crate::plan::fitted;
 use crate::plan::observations::{Observations, template};
 use crate::report::fit::{refusal, report};
 use crate::report::json::FitDocument;
-use crate::study::fit::{Fit, FitResult, Request, fit, observable_names};
+use crate::study::fit::{Fit, FitRequest, FitResult, fit, observable_names};
 use crate::study::{Case, Found, NoResult};
 
 #[derive(Args)]
@@ -66,7 +66,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     }
     let compute = arguments.study.compute.settings(&case.plan);
     let sampling = arguments.study.verdict.sampling();
-    let request = Request { files: &files, unknowns, sampling };
+    let request = FitRequest { files: &files, unknowns, sampling };
     let found = match run_study(&arguments.study.compute, |progress| fit(&case, &request, &compute, progress))
     {
         Err(reason) => return failed(&reason),

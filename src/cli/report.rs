@@ -18,7 +18,7 @@ use crate::report::check;
 use crate::report::html::{self, Page};
 use crate::report::observed::observed_rows;
 use crate::study::fit::observed_shots::ObservedShots;
-use crate::study::fit::possible::as_fired;
+use crate::study::fit::predicted::predict_observations;
 use crate::study::sweep::{INTERVALS, sweep};
 use crate::study::{Found, NoResult};
 
@@ -95,11 +95,11 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(reason) => return failed(&reason),
     };
     let seen = ObservedShots::new(&files);
-    let as_fired = run_study(&arguments.compute, |progress| {
-        let value = as_fired(&cases[0], &seen, sampling.as_ref(), &compute, progress)?;
+    let predictions = run_study(&arguments.compute, |progress| {
+        let value = predict_observations(&cases[0], &seen, sampling.as_ref(), &compute, progress)?;
         Ok(Found { value, partial: false })
     });
-    let as_fired = match as_fired {
+    let predictions = match predictions {
         Ok(found) => Some(found.value),
         Err(NoResult::OutOfTime) => None,
         Err(reason) => return failed(&reason),
@@ -114,8 +114,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         fired: asked.map(|_| option),
         sampling: sampling.as_ref(),
         sweep: swept.as_ref().map(|swept| &swept.value),
-        observed: &observed_rows(&cases[0], &seen.list, as_fired.as_deref().unwrap_or_default()),
-        partial: checked.partial || as_fired.is_none() || swept.as_ref().is_some_and(|swept| swept.partial),
+        observed: &observed_rows(&cases[0], &seen.list, predictions.as_deref().unwrap_or_default()),
+        partial: checked.partial
+            || predictions.is_none()
+            || swept.as_ref().is_some_and(|swept| swept.partial),
         unsaved: false,
         date: &html::today(),
     });

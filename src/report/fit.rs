@@ -1,6 +1,6 @@
 //! `fit` as a report: the estimates of each answer, and every observation beside what was planned, possible and fitted.
 
-use super::model::{Block, Cell, Column, Conclusion, Field, Report, Shown, Table};
+use super::model::{Audience, Block, Cell, Column, Conclusion, Field, Report, Table};
 use super::observed::{ObservedRow, bands, fitted_rows, observed_table, place};
 use super::report_head;
 use crate::choice::Unknown;
@@ -66,7 +66,7 @@ pub fn report(case: &Case, files: &[Observations], fit: &Fit, sampled: bool) -> 
     };
     let [number, name, rest @ ..] = estimate_fields();
     let number =
-        if several { number } else { Field { column: number.column.shown(Shown::Scripts), ..number } };
+        if several { number } else { Field { column: number.column.shown(Audience::Scripts), ..number } };
     let all: Vec<_> = [number, name].into_iter().chain(rest).chain(estimate_numbers()).collect();
     let mut blocks =
         vec![Block::Text(vec![basis(files, fit, sampled)]), Block::Table(Table::of(&all, rows()))];

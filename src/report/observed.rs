@@ -4,7 +4,7 @@ use super::model::{Align, Cell, Column, Field, Table};
 use crate::choice::ObservedQuantity;
 use crate::plan::observations::{Observation, Watched};
 use crate::study::Case;
-use crate::study::fit::possible::AsFired;
+use crate::study::fit::predicted::Prediction;
 use crate::study::fit::{Fit, Residual};
 use crate::units;
 
@@ -16,7 +16,7 @@ pub struct ObservedRow<'a> {
     /// The observation.
     pub observed: &'a Observation,
     /// What was planned and possible.
-    pub as_fired: &'a AsFired,
+    pub prediction: &'a Prediction,
     /// What the best answer says.
     pub residual: Option<&'a Residual>,
 }
@@ -32,14 +32,14 @@ fn observed_fields<'a>() -> [Field<ObservedRow<'a>>; 7] {
         Field::new(words("value ± sd"), |row| {
             Cell::Text(units::value_and_sd(row.observed.value, row.observed.sd))
         }),
-        Field::new(words("planned"), |row| Cell::Text(value_by_sd(row.as_fired.planned, row.observed.sd))),
+        Field::new(words("planned"), |row| Cell::Text(value_by_sd(row.prediction.planned, row.observed.sd))),
         Field::new(words("predicted, 90 %"), |row| {
-            row.as_fired.band.map_or(Cell::Nothing, |band| {
+            row.prediction.band.map_or(Cell::Nothing, |band| {
                 Cell::Text(band.map(|end| value_by_sd(end, row.observed.sd)).join(" to "))
             })
         }),
         Field::new(Column::words(&[], "within"), |row| {
-            row.as_fired.contains(row.observed.value).map_or(Cell::Nothing, Cell::Flag)
+            row.prediction.contains(row.observed.value).map_or(Cell::Nothing, Cell::Flag)
         }),
         Field::new(words("fitted"), |row| {
             row.residual.map_or(Cell::Nothing, |fit| Cell::Text(value_by_sd(fit.fitted, row.observed.sd)))
@@ -61,15 +61,15 @@ fn residual(residual: &Residual) -> Cell {
 pub fn observed_rows<'a>(
     case: &'a Case,
     observed: &'a [Observation],
-    as_fired: &'a [AsFired],
+    predictions: &'a [Prediction],
 ) -> Vec<ObservedRow<'a>> {
-    let beside = observed.iter().zip(as_fired);
-    beside.map(|(observed, as_fired)| ObservedRow { case, observed, as_fired, residual: None }).collect()
+    let beside = observed.iter().zip(predictions);
+    beside.map(|(observed, prediction)| ObservedRow { case, observed, prediction, residual: None }).collect()
 }
 
 /// The rows of all observations, with what the best answer of a fit says.
 pub fn fitted_rows<'a>(case: &'a Case, fit: &'a Fit) -> Vec<ObservedRow<'a>> {
-    let rows = observed_rows(case, &fit.observed, &fit.as_fired).into_iter();
+    let rows = observed_rows(case, &fit.observed, &fit.predictions).into_iter();
     let fitted = rows.zip(&fit.answers[0].residuals);
     fitted.map(|(row, residual)| ObservedRow { residual: Some(residual), ..row }).collect()
 }
@@ -116,7 +116,7 @@ fn value_by_sd(value: f64, sd: f64) -> String {
 pub fn bands(case: &Case, rows: &[ObservedRow<'_>]) -> Vec<String> {
     let held: Vec<(usize, bool)> = rows
         .iter()
-        .filter_map(|row| Some((row.observed.option, row.as_fired.contains(row.observed.value)?)))
+        .filter_map(|row| Some((row.observed.option, row.prediction.contains(row.observed.value)?)))
         .collect();
     let words = |of: &[(usize, bool)]| {
         let within = of.iter().filter(|(_, held)| *held).count();

@@ -108,7 +108,7 @@ impl UnknownObject {
 
 impl ResidualObject {
     fn of(row: &ObservedRow<'_>) -> Self {
-        let ObservedRow { case, observed, as_fired, residual } = *row;
+        let ObservedRow { case, observed, prediction, residual } = *row;
         let (scene, watched) = (case.scene(), &observed.watched);
         let is_force = watched.quantity == ObservedQuantity::Force;
         let known = |value: f64| Some(value).filter(|value| value.is_finite());
@@ -123,8 +123,8 @@ impl ResidualObject {
             fitted: residual.and_then(|residual| known(residual.fitted)),
             total_sd: residual.map(|residual| residual.sd),
             suspicious: residual.is_some_and(Residual::is_suspicious),
-            planned: known(as_fired.planned),
-            band: as_fired.band,
+            planned: known(prediction.planned),
+            band: prediction.band,
         }
     }
 }
@@ -135,7 +135,7 @@ impl<'a> FitDocument<'a> {
         let (best, others) = (&fit.answers[0], &fit.answers[1..]);
         let held: Vec<bool> = fitted_rows(case, fit)
             .iter()
-            .filter_map(|row| row.as_fired.contains(row.observed.value))
+            .filter_map(|row| row.prediction.contains(row.observed.value))
             .collect();
         let within = held.iter().filter(|&&held| held).count();
         Self {

@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::observed_shots::ObservedShot;
 use super::parameter::Parameter;
-use super::predict::Predictor;
+use super::predictor::Predictor;
 use super::search::SearchBox;
 use crate::choice::ObservedQuantity;
 use crate::plan::observations::Watched;

@@ -5,11 +5,11 @@ use nalgebra::{DMatrix, DVector};
 use super::answer::{Answer, Estimated, Residual};
 use super::observed_shots::{ObservedShot, ObservedShots};
 use super::parameter::{Parameter, Prior};
-use super::predict::Predictor;
+use super::predictor::Predictor;
 use super::search::{Minimum, SearchBox};
 use super::weights::{SampledWeights, Weighing, Weights};
 use crate::plan::Plan;
-use crate::study::work::batch::run_jobs;
+use crate::study::work::batch::run_batch;
 use crate::study::{Case, NoResult};
 
 /// Misfit above the least up to which another answer is told: its likelihood is 1/20 of the best.
@@ -99,7 +99,7 @@ impl Fitting<'_> {
         let least = minima.first().map_or(f64::INFINITY, |best| best.misfit);
         let is_worth = |minimum: &Minimum| minimum.misfit <= least + WORTH_WEIGHING;
         let worth: Vec<Minimum> = minima.into_iter().take_while(is_worth).take(MOST_WEIGHED).collect();
-        let settled = run_jobs(&worth, self.predictor.progress, |minimum| match self.seed {
+        let settled = run_batch(&worth, self.predictor.progress, |minimum| match self.seed {
             Some(seed) => self.settle_among_samples(&weighing, minimum, seed),
             None => self.settle(&weighing, minimum),
         })?;

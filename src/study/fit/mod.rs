@@ -10,19 +10,19 @@
 //! | which numbers are estimated, and what the plan knows of them | [`parameter`] |
 //! | which answers the observations leave, and how sure they are | `fitting` |
 //! | the observations by shot | [`observed_shots`] |
-//! | what a plan predicts | `predict`, `watch` |
+//! | what a plan predicts | `predictor`, `watch` |
 //! | how far observations may lie from it | [`weights`] |
 //! | which parameters fit best, in which separate answers | [`search`] |
 //! | whether observations determine them | [`determined`] |
-//! | how observations lie among the shots that were possible, and what to observe next | [`possible`] |
+//! | how observations lie among the shots that were possible, and what to observe next | [`predicted`] |
 
 mod answer;
 pub mod determined;
 mod fitting;
 pub mod observed_shots;
 pub mod parameter;
-pub mod possible;
-mod predict;
+pub mod predicted;
+mod predictor;
 pub mod search;
 mod watch;
 pub mod weights;
@@ -32,8 +32,8 @@ pub use self::determined::{Candidate, NotDetermined};
 use self::fitting::Fitting;
 use self::observed_shots::ObservedShots;
 use self::parameter::{Parameter, Prior};
-use self::possible::{NextObservation, as_fired, next_observation};
-use self::predict::Predictor;
+use self::predicted::{NextObservation, next_observation, predict_observations};
+use self::predictor::Predictor;
 use self::search::SearchBox;
 use super::samples::sampling::Sampling;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress};
@@ -60,7 +60,7 @@ pub fn observable_names(case: &Case) -> ObservableNames {
 
 /// What is asked of a fit.
 #[derive(Clone, Copy, Debug)]
-pub struct Request<'a> {
+pub struct FitRequest<'a> {
     /// Files of observations.
     pub files: &'a [Observations],
     /// What is estimated, each once.
@@ -73,7 +73,7 @@ pub struct Request<'a> {
 /// Fits unknowns of a plan to observations.
 pub fn fit(
     case: &Case,
-    request: &Request<'_>,
+    request: &FitRequest<'_>,
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Finding<FitResult> {
@@ -108,9 +108,10 @@ pub fn fit(
         return Ok(whole(FitResult::NotDetermined(refused)));
     }
     let answers = settled.iter().map(|settled| fitting.answer(case, settled)).collect();
-    let as_fired = as_fired(case, &fitting.seen, request.sampling.as_ref(), compute, progress)?;
+    let predictions =
+        predict_observations(case, &fitting.seen, request.sampling.as_ref(), compute, progress)?;
     let ObservedShots { list: observed, file, .. } = fitting.seen;
-    let mut fit = Fit { answers, observed, file, as_fired, next: None };
+    let mut fit = Fit { answers, observed, file, predictions, next: None };
     fit.next = next(case, &fit, request, compute, progress)?;
     Ok(whole(FitResult::Fitted(fit)))
 }
@@ -122,7 +123,7 @@ fn whole(value: FitResult) -> Found<FitResult> {
 /// What `[uncertainty]` states of each parameter; an unknown of which it says that it is exact is an error.
 fn stated_priors(
     case: &Case,
-    request: &Request<'_>,
+    request: &FitRequest<'_>,
     parameters: &[Parameter],
 ) -> Result<Vec<Option<Prior>>, Unknown> {
     if request.sampling.is_none() {
@@ -137,7 +138,7 @@ fn stated_priors(
 }
 
 /// Inputs in common that are not estimated and that are not exact.
-fn others(case: &Case, request: &Request<'_>) -> Vec<(Parameter, Prior)> {
+fn others(case: &Case, request: &FitRequest<'_>) -> Vec<(Parameter, Prior)> {
     if request.sampling.is_none() {
         return Vec::new();
     }
@@ -146,7 +147,7 @@ fn others(case: &Case, request: &Request<'_>) -> Vec<(Parameter, Prior)> {
 }
 
 /// The plan with the inputs that are not estimated at their means.
-fn plan_of_others(case: &Case, request: &Request<'_>) -> Plan {
+fn plan_of_others(case: &Case, request: &FitRequest<'_>) -> Plan {
     let mut plan = case.plan.clone();
     others(case, request).iter().for_each(|(other, prior)| other.set_in(&mut plan, prior.mean));
     plan
@@ -168,7 +169,7 @@ fn search_box(plan: &Plan, parameters: &[Parameter], priors: &[Option<Prior>]) -
 fn next(
     case: &Case,
     fit: &Fit,
-    request: &Request<'_>,
+    request: &FitRequest<'_>,
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Option<NextObservation>, NoResult> {

@@ -20,13 +20,13 @@ use rand_distr::StandardNormal;
 
 use super::observed_shots::{ObservedShot, ObservedShots};
 use super::parameter::{Parameter, Prior};
-use super::predict::{Predictor, observe_shot};
+use super::predictor::{Predictor, observe_shot};
 use crate::plan::observations::Observation;
 use crate::plan::{Plan, Uncertainty};
 use crate::study::as_planned::step_error;
 use crate::study::samples::draw::draw;
 use crate::study::samples::rounds::step;
-use crate::study::work::batch::run_jobs;
+use crate::study::work::batch::run_batch;
 use crate::study::{Case, NoResult};
 
 /// Least number of samples behind a mean, its slopes, and its covariance.
@@ -114,7 +114,7 @@ impl Weighing<'_> {
         let shots = self.seen.shots();
         let drawn = SAMPLES.max(SAMPLES_EACH * self.seen.list.len());
         let numbers: Vec<usize> = (0..drawn).collect();
-        let samples = run_jobs(&numbers, self.predictor.progress, |&number| {
+        let samples = run_batch(&numbers, self.predictor.progress, |&number| {
             let (case, from) = self.sample(at, spread, seed, number);
             // A seed for each shot: what scatters in one does not repeat in another.
             let see = |(n, shot): (usize, &ObservedShot)| {
@@ -217,7 +217,7 @@ impl Weighing<'_> {
         let Some(values) = self.predictor.values(at, 1.0)? else { return Ok(None) };
         let coarser: Vec<f64> =
             (1..=step_error::NEIGHBOURS).map(|n| step_error::RATIO.powi(n as i32)).collect();
-        let runs = run_jobs(&coarser, self.predictor.progress, |&step| self.predictor.values(at, step))?;
+        let runs = run_batch(&coarser, self.predictor.progress, |&step| self.predictor.values(at, step))?;
         let error = |n: usize| {
             let near =
                 coarser.iter().zip(&runs).filter_map(|(&step, run)| Some((step, run.as_ref()?.as_ref()?[n])));

@@ -152,7 +152,7 @@ impl App {
             self.help = false;
         } else if let Some(kind) = self.cancellable() {
             return self.cancel_study(kind);
-        } else if self.screen == Screen::Compare && self.studies.changes.take().is_some() {
+        } else if self.screen == Screen::Compare && self.studies.remedy_list.take().is_some() {
             return Request::None;
         } else if !self.listing.filter.is_empty() || !self.studies.filter.is_empty() {
             self.listing.filter.clear();
@@ -192,7 +192,7 @@ impl App {
     /// Asks to check every option at an accuracy.
     fn check_again(&mut self, accuracy: Accuracy) -> Request {
         self.compute.accuracy = accuracy;
-        self.studies.changes = None;
+        self.studies.remedy_list = None;
         self.options.fill(OptionState::Waiting);
         self.player.option = None;
         Request::Check

@@ -7,20 +7,20 @@ use rand_distr::StandardNormal;
 
 use super::determined::{Candidate, candidates, usual_sd};
 use super::observed_shots::{ObservedShot, ObservedShots};
-use super::predict::observe_shot;
+use super::predictor::observe_shot;
 use crate::choice::ObservedQuantity;
 use crate::plan::observations::Watched;
 use crate::study::samples::draw::{Input, draw};
 use crate::study::samples::risk::percentiles;
 use crate::study::samples::rounds::step;
 use crate::study::samples::sampling::Sampling;
-use crate::study::work::batch::run_jobs;
+use crate::study::work::batch::run_batch;
 use crate::study::{Case, ComputeSettings, NoResult, Progress};
 use crate::verdict::Quantity;
 
 /// What was planned of an observed quantity, and what could have been seen of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AsFired {
+pub struct Prediction {
     /// The value of the plan; not a number where the tire never lifts, or never lands.
     pub planned: f64,
     /// 5th and 95th percentile of what could have been seen, with the standard deviation of the observation; `None` without
@@ -28,7 +28,7 @@ pub struct AsFired {
     pub band: Option<[f64; 2]>,
 }
 
-impl AsFired {
+impl Prediction {
     /// Whether an observed value lies in the band.
     pub fn contains(&self, value: f64) -> Option<bool> {
         self.band.map(|[low, high]| (low..=high).contains(&value))
@@ -62,7 +62,7 @@ fn samples(
     progress: &Progress,
 ) -> Result<Samples, NoResult> {
     let numbers: Vec<usize> = (0..sampling.least).collect();
-    let runs = run_jobs(&numbers, progress, |&number| {
+    let runs = run_batch(&numbers, progress, |&number| {
         let sample = draw(case, &case.shots[shot.option], sampling.seed, number);
         let settings = case.run_settings(compute.method, step(compute, &sample.scene));
         let fired = sample.shot.with_times(&shot.times);
@@ -78,13 +78,13 @@ fn samples(
 
 /// Each observation beside what the plan says of it; without a `sampling` there are no bands. The bands are those of the firing times
 /// that were measured, where some were.
-pub fn as_fired(
+pub fn predict_observations(
     case: &Case,
     seen: &ObservedShots,
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Vec<AsFired>, NoResult> {
+) -> Result<Vec<Prediction>, NoResult> {
     let mut all = Vec::new();
     for shot in seen.shots() {
         let ObservedShot { option, ref watched, .. } = shot;
@@ -102,7 +102,7 @@ pub fn as_fired(
                 });
                 percentiles(values.filter(|value| value.is_finite()), [0.05, 0.95])
             });
-            all.push(AsFired { planned: planned[n], band });
+            all.push(Prediction { planned: planned[n], band });
         }
     }
     Ok(all)
