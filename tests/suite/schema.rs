@@ -19,7 +19,7 @@ fn shipped_plans_are_valid() {
     let plans = paths.iter().filter(|path| path.extension().is_some_and(|ending| ending == "toml"));
     assert!(plans.clone().count() >= 4, "the shipped plans");
     for path in plans {
-        let text = std::fs::read_to_string(&path).expect("a plan");
+        let text = std::fs::read_to_string(path).expect("a plan");
         let told: Vec<String> =
             check.iter_errors(&value(&text).expect("TOML")).map(|error| error.to_string()).collect();
         assert!(told.is_empty(), "{}: {told:?}", path.display());
