@@ -32,7 +32,7 @@ macro_rules! choice {
         $choice:ident $(, default $default:ident)? { $( $(#[$about_variant:meta])* $variant:ident = $name:literal, )+ }
     ) => {
         $(#[$about])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
         pub enum $choice {
             $( $(#[$about_variant])* #[serde(rename = $name)] $variant, )+
         }

@@ -65,8 +65,8 @@
 //!
 //! - A [`Scene`](scene::Scene) is never changed once built; everything that moves lives in a stepper.
 //! - Plan units become SI where a plan becomes a [`Case`]: scene, shots and limits. What a study changes in the plan itself keeps
-//!   the units of its keys: `[uncertainty]` until samples are drawn, the intervals of a search, the changes of `remedies`. SI
-//!   becomes words in `units`.
+//!   the units of its keys: `[uncertainty]` until samples are drawn, the intervals of a search, the changes of `remedies`.
+//!   Screens that quote the plan show its own numbers; SI becomes words in `units`.
 //! - What goes wrong in a run is a value, never a panic and never a pass. Functions that take the index of an option panic where
 //!   there is no such option.
 //! - The same plan gives the same numbers for any number of threads.
@@ -84,9 +84,15 @@
 //!     O tire   ─ │ ╳ cables
 //! ```
 //!
-//! A *hole* fires under a tire and launches it; holes that fire together are a *blast row*; the *interval* between rows, or
+//! A *hole* fires under a tire and launches it; holes that a delay option fires as one group, together or one after another, are a
+//! *blast row*; the *interval* between rows, or
 //! their *order*, makes a *delay option*. A *shelter* is tires (point masses) tied by *cables* that only pull. A cable is
 //! *taut* or *slack*; a tire on the ground *sticks* or *slips*.
+//!
+//! A *shot* is one firing of all holes: which tire is launched when, and how fast. A *scene* is the shelter itself: masses,
+//! cables, ground. A *case* is a plan made ready: its scene, one shot for each option, its limits. *Drift* is how far a tire ends
+//! from where it lay; a *peak* is the greatest height or force of a run. The *launch margin* is how much faster the tires may leave
+//! until the shot as planned fails; a *remedy* is a change of the plan with which an option would pass.
 //!
 //! The *utilization* of a shot is its greatest value over its limit. A *checked shot* was run at ever finer steps until its
 //! verdict was sure ([`CheckedShot`]); its *summary* is the verdict with height, force and drift, each with its error

@@ -99,6 +99,12 @@ pub struct Limits {
     pub drift: Option<f64>,
     /// Breaking force in use [N].
     pub breaking_force: f64,
+    /// Share of the possible shots that may go past a limit.
+    pub accepted_risk: f64,
+    /// Most holes that fire within any 8 ms.
+    pub holes_in_8_ms: Option<usize>,
+    /// Heaviest charge within any 8 ms [kg].
+    pub charge_in_8_ms: Option<f64>,
 }
 
 impl Limits {

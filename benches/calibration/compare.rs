@@ -72,7 +72,7 @@ pub fn compare(regime: Regime, n: u64, accuracy: Accuracy, limits: usize) -> Com
             value * (1.0 + if random.between(0.0, 1.0) < 0.5 { distance } else { -distance })
         };
         let (height, force) = (near(exact[0]), near(exact[1]).max(1.0));
-        case.limits = Limits { height, force, drift: None, breaking_force: force };
+        case.limits = Limits { height, force, drift: None, breaking_force: force, ..case.limits };
         let judged = judge(&case, &at_level(accuracy));
         let right = if exact[0] > height || exact[1] > force { Verdict::Fail } else { Verdict::Pass };
         verdicts.push((judged.verdict, right));

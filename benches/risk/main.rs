@@ -8,7 +8,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use shelter::choice::Accuracy;
 use shelter::plan::Plan;
-use shelter::study::samples::rounds::{ShotToSample, draw_shard, find_risks};
+use shelter::study::samples::rounds::{ShotToSample, draw_shard, sample_shots};
 use shelter::study::samples::sample::Sample;
 use shelter::study::samples::sampling::Sampling;
 use shelter::study::{Case, ComputeSettings, Progress, Shard};
@@ -130,7 +130,7 @@ fn coverage(plans: usize, seeds: u64) {
             for seed in 1..=seeds {
                 let (shot, sampling) = (&case.shots[0], Sampling { seed, ..Sampling::OF_VERDICT });
                 let target = ShotToSample::new(case, shot, compute, sampling);
-                let found = find_risks(&[target], &Progress::default());
+                let found = sample_shots(&[target], &Progress::default());
                 let risk = found.expect("samples").value.remove(0);
                 let [low, high] = risk.bounds.interval;
                 covered.push((low..=high).contains(truth));

@@ -13,8 +13,9 @@ use rand_distr::{Distribution, StandardNormal};
 use shelter::choice::Unknown;
 use shelter::plan::PlanSource;
 use shelter::plan::observations::Observations;
-use shelter::study::fit::possible::as_fired;
-use shelter::study::fit::{FitResult, Request, fit, observable_names};
+use shelter::study::fit::observed_shots::ObservedShots;
+use shelter::study::fit::predicted::predict_observations;
+use shelter::study::fit::{FitRequest, FitResult, fit, observable_names};
 use shelter::study::samples::draw::draw;
 use shelter::study::{Case, ComputeSettings, Progress};
 use shelter::{Model, Sampling};
@@ -160,8 +161,8 @@ fn try_one(seed: u64, unknowns: &[Unknown], tally: &mut Tally) {
     let read = |text: &str| {
         Observations::parse("seen.csv", text, &known).unwrap_or_else(|mistakes| panic!("{mistakes}"))
     };
-    let list = read(&format!("{header}{blank}")).list;
-    let shown = as_fired(&fired, &list, None, &compute, &Progress::default()).expect("a run");
+    let seen = ObservedShots::new(&[read(&format!("{header}{blank}"))]);
+    let shown = predict_observations(&fired, &seen, None, &compute, &Progress::default()).expect("a run");
     let mut text = header.to_owned();
     for ((line, sd), shown) in lines.iter().zip(&shown) {
         let noise: f64 = StandardNormal.sample(random);
@@ -172,7 +173,7 @@ fn try_one(seed: u64, unknowns: &[Unknown], tally: &mut Tally) {
         }
     }
     let files = [read(&text)];
-    let request = Request { files: &files, unknowns, sampling: Some(Sampling::exactly(50, 1)) };
+    let request = FitRequest { files: &files, unknowns, sampling: Some(Sampling::exactly(50, 1)) };
     let begun = Instant::now();
     let found = fit(&case, &request, &compute, &Progress::default()).expect("a result").value;
     tally.seconds += begun.elapsed().as_secs_f64() * unknowns.len() as f64;

@@ -6,7 +6,7 @@ use itertools::Itertools;
 use rayon::prelude::*;
 use shelter::plan::{HoleTiming, Plan};
 use shelter::scene::Shot;
-use shelter::study::samples::rounds::{ShotToSample, find_risks};
+use shelter::study::samples::rounds::{ShotToSample, sample_shots};
 use shelter::study::samples::sampling::Sampling;
 use shelter::study::search::{Schedule, search};
 use shelter::study::{Case, ComputeSettings, Progress};
@@ -33,7 +33,7 @@ pub fn compare(plans: std::ops::Range<u64>) {
         let share = |schedule: &Schedule| {
             let shot: Shot = schedule.shot(&case);
             let target = ShotToSample::new(&case, &shot, compute, BRUTE);
-            let risk = find_risks(&[target], &Progress::default()).expect("a result").value.remove(0);
+            let risk = sample_shots(&[target], &Progress::default()).expect("a result").value.remove(0);
             risk.bounds.probability().unwrap_or(1.0)
         };
         let shares: Vec<f64> = schedules.par_iter().map(share).collect();

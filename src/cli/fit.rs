@@ -19,7 +19,7 @@ use crate::plan::fitted;
 use crate::plan::observations::{Observations, template};
 use crate::report::fit::{refusal, report};
 use crate::report::json::FitDocument;
-use crate::study::fit::{Fit, FitResult, Request, fit, observable_names};
+use crate::study::fit::{Fit, FitRequest, FitResult, fit, observable_names};
 use crate::study::{Case, Found, NoResult};
 
 #[derive(Args)]
@@ -60,13 +60,13 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if let Some(message) = contradiction(unknowns) {
         return wrong(&message);
     }
-    let Some(files) = read(&case, &arguments.observed, look) else { return Ok(Status::Wrong) };
+    let Some(files) = read_observations(&case, &arguments.observed, look) else { return Ok(Status::Wrong) };
     if let Some(message) = used_twice(&case, &files) {
         return wrong(&message);
     }
     let compute = arguments.study.compute.settings(&case.plan);
     let sampling = arguments.study.verdict.sampling();
-    let request = Request { files: &files, unknowns, sampling };
+    let request = FitRequest { files: &files, unknowns, sampling };
     let found = match run_study(&arguments.study.compute, |progress| fit(&case, &request, &compute, progress))
     {
         Err(reason) => return failed(&reason),
@@ -92,7 +92,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
 }
 
 /// The observations of all files; prints every mistake, `None` where there is one.
-fn read(case: &Case, paths: &[PathBuf], look: &LookArguments) -> Option<Vec<Observations>> {
+pub fn read_observations(case: &Case, paths: &[PathBuf], look: &LookArguments) -> Option<Vec<Observations>> {
     let known = observable_names(case);
     let open = |path: &PathBuf| {
         let read = Observations::read(path, &known);

@@ -8,7 +8,7 @@ use clap::Args;
 use super::arguments::{FormatArg, LookArguments};
 use super::print_sharded::{print_orders, print_risks, print_search};
 use super::status::{Status, failed, wrong};
-use crate::study::merge::{Answer, MergeFailure, Merged, merge};
+use crate::study::merge::{MergeFailure, Merged, MergedResult, merge};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -34,10 +34,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(MergeFailure::NoResult(reason)) => return failed(&reason),
     };
     match answer {
-        Answer::Orders(orders) => print_orders(&case, &orders, false, arguments.format, look),
-        Answer::Risk(sampling, results) => {
+        MergedResult::Orders(orders) => print_orders(&case, &orders, false, arguments.format, look),
+        MergedResult::Risk(sampling, results) => {
             print_risks(&case, &results, &sampling, false, arguments.format, look)
         }
-        Answer::Search(found) => print_search(&case, &found, false, arguments.format, look),
+        MergedResult::Search(found) => print_search(&case, &found, false, arguments.format, look),
     }
 }

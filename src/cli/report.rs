@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments};
 use super::check_plans::{check_plans, print_checks};
+use super::fit::read_observations;
 use super::load_plans::open_option;
 use super::print::{print_beside_verdict, print_warnings};
 use super::run_study::run_study;
@@ -15,9 +16,11 @@ use super::sweep::swept_order;
 use crate::file;
 use crate::report::check;
 use crate::report::html::{self, Page};
-
-use crate::study::NoResult;
+use crate::report::observed::observed_rows;
+use crate::study::fit::observed_shots::ObservedShots;
+use crate::study::fit::predicted::predict_observations;
 use crate::study::sweep::{INTERVALS, sweep};
+use crate::study::{Found, NoResult};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -35,6 +38,9 @@ pub struct Arguments {
     /// Also sweep the interval between rows, from 0 to 500 ms, in the order of the option to be fired
     #[arg(long)]
     sweep: bool,
+    /// Also tell what was seen of earlier shots beside what the plan says of them; files as of `fit`
+    #[arg(long, value_name = "FILE.csv")]
+    observed: Vec<PathBuf>,
     /// Also print the results, as `check` does
     #[arg(long, value_enum)]
     format: Option<FormatArg>,
@@ -70,6 +76,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Ok(order) => order.unwrap_or_default(),
         Err(message) => return wrong(&message),
     };
+    let Some(files) = read_observations(&case, &arguments.observed, look) else { return Ok(Status::Wrong) };
     // A sweep needs one way to fire the holes of a row; without an option named, options that differ have none.
     let cases = [if asked.is_some() { case.with_hole_timing_or_of(option) } else { case }];
     let sampling = arguments.verdict.sampling();
@@ -87,6 +94,16 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Ok(swept) => swept,
         Err(reason) => return failed(&reason),
     };
+    let seen = ObservedShots::new(&files);
+    let predictions = run_study(&arguments.compute, |progress| {
+        let value = predict_observations(&cases[0], &seen, sampling.as_ref(), &compute, progress)?;
+        Ok(Found { value, partial: false })
+    });
+    let predictions = match predictions {
+        Ok(found) => Some(found.value),
+        Err(NoResult::OutOfTime) => None,
+        Err(reason) => return failed(&reason),
+    };
     // Who interrupts wants no page, and keeps the page that is there.
     if was_interrupted() {
         return failed(&NoResult::Stopped);
@@ -97,7 +114,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         fired: asked.map(|_| option),
         sampling: sampling.as_ref(),
         sweep: swept.as_ref().map(|swept| &swept.value),
-        partial: checked.partial || swept.as_ref().is_some_and(|swept| swept.partial),
+        observed: &observed_rows(&cases[0], &seen.list, predictions.as_deref().unwrap_or_default()),
+        partial: checked.partial
+            || predictions.is_none()
+            || swept.as_ref().is_some_and(|swept| swept.partial),
         unsaved: false,
         date: &html::today(),
     });

@@ -53,7 +53,7 @@ study_kinds! {
 
 impl StudyKind {
     /// The kinds that answer a question about the whole plan, in the order of their tabs.
-    pub const OF_PLAN: [StudyKind; 6] = [
+    pub const TABS: [StudyKind; 6] = [
         StudyKind::Sweep,
         StudyKind::Orders,
         StudyKind::Risk,

@@ -257,7 +257,7 @@ impl CableSpec {
     }
 }
 
-/// Holes that fire together.
+/// Holes that a delay option fires as one group: together, or one after another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BlastRow {
     /// Name; delay options address the row by it.

@@ -61,7 +61,7 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
     };
     if sweep.points.iter().any(Point::is_sampled) {
         let points = sweep.points.iter().filter_map(failing).collect();
-        let accepted = 1e-2 * case.plan.limits.accepted_risk_percent;
+        let accepted = case.limits.accepted_risk;
         let chart = quantity_chart(interval, ("failing share", Unit::Percent), points, accepted);
         let title = format!("{} (100 % where the shot as planned fails)", chart.title);
         let y = axis("failing share", Unit::Percent, [0.0, 1.0]);
@@ -75,7 +75,7 @@ pub fn front(case: &Case, front: &[FrontPoint]) -> Chart {
     let longest = front.iter().map(|point| point.duration).fold(0.0, f64::max);
     let duration = axis("duration", Unit::Millisecond, [0.0, longest * HEADROOM]);
     let points = front.iter().map(|point| (point.duration, point.share.value())).collect();
-    let accepted = 1e-2 * case.plan.limits.accepted_risk_percent;
+    let accepted = case.limits.accepted_risk;
     quantity_chart(duration, ("failing share", Unit::Percent), points, accepted)
 }
 

@@ -1,7 +1,7 @@
 //! `check` as a report: one row a delay option.
 
 use super::explain::{self, broken, compute_label, launch_margin};
-use super::model::{Block, Cell, Column, Conclusion, Detail, Field, Report, Shown, Table};
+use super::model::{Audience, Block, Cell, Column, Conclusion, Detail, Field, Report, Table};
 use super::option_row::{OptionRow, option_rows};
 use super::reasons;
 use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
@@ -29,11 +29,11 @@ fn all_reasons(row: &OptionRow<'_>) -> String {
 }
 
 fn fields<'a>() -> [Field<OptionRow<'a>>; 34] {
-    let words = |heading| Column::words(&[], heading).shown(Shown::Text);
+    let words = |heading| Column::words(&[], heading).shown(Audience::Text);
     [
         Field::new(Column::scripts(&["plan"]), |row| Cell::Text(row.case.source.path.clone())),
         Field::new(Column::words(&["option"], "option"), |row| Cell::Text(row.delay.name.clone())),
-        Field::new(Column::words(&[], "rows fire, as listed, at").shown(Shown::Page), |row| {
+        Field::new(Column::words(&[], "rows fire, as listed, at").shown(Audience::Page), |row| {
             Cell::Text(explain::firing_times(row.delay))
         }),
         Field::new(VERDICT, |row| Cell::Verdict(row.verdict())),
@@ -147,10 +147,10 @@ pub fn report(
 ) -> Report {
     let sampled = results.iter().flatten().any(|judged| judged.risk.is_asked());
     let shown = |column: &Column| match column {
-        column if [HEIGHT, FORCE].contains(column) && sampled => column.shown(Shown::Scripts),
-        column if OF_SAMPLES.contains(column) && !sampled => column.shown(Shown::Scripts),
+        column if [HEIGHT, FORCE].contains(column) && sampled => column.shown(Audience::Scripts),
+        column if OF_SAMPLES.contains(column) && !sampled => column.shown(Audience::Scripts),
         // Without a limit on drift only the page has room for drift.
-        column if *column == DRIFT && case.limits.drift.is_none() => column.shown(Shown::Page),
+        column if *column == DRIFT && case.limits.drift.is_none() => column.shown(Audience::Page),
         column => *column,
     };
     let mut table = Table::of(&fields(), option_rows(case, results));

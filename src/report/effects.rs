@@ -1,6 +1,6 @@
 //! `effects` as a report: one row an effect, and what the scene requires.
 
-use super::model::{Block, Cell, Column, Conclusion, Field, Report, Shown, Table};
+use super::model::{Audience, Block, Cell, Column, Conclusion, Field, Report, Table};
 use super::report_head;
 use crate::study::Case;
 use crate::study::effects::{Effect, EffectOnOption, EffectsOnOptions, REQUIRED};
@@ -10,7 +10,7 @@ use crate::verdict::{Quantity, Verdict};
 /// One effect on every option, for people.
 fn for_people<'a>() -> [Field<&'a Vec<&'a EffectOnOption>>; 8] {
     fn words(heading: &'static str) -> Column {
-        Column::words(&[], heading).shown(Shown::People)
+        Column::words(&[], heading).shown(Audience::People)
     }
     [
         Field::new(words("effect"), |all| Cell::Text(all[0].effect.name().to_owned())),

@@ -1,12 +1,12 @@
 //! `fit` as a report: the estimates of each answer, and every observation beside what was planned, possible and fitted.
 
-use super::model::{Align, Block, Cell, Column, Conclusion, Field, Report, Shown, Table};
+use super::model::{Audience, Block, Cell, Column, Conclusion, Field, Report, Table};
+use super::observed::{ObservedRow, bands, fitted_rows, observed_table, place};
 use super::report_head;
-use crate::choice::{ObservedQuantity, Unknown};
-use crate::plan::observations::{Observation, Observations, Watched, unit};
+use crate::choice::Unknown;
+use crate::plan::observations::{Observations, unit};
 use crate::study::Case;
 use crate::study::fit::parameter::Parameter;
-use crate::study::fit::possible::AsFired;
 use crate::study::fit::{Answer, Candidate, Estimated, Fit, FitResult, NotDetermined, Residual};
 use crate::units;
 use crate::verdict::Verdict;
@@ -55,67 +55,6 @@ fn estimate_numbers<'a>() -> [Field<EstimateRow<'a>>; 3] {
     ]
 }
 
-/// An observation beside what the plan and the best answer say of it.
-pub struct ObservedRow<'a> {
-    /// The plan.
-    pub case: &'a Case,
-    /// The observation.
-    pub observed: &'a Observation,
-    /// What was planned and possible.
-    pub as_fired: &'a AsFired,
-    /// What the best answer says.
-    pub residual: &'a Residual,
-}
-
-fn observed_fields<'a>() -> [Field<ObservedRow<'a>>; 7] {
-    fn words(heading: &'static str) -> Column {
-        Column { align: Align::Right, ..Column::words(&[], heading) }
-    }
-    [
-        Field::new(Column::words(&[], "observed"), |row| {
-            Cell::Text(place(row.case, row.observed.option, &row.observed.watched))
-        }),
-        Field::new(words("value ± sd"), |row| {
-            Cell::Text(units::value_and_sd(row.observed.value, row.observed.sd))
-        }),
-        Field::new(words("planned"), |row| Cell::Text(value_by_sd(row.as_fired.planned, row.observed.sd))),
-        Field::new(words("predicted, 90 %"), |row| {
-            row.as_fired.band.map_or(Cell::Nothing, |band| {
-                Cell::Text(band.map(|end| value_by_sd(end, row.observed.sd)).join(" to "))
-            })
-        }),
-        Field::new(Column::words(&[], "within"), |row| {
-            row.as_fired.contains(row.observed.value).map_or(Cell::Nothing, Cell::Flag)
-        }),
-        Field::new(words("fitted"), |row| Cell::Text(value_by_sd(row.residual.fitted, row.observed.sd))),
-        Field::new(words("residual"), |row| {
-            let deviation = units::rounded(row.residual.deviation, 1);
-            let mark = if row.residual.is_suspicious() { "  suspicious" } else { "" };
-            Cell::Text(if row.residual.fitted.is_nan() {
-                "never".to_owned() + mark
-            } else {
-                format!("{deviation} sd{mark}")
-            })
-        }),
-    ]
-}
-
-/// The rows of all observations.
-pub fn observed_rows<'a>(case: &'a Case, fit: &'a Fit) -> impl Iterator<Item = ObservedRow<'a>> {
-    let beside = fit.as_fired.iter().zip(&fit.answers[0].residuals);
-    fit.observed.iter().zip(beside).map(move |(observed, (as_fired, residual))| ObservedRow {
-        case,
-        observed,
-        as_fired,
-        residual,
-    })
-}
-
-/// The table of observations: planned, predicted, observed, fitted.
-pub fn observed_table(case: &Case, fit: &Fit) -> Table {
-    Table::of(&observed_fields(), observed_rows(case, fit))
-}
-
 /// The report of a fit; `sampled`: with what the plan does not know.
 pub fn report(case: &Case, files: &[Observations], fit: &Fit, sampled: bool) -> Report {
     let several = fit.answers.len() > 1;
@@ -127,13 +66,14 @@ pub fn report(case: &Case, files: &[Observations], fit: &Fit, sampled: bool) -> 
     };
     let [number, name, rest @ ..] = estimate_fields();
     let number =
-        if several { number } else { Field { column: number.column.shown(Shown::Scripts), ..number } };
+        if several { number } else { Field { column: number.column.shown(Audience::Scripts), ..number } };
     let all: Vec<_> = [number, name].into_iter().chain(rest).chain(estimate_numbers()).collect();
     let mut blocks =
         vec![Block::Text(vec![basis(files, fit, sampled)]), Block::Table(Table::of(&all, rows()))];
     blocks.push(Block::Text(correlated_pairs(case, &fit.answers[0])));
-    blocks.push(Block::Table(observed_table(case, fit)));
-    blocks.push(Block::Text(bands(case, fit).into_iter().chain(next(case, fit)).collect()));
+    let rows = fitted_rows(case, fit);
+    let sentences = bands(case, &rows).into_iter().chain(next(case, fit)).collect();
+    blocks.extend([Block::Table(observed_table(&rows)), Block::Text(sentences)]);
     let head = report_head(case, false);
     let warnings = head.warnings.iter().cloned().chain(warnings(case, fit)).collect();
     Report { blocks, warnings, conclusion: conclusion(fit), ..head }
@@ -168,14 +108,6 @@ fn estimate(estimate: &Estimated) -> String {
     units::value_and_sd(estimate.value, estimate.sd)
 }
 
-/// A value with the digits of another's standard deviation.
-fn value_by_sd(value: f64, sd: f64) -> String {
-    if value.is_nan() {
-        return "never".to_owned();
-    }
-    units::value_and_sd(value, sd).split(' ').next().unwrap_or_default().to_owned()
-}
-
 /// The launch velocities that a factor makes of those of the plan; else nothing.
 pub fn launch_velocities(case: &Case, parameter: Parameter, factor: f64, sd: f64) -> String {
     let mut speeds = launch_speeds(case, parameter);
@@ -200,26 +132,6 @@ pub fn launch_speeds(case: &Case, parameter: Parameter) -> Vec<f64> {
     speeds
 }
 
-/// `20 ms · 3:1 height_m at 0.3 s`.
-pub fn place(case: &Case, option: usize, watched: &Watched) -> String {
-    let scene = case.scene();
-    let address = match watched.quantity {
-        ObservedQuantity::Force => scene.cable_name(watched.index),
-        _ => scene.tire[watched.index].to_string(),
-    };
-    let at = if watched.quantity == ObservedQuantity::Height {
-        format!(" at {} s", watched.at)
-    } else {
-        String::new()
-    };
-    let option = if case.plan.delays.len() > 1 {
-        format!("{} · ", case.plan.delays[option].name)
-    } else {
-        String::new()
-    };
-    format!("{option}{address} {}{at}", watched.quantity)
-}
-
 /// Which estimates hang together.
 fn correlated_pairs(case: &Case, answer: &Answer) -> Vec<String> {
     let count = answer.estimates.len();
@@ -231,29 +143,6 @@ fn correlated_pairs(case: &Case, answer: &Answer) -> Vec<String> {
         format!("{first} and {second} hang together: correlation {correlation}")
     })
     .collect()
-}
-
-/// How many observations lie in their bands: of each shot, and of all.
-fn bands(case: &Case, fit: &Fit) -> Vec<String> {
-    let held: Vec<(usize, bool)> = observed_rows(case, fit)
-        .filter_map(|row| Some((row.observed.option, row.as_fired.contains(row.observed.value)?)))
-        .collect();
-    let words = |of: &[(usize, bool)]| {
-        let within = of.iter().filter(|(_, held)| *held).count();
-        format!("{within} of {}", of.len())
-    };
-    if held.is_empty() {
-        return Vec::new();
-    }
-    let options: Vec<String> = held
-        .chunk_by(|a, b| a.0 == b.0)
-        .map(|shot| format!("{} of {}", words(shot), case.plan.delays[shot[0].0].name))
-        .collect();
-    let by_option = if options.len() > 1 { format!(" ({})", options.join("; ")) } else { String::new() };
-    vec![format!(
-        "{} observations lie within what the plan as it is predicts of them{by_option}; 9 of 10 are to be expected",
-        words(&held)
-    )]
 }
 
 /// What to observe next.
@@ -301,17 +190,23 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
             ));
         }
     }
-    let computed_badly = observed_rows(case, fit).filter(|row| row.residual.error > row.observed.sd);
-    let badly: Vec<String> =
-        computed_badly.map(|row| place(case, row.observed.option, &row.observed.watched)).collect();
+    let rows = fitted_rows(case, fit);
+    let is_computed_badly =
+        |row: &&ObservedRow<'_>| row.residual.is_some_and(|residual| residual.error > row.observed.sd);
+    let badly: Vec<String> = rows
+        .iter()
+        .filter(is_computed_badly)
+        .map(|row| place(case, row.observed.option, &row.observed.watched))
+        .collect();
     if !badly.is_empty() {
         all.push(format!(
             "the error of computing is larger than the sd of what was seen, which says little then: {}: choose a finer --accuracy",
             badly.join("; ")
         ));
     }
-    let suspicious: Vec<String> = observed_rows(case, fit)
-        .filter(|row| row.residual.is_suspicious())
+    let suspicious: Vec<String> = rows
+        .iter()
+        .filter(|row| row.residual.is_some_and(Residual::is_suspicious))
         .map(|row| {
             format!(
                 "{} in line {}",

@@ -26,6 +26,7 @@ pub mod limits;
 pub mod model;
 pub mod no_result;
 pub mod notes;
+pub mod observed;
 mod option_row;
 pub mod orders;
 pub mod palette;

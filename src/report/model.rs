@@ -82,7 +82,7 @@ pub struct Column {
     /// Side on which cells stand.
     pub align: Align,
     /// Who sees the column.
-    pub shown: Shown,
+    pub shown: Audience,
 }
 
 /// A column, and its cell in the row of an item.
@@ -121,7 +121,7 @@ impl Table {
 
 impl Table {
     /// Indices of the columns that a face shows, by for whom they are.
-    pub fn columns_for(&self, shown: impl Fn(Shown) -> bool) -> Vec<usize> {
+    pub fn columns_for(&self, shown: impl Fn(Audience) -> bool) -> Vec<usize> {
         (0..self.columns.len()).filter(|&n| shown(self.columns[n].shown)).collect()
     }
 
@@ -153,7 +153,7 @@ impl Row {
 impl Column {
     /// A column of words.
     pub const fn words(keys: &'static [&'static str], heading: &'static str) -> Self {
-        Self { keys, heading, subheading: "", unit: Unit::One, align: Align::Left, shown: Shown::People }
+        Self { keys, heading, subheading: "", unit: Unit::One, align: Align::Left, shown: Audience::People }
     }
 
     /// A column of numbers.
@@ -163,11 +163,11 @@ impl Column {
 
     /// A column that only scripts read.
     pub const fn scripts(keys: &'static [&'static str]) -> Self {
-        Self { shown: Shown::Scripts, ..Self::words(keys, "") }
+        Self { shown: Audience::Scripts, ..Self::words(keys, "") }
     }
 
     /// The same column, shown to others.
-    pub const fn shown(self, shown: Shown) -> Self {
+    pub const fn shown(self, shown: Audience) -> Self {
         Self { shown, ..self }
     }
 
@@ -193,7 +193,7 @@ pub enum Align {
 
 /// Who sees a column, besides the scripts that read its keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shown {
+pub enum Audience {
     /// Readers of text, terminal and page.
     People,
     /// Readers of text and terminal.
@@ -204,10 +204,10 @@ pub enum Shown {
     Scripts,
 }
 
-impl Shown {
+impl Audience {
     /// Whether readers of text and terminal see the column.
     pub fn is_in_text(self) -> bool {
-        matches!(self, Shown::People | Shown::Text)
+        matches!(self, Audience::People | Audience::Text)
     }
 }
 

@@ -5,7 +5,7 @@ use super::check::{
     planned,
 };
 use super::explain::{compute_label, launch_margin, together};
-use super::model::{Block, Cell, Column, Conclusion, Field, Offer, Report, Shown, Table};
+use super::model::{Audience, Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
 use super::option_row::{OptionRow, option_rows};
 use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
 use super::{charts, report_head, row_names, warnings};
@@ -47,14 +47,14 @@ fn fields<'a>() -> [Field<FoundRow<'a>>; 19] {
             let margin = row.option.result.as_ref().ok().and_then(|judged| judged.launch_margin);
             margin.map_or(Cell::Nothing, |margin| Cell::Text(launch_margin(margin)))
         }),
-        Field::new(HEIGHT.shown(Shown::Scripts), |row| {
+        Field::new(HEIGHT.shown(Audience::Scripts), |row| {
             row.option.as_planned(|checked| height(checked.height.into()))
         }),
         Field::new(NOMINAL_HEIGHT, |row| {
             row.option.as_planned(|checked| planned(checked.height, Unit::Metre))
         }),
         Field::new(HEIGHT_BAND, |row| band(&row.option, Quantity::Height, Unit::Metre)),
-        Field::new(FORCE.shown(Shown::Scripts), |row| {
+        Field::new(FORCE.shown(Audience::Scripts), |row| {
             row.option.as_planned(|checked| force(checked.force.into()))
         }),
         Field::new(NOMINAL_FORCE, |row| {
@@ -81,7 +81,7 @@ pub fn report(case: &Case, search: &Search, partial: bool) -> Report {
     let rows = option_rows(&search.case, &search.results).zip(&search.schedules);
     let mut table = Table::of(&fields(), rows.map(|(option, schedule)| FoundRow { option, schedule }));
     for column in table.columns.iter_mut().filter(|column| OF_SAMPLES.contains(column) && !sampled) {
-        *column = column.shown(Shown::Scripts);
+        *column = column.shown(Audience::Scripts);
     }
     complete_rows(&mut table, &search.case, &search.results);
     table = table.offering(search.case.plan.delays.iter().cloned().map(Offer::Option));
@@ -124,7 +124,7 @@ fn coverage_lines(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
         false => "a search: a better one may have been missed",
     };
     let mut lines = vec![format!("{possible}{keeping}; {judged} were judged, {how}")];
-    let limits = &case.plan.limits;
+    let limits = &case.limits;
     let most_holes = case.plan.search.most_holes_in_8_ms.into_iter().chain(limits.holes_in_8_ms).min();
     let refused = [
         (
@@ -134,7 +134,7 @@ fn coverage_lines(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
         (refused.too_many_holes, most_holes.map(|most| format!("fire more than {most} holes within 8 ms"))),
         (
             refused.too_heavy,
-            limits.charge_in_8_ms_kg.map(|most| format!("fire more than {most} kg within 8 ms")),
+            limits.charge_in_8_ms.map(|most| format!("fire more than {most} kg within 8 ms")),
         ),
     ];
     let refused = refused.into_iter().filter(|(count, _)| *count > 0);

@@ -1,7 +1,7 @@
 //! `sweep` as a report: charts against the interval, the windows, the worst and the recommended interval.
 
 use super::charts;
-use super::model::{Block, Cell, Column, Conclusion, Field, Offer, Report, Shown, Table};
+use super::model::{Audience, Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
 use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
     probability, sampled,
@@ -16,13 +16,13 @@ use crate::verdict::Verdict;
 /// Every interval tried, for scripts.
 fn points<'a>() -> [Field<&'a Point>; 7] {
     [
-        Field::new(INTERVAL.shown(Shown::Scripts), |point| Cell::Interval(point.interval)),
-        Field::new(HEIGHT.shown(Shown::Scripts), |point| height(point.as_planned.height)),
-        Field::new(FORCE.shown(Shown::Scripts), |point| force(point.as_planned.force)),
-        Field::new(VERDICT.shown(Shown::Scripts), |point| Cell::Verdict(point.verdict())),
+        Field::new(INTERVAL.shown(Audience::Scripts), |point| Cell::Interval(point.interval)),
+        Field::new(HEIGHT.shown(Audience::Scripts), |point| height(point.as_planned.height)),
+        Field::new(FORCE.shown(Audience::Scripts), |point| force(point.as_planned.force)),
+        Field::new(VERDICT.shown(Audience::Scripts), |point| Cell::Verdict(point.verdict())),
         Field::new(NOMINAL_VERDICT, |point| Cell::Verdict(point.as_planned.verdict)),
         Field::new(PROBABILITY, |point| probability(point.risk.drawn())),
-        Field::new(FAILURES.shown(Shown::Scripts), |point| failures(point.risk.drawn())),
+        Field::new(FAILURES.shown(Audience::Scripts), |point| failures(point.risk.drawn())),
     ]
 }
 

@@ -3,7 +3,7 @@
 use unicode_width::UnicodeWidthStr;
 
 use super::ascii::to_ascii;
-use super::model::{Align, Block, Cell, Chart, Column, Report, Row, Scale, SeriesKind, Shown, Table};
+use super::model::{Align, Audience, Block, Cell, Chart, Column, Report, Row, Scale, SeriesKind, Table};
 use super::palette::Role;
 use super::spark::sparkline;
 use crate::units;
@@ -99,7 +99,7 @@ fn is_drawn(table: &Table, column: usize) -> bool {
 
 /// Heading and rows of the columns that readers of text see; no line where they see no column.
 fn table_lines(table: &Table, style: Style) -> Vec<String> {
-    let mut seen = table.columns_for(Shown::is_in_text);
+    let mut seen = table.columns_for(Audience::is_in_text);
     seen.retain(|&n| !(style.plain && is_drawn(table, n)));
     if seen.is_empty() {
         return Vec::new();

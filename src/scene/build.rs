@@ -6,8 +6,8 @@ use nalgebra::{Vector2, Vector3};
 use super::{Cable, Firing, Scene, Shot, TireId, with_ends};
 use crate::choice::{HoleOrder, Link, OnOverload};
 use crate::plan::{
-    BlastRow, DelayOption, Hole, HoleTiming, Launch, LaunchTargets, Layout, Mesh, NearestPoint, Plan, Timing,
-    fire_in_turn,
+    BlastRow, CableSpec, DelayOption, Hole, HoleTiming, Launch, LaunchTargets, Layout, Mesh, NearestPoint,
+    Plan, Timing, fire_in_turn,
 };
 
 /// Firing time of each blast row [s] (`n_blast_rows`).
@@ -263,6 +263,16 @@ impl Scene {
             }
         }
         ties
+    }
+
+    /// Gives all cables, built as `spec` says, other slack [%], and a rope whose axial stiffness is so many times that of `spec`.
+    pub fn change_cables(&mut self, spec: &CableSpec, slack_percent: f64, stiffness_factor: f64) {
+        let length = (1.0 + 1e-2 * slack_percent) / (1.0 + 1e-2 * spec.slack_percent);
+        for cable in &mut self.cables {
+            let rope = spec.axial_stiffness_kn * 1e3 / cable.rest_length;
+            let stiffness = with_ends(rope * stiffness_factor / length, spec.end_stiffness());
+            *cable = Cable { rest_length: cable.rest_length * length, stiffness, ..*cable };
+        }
     }
 
     /// Firings of the holes of a blast row at time 0; a hole fires under the nearest tire, of two equally near under the first.

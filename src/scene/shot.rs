@@ -70,6 +70,13 @@ impl Shot {
         Self { firings: self.firings.iter().map(faster).collect(), ..*self }
     }
 
+    /// The same shot, in which the holes under these tires fire at these times [s].
+    pub fn with_times(&self, times: &[(usize, f64)]) -> Self {
+        let time = |firing: &Firing| times.iter().find(|(tire, _)| *tire == firing.tire).map(|(_, at)| *at);
+        let timed = |firing: &Firing| Firing { at: time(firing).unwrap_or(firing.at), ..*firing };
+        Self { friction: self.friction, ..Self::from_firings(self.firings.iter().map(timed).collect()) }
+    }
+
     /// Two shots near this one, to both sides of it: what is greater in one is smaller in the other.
     ///
     /// Friction, and for each firing time the time itself and all launch velocities, change by factors of their own, drawn

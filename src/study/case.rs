@@ -53,6 +53,9 @@ impl Case {
             force: breaking_force / plan.limits.cable_safety_factor,
             drift: plan.limits.drift_m,
             breaking_force,
+            accepted_risk: plan.limits.accepted_risk_percent * 1e-2,
+            holes_in_8_ms: plan.limits.holes_in_8_ms,
+            charge_in_8_ms: plan.limits.charge_in_8_ms_kg,
         };
         let (source, key) = (PlanSource::default(), OnceLock::new());
         Self { source, plan, model: Model::new(scene), shots, limits, hole_timing, key }

@@ -2,14 +2,14 @@
 
 use std::ops::ControlFlow;
 
-use super::as_planned::check::{CheckStep, CheckedShot, check_as_planned};
+use super::as_planned::check::{CheckProgress, CheckedShot, check_as_planned};
 use super::as_planned::margin::{LaunchMargin, launch_margin};
 use super::judgement::Evidence;
 use super::judgement::Judgement;
 use super::samples::risk::Risk;
-use super::samples::rounds::{ShotToSample, find_risks_watched};
+use super::samples::rounds::{ShotToSample, sample_shots_watched};
 use super::samples::sampling::Sampling;
-use super::work::batch::run_jobs;
+use super::work::batch::run_batch;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, catch_panic};
 use crate::verdict::Verdict;
 
@@ -29,7 +29,7 @@ pub struct CaseOption {
 #[derive(Clone, Copy, Debug)]
 pub enum JudgeEvent<'r> {
     /// A run of the shot as planned has gone on by [`STEPS_PER_EVENT`] steps.
-    Running(CheckStep),
+    Running(CheckProgress),
     /// The shot as planned is judged, or has no result.
     AsPlanned(&'r Result<CheckedShot, NoResult>),
     /// A round of samples was drawn.
@@ -72,7 +72,7 @@ pub fn judge_all(
 ) -> Finding<Vec<OptionResults>> {
     let of_case = |case: usize| (0..cases[case].0.shots.len()).map(move |option| CaseOption { case, option });
     let options: Vec<CaseOption> = (0..cases.len()).flat_map(of_case).collect();
-    let checked = run_jobs(&options, progress, |&at| {
+    let checked = run_batch(&options, progress, |&at| {
         let as_planned = catch_panic(|| check_one_as_planned(cases, at, progress, watch));
         watch(at, JudgeEvent::AsPlanned(&as_planned));
         match as_planned {
@@ -124,7 +124,7 @@ fn check_one_as_planned(
 }
 
 /// The options that are checked as planned.
-fn judged(results: &mut [OptionResults]) -> Vec<(CaseOption, &mut Judgement)> {
+fn checked_options(results: &mut [OptionResults]) -> Vec<(CaseOption, &mut Judgement)> {
     let of_case = |(case, results)| {
         let options = <OptionResults as AsMut<[_]>>::as_mut(results).iter_mut().enumerate();
         options.filter_map(move |(option, result)| Some((CaseOption { case, option }, result.as_mut().ok()?)))
@@ -140,7 +140,7 @@ fn add_risks(
     progress: &Progress,
     watch: Watch<'_>,
 ) -> Finding<()> {
-    let mut judged = judged(results);
+    let mut judged = checked_options(results);
     let target = |(at, judgement): &(CaseOption, &mut Judgement)| {
         let (case, compute) = cases[at.case];
         target(case, at.option, &ShotSummary::of(&judgement.as_planned), sampling, compute)
@@ -150,7 +150,7 @@ fn add_risks(
         watch(judged[n].0, JudgeEvent::SampledSoFar(risk));
         ControlFlow::Continue(())
     };
-    let Found { value: risks, partial } = find_risks_watched(&targets, progress, &mut sampled)?;
+    let Found { value: risks, partial } = sample_shots_watched(&targets, progress, &mut sampled)?;
     for ((at, judgement), risk) in judged.iter_mut().zip(risks) {
         watch(*at, JudgeEvent::SampledFully(&risk));
         judgement.risk = Evidence::Drawn(risk);
@@ -178,9 +178,9 @@ pub fn find_launch_margins(
     progress: &Progress,
     watch: Watch<'_>,
 ) -> Finding<()> {
-    let judged = judged(results);
+    let judged = checked_options(results);
     let jobs: Vec<_> = judged.iter().map(|(at, judgement)| (*at, judgement.as_planned.verdict)).collect();
-    let margins = run_jobs(&jobs, progress, |&(at, as_planned)| {
+    let margins = run_batch(&jobs, progress, |&(at, as_planned)| {
         let (case, compute) = &cases[at.case];
         match catch_panic(|| launch_margin(case, &case.shots[at.option], as_planned, compute, progress)) {
             // The verdicts stand without it.

@@ -16,12 +16,12 @@ pub struct Merged {
     /// The plan that all shards hold.
     pub case: Case,
     /// What the study found.
-    pub answer: Answer,
+    pub answer: MergedResult,
 }
 
 /// What a study that was shared found.
 #[derive(Clone, Debug)]
-pub enum Answer {
+pub enum MergedResult {
     /// Of `orders`.
     Orders(Orders),
     /// Of `risk`, with its samples.
@@ -55,13 +55,13 @@ pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
     let answer = match head.question {
         Question::Orders { intervals_s, option, sampling } => {
             case.set_hole_timing_of(option.as_deref());
-            Answer::Orders(orders(&case, &intervals_s, sampling.as_ref(), compute, progress)?.value)
+            MergedResult::Orders(orders(&case, &intervals_s, sampling.as_ref(), compute, progress)?.value)
         }
         Question::Risk { sampling } => {
-            Answer::Risk(sampling, case.judge_options(compute, Some(&sampling), progress)?.value)
+            MergedResult::Risk(sampling, case.judge_options(compute, Some(&sampling), progress)?.value)
         }
         Question::Search { sampling } => {
-            Answer::Search(Box::new(search(&case, sampling.as_ref(), compute, progress)?.value))
+            MergedResult::Search(Box::new(search(&case, sampling.as_ref(), compute, progress)?.value))
         }
         Question::Sweep { .. } | Question::Size { .. } => {
             let message =

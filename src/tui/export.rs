@@ -43,6 +43,7 @@ fn page(app: &App, fired: Option<usize>) -> Result<String, String> {
         fired,
         sampling: Some(&Sampling::OF_VERDICT),
         sweep: swept(app),
+        observed: &[],
         partial: false,
         unsaved: !is_saved(app),
         date: &html::today(),

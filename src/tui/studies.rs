@@ -79,7 +79,7 @@ impl fmt::Display for StudyState {
     }
 }
 
-/// The open list of changes with which an option would pass.
+/// The open list of remedy_list with which an option would pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RemedyList {
     /// Index of the option.
@@ -100,7 +100,7 @@ pub struct Studies {
     /// Index of the selected row among those that offer a change of the plan.
     pub selected: usize,
     /// The list of [`StudyKind::Remedies`]; `None` while it is closed.
-    pub changes: Option<RemedyList>,
+    pub remedy_list: Option<RemedyList>,
     /// Text of the plan on the screen.
     plan: Arc<str>,
     states: [StudyState; StudyKind::ALL.len()],
@@ -117,7 +117,7 @@ impl Studies {
             scroll: 0,
             filter: String::new(),
             selected: 0,
-            changes: None,
+            remedy_list: None,
             states: Default::default(),
             plans: std::array::from_fn(|_| plan.clone()),
             plan,
@@ -170,7 +170,7 @@ impl Studies {
         }
     }
 
-    /// The changes with which an option would pass, as found by a computation with these settings.
+    /// The remedy_list with which an option would pass, as found by a computation with these settings.
     pub fn remedies(&self, option: usize, compute: &ComputeSettings) -> Option<&Remedies> {
         let finished = self.finished(StudyKind::Remedies).filter(|finished| finished.compute == *compute)?;
         match &*finished.found {
@@ -187,7 +187,7 @@ impl Studies {
                 *state = StudyState::Idle;
             }
         }
-        (self.scroll, self.selected, self.changes) = (0, 0, None);
+        (self.scroll, self.selected, self.remedy_list) = (0, 0, None);
         self.filter.clear();
     }
 
@@ -201,7 +201,7 @@ impl Studies {
 
     /// Shows the study `by` tabs further; the first follows the last.
     pub fn show_neighbour(&mut self, by: isize) {
-        let kinds = StudyKind::OF_PLAN;
+        let kinds = StudyKind::TABS;
         let shown = kinds.iter().position(|kind| *kind == self.shown).unwrap_or(0) as isize;
         self.show(kinds[(shown + by).rem_euclid(kinds.len() as isize) as usize]);
     }

@@ -7,8 +7,9 @@ use shelter::Sampling;
 use shelter::choice::{ObservedQuantity, Unknown};
 use shelter::plan::observations::{Observations, Watched, template};
 use shelter::plan::{Plan, PlanSource};
-use shelter::study::fit::possible::{as_fired, next_observation};
-use shelter::study::fit::{Answer, Fit, FitResult, NotDetermined, Request, fit, observable_names};
+use shelter::study::fit::observed_shots::ObservedShots;
+use shelter::study::fit::predicted::{next_observation, predict_observations};
+use shelter::study::fit::{Answer, Fit, FitRequest, FitResult, NotDetermined, fit, observable_names};
 use shelter::study::{Case, ComputeSettings, Progress};
 
 use crate::support::{json, shelter, shipped, small_plan, text};
@@ -25,7 +26,7 @@ fn observations(case: &Case, lines: &str) -> Observations {
 
 fn found(case: &Case, lines: &str, unknowns: &[Unknown], sampling: Option<Sampling>) -> FitResult {
     let files = [observations(case, lines)];
-    let request = Request { files: &files, unknowns, sampling };
+    let request = FitRequest { files: &files, unknowns, sampling };
     fit(case, &request, &ComputeSettings::of(&case.plan), &Progress::default()).expect("a result").value
 }
 
@@ -218,13 +219,13 @@ fn two_unknowns_are_those_of_brute_force() {
 
 /// What a plan predicts of each observation, beside its value and standard deviation.
 fn fitted_as_planned(case: &Case, lines: &str) -> Vec<(f64, f64, f64)> {
-    let list = observations(case, lines).list;
+    let seen = ObservedShots::new(&[observations(case, lines)]);
     let compute = ComputeSettings::of(&case.plan);
-    let fired = as_fired(case, &list, None, &compute, &Progress::default());
+    let fired = predict_observations(case, &seen, None, &compute, &Progress::default());
     fired
         .expect("a run")
         .iter()
-        .zip(&list)
+        .zip(&seen.list)
         .map(|(fired, seen)| (fired.planned, seen.value, seen.sd))
         .collect()
 }
@@ -237,9 +238,11 @@ fn bands_are_those_of_what_could_be_seen() {
     let case = lone_tire(&section);
     let compute = ComputeSettings::of(&case.plan);
     for sd in [0.001, 0.3] {
-        let list = observations(&case, &format!("tire,quantity,value,sd\n1,flight_height_m,1.8,{sd}\n")).list;
+        let file = observations(&case, &format!("tire,quantity,value,sd\n1,flight_height_m,1.8,{sd}\n"));
+        let seen = ObservedShots::new(&[file]);
         let sampling = Sampling::exactly(2000, 7);
-        let fired = as_fired(&case, &list, Some(&sampling), &compute, &Progress::default()).expect("runs");
+        let fired = predict_observations(&case, &seen, Some(&sampling), &compute, &Progress::default())
+            .expect("runs");
         let planned = 36.0 / 2.0 / 9.81;
         assert!((fired[0].planned - planned).abs() < 1e-6);
         let spread = 2.0 * planned * f64::sqrt(0.05 * 0.05 + 0.03 * 0.03);
@@ -284,7 +287,7 @@ fn two_files_are_two_shots() {
     let files = [file(1.8), file(1.9), file(1.7), file(2.0)];
     let sd_of = |files: &[Observations]| {
         let request =
-            Request { files, unknowns: &[Unknown::Launch], sampling: Some(Sampling::exactly(50, 1)) };
+            FitRequest { files, unknowns: &[Unknown::Launch], sampling: Some(Sampling::exactly(50, 1)) };
         let compute = ComputeSettings::of(&case.plan);
         match fit(&case, &request, &compute, &Progress::default()).expect("a result").value {
             FitResult::Fitted(fit) => fit.answers[0].estimates[0].sd,
@@ -294,6 +297,33 @@ fn two_files_are_two_shots() {
     // 96 samples know a standard deviation to 7 %.
     let share = sd_of(&files) / sd_of(&files[..1]);
     assert!((share - 0.5).abs() < 0.1, "{share}");
+}
+
+/// A lone tire whose hole was logged 30 ms late is predicted to land 30 ms later, and its launch is fitted from that; planned is
+/// planned.
+#[test]
+fn measured_firing_times_take_the_place_of_planned_ones() {
+    let case = lone_tire(&EXACT.replace("delay_sd_ms = 0", "delay_sd_ms = 0\nlaunch_common_percent = 0"));
+    let compute = ComputeSettings::of(&case.plan);
+    let flight = 2.0 * 6.0 / 9.81;
+    let seen = |firing: &str, landing: f64| {
+        observations(&case, &format!("tire,quantity,value,sd\n1,landing_s,{landing},0.0001\n{firing}"))
+    };
+    let files = [seen("1,firing_s,0.03,\n", flight + 0.03), seen("", flight)];
+    let shots = ObservedShots::new(&files);
+    let sampling = Sampling::exactly(200, 5);
+    let fired =
+        predict_observations(&case, &shots, Some(&sampling), &compute, &Progress::default()).expect("runs");
+    let [logged, not] = [0, 1].map(|n| fired[n].band.expect("samples"));
+    assert!((0.5 * (logged[0] + logged[1]) - flight - 0.03).abs() < 2e-4, "{logged:?}");
+    assert!((0.5 * (not[0] + not[1]) - flight).abs() < 2e-4, "{not:?}");
+    assert!((fired[0].planned - flight).abs() < 1e-6, "planned is planned");
+    let nominal = FitRequest { files: &files, unknowns: &[Unknown::Launch], sampling: None };
+    match fit(&case, &nominal, &compute, &Progress::default()).expect("a result").value {
+        FitResult::Fitted(fit) => assert!((fit.answers[0].estimates[0].value - 1.0).abs() < 1e-4),
+        other => panic!("{other:?}"),
+    }
+    assert_ne!(files[0].checksum, seen("1,firing_s,0.02,\n", flight + 0.03).checksum, "other shots");
 }
 
 /// What is replaced in the good file, and by what.
@@ -330,6 +360,16 @@ const BAD: &[(&str, &str)] = &[
         "20 ms,1:1,,flight_height_m,,1.6,0.05\n20 ms,1:1,,flight_height_m,,1.7,0.05",
     ),
     ("20 ms,1:1,,flight_height_m,,1.6,0.05", "\"20 ms,1:1,,flight_height_m,,1.6,0.05"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,,firing_s,,20,"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,,firing_s,0.02,0.02,"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,,firing_s,,0.02,0.001"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,,1:1-1:2,firing_s,,0.02,"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,,firing_s,,,"),
+    ("20 ms,1:1,,flight_height_m,,1.6,0.05", "20 ms,1:1,,firing_s,,0.001,\n20 ms,1:1,,firing_s,,0.002,"),
+    (
+        "20 ms,1:1,,flight_height_m,,1.6,0.05\n20 ms,,1:1-1:2,cable_force_n,,30000,2000",
+        "20 ms,1:1,,firing_s,,0.001,",
+    ),
     ("20 ms,,1:1-1:2,", "20 ms,,1:1-3:3,"),
     ("20 ms,,1:1-1:2,", "20 ms,,1:1,"),
     ("20 ms,,1:1-1:2,", "20 ms,1:1,,"),
@@ -385,7 +425,8 @@ fn observations_are_the_same_whatever_separates_the_columns() {
 #[test]
 fn the_template_is_a_file_of_observations() {
     let case = case_of(&small_plan());
-    assert_eq!(observations(&case, &template("20 ms", "1:1", Some("1:1-1:2"))).list.len(), 4);
+    let read = observations(&case, &template("20 ms", "1:1", Some("1:1-1:2")));
+    assert_eq!((read.list.len(), read.firings.len()), (4, 1));
     let printed = shelter(&["fit", &shipped("amur-three-rows.toml"), "--template"]);
     let case = Case::load(shipped("amur-three-rows.toml").as_ref()).expect("a plan");
     assert_eq!(observations(&case, text(&printed.stdout)).list.len(), 4);

@@ -272,7 +272,7 @@ fn studies_keep_the_holes_of_the_options() {
     let differing = differing.with_hole_timing_or_of(0);
     assert_eq!(differing.intervals(), [0.009], "the option whose rows fire together");
     let compute = ComputeSettings::of(&differing.plan);
-    let flow = &mut |_: shelter::study::as_planned::check::CheckStep| ControlFlow::Continue(());
+    let flow = &mut |_: shelter::study::as_planned::check::CheckProgress| ControlFlow::Continue(());
     let checked = shelter::study::as_planned::check::check_shot(
         &differing,
         &differing.shot(&[0, 1], 0.009),

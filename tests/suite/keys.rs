@@ -14,6 +14,8 @@ use shelter::tui::prompt::Purpose;
 use shelter::tui::screen::Screen;
 use shelter::tui::start::{EXAMPLES, Next, Opened, Start};
 
+use shelter::verdict::Verdict;
+
 use super::stage::{draw, draw_areas, finished, key, recorded, spreads, study_ends, swept, text};
 
 fn press(app: &mut App, keys: &str) -> Request {
@@ -163,7 +165,11 @@ fn what_is_shown_is_offered_for_export() {
     let prompt = app.prompt.as_ref().expect("a file is asked for");
     assert_eq!((prompt.purpose, prompt.input.value()), (Purpose::Export, "amur-three-rows-compare.csv"));
     assert_eq!(key(&mut app, KeyCode::Enter), Request::Export("amur-three-rows-compare.csv".into()));
-    assert_eq!(press(&mut app, "P"), Request::NamePage("amur-three-rows-to-be-fired".to_owned()));
+    for (verdict, ending) in [(Verdict::Pass, "to-be-fired"), (Verdict::Fail, "fails")] {
+        let has = |&n: &usize| app.judgement(n).is_some_and(|judged| judged.verdict() == verdict);
+        app.selected = (0..7).find(has).expect("such an option");
+        assert_eq!(press(&mut app, "P"), Request::NamePage(format!("amur-three-rows-{ending}")));
+    }
     app.ask_for_file(Purpose::Page, "page.html");
     assert_eq!(key(&mut app, KeyCode::Enter), Request::Page("page.html".into()));
 }

@@ -443,6 +443,25 @@ fn a_file_that_is_no_page_of_this_program_is_not_overwritten() {
 }
 
 #[test]
+fn what_was_seen_of_earlier_shots_stands_on_the_page() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let seen = folder.path().join("seen.csv");
+    let line =
+        |value: f64| format!("option,tire,quantity,value,sd\n20 & 0,1:1,flight_height_m,{value},0.05\n");
+    std::fs::write(&seen, line(1.6)).expect("written");
+    let path = seen.display().to_string();
+    let (_, page) = report(PLAN, &["--nominal", "--observed", &path]);
+    let page = page.expect("a page");
+    assert!(page.contains("Earlier shots: planned, predicted, observed") && page.contains("1.600 ± 0.050"));
+    assert!(!page.contains("fitted"), "nothing was fitted");
+    let (_, without) = report(PLAN, &["--nominal"]);
+    assert!(!without.expect("a page").contains("Earlier shots"));
+    std::fs::write(&seen, line(1.6).replace("1:1", "9:9")).expect("written");
+    let (wrong, _) = report(PLAN, &["--nominal", "--observed", &path]);
+    assert_eq!(wrong.status.code(), Some(2));
+}
+
+#[test]
 fn a_sweep_stands_on_the_page_where_it_is_asked_for() {
     let without = words(Document::parse(&PLAIN).expect("XML").root());
     assert!(!without.contains("Other intervals between rows"));

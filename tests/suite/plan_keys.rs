@@ -158,7 +158,13 @@ fn examples_are_in_range_and_values_out_of_range_are_refused() {
 fn the_dictionary_of_the_fuzzer_has_every_key() {
     let quoted = |key: &Key| {
         let line = format!("{} = {}\n", key.name, example(key));
-        format!("{line:?}").replace("\\n", "\\x0A")
+        // libFuzzer reads bytes: those beyond ASCII have their hexadecimal digits.
+        let byte = |byte: u8| match byte {
+            b'"' | b'\\' => format!("\\{}", char::from(byte)),
+            b' '..=b'~' => char::from(byte).to_string(),
+            _ => format!("\\x{byte:02X}"),
+        };
+        format!("\"{}\"", line.bytes().map(byte).collect::<String>())
     };
     let expected: BTreeSet<String> =
         all_keys(&plan::SECTION, &[]).iter().map(|(_, key)| quoted(key)).collect();

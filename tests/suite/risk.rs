@@ -15,8 +15,8 @@ use shelter::study::results_file::{self, Head, Question};
 use shelter::study::samples::draw::{DrawnShot, draw};
 use shelter::study::samples::influence::input_shares;
 use shelter::study::samples::risk::Risk;
-use shelter::study::samples::risk_summary::find_risk_summaries;
-use shelter::study::samples::rounds::{ShotToSample, draw_shard, find_risks};
+use shelter::study::samples::risk_summary::sample_shots_in_brief;
+use shelter::study::samples::rounds::{ShotToSample, draw_shard, sample_shots};
 use shelter::study::samples::sampling::Sampling;
 use shelter::study::{Case, ComputeSettings, Journal, Progress, Shard, ShotSummary, thread_pool};
 use shelter::verdict::{Quantity, Verdict};
@@ -65,7 +65,7 @@ delay = [{{ name = "20", interval_ms = 20 }}, {{ name = "60", interval_ms = 60 }
 fn risk_of(case: &Case, sampling: &Sampling) -> Risk {
     let (shot, compute) = (&case.shots[0], ComputeSettings::of(&case.plan));
     let target = ShotToSample::new(case, shot, compute, *sampling);
-    let found = find_risks(&[target], &Progress::default());
+    let found = sample_shots(&[target], &Progress::default());
     found.expect("a result").value.remove(0)
 }
 
@@ -181,7 +181,7 @@ fn samples_whose_step_is_too_long_pass_nothing() {
     // Sweeps and orders sample shots this way.
     let shots = [(case.shots[0].clone(), ShotSummary::of(&judged.as_planned))];
     let sampled =
-        find_risk_summaries(&case, &shots, &Sampling::OF_VERDICT, &cases[0].1, &Progress::default());
+        sample_shots_in_brief(&case, &shots, &Sampling::OF_VERDICT, &cases[0].1, &Progress::default());
     let sampled = sampled.expect("a result").remove(0).expect("samples");
     assert_eq!((sampled.bounds.verdict(), sampled.verdict), (Verdict::Pass, Verdict::Undecided));
 }

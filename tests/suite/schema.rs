@@ -14,9 +14,12 @@ fn shipped_plans_are_valid() {
     let schema = schema();
     jsonschema::meta::validate(&schema).unwrap_or_else(|error| panic!("{error}"));
     let check = jsonschema::validator_for(&schema).expect("a schema");
-    for entry in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/plans")).expect("the folder") {
-        let path = entry.expect("an entry").path();
-        let text = std::fs::read_to_string(&path).expect("a plan");
+    let folder = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/plans")).expect("the folder");
+    let paths: Vec<_> = folder.map(|entry| entry.expect("an entry").path()).collect();
+    let plans = paths.iter().filter(|path| path.extension().is_some_and(|ending| ending == "toml"));
+    assert!(plans.clone().count() >= 4, "the shipped plans");
+    for path in plans {
+        let text = std::fs::read_to_string(path).expect("a plan");
         let told: Vec<String> =
             check.iter_errors(&value(&text).expect("TOML")).map(|error| error.to_string()).collect();
         assert!(told.is_empty(), "{}: {told:?}", path.display());

@@ -280,7 +280,8 @@ fn a_slope_takes_mirror_images_away() {
         of_order.expect("every order").as_planned.height
     };
     for order in [[0, 1, 2], [2, 1, 0], [1, 0, 2], [1, 2, 0]] {
-        let flow = &mut |_: shelter::study::as_planned::check::CheckStep| std::ops::ControlFlow::Continue(());
+        let flow =
+            &mut |_: shelter::study::as_planned::check::CheckProgress| std::ops::ControlFlow::Continue(());
         let checked = check_shot(&falling, &falling.shot(&order, 0.042), &compute, flow).expect("a result");
         let apart = (checked.height.value - height(order).value).abs();
         assert!(apart <= checked.height.error + height(order).error, "{order:?}");

@@ -14,7 +14,7 @@ use shelter::study::judgement::Judgement;
 use shelter::study::orders::{Orders, TriedOrder, orders, refine, try_orders};
 use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::risk::Risk;
-use shelter::study::samples::rounds::{ShotToSample, find_risks};
+use shelter::study::samples::rounds::{ShotToSample, sample_shots};
 use shelter::study::samples::sampling::Sampling;
 use shelter::study::samples::swaps::swaps;
 use shelter::study::size::{Demand, size};
@@ -129,7 +129,7 @@ fn risky_sweep(case: &Case) -> (Sweep, Sampling, ComputeSettings) {
 fn risk_at(case: &Case, interval: f64, sampling: &Sampling, compute: ComputeSettings) -> Risk {
     let shot = case.shot(&[0, 1, 2], interval);
     let target = ShotToSample::new(case, &shot, compute, *sampling);
-    let found = find_risks(&[target], &Progress::default());
+    let found = sample_shots(&[target], &Progress::default());
     found.expect("samples").value.remove(0)
 }
 
@@ -213,7 +213,7 @@ fn the_ends_of_the_ranking_are_sampled() {
         let sampling = if n == 71 { sampling } else { sampling.first_look() };
         let shot = case.shot(&tried.order, tried.interval);
         let target = ShotToSample::new(&case, &shot, compute, sampling);
-        let risks = find_risks(&[target], &progress).expect("samples").value;
+        let risks = sample_shots(&[target], &progress).expect("samples").value;
         assert_eq!(risk.bounds, risks[0].bounds);
         assert_eq!(ranked.verdict_on(n), tried.as_planned.verdict.max(risks[0].verdict()));
     }

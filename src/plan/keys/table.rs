@@ -137,7 +137,7 @@ sections! {
             .offered_beside(SLOPE_PERCENT.name);
     }
 
-    blast_row "[[blast_row]]" "holes that fire together" {
+    blast_row "[[blast_row]]" "holes that a delay option fires as one group, together or one after another" {
         NAME = key("name", Kind::Text, "\"1\"", "delay options address the row by it").required();
         LAUNCH_M_S = key("launch_m_s", number("m/s", 1e-3..=1e4), "6.0", "launch velocity of the tires")
             .usual(0.5, 30.0).edit("launch, m/s");

@@ -1,13 +1,14 @@
 //! Reads what was seen of earlier shots: a table of values of tires and cables, each with its standard deviation.
 //!
-//! The header names the columns of [`COLUMNS`], in any order. Separators, decimal commas and a byte order mark are read as in lists
+//! A line may also state the measured firing time of a hole ([`FIRING`]). The header names the columns of [`COLUMNS`], in any order. Separators, decimal commas and a byte order mark are read as in lists
 //! of holes ([`import`](super::import)). Lines that begin with `#` are left out.
 
 mod row;
 
+use std::collections::HashMap;
 use std::path::Path;
 
-use self::row::Row;
+use self::row::{Row, Seen};
 use super::Diagnostics;
 use super::diagnostic::Mistake;
 use super::import::number::{Decimals, both_ways, decimals};
@@ -34,8 +35,24 @@ pub struct Observations {
     pub path: String,
     /// SHA-256 of what was seen, in hexadecimal digits.
     pub checksum: String,
-    /// Lines of the file; never empty.
+    /// What was seen; never empty.
     pub list: Vec<Observation>,
+    /// Firing times that were measured.
+    pub firings: Vec<MeasuredFiring>,
+}
+
+/// Name of the quantity of a line that states a measured firing time.
+pub const FIRING: &str = "firing_s";
+
+/// The firing time of a hole as it was measured: electronic systems log it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeasuredFiring {
+    /// Index of the delay option that was fired.
+    pub option: usize,
+    /// Index of the tire above the hole.
+    pub tire: usize,
+    /// Time since time 0 of the plan [s].
+    pub at: f64,
 }
 
 /// One value that was seen.
@@ -92,6 +109,8 @@ pub struct ObservableNames {
     pub tires: Vec<Vec<f64>>,
     /// Indices of the two tires of each cable (`n_cables`).
     pub cables: Vec<[usize; 2]>,
+    /// Index of the tire above each hole, and when the hole fires as planned [s], of each delay option.
+    pub holes: Vec<Vec<(usize, f64)>>,
 }
 
 impl Observations {
@@ -111,13 +130,17 @@ impl Observations {
     /// Reads the text of the file `path`.
     pub fn parse(path: &str, text: &str, known: &ObservableNames) -> Result<Self, Diagnostics> {
         let source = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let list = read(source, known).map_err(|mistakes| Diagnostics::new(path, source, mistakes))?;
+        let (list, firings) =
+            read(source, known).map_err(|mistakes| Diagnostics::new(path, source, mistakes))?;
         // Of what was seen, not of the text: a comment or another order of the lines makes no other shot.
         let seen = |seen: &Observation| format!("{} {:?}", known.options[seen.option], seen.what_was_seen());
-        let mut lines: Vec<String> = list.iter().map(seen).collect();
+        let fired = |fired: &MeasuredFiring| {
+            format!("{} {FIRING} {} {:?}", known.options[fired.option], fired.tire, fired.at)
+        };
+        let mut lines: Vec<String> = list.iter().map(seen).chain(firings.iter().map(fired)).collect();
         lines.sort();
         let checksum = checksum(lines.join("\n"));
-        Ok(Self { path: path.to_owned(), checksum, list })
+        Ok(Self { path: path.to_owned(), checksum, list, firings })
     }
 
     /// Whether more than half of the observations of one file are in the other: two shots are not so alike.
@@ -135,7 +158,9 @@ pub fn template(option: &str, tire: &str, cable: Option<&str>) -> String {
         "{}\n# an example, replace it; tire and cable as ROW:COLUMN, or as in `shelter trace`; times from the first hole on\n\
          {quoted},{tire},,flight_height_m,,1.25,0.05\n\
          {quoted},{tire},,height_m,0.3,0.9,0.1\n\
-         {quoted},{tire},,landing_s,,0.95,0.02\n",
+         {quoted},{tire},,landing_s,,0.95,0.02\n\
+         # where firing times were logged: the hole under a tire\n\
+         {quoted},{tire},,{FIRING},,0.0003,\n",
         COLUMNS.join(",")
     );
     if let Some(cable) = cable {
@@ -148,7 +173,10 @@ fn mistake(line: &Line, message: impl Into<String>, remedy: impl Into<String>) -
     Mistake { span: line.span.clone(), message: message.into(), remedy: remedy.into() }
 }
 
-fn read(source: &str, known: &ObservableNames) -> Result<Vec<Observation>, Vec<Mistake>> {
+fn read(
+    source: &str,
+    known: &ObservableNames,
+) -> Result<(Vec<Observation>, Vec<MeasuredFiring>), Vec<Mistake>> {
     let separator = separator(source);
     let all = lines(source, separator).map_err(|error| {
         let message = format!("the table cannot be read: {error}");
@@ -174,21 +202,36 @@ fn read(source: &str, known: &ObservableNames) -> Result<Vec<Observation>, Vec<M
         )]);
     }
     let comma = decimal_comma(&rows, &columns, separator)?;
-    let (mut list, mut mistakes) = (Vec::<Observation>::new(), Vec::new());
+    let (mut list, mut firings, mut mistakes) = (Vec::new(), Vec::new(), Vec::new());
+    // Line of each value: what was watched of which option, a firing time without a quantity.
+    let mut lines: HashMap<(usize, Option<ObservedQuantity>, usize, u64), u64> = HashMap::new();
     for line in &rows {
         let Some(seen) = (Row { line, columns: &columns, known, comma }).read(&mut mistakes) else {
             continue;
         };
-        match list.iter().find(|other| other.option == seen.option && other.watched == seen.watched) {
-            Some(other) => mistakes.push(mistake(
+        let what = match seen {
+            Seen::Value(Observation { option, watched, .. }) => {
+                (option, Some(watched.quantity), watched.index, watched.at.to_bits())
+            }
+            Seen::Firing(MeasuredFiring { option, tire, .. }) => (option, None, tire, 0),
+        };
+        if let Some(other) = lines.insert(what, line.number) {
+            mistakes.push(mistake(
                 line,
-                format!("line {} has this observation already", other.line),
+                format!("line {other} has this observation already"),
                 "remove one of them, or give their mean; another shot of the same option goes into a file of its own",
-            )),
-            None => list.push(seen),
+            ));
+        }
+        match seen {
+            Seen::Value(observation) => list.push(observation),
+            Seen::Firing(firing) => firings.push(firing),
         }
     }
-    if mistakes.is_empty() { Ok(list) } else { Err(mistakes) }
+    if list.is_empty() && mistakes.is_empty() {
+        let message = "the file states firing times and nothing that was seen";
+        mistakes.push(mistake(&header, message, "add a line for what was seen, such as flight_height_m"));
+    }
+    if mistakes.is_empty() { Ok((list, firings)) } else { Err(mistakes) }
 }
 
 /// What separates the values: as the first line declares, or the first of `;`, tab and `,` that the header holds.

@@ -3,14 +3,25 @@
 use itertools::Itertools;
 
 use super::{
-    AT, CABLE, COLUMNS, Columns, OPTION, ObservableNames, Observation, QUANTITY, SD, TIRE, VALUE, Watched,
-    mistake, unit,
+    AT, CABLE, COLUMNS, Columns, FIRING, MeasuredFiring, OPTION, ObservableNames, Observation, QUANTITY, SD,
+    TIRE, VALUE, Watched, mistake, unit,
 };
 use crate::choice::ObservedQuantity;
 use crate::plan::diagnostic::Mistake;
 use crate::plan::import::number::value;
 use crate::plan::import::table::Line;
 use crate::plan::reader::nearest;
+
+/// What a line states.
+pub(super) enum Seen {
+    /// A value that was seen.
+    Value(Observation),
+    /// A measured firing time.
+    Firing(MeasuredFiring),
+}
+
+/// Greatest distance of a measured firing time from the planned one [s]: more than any detonator scatters.
+const FAR_FIRING: f64 = 1.0;
 
 /// A line being read.
 pub(super) struct Row<'r> {
@@ -28,8 +39,8 @@ impl Row<'_> {
         Some(text.as_str()).filter(|text| !text.is_empty())
     }
 
-    /// The observation; notes every mistake of the line.
-    pub(super) fn read(&self, mistakes: &mut Vec<Mistake>) -> Option<Observation> {
+    /// What the line states; notes every mistake of the line.
+    pub(super) fn read(&self, mistakes: &mut Vec<Mistake>) -> Option<Seen> {
         let (line, width) = (self.line, self.columns.width);
         if line.runs_on {
             mistakes.push(mistake(line, "a value runs over several lines", "is a quotation mark missing?"));
@@ -41,6 +52,15 @@ impl Row<'_> {
             let remedy = "leave a value that is not known empty between its separators; numbers with decimal commas need semicolons between them";
             mistakes.push(mistake(line, message, remedy));
             return None;
+        }
+        if self.text(QUANTITY).is_some_and(|name| name.eq_ignore_ascii_case(FIRING)) {
+            return match self.firing() {
+                Ok(firing) => Some(Seen::Firing(firing)),
+                Err((message, remedy)) => {
+                    mistakes.push(mistake(line, message, remedy));
+                    None
+                }
+            };
         }
         let mut keep = |found: Result<f64, (String, String)>| match found {
             Ok(number) => number,
@@ -57,29 +77,67 @@ impl Row<'_> {
             }
         };
         let option = keep(self.option().map(|option| option as f64));
-        let index = if is_known { keep(self.index(quantity).map(|index| index as f64)) } else { 0.0 };
+        let columns = if quantity == ObservedQuantity::Force { [CABLE, TIRE] } else { [TIRE, CABLE] };
+        let index =
+            if is_known { keep(self.index(quantity.name(), columns).map(|index| index as f64)) } else { 0.0 };
         let at = if is_known { keep(self.at(quantity)) } else { 0.0 };
-        let value = keep(self.number(VALUE, quantity, 0.0));
-        let sd = keep(self.number(SD, quantity, f64::MIN_POSITIVE));
+        let value = keep(self.number(VALUE, unit(quantity), 0.0));
+        let sd = keep(self.number(SD, unit(quantity), f64::MIN_POSITIVE));
         let whole = is_known && [option, index, at, value, sd].iter().all(|number| number.is_finite());
         let watched = Watched { quantity, index: index as usize, at };
-        whole.then_some(Observation { option: option as usize, watched, value, sd, line: line.number })
+        let observation = || Observation { option: option as usize, watched, value, sd, line: line.number };
+        whole.then(|| Seen::Value(observation()))
+    }
+
+    fn firing(&self) -> Result<MeasuredFiring, (String, String)> {
+        let option = self.option()?;
+        let tire = self.index(FIRING, [TIRE, CABLE])?;
+        let at = self.number(VALUE, "s", f64::NEG_INFINITY)?;
+        let address = self.text(TIRE).unwrap_or_default();
+        if self.text(AT).is_some() {
+            return Err((
+                format!("`{FIRING}` states its time as the value"),
+                "leave `at_s` empty".to_owned(),
+            ));
+        }
+        if self.text(SD).is_some() {
+            let message = format!("`{FIRING}` is taken as it was measured");
+            return Err((message, "leave `sd` empty, or the line out where the time is not sure".to_owned()));
+        }
+        let planned = self.known.holes[option].iter().filter(|(other, _)| *other == tire).map(|(_, at)| *at);
+        match planned.collect::<Vec<_>>()[..] {
+            [planned] if (at - planned).abs() <= FAR_FIRING => Ok(MeasuredFiring { option, tire, at }),
+            [planned] => Err((
+                format!(
+                    "`{at}` s is far from the {planned} s at which the hole under tire {address} fires as planned"
+                ),
+                "write seconds since time 0 of the plan".to_owned(),
+            )),
+            [] => Err((
+                format!("no hole fires under tire {address}"),
+                "name the tire above the hole".to_owned(),
+            )),
+            _ => Err((
+                format!("more than one hole fires under tire {address}"),
+                "leave the line out: which of them it means is not known".to_owned(),
+            )),
+        }
     }
 
     fn quantity(&self) -> Result<ObservedQuantity, (String, String)> {
-        let names = ObservedQuantity::NAMES;
+        let names = || ObservedQuantity::NAMES.iter().copied().chain([FIRING]);
         let Some(name) = self.text(QUANTITY) else {
             return Err((
                 "the line has no quantity".to_owned(),
-                format!("write one of {}", names.join(", ")),
+                format!("write one of {}", names().join(", ")),
             ));
         };
         name.to_lowercase().parse().map_err(|_| {
-            let near = nearest(&name.to_lowercase(), names.iter().copied());
+            let near = nearest(&name.to_lowercase(), names());
             let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
             (
                 format!("no quantity is called `{name}`"),
-                format!("{near}write one of {}; values are in m, s and N", names.join(", ")),
+                format!("{near}write one of {}; values are in m, s and N", names().join(", ")),
             )
         })
     }
@@ -100,11 +158,8 @@ impl Row<'_> {
         })
     }
 
-    fn index(&self, quantity: ObservedQuantity) -> Result<usize, (String, String)> {
-        let [wanted, other] = match quantity {
-            ObservedQuantity::Force => [CABLE, TIRE],
-            _ => [TIRE, CABLE],
-        };
+    /// The index in the column `wanted`; the column `other` must be empty.
+    fn index(&self, quantity: &str, [wanted, other]: [usize; 2]) -> Result<usize, (String, String)> {
         if self.text(other).is_some() {
             let message =
                 format!("`{quantity}` is a quantity of a {}, not of a {}", COLUMNS[wanted], COLUMNS[other]);
@@ -148,7 +203,7 @@ impl Row<'_> {
 
     fn at(&self, quantity: ObservedQuantity) -> Result<f64, (String, String)> {
         match (quantity == ObservedQuantity::Height, self.text(AT).is_some()) {
-            (true, _) => self.number(AT, quantity, 0.0),
+            (true, _) => self.number(AT, "s", 0.0),
             (false, false) => Ok(0.0),
             (false, true) => {
                 let message = format!("`{quantity}` is no quantity of one time");
@@ -158,8 +213,7 @@ impl Row<'_> {
     }
 
     /// A number that is at least `least`.
-    fn number(&self, column: usize, quantity: ObservedQuantity, least: f64) -> Result<f64, (String, String)> {
-        let unit = if column == AT { "s" } else { unit(quantity) };
+    fn number(&self, column: usize, unit: &str, least: f64) -> Result<f64, (String, String)> {
         let name = COLUMNS[column];
         let Some(text) = self.text(column) else {
             let remedy = match column {

@@ -19,6 +19,7 @@ use chrono::{DateTime, Local};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::model::{Block, Report};
+use super::observed::{self, ObservedRow, observed_table};
 use super::warnings;
 use super::{charts, check, explain, sweep};
 use crate::file;
@@ -41,6 +42,8 @@ pub struct Page<'a> {
     pub sampling: Option<&'a Sampling>,
     /// A sweep of the interval between rows, whose charts the page shows.
     pub sweep: Option<&'a Sweep>,
+    /// What was seen of earlier shots; empty where nobody told.
+    pub observed: &'a [ObservedRow<'a>],
     /// Whether the time was up before all was computed.
     pub partial: bool,
     /// Whether the text of the plan differs from its file.
@@ -122,6 +125,7 @@ pub fn page(page: &Page<'_>) -> String {
                     h2 { "What the model assumes" }
                     ul { @for assumption in words::ASSUMPTIONS { li { (assumption) } } }
                 }
+                @if !page.observed.is_empty() { (seen(page)) }
                 (record::record(page))
                 section {
                     h2 { "The words of this page" }
@@ -216,6 +220,18 @@ fn intervals(page: &Page<'_>, sweep: &Sweep) -> Markup {
             @for block in &report.blocks {
                 @if let Block::Text(sentences) = block { @for sentence in sentences { p.quiet { (sentence) } } }
             }
+        }
+    }
+}
+
+/// What was seen of earlier shots, beside what was planned and possible.
+fn seen(page: &Page<'_>) -> Markup {
+    html! {
+        section.whole {
+            h2 { "Earlier shots: planned, predicted, observed" }
+            p.quiet { "Of the plan of this page. Predicted: where nine of ten such observations should lie." }
+            div.scroll { (table::table(&observed_table(page.observed), None)) }
+            @for sentence in observed::bands(page.case, page.observed) { p { (sentence) } }
         }
     }
 }

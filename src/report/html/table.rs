@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::report::model::{Align, Cell, Column, Shown, Table};
+use crate::report::model::{Align, Audience, Cell, Column, Table};
 use crate::verdict::Verdict;
 
 /// Bars of a series.
@@ -10,7 +10,7 @@ const BARS: usize = 16;
 
 /// The columns of a table that readers of the page see; the row of the option to be `fired` stands out.
 pub fn table(table: &Table, fired: Option<usize>) -> Markup {
-    let seen = table.columns_for(|shown| matches!(shown, Shown::People | Shown::Page));
+    let seen = table.columns_for(|shown| matches!(shown, Audience::People | Audience::Page));
     let number = |n: usize| (table.columns[n].align == Align::Right).then_some("n");
     html! {
         table {

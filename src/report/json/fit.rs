@@ -4,9 +4,10 @@ use serde::Serialize;
 
 use crate::choice::ObservedQuantity;
 use crate::plan::observations::Observations;
-use crate::report::fit::{ObservedRow, launch_speeds, observed_rows, place};
+use crate::report::fit::launch_speeds;
+use crate::report::observed::{ObservedRow, fitted_rows, place};
 use crate::study::Case;
-use crate::study::fit::{Answer, Estimated, Fit};
+use crate::study::fit::{Answer, Estimated, Fit, Residual};
 
 /// The document of a fit. `unknowns`, `residuals` and `correlation` are those of the best answer.
 #[derive(Serialize)]
@@ -72,7 +73,7 @@ struct ResidualObject {
     sd: f64,
     fitted: Option<f64>,
     /// Standard deviation about the fit: stated, of computing, of the scatter of the plan.
-    total_sd: f64,
+    total_sd: Option<f64>,
     suspicious: bool,
     planned: Option<f64>,
     band: Option<[f64; 2]>,
@@ -107,7 +108,7 @@ impl UnknownObject {
 
 impl ResidualObject {
     fn of(row: &ObservedRow<'_>) -> Self {
-        let ObservedRow { case, observed, as_fired, residual } = row;
+        let ObservedRow { case, observed, prediction, residual } = *row;
         let (scene, watched) = (case.scene(), &observed.watched);
         let is_force = watched.quantity == ObservedQuantity::Force;
         let known = |value: f64| Some(value).filter(|value| value.is_finite());
@@ -119,11 +120,11 @@ impl ResidualObject {
             at_s: (watched.quantity == ObservedQuantity::Height).then_some(watched.at),
             observed: observed.value,
             sd: observed.sd,
-            fitted: known(residual.fitted),
-            total_sd: residual.sd,
-            suspicious: residual.is_suspicious(),
-            planned: known(as_fired.planned),
-            band: as_fired.band,
+            fitted: residual.and_then(|residual| known(residual.fitted)),
+            total_sd: residual.map(|residual| residual.sd),
+            suspicious: residual.is_some_and(Residual::is_suspicious),
+            planned: known(prediction.planned),
+            band: prediction.band,
         }
     }
 }
@@ -132,8 +133,10 @@ impl<'a> FitDocument<'a> {
     /// The document of a fit to these files.
     pub fn new(case: &'a Case, files: &'a [Observations], fit: &'a Fit) -> Self {
         let (best, others) = (&fit.answers[0], &fit.answers[1..]);
-        let held: Vec<bool> =
-            observed_rows(case, fit).filter_map(|row| row.as_fired.contains(row.observed.value)).collect();
+        let held: Vec<bool> = fitted_rows(case, fit)
+            .iter()
+            .filter_map(|row| row.prediction.contains(row.observed.value))
+            .collect();
         let within = held.iter().filter(|&&held| held).count();
         Self {
             schema: "shelter.fit/1",
@@ -145,7 +148,7 @@ impl<'a> FitDocument<'a> {
             degrees_of_freedom: best.freedom,
             unknowns: UnknownObject::all(case, best),
             correlation: &best.correlation,
-            residuals: observed_rows(case, fit).map(|row| ResidualObject::of(&row)).collect(),
+            residuals: fitted_rows(case, fit).iter().map(ResidualObject::of).collect(),
             other_answers: others
                 .iter()
                 .map(|answer| AnswerObject {

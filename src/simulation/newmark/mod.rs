@@ -45,7 +45,7 @@ pub struct NewmarkModel {
 }
 
 impl NewmarkModel {
-    /// Runs one shot of the scene of this cache; see [`super::Model::run`].
+    /// Runs one shot of the scene of this model; see [`super::Model::run`].
     pub fn run(
         &self,
         scene: &Scene,

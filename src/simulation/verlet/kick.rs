@@ -46,7 +46,7 @@ impl<S: Simd> TirePack<S> {
     /// Kicks and drifts the tires: free velocity v* = v + h (f/m + g), then support and friction of the ground, then
     /// u + h v. Roots and quotients are computed only where a tire slips; `SLOPED`: the ground slopes.
     #[inline(always)]
-    pub fn kick_and_drift<const SLOPED: bool>(&self, simd: S) -> MovedPack<S> {
+    pub fn kick_and_move<const SLOPED: bool>(&self, simd: S) -> MovedPack<S> {
         let Self { u, v, f, mass, inverse_mass, step, friction, gravity, downhill } = *self;
         let (zero, half) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5));
         let tiny = Wide::splat(simd, f64::MIN_POSITIVE);

@@ -10,9 +10,9 @@
 //! A tire that lands or is fired at within the step is integrated phase by phase instead
 //! ([`TireStep::integrate`](super::contact::TireStep::integrate)), so that landing and launch have their own time. A cable
 //! that becomes taut or slack within the step gets a force that gives the right amplitude
-//! ([`Slices::evaluate`](tension::Slices::evaluate)). The method is of second order, symplectic between events, and
+//! ([`CableEvaluator::evaluate`](tension::CableEvaluator::evaluate)). The method is of second order, symplectic between events, and
 //! stable for h < 2/ω with ω² ≤ max (2/m) Σ k ([`Scene::frequency_bound`](crate::scene::Scene::frequency_bound)). The damping of
-//! cables and what it costs in stability: [`Slices::evaluate`](tension::Slices::evaluate),
+//! cables and what it costs in stability: [`CableEvaluator::evaluate`](tension::CableEvaluator::evaluate),
 //! [`Scene::critical_step`](crate::scene::Scene::critical_step).
 
 mod kick;
@@ -72,7 +72,7 @@ impl VerletModel {
         self.parts[number].get_or_init(|| Part::new(scene, planes))
     }
 
-    /// Runs one shot of the scene of this cache; see [`super::Model::run`].
+    /// Runs one shot of the scene of this model; see [`super::Model::run`].
     pub fn run(
         &self,
         scene: &Scene,
@@ -83,7 +83,7 @@ impl VerletModel {
         run(self.part(scene, shot), scene, shot, settings, watch)
     }
 
-    /// Runs one shot under a `variant` of the scene of this cache; see [`super::Model::run_variant`].
+    /// Runs one shot under a `variant` of the scene of this model; see [`super::Model::run_variant`].
     pub fn run_variant(
         &self,
         scene: &Scene,

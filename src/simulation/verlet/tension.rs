@@ -10,12 +10,12 @@ use crate::simulation::pack::{Aligned, LANES, Pack, VectorArrays, Wide};
 
 /// All cables from one step to the next, and their forces.
 #[derive(Debug)]
-pub struct Tension<'a> {
+pub struct CableForceMemory<'a> {
     /// Number of cables of the whole scene that each element stands for; 0 for an empty slot (`n_elements`).
     weight: Cow<'a, [f64]>,
     /// L² at the last evaluation less L² at rest [m²] (`n_elements`).
     change: Aligned,
-    /// Force on the first tire of each cable, as mean over the step [N] (`n_elements`); see [`Slices::evaluate`].
+    /// Force on the first tire of each cable, as mean over the step [N] (`n_elements`); see [`CableEvaluator::evaluate`].
     force: VectorArrays,
     /// State of the cables in each register, at the first element of the register (`n_elements`).
     state: Vec<CableState>,
@@ -57,7 +57,7 @@ pub struct Stress {
     pub dissipated: Pack,
 }
 
-impl<'a> Tension<'a> {
+impl<'a> CableForceMemory<'a> {
     /// Cables at rest; `viscosity` is c of each element [N s/m], or empty without damping.
     pub fn new(blocks: &'a Blocks, viscosity: &'a [f64]) -> Self {
         let elements = blocks.weight.len();
@@ -73,9 +73,9 @@ impl<'a> Tension<'a> {
 
     /// All arrays as slices of one length (`n_elements`).
     #[inline(always)]
-    pub fn slices(&mut self) -> Slices<'_, 'a> {
+    pub fn slices(&mut self) -> CableEvaluator<'_, 'a> {
         let n = self.weight.len();
-        Slices {
+        CableEvaluator {
             weight: &self.weight[..n],
             change: &mut self.change[..n],
             force: self.force.slices_mut(),
@@ -143,8 +143,8 @@ impl<'a> Tension<'a> {
     }
 }
 
-/// [`Tension`] during the evaluation of many blocks.
-pub struct Slices<'a, 'b> {
+/// [`CableForceMemory`] during the evaluation of many blocks.
+pub struct CableEvaluator<'a, 'b> {
     weight: &'a [f64],
     change: &'a mut [f64],
     force: [&'a mut [f64]; 3],
@@ -152,7 +152,7 @@ pub struct Slices<'a, 'b> {
     damped: &'a mut Damped<'b>,
 }
 
-impl Slices<'_, '_> {
+impl CableEvaluator<'_, '_> {
     /// Evaluates every cable of `block` at displacements `u` [m], one `step` [s] after the last evaluation. `DAMPED`: the cables
     /// are damped.
     ///

@@ -117,7 +117,7 @@ pub fn measure(
         .map(|level| LevelStep { level, step: first_step(case, level) });
     let reference_step = levels[2].step / REFERENCE_STEP_DIVISOR;
     let shot = &case.shots[option];
-    progress.expect(2 * STEPS as usize + levels.len() + 1);
+    progress.announce(2 * STEPS as usize + levels.len() + 1);
     let reference = run(case, shot, Method::Verlet, reference_step, progress)?;
     progress.advance();
     let coarsest = (0.95 * case.scene().critical_step()).min(8e-3);

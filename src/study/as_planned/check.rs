@@ -3,18 +3,18 @@
 //! The option is run at a ladder of steps; each step is [`step_error::RATIO`] times finer than the one before. The finest run
 //! gives the values. The coarser runs give the errors. While the verdict is open, a finer run is added.
 
-use std::cell::{Cell, RefCell};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use super::cover::{Cover, CoverWatch};
+use super::ladder::run_ladder;
 use super::peaks::{error_runs, peaks_with_rivals};
 use super::step_error;
 use crate::choice::Accuracy;
 use crate::outcome::{BrokenCable, History, Outcome, RunEnd};
 use crate::scene::Shot;
 use crate::simulation::{Failure, Motion};
-use crate::study::reasons::shot::{ShotReason, closes, find_reasons_as_planned, with_limits};
+use crate::study::reasons::shot::{ShotReason, energy_balance_closes, find_reasons_as_planned, with_limits};
 use crate::study::{Case, ComputeSettings};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
@@ -61,15 +61,12 @@ pub struct CheckedShot {
 
 /// Position of a check: finished runs, and simulated time of the present run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CheckStep {
+pub struct CheckProgress {
     /// Number of finished runs.
     pub runs: usize,
     /// Simulated time that the present run has reached [s].
     pub time: f64,
 }
-
-/// Greatest number of steps below the first: the finest step is 64 times finer.
-const MOST_REFINEMENTS: i32 = 12;
 
 /// Factor on the error with which a verdict must still stand. The error itself holds in 19 of 20 runs; a verdict must hold
 /// in more: with a factor of 2, 4 of 4,480 limits near true values were passed or failed wrongly.
@@ -101,7 +98,7 @@ impl CheckedShot {
         };
         let stands = verdict(1.0) == verdict(SURE_ERROR_FACTOR);
         match verdict(1.0) {
-            Verdict::Pass => stands && closes(self.energy_residual),
+            Verdict::Pass => stands && energy_balance_closes(self.energy_residual),
             Verdict::Fail => stands,
             Verdict::Undecided => false,
         }
@@ -117,7 +114,7 @@ pub fn check_as_planned(
     case: &Case,
     option: usize,
     compute: &ComputeSettings,
-    watch: &mut dyn FnMut(CheckStep) -> ControlFlow<()>,
+    watch: &mut dyn FnMut(CheckProgress) -> ControlFlow<()>,
 ) -> Result<CheckedShot, Failure> {
     check_shot(case, &case.shots[option], compute, watch)
 }
@@ -139,42 +136,26 @@ pub fn check_shot(
     case: &Case,
     shot: &Shot,
     compute: &ComputeSettings,
-    watch: &mut dyn FnMut(CheckStep) -> ControlFlow<()>,
+    watch: &mut dyn FnMut(CheckProgress) -> ControlFlow<()>,
 ) -> Result<CheckedShot, Failure> {
-    let begun = Instant::now();
-    let (done, steps, watch) = (Cell::new(0), Cell::new(0), RefCell::new(watch));
-    let run = |shot: &Shot, step: f64| {
-        let settings = case.run_settings(compute.method, step);
-        let start = Instant::now();
-        let mut cover = CoverWatch::new(case, &shot.firings, step);
-        let look = |motion: &dyn Motion| {
-            cover.observe(motion);
-            (watch.borrow_mut())(CheckStep { runs: done.get(), time: motion.time() })
-        };
-        let outcome = case.model.run(shot, &settings, &mut { look })?;
-        done.set(done.get() + 1);
-        steps.set(steps.get() + outcome.steps);
-        Ok(Run { outcome, cover: cover.cover(), wall: start.elapsed() })
-    };
-    let mut checked = None;
-    climb(
+    let mut runner = Runner { case, compute, watch, runs: 0, steps: 0, begun: Instant::now() };
+    run_ladder(
+        &mut runner,
         compute.first_step(case),
         compute.step.is_some(),
-        |step| run(shot, step),
-        |runs, last| {
-            let cost = || Cost { runs: done.get(), steps: steps.get(), wall: begun.elapsed() };
-            let mut latest = checked_from_runs(case, shot, compute, runs, &[], cost());
-            if last || latest.is_sure(&case.limits) {
-                let coarsest = &runs[error_runs(runs.len()).start];
-                let pairs = run_pairs(case, shot, compute, coarsest.outcome.step, run)?;
-                latest = checked_from_runs(case, shot, compute, runs, &pairs, cost());
+        |runner, step| runner.run(shot, step),
+        |runner, runs, is_last| {
+            let checked = checked_from_runs(shot, runs, &[], runner);
+            if !is_last && !checked.is_sure(&case.limits) {
+                return Ok((checked, false));
             }
-            let sure = latest.is_sure(&case.limits);
-            checked = Some(latest);
-            Ok(sure)
+            let coarsest = &runs[error_runs(runs.len()).start];
+            let pairs = runner.run_pairs(shot, coarsest.outcome.step)?;
+            let checked = checked_from_runs(shot, runs, &pairs, runner);
+            let is_sure = checked.is_sure(&case.limits);
+            Ok((checked, is_sure))
         },
-    )?;
-    checked.ok_or(Failure::Stopped { at: 0.0 })
+    )
 }
 
 /// A finished run and its computing time.
@@ -184,87 +165,60 @@ struct Run {
     wall: Duration,
 }
 
-/// What all runs of a check cost so far.
-struct Cost {
+/// Runs shots of a case, and counts what that costs.
+struct Runner<'r> {
+    case: &'r Case,
+    compute: &'r ComputeSettings,
+    watch: &'r mut dyn FnMut(CheckProgress) -> ControlFlow<()>,
+    /// Runs so far, and their steps.
     runs: usize,
     steps: usize,
-    wall: Duration,
+    begun: Instant,
 }
 
 /// Change of inputs of nearby shots at the step of the field level and above. At finer steps it falls with the square of the
 /// step, as the error does.
 const PAIR_CHANGE: f64 = 1e-3;
 
-/// Pairs of runs of nearby shots at `step` [s]; without the pairs of which a run fails.
-fn run_pairs(
-    case: &Case,
-    shot: &Shot,
-    compute: &ComputeSettings,
-    step: f64,
-    run: impl Fn(&Shot, f64) -> Result<Run, Failure>,
-) -> Result<Vec<[Run; 2]>, Failure> {
-    let field = ComputeSettings { accuracy: Accuracy::Field, step: None, ..*compute }.first_step(case);
-    let finer = step / (field * step_error::RATIO.powi(step_error::NEIGHBOURS as i32));
-    let relative = PAIR_CHANGE * finer.powi(2).min(1.0);
-    let mut pairs = Vec::new();
-    for number in 0..step_error::PAIRS {
-        let [more, less] = shot.both_sides(case.scene().friction, relative, number);
-        match run(&more, step).and_then(|more| Ok([more, run(&less, step)?])) {
-            Ok(pair) => pairs.push(pair),
-            Err(stopped @ Failure::Stopped { .. }) => return Err(stopped),
-            Err(_) => {}
-        }
+impl Runner<'_> {
+    /// One run at `step` [s].
+    fn run(&mut self, shot: &Shot, step: f64) -> Result<Run, Failure> {
+        let settings = self.case.run_settings(self.compute.method, step);
+        let begun = Instant::now();
+        let mut cover = CoverWatch::new(self.case, &shot.firings, step);
+        let mut look = |motion: &dyn Motion| {
+            cover.observe(motion);
+            (self.watch)(CheckProgress { runs: self.runs, time: motion.time() })
+        };
+        let outcome = self.case.model.run(shot, &settings, &mut look)?;
+        self.runs += 1;
+        self.steps += outcome.steps;
+        Ok(Run { outcome, cover: cover.cover(), wall: begun.elapsed() })
     }
-    Ok(pairs)
-}
 
-/// Runs a ladder of steps, from the coarsest to the finest; no step is run twice.
-///
-/// 1. The coarser neighbours of `first` are run, then `first`, then finer steps.
-/// 2. Once there are two runs, `is_sure` is asked after each. It gets all runs so far, and whether no finer run can follow; the
-///    last run gives the values, the others give the errors. The ladder ends when `is_sure` returns true.
-/// 3. Where `fixed`, the ladder ends at `first`. If every coarser neighbour failed, one finer run gives the error; it then stands
-///    before `first` among the runs, so that the values stay at `first`.
-fn climb<R>(
-    first: f64,
-    fixed: bool,
-    mut run: impl FnMut(f64) -> Result<R, Failure>,
-    mut is_sure: impl FnMut(&[R], bool) -> Result<bool, Failure>,
-) -> Result<(), Failure> {
-    let rung = |n: i32| first * step_error::RATIO.powi(n);
-    let mut runs = Vec::new();
-    for n in (1..=step_error::NEIGHBOURS as i32).rev() {
-        match run(rung(n)) {
-            Ok(coarser) => runs.push(coarser),
-            Err(failure) if failure.needs_finer_step() => {}
-            Err(failure) => return Err(failure),
+    /// Pairs of runs of nearby shots at `step` [s]; without the pairs of which a run fails.
+    fn run_pairs(&mut self, shot: &Shot, step: f64) -> Result<Vec<[Run; 2]>, Failure> {
+        let field = ComputeSettings { accuracy: Accuracy::Field, step: None, ..*self.compute };
+        let finer =
+            step / (field.first_step(self.case) * step_error::RATIO.powi(step_error::NEIGHBOURS as i32));
+        let relative = PAIR_CHANGE * finer.powi(2).min(1.0);
+        let mut pairs = Vec::new();
+        for number in 0..step_error::PAIRS {
+            let [more, less] = shot.both_sides(self.case.scene().friction, relative, number);
+            match self.run(&more, step).and_then(|more| Ok([more, self.run(&less, step)?])) {
+                Ok(pair) => pairs.push(pair),
+                Err(stopped @ Failure::Stopped { .. }) => return Err(stopped),
+                Err(_) => {}
+            }
         }
+        Ok(pairs)
     }
-    for finer in 0..=MOST_REFINEMENTS {
-        runs.push(run(rung(-finer))?);
-        if runs.len() < 2 && fixed {
-            // The finer run tells the error; the values stay at the step asked for.
-            runs.insert(0, run(rung(-1))?);
-        }
-        // A single run has no error: its neighbour is the next finer run.
-        let last = fixed || finer == MOST_REFINEMENTS;
-        if runs.len() >= 2 && (is_sure(&runs, last)? || last) {
-            break;
-        }
-    }
-    Ok(())
 }
 
 /// Checks a shot by a ladder of runs, of which the last gives the values, and by `pairs` of nearby shots at the step of the
 /// coarsest neighbour.
-fn checked_from_runs(
-    case: &Case,
-    shot: &Shot,
-    compute: &ComputeSettings,
-    runs: &[Run],
-    pairs: &[[Run; 2]],
-    cost: Cost,
-) -> CheckedShot {
+fn checked_from_runs(shot: &Shot, runs: &[Run], pairs: &[[Run; 2]], runner: &Runner<'_>) -> CheckedShot {
+    let case = runner.case;
     let last = &runs[runs.len() - 1];
     let outcomes: Vec<&Outcome> = runs.iter().map(|run| &run.outcome).collect();
     let pairs: Vec<[&Outcome; 2]> =
@@ -282,63 +236,14 @@ fn checked_from_runs(
         broken: outcome.broken.clone(),
         history: outcome.history.clone(),
         cover: last.cover,
-        compute: *compute,
+        compute: *runner.compute,
         step: outcome.step,
         steps: outcome.steps,
         energy_residual: outcome.ledger.residual(),
         end: outcome.end,
         wall: last.wall,
-        total_wall: cost.wall,
-        runs: cost.runs,
-        total_steps: cost.steps,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::simulation::Iteration;
-
-    /// Steps that `climb` asks for where steps above `coarsest` fail, and the step that gives the values.
-    fn climbed(coarsest: f64, fixed: bool, sure_at: f64) -> (Vec<f64>, f64) {
-        let (mut asked, mut values) = (Vec::new(), f64::NAN);
-        let run = |step: f64| {
-            asked.push(step);
-            let failure = Failure::Unsettled { what: Iteration::ContactRegion, at: 0.0 };
-            if step > coarsest { Err(failure) } else { Ok(step) }
-        };
-        let is_sure = |runs: &[f64], _: bool| {
-            values = runs[runs.len() - 1];
-            Ok(values <= sure_at)
-        };
-        climb(1.0, fixed, run, is_sure).expect("fine steps work");
-        (asked, values)
-    }
-
-    #[test]
-    fn no_step_is_run_twice() {
-        for coarsest in [4.0, 2.0, 1.0] {
-            for fixed in [false, true] {
-                for sure_at in [1.0, 0.5, 1e-9] {
-                    let (mut asked, _) = climbed(coarsest, fixed, sure_at);
-                    let count = asked.len();
-                    asked.sort_by(f64::total_cmp);
-                    asked.dedup();
-                    assert_eq!(asked.len(), count, "{coarsest} {fixed} {sure_at}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn values_come_from_the_step_asked_for_or_from_the_finest() {
-        assert_eq!(climbed(4.0, true, 1e-9).1, 1.0);
-        assert_eq!(climbed(1.0, true, 1e-9).1, 1.0, "though its only neighbour is finer");
-        assert_eq!(climbed(4.0, false, 1.0).1, 1.0);
-        assert!(
-            (climbed(1.0, false, 1.0).1 * step_error::RATIO - 1.0).abs() < 1e-12,
-            "no error without a neighbour"
-        );
-        assert!((climbed(4.0, false, 0.0).1 * 64.0 - 1.0).abs() < 1e-12, "the finest step allowed");
+        total_wall: runner.begun.elapsed(),
+        runs: runner.runs,
+        total_steps: runner.steps,
     }
 }

@@ -4,7 +4,7 @@ use super::check::check_shot;
 use super::shot_summary::ShotSummary;
 use crate::scene::Shot;
 use crate::simulation::Failure;
-use crate::study::work::batch::run_jobs;
+use crate::study::work::batch::run_batch;
 use crate::study::{Case, ComputeSettings, Key, NoResult, Progress};
 
 /// Checks every shot, refined until its verdict is sure; `None` for the shots that the time did not suffice for.
@@ -33,14 +33,14 @@ pub fn check_summary(
     )
 }
 
-/// Checks the shot of every job, like [`run_jobs`]. A job whose run fails has the result [`ShotSummary::UNKNOWN`]; where every run
+/// Checks the shot of every job, like [`run_batch`]. A job whose run fails has the result [`ShotSummary::UNKNOWN`]; where every run
 /// fails, the study has no result.
 pub fn run_checks<J: Sync>(
     jobs: &[J],
     progress: &Progress,
     work: impl Fn(&J) -> Result<ShotSummary, NoResult> + Sync,
 ) -> Result<Vec<Option<ShotSummary>>, NoResult> {
-    let done = run_jobs(jobs, progress, |job| match work(job) {
+    let done = run_batch(jobs, progress, |job| match work(job) {
         Err(NoResult::Failed(failure)) => Ok(Err(failure)),
         result => result.map(Ok),
     })?;
@@ -59,7 +59,7 @@ pub fn run_checks_or_unknown<J: Sync>(
     progress: &Progress,
     work: impl Fn(&J) -> Result<ShotSummary, NoResult> + Sync,
 ) -> Result<Vec<Option<ShotSummary>>, NoResult> {
-    run_jobs(jobs, progress, |job| or_unknown(work(job)))
+    run_batch(jobs, progress, |job| or_unknown(work(job)))
 }
 
 /// A run that failed is a shot of which nothing is known.

@@ -2,7 +2,7 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | the check: run ever finer until the verdict is sure | [`check`]; one of thousands of shots: [`quick_check`]; many: [`check_many`] |
+//! | the check: run ever finer until the verdict is sure | [`check`], `ladder`; one of thousands of shots: [`quick_check`]; many: [`check_many`] |
 //! | greatest values of a run, with the error of its step | `peaks`, [`step_error`] |
 //! | the cover over unfired holes, which no limit judges | [`cover`] |
 //! | how much faster the tires may leave | [`margin`] |
@@ -11,6 +11,7 @@
 pub mod check;
 pub mod check_many;
 pub mod cover;
+mod ladder;
 pub mod margin;
 mod peaks;
 pub mod quick_check;

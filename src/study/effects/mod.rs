@@ -20,7 +20,7 @@ use super::samples::risk::percentiles;
 use super::samples::rounds::{ShotToSample, run_sample_once};
 use super::samples::sample::Sample;
 use super::samples::sampling::Sampling;
-use super::work::batch::run_jobs;
+use super::work::batch::run_batch;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, catch_panic};
 use crate::plan::Plan;
 use crate::verdict::{Limits, Quantity, Verdict};
@@ -197,7 +197,7 @@ pub fn effects(
     let all = Effect::ALL.into_iter().filter(|effect| effect.is_computed_by(compute.method));
     let variants: Vec<Variant> = all.filter_map(|effect| variant(effect, &case.plan, &mut cases)).collect();
     let jobs: Vec<(usize, usize)> = itertools::iproduct!(0..case.shots.len(), 0..cases.len()).collect();
-    let measured = run_jobs(&jobs, progress, |&(option, n)| {
+    let measured = run_batch(&jobs, progress, |&(option, n)| {
         catch_panic(|| measure_option(&cases[n], option, sampling, compute, progress))
     })?;
     let partial = measured.iter().any(Option::is_none);

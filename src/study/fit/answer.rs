@@ -2,7 +2,7 @@
 
 use super::determined::NotDetermined;
 use super::parameter::Parameter;
-use super::possible::{AsFired, NextObservation};
+use super::predicted::{NextObservation, Prediction};
 use crate::choice::Unknown;
 use crate::plan::fitted::Fitted;
 use crate::plan::observations::Observation;
@@ -30,7 +30,7 @@ pub struct Fit {
     /// Index of the file of each observation.
     pub file: Vec<usize>,
     /// What the plan as it is says of each observation.
-    pub as_fired: Vec<AsFired>,
+    pub predictions: Vec<Prediction>,
     /// What to observe next.
     pub next: Option<NextObservation>,
 }

@@ -9,8 +9,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::observed_shots::ObservedShot;
 use super::parameter::Parameter;
-use super::predict::Predictor;
+use super::predictor::Predictor;
 use super::search::SearchBox;
 use crate::choice::ObservedQuantity;
 use crate::plan::observations::Watched;
@@ -87,11 +88,12 @@ pub fn refuse(
     let named = predictor.parameters.iter().zip(combination.iter()).filter(|(_, share)| share.abs() > NAMED);
     let parameters = named.map(|(&parameter, _)| parameter).collect();
     let all = candidates(predictor.case(own).scene());
-    let options = predictor.options.iter().map(|(option, _)| (*option, all.clone())).collect();
+    let shots =
+        predictor.shots.iter().map(|shot| ObservedShot { watched: all.clone(), ..shot.clone() }).collect();
     let wide = Predictor {
         plan: predictor.plan.clone(),
         parameters: predictor.parameters.clone(),
-        options,
+        shots,
         ..*predictor
     };
     let shifted = |side: f64| -> Vec<f64> {
@@ -104,7 +106,7 @@ pub fn refuse(
     };
     let mut best: Option<(f64, Candidate)> = None;
     for (n, (more, less)) in more.iter().zip(&less).enumerate() {
-        let (option, watched) = (wide.options[n / all.len()].0, all[n % all.len()]);
+        let (option, watched) = (wide.shots[n / all.len()].option, all[n % all.len()]);
         let sigma = (more - less).abs() / (2.0 * SHIFT * usual_sd(watched.quantity, *more));
         if sigma >= WORTH_OBSERVING && best.is_none_or(|(most, _)| sigma > most) {
             best = Some((sigma, Candidate { option, watched }));

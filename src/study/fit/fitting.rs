@@ -3,12 +3,13 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::answer::{Answer, Estimated, Residual};
+use super::observed_shots::{ObservedShot, ObservedShots};
 use super::parameter::{Parameter, Prior};
-use super::predict::Predictor;
+use super::predictor::Predictor;
 use super::search::{Minimum, SearchBox};
-use super::weights::{ObservedShots, SampledWeights, Weighing, Weights};
+use super::weights::{SampledWeights, Weighing, Weights};
 use crate::plan::Plan;
-use crate::study::work::batch::run_jobs;
+use crate::study::work::batch::run_batch;
 use crate::study::{Case, NoResult};
 
 /// Misfit above the least up to which another answer is told: its likelihood is 1/20 of the best.
@@ -98,7 +99,7 @@ impl Fitting<'_> {
         let least = minima.first().map_or(f64::INFINITY, |best| best.misfit);
         let is_worth = |minimum: &Minimum| minimum.misfit <= least + WORTH_WEIGHING;
         let worth: Vec<Minimum> = minima.into_iter().take_while(is_worth).take(MOST_WEIGHED).collect();
-        let settled = run_jobs(&worth, self.predictor.progress, |minimum| match self.seed {
+        let settled = run_batch(&worth, self.predictor.progress, |minimum| match self.seed {
             Some(seed) => self.settle_among_samples(&weighing, minimum, seed),
             None => self.settle(&weighing, minimum),
         })?;
@@ -200,11 +201,11 @@ impl Fitting<'_> {
         let case = self.predictor.case(at);
         let settings =
             case.run_settings(self.predictor.compute.method, self.predictor.compute.first_step(&case));
-        let run = |(option, _): &(usize, _)| {
+        let run = |shot: &ObservedShot| {
             let watch = &mut |_: &dyn crate::simulation::Motion| self.predictor.progress.flow();
-            case.model.run(&case.shots[*option], &settings, watch).err()
+            case.model.run(&case.shots[shot.option].with_times(&shot.times), &settings, watch).err()
         };
-        let failure = self.predictor.options.iter().find_map(run);
+        let failure = self.predictor.shots.iter().find_map(run);
         failure.map_or(NoResult::OutOfTime, |failure| self.predictor.progress.no_result(failure))
     }
 

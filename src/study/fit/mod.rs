@@ -9,18 +9,20 @@
 //! | what is found | `answer` |
 //! | which numbers are estimated, and what the plan knows of them | [`parameter`] |
 //! | which answers the observations leave, and how sure they are | `fitting` |
-//! | what a plan predicts | `predict`, `watch` |
+//! | the observations by shot | [`observed_shots`] |
+//! | what a plan predicts | `predictor`, `watch` |
 //! | how far observations may lie from it | [`weights`] |
 //! | which parameters fit best, in which separate answers | [`search`] |
 //! | whether observations determine them | [`determined`] |
-//! | how observations lie among the shots that were possible, and what to observe next | [`possible`] |
+//! | how observations lie among the shots that were possible, and what to observe next | [`predicted`] |
 
 mod answer;
 pub mod determined;
 mod fitting;
+pub mod observed_shots;
 pub mod parameter;
-pub mod possible;
-mod predict;
+pub mod predicted;
+mod predictor;
 pub mod search;
 mod watch;
 pub mod weights;
@@ -28,17 +30,17 @@ pub mod weights;
 pub use self::answer::{Answer, Estimated, Fit, FitResult, Residual};
 pub use self::determined::{Candidate, NotDetermined};
 use self::fitting::Fitting;
+use self::observed_shots::ObservedShots;
 use self::parameter::{Parameter, Prior};
-use self::possible::{NextObservation, as_fired, next_observation};
-use self::predict::Predictor;
+use self::predicted::{NextObservation, next_observation, predict_observations};
+use self::predictor::Predictor;
 use self::search::SearchBox;
-use self::weights::ObservedShots;
 use super::samples::sampling::Sampling;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress};
 use crate::choice::{Method, Unknown};
 use crate::plan::Plan;
 use crate::plan::fitted::StatedKeys;
-use crate::plan::observations::{ObservableNames, Observation, Observations, Watched};
+use crate::plan::observations::{ObservableNames, Observations};
 use crate::scene::TireId;
 
 /// What observations of a plan may name.
@@ -48,12 +50,17 @@ pub fn observable_names(case: &Case) -> ObservableNames {
         options: case.plan.delays.iter().map(|delay| delay.name.clone()).collect(),
         tires: scene.tire.iter().map(TireId::numbers).collect(),
         cables: scene.cables.iter().map(|cable| cable.ends).collect(),
+        holes: case
+            .shots
+            .iter()
+            .map(|shot| shot.firings.iter().map(|hole| (hole.tire, hole.at)).collect())
+            .collect(),
     }
 }
 
 /// What is asked of a fit.
 #[derive(Clone, Copy, Debug)]
-pub struct Request<'a> {
+pub struct FitRequest<'a> {
     /// Files of observations.
     pub files: &'a [Observations],
     /// What is estimated, each once.
@@ -66,7 +73,7 @@ pub struct Request<'a> {
 /// Fits unknowns of a plan to observations.
 pub fn fit(
     case: &Case,
-    request: &Request<'_>,
+    request: &FitRequest<'_>,
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Finding<FitResult> {
@@ -78,12 +85,12 @@ pub fn fit(
     if compute.method == Method::Newmark && request.unknowns.contains(&Unknown::Damping) {
         return Ok(whole(FitResult::NotInMethod(Unknown::Damping)));
     }
-    let seen = in_order(request.files);
+    let seen = ObservedShots::new(request.files);
     let fitting = Fitting {
         space: search_box(&case.plan, &parameters, &priors),
         predictor: Predictor {
             plan: plan_of_others(case, request),
-            options: by_option(&seen.list),
+            shots: seen.distinct_shots(),
             parameters,
             compute: *compute,
             progress,
@@ -101,9 +108,10 @@ pub fn fit(
         return Ok(whole(FitResult::NotDetermined(refused)));
     }
     let answers = settled.iter().map(|settled| fitting.answer(case, settled)).collect();
-    let ObservedShots { list: observed, file } = fitting.seen;
-    let as_fired = as_fired(case, &observed, request.sampling.as_ref(), compute, progress)?;
-    let mut fit = Fit { answers, observed, file, as_fired, next: None };
+    let predictions =
+        predict_observations(case, &fitting.seen, request.sampling.as_ref(), compute, progress)?;
+    let ObservedShots { list: observed, file, .. } = fitting.seen;
+    let mut fit = Fit { answers, observed, file, predictions, next: None };
     fit.next = next(case, &fit, request, compute, progress)?;
     Ok(whole(FitResult::Fitted(fit)))
 }
@@ -112,20 +120,10 @@ fn whole(value: FitResult) -> Found<FitResult> {
     Found { value, partial: false }
 }
 
-/// Observations of all files in the order of their options.
-fn in_order(files: &[Observations]) -> ObservedShots {
-    let of_file =
-        |(n, file): (usize, &Observations)| file.list.iter().map(move |seen| (n, *seen)).collect::<Vec<_>>();
-    let mut all: Vec<(usize, Observation)> = files.iter().enumerate().flat_map(of_file).collect();
-    all.sort_by_key(|(_, seen)| seen.option);
-    let (file, list) = all.into_iter().unzip();
-    ObservedShots { list, file }
-}
-
 /// What `[uncertainty]` states of each parameter; an unknown of which it says that it is exact is an error.
 fn stated_priors(
     case: &Case,
-    request: &Request<'_>,
+    request: &FitRequest<'_>,
     parameters: &[Parameter],
 ) -> Result<Vec<Option<Prior>>, Unknown> {
     if request.sampling.is_none() {
@@ -140,7 +138,7 @@ fn stated_priors(
 }
 
 /// Inputs in common that are not estimated and that are not exact.
-fn others(case: &Case, request: &Request<'_>) -> Vec<(Parameter, Prior)> {
+fn others(case: &Case, request: &FitRequest<'_>) -> Vec<(Parameter, Prior)> {
     if request.sampling.is_none() {
         return Vec::new();
     }
@@ -149,15 +147,10 @@ fn others(case: &Case, request: &Request<'_>) -> Vec<(Parameter, Prior)> {
 }
 
 /// The plan with the inputs that are not estimated at their means.
-fn plan_of_others(case: &Case, request: &Request<'_>) -> Plan {
+fn plan_of_others(case: &Case, request: &FitRequest<'_>) -> Plan {
     let mut plan = case.plan.clone();
     others(case, request).iter().for_each(|(other, prior)| other.set_in(&mut plan, prior.mean));
     plan
-}
-
-fn by_option(observations: &[Observation]) -> Vec<(usize, Vec<Watched>)> {
-    let shots = observations.chunk_by(|a, b| a.option == b.option);
-    shots.map(|shot| (shot[0].option, shot.iter().map(|seen| seen.watched).collect())).collect()
 }
 
 /// Plausible ranges, and the parts of them that the plan expects: within three standard deviations.
@@ -176,7 +169,7 @@ fn search_box(plan: &Plan, parameters: &[Parameter], priors: &[Option<Prior>]) -
 fn next(
     case: &Case,
     fit: &Fit,
-    request: &Request<'_>,
+    request: &FitRequest<'_>,
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Option<NextObservation>, NoResult> {

@@ -18,14 +18,15 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 
+use super::observed_shots::{ObservedShot, ObservedShots};
 use super::parameter::{Parameter, Prior};
-use super::predict::{Predictor, observe_shot};
-use crate::plan::observations::{Observation, Watched};
+use super::predictor::{Predictor, observe_shot};
+use crate::plan::observations::Observation;
 use crate::plan::{Plan, Uncertainty};
 use crate::study::as_planned::step_error;
 use crate::study::samples::draw::draw;
 use crate::study::samples::rounds::step;
-use crate::study::work::batch::run_jobs;
+use crate::study::work::batch::run_batch;
 use crate::study::{Case, NoResult};
 
 /// Least number of samples behind a mean, its slopes, and its covariance.
@@ -34,29 +35,6 @@ const SAMPLES: usize = 96;
 const SAMPLES_EACH: usize = 4;
 /// Least share of the samples that have a value, for the prediction to have one.
 const OFTEN: f64 = 0.5;
-
-/// Observations, each with the number of its file, in the order of their options.
-pub struct ObservedShots {
-    /// The observations.
-    pub list: Vec<Observation>,
-    /// Index of the file of each.
-    pub file: Vec<usize>,
-}
-
-impl ObservedShots {
-    /// Indices of the observations of each shot: of one option in one file.
-    fn shots(&self) -> Vec<Vec<usize>> {
-        let mut shots: Vec<((usize, usize), Vec<usize>)> = Vec::new();
-        for (n, observation) in self.list.iter().enumerate() {
-            let shot = (self.file[n], observation.option);
-            match shots.iter_mut().find(|(known, _)| *known == shot) {
-                Some((_, all)) => all.push(n),
-                None => shots.push((shot, vec![n])),
-            }
-        }
-        shots.into_iter().map(|(_, all)| all).collect()
-    }
-}
 
 /// The covariance of observations about their predictions, and its parts.
 pub struct Weights {
@@ -136,10 +114,10 @@ impl Weighing<'_> {
         let shots = self.seen.shots();
         let drawn = SAMPLES.max(SAMPLES_EACH * self.seen.list.len());
         let numbers: Vec<usize> = (0..drawn).collect();
-        let samples = run_jobs(&numbers, self.predictor.progress, |&number| {
+        let samples = run_batch(&numbers, self.predictor.progress, |&number| {
             let (case, from) = self.sample(at, spread, seed, number);
             // A seed for each shot: what scatters in one does not repeat in another.
-            let see = |(n, shot): (usize, &Vec<usize>)| {
+            let see = |(n, shot): (usize, &ObservedShot)| {
                 self.observe_sample(&case, shot, seed.wrapping_add(n as u64), number)
             };
             Ok((from, shots.iter().enumerate().map(see).collect::<Result<Vec<_>, _>>()?))
@@ -152,8 +130,8 @@ impl Weighing<'_> {
         for (number, (from, runs)) in samples.iter().enumerate() {
             from.iter().enumerate().for_each(|(n, from)| regressors[(number, 1 + n)] = *from);
             for (shot, run) in shots.iter().zip(runs) {
-                let seen = shot.iter().zip(run.iter().flatten());
-                seen.for_each(|(&n, &value)| values[(number, n)] = value);
+                let seen = shot.observations().zip(run.iter().flatten());
+                seen.for_each(|(n, &value)| values[(number, n)] = value);
             }
         }
         let often = fill_gaps(&mut values);
@@ -168,8 +146,8 @@ impl Weighing<'_> {
         covariance += of_others.transpose() * of_others;
         let freedom = (drawn - inputs) as f64;
         for shot in &shots {
-            let toward_zero = drawn as f64 / (drawn + shot.len()) as f64;
-            for (&a, &b) in itertools::iproduct!(shot, shot) {
+            let toward_zero = drawn as f64 / (drawn + shot.watched.len()) as f64;
+            for (a, b) in itertools::iproduct!(shot.observations(), shot.observations()) {
                 let kept = if a == b { 1.0 } else { toward_zero };
                 covariance[(a, b)] += kept * rest.column(a).dot(&rest.column(b)) / freedom;
             }
@@ -223,16 +201,15 @@ impl Weighing<'_> {
     fn observe_sample(
         &self,
         case: &Case,
-        shot: &[usize],
+        shot: &ObservedShot,
         seed: u64,
         number: usize,
     ) -> Result<Option<Vec<f64>>, NoResult> {
         let Predictor { compute, progress, .. } = self.predictor;
-        let option = self.seen.list[shot[0]].option;
-        let watched: Vec<Watched> = shot.iter().map(|&n| self.seen.list[n].watched).collect();
-        let sample = draw(case, &case.shots[option], seed, number);
+        let sample = draw(case, &case.shots[shot.option], seed, number);
         let settings = case.run_settings(compute.method, step(compute, &sample.scene));
-        observe_shot(case, Some(&sample.scene), &sample.shot, &watched, &settings, progress)
+        let fired = sample.shot.with_times(&shot.times);
+        observe_shot(case, Some(&sample.scene), &fired, &shot.watched, &settings, progress)
     }
 
     /// Error of each prediction, from runs at coarser steps; 0 where none of these has the value.
@@ -240,7 +217,7 @@ impl Weighing<'_> {
         let Some(values) = self.predictor.values(at, 1.0)? else { return Ok(None) };
         let coarser: Vec<f64> =
             (1..=step_error::NEIGHBOURS).map(|n| step_error::RATIO.powi(n as i32)).collect();
-        let runs = run_jobs(&coarser, self.predictor.progress, |&step| self.predictor.values(at, step))?;
+        let runs = run_batch(&coarser, self.predictor.progress, |&step| self.predictor.values(at, step))?;
         let error = |n: usize| {
             let near =
                 coarser.iter().zip(&runs).filter_map(|(&step, run)| Some((step, run.as_ref()?.as_ref()?[n])));

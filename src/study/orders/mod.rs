@@ -27,7 +27,7 @@ use super::as_planned::check_many::{check_summary, run_checks_or_unknown};
 use super::as_planned::quick_check::{quick_check_is_sure, quick_check_until};
 use super::judgement;
 use super::judgement::Evidence;
-use super::samples::risk_summary::{RiskSummary, find_risk_summaries};
+use super::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use super::samples::sampling::Sampling;
 use super::{Case, ComputeSettings, Finding, Found, Key, NoResult, Progress, Shard, ShotSummary};
 use crate::verdict::Verdict;
@@ -92,10 +92,10 @@ impl Orders {
             (case.shot(order, *interval), *as_planned)
         };
         let shots: Vec<_> = ends.iter().map(shot).collect();
-        let mut sampled = find_risk_summaries(case, &shots, &sampling.first_look(), compute, progress)?;
+        let mut sampled = sample_shots_in_brief(case, &shots, &sampling.first_look(), compute, progress)?;
         if let (Some(best), Some(last)) = (shots.last(), sampled.last_mut()) {
-            *last =
-                find_risk_summaries(case, std::slice::from_ref(best), sampling, compute, progress)?.remove(0);
+            *last = sample_shots_in_brief(case, std::slice::from_ref(best), sampling, compute, progress)?
+                .remove(0);
         }
         let partial = sampled.contains(&None);
         let known = ends.into_iter().zip(sampled).filter_map(|(n, sampled)| Some((n, sampled?)));
@@ -186,7 +186,7 @@ pub fn try_orders(
     case.require_hole_timing()?;
     let rows = case.plan.blast_rows.len();
     // Where no run at all succeeds, the first order tells why.
-    let known = |found: Found<Vec<TriedOrder>>| {
+    let or_first_failure = |found: Found<Vec<TriedOrder>>| {
         if found.value.iter().all(|tried| tried.as_planned == ShotSummary::UNKNOWN) {
             for tried in found.value.iter().take(1) {
                 check_summary(case, &case.shot(&tried.order, tried.interval), compute, progress)?;
@@ -195,7 +195,7 @@ pub fn try_orders(
         Ok(found)
     };
     if !tries_all(case) {
-        return climb_orders(case, intervals, compute, progress).and_then(known);
+        return climb_orders(case, intervals, compute, progress).and_then(or_first_failure);
     }
     let mirror_rows = mirror_rows(case);
     let all = intervals
@@ -216,9 +216,9 @@ pub fn try_orders(
     }
     tried.sort_by_key(|tried| tried.number);
     if found.partial || shard != Shard::WHOLE {
-        return known(Found { value: tried, partial: found.partial });
+        return or_first_failure(Found { value: tried, partial: found.partial });
     }
-    refine(case, tried, compute, progress).and_then(known)
+    refine(case, tried, compute, progress).and_then(or_first_failure)
 }
 
 /// An order to be checked at one interval.

@@ -117,9 +117,9 @@ fn too_much_together(
     case: &Case,
     WithinEightMs { holes, charge }: WithinEightMs,
 ) -> impl Iterator<Item = ShotReason> {
-    let limits = &case.plan.limits;
+    let limits = &case.limits;
     let most = limits.holes_in_8_ms.filter(|&limit| holes > limit);
-    let heaviest = charge.zip(limits.charge_in_8_ms_kg).filter(|(charge, limit)| charge > limit);
+    let heaviest = charge.zip(limits.charge_in_8_ms).filter(|(charge, limit)| charge > limit);
     let holes = most.map(|limit| ShotReason::HolesTogether { holes, limit });
     holes.into_iter().chain(heaviest.map(|(charge, limit)| ShotReason::ChargeTogether { charge, limit }))
 }
@@ -138,7 +138,7 @@ pub fn find_reasons(
         limit,
     });
     let broken = Some(outcome.broken.len()).filter(|&count| count > 0).map(ShotReason::Broken);
-    let residual = Some(outcome.ledger.residual()).filter(|&residual| !closes(residual));
+    let residual = Some(outcome.ledger.residual()).filter(|&residual| !energy_balance_closes(residual));
     let residual = residual.map(ShotReason::EnergyResidual);
     let end = case.plan.simulation.duration_s.unwrap_or(outcome.end.at);
     let early = early_end(case, shot, outcome).map(|open| ShotReason::EndsEarly { end, open });
@@ -147,7 +147,7 @@ pub fn find_reasons(
 }
 
 /// Whether the energy balance of a run closes well enough for a pass; `residual` over the energy put in.
-pub(in crate::study) fn closes(residual: f64) -> bool {
+pub(in crate::study) fn energy_balance_closes(residual: f64) -> bool {
     residual <= MOST_RESIDUAL
 }
 

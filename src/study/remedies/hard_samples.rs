@@ -10,7 +10,7 @@ use crate::study::samples::failure_bounds::{ErrorShare, FailureBounds};
 use crate::study::samples::risk::Risk;
 use crate::study::samples::rounds::{ShotToSample, run_sample};
 use crate::study::samples::sample::Sample;
-use crate::study::work::batch::run_jobs;
+use crate::study::work::batch::run_batch;
 use crate::study::{NoResult, Progress};
 use crate::verdict::Verdict;
 
@@ -84,7 +84,8 @@ impl HardSamples {
             self.numbers(*option).into_iter().map(move |number| (n, number))
         };
         let jobs: Vec<(usize, usize)> = targets.iter().enumerate().flat_map(of_target).collect();
-        let drawn = run_jobs(&jobs, progress, |&(n, number)| run_sample(&targets[n].1, number, 0, progress))?;
+        let drawn =
+            run_batch(&jobs, progress, |&(n, number)| run_sample(&targets[n].1, number, 0, progress))?;
         let mut all = vec![Some(Vec::new()); targets.len()];
         for ((n, _), sample) in jobs.into_iter().zip(drawn) {
             all[n] = all[n].take().zip(sample).map(|(mut samples, sample)| {

@@ -23,9 +23,9 @@ use super::judgement::Evidence;
 use super::judgement::Judgement;
 use super::reasons::shot::exceeds_together;
 use super::samples::risk::Risk;
-use super::samples::rounds::{ShotToSample, find_risks};
+use super::samples::rounds::{ShotToSample, sample_shots};
 use super::samples::sampling::Sampling;
-use super::work::batch::run_jobs;
+use super::work::batch::run_batch;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, catch_panic};
 use crate::plan::PlanSource;
 use crate::plan::edit::change::{Change, ChangeKind};
@@ -136,8 +136,7 @@ pub fn find_all_remedies(
     progress: &Progress,
 ) -> Finding<Vec<Remedies>> {
     let task = Task { case, sampling, compute, progress };
-    let accepted = case.plan.limits.accepted_risk_percent * 1e-2;
-    let mut hard = HardSamples::new(accepted, sampling.map_or(0, |sampling| sampling.most));
+    let mut hard = HardSamples::new(case.limits.accepted_risk, sampling.map_or(0, |sampling| sampling.most));
     let enough_samples = sampling.is_none() || hard.enough_samples();
     let mut chains = if enough_samples { coarse(&task, options)? } else { Vec::new() };
     while chains.iter().any(Chain::is_open) {
@@ -171,7 +170,7 @@ fn coarse(task: &Task<'_>, options: &[usize]) -> Result<Vec<Chain>, NoResult> {
     let all: Vec<(usize, Vec<Change>)> = options.iter().flat_map(kinds).collect();
     let jobs: Vec<(usize, Change)> =
         all.iter().flat_map(|(option, changes)| changes.iter().map(|&change| (*option, change))).collect();
-    let mut verdicts = run_jobs(&jobs, progress, |(option, change)| {
+    let mut verdicts = run_batch(&jobs, progress, |(option, change)| {
         let Some(changed) = changed(case, change) else { return Ok(None) };
         match catch_panic(|| quick_check(&changed, &changed.shots[*option], compute, progress)) {
             // The judgement in full tells.
@@ -257,7 +256,7 @@ fn check_turns(
 ) -> Result<Vec<Option<CheckedShot>>, NoResult> {
     let options: Vec<usize> = turns.iter().map(|turn| chains[turn.chain].option).collect();
     let jobs: Vec<(&Case, usize)> = turns.iter().map(|turn| &turn.case).zip(options).collect();
-    let all = run_jobs(&jobs, task.progress, |(case, option)| {
+    let all = run_batch(&jobs, task.progress, |(case, option)| {
         let check = || {
             let checked = check_as_planned(case, *option, task.compute, &mut |_| task.progress.flow());
             checked.map_err(|failure| task.progress.no_result(failure))
@@ -297,7 +296,7 @@ fn sample(
             places.push(n);
         }
     }
-    for ((target, n), risk) in left.iter().zip(places).zip(find_risks(&left, progress)?.value) {
+    for ((target, n), risk) in left.iter().zip(places).zip(sample_shots(&left, progress)?.value) {
         hard.note(targets[n].0, &risk);
         let sampling = target.sampling;
         let is_complete = sampling.is_complete(&risk) || !risk.bounds.can_pass(sampling.most);

@@ -16,7 +16,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use crate::plan::Uncertainty;
 use crate::plan::keys::{Key, uncertainty};
-use crate::scene::{Cable, Firing, Scene, Shot, with_ends};
+use crate::scene::{Firing, Scene, Shot};
 use crate::study::Case;
 
 /// An input that is the same in the whole shot, and not known exactly.
@@ -117,13 +117,7 @@ pub fn draw(case: &Case, nominal: &Shot, seed: u64, number: usize) -> DrawnShot 
     scatter_gaps(&mut firings, unknown, &mut random);
     let mut scene = case.scene().clone();
     scatter_tires(&mut scene, &mut firings, unknown, launch_common, &mut random);
-    let length = (1.0 + 1e-2 * slack_percent) / (1.0 + 1e-2 * case.plan.cable.slack_percent);
-    let rope = &case.plan.cable;
-    for cable in &mut scene.cables {
-        let own = rope.axial_stiffness_kn * 1e3 / cable.rest_length;
-        let stiffness = with_ends(own * stiffness / length, rope.end_stiffness());
-        *cable = Cable { rest_length: cable.rest_length * length, stiffness, ..*cable };
-    }
+    scene.change_cables(&case.plan.cable, slack_percent, stiffness);
     if unknown.breaking_force_cv_percent > 0.0 {
         let strength = |cable| factor(random.at(Draws::Cable(cable)), unknown.breaking_force_cv_percent);
         scene.strength = (0..scene.cables.len()).map(strength).collect();

@@ -2,7 +2,7 @@
 //!
 //! A sample is run once, at a coarse step: its error falls to both sides of a limit, and the failure probability is far more
 //! exact than any one sample. The audit runs some of them again at a finer step. Where these runs, or the shot as planned,
-//! contradict the samples, the risk is open, and [`find_risks`](super::rounds::find_risks) samples the shot anew at half
+//! contradict the samples, the risk is open, and [`sample_shots`](super::rounds::sample_shots) samples the shot anew at half
 //! the step.
 
 use super::failure_bounds::{ErrorShare, FailureBounds};
@@ -43,9 +43,8 @@ impl Risk {
     /// No sample yet of a shot that was checked `as_planned`; the plan of `case` names the accepted risk.
     /// Its verdict takes this share of the probability of an error.
     pub fn new(case: &Case, as_planned: Option<ShotSummary>, share: ErrorShare, is_audited: bool) -> Self {
-        let accepted = case.plan.limits.accepted_risk_percent * 1e-2;
-        let bounds = FailureBounds::new(accepted, share);
         let limits = case.limits;
+        let bounds = FailureBounds::new(limits.accepted_risk, share);
         Self { samples: Vec::new(), bounds, breaks: bounds, halvings: 0, is_audited, as_planned, limits }
     }
 

@@ -2,7 +2,7 @@
 
 use super::failure_bounds::FailureBounds;
 use super::risk::{Risk, percentiles};
-use super::rounds::{ShotToSample, find_risks};
+use super::rounds::{ShotToSample, sample_shots};
 use super::sampling::Sampling;
 use crate::scene::Shot;
 use crate::study::{Case, ComputeSettings, NoResult, Progress, ShotSummary};
@@ -44,7 +44,7 @@ impl RiskSummary {
 
 /// Samples shots of one case, each checked as planned, all with the same draws; `None` for the shots that the time did not
 /// suffice for.
-pub fn find_risk_summaries<'c>(
+pub fn sample_shots_in_brief<'c>(
     case: &'c Case,
     shots: &'c [(Shot, ShotSummary)],
     sampling: &Sampling,
@@ -57,7 +57,7 @@ pub fn find_risk_summaries<'c>(
             ShotToSample::new(case, shot, *compute, *sampling).as_planned(*planned)
         };
         let targets: Vec<_> = shots.iter().map(target).collect();
-        let risks = find_risks(&targets, progress)?.value;
+        let risks = sample_shots(&targets, progress)?.value;
         let summary = |risk: &Risk| sampling.is_complete(risk).then(|| RiskSummary::of(risk, &case.limits));
         all.extend(risks.iter().map(summary));
     }

@@ -10,8 +10,8 @@ use super::sampling::Sampling;
 use crate::choice::Accuracy;
 use crate::scene::{Scene, Shot};
 use crate::study::compute::step_factor;
-use crate::study::reasons::shot::closes;
-use crate::study::work::batch::{run_expected_jobs, run_jobs};
+use crate::study::reasons::shot::energy_balance_closes;
+use crate::study::work::batch::{run_announced_batch, run_batch};
 use crate::study::{
     Case, ComputeSettings, Finding, Found, Key, NoResult, Progress, Shard, ShotSummary, catch_panic,
 };
@@ -100,13 +100,13 @@ const MOST_HALVINGS: u32 = 3;
 /// Draws and judges samples of every shot, until its risk is sure.
 ///
 /// The result is partial where a shot has no more samples than the time sufficed for.
-pub fn find_risks(targets: &[ShotToSample<'_>], progress: &Progress) -> Finding<Vec<Risk>> {
-    find_risks_watched(targets, progress, &mut |_, _| ControlFlow::Continue(()))
+pub fn sample_shots(targets: &[ShotToSample<'_>], progress: &Progress) -> Finding<Vec<Risk>> {
+    sample_shots_watched(targets, progress, &mut |_, _| ControlFlow::Continue(()))
 }
 
-/// Like [`find_risks`]; `watch` sees every shot after each of its rounds, and may end the sampling of all: what it ended is not
+/// Like [`sample_shots`]; `watch` sees every shot after each of its rounds, and may end the sampling of all: what it ended is not
 /// partial.
-pub fn find_risks_watched(
+pub fn sample_shots_watched(
     targets: &[ShotToSample<'_>],
     progress: &Progress,
     watch: &mut dyn FnMut(usize, &Risk) -> ControlFlow<()>,
@@ -115,7 +115,7 @@ pub fn find_risks_watched(
     let keys = keys(targets, progress);
     // All samples that are drawn in any case are expected at once: how long it takes shows from the first round on.
     let mut expected: usize = targets.iter().map(ShotToSample::least).sum();
-    progress.expect(expected);
+    progress.announce(expected);
     loop {
         let round = |(n, risk): (usize, &Risk)| {
             let (numbers, halvings) = (targets[n].next_round(risk), risk.halvings);
@@ -125,9 +125,9 @@ pub fn find_risks_watched(
         if jobs.is_empty() {
             return Ok(Found { value: risks, partial: false });
         }
-        progress.expect(jobs.len().saturating_sub(expected));
+        progress.announce(jobs.len().saturating_sub(expected));
         expected = expected.saturating_sub(jobs.len());
-        let drawn = run_expected_jobs(&jobs, progress, |&(n, number, halvings)| {
+        let drawn = run_announced_batch(&jobs, progress, |&(n, number, halvings)| {
             match targets[n].drawn_elsewhere(number) {
                 Some(sample) if halvings == 0 => Ok(*sample),
                 _ => recall_sample(&targets[n], keys[n], number, halvings, progress),
@@ -201,7 +201,7 @@ pub(in crate::study) fn run_sample(
 fn undecided_if_panicked(sample: Result<Sample, NoResult>, number: usize) -> Result<Sample, NoResult> {
     match sample {
         Err(NoResult::Panicked(_)) => {
-            Ok(Sample { number, run: SampleRun::FAILED, finer: None, inputs: [f64::NAN; Input::ALL.len()] })
+            Ok(Sample { number, run: SampleRun::UNKNOWN, finer: None, inputs: [f64::NAN; Input::ALL.len()] })
         }
         sample => sample,
     }
@@ -218,7 +218,7 @@ pub fn draw_shard(
         (0..targets.len()).flat_map(of_target).filter(|&(_, number)| shard.has(number)).collect();
     let keys = keys(targets, progress);
     let recall = |&(n, number): &(usize, usize)| recall_sample(&targets[n], keys[n], number, 0, progress);
-    let drawn = run_jobs(&jobs, progress, recall)?;
+    let drawn = run_batch(&jobs, progress, recall)?;
     Ok(jobs.into_iter().map(|(n, _)| n).zip(drawn).collect())
 }
 
@@ -249,9 +249,11 @@ fn try_sample(
     let run = |step: f64| {
         let settings = case.run_settings(compute.method, step);
         match case.model.run_variant(&scene, &shot, &settings, &mut |_| progress.flow()) {
-            Ok(outcome) => Ok((SampleRun::new(case, &shot, &outcome), !closes(outcome.ledger.residual()))),
+            Ok(outcome) => {
+                Ok((SampleRun::new(case, &shot, &outcome), !energy_balance_closes(outcome.ledger.residual())))
+            }
             Err(failure) => match progress.no_result(failure) {
-                NoResult::Failed(_) => Ok((SampleRun::FAILED, true)),
+                NoResult::Failed(_) => Ok((SampleRun::UNKNOWN, true)),
                 ended => Err(ended),
             },
         }
@@ -275,7 +277,7 @@ mod tests {
     #[test]
     fn a_sample_that_panics_is_undecided_and_a_stop_stays_a_stop() {
         let panicked = undecided_if_panicked(Err(NoResult::Panicked("why".to_owned())), 7).expect("a sample");
-        assert_eq!((panicked.number, panicked.run), (7, SampleRun::FAILED));
+        assert_eq!((panicked.number, panicked.run), (7, SampleRun::UNKNOWN));
         assert_eq!(undecided_if_panicked(Err(NoResult::Stopped), 7), Err(NoResult::Stopped));
     }
 }

@@ -7,7 +7,7 @@ use crate::outcome::{Outcome, Peak};
 use crate::scene::Shot;
 use crate::study::Case;
 use crate::study::as_planned::shot_summary::or_infinite;
-use crate::study::reasons::shot::{ShotReason, closes, find_reasons};
+use crate::study::reasons::shot::{ShotReason, energy_balance_closes, find_reasons};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
 /// One sample of a shot.
@@ -50,7 +50,7 @@ pub struct SampleRun {
 
 impl SampleRun {
     /// A run that failed.
-    pub const FAILED: Self = Self {
+    pub const UNKNOWN: Self = Self {
         verdict: Verdict::Undecided,
         breaks: Verdict::Undecided,
         height: f64::INFINITY,
@@ -63,7 +63,7 @@ impl SampleRun {
         let peaks = [outcome.height, outcome.force, outcome.drift];
         let exact = |Peak { value, at, index }| Estimate { value, error: 0.0, at, index };
         let reasons = find_reasons(case, shot, outcome, peaks.map(exact));
-        let verdict = match closes(outcome.ledger.residual()) {
+        let verdict = match energy_balance_closes(outcome.ledger.residual()) {
             true => Verdict::worst(reasons.iter().map(ShotReason::verdict)),
             false => Verdict::Undecided,
         };

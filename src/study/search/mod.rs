@@ -16,7 +16,7 @@ use std::cmp::Ordering;
 use itertools::Itertools;
 
 pub use self::pool::MOST_JUDGED;
-use self::pool::{FIRST_OF_SEARCH, ListedSchedule, Pool};
+use self::pool::{AllowedSchedules, FIRST_OF_SEARCH, Pool};
 use self::race::{Contender, Race};
 use self::schedule::Choices;
 pub use self::schedule::{BrokenLimit, RefusedCounts};
@@ -98,7 +98,7 @@ pub fn search(
 ) -> Finding<Search> {
     let choices = Choices::new(case)?;
     let race = start_race(case, sampling, compute);
-    let listed = ListedSchedule::new(case, &choices);
+    let listed = AllowedSchedules::new(case, &choices);
     let (complete, keeping) = (listed.are_all_judged(), listed.allowed.as_ref().map(Vec::len));
     let mut pool = Pool::new(case, &choices);
     let mut out_of_time = false;
@@ -145,7 +145,7 @@ pub fn try_schedules(
     progress: &Progress,
 ) -> Finding<bool> {
     let choices = Choices::new(case)?;
-    let listed = ListedSchedule::new(case, &choices);
+    let listed = AllowedSchedules::new(case, &choices);
     if !listed.are_all_judged() {
         return Ok(Found { value: false, partial: false });
     }

@@ -24,14 +24,14 @@ const CLIMBERS: usize = 24;
 pub const FIRST_OF_SEARCH: usize = 8;
 
 /// The schedules that keep the limits of the search.
-pub struct ListedSchedule {
+pub struct AllowedSchedules {
     /// In order; `None` where there are too many to look at all.
     pub allowed: Option<Vec<Candidate>>,
     /// Schedules left out, by the limit that they break.
     pub refused: RefusedCounts,
 }
 
-impl ListedSchedule {
+impl AllowedSchedules {
     /// Looks at all schedules of a plan, unless there are too many.
     pub fn new(case: &Case, choices: &Choices<'_>) -> Self {
         let mut refused = RefusedCounts::default();

@@ -6,7 +6,7 @@ use crate::study::as_planned::quick_check::quick_check;
 use crate::study::samples::rounds::{ShotToSample, run_sample_once};
 use crate::study::samples::sample::SampleRun;
 use crate::study::samples::sampling::Sampling;
-use crate::study::work::batch::run_jobs;
+use crate::study::work::batch::run_batch;
 use crate::study::{Case, ComputeSettings, Key, NoResult, Progress};
 use crate::verdict::Verdict;
 
@@ -97,7 +97,7 @@ impl Race<'_> {
         // A shot as planned is judged once.
         let samples = if self.sampling.is_some() { samples } else { 1 };
         let jobs: Vec<&Contender> = contenders.iter().filter(|one| one.tally.samples < samples).collect();
-        let drawn = run_jobs(&jobs, progress, |contender| self.runs(contender, samples, progress))?;
+        let drawn = run_batch(&jobs, progress, |contender| self.runs(contender, samples, progress))?;
         let out_of_time = drawn.contains(&None);
         let waiting = contenders.iter_mut().filter(|one| one.tally.samples < samples);
         for (contender, runs) in waiting.zip(drawn) {

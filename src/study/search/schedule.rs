@@ -281,7 +281,7 @@ impl<'c> Choices<'c> {
 
     /// The limit that a shot breaks, if any: the longest duration, the most holes, or the heaviest charge within 8 ms.
     pub fn broken(&self, shot: &Shot) -> Option<BrokenLimit> {
-        let (spec, limits) = (&self.case.plan.search, &self.case.plan.limits);
+        let (spec, limits) = (&self.case.plan.search, &self.case.limits);
         if spec.longest_ms.is_some_and(|longest| duration(shot) > seconds(longest) + 1e-9) {
             return Some(BrokenLimit::Longest);
         }
@@ -291,7 +291,7 @@ impl<'c> Choices<'c> {
         if most_holes.is_some_and(|most| holes > most) {
             return Some(BrokenLimit::Holes);
         }
-        let too_heavy = charge.zip(limits.charge_in_8_ms_kg).is_some_and(|(charge, most)| charge > most);
+        let too_heavy = charge.zip(limits.charge_in_8_ms).is_some_and(|(charge, most)| charge > most);
         too_heavy.then_some(BrokenLimit::Charge)
     }
 

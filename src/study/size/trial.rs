@@ -11,7 +11,7 @@ use crate::study::as_planned::check_many::check_summaries;
 use crate::study::as_planned::cover::Cover;
 use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::risk::Risk;
-use crate::study::samples::rounds::{ShotToSample, find_risks_watched};
+use crate::study::samples::rounds::{ShotToSample, sample_shots_watched};
 use crate::study::samples::sampling::Sampling;
 use crate::study::{Case, Found, NoResult, ShotSummary, ValueWithError};
 use crate::verdict::Verdict;
@@ -131,7 +131,7 @@ impl<'q> SizeCandidate<'q> {
             Verdict::Pass | Verdict::Undecided => ControlFlow::Continue(()),
         };
         let Found { value: risks, partial } =
-            find_risks_watched(&targets, self.task.progress, until_one_fails)?;
+            sample_shots_watched(&targets, self.task.progress, until_one_fails)?;
         let worst = risks.iter().map(|risk| {
             let FailureBounds { samples, failures, interval: [_, failure_upper_bound], .. } = risk.bounds;
             WorstShotRisk { verdict: risk.verdict(), samples, failures, failure_upper_bound }

@@ -15,7 +15,7 @@ use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, or_unknown};
 use crate::study::judgement::Evidence;
 use crate::study::samples::failure_bounds::ErrorShare;
-use crate::study::samples::risk_summary::{RiskSummary, find_risk_summaries};
+use crate::study::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use crate::study::samples::sampling::Sampling;
 use crate::study::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary};
 use crate::verdict::Verdict;
@@ -37,7 +37,7 @@ pub fn add_risk(
     let shot = |point: &Point| (case.shot(&swept.order, point.interval), point.as_planned);
     let chosen = choose(&swept.points, &swept.windows_as_planned, own);
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
-    let sampled = find_risk_summaries(case, &shots, &sampling.first_look(), compute, progress)?;
+    let sampled = sample_shots_in_brief(case, &shots, &sampling.first_look(), compute, progress)?;
     partial |= sampled.contains(&None);
     swept.points.iter_mut().for_each(|point| point.risk = Evidence::NotDrawn);
     for (&n, sampled) in chosen.iter().zip(sampled) {
@@ -92,7 +92,7 @@ fn judge(
     if as_planned.verdict != Verdict::Pass {
         return Ok(Some((as_planned, None)));
     }
-    let sampled = find_risk_summaries(case, &[(shot, as_planned)], sampling, compute, progress)?.remove(0);
+    let sampled = sample_shots_in_brief(case, &[(shot, as_planned)], sampling, compute, progress)?.remove(0);
     Ok(sampled.map(|sampled| (as_planned, Some(sampled))))
 }
 

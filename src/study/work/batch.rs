@@ -12,17 +12,17 @@ pub fn thread_pool(threads: usize) -> Result<rayon::ThreadPool, NoResult> {
 
 /// Does `work` for every job, in parallel. Returns the results in the order of the jobs; `None` where the time ran out. The
 /// number of threads does not change the results.
-pub fn run_jobs<J: Sync, T: Send>(
+pub fn run_batch<J: Sync, T: Send>(
     jobs: &[J],
     progress: &Progress,
     work: impl Fn(&J) -> Result<T, NoResult> + Sync,
 ) -> Result<Vec<Option<T>>, NoResult> {
-    progress.expect(jobs.len());
-    run_expected_jobs(jobs, progress, work)
+    progress.announce(jobs.len());
+    run_announced_batch(jobs, progress, work)
 }
 
-/// Like [`run_jobs`], for jobs that [`Progress::expect`] knows of already.
-pub fn run_expected_jobs<J: Sync, T: Send>(
+/// Like [`run_batch`], for jobs that [`Progress::announce`] knows of already.
+pub fn run_announced_batch<J: Sync, T: Send>(
     jobs: &[J],
     progress: &Progress,
     work: impl Fn(&J) -> Result<T, NoResult> + Sync,
@@ -59,14 +59,14 @@ mod tests {
             progress.expire();
             Ok(job)
         };
-        assert_eq!(pool.install(|| run_jobs(&[1, 2], &progress, work)), Ok(vec![Some(1), None]));
+        assert_eq!(pool.install(|| run_batch(&[1, 2], &progress, work)), Ok(vec![Some(1), None]));
     }
 
     #[test]
     fn a_panic_is_told_and_the_others_go_on() {
         let jobs = [1, 2, 3];
         let work = |&job: &i32| Ok(catch_panic(|| if job == 2 { panic!("job {job}") } else { Ok(10 * job) }));
-        let results = run_jobs(&jobs, &Progress::default(), work).expect("nobody stopped it");
+        let results = run_batch(&jobs, &Progress::default(), work).expect("nobody stopped it");
         assert_eq!(results, [Some(Ok(10)), Some(Err(NoResult::Panicked("job 2".to_owned()))), Some(Ok(30))]);
     }
 }

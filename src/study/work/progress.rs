@@ -59,7 +59,7 @@ impl Progress {
     }
 
     /// Announces `more` shots.
-    pub(in crate::study) fn expect(&self, more: usize) {
+    pub(in crate::study) fn announce(&self, more: usize) {
         self.total.fetch_add(more, Ordering::Relaxed);
     }
 

@@ -20,6 +20,8 @@ use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use crate::choice::Accuracy;
 use crate::jobs::StudyKind;
+use crate::study::judgement::Judgement;
+use crate::verdict::Verdict;
 
 /// Lines that a page key moves.
 pub(super) const PAGE: usize = 10;
@@ -102,7 +104,7 @@ impl App {
             Action::Find => self.prompt = Some(Prompt::new(Purpose::Find, "")),
             Action::Palette => self.prompt = Some(Prompt::new(Purpose::Palette, "")),
             Action::Export => return self.name_export(),
-            Action::Page => return Request::NamePage(format!("{}-to-be-fired", self.file_stem())),
+            Action::Page => return self.name_page(),
             Action::Yank => return Request::Yank,
             Action::Theme => self.theme = self.theme.next(),
             Action::Help => {
@@ -125,6 +127,16 @@ impl App {
         Request::NameExport(format!("{}-{}", self.file_stem(), self.screen.name().to_lowercase()), ending)
     }
 
+    /// Asks for the file of the page; the name offered says whether the selected option passes.
+    fn name_page(&self) -> Request {
+        let ending = match self.judgement(self.selected).map(Judgement::verdict) {
+            Some(Verdict::Pass) => "to-be-fired",
+            Some(Verdict::Fail) => "fails",
+            Some(Verdict::Undecided) | None => "open",
+        };
+        Request::NamePage(format!("{}-{ending}", self.file_stem()))
+    }
+
     /// Name of the plan's file without its ending.
     fn file_stem(&self) -> &str {
         Path::new(&self.case.source.path).file_stem().and_then(|stem| stem.to_str()).unwrap_or("plan")
@@ -140,7 +152,7 @@ impl App {
             self.help = false;
         } else if let Some(kind) = self.cancellable() {
             return self.cancel_study(kind);
-        } else if self.screen == Screen::Compare && self.studies.changes.take().is_some() {
+        } else if self.screen == Screen::Compare && self.studies.remedy_list.take().is_some() {
             return Request::None;
         } else if !self.listing.filter.is_empty() || !self.studies.filter.is_empty() {
             self.listing.filter.clear();
@@ -180,7 +192,7 @@ impl App {
     /// Asks to check every option at an accuracy.
     fn check_again(&mut self, accuracy: Accuracy) -> Request {
         self.compute.accuracy = accuracy;
-        self.studies.changes = None;
+        self.studies.remedy_list = None;
         self.options.fill(OptionState::Waiting);
         self.player.option = None;
         Request::Check

@@ -12,7 +12,7 @@ use crate::verdict::Verdict;
 impl App {
     /// The changes with which the selected option would pass, and the line selected, where the list is open and computed.
     pub fn open_remedies(&self) -> Option<(&Remedies, usize)> {
-        let list = self.studies.changes.filter(|list| list.option == self.selected)?;
+        let list = self.studies.remedy_list.filter(|list| list.option == self.selected)?;
         let remedies = self.studies.remedies(self.selected, &self.compute)?;
         Some((remedies, list.selected.min(remedies.passing().count().saturating_sub(1))))
     }
@@ -21,8 +21,8 @@ impl App {
     pub(super) fn ask_for_remedies(&mut self) -> Request {
         let option = self.selected;
         let list = RemedyList { option, selected: 0 };
-        if self.studies.changes.is_some_and(|open| open.option == option) {
-            self.studies.changes = None;
+        if self.studies.remedy_list.is_some_and(|open| open.option == option) {
+            self.studies.remedy_list = None;
             return self.cancel_study(StudyKind::Remedies);
         }
         let state = &self.options[option];
@@ -39,7 +39,7 @@ impl App {
             self.notice = Some(refusal.to_owned());
             return Request::None;
         }
-        self.studies.changes = Some(list);
+        self.studies.remedy_list = Some(list);
         if self.studies.remedies(option, &self.compute).is_some() {
             return Request::None;
         }
@@ -69,7 +69,7 @@ impl App {
             }
             _ => return None,
         };
-        self.studies.changes = Some(RemedyList { option: self.selected, selected });
+        self.studies.remedy_list = Some(RemedyList { option: self.selected, selected });
         Some(Request::None)
     }
 }

@@ -14,6 +14,8 @@ use crate::verdict::Verdict;
 
 /// Least width and height of a chart that can be read.
 const LEAST: (u16, u16) = (20, 4);
+/// Least height of charts that stand one above the other.
+const TALL: u16 = 8;
 /// Height of a firing tick, as a share of the chart.
 const TICK: f64 = 0.12;
 /// Height of the bar below stretches that pass, as a share of the chart.
@@ -38,13 +40,15 @@ struct Set {
     name: &'static str,
 }
 
-/// Draws charts side by side where two readable charts would not fit one above the other; the last ones where not all have room.
+/// Draws charts one above the other where each has some height, else side by side; where not all have room the last ones, the very
+/// last at any size that can be read: one tall chart tells more than two flat ones.
 pub fn draw_all(app: &App, charts: &[&Chart], frame: &mut Frame, area: Rect) {
+    let above = |count: u16| area.height >= TALL * count;
     let beside = |count: u16| 2 * area.width >= 3 * LEAST.0 * count;
-    let fits = |&count: &u16| area.height >= LEAST.1 * count || beside(count);
+    let fits = |&count: &u16| count == 1 || above(count) || beside(count);
     let count = (1..=charts.len() as u16).rev().find(fits).unwrap_or(0);
     let charts = &charts[charts.len() - usize::from(count)..];
-    let side_by_side = area.height < 2 * LEAST.1 * count && beside(count);
+    let side_by_side = !above(count) && beside(count);
     let direction = if side_by_side { Layout::horizontal } else { Layout::vertical };
     let areas =
         direction(vec![Constraint::Fill(1); charts.len()]).spacing(u16::from(side_by_side)).split(area);

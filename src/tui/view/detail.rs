@@ -100,7 +100,7 @@ fn draw_charts(app: &App, history: [Chart; 2], risk: Option<&Risk>, frame: &mut 
 
 /// Whether the list of changes of the selected option is open.
 fn is_listed(app: &App) -> bool {
-    app.studies.changes.is_some_and(|list| list.option == app.selected)
+    app.studies.remedy_list.is_some_and(|list| list.option == app.selected)
 }
 
 /// The changes with which the selected option would pass, the selected one marked; or how far their study is.

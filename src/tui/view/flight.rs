@@ -15,7 +15,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::canvas::{Canvas, Line as Stroke, Points};
+use ratatui::widgets::canvas::{Canvas, Context, Line as Stroke, Points};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::chart::{self, Mark};
@@ -34,6 +34,8 @@ use crate::verdict::Verdict;
 const FLASH: f64 = 0.03;
 /// Greatest height of a tire that is drawn as on the ground [m].
 const GROUND: f32 = 1e-4;
+/// Distance between the dots of a slack cable [finest dots].
+const DOTTED: f64 = 4.0;
 /// Signs for heights of one to eight eighths of the limit.
 const LEVELS: [&str; 8] = ["▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
 
@@ -100,19 +102,17 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
         ((right - left) / (columns - 1.0)).max((top - bottom) / (2.0 * (rows - 1.0).max(1.0))).max(1e-9);
     let width = even_width(&app.case.plan.layout, width);
     let position = |tire: usize| (scene.position[tire].x, scene.position[tire].y);
+    let ends = |cable: usize| scene.cables[cable].ends.map(position);
+    let dot = [0.5 * width; 2];
     let canvas = Canvas::default()
         .background_color(theme.base().bg.unwrap_or(Color::Reset))
         .marker(Marker::Braille)
         .x_bounds([left - 0.5 * width, left + (columns - 0.5) * width])
         .y_bounds([top - (2.0 * rows - 1.0) * width, top + width])
         .paint(|context| {
-            let mut stroke = |cable: usize, style: Style| {
-                let [(x1, y1), (x2, y2)] = scene.cables[cable].ends.map(position);
-                context.draw(&Stroke { x1, y1, x2, y2, color: color(style) });
-            };
-            stroke(flight.outcome.force.index, theme.muted());
+            draw_cable(app, 0.0, ends(flight.outcome.force.index), dot, context);
             for (cable, &force) in forces.iter().enumerate().filter(|(_, force)| **force > 0.0) {
-                stroke(cable, cable_style(app, force));
+                draw_cable(app, force, ends(cable), dot, context);
             }
         });
     frame.render_widget(canvas, inside);
@@ -140,6 +140,30 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
             Some(direction) => buffer.set_string(x, y, direction, fire),
             None => buffer.set_string(x, y, sign, style),
         };
+    }
+}
+
+/// Draws a cable: dotted where it is slack, twofold where its force is over the limit, so that colours are not all that tells;
+/// `dot` is how wide and high the finest dot is [m].
+fn draw_cable(
+    app: &App,
+    force: f64,
+    [(x1, y1), (x2, y2)]: [(f64, f64); 2],
+    dot: [f64; 2],
+    context: &mut Context<'_>,
+) {
+    if force == 0.0 {
+        let count = (((x2 - x1) / dot[0]).abs().max(((y2 - y1) / dot[1]).abs()) / DOTTED).ceil();
+        let at = |n: usize| (x1 + (x2 - x1) * n as f64 / count, y1 + (y2 - y1) * n as f64 / count);
+        let coords: Vec<(f64, f64)> = (1..count as usize).map(at).collect();
+        return context.draw(&Points { coords: &coords, color: color(app.theme.muted()) });
+    }
+    let color = color(cable_style(app, force));
+    context.draw(&Stroke { x1, y1, x2, y2, color });
+    if force > app.case.limits.force {
+        let is_steep = ((y2 - y1) / dot[1]).abs() > ((x2 - x1) / dot[0]).abs();
+        let [right, up] = if is_steep { [dot[0], 0.0] } else { [0.0, dot[1]] };
+        context.draw(&Stroke { x1: x1 + right, y1: y1 + up, x2: x2 + right, y2: y2 + up, color });
     }
 }
 
@@ -174,7 +198,7 @@ fn sign(app: &App, height: f32) -> (&'static str, Style) {
     (sign, app.theme.verdict(verdict))
 }
 
-/// Draws tires and cables from the side, with ground and limit. Taut cables stand out.
+/// Draws tires and cables from the side, with ground and limit. Slack cables are dotted.
 fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area: Rect) {
     let (scene, theme, axis) = (app.case.scene(), app.theme, usize::from(app.player.along_rows));
     let [left, right] = scene.extent(axis);
@@ -193,6 +217,7 @@ fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area
     // A cell of a terminal is about twice as high as wide.
     let cells = [f64::from(area.width.max(1)), 2.0 * f64::from(area.height.saturating_sub(1).max(1))];
     let higher = (right - left + 2.0 * margin) / cells[0] / (1.03 * top / cells[1]);
+    let dot = [(right - left + 2.0 * margin) / (2.0 * cells[0]), 1.03 * top / (2.0 * cells[1])];
     let scale = units::rounded(higher, if higher < 10.0 { 1 } else { 0 });
     let canvas = Canvas::default()
         .block(titled_block(
@@ -211,9 +236,7 @@ fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area
                 for (cable, &force) in scene.cables.iter().zip(forces).filter(|(cable, force)| {
                     (**force > 0.0) == wanted && cable.ends.iter().any(|&end| aloft(end))
                 }) {
-                    let style = if wanted { cable_style(app, force) } else { theme.muted() };
-                    let [a, b] = cable.ends.map(|end| tires[end]);
-                    context.draw(&stroke(a, b, color(style)));
+                    draw_cable(app, force, cable.ends.map(|end| tires[end]), dot, context);
                 }
                 context.layer();
             }

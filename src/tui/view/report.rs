@@ -3,7 +3,7 @@
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
-use crate::report::model::{Align, Block, Cell, Column, Offer, Report, Row, Shown, Table};
+use crate::report::model::{Align, Audience, Block, Cell, Column, Offer, Report, Row, Table};
 use crate::tui::theme::Theme;
 
 /// Bars of a sparkline.
@@ -61,7 +61,7 @@ const DETAIL: &str = "    ";
 /// Heading and rows of a table, with a blank line above; none where people see no column or no row is kept. Columns that `width`
 /// [cells] has no room for are left out: half a number is a wrong number.
 fn table_lines<'r>(table: &'r Table, filter: &str, theme: Theme, width: usize) -> ReportLines<'r> {
-    let (mut columns, left_out) = (table.columns_for(Shown::is_in_text), table.left_out(RANKED));
+    let (mut columns, left_out) = (table.columns_for(Audience::is_in_text), table.left_out(RANKED));
     let rows = [&table.rows[..left_out.start], &table.rows[left_out.end..]];
     let (mut lines, mut offers) = (Vec::new(), Vec::new());
     if columns.is_empty() {

@@ -64,7 +64,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         };
         Line::from(vec![name, Span::styled(state, app.theme.muted())])
     };
-    let tabs_drawn = StudyKind::OF_PLAN.map(|kind| (tab(kind), ClickTarget::Study(kind)));
+    let tabs_drawn = StudyKind::TABS.map(|kind| (tab(kind), ClickTarget::Study(kind)));
     draw_row(tabs_drawn, frame, tabs, areas);
     let kind = app.studies.shown;
     let before = app.studies.of_plan_before(kind);

@@ -2,7 +2,7 @@
 
 use pulp::Simd;
 
-use super::events::{Events, Integrated, State};
+use super::events::{EventContext, Integrated, TiresBefore};
 use super::{Jump, StepTotals, Stepper};
 use crate::outcome::Peak;
 use crate::simulation::pack::{LANES, Wide};
@@ -27,7 +27,7 @@ impl Stepper<'_> {
     #[inline(always)]
     fn move_tires<S: Simd, const SLOPED: bool>(&mut self, simd: S, totals: &mut StepTotals) {
         let zero = Wide::splat(simd, 0.0);
-        let mut events = Events {
+        let mut events = EventContext {
             now: self.clock.now(),
             step: self.step,
             friction: self.friction,
@@ -51,15 +51,15 @@ impl Stepper<'_> {
             let mut moving = false;
             for lane in (0..LANES).step_by(Wide::<S>::LEN) {
                 let at = pack * LANES + lane;
-                let tires = events.tires(simd, State::new(&u, &v, forces, masses), at);
-                let moved = tires.kick_and_drift::<SLOPED>(simd);
+                let tires = events.tires(simd, TiresBefore::new(&u, &v, forces, masses), at);
+                let moved = tires.kick_and_move::<SLOPED>(simd);
                 let is_higher = highest.less(tires.u[2]).any();
                 let end = at + Wide::<S>::LEN;
                 let fires = due.first().is_some_and(|due| due.tire < end);
                 let mut any_integrated = false;
                 if is_higher || fires || moved.u[2].less(zero).any() {
                     let (fired, later) = due.split_at(due.partition_point(|due| due.tire < end));
-                    let state = State::new(&u, &v, forces, masses);
+                    let state = TiresBefore::new(&u, &v, forces, masses);
                     any_integrated =
                         events.integrate_single_tires::<SLOPED>(state, at..end, moved.u[2].pack(), fired);
                     highest = Wide::splat(simd, events.record.height.value);

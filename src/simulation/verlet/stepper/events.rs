@@ -28,7 +28,7 @@ pub struct Integrated {
 
 /// Tires before the step, as slices of one length so that one check of bounds serves them all (`n_tires` + [`LANES`]).
 #[derive(Clone, Copy)]
-pub struct State<'s> {
+pub struct TiresBefore<'s> {
     /// Displacement [m].
     u: [&'s [f64]; 3],
     /// Velocity at mid-step [m/s].
@@ -39,8 +39,8 @@ pub struct State<'s> {
     masses: [&'s [f64]; 2],
 }
 
-impl<'s> State<'s> {
-    /// State from arrays that the step will write later.
+impl<'s> TiresBefore<'s> {
+    /// Views of arrays that the step will write later.
     #[inline(always)]
     pub fn new(
         [x, y, z]: &'s [&mut [f64]; 3],
@@ -53,7 +53,7 @@ impl<'s> State<'s> {
 }
 
 /// The step as the events see it, and the places that hold their results.
-pub struct Events<'e> {
+pub struct EventContext<'e> {
     /// Start of the step [s].
     pub now: f64,
     /// Step [s].
@@ -76,11 +76,11 @@ pub struct Events<'e> {
     pub pushes: &'e mut Pushes,
 }
 
-impl Events<'_> {
+impl EventContext<'_> {
     /// Tires of the register that begins at tire `at`.
     #[inline(always)]
-    pub fn tires<S: Simd>(&self, simd: S, state: State<'_>, at: usize) -> TirePack<S> {
-        let State { u, v, forces, masses: [mass, inverse_mass] } = state;
+    pub fn tires<S: Simd>(&self, simd: S, state: TiresBefore<'_>, at: usize) -> TirePack<S> {
+        let TiresBefore { u, v, forces, masses: [mass, inverse_mass] } = state;
         TirePack {
             u: std::array::from_fn(|c| Wide::load(simd, u[c], at)),
             v: std::array::from_fn(|c| Wide::load(simd, v[c], at)),
@@ -104,7 +104,7 @@ impl Events<'_> {
     #[inline(never)]
     pub fn integrate_single_tires<const SLOPED: bool>(
         &mut self,
-        state: State<'_>,
+        state: TiresBefore<'_>,
         tires: Range<usize>,
         ahead: Pack,
         mut due: &[DueImpulse],
@@ -118,7 +118,7 @@ impl Events<'_> {
                 continue;
             }
             let alone = self.tires(Scalar::new(), state, tire);
-            let moved = alone.kick_and_drift::<SLOPED>(Scalar::new());
+            let moved = alone.kick_and_move::<SLOPED>(Scalar::new());
             let number = |wide: Wide<Scalar>| wide.pack()[0];
             let vector = |of: [Wide<Scalar>; 3]| Vector3::from(of.map(number));
             let (displacement, inverse_mass) = (vector(alone.u), number(alone.inverse_mass));
@@ -139,30 +139,37 @@ impl Events<'_> {
                 self.record.note_height(peak, velocity.z, free.z + pushed.z);
             }
             if has_event {
-                let missing = velocity.norm_squared() - unpushed.norm_squared();
-                self.totals.energy[0] += 0.5 * self.part.mass[tire] * missing;
-                // Half of what the kick dissipates lies before this step. Under a push it dissipates nothing: the tire does.
-                let mut undone = 0.5 * number(moved.dissipated);
+                let kinetic_correction = velocity.norm_squared() - unpushed.norm_squared();
+                self.totals.energy[0] += 0.5 * self.part.mass[tire] * kinetic_correction;
+                let mut kick_dissipation = 0.5 * number(moved.dissipated);
                 if pushed_on_ground.is_some() {
-                    self.totals.dissipated[0] -= 2.0 * undone;
-                    undone = 0.0;
+                    // Line 4 of `integrate`.
+                    self.totals.dissipated[0] -= 2.0 * kick_dissipation;
+                    kick_dissipation = 0.0;
                 }
                 let step = TireStep::new(displacement, velocity, free, self.friction, self.scene.restitution);
-                self.integrate(step, free, tire, here, undone);
+                self.integrate(step, free, tire, here, kick_dissipation);
             }
         }
         !self.integrated.is_empty()
     }
 
-    /// Integrates one tire through the step; `undone` [J] is what its kick counts as dissipated within
-    /// the step.
+    /// Integrates one tire through the step, from tₙ to tₙ₊₁.
+    ///
+    /// The kick at tₙ counts what friction dissipates from tₙ₋½ to tₙ₊½, half of it before tₙ. So that nothing is counted twice:
+    ///
+    /// 1. `motion.lost` is all that friction and landings take from tₙ to tₙ₊₁.
+    /// 2. The kick at tₙ has counted its second half already: `kick_dissipation` [J] is taken off.
+    /// 3. The kick at tₙ₊₁ will count its first half again: `next_half` is taken off.
+    /// 4. On the ground under a push, friction is another than that of the kick, which knows no push: the caller takes all off that
+    ///    the kick has counted. There 2 and 3 are 0.
     fn integrate(
         &mut self,
         mut motion: TireStep,
         free: Vector3<f64>,
         tire: usize,
         due: &[DueImpulse],
-        undone: f64,
+        kick_dissipation: f64,
     ) {
         let h = self.step;
         let last = motion.integrate(h, due.iter().map(|due| due.impulse));
@@ -175,7 +182,6 @@ impl Events<'_> {
         self.record.note_top(Peak { value: height, at: self.now + until, index });
         self.totals.height[0] = self.totals.height[0].max(height);
         self.totals.motion[0] = self.totals.motion[0].max(velocity.amax()).max(motion.displacement.z);
-        // Friction of the whole step is counted here. The kicks before and after count half a step each, and are taken off.
         let next_half = if goes_on {
             if !in_air {
                 self.pushes.keep_on_ground(PushedTire {
@@ -189,7 +195,7 @@ impl Events<'_> {
             0.5 * h * (free - last).xy().dot(&motion.velocity.xy())
         };
         let mass = self.part.mass[tire];
-        self.totals.lost += mass * (motion.lost - next_half) - undone;
+        self.totals.lost += mass * (motion.lost - next_half) - kick_dissipation;
         self.totals.put_in += mass * motion.put_in;
         let last = due.iter().rev().find(|due| due.impulse.launch != Vector3::zeros());
         if self.scene.damping > 0.0 && (last.is_some() || due.is_empty()) {

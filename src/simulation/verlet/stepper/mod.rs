@@ -18,7 +18,7 @@ use crate::simulation::clock::Clock;
 use crate::simulation::contact::stop_at_ground;
 use crate::simulation::pack::{LANES, Pack, VectorArrays};
 use crate::simulation::record::Record;
-use crate::simulation::verlet::tension::Tension;
+use crate::simulation::verlet::tension::CableForceMemory;
 use crate::simulation::wake::Wake;
 use crate::simulation::{Failure, Motion, RunSettings, Watcher};
 
@@ -87,7 +87,7 @@ pub(super) struct Stepper<'a> {
     /// Tires of the present register that were integrated by themselves.
     integrated: Vec<Integrated>,
     wake: Wake<'a>,
-    tension: Tension<'a>,
+    tension: CableForceMemory<'a>,
     /// Displacement [m] (`n_tires` + [`LANES`]).
     u: VectorArrays,
     /// Velocity at mid-step [m/s] (`n_tires` + [`LANES`]).
@@ -136,7 +136,7 @@ impl<'a> Stepper<'a> {
             firings,
             integrated: Vec::with_capacity(LANES),
             wake,
-            tension: Tension::new(&part.blocks, &part.viscosity),
+            tension: CableForceMemory::new(&part.blocks, &part.viscosity),
             u,
             v,
             stored: vec![[0.0; LANES]; part.blocks.blocks.len()],

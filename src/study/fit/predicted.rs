@@ -6,20 +6,21 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 
 use super::determined::{Candidate, candidates, usual_sd};
-use super::predict::observe_shot;
+use super::observed_shots::{ObservedShot, ObservedShots};
+use super::predictor::observe_shot;
 use crate::choice::ObservedQuantity;
-use crate::plan::observations::{Observation, Watched};
+use crate::plan::observations::Watched;
 use crate::study::samples::draw::{Input, draw};
 use crate::study::samples::risk::percentiles;
 use crate::study::samples::rounds::step;
 use crate::study::samples::sampling::Sampling;
-use crate::study::work::batch::run_jobs;
+use crate::study::work::batch::run_batch;
 use crate::study::{Case, ComputeSettings, NoResult, Progress};
 use crate::verdict::Quantity;
 
 /// What was planned of an observed quantity, and what could have been seen of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AsFired {
+pub struct Prediction {
     /// The value of the plan; not a number where the tire never lifts, or never lands.
     pub planned: f64,
     /// 5th and 95th percentile of what could have been seen, with the standard deviation of the observation; `None` without
@@ -27,7 +28,7 @@ pub struct AsFired {
     pub band: Option<[f64; 2]>,
 }
 
-impl AsFired {
+impl Prediction {
     /// Whether an observed value lies in the band.
     pub fn contains(&self, value: f64) -> Option<bool> {
         self.band.map(|[low, high]| (low..=high).contains(&value))
@@ -55,17 +56,17 @@ struct Samples {
 
 fn samples(
     case: &Case,
-    option: usize,
-    watched: &[Watched],
+    shot: &ObservedShot,
     sampling: &Sampling,
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Samples, NoResult> {
     let numbers: Vec<usize> = (0..sampling.least).collect();
-    let runs = run_jobs(&numbers, progress, |&number| {
-        let sample = draw(case, &case.shots[option], sampling.seed, number);
+    let runs = run_batch(&numbers, progress, |&number| {
+        let sample = draw(case, &case.shots[shot.option], sampling.seed, number);
         let settings = case.run_settings(compute.method, step(compute, &sample.scene));
-        let values = observe_shot(case, Some(&sample.scene), &sample.shot, watched, &settings, progress)?;
+        let fired = sample.shot.with_times(&shot.times);
+        let values = observe_shot(case, Some(&sample.scene), &fired, &shot.watched, &settings, progress)?;
         Ok(values.map(|values| (values, sample.inputs)))
     })?;
     if runs.contains(&None) {
@@ -75,25 +76,24 @@ fn samples(
     Ok(Samples { values, inputs })
 }
 
-/// The observations beside what the plan says of them, which are in the order of their options; without a `sampling` there are no
-/// bands.
-pub fn as_fired(
+/// Each observation beside what the plan says of it; without a `sampling` there are no bands. The bands are those of the firing times
+/// that were measured, where some were.
+pub fn predict_observations(
     case: &Case,
-    observations: &[Observation],
+    seen: &ObservedShots,
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<Vec<AsFired>, NoResult> {
+) -> Result<Vec<Prediction>, NoResult> {
     let mut all = Vec::new();
-    for shot in observations.chunk_by(|a, b| a.option == b.option) {
-        let option = shot[0].option;
-        let watched: Vec<Watched> = shot.iter().map(|observation| observation.watched).collect();
+    for shot in seen.shots() {
+        let ObservedShot { option, ref watched, .. } = shot;
         let settings = case.run_settings(compute.method, compute.first_step(case));
-        let planned = observe_shot(case, None, &case.shots[option], &watched, &settings, progress)?;
+        let planned = observe_shot(case, None, &case.shots[option], watched, &settings, progress)?;
         let planned = planned.unwrap_or_else(|| vec![f64::NAN; watched.len()]);
-        let drawn = sampling.map(|sampling| samples(case, option, &watched, sampling, compute, progress));
+        let drawn = sampling.map(|sampling| samples(case, &shot, sampling, compute, progress));
         let drawn = drawn.transpose()?;
-        for (n, observation) in shot.iter().enumerate() {
+        for (n, observation) in seen.list[shot.observations()].iter().enumerate() {
             let band = drawn.as_ref().and_then(|drawn| {
                 let mut random = ChaCha8Rng::seed_from_u64(n as u64);
                 let values = drawn.values.iter().map(|sample| {
@@ -102,7 +102,7 @@ pub fn as_fired(
                 });
                 percentiles(values.filter(|value| value.is_finite()), [0.05, 0.95])
             });
-            all.push(AsFired { planned: planned[n], band });
+            all.push(Prediction { planned: planned[n], band });
         }
     }
     Ok(all)
@@ -121,7 +121,9 @@ pub fn next_observation(
     progress: &Progress,
 ) -> Result<Option<NextObservation>, NoResult> {
     let watched = candidates(case.scene());
-    let drawn = samples(case, option, &watched, sampling, compute, progress)?;
+    let shot = ObservedShot { option, times: Vec::new(), watched, first: 0 };
+    let drawn = samples(case, &shot, sampling, compute, progress)?;
+    let watched = shot.watched;
     let count = drawn.values.len();
     if count <= 2 * Input::ALL.len() {
         return Ok(None);

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use super::observed_shots::ObservedShot;
 use super::parameter::Parameter;
 use super::watch::ObservationWatch;
 use crate::plan::Plan;
@@ -16,8 +17,8 @@ pub struct Predictor<'p> {
     pub plan: Plan,
     /// The parameters, in the order of their coordinates.
     pub parameters: Vec<Parameter>,
-    /// Delay options, each with what is watched in its shot.
-    pub options: Vec<(usize, Vec<Watched>)>,
+    /// The shots, with what is watched in each.
+    pub shots: Vec<ObservedShot>,
     /// Method and accuracy.
     pub compute: ComputeSettings,
     /// Progress of the study.
@@ -34,15 +35,16 @@ impl Predictor<'_> {
         Case::new(plan)
     }
 
-    /// The values of everything watched, option by option, in a run whose step is `coarser` times the usual one; `None` where a run
+    /// The values of everything watched, shot by shot, in a run whose step is `coarser` times the usual one; `None` where a run
     /// fails.
     pub fn values(&self, at: &[f64], coarser: f64) -> Result<Option<Vec<f64>>, NoResult> {
         let case = self.case(at);
         let mut all = Vec::new();
-        for (option, watched) in &self.options {
+        for ObservedShot { option, times, watched, .. } in &self.shots {
             let step = coarser * self.compute.first_step(&case);
             let settings = case.run_settings(self.compute.method, step);
-            let run = observe_shot(&case, None, &case.shots[*option], watched, &settings, self.progress)?;
+            let shot = case.shots[*option].with_times(times);
+            let run = observe_shot(&case, None, &shot, watched, &settings, self.progress)?;
             let Some(values) = run else { return Ok(None) };
             all.extend(values);
         }

@@ -1,0 +1,80 @@
+//! Observations by shot: each one option in one file.
+
+use std::ops::Range;
+
+use crate::plan::observations::{MeasuredFiring, Observation, Observations, Watched};
+
+/// Observations, each with the number of its file, in the order of their options, then files.
+pub struct ObservedShots {
+    /// The observations.
+    pub list: Vec<Observation>,
+    /// Index of the file of each.
+    pub file: Vec<usize>,
+    /// Firing times that were measured (`n_files`).
+    pub firings: Vec<Vec<MeasuredFiring>>,
+}
+
+impl ObservedShots {
+    /// The observations of all files.
+    pub fn new(files: &[Observations]) -> Self {
+        let of_file = |(n, file): (usize, &Observations)| {
+            file.list.iter().map(move |seen| (n, *seen)).collect::<Vec<_>>()
+        };
+        let mut all: Vec<(usize, Observation)> = files.iter().enumerate().flat_map(of_file).collect();
+        all.sort_by_key(|(file, seen)| (seen.option, *file));
+        let (file, list) = all.into_iter().unzip();
+        Self { list, file, firings: files.iter().map(|file| file.firings.clone()).collect() }
+    }
+
+    /// The shots, of which those of one option with the same firing times are one: without scatter they are alike.
+    pub fn distinct_shots(&self) -> Vec<ObservedShot> {
+        let mut distinct: Vec<ObservedShot> = Vec::new();
+        for shot in self.shots() {
+            match distinct.last_mut() {
+                Some(last) if last.option == shot.option && last.times == shot.times => {
+                    last.watched.extend(shot.watched);
+                }
+                _ => distinct.push(shot),
+            }
+        }
+        distinct
+    }
+
+    /// The shots: each one option in one file.
+    pub fn shots(&self) -> Vec<ObservedShot> {
+        let mut shots: Vec<ObservedShot> = Vec::new();
+        let mut last = None;
+        for (n, &Observation { option, watched, .. }) in self.list.iter().enumerate() {
+            let file = self.file[n];
+            if last.replace((option, file)) != Some((option, file)) {
+                let of_shot = self.firings[file].iter().filter(|firing| firing.option == option);
+                let times = of_shot.map(|firing| (firing.tire, firing.at)).collect();
+                shots.push(ObservedShot { option, times, watched: Vec::new(), first: n });
+            }
+            if let Some(shot) = shots.last_mut() {
+                shot.watched.push(watched);
+            }
+        }
+        shots
+    }
+}
+
+/// What was watched of one shot.
+#[derive(Clone, Debug)]
+pub struct ObservedShot {
+    /// Index of the delay option.
+    pub option: usize,
+    /// Tires above holes whose firing times were measured, and these times [s].
+    pub times: Vec<(usize, f64)>,
+    /// What was watched, in the order of the observations.
+    pub watched: Vec<Watched>,
+    /// Index of its first observation.
+    pub first: usize,
+}
+
+impl ObservedShot {
+    /// Indices of its observations.
+    pub fn observations(&self) -> Range<usize> {
+        self.first..self.first + self.watched.len()
+    }
+}
