@@ -13,6 +13,7 @@ use std::thread;
 
 pub use studies::{StudyKind, StudyResult};
 
+use crate::plan::observations::Observations;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::samples::risk::Risk;
@@ -88,6 +89,8 @@ pub struct Jobs {
 struct Job {
     case: Arc<Case>,
     compute: ComputeSettings,
+    /// What was seen of earlier shots, for [`StudyKind::Fit`].
+    observed: Vec<Observations>,
     progress: Arc<Progress>,
     sender: Sender<(Arc<Progress>, News)>,
 }
@@ -115,7 +118,16 @@ impl Jobs {
 
     /// Begins a study; `option` is the option of a study of one option.
     pub fn study(&mut self, kind: StudyKind, case: &Arc<Case>, option: usize, compute: ComputeSettings) {
-        let job = self.job(case, compute);
+        self.begin(kind, option, self.job(case, compute));
+    }
+
+    /// Begins [`StudyKind::Fit`] to what was seen of earlier shots.
+    pub fn fit(&mut self, case: &Arc<Case>, observed: Vec<Observations>, compute: ComputeSettings) {
+        self.begin(StudyKind::Fit, 0, Job { observed, ..self.job(case, compute) });
+    }
+
+    fn begin(&mut self, kind: StudyKind, option: usize, job: Job) {
+        let compute = job.compute;
         stop(self.studies[kind as usize].replace(Arc::clone(&job.progress)));
         self.told[kind as usize] = (0, 0);
         let tell = move |job: &Job, result| job.send(News::Studied { kind, compute, result });
@@ -150,7 +162,8 @@ impl Jobs {
     }
 
     fn job(&self, case: &Arc<Case>, compute: ComputeSettings) -> Job {
-        Job { case: Arc::clone(case), compute, progress: Arc::default(), sender: self.sender.clone() }
+        let (case, sender) = (Arc::clone(case), self.sender.clone());
+        Job { case, compute, observed: Vec::new(), progress: Arc::default(), sender }
     }
 }
 

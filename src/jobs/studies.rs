@@ -3,7 +3,10 @@
 use std::time::Duration;
 
 use super::Job;
+use crate::choice::Unknown;
+use crate::plan::observations::Observations;
 use crate::study::effects::{EffectsOnOptions, SAMPLES, effects};
+use crate::study::fit::{FitRequest, FitResult, fit};
 use crate::study::flight::{Flight, record};
 use crate::study::judge_options::OptionResults;
 use crate::study::orders::{Orders, orders};
@@ -43,6 +46,8 @@ study_kinds! {
     Size,
     /// Which effects the scene requires.
     Effects,
+    /// Launch velocities from what was seen of earlier shots.
+    Fit,
     /// The motion of one option.
     Flight,
     /// The cost of accuracy, measured on one option.
@@ -53,13 +58,14 @@ study_kinds! {
 
 impl StudyKind {
     /// The kinds that answer a question about the whole plan, in the order of their tabs.
-    pub const TABS: [StudyKind; 6] = [
+    pub const TABS: [StudyKind; 7] = [
         StudyKind::Sweep,
         StudyKind::Orders,
         StudyKind::Risk,
         StudyKind::Search,
         StudyKind::Size,
         StudyKind::Effects,
+        StudyKind::Fit,
     ];
 }
 
@@ -78,6 +84,8 @@ pub enum StudyResult {
     Size(Sizing),
     /// Result of [`StudyKind::Effects`].
     Effects(EffectsOnOptions),
+    /// Result of [`StudyKind::Fit`], with the observations.
+    Fit(Box<FitResult>, Vec<Observations>),
     /// Result of [`StudyKind::Flight`].
     Flight(Flight),
     /// Result of [`StudyKind::Accuracy`].
@@ -128,6 +136,13 @@ impl Job {
             }
             StudyKind::Effects => {
                 Ok(StudyResult::Effects(effects(case, Some(&EFFECTS), compute, progress)?.value))
+            }
+            StudyKind::Fit => {
+                let unknowns = &[Unknown::Launch];
+                let request =
+                    FitRequest { files: &self.observed, unknowns, sampling: Some(Sampling::OF_VERDICT) };
+                let found = fit(case, &request, compute, progress)?.value;
+                Ok(StudyResult::Fit(Box::new(found), self.observed.clone()))
             }
             StudyKind::Flight => record(case, option, compute, progress).map(StudyResult::Flight),
             StudyKind::Accuracy => {

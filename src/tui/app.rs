@@ -12,6 +12,7 @@ use super::compare::{Listing, OptionState, SortBy};
 use super::config::Config;
 use super::editor::{EditOutcome, Editor};
 use super::keymap::{Action, Keymap};
+use super::observed::Observed;
 use super::player::Player;
 use super::prompt::{Prompt, Purpose};
 use super::recovery::RecoveredEdits;
@@ -38,6 +39,8 @@ pub enum Request {
     Study(StudyKind),
     /// End a study.
     Cancel(StudyKind),
+    /// Read this file of observations.
+    ReadObserved(PathBuf),
     /// Write the plan.
     Save,
     /// Ask for a new file to write the plan to.
@@ -113,6 +116,8 @@ pub struct App {
     pub player: Player,
     /// The studies.
     pub studies: Studies,
+    /// What was seen of earlier shots.
+    pub observed: Observed,
     /// The text of the plan.
     pub editor: Editor,
     /// The line being typed at the foot of the screen.
@@ -149,6 +154,7 @@ impl App {
             listing: Listing::default(),
             player: Player::default(),
             studies,
+            observed: Observed::default(),
             editor,
             prompt: None,
             areas: Areas::new(),

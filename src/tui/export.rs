@@ -10,7 +10,9 @@ use crate::file;
 use crate::jobs::{StudyKind, StudyResult};
 use crate::report::csv::Separators;
 use crate::report::html::{self, Page};
+use crate::report::observed::{ObservedRow, observed_rows};
 use crate::report::{self, charts};
+use crate::study::fit::FitResult;
 use crate::study::judge_options::OptionResults;
 use crate::study::samples::sampling::Sampling;
 use crate::study::sweep::Sweep;
@@ -43,7 +45,7 @@ fn page(app: &App, fired: Option<usize>) -> Result<String, String> {
         fired,
         sampling: Some(&Sampling::OF_VERDICT),
         sweep: swept(app),
-        observed: &[],
+        observed: &observed(app),
         partial: false,
         unsaved: !is_saved(app),
         date: &html::today(),
@@ -57,6 +59,17 @@ fn swept(app: &App) -> Option<&Sweep> {
     match &*finished.found {
         StudyResult::Sweep(sweep) => Some(sweep),
         _ => None,
+    }
+}
+
+/// What was seen of earlier shots, where a fit on the screen is one of this plan.
+fn observed(app: &App) -> Vec<ObservedRow<'_>> {
+    match app.studies.finished(StudyKind::Fit).map(|finished| &*finished.found) {
+        Some(StudyResult::Fit(fit, _)) => match &**fit {
+            FitResult::Fitted(fit) => observed_rows(&app.case, &fit.observed, &fit.predictions),
+            _ => Vec::new(),
+        },
+        _ => Vec::new(),
     }
 }
 

@@ -7,6 +7,7 @@
 //! | the plan being edited | [`editor`], [`order_editor`], [`name_list`], `arrow_keys`, `paste`; its file: `plan_file`, [`recovery`] |
 //! | the terminal, taken and given back; signals | `display` |
 //! | how it is drawn | [`view`], a file a screen; styles: [`theme`] |
+//! | what was seen of earlier shots | [`observed`] |
 //! | the line being typed, the flight being played, what is written to a file | [`prompt`], [`player`], [`export`] |
 //! | the start screen; the user's configuration | [`start`], [`config`] |
 //!
@@ -23,6 +24,7 @@ pub mod editor;
 pub mod export;
 pub mod keymap;
 pub mod name_list;
+pub mod observed;
 pub mod order_editor;
 mod paste;
 mod plan_file;
@@ -51,8 +53,10 @@ use self::display::{Display, Signals, restore_on_panic};
 use self::plan_file::{PlanFile, Refusal};
 use self::prompt::Purpose;
 use self::start::{Next, Opened, Start};
+use self::studies::StudyState;
 use crate::file;
 use crate::jobs::{Jobs, StudyKind};
+use crate::plan::{observations, visible};
 
 /// How the user left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -196,6 +200,22 @@ impl Session {
             Request::CheckNewPlan => {
                 StudyKind::ALL.into_iter().for_each(|kind| self.jobs.cancel(kind));
                 self.jobs.check(&self.app.case, self.app.compute);
+            }
+            Request::Study(StudyKind::Fit) => match self.app.observed.read(&self.app.case) {
+                Ok(observed) => self.jobs.fit(&self.app.case, observed, self.app.compute),
+                Err(mistake) => {
+                    self.app.studies.set(StudyKind::Fit, StudyState::Idle);
+                    self.app.notice = Some(mistake);
+                }
+            },
+            Request::ReadObserved(path) => {
+                // A pipe without a partner would stop the screen.
+                let text = match path.is_file() {
+                    true => observations::read_text(&path).map_err(|mistakes| mistakes.first()),
+                    false => Err(format!("there is no file {}", visible(&path.to_string_lossy()))),
+                };
+                let request = self.app.take_observed_file(&path, text);
+                self.carry_out(request);
             }
             Request::Study(kind) => {
                 self.jobs.study(kind, &self.app.case, self.app.selected, self.app.compute);

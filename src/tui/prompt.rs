@@ -21,6 +21,8 @@ pub enum Purpose {
     Page,
     /// The file to write the plan to.
     SaveAs,
+    /// What was seen of an earlier shot, or a file of that.
+    Observe,
 }
 
 /// A line being typed.

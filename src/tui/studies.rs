@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::jobs::{StudyKind, StudyResult};
 use crate::report::model::{Block, Report};
 use crate::report::{self, charts};
+use crate::study::fit::FitResult;
 use crate::study::flight::Flight;
 use crate::study::remedies::Remedies;
 use crate::study::{Case, ComputeSettings, NoResult};
@@ -54,6 +55,13 @@ impl ShownStudy {
                 let blocks = report::remedies::blocks(case, std::slice::from_ref(remedies));
                 Report { blocks, ..Report::default() }
             }
+            StudyResult::Fit(fit, files) => match &**fit {
+                FitResult::Fitted(fit) => report::fit::report(case, files, fit, true),
+                refused => {
+                    let blocks = vec![Block::Text(report::fit::refusal(case, refused).into_iter().collect())];
+                    Report { blocks, ..Report::default() }
+                }
+            },
             StudyResult::Accuracy(study) => report::accuracy::report(case, study, &[]),
             StudyResult::Flight(flight) => {
                 let history = &flight.outcome.history;
@@ -73,13 +81,13 @@ impl fmt::Display for StudyState {
         match self {
             StudyState::Idle => Ok(()),
             StudyState::Running { done, total } => write!(f, "{} %", 100 * done / (*total).max(1)),
-            StudyState::Done(_) => write!(f, "done"),
+            StudyState::Done(_) => write!(f, "✓"),
             StudyState::Failed(_) => write!(f, "no result"),
         }
     }
 }
 
-/// The open list of remedy_list with which an option would pass.
+/// The open list of changes with which an option would pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RemedyList {
     /// Index of the option.
@@ -170,7 +178,7 @@ impl Studies {
         }
     }
 
-    /// The remedy_list with which an option would pass, as found by a computation with these settings.
+    /// The changes with which an option would pass, as found by a computation with these settings.
     pub fn remedies(&self, option: usize, compute: &ComputeSettings) -> Option<&Remedies> {
         let finished = self.finished(StudyKind::Remedies).filter(|finished| finished.compute == *compute)?;
         match &*finished.found {

@@ -13,6 +13,7 @@ use shelter::tui::dispatch;
 use shelter::tui::prompt::Purpose;
 use shelter::tui::screen::Screen;
 use shelter::tui::start::{EXAMPLES, Next, Opened, Start};
+use shelter::tui::studies::StudyState;
 
 use shelter::verdict::Verdict;
 
@@ -150,6 +151,30 @@ fn a_flight_is_asked_for_once_and_played() {
     assert_eq!(app.player.time, 0.0, "the left end of the bar");
     press(&mut app, "j");
     assert_eq!((app.selected, app.request_flight()), (1, Request::Study(StudyKind::Flight)));
+}
+
+#[test]
+fn what_was_seen_of_a_shot_is_typed_and_fitted() {
+    let mut app = finished();
+    press(&mut app, "4");
+    app.studies.show(StudyKind::Fit);
+    app.selected = 2;
+    let mut typed = |line: &str| {
+        key(&mut app, KeyCode::Enter);
+        app.prompt.as_mut().expect("a line").input.reset();
+        line.chars().for_each(|letter| drop(key(&mut app, KeyCode::Char(letter))));
+        let request = key(&mut app, KeyCode::Enter);
+        (request, app.observed.lines().len(), app.prompt.take().map(|prompt| prompt.input.value().to_owned()))
+    };
+    assert_eq!(typed("3:1 1.95 0.05"), (Request::Study(StudyKind::Fit), 1, None));
+    assert_eq!(typed("9:9 1.95 0.05"), (Request::None, 1, Some("9:9 1.95 0.05".to_owned())), "to be mended");
+    assert_eq!(typed("seen.csv"), (Request::ReadObserved("seen.csv".into()), 1, None));
+    let file = "option,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,1.7,0.05\n";
+    let request = app.take_observed_file("seen.csv".as_ref(), Ok(file.to_owned()));
+    assert_eq!((request, app.observed.lines().len()), (Request::Study(StudyKind::Fit), 2));
+    app.studies.set(StudyKind::Fit, StudyState::Idle);
+    press(&mut app, "x");
+    assert!(app.observed.is_empty(), "forgotten");
 }
 
 #[test]

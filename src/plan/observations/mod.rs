@@ -116,15 +116,7 @@ pub struct ObservableNames {
 impl Observations {
     /// Reads a file; `-` is standard input.
     pub fn read(path: &Path, known: &ObservableNames) -> Result<Self, Diagnostics> {
-        let name = crate::plan::visible(&path.display().to_string()).into_owned();
-        match read_bytes(path).and_then(text_of) {
-            Ok(text) => Self::parse(&name, &text, known),
-            Err((message, _)) => Err(Diagnostics::unreadable(
-                &name,
-                message,
-                "check the path; --template prints a file to begin with",
-            )),
-        }
+        Self::parse(&name_of(path), &read_text(path)?, known)
     }
 
     /// Reads the text of the file `path`.
@@ -149,6 +141,18 @@ impl Observations {
         let common = self.list.iter().filter(is_in_other).count();
         2 * common > self.list.len().min(other.list.len())
     }
+}
+
+/// The text of a file of observations; `-` is standard input.
+pub fn read_text(path: &Path) -> Result<String, Diagnostics> {
+    read_bytes(path).and_then(text_of).map_err(|(message, _)| {
+        let remedy = "check the path; `shelter fit --template` prints a file to begin with";
+        Diagnostics::unreadable(&name_of(path), message, remedy)
+    })
+}
+
+fn name_of(path: &Path) -> String {
+    super::visible(&path.display().to_string()).into_owned()
 }
 
 /// A file to begin with: the header, and an example of a tire and of a cable.

@@ -3,6 +3,7 @@
 mod accuracy;
 mod compare;
 pub mod dispatch;
+mod fit;
 mod flight;
 mod plan;
 mod prompt;

@@ -1,6 +1,7 @@
 //! The screen of studies: its tabs, and rows that offer a change of the plan.
 
 use super::PAGE;
+use crate::jobs::StudyKind;
 use crate::plan::edit;
 use crate::report::model::Offer;
 use crate::tui::app::{App, Request};
@@ -12,6 +13,11 @@ impl App {
     pub(super) fn act_on_studies(&mut self, action: Action) -> Request {
         let kind = self.studies.shown;
         if let Some(request) = self.act_on_offers(action) {
+            return request;
+        }
+        if kind == StudyKind::Fit
+            && let Some(request) = self.act_on_fit(action)
+        {
             return request;
         }
         match action {

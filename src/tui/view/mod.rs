@@ -190,6 +190,7 @@ fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
         Purpose::Export => " write to (.csv, .svg, .html): ",
         Purpose::Page => " page of the selected option, to be fired: ",
         Purpose::SaveAs => " save the plan as: ",
+        Purpose::Observe => " seen (TIRE VALUE SD, or a .csv file): ",
     };
     if prompt.purpose == Purpose::Palette {
         command_palette::draw(app, prompt, frame, area);

@@ -47,6 +47,9 @@ fn name_and_question(kind: StudyKind) -> (&'static str, &'static str) {
         StudyKind::Effects => {
             ("Effects", "Which effects does this scene require? Each switched on or taken away, by itself.")
         }
+        StudyKind::Fit => {
+            ("Fit", "How fast did the tires really leave? From what was seen of earlier shots.")
+        }
         // Flight and accuracy have screens of their own; what would make an option pass stands beside the option.
         StudyKind::Flight | StudyKind::Accuracy | StudyKind::Remedies => ("", ""),
     }
@@ -82,7 +85,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     match (app.studies.state(kind), before) {
         (StudyState::Idle, Some(before)) => draw_finished(app, before, frame, inside, areas),
         (StudyState::Idle, None) => {
-            let hint = format!("{} starts it.", app.keymap.hint(Action::Open));
+            let hint = match kind {
+                StudyKind::Fit => how_to_observe(app),
+                _ => format!("{} starts it.", app.keymap.hint(Action::Open)),
+            };
             draw_message(app, frame, inside, question, &hint);
         }
         (StudyState::Failed(failed), _) => {
@@ -93,6 +99,22 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         }
         (StudyState::Done(finished), _) => draw_finished(app, finished, frame, inside, areas),
     }
+}
+
+/// How observations are told, and those that were.
+fn how_to_observe(app: &App) -> String {
+    let [open, rerun, cancel] =
+        [Action::Open, Action::Rerun, Action::Cancel].map(|action| app.keymap.hint(action));
+    let option = app.case.plan.delays.get(app.selected).map_or("", |delay| delay.name.as_str());
+    let told = app.observed.lines().join("\n");
+    format!(
+        "{open} takes what was seen of a shot of “{option}” (selected on Compare):\n\
+         3:1 1.95 0.05             greatest height of tire 3:1 and its sd, m\n\
+         3:1-4:1 52000 2000        greatest force of a cable and its sd, N\n\
+         3:1 landing_s 1.12 0.02   or lift_s, drift_m; firing_s as logged, alone\n\
+         seen.csv                  a file as of `shelter fit`\n\
+         {rerun} fits again, {cancel} forgets; `shelter fit --write` puts estimates into the plan\n\n{told}"
+    )
 }
 
 /// The settings that a result was computed with; a warning where the settings are others now.

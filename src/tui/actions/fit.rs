@@ -1,0 +1,55 @@
+//! The tab that fits: what was seen of earlier shots is typed line by line, or read from files.
+
+use std::path::Path;
+
+use crate::jobs::StudyKind;
+use crate::tui::app::{App, Request};
+use crate::tui::keymap::Action;
+use crate::tui::prompt::{Prompt, Purpose};
+
+impl App {
+    /// Does an action of the tab; `None` where it is one of every tab.
+    pub(super) fn act_on_fit(&mut self, action: Action) -> Option<Request> {
+        match action {
+            Action::Open => self.prompt = Some(Prompt::new(Purpose::Observe, "")),
+            Action::Rerun if self.observed.is_empty() => {
+                self.notice = Some("nothing was observed yet".to_owned());
+            }
+            Action::Cancel if !self.studies.is_running(StudyKind::Fit) => {
+                self.observed = Default::default();
+                self.notice = Some("what was observed is forgotten".to_owned());
+            }
+            _ => return None,
+        }
+        Some(Request::None)
+    }
+
+    /// Takes a typed observation of a shot of the selected option, or the name of a file of observations, and fits.
+    pub(super) fn observe(&mut self, line: &str) -> Request {
+        if line.to_lowercase().ends_with(".csv") {
+            return Request::ReadObserved(line.into());
+        }
+        let case = self.case.clone();
+        let taken = self.observed.add_line(&case, self.selected, line);
+        self.fit_if_taken(line, taken)
+    }
+
+    /// Takes the text of a file of observations, or why there is none, and fits.
+    pub fn take_observed_file(&mut self, path: &Path, text: Result<String, String>) -> Request {
+        let (case, name) = (self.case.clone(), path.to_string_lossy());
+        let taken = text.and_then(|text| self.observed.add_file(&case, &name, &text));
+        self.fit_if_taken(&name, taken)
+    }
+
+    /// Begins the fit; without observations taken from `line` it is typed again.
+    fn fit_if_taken(&mut self, line: &str, taken: Result<(), String>) -> Request {
+        match taken {
+            Ok(()) => self.begin_study(StudyKind::Fit),
+            Err(mistake) => {
+                self.notice = Some(mistake);
+                self.prompt = Some(Prompt::new(Purpose::Observe, line));
+                Request::None
+            }
+        }
+    }
+}

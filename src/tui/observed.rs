@@ -1,0 +1,126 @@
+//! What the user says was seen of earlier shots: lines typed on the screen, and files.
+
+use crate::plan::observations::{COLUMNS, Observations};
+use crate::study::Case;
+use crate::study::fit::observable_names;
+
+/// What was seen, as text: it is read anew for the plan on the screen.
+#[derive(Clone, Debug, Default)]
+pub struct Observed {
+    /// Lines that were typed, as rows of a table.
+    typed: Vec<String>,
+    /// Name and text of each file.
+    files: Vec<(String, String)>,
+}
+
+/// Name of the typed lines among the files.
+const TYPED: &str = "typed";
+
+impl Observed {
+    /// Whether nothing was told.
+    pub fn is_empty(&self) -> bool {
+        self.typed.is_empty() && self.files.is_empty()
+    }
+
+    /// Takes a typed line, of a shot of `option`; the mistake in it where it is none.
+    pub fn add_line(&mut self, case: &Case, option: usize, line: &str) -> Result<(), String> {
+        let mut changed = self.clone();
+        changed.typed.push(row(&case.plan.delays[option].name, line));
+        changed.read(case)?;
+        *self = changed;
+        Ok(())
+    }
+
+    /// Takes a file; the mistake in it where it holds no observations of this plan.
+    pub fn add_file(&mut self, case: &Case, path: &str, text: &str) -> Result<(), String> {
+        let mut changed = self.clone();
+        changed.files.retain(|(known, _)| known != path);
+        changed.files.push((path.to_owned(), text.to_owned()));
+        changed.read(case)?;
+        *self = changed;
+        Ok(())
+    }
+
+    /// The observations of the plan on the screen, a list for the typed lines and for each file; the first mistake.
+    pub fn read(&self, case: &Case) -> Result<Vec<Observations>, String> {
+        let names = observable_names(case);
+        let typed = [COLUMNS.join(";"), self.typed.join("\n")].join("\n");
+        let typed = (!self.typed.is_empty()).then_some((TYPED, typed.as_str()));
+        let files = self.files.iter().map(|(path, text)| (path.as_str(), text.as_str()));
+        let read = |(path, text): (&str, &str)| {
+            Observations::parse(path, text, &names).map_err(|mistakes| {
+                let first = mistakes.iter().next();
+                let (line, message, remedy) =
+                    first.map_or((0, "", ""), |(line, _, message, remedy)| (line, message, remedy));
+                let place = if path == TYPED { String::new() } else { format!("{path}, line {line}: ") };
+                format!("{place}{message}: {remedy}")
+            })
+        };
+        typed.into_iter().chain(files).map(read).collect()
+    }
+
+    /// What was told, line by line: the typed ones as they count, and the names of the files.
+    pub fn lines(&self) -> Vec<String> {
+        let typed = self.typed.iter().map(|row| row.split(';').filter(|part| !part.is_empty()));
+        let typed = typed.map(|parts| parts.collect::<Vec<_>>().join(" "));
+        typed.chain(self.files.iter().map(|(path, _)| path.clone())).collect()
+    }
+}
+
+/// The row of a typed line: tire or cable, a quantity where it is not the greatest height or force, the time of a height at a time,
+/// value and standard deviation.
+fn row(option: &str, line: &str) -> String {
+    let mut words = line.split_whitespace();
+    let address = words.next().unwrap_or_default();
+    let [tire, cable] = if address.contains('-') { ["", address] } else { [address, ""] };
+    let mut rest: Vec<&str> = words.collect();
+    let is_quantity = |word: &&str| word.starts_with(|letter: char| letter.is_alphabetic());
+    let quantity = match rest.first().copied().filter(is_quantity) {
+        Some(named) => {
+            rest.remove(0);
+            named
+        }
+        None if cable.is_empty() => "flight_height_m",
+        None => "cable_force_n",
+    };
+    let [at, value, sd] = match rest[..] {
+        [value] => ["", value, ""],
+        [value, sd] => ["", value, sd],
+        [at, value, sd] => [at, value, sd],
+        _ => ["", "", ""],
+    };
+    let option = option.replace('"', "\"\"");
+    format!("\"{option}\";{tire};{cable};{quantity};{at};{value};{sd}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::PlanSource;
+
+    #[test]
+    fn typed_lines_are_observations_or_are_refused() {
+        let text = include_str!("../../plans/amur-three-rows.toml");
+        let source = PlanSource { path: "plan.toml".to_owned(), text: text.to_owned() };
+        let case = Case::parse(source).expect("a plan");
+        let mut observed = Observed::default();
+        for line in ["3:1 1.95 0.05", "3:1-4:1 52000 2000", "3:1 height_m 0.3 0.9 0.1", "1:2 firing_s 0.0003"]
+        {
+            assert_eq!(observed.add_line(&case, 2, line), Ok(()), "{line}");
+        }
+        let read = observed.read(&case).expect("observations");
+        assert_eq!((read[0].list.len(), read[0].firings.len(), read[0].list[0].option), (3, 1, 2));
+        assert_eq!((read[0].list[1].value, read[0].list[2].watched.at), (52000.0, 0.3));
+        for line in ["", "3:1", "3:1 1.95", "9:9 1.95 0.05", "3:1 2.0 0.05", "3:2 speed 2 0.1", "3:2 1 2 3 4"]
+        {
+            assert!(observed.add_line(&case, 2, line).is_err(), "{line}");
+        }
+        assert_eq!(observed.read(&case).map(|read| read[0].list.len()), Ok(3), "a wrong line is not kept");
+        assert!(
+            observed
+                .add_file(&case, "seen.csv", "tire\n")
+                .is_err_and(|told| told.contains("seen.csv, line 1"))
+        );
+        assert_eq!(observed.lines().len(), 4);
+    }
+}
