@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use shelter::simulation::Model;
 
-use crate::scenes::{METHODS, fire_rows, grid, settings};
+use crate::support::scenes::{METHODS, fire_rows, grid, settings};
 
 #[test]
 fn a_longer_run_allocates_no_more() {

@@ -3,7 +3,7 @@
 use shelter::choice::Method;
 use shelter::scene::Scene;
 
-use crate::scenes::{GRAVITY, METHODS, close, fire, fire_rows, grid, run, settings, tie, tires};
+use crate::support::scenes::{GRAVITY, METHODS, close, fire, fire_rows, grid, run, settings, tie, tires};
 
 /// A tire tied to its neighbour by a thread flies as if free: the thread breaks within a step of becoming taut, having
 /// taken at most its strength times that step from the tire's momentum (60 N over 1e-4 s from 280 kg at 6 m/s).

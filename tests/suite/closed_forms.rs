@@ -6,7 +6,7 @@ use shelter::choice::Method;
 use shelter::outcome::{EndReason, RunEnd};
 use shelter::scene::{Firing, Shot};
 
-use crate::scenes::{GRAVITY, METHODS, close, fire, quincunx, run, settings, tie, tires, watch};
+use crate::support::scenes::{GRAVITY, METHODS, close, fire, quincunx, run, settings, tie, tires, watch};
 
 const LAUNCH: f64 = 6.0;
 

@@ -14,7 +14,7 @@ use shelter::study::samples::sampling::Sampling;
 use shelter::study::{Case, ComputeSettings, Progress, Shard};
 use shelter::verdict::{Quantity, Verdict};
 
-use super::scenes::{
+use super::support::scenes::{
     GRAVITY, METHODS, close, fire, fire_rows, grid, quincunx, run, settings, tie, tires, try_run, watch,
 };
 

@@ -6,7 +6,7 @@ use shelter::study::flight::record;
 use shelter::study::{Case, ComputeSettings};
 
 use super::bad_plans::GOOD;
-use super::scenes::{GRAVITY, close};
+use super::support::scenes::{GRAVITY, close};
 
 /// Tires that nothing ties fly as v t − g t²/2; the recording keeps single precision, 1e-7 of a few metres.
 #[test]

@@ -17,7 +17,7 @@ use shelter::tui::studies::StudyState;
 
 use shelter::verdict::Verdict;
 
-use super::stage::{draw, draw_areas, finished, key, recorded, spreads, study_ends, swept, text};
+use super::support::stage::{draw, draw_areas, finished, key, recorded, spreads, study_ends, swept, text};
 
 fn press(app: &mut App, keys: &str) -> Request {
     keys.chars().fold(Request::None, |_, letter| key(app, KeyCode::Char(letter)))

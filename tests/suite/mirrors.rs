@@ -7,7 +7,7 @@ use shelter::plan::Plan;
 use shelter::scene::{Firing, Scene, Shot};
 use shelter::simulation::Model;
 
-use crate::scenes::{run, settings, watch};
+use crate::support::scenes::{run, settings, watch};
 
 /// A shelter from a plan, so that its mirror planes are found.
 fn shelter(layout: &str, rows: usize, columns: usize, slack: f64) -> Scene {

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use shelter::choice::Method;
 use shelter::scene::{Firing, Scene, Shot};
 
-use super::scenes::{GRAVITY, run, settings, tie, tires};
+use super::support::scenes::{GRAVITY, run, settings, tie, tires};
 
 /// Greatest height [m], greatest cable force [N], greatest horizontal shift at the end [m].
 type Extremes = [f64; 3];

@@ -8,7 +8,7 @@ use roxmltree::{Document, Node};
 use serde_json::Value;
 use shelter::tui::export;
 
-use super::stage::finished;
+use super::support::stage::finished;
 use super::support::{json, shelter, shipped, text};
 
 /// Its first line is empty, and it holds a carriage return: both are kept.

@@ -8,7 +8,7 @@ use shelter::choice::Method;
 use shelter::scene::{Cable, Firing, Scene, Shot, TireId};
 use shelter::simulation::Model;
 
-use super::scenes::{METHODS, fire, grid, quincunx, run, settings, watch};
+use super::support::scenes::{METHODS, fire, grid, quincunx, run, settings, watch};
 
 /// A random grid with random friction, slack, launches and firing times; some on a slope on which friction holds, some with
 /// landings that rebound, some with damped cables, in all combinations. Some holes push over a time.

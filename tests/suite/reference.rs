@@ -3,7 +3,7 @@
 use shelter::choice::Method;
 use shelter::outcome::EndReason;
 
-use crate::scenes::{METHODS, close, fire, fire_rows, grid, quincunx, run, settings};
+use crate::support::scenes::{METHODS, close, fire, fire_rows, grid, quincunx, run, settings};
 
 /// Four reference scenes: height [m], force [N]; the digits given end at 5e-6 m and 0.05 N.
 #[test]
@@ -37,7 +37,7 @@ fn validates_the_paper_scene_at_its_step() {
     {
         let (mut diagonal, mut perimeter) = (f64::NAN, 0.0_f64);
         let settings = settings(method, 2e-4, Some(1.0));
-        let out = crate::scenes::watch(&scene, &fire(&[4], 6.0), settings, |motion| {
+        let out = crate::support::scenes::watch(&scene, &fire(&[4], 6.0), settings, |motion| {
             let force = |n: usize| {
                 let cable = &scene.cables[n];
                 let [a, b] = cable.ends.map(|end| motion.displacement(end));
@@ -73,7 +73,7 @@ fn both_methods_are_of_second_order() {
     scene.friction = 1e9;
     scene.mass[..4].fill(1e9);
     let exact = 0.554_923_923;
-    for method in crate::scenes::METHODS {
+    for method in crate::support::scenes::METHODS {
         let error = |h: f64| {
             let out = run(&scene, &fire(&[4], 6.0), settings(method, h, Some(0.2)));
             (out.height.value - exact).abs()

@@ -14,7 +14,7 @@ use shelter::tui::app::{App, Request};
 use shelter::tui::compare::OptionState;
 use shelter::verdict::Verdict;
 
-use super::stage::{draw, finished, key, study_ends, text};
+use super::support::stage::{draw, finished, key, study_ends, text};
 use super::support::{self, json, shelter, shipped};
 
 /// Three options under a small shelter: the first fails as planned, the second by its samples, and the third passes.

@@ -21,7 +21,7 @@ use shelter::study::samples::sampling::Sampling;
 use shelter::study::{Case, ComputeSettings, Journal, Progress, Shard, ShotSummary, thread_pool};
 use shelter::verdict::{Quantity, Verdict};
 
-use crate::scenes::{GRAVITY, METHODS, fire, tie, tires};
+use crate::support::scenes::{GRAVITY, METHODS, fire, tie, tires};
 
 /// A lone tire launched with 6 m/s, whose limit of height is `height` [m]; nothing but its launch velocity is unknown.
 fn lone(height: f64, launch_cv_percent: f64) -> Case {

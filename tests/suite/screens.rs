@@ -18,7 +18,7 @@ use shelter::tui::studies::StudyState;
 use shelter::tui::theme::{self, Theme};
 use shelter::verdict::Verdict;
 
-use super::stage::{
+use super::support::stage::{
     app, checked, done, draw, finished, judgement, key, measured, recorded, samples, spreads, study_ends,
     swept, text,
 };

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use portable_pty::{CommandBuilder, PtySize, native_pty_system};
 
+use super::support::pseudo_terminal::{PATIENCE, Watched};
 use super::support::{PROGRAM, shipped, small_plan};
-use super::watched::{PATIENCE, Watched};
 
 #[test]
 fn the_table_appears_keys_and_resizing_work_and_q_restores() {

@@ -17,7 +17,9 @@ use shelter::outcome::{EndReason, Outcome};
 use shelter::scene::{Firing, Scene, Shot};
 use shelter::simulation::{Failure, Model};
 
-use crate::scenes::{GRAVITY, METHODS, close, fire, grid, quincunx, run, settings, tie, tires, try_run};
+use crate::support::scenes::{
+    GRAVITY, METHODS, close, fire, grid, quincunx, run, settings, tie, tires, try_run,
+};
 
 const LAUNCH: f64 = 6.0;
 const EA: f64 = 1e6;

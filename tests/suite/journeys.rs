@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use super::support::pseudo_terminal::Watched;
 use super::support::{PROGRAM, text};
-use super::watched::Watched;
 
 const SIZES: [(u16, u16); 2] = [(80, 24), (120, 36)];
 const ENTER: &str = "\r";

@@ -1,5 +1,9 @@
 //! The program as the tests run it, the plans that come with it, and its output as text and JSON.
 
+pub mod pseudo_terminal;
+pub mod scenes;
+pub mod stage;
+
 use std::process::{Command, Output};
 
 use serde_json::Value;
@@ -30,6 +34,6 @@ pub fn json(output: &Output) -> Value {
 
 /// The plan of three blast rows over a shelter of 3 × 3 tires instead of 5 × 10: its options, a fifth of its computing time.
 pub fn small_plan() -> String {
-    let text = include_str!("../../plans/amur-three-rows.toml");
+    let text = include_str!("../../../plans/amur-three-rows.toml");
     text.replace("rows = 5 ", "rows = 3 ").replace("columns = 10 ", "columns = 3 ")
 }

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
 
-use super::support::{PROGRAM, shipped};
+use super::{PROGRAM, shipped};
 
 /// A shelter running in a terminal that is watched.
 pub struct Watched {

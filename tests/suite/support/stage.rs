@@ -32,7 +32,7 @@ use shelter::tui::config::Config;
 use shelter::tui::{dispatch, view};
 use shelter::verdict::{Estimate, Quantity, Verdict};
 
-use super::support::shipped;
+use super::shipped;
 
 pub fn app() -> App {
     let path = shipped("amur-three-rows.toml");
