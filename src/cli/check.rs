@@ -10,6 +10,7 @@ use super::check_plans::{check_plans, print_checks};
 use super::load_plans::open_all;
 use super::status::{Status, failed};
 use crate::report::explain::VERDICTS;
+use crate::study::judge_options::MustPass;
 
 #[derive(Args)]
 #[command(after_help = VERDICTS.join("\n"))]
@@ -29,8 +30,9 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(cases) = open_all(&arguments.plans, look) else { return Ok(Status::Wrong) };
+    let must_pass = if arguments.any { MustPass::One } else { MustPass::Every };
     match check_plans(&cases, arguments.study.verdict.sampling(), &arguments.study.compute, arguments.why) {
-        Ok(checked) => print_checks(&cases, &checked, arguments.any, arguments.study.format, look),
+        Ok(checked) => print_checks(&cases, &checked, must_pass, arguments.study.format, look),
         Err(reason) => failed(&reason),
     }
 }

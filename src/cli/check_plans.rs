@@ -11,7 +11,7 @@ use super::status::{REMEDY_AS_ARGUMENTS, Status};
 use crate::report::check::report;
 use crate::report::json::CheckDocument;
 use crate::report::model::Report;
-use crate::study::judge_options::{OptionResults, UNWATCHED, judge_all, judge_all_with_margins};
+use crate::study::judge_options::{MustPass, OptionResults, UNWATCHED, judge_all, judge_all_with_margins};
 use crate::study::remedies::{Remedies, find_all_remedies, not_passing};
 use crate::study::samples::sampling::Sampling;
 use crate::study::{Case, Finding, Found, NoResult};
@@ -62,23 +62,23 @@ enum Documents {
     Several(Vec<CheckDocument>),
 }
 
-/// Prints the results of all cases; with `any` one passing option is enough.
+/// Prints the results of all cases.
 pub fn print_checks(
     cases: &[Case],
     checked: &Found<Vec<CheckedPlan>>,
-    any: bool,
+    must_pass: MustPass,
     format: FormatArg,
     look: &LookArguments,
 ) -> io::Result<Status> {
     let Found { value: checked, partial } = checked;
     let pairs = || cases.iter().zip(checked);
     let reported = |(case, CheckedPlan { results, remedies }): (&Case, &CheckedPlan)| {
-        report(case, results, remedies.as_deref(), any, *partial)
+        report(case, results, remedies.as_deref(), must_pass, *partial)
     };
     let reports: Vec<Report> = pairs().map(reported).collect();
     let documents = || {
         let document = |(case, CheckedPlan { results, remedies }): (&Case, &CheckedPlan)| {
-            CheckDocument::new(case, results, remedies.as_deref(), any, *partial)
+            CheckDocument::new(case, results, remedies.as_deref(), must_pass, *partial)
         };
         let mut all: Vec<_> = pairs().map(document).collect();
         match all.len() {

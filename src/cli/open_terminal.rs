@@ -12,6 +12,7 @@ use super::{load_plans, print_help};
 use crate::jobs::Jobs;
 use crate::plan::{PlanSource, starter};
 use crate::study::Case;
+use crate::study::judge_options::MustPass;
 use crate::study::samples::sampling::Sampling;
 use crate::tui::config::{self, Config};
 use crate::tui::start::{Opened, Start};
@@ -23,7 +24,7 @@ pub fn plan(plan: &Path, compute: &Compute, look: &LookArguments) -> io::Result<
     if look.plain || !io::stdout().is_terminal() {
         let cases = [case];
         return match check_plans(&cases, Some(Sampling::OF_VERDICT), compute, false) {
-            Ok(checked) => print_checks(&cases, &checked, false, FormatArg::Text, look),
+            Ok(checked) => print_checks(&cases, &checked, MustPass::Every, FormatArg::Text, look),
             Err(reason) => failed(&reason),
         };
     }

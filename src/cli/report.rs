@@ -19,6 +19,7 @@ use crate::report::html::{self, Page};
 use crate::report::observed::observed_rows;
 use crate::study::fit::observed_shots::ObservedShots;
 use crate::study::fit::predicted::predict_observations;
+use crate::study::judge_options::MustPass;
 use crate::study::sweep::{INTERVALS, sweep};
 use crate::study::{Found, NoResult};
 
@@ -128,9 +129,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         tell!("wrote {}", output.display());
     }
     match arguments.format {
-        Some(format) => print_checks(&cases, &checked, false, format, look),
+        Some(format) => print_checks(&cases, &checked, MustPass::Every, format, look),
         None => {
-            let reports = [check::report(&cases[0], &checked.value[0].results, None, false, checked.partial)];
+            let reports =
+                [check::report(&cases[0], &checked.value[0].results, None, MustPass::Every, checked.partial)];
             print_warnings(&reports);
             Ok(Status::of(&reports))
         }

@@ -8,7 +8,7 @@ use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
 use super::{no_result, remedies, report_head, warnings};
 use crate::study::Case;
 use crate::study::as_planned::check::CheckedShot;
-use crate::study::judge_options::{OptionResults, verdict_on_plan};
+use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
 use crate::study::remedies::Remedies;
 use crate::units::{self, Unit};
@@ -137,12 +137,12 @@ pub(super) const LAUNCH_MARGIN: Column = Column::words(&[], "launches").under("a
 const DRIFT: Column = Column::numbers(&["drift_m", "drift_error_m"], "drift", Unit::Metre);
 
 /// The report of one plan, which is partial where the time was up; with the changes with which options would pass, where they were
-/// asked for. With `any` one passing option is enough.
+/// asked for.
 pub fn report(
     case: &Case,
     results: &OptionResults,
     remedies: Option<&[Remedies]>,
-    any: bool,
+    must_pass: MustPass,
     partial: bool,
 ) -> Report {
     let sampled = results.iter().flatten().any(|judged| judged.risk.is_asked());
@@ -167,7 +167,7 @@ pub fn report(
     report.blocks.push(Block::Table(table));
     report.blocks.extend(remedies.iter().flat_map(|changes| remedies::blocks(case, changes)));
     report.warnings.extend(warnings::of_options(case, results, None));
-    report.conclusion = Some(Conclusion { verdict: verdict_on_plan(results, any), text });
+    report.conclusion = Some(Conclusion { verdict: verdict_on_plan(results, must_pass), text });
     report
 }
 

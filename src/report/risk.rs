@@ -8,7 +8,7 @@ use super::option_row::{OptionRow, option_rows};
 use super::shared_columns::{FAILURES, VERDICT};
 use super::{report_head, warnings};
 use crate::study::Case;
-use crate::study::judge_options::{OptionResults, verdict_on_plan};
+use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
 use crate::study::samples::sampling::Sampling;
 use crate::units::Unit;
 use crate::verdict::{Quantity, Verdict};
@@ -74,6 +74,6 @@ pub fn report(case: &Case, results: &OptionResults, sampling: &Sampling, partial
     let mut report = report_head(case, true);
     report.blocks = blocks;
     report.warnings.extend(warnings::of_options(case, results, None));
-    report.conclusion = Some(Conclusion { verdict: verdict_on_plan(results, false), text });
+    report.conclusion = Some(Conclusion { verdict: verdict_on_plan(results, MustPass::Every), text });
     report
 }

@@ -197,8 +197,20 @@ pub fn find_launch_margins(
     Ok(Found { value: (), partial })
 }
 
-/// The verdict on a plan: the worst of its options, or the best where one passing option is enough.
-pub fn verdict_on_plan(results: &OptionResults, any: bool) -> Verdict {
+/// Which options of a plan must pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MustPass {
+    /// Every option.
+    Every,
+    /// One of them.
+    One,
+}
+
+/// The verdict on a plan: the worst of its options, or the best where one must pass.
+pub fn verdict_on_plan(results: &OptionResults, must_pass: MustPass) -> Verdict {
     let each = results.iter().map(|result| result.as_ref().map_or(Verdict::Undecided, Judgement::verdict));
-    if any { each.min().unwrap_or(Verdict::Pass) } else { Verdict::worst(each) }
+    match must_pass {
+        MustPass::Every => Verdict::worst(each),
+        MustPass::One => each.min().unwrap_or(Verdict::Pass),
+    }
 }

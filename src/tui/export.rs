@@ -13,7 +13,7 @@ use crate::report::html::{self, Page};
 use crate::report::observed::{ObservedRow, observed_rows};
 use crate::report::{self, charts};
 use crate::study::fit::FitResult;
-use crate::study::judge_options::OptionResults;
+use crate::study::judge_options::{MustPass, OptionResults};
 use crate::study::samples::sampling::Sampling;
 use crate::study::sweep::Sweep;
 
@@ -83,7 +83,7 @@ fn is_saved(app: &App) -> bool {
 pub fn csv(app: &App) -> Result<String, String> {
     let text = match app.screen {
         Screen::Plan | Screen::Compare => report::csv::csv(
-            &[report::check::report(&app.case, &results(app)?, None, false, false)],
+            &[report::check::report(&app.case, &results(app)?, None, MustPass::Every, false)],
             Separators::Comma,
         ),
         _ => report::csv::csv(std::slice::from_ref(&finished(app)?.report), Separators::Comma),

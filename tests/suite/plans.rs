@@ -7,7 +7,7 @@ use shelter::choice::Accuracy;
 use shelter::plan::starter::{self, QUESTIONS};
 use shelter::plan::{DelayScatter, LaunchTargets, Layout, Plan, Timing, Uncertainty};
 use shelter::scene::TireId;
-use shelter::study::judge_options::verdict_on_plan;
+use shelter::study::judge_options::{MustPass, verdict_on_plan};
 use shelter::study::samples::sampling::Sampling;
 use shelter::study::{Case, ComputeSettings, Progress};
 use shelter::verdict::Verdict;
@@ -169,6 +169,6 @@ fn the_answers_offered_give_an_option_that_passes() {
     let case = Case::new(Plan::parse("new", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
     let judged = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &Progress::default());
-    let verdict = verdict_on_plan(&judged.expect("a result").value, true);
+    let verdict = verdict_on_plan(&judged.expect("a result").value, MustPass::One);
     assert_eq!(verdict, Verdict::Pass);
 }

@@ -24,7 +24,7 @@ use super::warnings;
 use super::{charts, check, explain, sweep};
 use crate::file;
 use crate::study::Case;
-use crate::study::judge_options::OptionResults;
+use crate::study::judge_options::{MustPass, OptionResults};
 use crate::study::judgement::Judgement;
 use crate::study::samples::sampling::Sampling;
 use crate::study::sweep::Sweep;
@@ -61,7 +61,7 @@ pub fn is_page(text: &str) -> bool {
 pub fn page(page: &Page<'_>) -> String {
     let Page { case, results, fired, sampling, .. } = *page;
     let hash = file::checksum(&case.source.text);
-    let report = check::report(case, results, None, false, page.partial);
+    let report = check::report(case, results, None, MustPass::Every, page.partial);
     let fired_judged = fired.and_then(|option| Some((option, results[option].as_ref().ok()?)));
     let checked = fired_judged.map(|(_, judged)| &judged.as_planned);
     let of_fired = fired_judged.map(|(option, judged)| warnings::of_option(case, option, judged));

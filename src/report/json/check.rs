@@ -15,7 +15,7 @@ use crate::report::{no_result, warnings};
 use crate::scene::{Scene, TireId, fire_at_s, seconds};
 use crate::study::Case;
 use crate::study::eight_ms::WithinEightMs;
-use crate::study::judge_options::{OptionResults, verdict_on_plan};
+use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
 use crate::study::remedies::Remedies;
 use crate::study::samples::risk::Risk;
@@ -210,13 +210,12 @@ impl OptionValues {
 }
 
 impl CheckDocument {
-    /// The document of the results of one plan, which are partial where the time was up; with `any` one passing option is
-    /// enough.
+    /// The document of the results of one plan, which are partial where the time was up.
     pub fn new(
         case: &Case,
         results: &OptionResults,
         remedies: Option<&[Remedies]>,
-        any: bool,
+        must_pass: MustPass,
         partial: bool,
     ) -> Self {
         let (plan, scene) = (&case.plan, case.scene());
@@ -252,7 +251,7 @@ impl CheckDocument {
             title: case.title().to_owned(),
             judged: results.iter().flatten().next().map_or("nominal", |judged| judged_inputs(case, judged)),
             accepted_risk_percent: plan.limits.accepted_risk_percent,
-            verdict: verdict_on_plan(results, any).name(),
+            verdict: verdict_on_plan(results, must_pass).name(),
             partial,
             scene: SceneSize {
                 tires: scene.mass.len(),

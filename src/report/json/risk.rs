@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::LimitsObject;
 use crate::report::warnings;
-use crate::study::judge_options::{OptionResults, verdict_on_plan};
+use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
 use crate::study::samples::influence;
 use crate::study::samples::risk::Risk;
@@ -97,7 +97,7 @@ impl RiskDocument {
             schema: "shelter.risk/1",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
-            verdict: verdict_on_plan(results, false).name(),
+            verdict: verdict_on_plan(results, MustPass::Every).name(),
             partial,
             limits: LimitsObject::of(case),
             samples: sampling.most,
