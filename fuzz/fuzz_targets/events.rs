@@ -12,7 +12,7 @@ use shelter::plan::PlanSource;
 use shelter::study::{Case, ComputeSettings};
 use shelter::tui::app::App;
 use shelter::tui::config::Config;
-use shelter::tui::{update, view};
+use shelter::tui::{dispatch, view};
 
 fn case() -> Arc<Case> {
     static CASE: OnceLock<Arc<Case>> = OnceLock::new();
@@ -63,7 +63,7 @@ fuzz_target!(|bytes: &[u8]| {
     let compute = ComputeSettings::of(&case.plan);
     let mut app = App::new(case, compute, &Config::default());
     for (n, pair) in bytes.chunks_exact(2).take(60).enumerate() {
-        update(&mut app, &event(pair[0], pair[1]));
+        dispatch(&mut app, &event(pair[0], pair[1]));
         app.request_flight();
         app.advance(Duration::from_millis(16));
         if n % 6 == 5 {
