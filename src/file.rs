@@ -1,10 +1,10 @@
-//! Writing text files: whole or not at all. Their checksums.
+//! Reading text files, and writing them: whole or not at all. Their checksums and paths.
 
 use std::fs::{File, Metadata, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 #[cfg(unix)]
 use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use sha2::{Digest, Sha256};
@@ -15,13 +15,31 @@ pub fn checksum(bytes: impl AsRef<[u8]>) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
+/// The path of a file from the root, with links followed, as people write it: on Windows without `\\?\` before it.
+pub fn canonical(path: &Path) -> io::Result<PathBuf> {
+    dunce::canonicalize(path)
+}
+
+/// The text of a file: UTF-8 with or without a byte order mark, or UTF-16 with one, as PowerShell writes it.
+pub fn read(path: &Path) -> io::Result<String> {
+    let bytes = std::fs::read(path)?;
+    let text = match bytes.as_slice() {
+        [0xff, 0xfe, units @ ..] => {
+            let units = units.chunks_exact(2).map(|unit| u16::from_le_bytes([unit[0], unit[1]]));
+            char::decode_utf16(units).collect::<Result<String, _>>().ok()
+        }
+        [0xef, 0xbb, 0xbf, text @ ..] | text => std::str::from_utf8(text).ok().map(str::to_owned),
+    };
+    text.ok_or_else(|| io::Error::new(ErrorKind::InvalidData, "it is no text"))
+}
+
 /// Replaces the contents of a file by `text`, all at once: a reader, also after a loss of power, finds the old text or the new
 /// text, never a part.
 ///
 /// Files that may not be written stay as they are; a device or a pipe is written to, not replaced.
 pub fn save(path: &Path, text: &str) -> io::Result<()> {
     // A link stays a link: the file it points to is replaced.
-    let path = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+    let path = canonical(path).unwrap_or_else(|_| path.to_path_buf());
     replace(&path, text).map_err(|error| named(&path, &error))
 }
 
@@ -97,6 +115,7 @@ pub fn unused_path(stem: &str, ending: &str) -> String {
 /// The text in a file without a name of its own yet, in the folder of `path`, with owner and rights of the file that is there.
 fn write_temporary(path: &Path, text: &str, old: Option<&Metadata>) -> io::Result<NamedTempFile> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    #[cfg_attr(not(unix), expect(unused_mut))]
     let mut builder = tempfile::Builder::new();
     // A file that is replaced may be secret: until it has the rights of the old one, nobody else reads the new one.
     #[cfg(unix)]

@@ -72,7 +72,10 @@ impl LookArguments {
         match self.color {
             ColorArg::Always => true,
             ColorArg::Never => false,
-            ColorArg::Auto => terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
+            ColorArg::Auto => {
+                let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+                terminal && !refused && shows_colors()
+            }
         }
     }
 }
@@ -83,6 +86,14 @@ fn shows_unicode() -> bool {
     let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set);
     let utf8 = |locale: String| locale.to_lowercase().replace('-', "").contains("utf8");
     set("TERM").as_deref() != Some("dumb") && locale.is_none_or(utf8)
+}
+
+/// Whether the terminal takes codes for colours. Old consoles of Windows print them as they are, unless they are told not to.
+fn shows_colors() -> bool {
+    #[cfg(windows)]
+    return crossterm::ansi_support::supports_ansi();
+    #[cfg(not(windows))]
+    true
 }
 
 /// When output is coloured.

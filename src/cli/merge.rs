@@ -8,6 +8,7 @@ use clap::Args;
 use super::arguments::{FormatArg, LookArguments};
 use super::print_sharded::{print_orders, print_risks, print_search};
 use super::status::{Status, failed, wrong};
+use crate::file::read;
 use crate::study::merge::{MergeFailure, Merged, MergedResult, merge};
 
 #[derive(Args)]
@@ -23,7 +24,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let mut shards = Vec::new();
     for file in &arguments.files {
-        match std::fs::read_to_string(file) {
+        match read(file) {
             Ok(text) => shards.push((file.display().to_string(), text)),
             Err(error) => return wrong(&format!("cannot read {}: {error}", file.display())),
         }

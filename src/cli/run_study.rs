@@ -43,12 +43,7 @@ pub fn run_saved_study<T: Send>(
     let (progress, signal) = (Progress::with_journal(journal), Arc::new(AtomicBool::new(false)));
     // Once it is set, a signal ends the program by itself: a second interrupt, and whatever follows the study.
     let may_end = Arc::new(AtomicBool::new(false));
-    #[cfg(unix)]
-    for number in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM, signal_hook::consts::SIGHUP] {
-        // Without a handler the signal ends the program at once, which is as good.
-        let _ = signal_hook::flag::register_conditional_default(number, Arc::clone(&may_end))
-            .and_then(|_| signal_hook::flag::register(number, Arc::clone(&signal)));
-    }
+    watch_signals(&signal, &may_end);
     let template = "{bar:30} {pos} of {len} shots, {msg}";
     let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
     let bar = ProgressBar::new(0).with_style(style);
@@ -110,6 +105,29 @@ pub fn run_saved_study<T: Send>(
         _ => {}
     }
     found
+}
+
+/// Sets `signal` where a signal asks the program to end; once `may_end` is set, the signal ends it.
+#[cfg(unix)]
+fn watch_signals(signal: &Arc<AtomicBool>, may_end: &Arc<AtomicBool>) {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::flag;
+    for number in [SIGINT, SIGTERM, SIGHUP] {
+        // Without a handler the signal ends the program at once, which is as good.
+        let _ = flag::register_conditional_default(number, Arc::clone(may_end))
+            .and_then(|_| flag::register(number, Arc::clone(signal)));
+    }
+}
+
+#[cfg(windows)]
+fn watch_signals(signal: &Arc<AtomicBool>, may_end: &Arc<AtomicBool>) {
+    let (signal, may_end) = (Arc::clone(signal), Arc::clone(may_end));
+    let interrupt = move || match may_end.load(Ordering::Relaxed) {
+        true => std::process::exit(super::status::Status::Interrupted as i32),
+        false => signal.store(true, Ordering::Relaxed),
+    };
+    // A second study of the same command has none: there, Ctrl-C ends the program.
+    let _ = ctrlc::set_handler(interrupt);
 }
 
 /// The time that a study takes from now on, from the pace of what it computed itself; `None` while too little is known.

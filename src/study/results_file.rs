@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 use std::fs::{OpenOptions, TryLockError};
-use std::io::{self, Read};
+use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -207,7 +207,9 @@ pub fn open(path: &Path, head: &Head) -> Result<Journal, String> {
             file::create(path, &line).map_err(|error| format!("cannot save results: {error}"))?;
         }
     }
-    let mut file = OpenOptions::new().read(true).append(true).open(path).map_err(cannot)?;
+    // Windows does not shorten a file that is opened to append.
+    let append = cfg!(not(windows));
+    let mut file = OpenOptions::new().read(true).write(true).append(append).open(path).map_err(cannot)?;
     match file.try_lock() {
         // A file system without locks is taken as it is.
         Ok(()) | Err(TryLockError::Error(_)) => {}
@@ -223,6 +225,7 @@ pub fn open(path: &Path, head: &Head) -> Result<Journal, String> {
     }
     if contents.length < bytes.len() {
         file.set_len(contents.length as u64).map_err(cannot)?;
+        file.seek(SeekFrom::End(0)).map_err(cannot)?;
     }
     Ok(Journal::of_known(contents.known).appending(file, contents.results))
 }

@@ -9,6 +9,7 @@ use serde::Deserialize;
 
 use super::keymap::{BINDINGS, Keymap};
 use super::theme::Theme;
+use crate::file::canonical;
 
 /// The configuration.
 #[derive(Clone, Debug, Default)]
@@ -116,7 +117,7 @@ pub fn recent() -> Vec<PathBuf> {
 
 /// Remembers a plan as opened. Says nothing where this fails: the list is a convenience.
 pub fn remember(plan: &Path) {
-    let (Some(path), Ok(plan)) = (recent_path(), plan.canonicalize()) else { return };
+    let (Some(path), Ok(plan)) = (recent_path(), canonical(plan)) else { return };
     let mut plans = recent();
     plans.retain(|other| *other != plan);
     plans.insert(0, plan);

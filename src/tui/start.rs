@@ -15,6 +15,7 @@ use super::config::Config;
 use super::keymap::{Action, Keymap, ctrl_c_as_esc};
 use super::paste::paste;
 use super::theme::Theme;
+use crate::file::canonical;
 use crate::plan::Plan;
 use crate::plan::starter::{self, QUESTIONS, ROPE};
 use crate::ropes::catalogue;
@@ -101,7 +102,7 @@ impl Start {
             .filter_map(|folder| std::fs::read_dir(folder).ok())
             .flatten()
             .filter_map(|entry| Some(entry.ok()?.path()))
-            .filter(|path| is_plan(path) && !path.canonicalize().is_ok_and(|path| recent.contains(&path)))
+            .filter(|path| is_plan(path) && !canonical(path).is_ok_and(|path| recent.contains(&path)))
             .take(MOST)
             .map(|path| path.strip_prefix(".").map(Path::to_owned).unwrap_or(path))
             .collect();

@@ -1,6 +1,7 @@
 //! `shelter check`, `trace`, `init`, `ropes` as scripts use them: exit status, streams, JSON, CSV.
 
-use std::process::Output;
+use std::io::{BufRead, BufReader};
+use std::process::{Command, Output, Stdio};
 
 use super::support::{PROGRAM, json, shelter, shipped, text};
 
@@ -366,8 +367,17 @@ fn trace_refuses_what_is_not_there() {
 #[test]
 fn a_reader_that_goes_away_ends_trace_quietly() {
     let path = shipped("paper-5-tire.toml");
-    let command = format!("{PROGRAM} trace {path} | head -1");
-    let output = std::process::Command::new("sh").args(["-c", &command]).output().expect("sh runs");
+    let mut command = Command::new(PROGRAM);
+    let mut child = command
+        .args(["trace", &path])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    let mut line = String::new();
+    BufReader::new(child.stdout.take().expect("a pipe")).read_line(&mut line).expect("a line");
+    assert!(line.starts_with("time_s,"), "{line}");
+    let output = child.wait_with_output().expect("it ends");
     assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
 }
 

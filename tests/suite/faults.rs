@@ -1,11 +1,14 @@
 //! Kills, full disks and closed pipes: what is on the disk stays whole, and what happened is said.
 
 use std::fs;
+#[cfg(unix)]
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::thread;
-use std::time::{Duration, Instant};
+#[cfg(unix)]
+use std::time::Duration;
+use std::time::Instant;
 
 use shelter::file;
 

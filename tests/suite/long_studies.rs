@@ -80,7 +80,9 @@ fn shards_merge_into_the_whole_byte_for_byte() {
             .map(|format| (format, shelter(&[command, &["--format", format, "--threads", "1"]].concat())));
         for of in [1, 3] {
             let shard = |index: i32| {
-                let file = folder.path().join(format!("{}-{index}-{of}", command.join("-").replace('/', "")));
+                let file = folder
+                    .path()
+                    .join(format!("{}-{index}-{of}", command.join("-").replace(['/', '\\', ':'], "")));
                 let file = file.to_str().expect("UTF-8").to_owned();
                 let shard = shelter(&[command, &["--shard", &format!("{index}/{of}"), "-o", &file]].concat());
                 assert_eq!((shard.status.code(), shard.stdout.len()), (Some(0), 0));

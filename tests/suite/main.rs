@@ -27,6 +27,7 @@ mod fit;
 mod flight;
 mod hole_by_hole;
 mod import;
+#[cfg(unix)]
 mod journeys;
 mod keys;
 mod layers;
@@ -40,7 +41,6 @@ mod properties;
 mod reference;
 mod remedies;
 mod risk;
-#[cfg(unix)]
 mod saved;
 mod schema;
 mod screens;

@@ -84,6 +84,7 @@ fn a_study_that_was_killed_ends_as_one_that_was_not() {
 
 /// An interrupt prints what there is, as partial, with the status of a signal; the same command goes on from there. A second
 /// interrupt prints nothing.
+#[cfg(unix)]
 #[test]
 fn an_interrupt_prints_what_there_is() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -107,12 +108,14 @@ fn an_interrupt_prints_what_there_is() {
     assert!(text.ends_with("\"}\n") && !text.contains("{\"complete\":"), "the last line is whole");
 }
 
+#[cfg(unix)]
 fn interrupt(child: &Child) {
     let killed = Command::new("kill").args(["-s", "INT", &child.id().to_string()]).status();
     assert!(killed.expect("kill runs").success(), "it had ended");
 }
 
 /// The longest computation ends soon after an interrupt, with the status of a signal.
+#[cfg(unix)]
 #[test]
 fn an_interrupt_ends_a_command_with_130() {
     let plan = support::shipped("large-50x50.toml");
@@ -178,6 +181,23 @@ fn a_torn_line_is_dropped_and_a_damaged_line_is_refused() {
     assert_eq!(merged.stdout, whole.stdout, "what is saved is a shard, too");
 }
 
+/// What PowerShell makes of a shard: UTF-16 or UTF-8 with a byte order mark, and line ends of Windows.
+#[test]
+fn a_shard_that_powershell_wrote_is_merged() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [plan, file] = plan_and_file(folder.path());
+    let command = ["risk", &plan, "--samples", "20", "--accuracy", "draft"];
+    let whole = shelter(&command);
+    assert!(shelter(&[&command[..], &["--shard", "1/1", "-o", &file]].concat()).status.success());
+    let text = format!("\u{feff}{}", fs::read_to_string(&file).expect("results").replace('\n', "\r\n"));
+    let utf16: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    for bytes in [utf16, text.into_bytes()] {
+        fs::write(&file, bytes).expect("written");
+        let merged = shelter(&["merge", &file]);
+        assert_eq!(merged.stdout, whole.stdout, "{}", support::text(&merged.stderr));
+    }
+}
+
 /// A file of another study, of another program, in use or no file at all stays as it is.
 #[test]
 fn results_of_another_study_are_refused() {
@@ -226,6 +246,7 @@ fn results_of_another_study_are_refused() {
 }
 
 /// Results that cannot be saved are said to be missing; those that are printed stand.
+#[cfg(unix)]
 #[test]
 fn a_full_disk_loses_no_result_that_was_saved() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -112,12 +112,9 @@ impl Watched {
             );
             thread::sleep(Duration::from_millis(10));
         }
-        #[cfg(unix)]
-        {
-            // Lines and echo, the second and fourth flag of a terminal, are on again.
-            let flags = self.master.get_termios().expect("flags").local_flags.bits();
-            assert_eq!(flags & 0b1010, 0b1010, "raw mode is left");
-        }
+        // Lines and echo, the second and fourth flag of a terminal, are on again.
+        let flags = self.master.get_termios().expect("flags").local_flags.bits();
+        assert_eq!(flags & 0b1010, 0b1010, "raw mode is left");
         status.exit_code()
     }
 
