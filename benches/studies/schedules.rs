@@ -47,7 +47,7 @@ pub fn compare(plans: std::ops::Range<u64>) {
             100.0 * least,
             100.0 * of_found.iter().copied().fold(1.0, f64::min),
             100.0 * of_found[0],
-            found.verdict().name(),
+            found.verdict(false).name(),
             wall / brute,
         );
     }

@@ -121,6 +121,11 @@ fn used_twice(case: &Case, files: &[Observations]) -> Option<String> {
             file.path, case.source.path
         ));
     }
+    named_twice(files)
+}
+
+/// Which file holds a shot that another file holds.
+pub fn named_twice(files: &[Observations]) -> Option<String> {
     let (_, file) = files.iter().tuple_combinations().find(|(one, other)| one.overlaps(other))?;
     Some(format!("{} holds mostly the same observations as another file: name each shot once", file.path))
 }

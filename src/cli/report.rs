@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments};
 use super::check_plans::{check_plans, print_checks};
-use super::fit::read_observations;
+use super::fit::{named_twice, read_observations};
 use super::load_plans::open_option;
 use super::print::{print_beside_verdict, print_warnings};
 use super::run_study::run_study;
@@ -78,6 +78,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(message) => return wrong(&message),
     };
     let Some(files) = read_observations(&case, &arguments.observed, look) else { return Ok(Status::Wrong) };
+    if let Some(message) = named_twice(&files) {
+        return wrong(&message);
+    }
     // A sweep needs one way to fire the holes of a row; without an option named, options that differ have none.
     let cases = [if asked.is_some() { case.with_hole_timing_or_of(option) } else { case }];
     let sampling = arguments.verdict.sampling();
@@ -115,6 +118,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         fired: asked.map(|_| option),
         sampling: sampling.as_ref(),
         sweep: swept.as_ref().map(|swept| &swept.value),
+        fitted_to_observed: files.iter().any(|file| cases[0].plan.fitted_from.contains(&file.checksum)),
         observed: &observed_rows(&cases[0], &seen.list, predictions.as_deref().unwrap_or_default()),
         partial: checked.partial
             || predictions.is_none()
@@ -125,7 +129,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if output.as_os_str() == "-" {
         print_beside_verdict(&page)?;
     } else {
-        file::save(output, &page)?;
+        // A page that nobody read is no verdict: a reader that leaves is an error here.
+        file::save(output, &page).map_err(|error| io::Error::other(error.to_string()))?;
         tell!("wrote {}", output.display());
     }
     match arguments.format {

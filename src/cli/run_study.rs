@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::arguments::Compute;
 use super::deadline;
-use super::status::note_interrupt;
+use super::status::{note_interrupt, note_unsaved};
 use crate::study::{Finding, Found, Journal, NoResult, Progress, thread_pool};
 use crate::units::rough_duration;
 
@@ -144,6 +144,7 @@ fn close(journal: Journal, is_complete: bool) {
         journal.complete();
     }
     if let Err(error) = journal.close() {
+        note_unsaved();
         tell!("warning: not all results are saved: {error}");
     }
 }

@@ -52,6 +52,14 @@ pub fn was_interrupted() -> bool {
     INTERRUPTED.load(Ordering::Relaxed)
 }
 
+/// Whether results could not be saved.
+static UNSAVED: AtomicBool = AtomicBool::new(false);
+
+/// Takes note that results could not be saved.
+pub fn note_unsaved() {
+    UNSAVED.store(true, Ordering::Relaxed);
+}
+
 /// The status of a command that ended, after its error is told.
 pub fn ended(result: io::Result<Status>) -> ExitCode {
     let status = match result {
@@ -69,6 +77,11 @@ pub fn ended(result: io::Result<Status>) -> ExitCode {
 pub fn saved(finding: Finding<()>) -> io::Result<Status> {
     match finding {
         Err(reason) => failed(&reason),
+        // Nothing else comes of a shard but its file.
+        Ok(_) if UNSAVED.load(Ordering::Relaxed) => {
+            tell!("the shard is not complete: make room, and give the same command again");
+            Ok(Status::Wrong)
+        }
         Ok(Found { partial: true, .. }) => {
             tell!("the shard is not complete: the same command goes on from there");
             Ok(Status::Fail)

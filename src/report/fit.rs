@@ -1,7 +1,7 @@
 //! `fit` as a report: the estimates of each answer, and every observation beside what was planned, possible and fitted.
 
 use super::model::{Audience, Block, Cell, Column, Conclusion, Field, Report, Table};
-use super::observed::{ObservedRow, bands, fitted_rows, observed_table, place};
+use super::observed::{ObservedRow, bands, contradiction, fitted_rows, observed_table, place};
 use super::report_head;
 use crate::choice::Unknown;
 use crate::plan::observations::{Observations, unit};
@@ -90,12 +90,15 @@ fn basis(files: &[Observations], fit: &Fit, sampled: bool) -> String {
     let paths: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
     let alone = if sampled { "" } else { "; all other numbers of the plan are taken for exact" };
     format!(
-        "from {} of {} in {}: chi-square {} for {} degrees of freedom{alone}",
+        "from {} of {} in {}: chi-square {} for {}{alone}",
         counted(fit.observed.len(), "observation"),
         counted(shots.len(), "shot"),
         paths.join(", "),
         units::rounded(best.chi_square, 1),
-        best.freedom
+        match best.freedom {
+            1 => "1 degree of freedom".to_owned(),
+            freedom => format!("{freedom} degrees of freedom"),
+        }
     )
 }
 
@@ -198,6 +201,7 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
         .filter(is_computed_badly)
         .map(|row| place(case, row.observed.option, &row.observed.watched))
         .collect();
+    all.extend(contradiction(&rows));
     if !badly.is_empty() {
         all.push(format!(
             "the error of computing is larger than the sd of what was seen, which says little then: {}: choose a finer --accuracy",

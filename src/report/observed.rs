@@ -112,6 +112,22 @@ fn value_by_sd(value: f64, sd: f64) -> String {
     units::value_and_sd(value, sd).split(' ').next().unwrap_or_default().to_owned()
 }
 
+/// That the plan does not predict what was seen, where it does not; of ten observations one lies outside by chance.
+pub fn contradiction(rows: &[ObservedRow<'_>]) -> Vec<String> {
+    let within: Vec<bool> =
+        rows.iter().filter_map(|row| row.prediction.contains(row.observed.value)).collect();
+    let outside = within.iter().filter(|within| !**within).count();
+    let expected = within.len().div_ceil(10);
+    let is_odd = outside > expected || outside == within.len() && outside > 0;
+    let text = || {
+        format!(
+            "{outside} of {} observations of earlier shots lie outside what this plan predicts: its verdicts are those of other shots",
+            within.len()
+        )
+    };
+    is_odd.then(text).into_iter().collect()
+}
+
 /// How many observations lie in their bands: of each shot, and of all.
 pub fn bands(case: &Case, rows: &[ObservedRow<'_>]) -> Vec<String> {
     let held: Vec<(usize, bool)> = rows

@@ -96,7 +96,10 @@ pub fn words(case: &Case, change: &Change) -> String {
         Change::BorderRows(_) => format!("{to} border rows instead of {from}"),
         Change::Slack(_) => format!("slack {to} instead of {from}"),
         Change::Launch(factor) => {
-            format!("launches {} lower, {to} instead of {from}", units::percent(1.0 - factor, 0))
+            let lower = units::percent(1.0 - factor, 0);
+            format!(
+                "launches {lower} lower, {to} instead of {from}, if a smaller charge is seen to give them"
+            )
         }
         Change::Interval { .. } => format!("interval {to} instead of {from}"),
     }

@@ -106,7 +106,7 @@ pub fn report(case: &Case, search: &Search, partial: bool) -> Report {
     let mut report = report_head(case, sampled);
     report.blocks = blocks;
     report.warnings.extend(warnings::of_options(&search.case, &search.results, None));
-    report.conclusion = Some(Conclusion { verdict: search.verdict(), text });
+    report.conclusion = Some(Conclusion { verdict: search.verdict(partial), text });
     report
 }
 

@@ -130,8 +130,9 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
         let open = accepted.iter().filter(|point| point.verdict() == Verdict::Undecided);
         let samples = open.filter_map(|point| Some(point.risk.drawn()?.bounds.samples));
         if let Some(few) = samples.min() {
-            lines
-                .push(format!("{few} samples cannot prove {risk}: `check` an interval before you choose it"));
+            let unproven =
+                format!("{few} samples cannot prove {risk}: `check` an interval before you choose it");
+            lines.insert(0, unproven);
         }
         lines.extend(listed(
             &format!("windows as planned, nothing varied{so_far}"),

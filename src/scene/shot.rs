@@ -70,6 +70,12 @@ impl Shot {
         Self { firings: self.firings.iter().map(faster).collect(), ..*self }
     }
 
+    /// The same shot, in which all holes fire later by this time [s].
+    pub fn later_by(&self, time: f64) -> Self {
+        let later = |firing: &Firing| Firing { at: firing.at + time, ..*firing };
+        Self { firings: self.firings.iter().map(later).collect(), ..*self }
+    }
+
     /// The same shot, in which the holes under these tires fire at these times [s].
     pub fn with_times(&self, times: &[(usize, f64)]) -> Self {
         let time = |firing: &Firing| times.iter().find(|(tire, _)| *tire == firing.tire).map(|(_, at)| *at);

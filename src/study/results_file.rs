@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 use std::fs::{OpenOptions, TryLockError};
-use std::io::{self, Read, Seek, SeekFrom};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -198,9 +198,7 @@ pub fn open(path: &Path, head: &Head) -> Result<Journal, String> {
     let cannot = |error: io::Error| format!("cannot save results: {name}: {error}");
     match path.metadata() {
         Ok(data) if !data.is_file() => return Err(format!("cannot save results: {name} is no file")),
-        // An empty file is nobody's.
-        Ok(data) if data.len() > 0 => {}
-        Ok(_) => file::save(path, &head.line().map_err(cannot)?).map_err(cannot)?,
+        Ok(_) => {}
         // The first line comes whole or not at all.
         Err(_) => {
             let line = head.line().map_err(cannot)?;
@@ -219,6 +217,11 @@ pub fn open(path: &Path, head: &Head) -> Result<Journal, String> {
     }
     let mut bytes = Vec::new();
     file.read_to_end(&mut bytes).map_err(cannot)?;
+    if bytes.is_empty() {
+        // An empty file is nobody's, and under the lock nobody else's.
+        bytes = head.line().map_err(cannot)?.into_bytes();
+        file.write_all(&bytes).map_err(cannot)?;
+    }
     let contents = read(&name, &String::from_utf8_lossy(&bytes))?;
     if let Some(other) = contents.head.difference(head) {
         return Err(format!("{name} holds results of {other}: name another file, or delete this one"));

@@ -45,6 +45,7 @@ fn page(app: &App, fired: Option<usize>) -> Result<String, String> {
         fired,
         sampling: Some(&Sampling::OF_VERDICT),
         sweep: swept(app),
+        fitted_to_observed: false,
         observed: &observed(app),
         partial: false,
         unsaved: !is_saved(app),

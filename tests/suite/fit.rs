@@ -44,12 +44,16 @@ fn estimates(answer: &Answer) -> Vec<(f64, f64)> {
 
 /// A lone tire over a hole of 6 m/s, without cables; `uncertainty` is the text of the section.
 fn lone_tire(uncertainty: &str) -> Case {
-    case_of(&format!(
+    case_of(&lone_plan(uncertainty))
+}
+
+fn lone_plan(uncertainty: &str) -> String {
+    format!(
         "shelter = {{ layout = \"list\", tire = [{{ x_m = 0, y_m = 0 }}], cable = [] }}\ntire = {{ mass_kg = 280 }}\n\
          cable = {{ rope = \"GOST 2688-80 6.2\" }}\nground = {{ friction = 0.5 }}\n\
          blast_row = [{{ name = \"1\", under_tires = [1], launch_m_s = 6 }}]\n\
          limits = {{ flight_height_m = 3, cable_safety_factor = 2 }}\ndelay = [{{ name = \"at once\", interval_ms = 0 }}]\n{uncertainty}"
-    ))
+    )
 }
 
 const EXACT: &str = "[uncertainty]\ndelay_sd_ms = 0\nlaunch_cv_percent = 0\nfriction = 0\nslack_percent = 0\naxial_stiffness_percent = [0, 0]\ntire_mass_cv_percent = 0\n";
@@ -324,6 +328,56 @@ fn measured_firing_times_take_the_place_of_planned_ones() {
         other => panic!("{other:?}"),
     }
     assert_ne!(files[0].checksum, seen("1,firing_s,0.02,\n", flight + 0.03).checksum, "other shots");
+}
+
+/// A hole that nobody logged fires about its planned time, whether or not the hole before it was logged, and though samples begin
+/// with their first hole.
+#[test]
+fn what_was_not_logged_scatters_about_the_plan() {
+    let plan =
+        lone_plan(EXACT.replace("delay_sd_ms = 0", "delay_sd_ms = 4\nlaunch_common_percent = 0").as_str());
+    let plan = plan
+        .replace("[{ x_m = 0, y_m = 0 }]", "[{ x_m = 0, y_m = 0 }, { x_m = 5, y_m = 0 }]")
+        .replace(
+            "launch_m_s = 6 }]",
+            "launch_m_s = 6 }, { name = \"2\", under_tires = [2], launch_m_s = 6 }]",
+        )
+        .replace("interval_ms = 0", "at_ms = [0, 100]");
+    let case = case_of(&plan);
+    let compute = ComputeSettings::of(&case.plan);
+    let sampling = Sampling::exactly(400, 5);
+    let landing = 0.1 + 2.0 * 6.0 / 9.81;
+    for logged in ["", "1,firing_s,0,\n"] {
+        let lines = format!("tire,quantity,value,sd\n{logged}2,landing_s,{landing},0.0001\n");
+        let shots = ObservedShots::new(&[observations(&case, &lines)]);
+        let seen = predict_observations(&case, &shots, Some(&sampling), &compute, &Progress::default());
+        let [low, high] = seen.expect("runs")[0].band.expect("samples");
+        // 400 samples know the middle of the band of 4 ms and more to 0.4 ms.
+        assert!((0.5 * (low + high) - landing).abs() < 1.2e-3, "{logged:?} {low} {high} {landing}");
+    }
+}
+
+/// A plan whose runs end before something was seen: it is computed until rest, and the launch is found; a hole that was logged before
+/// time 0 moves what is seen with it.
+#[test]
+fn what_was_seen_after_the_end_or_before_the_start_is_computed() {
+    let exact = EXACT.replace("delay_sd_ms = 0", "delay_sd_ms = 0\nlaunch_common_percent = 0");
+    let short = format!("{}[simulation]\nduration_s = 0.4\n", lone_plan(&exact));
+    let case = case_of(&short);
+    let height = 6.0 * 1.0 - 9.81 / 2.0;
+    let lines = format!("tire,quantity,at_s,value,sd\n1,height_m,1.0,{height},0.001\n");
+    let found = fitted(&case, &lines, &[Unknown::Launch], None);
+    assert!((found.answers[0].estimates[0].value - 1.0).abs() < 1e-3, "{:?}", found.answers);
+    let case = case_of(&lone_plan(&exact));
+    let lines = "tire,quantity,at_s,value,sd\n1,lift_s,,0,0.001\n1,height_m,0.1,1,0.001\n1,firing_s,,-0.2,\n";
+    let shots = ObservedShots::new(&[observations(&case, lines)]);
+    let compute = ComputeSettings::of(&case.plan);
+    let sampling = Sampling::exactly(100, 1);
+    let seen =
+        predict_observations(&case, &shots, Some(&sampling), &compute, &Progress::default()).expect("runs");
+    let middle = |n: usize| seen[n].band.map_or(f64::NAN, |[low, high]| 0.5 * (low + high));
+    let exact = 6.0 * 0.3 - 9.81 * 0.3 * 0.3 / 2.0;
+    assert!((middle(0) + 0.2).abs() < 1e-3 && (middle(1) - exact).abs() < 2e-3, "{seen:?}");
 }
 
 /// What is replaced in the good file, and by what.

@@ -344,7 +344,7 @@ fn draws_have_the_moments_asked_for() {
     ];
     let mut values = names.map(|_| Vec::new());
     for number in 0..20_000 {
-        let DrawnShot { scene: drawn, shot, inputs } = draw(&case, nominal, 7, number);
+        let DrawnShot { scene: drawn, shot, inputs, .. } = draw(&case, nominal, 7, number);
         let first = shot.firings.iter().find(|f| f.tire == nominal.firings[0].tire).expect("the first hole");
         let same = shot.firings.iter().find(|firing| firing.tire == hole.tire).expect("the same hole");
         let heavier = drawn.mass[hole.tire] / scene.mass[hole.tire];
@@ -396,7 +396,7 @@ fn draws_have_the_moments_asked_for() {
 fn draws_are_the_same_for_every_option_and_accuracy() {
     let case = rows("[uncertainty]\nlaunch_cv_percent = 5\nlaunch_tilt_deg = 2\nin_hole_delay_ms = 500\n");
     let drawn = |option: usize, seed: u64, number: usize| {
-        let DrawnShot { scene, shot, inputs } = draw(&case, &case.shots[option], seed, number);
+        let DrawnShot { scene, shot, inputs, .. } = draw(&case, &case.shots[option], seed, number);
         let mut launches: Vec<_> =
             shot.firings.iter().map(|f| (f.tire, f.launch.map(f64::to_bits))).collect();
         launches.sort_by_key(|(tire, _)| *tire);

@@ -135,8 +135,13 @@ impl Observations {
         Ok(Self { path: path.to_owned(), checksum, list, firings })
     }
 
-    /// Whether more than half of the observations of one file are in the other: two shots are not so alike.
+    /// Whether more than half of the observations of one file are in the other: two shots are not so alike. Shots whose measured
+    /// firing times differ are two.
     pub fn overlaps(&self, other: &Self) -> bool {
+        let are_told_apart = !self.firings.is_empty() && !other.firings.is_empty();
+        if are_told_apart && self.firings != other.firings {
+            return false;
+        }
         let is_in_other = |seen: &&Observation| other.list.iter().any(|one| one.is_as(seen));
         let common = self.list.iter().filter(is_in_other).count();
         2 * common > self.list.len().min(other.list.len())
@@ -159,7 +164,7 @@ fn name_of(path: &Path) -> String {
 pub fn template(option: &str, tire: &str, cable: Option<&str>) -> String {
     let quoted = format!("\"{}\"", option.replace('"', "\"\""));
     let mut text = format!(
-        "{}\n# an example, replace it; tire and cable as ROW:COLUMN, or as in `shelter trace`; times from the first hole on\n\
+        "{}\n# an example, replace it; tire and cable as ROW:COLUMN, or as in `shelter trace`; times since time 0 of the plan\n\
          {quoted},{tire},,flight_height_m,,1.25,0.05\n\
          {quoted},{tire},,height_m,0.3,0.9,0.1\n\
          {quoted},{tire},,landing_s,,0.95,0.02\n\

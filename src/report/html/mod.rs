@@ -42,6 +42,8 @@ pub struct Page<'a> {
     pub sampling: Option<&'a Sampling>,
     /// A sweep of the interval between rows, whose charts the page shows.
     pub sweep: Option<&'a Sweep>,
+    /// Whether the plan was fitted to some of what was seen.
+    pub fitted_to_observed: bool,
     /// What was seen of earlier shots; empty where nobody told.
     pub observed: &'a [ObservedRow<'a>],
     /// Whether the time was up before all was computed.
@@ -65,7 +67,8 @@ pub fn page(page: &Page<'_>) -> String {
     let fired_judged = fired.and_then(|option| Some((option, results[option].as_ref().ok()?)));
     let checked = fired_judged.map(|(_, judged)| &judged.as_planned);
     let of_fired = fired_judged.map(|(option, judged)| warnings::of_option(case, option, judged));
-    let at_head = [warnings::of_plan(case), of_fired.unwrap_or_default()].concat();
+    let contradiction = observed::contradiction(page.observed);
+    let at_head = [warnings::of_plan(case), of_fired.unwrap_or_default(), contradiction].concat();
     let others =
         if fired.is_some() { warnings::of_options(case, results, fired) } else { report.warnings.clone() };
     let text = html! {
@@ -231,6 +234,9 @@ fn seen(page: &Page<'_>) -> Markup {
             h2 { "Earlier shots: planned, predicted, observed" }
             p.quiet { "Of the plan of this page. Predicted: where nine of ten such observations should lie." }
             div.scroll { (table::table(&observed_table(page.observed), None)) }
+            @if page.fitted_to_observed {
+                p { strong { "The plan was fitted to some of these: that they lie within says nothing." } }
+            }
             @for sentence in observed::bands(page.case, page.observed) { p { (sentence) } }
         }
     }

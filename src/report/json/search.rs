@@ -144,7 +144,7 @@ impl SearchDocument {
             schema: "shelter.search/1",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
-            verdict: search.verdict().name(),
+            verdict: search.verdict(partial).name(),
             partial,
             limits: LimitsObject::of(case),
             count: search.judged,

@@ -77,6 +77,7 @@ pub fn fit(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Finding<FitResult> {
+    let case = &until_rest(case);
     let parameters = Parameter::all(request.unknowns, &case.plan);
     let priors = match stated_priors(case, request, &parameters) {
         Ok(priors) => priors,
@@ -114,6 +115,16 @@ pub fn fit(
     let mut fit = Fit { answers, observed, file, predictions, next: None };
     fit.next = next(case, &fit, request, compute, progress)?;
     Ok(whole(FitResult::Fitted(fit)))
+}
+
+/// The case without a `duration_s`, where friction brings the tires to rest: what was seen later than that is computed, too.
+fn until_rest(case: &Case) -> Case {
+    let mut case = case.clone();
+    let least_friction = case.plan.ground.friction.min(case.plan.uncertainty.friction[0]);
+    if 1e2 * least_friction > case.plan.ground.slope_percent {
+        case.plan.simulation.duration_s = None;
+    }
+    case
 }
 
 fn whole(value: FitResult) -> Found<FitResult> {

@@ -8,6 +8,7 @@ use rand_distr::StandardNormal;
 use super::determined::{Candidate, candidates, usual_sd};
 use super::observed_shots::{ObservedShot, ObservedShots};
 use super::predictor::observe_shot;
+use super::until_rest;
 use crate::choice::ObservedQuantity;
 use crate::plan::observations::Watched;
 use crate::study::samples::draw::{Input, draw};
@@ -17,6 +18,9 @@ use crate::study::samples::sampling::Sampling;
 use crate::study::work::batch::run_batch;
 use crate::study::{Case, ComputeSettings, NoResult, Progress};
 use crate::verdict::Quantity;
+
+/// Least share of samples with a value, for a band.
+const OFTEN_KNOWN: f64 = 0.95;
 
 /// What was planned of an observed quantity, and what could have been seen of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,7 +69,8 @@ fn samples(
     let runs = run_batch(&numbers, progress, |&number| {
         let sample = draw(case, &case.shots[shot.option], sampling.seed, number);
         let settings = case.run_settings(compute.method, step(compute, &sample.scene));
-        let fired = sample.shot.with_times(&shot.times);
+        // In the time of the plan, as observations are.
+        let fired = sample.shot.later_by(-sample.later).with_times(&shot.times);
         let values = observe_shot(case, Some(&sample.scene), &fired, &shot.watched, &settings, progress)?;
         Ok(values.map(|values| (values, sample.inputs)))
     })?;
@@ -85,6 +90,7 @@ pub fn predict_observations(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Vec<Prediction>, NoResult> {
+    let case = &until_rest(case);
     let mut all = Vec::new();
     for shot in seen.shots() {
         let ObservedShot { option, ref watched, .. } = shot;
@@ -100,7 +106,10 @@ pub fn predict_observations(
                     let noise: f64 = random.sample(StandardNormal);
                     sample[n] + observation.sd * noise
                 });
-                percentiles(values.filter(|value| value.is_finite()), [0.05, 0.95])
+                let known: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+                // A tire that may never lift or land has no band: what is left would be a band of the others.
+                let is_known = known.len() as f64 >= OFTEN_KNOWN * drawn.values.len() as f64;
+                is_known.then(|| percentiles(known.into_iter(), [0.05, 0.95])).flatten()
             });
             all.push(Prediction { planned: planned[n], band });
         }

@@ -5,6 +5,8 @@ use std::ops::ControlFlow;
 use super::observed_shots::ObservedShot;
 use super::parameter::Parameter;
 use super::watch::ObservationWatch;
+use crate::choice::ObservedQuantity;
+use crate::outcome::EndReason;
 use crate::plan::Plan;
 use crate::plan::observations::Watched;
 use crate::scene::{Scene, Shot};
@@ -61,7 +63,12 @@ pub fn observe_shot(
     settings: &RunSettings,
     progress: &Progress,
 ) -> Result<Option<Vec<f64>>, NoResult> {
-    let mut watch = ObservationWatch::new(watched);
+    // A run begins at time 0: where a hole fires before, all is moved, and moved back in what is seen.
+    let early = shot.firings.first().map_or(0.0, |firing| -firing.at.min(0.0));
+    let shot = &shot.later_by(early);
+    let later = |watched: &Watched| Watched { at: watched.at + early, ..*watched };
+    let moved: Vec<Watched> = watched.iter().map(later).collect();
+    let mut watch = ObservationWatch::new(&moved);
     let mut look = |motion: &dyn Motion| -> ControlFlow<()> {
         watch.observe(motion);
         progress.flow()
@@ -71,7 +78,15 @@ pub fn observe_shot(
         None => case.model.run(shot, settings, &mut look),
     };
     match done.map_err(|failure| progress.no_result(failure)) {
-        Ok(_) => Ok(Some(watch.values())),
+        Ok(outcome) => {
+            let mut values = watch.values(outcome.end.reason == EndReason::AtRest);
+            for (value, watched) in values.iter_mut().zip(watched) {
+                if matches!(watched.quantity, ObservedQuantity::Lift | ObservedQuantity::Landing) {
+                    *value -= early;
+                }
+            }
+            Ok(Some(values))
+        }
         Err(NoResult::Failed(_)) => Ok(None),
         Err(ended) => Err(ended),
     }

@@ -54,11 +54,14 @@ impl<'w> ObservationWatch<'w> {
         }
     }
 
-    /// The value of each quantity [its SI unit], in their order; not a number where the tire never lifts or never lands.
-    pub fn values(&self) -> Vec<f64> {
+    /// The value of each quantity [its SI unit], in their order; not a number where the tire never lifts or never lands, nor of a
+    /// height after a run that did not end `at_rest`.
+    pub fn values(&self, at_rest: bool) -> Vec<f64> {
         let value = |(watched, track): (&Watched, &Track)| match watched.quantity {
             ObservedQuantity::FlightHeight | ObservedQuantity::Force => track.greatest,
-            ObservedQuantity::Height => track.at_time.unwrap_or(track.last[1].1),
+            ObservedQuantity::Height => {
+                track.at_time.unwrap_or(if at_rest { track.last[1].1 } else { f64::NAN })
+            }
             ObservedQuantity::Lift => track.lift.unwrap_or(f64::NAN),
             ObservedQuantity::Landing => track.landing.unwrap_or(f64::NAN),
             ObservedQuantity::Drift => track.last[1].1,

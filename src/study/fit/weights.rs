@@ -208,7 +208,8 @@ impl Weighing<'_> {
         let Predictor { compute, progress, .. } = self.predictor;
         let sample = draw(case, &case.shots[shot.option], seed, number);
         let settings = case.run_settings(compute.method, step(compute, &sample.scene));
-        let fired = sample.shot.with_times(&shot.times);
+        // In the time of the plan, as observations are.
+        let fired = sample.shot.later_by(-sample.later).with_times(&shot.times);
         observe_shot(case, Some(&sample.scene), &fired, &shot.watched, &settings, progress)
     }
 

@@ -56,6 +56,8 @@ pub struct DrawnShot {
     pub shot: Shot,
     /// Values of the inputs in [`Input::ALL`].
     pub inputs: [f64; Input::ALL.len()],
+    /// How much later than drawn all holes fire, so that none fires before time 0 [s].
+    pub later: f64,
 }
 
 /// The random numbers of one sample, kept apart by what they are for.
@@ -126,10 +128,10 @@ pub fn draw(case: &Case, nominal: &Shot, seed: u64, number: usize) -> DrawnShot 
         scene.mirrors.clear();
     }
     // No firing may be before the start; only differences of firing times matter.
-    let first = firings.iter().map(|firing| firing.at).fold(0.0, f64::min);
-    firings.iter_mut().for_each(|firing| firing.at -= first);
+    let later = -firings.iter().map(|firing| firing.at).fold(0.0, f64::min);
+    firings.iter_mut().for_each(|firing| firing.at += later);
     let shot = Shot { friction: Some(friction), ..Shot::from_firings(firings) };
-    DrawnShot { scene, shot, inputs: [launch_common, friction, slack_percent, stiffness] }
+    DrawnShot { scene, shot, inputs: [launch_common, friction, slack_percent, stiffness], later }
 }
 
 /// Shifts the firings [s], which are in order of time, by the scatter of the gaps before them: of the gaps between the rows, and

@@ -244,7 +244,7 @@ fn try_sample(
     progress: &Progress,
 ) -> Result<Sample, NoResult> {
     let ShotToSample { case, shot, compute, sampling, .. } = *target;
-    let DrawnShot { scene, shot, inputs } = draw(case, shot, sampling.seed, number);
+    let DrawnShot { scene, shot, inputs, .. } = draw(case, shot, sampling.seed, number);
     // The run, and whether it failed or has no energy balance.
     let run = |step: f64| {
         let settings = case.run_settings(compute.method, step);

@@ -299,12 +299,13 @@ impl Search {
         all.filter(move |(_, result)| passes(result)).map(|(delay, _)| delay)
     }
 
-    /// The verdict on the best schedule; fail where all there are were looked at and none keeps the limits of the search.
-    pub fn verdict(&self) -> Verdict {
-        match self.results.first() {
+    /// The verdict on the best schedule; no pass where the search is `partial`: the time was up; fail where all there are were looked at and none keeps the limits of the search.
+    pub fn verdict(&self, partial: bool) -> Verdict {
+        let verdict = match self.results.first() {
             None if self.complete => Verdict::Fail,
             None => Verdict::Undecided,
             Some(best) => best.as_ref().map_or(Verdict::Undecided, Judgement::verdict),
-        }
+        };
+        if partial && verdict == Verdict::Pass { Verdict::Undecided } else { verdict }
     }
 }

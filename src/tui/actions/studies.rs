@@ -29,6 +29,8 @@ impl App {
             Action::Last => self.studies.scroll = u16::MAX,
             Action::Left => self.studies.show_neighbour(-1),
             Action::Right => self.studies.show_neighbour(1),
+            // What computes is not thrown away by the key that began it.
+            Action::Open if self.studies.is_running(kind) => {}
             Action::Open | Action::Rerun => return self.begin_study(kind),
             Action::Cancel => return self.cancel_study(kind),
             other => return self.act_anywhere(other),

@@ -223,7 +223,7 @@ pub const BINDINGS: &[Binding] = &[
         "studies",
         &["4"],
         "",
-        "sweep, orders, risk, search, size, effects",
+        "sweep, orders, risk, search, size, effects, fit",
         ALL,
     ),
     bind(Action::Show(Screen::Accuracy), "accuracy", &["5"], "", "what accuracy costs on this plan", ALL),
