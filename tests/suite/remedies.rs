@@ -15,7 +15,7 @@ use shelter::tui::compare::OptionState;
 use shelter::verdict::Verdict;
 
 use super::support::stage::{draw, finished, key, study_ends, text};
-use super::support::{self, json, shelter, shipped};
+use super::support::{self, json, shelter, shipped, shipped_plans};
 
 /// Three options under a small shelter: the first fails as planned, the second by its samples, and the third passes.
 const SMALL: &str = r#"
@@ -172,8 +172,7 @@ fn words(plan: &Plan) -> String {
 fn a_change_of_the_text_is_that_change_of_the_plan_and_no_other() {
     let rope = catalogue().find("GOST 2688-80 15").expect("in the catalogue");
     let spelter = catalogue().termination("spelter socket").expect("in the catalogue");
-    for entry in std::fs::read_dir(shipped("")).expect("the folder") {
-        let path = entry.expect("an entry").path();
+    for path in shipped_plans() {
         let case = Case::load(&path).expect("a shipped plan");
         let mut changes = vec![Change::BorderRows(2), Change::Launch(0.85)];
         changes.extend([0.5, 3.0].map(Change::Slack));

@@ -4,6 +4,7 @@ use shelter::plan::Plan;
 use shelter::plan::schema::schema;
 
 use super::bad_plans::{BAD, GOOD};
+use super::support::shipped_plans;
 
 fn value(text: &str) -> Option<serde_json::Value> {
     toml::from_str::<toml::Table>(text).ok().and_then(|table| serde_json::to_value(table).ok())
@@ -14,12 +15,10 @@ fn shipped_plans_are_valid() {
     let schema = schema();
     jsonschema::meta::validate(&schema).unwrap_or_else(|error| panic!("{error}"));
     let check = jsonschema::validator_for(&schema).expect("a schema");
-    let folder = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/plans")).expect("the folder");
-    let paths: Vec<_> = folder.map(|entry| entry.expect("an entry").path()).collect();
-    let plans = paths.iter().filter(|path| path.extension().is_some_and(|ending| ending == "toml"));
-    assert!(plans.clone().count() >= 4, "the shipped plans");
+    let plans = shipped_plans();
+    assert_eq!(plans.len(), 4);
     for path in plans {
-        let text = std::fs::read_to_string(path).expect("a plan");
+        let text = std::fs::read_to_string(&path).expect("a plan");
         let told: Vec<String> =
             check.iter_errors(&value(&text).expect("TOML")).map(|error| error.to_string()).collect();
         assert!(told.is_empty(), "{}: {told:?}", path.display());

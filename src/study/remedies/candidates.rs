@@ -29,9 +29,8 @@ pub(super) fn candidates(plan: &Plan, option: usize, too_much_together: bool) ->
         stronger_terminations(plan),
         more_border_rows(plan),
         slacks.collect(),
-        intervals.collect(),
-        // Last: the launch is no setting, but what the charge does.
         LOWER_LAUNCHES.map(Change::Launch).to_vec(),
+        intervals.collect(),
     ]
 }
 

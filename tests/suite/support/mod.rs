@@ -5,6 +5,7 @@ pub mod pseudo_terminal;
 pub mod scenes;
 pub mod stage;
 
+use std::path::PathBuf;
 use std::process::{Command, Output};
 
 use serde_json::Value;
@@ -21,6 +22,13 @@ pub fn shelter(arguments: &[&str]) -> Output {
 /// Path of a shipped plan.
 pub fn shipped(name: &str) -> String {
     format!("{}/plans/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Paths of all shipped plans.
+pub fn shipped_plans() -> Vec<PathBuf> {
+    let paths =
+        std::fs::read_dir(shipped("")).expect("the folder").map(|entry| entry.expect("an entry").path());
+    paths.filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect()
 }
 
 /// Output as text.
