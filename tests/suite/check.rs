@@ -376,7 +376,7 @@ fn a_reader_that_goes_away_ends_trace_quietly() {
         .expect("it starts");
     let mut line = String::new();
     BufReader::new(child.stdout.take().expect("a pipe")).read_line(&mut line).expect("a line");
-    assert!(line.starts_with("time_s,"), "{line}");
+    assert!(line.starts_with("t_s,"), "{line}");
     let output = child.wait_with_output().expect("it ends");
     assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
 }
