@@ -152,7 +152,8 @@ fn try_one(seed: u64, unknowns: &[Unknown], tally: &mut Tally) {
         _ => sample.inputs[3] * case.plan.cable.axial_stiffness_kn,
     };
     let mut fired = case.clone();
-    (fired.model, fired.shots) = (Model::new(sample.scene.clone()), vec![sample.shot.clone()]);
+    (fired.model, fired.shots) =
+        (Model::new(sample.scene.clone()), vec![sample.shot.later_by(-sample.later)]);
     let compute = ComputeSettings::of(&case.plan);
     let lines = watched(&case, random);
     let header = "tire,cable,quantity,value,sd\n";
