@@ -16,7 +16,7 @@ use crate::choice::Unknown;
 use crate::file;
 use crate::plan::Plan;
 use crate::plan::fitted;
-use crate::plan::observations::{Observations, template};
+use crate::plan::observations::{Observations, template, used_twice};
 use crate::report::fit::{refusal, report};
 use crate::report::json::FitDocument;
 use crate::study::fit::{Fit, FitRequest, FitResult, fit, observable_names};
@@ -61,7 +61,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         return wrong(&message);
     }
     let Some(files) = read_observations(&case, &arguments.observed, look) else { return Ok(Status::Wrong) };
-    if let Some(message) = used_twice(&case, &files) {
+    if let Some(message) = used_twice(&files, &case.plan.fitted_from, &case.source.path) {
         return wrong(&message);
     }
     let compute = arguments.study.compute.settings(&case.plan);
@@ -110,24 +110,6 @@ fn contradiction(unknowns: &[Unknown]) -> Option<String> {
     }
     let twice = unknowns.iter().duplicates_by(|unknown| unknown.name()).next()?;
     Some(format!("--unknown names {twice} twice"))
-}
-
-/// Which file is in the plan already, or is named twice.
-fn used_twice(case: &Case, files: &[Observations]) -> Option<String> {
-    let in_plan = files.iter().find(|file| case.plan.fitted_from.contains(&file.checksum));
-    if let Some(file) = in_plan {
-        return Some(format!(
-            "{} was fitted into {} already, as its [uncertainty] says: the same observations do not count twice; leave the file out",
-            file.path, case.source.path
-        ));
-    }
-    named_twice(files)
-}
-
-/// Which file holds a shot that another file holds.
-pub fn named_twice(files: &[Observations]) -> Option<String> {
-    let (_, file) = files.iter().tuple_combinations().find(|(one, other)| one.overlaps(other))?;
-    Some(format!("{} holds mostly the same observations as another file: name each shot once", file.path))
 }
 
 /// A file of observations with a tire and a cable of the plan.

@@ -7,13 +7,14 @@ use clap::Args;
 
 use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments};
 use super::check_plans::{check_plans, print_checks};
-use super::fit::{named_twice, read_observations};
+use super::fit::read_observations;
 use super::load_plans::open_option;
 use super::print::{print_beside_verdict, print_warnings};
 use super::run_study::run_study;
 use super::status::{Status, failed, was_interrupted, wrong};
 use super::sweep::swept_order;
 use crate::file;
+use crate::plan::observations::named_twice;
 use crate::report::check;
 use crate::report::html::{self, Page};
 use crate::report::observed::observed_rows;
@@ -21,7 +22,7 @@ use crate::study::fit::observed_shots::ObservedShots;
 use crate::study::fit::predicted::predict_observations;
 use crate::study::judge_options::MustPass;
 use crate::study::sweep::{INTERVALS, sweep};
-use crate::study::{Found, NoResult};
+use crate::study::{Found, NoResult, Progress};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -99,14 +100,16 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(reason) => return failed(&reason),
     };
     let seen = ObservedShots::new(&files);
-    let predictions = run_study(&arguments.compute, |progress| {
+    let predict = |progress: &Progress| {
         let value = predict_observations(&cases[0], &seen, sampling.as_ref(), &compute, progress)?;
         Ok(Found { value, partial: false })
-    });
-    let predictions = match predictions {
-        Ok(found) => Some(found.value),
-        Err(NoResult::OutOfTime) => None,
-        Err(reason) => return failed(&reason),
+    };
+    let is_asked = !files.is_empty() && !was_interrupted();
+    let predictions = match is_asked.then(|| run_study(&arguments.compute, predict)) {
+        None => Some(Vec::new()),
+        Some(Ok(found)) => Some(found.value),
+        Some(Err(NoResult::OutOfTime)) => None,
+        Some(Err(reason)) => return failed(&reason),
     };
     // Who interrupts wants no page, and keeps the page that is there.
     if was_interrupted() {

@@ -23,15 +23,6 @@ impl SaveArguments {
         case: &Case,
         question: Question,
         compute: ComputeSettings,
-    ) -> Result<Journal, String> {
-        self.journal_of(case, question, compute, Shard::WHOLE)
-    }
-
-    fn journal_of(
-        &self,
-        case: &Case,
-        question: Question,
-        compute: ComputeSettings,
         shard: Shard,
     ) -> Result<Journal, String> {
         let Some(path) = &self.save else { return Ok(Journal::default()) };
@@ -57,6 +48,6 @@ impl SharedArguments {
         question: Question,
         compute: ComputeSettings,
     ) -> Result<Journal, String> {
-        self.file.journal_of(case, question, compute, self.shard.unwrap_or(Shard::WHOLE))
+        self.file.journal(case, question, compute, self.shard.unwrap_or(Shard::WHOLE))
     }
 }

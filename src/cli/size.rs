@@ -19,7 +19,7 @@ use crate::ropes::catalogue;
 use crate::study::orders::{MOST_ROWS, tries_all};
 use crate::study::results_file::Question;
 use crate::study::size::{Combination, Demand, size};
-use crate::study::{Case, Intervals, NoResult};
+use crate::study::{Case, Intervals, NoResult, Shard};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -65,7 +65,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let compute = arguments.study.compute.settings(&case.plan);
     let sampling = arguments.study.verdict.sampling();
     let question = Question::Size { choices: plan.size.clone(), demand: demand.clone(), sampling };
-    let journal = match arguments.saved.journal(&case, question, compute) {
+    let journal = match arguments.saved.journal(&case, question, compute, Shard::WHOLE) {
         Ok(journal) => journal,
         Err(message) => return wrong(&message),
     };

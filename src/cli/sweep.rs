@@ -16,7 +16,7 @@ use crate::report::json::SweepDocument;
 use crate::report::sweep::report;
 use crate::study::results_file::Question;
 use crate::study::sweep::sweep;
-use crate::study::{Case, Found, Intervals};
+use crate::study::{Case, Found, Intervals, Shard};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -62,7 +62,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         option: arguments.option.clone(),
         sampling,
     };
-    let journal = match arguments.saved.journal(&case, question, compute) {
+    let journal = match arguments.saved.journal(&case, question, compute, Shard::WHOLE) {
         Ok(journal) => journal,
         Err(message) => return wrong(&message),
     };

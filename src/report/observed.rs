@@ -35,7 +35,8 @@ fn observed_fields<'a>() -> [Field<ObservedRow<'a>>; 7] {
         Field::new(words("planned"), |row| Cell::Text(value_by_sd(row.prediction.planned, row.observed.sd))),
         Field::new(words("predicted, 90 %"), |row| {
             row.prediction.band.map_or(Cell::Nothing, |band| {
-                Cell::Text(band.map(|end| value_by_sd(end, row.observed.sd)).join(" to "))
+                let [low, high] = band.map(|end| value_by_sd(end, row.observed.sd));
+                Cell::Text(if low == high { low } else { format!("{low} to {high}") })
             })
         }),
         Field::new(Column::words(&[], "within"), |row| {

@@ -1,6 +1,6 @@
 //! What the user says was seen of earlier shots: lines typed on the screen, and files.
 
-use crate::plan::observations::{COLUMNS, Observations};
+use crate::plan::observations::{COLUMNS, Observations, used_twice};
 use crate::study::Case;
 use crate::study::fit::observable_names;
 
@@ -56,7 +56,8 @@ impl Observed {
                 format!("{place}{message}: {remedy}")
             })
         };
-        typed.into_iter().chain(files).map(read).collect()
+        let all = typed.into_iter().chain(files).map(read).collect::<Result<Vec<_>, _>>()?;
+        used_twice(&all, &case.plan.fitted_from, &case.source.path).map_or(Ok(all), Err)
     }
 
     /// What was told, line by line: the typed ones as they count, and the names of the files.
@@ -120,6 +121,11 @@ mod tests {
             observed
                 .add_file(&case, "seen.csv", "tire\n")
                 .is_err_and(|told| told.contains("seen.csv, line 1"))
+        );
+        let same = "option,tire,cable,quantity,at_s,value,sd\n20 ms,3:1,,flight_height_m,,1.95,0.05\n";
+        assert_eq!(
+            observed.clone().add_file(&case, "other.csv", same).map_err(|told| told.contains("same")),
+            Err(true)
         );
         assert_eq!(observed.lines().len(), 4);
     }

@@ -380,6 +380,20 @@ fn what_was_seen_after_the_end_or_before_the_start_is_computed() {
     assert!((middle(0) + 0.2).abs() < 1e-3 && (middle(1) - exact).abs() < 2e-3, "{seen:?}");
 }
 
+/// A tire that no sample lifts was seen to land: that contradicts the plan, and is no observation without a band.
+#[test]
+fn what_no_sample_shows_lies_outside() {
+    let plan =
+        lone_plan(EXACT).replace("[{ x_m = 0, y_m = 0 }]", "[{ x_m = 0, y_m = 0 }, { x_m = 5, y_m = 0 }]");
+    let case = case_of(&plan);
+    let shots = ObservedShots::new(&[observations(&case, "tire,quantity,value,sd\n2,landing_s,0.5,0.1\n")]);
+    let (compute, sampling) = (ComputeSettings::of(&case.plan), Sampling::exactly(50, 1));
+    let seen = predict_observations(&case, &shots, Some(&sampling), &compute, &Progress::default());
+    let seen = seen.expect("runs");
+    assert!(seen[0].planned.is_nan());
+    assert_eq!(seen[0].contains(0.5), Some(false));
+}
+
 /// What is replaced in the good file, and by what.
 const BAD: &[(&str, &str)] = &[
     ("option,tire,cable,quantity,at_s,value,sd\n", ""),

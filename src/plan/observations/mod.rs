@@ -8,6 +8,8 @@ mod row;
 use std::collections::HashMap;
 use std::path::Path;
 
+use itertools::Itertools;
+
 use self::row::{Row, Seen};
 use super::Diagnostics;
 use super::diagnostic::Mistake;
@@ -158,6 +160,24 @@ pub fn read_text(path: &Path) -> Result<String, Diagnostics> {
 
 fn name_of(path: &Path) -> String {
     super::visible(&path.display().to_string()).into_owned()
+}
+
+/// Which file was fitted into the plan called `plan`, which holds the checksums `fitted_from`, or holds a shot of another file.
+pub fn used_twice(files: &[Observations], fitted_from: &[String], plan: &str) -> Option<String> {
+    let in_plan = files.iter().find(|file| fitted_from.contains(&file.checksum));
+    let text = |file: &Observations| {
+        format!(
+            "{} was fitted into {plan} already, as its [uncertainty] says: the same observations do not count twice; leave the file out",
+            file.path
+        )
+    };
+    in_plan.map(text).or_else(|| named_twice(files))
+}
+
+/// Which file holds a shot that another file holds.
+pub fn named_twice(files: &[Observations]) -> Option<String> {
+    let (_, file) = files.iter().tuple_combinations().find(|(one, other)| one.overlaps(other))?;
+    Some(format!("{} holds mostly the same observations as another file: name each shot once", file.path))
 }
 
 /// A file to begin with: the header, and an example of a tire and of a cable.

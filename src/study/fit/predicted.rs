@@ -27,8 +27,8 @@ const OFTEN_KNOWN: f64 = 0.95;
 pub struct Prediction {
     /// The value of the plan; not a number where the tire never lifts, or never lands.
     pub planned: f64,
-    /// 5th and 95th percentile of what could have been seen, with the standard deviation of the observation; `None` without
-    /// samples.
+    /// 5th and 95th percentile of what could have been seen, with the standard deviation of the observation; not numbers where the
+    /// tire never lifts, or never lands; `None` without samples, and where some lack the value.
     pub band: Option<[f64; 2]>,
 }
 
@@ -107,6 +107,10 @@ pub fn predict_observations(
                     sample[n] + observation.sd * noise
                 });
                 let known: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+                if known.is_empty() {
+                    // Not one sample lifts or lands: whatever was seen is outside.
+                    return Some([f64::NAN; 2]);
+                }
                 // A tire that may never lift or land has no band: what is left would be a band of the others.
                 let is_known = known.len() as f64 >= OFTEN_KNOWN * drawn.values.len() as f64;
                 is_known.then(|| percentiles(known.into_iter(), [0.05, 0.95])).flatten()
@@ -129,6 +133,7 @@ pub fn next_observation(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<Option<NextObservation>, NoResult> {
+    let case = &until_rest(case);
     let watched = candidates(case.scene());
     let shot = ObservedShot { option, times: Vec::new(), watched, first: 0 };
     let drawn = samples(case, &shot, sampling, compute, progress)?;
