@@ -133,8 +133,8 @@ fn write_temporary(path: &Path, text: &str, old: Option<&Metadata>) -> io::Resul
 /// Gives a new file the owner and the group of the old one.
 #[cfg(unix)]
 fn keep_owner(new: &File, old: &Metadata) -> io::Result<()> {
-    let own = new.metadata()?;
-    if (own.uid(), own.gid()) == (old.uid(), old.gid()) {
+    let now = new.metadata()?;
+    if (now.uid(), now.gid()) == (old.uid(), old.gid()) {
         return Ok(());
     }
     fchown(new, Some(old.uid()), Some(old.gid())).map_err(|_| ErrorKind::Unsupported.into())

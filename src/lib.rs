@@ -84,27 +84,31 @@
 //!     O tire   ─ │ ╳ cables
 //! ```
 //!
-//! A *hole* fires under a tire and launches it; holes that a delay option fires as one group, together or one after another, are a
-//! *blast row*; the *interval* between rows, or
-//! their *order*, makes a *delay option*. A *shelter* is tires (point masses) tied by *cables* that only pull. A cable is
-//! *taut* or *slack*; a tire on the ground *sticks* or *slips*.
+//! | word | meaning |
+//! |---|---|
+//! | blast row | holes that a delay option fires as one group, together or one after another; each launches the tire over it |
+//! | delay option | the *interval* between blast rows, and their *order* |
+//! | shelter | tires (point masses) tied by *cables* that only pull: *taut* or *slack*; a tire on the ground *sticks* or *slips* |
+//! | shot | one firing of all holes: which tire is launched when, and how fast |
+//! | scene | the shelter itself: masses, cables, ground |
+//! | case | a plan made ready: its scene, one shot for each option, its limits |
+//! | peak, drift | the greatest height or force of a run; how far a tire ends from where it lay |
+//! | utilization | the greatest value over its limit |
+//! | checked shot | the shot as planned, run at the steps of a *ladder*, each finer than the one before, until its verdict is sure ([`CheckedShot`]); the *summary* keeps verdict, height, force and drift ([`ShotSummary`](study::ShotSummary)) |
+//! | sample | one of the shots that are possible: drawn at random as `[uncertainty]` says, and run |
+//! | sampling | how many samples are drawn, from which seed, and when to stop |
+//! | sampled shot | all samples of a shot, and what they tell ([`SampledShot`](study::samples::sampled_shot::SampledShot)); its *risk* is the share that fails, with bounds |
+//! | audit | some samples run again at a finer step |
+//! | judgement | checked shot and sampled shot together |
+//! | nominal | as planned, nothing varied |
+//! | undecided | neither pass nor fail is sure; OPEN on screens |
+//! | quick check | a coarse check of one shot among thousands |
+//! | launch margin | how much faster the tires may leave until the shot as planned fails |
+//! | remedy | a change of the plan with which an option would pass |
+//! | shard, journal | one machine's part of a study; what a study has computed, kept in a file by `--save` |
+//! | face | one way to show results: text, CSV, page and terminal draw reports; JSON has documents of its own, and the table and detail of Compare draw judgements as they come |
 //!
-//! A *shot* is one firing of all holes: which tire is launched when, and how fast. A *scene* is the shelter itself: masses,
-//! cables, ground. A *case* is a plan made ready: its scene, one shot for each option, its limits. *Drift* is how far a tire ends
-//! from where it lay; a *peak* is the greatest height or force of a run. The *launch margin* is how much faster the tires may leave
-//! until the shot as planned fails; a *remedy* is a change of the plan with which an option would pass.
-//!
-//! The *utilization* of a shot is its greatest value over its limit. A *checked shot* was run at ever finer steps until its
-//! verdict was sure ([`CheckedShot`]); its *summary* is the verdict with height, force and drift, each with its error
-//! ([`ShotSummary`](study::ShotSummary)). A *sample* is one of the shots that are possible: drawn at random as `[uncertainty]`
-//! says, and run. What all samples of a shot tell is its *risk*. A *judgement* is check and risk together. A check climbs a
-//! *ladder* of steps, each a fixed ratio finer than the one before. A *sampling* says how many samples are drawn, from which
-//! seed, and when to stop. A *face* is one way to show results: text, CSV, page and terminal draw reports; JSON has documents of
-//! its own, and the table and detail of Compare draw judgements as they come.
-//!
-//! *Nominal* is as planned, nothing varied. *Undecided* reads OPEN on screens. A *quick check* is a coarse check of one shot
-//! among thousands. An *audit* runs some samples again at a finer step. A *shard* is one machine's part of a study. A *journal*
-//! keeps what a study has computed; `--save` puts it into a file. A word in brackets behind a field, such as (`n_tires`), is its length.
+//! A word in brackets behind a field, such as (`n_tires`), is its length.
 
 // Both panic where the stream is gone; `cli::tell` does not.
 #![deny(clippy::print_stderr, clippy::print_stdout)]

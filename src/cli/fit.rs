@@ -93,9 +93,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
 
 /// The observations of all files; prints every mistake, `None` where there is one.
 pub fn read_observations(case: &Case, paths: &[PathBuf], look: &LookArguments) -> Option<Vec<Observations>> {
-    let known = observable_names(case);
+    let names = observable_names(case);
     let open = |path: &PathBuf| {
-        let read = Observations::read(path, &known);
+        let read = Observations::read(path, &names);
         read.inspect_err(|mistakes| tell::mistakes(mistakes, look.colored(io::stderr().is_terminal()))).ok()
     };
     // All of them are read before the first mistake ends the command.

@@ -39,14 +39,14 @@ impl Job {
                 JudgeEvent::AsPlanned(result) => {
                     self.send(News::Checked { option, result: result.clone().map(Box::new) });
                 }
-                JudgeEvent::SampledSoFar(risk) => {
+                JudgeEvent::SampledSoFar(sampled) => {
                     if last.sampled.is_none_or(|told| told.elapsed() >= SAMPLED_EVERY) {
                         last.sampled = Some(Instant::now());
-                        self.send(News::Sampled { option, risk: Box::new(risk.clone()), more: true });
+                        self.send(News::Sampled { option, sampled: Box::new(sampled.clone()), more: true });
                     }
                 }
-                JudgeEvent::SampledFully(risk) => {
-                    self.send(News::Sampled { option, risk: Box::new(risk.clone()), more: false });
+                JudgeEvent::SampledFully(sampled) => {
+                    self.send(News::Sampled { option, sampled: Box::new(sampled.clone()), more: false });
                 }
                 JudgeEvent::Margin(margin) => self.send(News::Margin { option, margin }),
             }

@@ -16,7 +16,7 @@ pub use studies::{StudyKind, StudyResult};
 use crate::plan::observations::Observations;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::as_planned::margin::LaunchMargin;
-use crate::study::samples::risk::Risk;
+use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::{Case, ComputeSettings, NoResult, Progress, catch_panic, thread_pool};
 
 /// News of a job.
@@ -43,7 +43,7 @@ pub enum News {
         /// Index of the option.
         option: usize,
         /// All its samples so far.
-        risk: Box<Risk>,
+        sampled: Box<SampledShot>,
         /// Whether more samples come.
         more: bool,
     },

@@ -48,19 +48,19 @@ fn checked(jobs: &mut Jobs, options: usize) -> Vec<Result<Box<CheckedShot>, NoRe
 }
 
 /// Samples and launch margins of every option, by option.
-fn sampled(jobs: &mut Jobs, options: usize) -> Vec<(Box<Risk>, LaunchMargin)> {
-    let (mut risks, mut margins) = (vec![None; options], vec![None; options]);
+fn sampled(jobs: &mut Jobs, options: usize) -> Vec<(Box<SampledShot>, LaunchMargin)> {
+    let (mut shots, mut margins) = (vec![None; options], vec![None; options]);
     wait(|| {
         for news in jobs.news() {
             match news {
-                News::Sampled { option, risk, more: false } => risks[option] = Some(risk),
+                News::Sampled { option, sampled, more: false } => shots[option] = Some(sampled),
                 News::Margin { option, margin } => margins[option] = Some(margin),
                 _ => {}
             }
         }
         margins.iter().all(Option::is_some).then_some(())
     });
-    risks.into_iter().zip(margins).filter_map(|(risk, margin)| Some((risk?, margin?))).collect()
+    shots.into_iter().zip(margins).filter_map(|(shot, margin)| Some((shot?, margin?))).collect()
 }
 
 #[test]
@@ -76,7 +76,7 @@ fn results_do_not_depend_on_the_number_of_threads() {
     };
     let (few, many) = (values(1), values(3));
     assert_eq!(few, many);
-    assert!(few.1.iter().all(|(risk, _)| risk.samples.len() >= 200));
+    assert!(few.1.iter().all(|(shot, _)| shot.samples.len() >= 200));
 }
 
 #[test]

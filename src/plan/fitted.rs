@@ -180,12 +180,12 @@ mod tests {
     /// Every line that no estimate is about stays as it is, with its comment; so does an uncertainty that an estimate would narrow.
     #[test]
     fn only_the_lines_of_estimates_change() {
-        let all = [
+        let estimates = [
             fitted(Unknown::Launch, 1.1, 0.022),
             fitted(Unknown::Friction, 0.45, 0.02),
             fitted(Unknown::Slack, 0.1, 0.1),
         ];
-        let (text, plan) = written(PLAN, &all);
+        let (text, plan) = written(PLAN, &estimates);
         let changed: Vec<&str> = text.lines().filter(|line| !PLAN.lines().any(|old| old == *line)).collect();
         assert_eq!(
             changed,
@@ -205,7 +205,7 @@ mod tests {
         assert!(again.contains("fitted_from = [\"ab12\", \"cd34\"]"), "{again}");
         let before = Plan::parse("", PLAN).unwrap_or_else(|mistakes| panic!("{mistakes}")).uncertainty;
         let windows = PLAN.replace('\n', "\r\n");
-        let windows = write(&windows, &before, &all, &["ab12".to_owned()]).expect("TOML");
+        let windows = write(&windows, &before, &estimates, &["ab12".to_owned()]).expect("TOML");
         assert_eq!(windows, text.replace('\n', "\r\n"));
     }
 

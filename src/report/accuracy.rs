@@ -67,9 +67,9 @@ fn fields<'a>() -> [Field<MeasuredRow<'a>>; 13] {
 pub fn report(case: &Case, study: &AccuracyTable, paper: &[(Method, Vec<PaperRow>)]) -> Report {
     let mut blocks = vec![Block::Table(steps(study))];
     blocks.extend(charts::work_precision(study).map(Block::Chart));
-    let mut told = vec![enough(case, study)];
-    told.extend(CLASSES.iter().map(|&class| cheapest(study, class)));
-    blocks.push(Block::Text(told));
+    let mut sentences = vec![enough(case, study)];
+    sentences.extend(CLASSES.iter().map(|&class| cheapest(study, class)));
+    blocks.push(Block::Text(sentences));
     blocks.extend(paper.iter().flat_map(|(method, ours)| paper_table(*method, ours)));
     let reference = units::milliseconds(study.reference_step);
     Report {
@@ -112,7 +112,7 @@ pub fn enough(case: &Case, study: &AccuracyTable) -> String {
 fn cheapest(study: &AccuracyTable, class: ErrorClass) -> String {
     let methods = [Method::Verlet, Method::Newmark];
     let best = methods.map(|method| study.cheapest(method, class));
-    let found = methods.into_iter().zip(best).map(|(method, best)| match best {
+    let cheapest = methods.into_iter().zip(best).map(|(method, best)| match best {
         Some((step, wall)) => {
             let [step, wall] = [step, wall.as_secs_f64()].map(units::milliseconds);
             format!("{} at {step} in {wall}", method.name())
@@ -122,7 +122,7 @@ fn cheapest(study: &AccuracyTable, class: ErrorClass) -> String {
         }
         None => format!("{} not reached", method.name()),
     });
-    let found: Vec<String> = found.collect();
+    let cheapest: Vec<String> = cheapest.collect();
     let times = match best {
         [Some((_, fast)), Some((_, slow))] => {
             format!("; {} times faster", units::rounded(slow.as_secs_f64() / fast.as_secs_f64(), 0))
@@ -130,5 +130,5 @@ fn cheapest(study: &AccuracyTable, class: ErrorClass) -> String {
         _ => String::new(),
     };
     let (height, force) = (class.height * 100.0, class.force * 100.0);
-    format!("within {height} % of height and {force} % of force: {}{times}", found.join("; "))
+    format!("within {height} % of height and {force} % of force: {}{times}", cheapest.join("; "))
 }

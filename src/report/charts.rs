@@ -6,7 +6,7 @@ use crate::outcome::History;
 use crate::scene::Shot;
 use crate::study::accuracy::{AccuracyTable, Measured};
 use crate::study::orders::Orders;
-use crate::study::samples::risk::Risk;
+use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::search::FrontPoint;
 use crate::study::size::{Combination, Sizing};
 use crate::study::sweep::{Point, Sweep};
@@ -144,9 +144,9 @@ pub fn orders(case: &Case, orders: &Orders) -> Chart {
 }
 
 /// Greatest height and force of the samples, from the gentlest to the hardest.
-pub fn samples(case: &Case, risk: &Risk) -> [Chart; 2] {
+pub fn samples(case: &Case, sampled: &SampledShot) -> [Chart; 2] {
     let chart = |name, unit, quantity, limit| {
-        let mut values: Vec<f64> = risk.samples.iter().map(|sample| sample.run.get(quantity)).collect();
+        let mut values: Vec<f64> = sampled.samples.iter().map(|sample| sample.run.get(quantity)).collect();
         values.sort_by(f64::total_cmp);
         let count = values.len() as f64;
         let points = values.into_iter().enumerate().map(|(n, value)| ((n as f64 + 0.5) / count, value));
@@ -167,8 +167,8 @@ pub fn samples(case: &Case, risk: &Risk) -> [Chart; 2] {
 }
 
 /// Utilization of the samples of the option `name`, from the gentlest to the hardest.
-pub fn risk(case: &Case, name: &str, risk: &Risk) -> Chart {
-    let shares = risk.samples.iter().map(|sample| sample.run.utilization(&case.limits));
+pub fn risk(case: &Case, name: &str, sampled: &SampledShot) -> Chart {
+    let shares = sampled.samples.iter().map(|sample| sample.run.utilization(&case.limits));
     let mut shares: Vec<f64> = shares.filter(|share| share.is_finite()).collect();
     shares.sort_by(f64::total_cmp);
     let count = shares.len() as f64;
@@ -182,8 +182,8 @@ pub fn size(sizing: &Sizing) -> Chart {
     let point =
         |combination: &Combination| Some((combination.total_mass, combination.trial.ok()?.utilization));
     let lightest = sizing.choices().filter_map(point).collect();
-    let all = sizing.combinations.iter().filter_map(point).collect();
-    utilization("against mass (line: lightest that hold)", ("mass", Unit::Tonne), lightest, all)
+    let tried = sizing.combinations.iter().filter_map(point).collect();
+    utilization("against mass (line: lightest that hold)", ("mass", Unit::Tonne), lightest, tried)
 }
 
 /// Utilization against something else.
@@ -193,10 +193,10 @@ fn utilization(
     curve: Vec<(f64, f64)>,
     points: Vec<(f64, f64)>,
 ) -> Chart {
-    let all = || curve.iter().chain(&points);
-    let across = all().fold([f64::INFINITY, 0.0], |[a, b]: [f64; 2], &(x, _)| [a.min(x), b.max(x)]);
+    let drawn = || curve.iter().chain(&points);
+    let across = drawn().fold([f64::INFINITY, 0.0], |[a, b]: [f64; 2], &(x, _)| [a.min(x), b.max(x)]);
     // Far past the limit it no longer matters how far.
-    let top = all().map(|(_, y)| *y).fold(1.2, f64::max).min(3.0);
+    let top = drawn().map(|(_, y)| *y).fold(1.2, f64::max).min(3.0);
     Chart {
         title: format!("utilization {title}"),
         x: axis(name, unit, across),

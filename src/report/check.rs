@@ -15,8 +15,8 @@ use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Quantity, Verdict};
 
 pub(super) fn band(row: &OptionRow<'_>, quantity: Quantity, unit: Unit) -> Cell {
-    row.sampled(|risk| {
-        risk.band(quantity).map_or(Cell::Nothing, |[p05, _, p95, _]| Cell::Band([p05, p95], unit))
+    row.sampled(|sampled| {
+        sampled.band(quantity).map_or(Cell::Nothing, |[p05, _, p95, _]| Cell::Band([p05, p95], unit))
     })
 }
 
@@ -28,8 +28,13 @@ fn all_reasons(row: &OptionRow<'_>) -> String {
     }
 }
 
-fn fields<'a>() -> [Field<OptionRow<'a>>; 34] {
+/// The columns, of which people see others where the possible shots were `sampled`; without a limit on drift only the page has room for it.
+fn fields<'a>(sampled: bool, drift_has_limit: bool) -> [Field<OptionRow<'a>>; 34] {
     let words = |heading| Column::words(&[], heading).shown(Audience::Text);
+    let shown_if = |shown: bool, column: Column| if shown { column } else { column.shown(Audience::Scripts) };
+    let if_sampled = |column| shown_if(sampled, column);
+    let if_planned_alone = |column| shown_if(!sampled, column);
+    let drift = if drift_has_limit { DRIFT } else { DRIFT.shown(Audience::Page) };
     [
         Field::new(Column::scripts(&["plan"]), |row| Cell::Text(row.case.source.path.clone())),
         Field::new(Column::words(&["option"], "option"), |row| Cell::Text(row.delay.name.clone())),
@@ -45,19 +50,25 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 34] {
         Field::new(Column::scripts(&["nominal_verdict"]), |row| {
             row.as_planned(|checked| Cell::Verdict(checked.verdict))
         }),
-        Field::new(FAILURES, |row| row.sampled(|risk| Cell::Probability(risk.bounds.interval))),
-        Field::new(HEIGHT, |row| row.as_planned(|checked| height(checked.height.into()))),
-        Field::new(NOMINAL_HEIGHT, |row| row.as_planned(|checked| planned(checked.height, Unit::Metre))),
-        Field::new(HEIGHT_BAND, |row| band(row, Quantity::Height, Unit::Metre)),
+        Field::new(if_sampled(FAILURES), |row| {
+            row.sampled(|sampled| Cell::Probability(sampled.bounds.interval))
+        }),
+        Field::new(if_planned_alone(HEIGHT), |row| row.as_planned(|checked| height(checked.height.into()))),
+        Field::new(if_sampled(NOMINAL_HEIGHT), |row| {
+            row.as_planned(|checked| planned(checked.height, Unit::Metre))
+        }),
+        Field::new(if_sampled(HEIGHT_BAND), |row| band(row, Quantity::Height, Unit::Metre)),
         Field::new(Column::scripts(&["flight_height_at_s"]), |row| {
             row.as_planned(|checked| Cell::Number(checked.height.at))
         }),
         Field::new(Column::scripts(&["flight_height_tire"]), |row| {
             row.as_planned(|checked| Cell::Text(row.case.scene().tire[checked.height.index].to_string()))
         }),
-        Field::new(FORCE, |row| row.as_planned(|checked| force(checked.force.into()))),
-        Field::new(NOMINAL_FORCE, |row| row.as_planned(|checked| planned(checked.force, Unit::Kilonewton))),
-        Field::new(FORCE_BAND, |row| band(row, Quantity::Force, Unit::Kilonewton)),
+        Field::new(if_planned_alone(FORCE), |row| row.as_planned(|checked| force(checked.force.into()))),
+        Field::new(if_sampled(NOMINAL_FORCE), |row| {
+            row.as_planned(|checked| planned(checked.force, Unit::Kilonewton))
+        }),
+        Field::new(if_sampled(FORCE_BAND), |row| band(row, Quantity::Force, Unit::Kilonewton)),
         Field::new(Column::scripts(&["cable_force_at_s"]), |row| {
             row.as_planned(|checked| Cell::Number(checked.force.at))
         }),
@@ -69,13 +80,13 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 34] {
             |row| row.as_planned(|checked| Cell::Factor(checked.safety_factor)),
         ),
         Field::new(Column::scripts(&["low_95_any_cable_breaks", "high_95_any_cable_breaks"]), |row| {
-            row.sampled(|risk| Cell::Probability(risk.breaks.interval))
+            row.sampled(|sampled| Cell::Probability(sampled.breaks.interval))
         }),
         Field::new(Column::scripts(&["launch_margin"]), |row| {
             let margin = row.result.as_ref().ok().and_then(Judgement::launch_margin_or_zero);
             margin.map_or(Cell::Nothing, Cell::Number)
         }),
-        Field::new(LAUNCH_MARGIN, |row| {
+        Field::new(if_sampled(LAUNCH_MARGIN), |row| {
             let judged = row.result.as_ref().ok();
             let passes = judged.filter(|judged| judged.as_planned.verdict == Verdict::Pass);
             let margin = passes.and_then(|judged| judged.launch_margin);
@@ -86,7 +97,7 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 34] {
         Field::new(Column::scripts(&["charge_in_8_ms_kg"]), |row| {
             row.together().charge.map_or(Cell::Nothing, Cell::Number)
         }),
-        Field::new(DRIFT, |row| {
+        Field::new(drift, |row| {
             row.as_planned(|CheckedShot { drift, .. }| Cell::Estimate {
                 value: drift.value,
                 error: drift.error,
@@ -145,16 +156,9 @@ pub fn report(
     must_pass: MustPass,
     partial: bool,
 ) -> Report {
-    let sampled = results.iter().flatten().any(|judged| judged.risk.is_asked());
-    let shown = |column: &Column| match column {
-        column if [HEIGHT, FORCE].contains(column) && sampled => column.shown(Audience::Scripts),
-        column if OF_SAMPLES.contains(column) && !sampled => column.shown(Audience::Scripts),
-        // Without a limit on drift only the page has room for drift.
-        column if *column == DRIFT && case.limits.drift.is_none() => column.shown(Audience::Page),
-        column => *column,
-    };
-    let mut table = Table::of(&fields(), option_rows(case, results));
-    table.columns = table.columns.iter().map(shown).collect();
+    let sampled = results.iter().flatten().any(|judged| judged.sampled.is_asked());
+    let fields = fields(sampled, case.limits.drift.is_some());
+    let mut table = Table::of(&fields, option_rows(case, results));
     complete_rows(&mut table, case, results);
     let passed = results.iter().flatten().filter(|judged| judged.verdict() == Verdict::Pass).count();
     let so_far = if partial { " so far, ended early" } else { "" };
@@ -178,7 +182,7 @@ pub(super) fn planned(peak: Estimate, unit: Unit) -> Cell {
 
 /// What was judged, as scripts read it.
 pub fn judged_inputs(case: &Case, judged: &Judgement) -> &'static str {
-    match (judged.risk.is_asked(), case.plan.uncertainty.assumed) {
+    match (judged.sampled.is_asked(), case.plan.uncertainty.assumed) {
         (false, _) => "nominal",
         (true, true) => "default",
         (true, false) => "plan",
@@ -193,10 +197,6 @@ pub(super) fn pass_caveat(case: &Case, sampled: bool) -> &'static str {
         (true, false) => "",
     }
 }
-
-/// Columns that only a judgement by samples has.
-const OF_SAMPLES: [Column; 6] =
-    [FAILURES, NOMINAL_HEIGHT, HEIGHT_BAND, NOMINAL_FORCE, FORCE_BAND, LAUNCH_MARGIN];
 
 fn bars(series: &[f64], top: f64) -> Cell {
     Cell::Sparkline { series: series.to_vec(), top }

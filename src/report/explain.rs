@@ -10,7 +10,7 @@ use crate::study::eight_ms::WithinEightMs;
 use crate::study::judgement::Judgement;
 use crate::study::samples::draw::Input;
 use crate::study::samples::influence;
-use crate::study::samples::risk::Risk;
+use crate::study::samples::sampled_shot::SampledShot;
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 
@@ -52,13 +52,13 @@ pub(super) fn grams(charge: f64) -> f64 {
 }
 
 /// What decides how a shot turns out: `slack 61 %, launch 24 %, hole by hole and interplay 13 %`.
-pub fn inputs(risk: &Risk, limits: &Limits) -> Option<String> {
-    let shares = influence::input_shares(risk, limits)?;
-    let rest = 1.0 - shares.iter().map(|(_, share)| share).sum::<f64>();
+pub fn inputs(sampled: &SampledShot, limits: &Limits) -> Option<String> {
+    let shares = influence::input_shares(sampled, limits)?;
+    let unexplained = 1.0 - shares.iter().map(|(_, share)| share).sum::<f64>();
     let worth = shares.iter().filter(|(_, share)| *share >= LEAST_SHARE);
     let mut words: Vec<String> =
         worth.map(|(input, share)| format!("{} {}", input_name(*input), units::percent(*share, 0))).collect();
-    words.push(format!("hole by hole and interplay {}", units::percent(rest.max(0.0), 0)));
+    words.push(format!("hole by hole and interplay {}", units::percent(unexplained.max(0.0), 0)));
     Some(words.join(", "))
 }
 
@@ -105,17 +105,17 @@ pub fn launch_limit(shot: &Shot, judged: &Judgement) -> Option<String> {
 
 /// Greatest height and force of the samples: 5th and 95th percentile; and how likely a cable breaks. `None` for too few
 /// samples.
-pub fn bands(risk: &Risk) -> Option<String> {
+pub fn bands(sampled: &SampledShot) -> Option<String> {
     let band = |quantity: Quantity, unit: Unit| {
-        let [low, _, high, _] = risk.band(quantity)?;
+        let [low, _, high, _] = sampled.band(quantity)?;
         Some(format!("{} to {} {}", units::value(low, unit), units::value(high, unit), unit.symbol()))
     };
     Some(format!(
         "5 to 95 % of {} samples: height {} · force {} · a cable breaks in {} %",
-        risk.decided().count(),
+        sampled.decided().count(),
         band(Quantity::Height, Unit::Metre)?,
         band(Quantity::Force, Unit::Kilonewton)?,
-        units::probabilities(risk.breaks.interval),
+        units::probabilities(sampled.breaks.interval),
     ))
 }
 
@@ -148,8 +148,8 @@ pub fn broken(scene: &Scene, checked: &CheckedShot) -> String {
         |broken: &BrokenCable| format!("{} at {}", scene.cable_name(broken.cable), units::seconds(broken.at));
     let names: Vec<String> = checked.broken.iter().take(BROKEN).map(name).collect();
     let more = checked.broken.len().saturating_sub(BROKEN);
-    let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
-    format!("broken: {}{rest}", names.join(", "))
+    let and_more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    format!("broken: {}{and_more}", names.join(", "))
 }
 
 /// Greatest height, force and drift, with their errors, places and times.

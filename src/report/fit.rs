@@ -7,7 +7,7 @@ use crate::choice::Unknown;
 use crate::plan::observations::{Observations, unit};
 use crate::study::Case;
 use crate::study::fit::parameter::Parameter;
-use crate::study::fit::{Answer, Candidate, Estimated, Fit, FitResult, NotDetermined, Residual};
+use crate::study::fit::{Answer, Estimated, Fit, FitResult, NotDetermined, Observable, Residual};
 use crate::units;
 use crate::verdict::Verdict;
 
@@ -67,9 +67,9 @@ pub fn report(case: &Case, files: &[Observations], fit: &Fit, sampled: bool) -> 
     let [number, name, rest @ ..] = estimate_fields();
     let number =
         if several { number } else { Field { column: number.column.shown(Audience::Scripts), ..number } };
-    let all: Vec<_> = [number, name].into_iter().chain(rest).chain(estimate_numbers()).collect();
+    let columns: Vec<_> = [number, name].into_iter().chain(rest).chain(estimate_numbers()).collect();
     let mut blocks =
-        vec![Block::Text(vec![basis(files, fit, sampled)]), Block::Table(Table::of(&all, rows()))];
+        vec![Block::Text(vec![basis(files, fit, sampled)]), Block::Table(Table::of(&columns, rows()))];
     blocks.push(Block::Text(correlated_pairs(case, &fit.answers[0])));
     let rows = fitted_rows(case, fit);
     let sentences = bands(case, &rows).into_iter().chain(next(case, fit)).collect();
@@ -128,8 +128,8 @@ pub fn launch_speeds(case: &Case, parameter: Parameter) -> Vec<f64> {
         return Vec::new();
     }
     let firings = case.shots.first().map_or(&[][..], |shot| &shot.firings);
-    let own = firings.iter().filter(|firing| parameter.row.is_none_or(|row| row == firing.row));
-    let mut speeds: Vec<f64> = own.map(|firing| (firing.launch.norm() * 1e6).round() / 1e6).collect();
+    let of_row = firings.iter().filter(|firing| parameter.row.is_none_or(|row| row == firing.row));
+    let mut speeds: Vec<f64> = of_row.map(|firing| (firing.launch.norm() * 1e6).round() / 1e6).collect();
     speeds.sort_by(f64::total_cmp);
     speeds.dedup();
     speeds
@@ -151,7 +151,7 @@ fn correlated_pairs(case: &Case, answer: &Answer) -> Vec<String> {
 /// What to observe next.
 fn next(case: &Case, fit: &Fit) -> Option<String> {
     let next = fit.next?;
-    let Candidate { option, watched } = next.candidate;
+    let Observable { option, watched } = next.observable;
     Some(format!(
         "observe next: {}, to within {} {}; that takes {} from the variance of the greatest utilization",
         place(case, option, &watched),
@@ -166,29 +166,29 @@ const FAR_MOVE: f64 = 1.5;
 
 fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
     let best = &fit.answers[0];
-    let mut all = Vec::new();
+    let mut warnings = Vec::new();
     for estimate in &best.estimates {
         let name = estimate.parameter.name(&case.plan);
         if estimate.is_at_end {
-            all.push(format!(
+            warnings.push(format!(
                 "{name} lies at an end of its plausible range: another unknown is perhaps behind it"
             ));
         }
         if matches!(estimate.parameter.unknown, Unknown::EndStiffness | Unknown::Damping) {
-            all.push(format!(
+            warnings.push(format!(
                 "{name} has no place in [uncertainty]: once written, a check takes it for exact"
             ));
         }
         let times = estimate.was.filter(|was| *was > 0.0).map_or(1.0, |was| estimate.value / was);
         if !(1.0 / FAR_MOVE..=FAR_MOVE).contains(&times) {
             let times = units::short(times);
-            all.push(format!(
+            warnings.push(format!(
                 "{name} is {times} times what the plan says: are the units, the option and the tire right?"
             ));
         }
         if let Some(from) = estimate.from_stated.filter(|from| from.abs() > 2.0) {
             let from = units::rounded(from.abs(), 1);
-            all.push(format!(
+            warnings.push(format!(
                 "{name} lies {from} sd from what [uncertainty] states of it: is the range there too narrow?"
             ));
         }
@@ -201,9 +201,9 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
         .filter(is_computed_badly)
         .map(|row| place(case, row.observed.option, &row.observed.watched))
         .collect();
-    all.extend(contradiction(&rows));
+    warnings.extend(contradiction(&rows));
     if !badly.is_empty() {
-        all.push(format!(
+        warnings.push(format!(
             "the error of computing is larger than the sd of what was seen, which says little then: {}: choose a finer --accuracy",
             badly.join("; ")
         ));
@@ -220,9 +220,9 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
         })
         .collect();
     if !suspicious.is_empty() {
-        all.push(format!("suspicious, more than 3 sd from the fit: {}", suspicious.join("; ")));
+        warnings.push(format!("suspicious, more than 3 sd from the fit: {}", suspicious.join("; ")));
     }
-    all
+    warnings
 }
 
 fn conclusion(fit: &Fit) -> Option<Conclusion> {
@@ -255,7 +255,7 @@ pub fn refusal(case: &Case, found: &FitResult) -> Option<String> {
             };
             let remedy = observe.map_or_else(
                 || "nothing that can be seen of this shot would: leave it out".to_owned(),
-                |Candidate { option, watched }| {
+                |Observable { option, watched }| {
                     let out = if names.len() == 1 { "it" } else { "one" };
                     format!("observe {} too, or leave {out} out", place(case, option, &watched))
                 },

@@ -5,8 +5,8 @@ use crate::study::Case;
 
 /// The delay options that a study of orders leaves out at the intervals of the plan; `None` where there is no such option.
 pub fn options_left_out(case: &Case) -> Option<String> {
-    let own = case.plan.delays.iter().filter(|delay| matches!(delay.timing, Timing::At(_)));
-    let names: Vec<&str> = own.map(|delay| delay.name.as_str()).collect();
+    let timed_by_row = case.plan.delays.iter().filter(|delay| matches!(delay.timing, Timing::At(_)));
+    let names: Vec<&str> = timed_by_row.map(|delay| delay.name.as_str()).collect();
     (!names.is_empty())
         .then(|| format!("without an interval of their own, and left out: {}", names.join("; ")))
 }
@@ -23,22 +23,25 @@ pub fn hole_timing(case: &Case) -> Option<String> {
 /// What the plan adds to the source paper's model, in one line; `None` where it adds nothing.
 pub fn beyond_paper(plan: &Plan) -> Option<String> {
     let (ground, tire, cable) = (&plan.ground, &plan.tire, &plan.cable);
-    let told = |holds: bool, text: String| holds.then_some(text);
+    let mention = |holds: bool, text: String| holds.then_some(text);
     let greatest = |quantity: fn(&Launch) -> f64| plan.launches().map(quantity).fold(0.0, f64::max);
     let (tilt, push) = (greatest(|launch| launch.tilt_deg), greatest(|launch| launch.push_ms));
     let parts = [
-        told(plan.simulation.gravity_m_s2 != 9.81, format!("gravity {} m/s²", plan.simulation.gravity_m_s2)),
-        told(tilt > 0.0, format!("launches tilted by up to {tilt}°")),
-        told(push > 0.0, format!("launches pushed over up to {push} ms")),
-        told(
+        mention(
+            plan.simulation.gravity_m_s2 != 9.81,
+            format!("gravity {} m/s²", plan.simulation.gravity_m_s2),
+        ),
+        mention(tilt > 0.0, format!("launches tilted by up to {tilt}°")),
+        mention(push > 0.0, format!("launches pushed over up to {push} ms")),
+        mention(
             ground.slope_percent > 0.0,
             format!(
                 "the ground falls {} % toward {}° from +x, heights are normal to it",
                 ground.slope_percent, ground.slope_toward_deg
             ),
         ),
-        told(tire.restitution > 0.0, format!("landings rebound with {} of their speed", tire.restitution)),
-        told(
+        mention(tire.restitution > 0.0, format!("landings rebound with {} of their speed", tire.restitution)),
+        mention(
             cable.damping_percent > 0.0,
             format!("cables damped with {} % of critical", cable.damping_percent),
         ),

@@ -7,7 +7,7 @@ use crate::study::as_planned::check::CheckedShot;
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::judge_options::OptionResults;
 use crate::study::judgement::Judgement;
-use crate::study::samples::risk::Risk;
+use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::{Case, NoResult};
 use crate::verdict::Verdict;
 
@@ -35,8 +35,8 @@ impl OptionRow<'_> {
     }
 
     /// A cell of the samples; nothing where there are none.
-    pub fn sampled(&self, cell: impl FnOnce(&Risk) -> Cell) -> Cell {
-        let risk = self.result.as_ref().ok().and_then(|judged| judged.risk.drawn());
+    pub fn sampled(&self, cell: impl FnOnce(&SampledShot) -> Cell) -> Cell {
+        let risk = self.result.as_ref().ok().and_then(|judged| judged.sampled.drawn());
         risk.map_or(Cell::Nothing, cell)
     }
 

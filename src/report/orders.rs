@@ -61,14 +61,14 @@ const RANKING: &str =
 
 /// The report of all orders tried, which is partial where the time was up.
 pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
-    let all = orders.ranked.len();
+    let count = orders.ranked.len();
     let head = match orders.complete {
-        true => format!("{all} orders and intervals, all there are, worst first"),
-        false => format!("{all} orders searched: the worst may not be among them, worst first"),
+        true => format!("{count} orders and intervals, all there are, worst first"),
+        false => format!("{count} orders searched: the worst may not be among them, worst first"),
     };
     let mut heads: Vec<String> = [head].into_iter().chain(notes::hole_timing(case)).collect();
-    let own = case.intervals();
-    if orders.ranked.iter().all(|tried| own.contains(&tried.interval)) {
+    let planned = case.intervals();
+    if orders.ranked.iter().all(|tried| planned.contains(&tried.interval)) {
         heads.extend(notes::options_left_out(case));
     }
     if orders.has_risk() {
@@ -78,13 +78,13 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
     if orders.has_risk() {
         fields.extend(sampled_fields());
     }
-    let rows = (0..all).map(|n| RankedOrder { case, orders, n });
+    let rows = (0..count).map(|n| RankedOrder { case, orders, n });
     let offer = |tried: &TriedOrder| {
         let schedule = Schedule::at_interval(case, &tried.order, tried.interval);
         Offer::Option(schedule.named_option(&case.plan.blast_rows))
     };
     let mut table = Table { ranked: true, ..Table::of(&fields, rows) };
-    for n in (0..all).filter(|&n| n < OFFERED || n + OFFERED >= all) {
+    for n in (0..count).filter(|&n| n < OFFERED || n + OFFERED >= count) {
         table.rows[n].offer = Some(offer(&orders.ranked[n]));
     }
     let verdict = match orders.verdict() {
@@ -93,7 +93,7 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
     };
     let so_far = if partial { " so far" } else { "" };
     let planned = if orders.has_risk() { " as planned" } else { " (the plan's own numbers only)" };
-    let mut text = format!("{} of {all} orders pass{planned}{so_far}", orders.passing_as_planned());
+    let mut text = format!("{} of {count} orders pass{planned}{so_far}", orders.passing_as_planned());
     if let Some((n, best)) = orders.ranked.iter().enumerate().next_back() {
         let (order, interval) =
             (row_names(case, &best.order).join(" "), units::exact_milliseconds(best.interval));

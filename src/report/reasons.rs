@@ -7,8 +7,8 @@ use crate::study::judgement::Judgement;
 use crate::study::reasons::Reason;
 use crate::study::reasons::risk::RiskReason;
 use crate::study::reasons::shot::{EarlyEnd, ShotReason};
-use crate::study::samples::risk::Risk;
 use crate::study::samples::sample::SampleRun;
+use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::{Case, ComputeSettings};
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::{Quantity, Verdict};
@@ -26,7 +26,7 @@ pub fn sentences(case: &Case, judged: &Judgement) -> Vec<String> {
 
 /// A reason of an option in words.
 pub fn sentence(case: &Case, judged: &Judgement, reason: &Reason) -> String {
-    match (reason, judged.risk.drawn()) {
+    match (reason, judged.sampled.drawn()) {
         (Reason::AsPlanned(reason), _) => of_shot(reason),
         (Reason::Samples(reason), Some(risk)) => of_risk(case, &judged.as_planned.compute, risk, *reason),
         (Reason::Samples(_) | Reason::NoSamples, _) => {
@@ -63,10 +63,10 @@ fn of_shot(reason: &ShotReason) -> String {
 }
 
 /// Why the possible shots do not pass.
-fn of_risk(case: &Case, compute: &ComputeSettings, risk: &Risk, reason: RiskReason) -> String {
+fn of_risk(case: &Case, compute: &ComputeSettings, sampled: &SampledShot, reason: RiskReason) -> String {
     let accepted = format!("{} %", units::short(case.plan.limits.accepted_risk_percent));
-    let (failures, samples) = (risk.bounds.failures, risk.bounds.samples);
-    let shots = format!("{failures} of {samples} possible shots fail{}", limits_exceeded(case, risk));
+    let (failures, samples) = (sampled.bounds.failures, sampled.bounds.samples);
+    let shots = format!("{failures} of {samples} possible shots fail{}", limits_exceeded(case, sampled));
     let can_be_finer = compute.step.is_none() && compute.accuracy != Accuracy::Reference;
     let finer = if can_be_finer { "; choose accuracy \"reference\"" } else { "" };
     match reason {
@@ -79,7 +79,7 @@ fn of_risk(case: &Case, compute: &ComputeSettings, risk: &Risk, reason: RiskReas
             format!("{shots}, but too few of them are run at a finer step, too: draw 200 or more")
         }
         RiskReason::UndecidedSamples => {
-            let undecided = risk.bounds.undecided;
+            let undecided = sampled.bounds.undecided;
             format!("{shots} and {undecided} stay undecided: not surely fewer than the {accepted} accepted")
         }
         RiskReason::NotSure => format!("{shots}, not surely fewer than the {accepted} accepted"),
@@ -87,12 +87,12 @@ fn of_risk(case: &Case, compute: &ComputeSettings, risk: &Risk, reason: RiskReas
 }
 
 /// How many samples go past each limit: ` (cable force 12, flight height 3)`.
-fn limits_exceeded(case: &Case, risk: &Risk) -> String {
+fn limits_exceeded(case: &Case, sampled: &SampledShot) -> String {
     let count = |quantity: Quantity| {
         let limit = case.limits.get(quantity)?;
         let is_past =
             |run: &SampleRun, quantity, limit| run.verdict != Verdict::Undecided && run.get(quantity) > limit;
-        let past = risk.samples.iter().filter(|sample| is_past(sample.finest(), quantity, limit)).count();
+        let past = sampled.samples.iter().filter(|sample| is_past(sample.finest(), quantity, limit)).count();
         (past > 0).then(|| format!("{} {past}", quantity_name(quantity).0))
     };
     let words: Vec<String> = Quantity::ALL.into_iter().filter_map(count).collect();

@@ -25,8 +25,8 @@ fn lines(case: &Case, remedies: &Remedies) -> Vec<String> {
         1 => format!("{name} would pass with this change:"),
         _ => format!("{name} would pass with any one of these changes:"),
     };
-    let rest = without_pass(case, remedies).into_iter().map(|line| format!("    {line}"));
-    [head].into_iter().chain(passing).chain(rest).collect()
+    let failing = without_pass(case, remedies).into_iter().map(|line| format!("    {line}"));
+    [head].into_iter().chain(passing).chain(failing).collect()
 }
 
 /// A change in words: what there is now, and what would be.
@@ -44,25 +44,25 @@ impl FromTo {
         let (from, to) = match change {
             Change::Rope(rope) => (cable.rope.clone().unwrap_or_default(), rope.name.clone()),
             Change::Termination(termination) => {
-                let own = cable.termination.clone();
+                let planned = cable.termination.clone();
                 let percent = || format!("{} %", cable.termination_percent);
-                (own.unwrap_or_else(percent), termination.name.clone())
+                (planned.unwrap_or_else(percent), termination.name.clone())
             }
             Change::BorderRows(rows) => {
-                let own = match &case.plan.layout {
+                let planned = match &case.plan.layout {
                     Layout::Grid(mesh) | Layout::Quincunx(mesh) => mesh.border_rows,
                     Layout::List { .. } => 0,
                 };
-                (own.to_string(), rows.to_string())
+                (planned.to_string(), rows.to_string())
             }
             Change::Slack(percent) => (format!("{} %", cable.slack_percent), format!("{percent} %")),
             Change::Launch(factor) => launches(case, *factor),
             Change::Interval { option, interval_ms } => {
-                let own = match &case.plan.delays[*option].timing {
+                let planned = match &case.plan.delays[*option].timing {
                     Timing::Interval { interval_ms, .. } => format!("{interval_ms} ms"),
                     Timing::At(_) => String::new(),
                 };
-                (own, format!("{interval_ms} ms"))
+                (planned, format!("{interval_ms} ms"))
             }
         };
         Self { from, to }
@@ -107,7 +107,7 @@ pub fn words(case: &Case, change: &Change) -> String {
 
 /// What the changed plan comes to: by its samples, or as planned where none were asked for.
 fn result(judgement: &Judgement) -> String {
-    let Some(risk) = judgement.risk.drawn() else {
+    let Some(risk) = judgement.sampled.drawn() else {
         let checked = &judgement.as_planned;
         let value = |estimate: f64, error: f64, unit: Unit| {
             format!("{} {}", units::value_by_error(estimate, error, unit), unit.symbol())

@@ -16,7 +16,7 @@ use crate::verdict::{Quantity, Verdict};
 const SPREAD: &str = "5 · 50 · 95 % · max";
 
 fn spread(row: &OptionRow<'_>, quantity: Quantity, unit: Unit) -> Cell {
-    row.sampled(|risk| risk.band(quantity).map_or(Cell::Nothing, |band| Cell::Spread(band, unit)))
+    row.sampled(|sampled| sampled.band(quantity).map_or(Cell::Nothing, |band| Cell::Spread(band, unit)))
 }
 
 fn fields<'a>() -> [Field<OptionRow<'a>>; 10] {
@@ -28,12 +28,12 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 10] {
         Field::new(Column::words(&["name"], "option"), |row| Cell::Text(row.delay.name.clone())),
         Field::new(VERDICT, |row| Cell::Verdict(row.verdict())),
         Field::new(Column::scripts(&["undecided"]), |row| {
-            row.sampled(|risk| Cell::Count(risk.bounds.undecided))
+            row.sampled(|sampled| Cell::Count(sampled.bounds.undecided))
         }),
         Field::new(Column::scripts(&["probability"]), |row| {
-            row.sampled(|risk| risk.bounds.probability().map_or(Cell::Nothing, Cell::Number))
+            row.sampled(|sampled| sampled.bounds.probability().map_or(Cell::Nothing, Cell::Number))
         }),
-        Field::new(FAILURES, |row| row.sampled(|risk| Cell::Probability(risk.bounds.interval))),
+        Field::new(FAILURES, |row| row.sampled(|sampled| Cell::Probability(sampled.bounds.interval))),
         Field::new(column(height_keys, "height", Unit::Metre), |row| {
             spread(row, Quantity::Height, Unit::Metre)
         }),
@@ -41,13 +41,13 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 10] {
             spread(row, Quantity::Force, Unit::Kilonewton)
         }),
         Field::new(Column::numbers(&["samples"], "samples", Unit::One), |row| {
-            row.sampled(|risk| Cell::Count(risk.samples.len()))
+            row.sampled(|sampled| Cell::Count(sampled.samples.len()))
         }),
         Field::new(Column::numbers(&["failures"], "failures", Unit::One), |row| {
-            row.sampled(|risk| Cell::Count(risk.bounds.failures))
+            row.sampled(|sampled| Cell::Count(sampled.bounds.failures))
         }),
         Field::new(Column::words(&["inputs"], "what decides it"), |row| {
-            row.sampled(|risk| Cell::Text(inputs(risk, &row.case.limits).unwrap_or_default()))
+            row.sampled(|sampled| Cell::Text(inputs(sampled, &row.case.limits).unwrap_or_default()))
         }),
     ]
 }
@@ -58,12 +58,10 @@ pub fn report(case: &Case, results: &OptionResults, sampling: &Sampling, partial
     complete_rows(&mut table, case, results);
     let head = format!("up to {} samples of each option, seed {}", sampling.most, sampling.seed);
     let mut blocks = vec![Block::Text(vec![head]), Block::Table(table)];
-    let risks = case
-        .plan
-        .delays
-        .iter()
-        .zip(results)
-        .filter_map(|(delay, result)| Some((delay.name.as_str(), result.as_ref().ok()?.risk.drawn()?)));
+    let risks =
+        case.plan.delays.iter().zip(results).filter_map(|(delay, result)| {
+            Some((delay.name.as_str(), result.as_ref().ok()?.sampled.drawn()?))
+        });
     blocks.extend(risks.map(|(name, risk)| Block::Picture(charts::risk(case, name, risk))));
     let passed = results.iter().flatten().filter(|judged| judged.verdict() == Verdict::Pass).count();
     let mut text =

@@ -38,7 +38,7 @@ fn fields<'a>() -> [Field<FoundRow<'a>>; 19] {
             Cell::Text(row.schedule.hole_timing.order.to_string())
         }),
         Field::new(VERDICT, |row| Cell::Verdict(row.option.verdict())),
-        Field::new(FAILURES, |row| row.option.sampled(|risk| Cell::Probability(risk.bounds.interval))),
+        Field::new(FAILURES, |row| row.option.sampled(|sampled| Cell::Probability(sampled.bounds.interval))),
         Field::new(Column::numbers(&["duration_s"], "lasts", Unit::One), |row| {
             Cell::Interval(duration(row.option.shot))
         }),

@@ -71,8 +71,8 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
         if Some(option) == but {
             continue;
         }
-        let own = swaps_and_cover(case, option, judged);
-        warnings.extend(own.map(|warning| format!("option {}: {warning}", name(option))));
+        let of_option = swaps_and_cover(case, option, judged);
+        warnings.extend(of_option.map(|warning| format!("option {}: {warning}", name(option))));
         let drift = far_drift(case, judged);
         drifts.extend(drift.map(|drift| format!("{} {} m", name(option), units::rounded(drift, 2))));
     }
@@ -84,7 +84,7 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
 
 /// Warnings of an option that need no other option beside them.
 fn swaps_and_cover(case: &Case, option: usize, judged: &Judgement) -> impl Iterator<Item = String> {
-    let swaps = if judged.risk.is_asked() { swaps(case, option, SWAP) } else { Vec::new() };
+    let swaps = if judged.sampled.is_asked() { swaps(case, option, SWAP) } else { Vec::new() };
     let swaps = swaps.into_iter().map(|found| swap_warning(case, &found));
     swaps.chain(uncovered(&judged.as_planned.cover))
 }
@@ -94,7 +94,7 @@ const FAR_DRIFT: &str = "drift is not judged, there is no limit `drift_m`, and t
 
 /// The drift of an option where no limit judges it and it is far [m]: of the shot as planned, or of 1 in 20 of the possible shots.
 fn far_drift(case: &Case, judged: &Judgement) -> Option<f64> {
-    let of_samples = judged.risk.drawn().and_then(|risk| risk.band(Quantity::Drift));
+    let of_samples = judged.sampled.drawn().and_then(|risk| risk.band(Quantity::Drift));
     let of_samples = of_samples.map_or(0.0, |[_, _, p95, _]| p95);
     let drift = judged.as_planned.drift.value.max(of_samples);
     let far = FAR * case.plan.layout.widest_tie();

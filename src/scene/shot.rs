@@ -112,9 +112,9 @@ impl Shot {
     pub fn is_mirrored(&self, mirror: &Mirror) -> bool {
         // Neither the row nor the charge moves a tire.
         let plain = |firing: Firing| Firing { row: 0, charge: 0.0, ..firing };
-        let own = self.firings.iter().copied().map(plain);
+        let firings = self.firings.iter().copied().map(plain);
         let image = self.firings.iter().map(|firing| plain(firing.mirrored(mirror)));
-        own.eq(Self::from_firings(image.collect()).firings)
+        firings.eq(Self::from_firings(image.collect()).firings)
     }
 
     /// Most holes that fire within any `window` [s], its end left out.

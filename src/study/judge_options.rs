@@ -6,8 +6,8 @@ use super::as_planned::check::{CheckProgress, CheckedShot, check_as_planned};
 use super::as_planned::margin::{LaunchMargin, launch_margin};
 use super::judgement::Evidence;
 use super::judgement::Judgement;
-use super::samples::risk::Risk;
 use super::samples::rounds::{ShotToSample, sample_shots_watched};
+use super::samples::sampled_shot::SampledShot;
 use super::samples::sampling::Sampling;
 use super::work::batch::run_batch;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, catch_panic};
@@ -33,9 +33,9 @@ pub enum JudgeEvent<'r> {
     /// The shot as planned is judged, or has no result.
     AsPlanned(&'r Result<CheckedShot, NoResult>),
     /// A round of samples was drawn.
-    SampledSoFar(&'r Risk),
+    SampledSoFar(&'r SampledShot),
     /// All samples were drawn.
-    SampledFully(&'r Risk),
+    SampledFully(&'r SampledShot),
     /// The launch margin is known.
     Margin(LaunchMargin),
 }
@@ -146,14 +146,14 @@ fn add_risks(
         target(case, at.option, &ShotSummary::of(&judgement.as_planned), sampling, compute)
     };
     let targets: Vec<ShotToSample<'_>> = judged.iter().map(target).collect();
-    let mut sampled = |n: usize, risk: &Risk| {
-        watch(judged[n].0, JudgeEvent::SampledSoFar(risk));
+    let mut watch_round = |n: usize, sampled: &SampledShot| {
+        watch(judged[n].0, JudgeEvent::SampledSoFar(sampled));
         ControlFlow::Continue(())
     };
-    let Found { value: risks, partial } = sample_shots_watched(&targets, progress, &mut sampled)?;
-    for ((at, judgement), risk) in judged.iter_mut().zip(risks) {
-        watch(*at, JudgeEvent::SampledFully(&risk));
-        judgement.risk = Evidence::Drawn(risk);
+    let Found { value: sampled_shots, partial } = sample_shots_watched(&targets, progress, &mut watch_round)?;
+    for ((at, judgement), sampled) in judged.iter_mut().zip(sampled_shots) {
+        watch(*at, JudgeEvent::SampledFully(&sampled));
+        judgement.sampled = Evidence::Drawn(sampled);
     }
     Ok(Found { value: (), partial })
 }

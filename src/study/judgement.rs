@@ -3,7 +3,7 @@
 use super::as_planned::check::CheckedShot;
 use super::as_planned::margin::LaunchMargin;
 use super::reasons::Reason;
-use super::samples::risk::Risk;
+use super::samples::sampled_shot::SampledShot;
 use crate::verdict::Verdict;
 
 /// A delay option: the check of the shot as planned, and the risk of the possible shots.
@@ -12,7 +12,7 @@ pub struct Judgement {
     /// The shot as planned.
     pub as_planned: CheckedShot,
     /// The shots that `[uncertainty]` describes. Of a sampling that the time cut short there may be no sample.
-    pub risk: Evidence<Risk>,
+    pub sampled: Evidence<SampledShot>,
     /// How much faster than planned the tires may leave; `None` where it was not asked for, or the time was up.
     pub launch_margin: Option<LaunchMargin>,
 }
@@ -24,30 +24,30 @@ impl Judgement {
         match self.launch_margin {
             Some(LaunchMargin::UpTo { rise, .. }) => Some(rise),
             Some(LaunchMargin::BeyondTried) => None,
-            None if !self.risk.is_asked() && self.as_planned.verdict == Verdict::Pass => None,
+            None if !self.sampled.is_asked() && self.as_planned.verdict == Verdict::Pass => None,
             Some(LaunchMargin::NotPassing) | None => Some(0.0),
         }
     }
 
     /// The judgement of the shot as planned alone.
     pub fn of_planned_alone(as_planned: CheckedShot) -> Self {
-        Self { as_planned, risk: Evidence::NotAsked, launch_margin: None }
+        Self { as_planned, sampled: Evidence::NotAsked, launch_margin: None }
     }
 
     /// Pass where the shot as planned passes and surely fewer shots than accepted fail; fail where the shot as planned
     /// fails, or surely more shots than accepted.
     pub fn verdict(&self) -> Verdict {
-        verdict_of_both(self.as_planned.verdict, self.risk.map(Risk::verdict))
+        verdict_of_both(self.as_planned.verdict, self.sampled.map(SampledShot::verdict))
     }
 
     /// Why the verdict is no pass; empty for a pass.
     pub fn reasons(&self) -> Vec<Reason> {
         let as_planned = self.as_planned.reasons.iter().copied().map(Reason::AsPlanned);
-        let of_samples = match &self.risk {
+        let of_samples = match &self.sampled {
             Evidence::NotAsked => None,
             Evidence::NotDrawn => Some(Reason::NoSamples),
             Evidence::Drawn(risk) if risk.samples.is_empty() => Some(Reason::NoSamples),
-            Evidence::Drawn(risk) => risk.reason().map(Reason::Samples),
+            Evidence::Drawn(sampled) => sampled.reason().map(Reason::Samples),
         };
         as_planned.chain(of_samples).collect()
     }

@@ -74,16 +74,16 @@ pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
 
 /// The results of all shards, given as `(name, text)`; says what is wrong with them.
 fn join(shards: &[(String, String)]) -> Result<Contents, String> {
-    let mut all = Vec::new();
+    let mut contents_by_name = Vec::new();
     for (name, text) in shards {
         let contents = results_file::read(name, text)?;
         if !contents.is_complete {
             return Err(format!("{name} is not complete: run its command again, which goes on from there"));
         }
-        all.push((name, contents));
+        contents_by_name.push((name, contents));
     }
-    let (first_name, Contents { head: first, .. }) = all.first().ok_or("no shard to merge")?;
-    for (name, Contents { head, .. }) in &all {
+    let (first_name, Contents { head: first, .. }) = contents_by_name.first().ok_or("no shard to merge")?;
+    for (name, Contents { head, .. }) in &contents_by_name {
         if !head.is_of_same_study(first) {
             return Err(format!("{name}: a shard of another study than {first_name}"));
         }
@@ -91,15 +91,15 @@ fn join(shards: &[(String, String)]) -> Result<Contents, String> {
     let count = first.shard.of;
     for index in 0..count {
         let which = format!("shard {}/{count}", index + 1);
-        match all.iter().filter(|(_, contents)| contents.head.shard.index == index).count() {
+        match contents_by_name.iter().filter(|(_, contents)| contents.head.shard.index == index).count() {
             0 => return Err(format!("{which} is missing")),
             1 => {}
             _ => return Err(format!("{which} is there twice")),
         }
     }
-    let mut all = all.into_iter().map(|(_, contents)| contents);
-    let first = all.next().ok_or("no shard to merge")?;
-    Ok(all.fold(first, |mut joined, next| {
+    let mut contents = contents_by_name.into_iter().map(|(_, contents)| contents);
+    let first = contents.next().ok_or("no shard to merge")?;
+    Ok(contents.fold(first, |mut joined, next| {
         joined.known.extend(next.known);
         joined
     }))

@@ -340,15 +340,15 @@ impl App {
             News::Checked { option, result } => {
                 let state = result.map_or_else(OptionState::Failed, |checked| {
                     // Until samples arrive the option stays OPEN: a shot that passes as planned shows no PASS.
-                    let risk = Evidence::NotDrawn;
-                    let judgement = Box::new(Judgement { risk, ..Judgement::of_planned_alone(*checked) });
+                    let sampled = Evidence::NotDrawn;
+                    let judgement = Box::new(Judgement { sampled, ..Judgement::of_planned_alone(*checked) });
                     OptionState::Done { judgement, sampling: true }
                 });
                 self.set_option(option, state);
             }
-            News::Sampled { option, risk, more } => {
+            News::Sampled { option, sampled, more } => {
                 if let Some(OptionState::Done { judgement, sampling }) = self.options.get_mut(option) {
-                    judgement.risk = Evidence::Drawn(*risk);
+                    judgement.sampled = Evidence::Drawn(*sampled);
                     *sampling = more;
                 }
             }

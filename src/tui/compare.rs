@@ -89,7 +89,7 @@ impl SortBy {
 
     /// The number that orders results by this key; `Plan` and `Name` need none.
     fn value(self, judgement: &Judgement) -> f64 {
-        let Judgement { as_planned, risk, .. } = judgement;
+        let Judgement { as_planned, sampled, .. } = judgement;
         match self {
             SortBy::Plan | SortBy::Name => 0.0,
             SortBy::Verdict => match judgement.verdict() {
@@ -97,7 +97,7 @@ impl SortBy {
                 Verdict::Undecided => 1.0,
                 Verdict::Fail => 2.0,
             },
-            SortBy::Risk => risk.drawn().map_or(1.0, |risk| risk.bounds.interval[1]),
+            SortBy::Risk => sampled.drawn().map_or(1.0, |risk| risk.bounds.interval[1]),
             SortBy::Height => as_planned.height.value,
             SortBy::Force => as_planned.force.value,
             SortBy::Drift => as_planned.drift.value,

@@ -103,7 +103,8 @@ fn svg(app: &App) -> Result<String, String> {
             let judged = app.judgement(app.selected).ok_or("the selected option has no result yet")?;
             let shot = &app.case.shots[app.selected];
             let history = charts::history(&app.case, &judged.as_planned.history, shot);
-            let samples = judged.risk.drawn().into_iter().flat_map(|risk| charts::samples(&app.case, risk));
+            let samples =
+                judged.sampled.drawn().into_iter().flat_map(|risk| charts::samples(&app.case, risk));
             history
                 .iter()
                 .filter_map(html::svg)

@@ -5,7 +5,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
-const DOCUMENTS: [&str; 4] = ["README.md", "CONTRIBUTING.md", "plans/README.md", "benches/RESULTS.md"];
+const DOCUMENTS: [&str; 6] = [
+    "README.md",
+    "CONTRIBUTING.md",
+    "plans/README.md",
+    "plans/STUDIES.md",
+    "plans/NUMBERS.md",
+    "benches/RESULTS.md",
+];
 
 /// Files below `folder` that end in `ending`.
 fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {

@@ -94,7 +94,7 @@ fn all_pass_when_made(case: &Case, option: usize, sampling: Option<&Sampling>) -
     for passing in found.passing() {
         let judged = checked(case, option, &passing.change, sampling);
         assert_eq!(judged.verdict(), Verdict::Pass, "{:?}", passing.change);
-        assert_eq!(judged.risk, passing.judgement.risk, "{:?}", passing.change);
+        assert_eq!(judged.sampled, passing.judgement.sampled, "{:?}", passing.change);
         assert_eq!(judged.as_planned.height, passing.judgement.as_planned.height);
         assert_eq!(judged.as_planned.force, passing.judgement.as_planned.force);
     }

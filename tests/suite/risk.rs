@@ -14,9 +14,9 @@ use shelter::study::judgement::Judgement;
 use shelter::study::results_file::{self, Head, Question};
 use shelter::study::samples::draw::{DrawnShot, draw};
 use shelter::study::samples::influence::input_shares;
-use shelter::study::samples::risk::Risk;
 use shelter::study::samples::risk_summary::sample_shots_in_brief;
 use shelter::study::samples::rounds::{ShotToSample, draw_shard, sample_shots};
+use shelter::study::samples::sampled_shot::SampledShot;
 use shelter::study::samples::sampling::Sampling;
 use shelter::study::{Case, ComputeSettings, Journal, Progress, Shard, ShotSummary, thread_pool};
 use shelter::verdict::{Quantity, Verdict};
@@ -62,7 +62,7 @@ delay = [{{ name = "20", interval_ms = 20 }}, {{ name = "60", interval_ms = 60 }
     Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
 }
 
-fn risk_of(case: &Case, sampling: &Sampling) -> Risk {
+fn risk_of(case: &Case, sampling: &Sampling) -> SampledShot {
     let (shot, compute) = (&case.shots[0], ComputeSettings::of(&case.plan));
     let target = ShotToSample::new(case, shot, compute, *sampling);
     let found = sample_shots(&[target], &Progress::default());
@@ -174,7 +174,7 @@ fn samples_whose_step_is_too_long_pass_nothing() {
         .expect("a result")
         .value;
     let judged = found.remove(0).remove(0).expect("a result");
-    let risk = judged.risk.drawn().expect("samples");
+    let risk = judged.sampled.drawn().expect("samples");
     assert_eq!((judged.as_planned.verdict, risk.bounds.verdict()), (Verdict::Pass, Verdict::Pass));
     assert_eq!(judged.verdict(), Verdict::Undecided, "{:?}", risk.samples[0]);
     assert!(risk.halvings > 0, "the audit saw it, too");
@@ -297,9 +297,9 @@ fn shards_that_the_audit_contradicts_are_sampled_anew() {
     let mut of_shards = case.judge_options(&compute, Some(&sampling), &joined).expect("a result").value;
     assert!(joined.journal().recalled() >= 100, "until the audit contradicts them");
     let whole = case.judge_options(&compute, Some(&sampling), &progress).expect("a result").value;
-    let whole = whole[0].as_ref().expect("a result").risk.drawn().expect("samples");
+    let whole = whole[0].as_ref().expect("a result").sampled.drawn().expect("samples");
     assert!(whole.halvings > 0, "a test that can fail");
-    assert_eq!(of_shards.remove(0).expect("a result").risk.drawn(), Some(whole));
+    assert_eq!(of_shards.remove(0).expect("a result").sampled.drawn(), Some(whole));
 }
 
 /// Mean and standard deviation.
@@ -507,8 +507,8 @@ fn samples_are_the_same_on_any_number_of_threads() {
     let on = |threads| {
         let work = || case.judge_options(&compute, Some(&sampling), &Progress::default());
         let found = thread_pool(threads).expect("threads").install(work).expect("a result").value;
-        let risk = |judged: Judgement| judged.risk.drawn().cloned().expect("samples");
-        found.into_iter().map(|result| risk(result.expect("a result"))).collect::<Vec<Risk>>()
+        let risk = |judged: Judgement| judged.sampled.drawn().cloned().expect("samples");
+        found.into_iter().map(|result| risk(result.expect("a result"))).collect::<Vec<SampledShot>>()
     };
     let one = on(1);
     assert_eq!(one, on(3));

@@ -60,8 +60,8 @@ fn samples_stream_in_and_decide() {
     assert!(line(&app, "9 ms").contains("? OPEN") && line(&app, "9 ms").contains(" 0…"));
     assert!(app.busy());
     let news = |app: &App, count, more| {
-        let risk = Box::new(samples(&app.case, count, false));
-        News::Sampled { option: 1, risk, more }
+        let sampled = Box::new(samples(&app.case, count, false));
+        News::Sampled { option: 1, sampled, more }
     };
     app.take_news(news(&app, 200, true));
     let sampling = line(&app, "9 ms");

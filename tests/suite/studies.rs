@@ -13,8 +13,8 @@ use shelter::study::judgement::Evidence;
 use shelter::study::judgement::Judgement;
 use shelter::study::orders::{Orders, TriedOrder, orders, refine, try_orders};
 use shelter::study::samples::failure_bounds::ErrorShare;
-use shelter::study::samples::risk::Risk;
 use shelter::study::samples::rounds::{ShotToSample, sample_shots};
+use shelter::study::samples::sampled_shot::SampledShot;
 use shelter::study::samples::sampling::Sampling;
 use shelter::study::samples::swaps::swaps;
 use shelter::study::size::{Demand, size};
@@ -126,7 +126,7 @@ fn risky_sweep(case: &Case) -> (Sweep, Sampling, ComputeSettings) {
 }
 
 /// The samples of one interval, drawn alone.
-fn risk_at(case: &Case, interval: f64, sampling: &Sampling, compute: ComputeSettings) -> Risk {
+fn risk_at(case: &Case, interval: f64, sampling: &Sampling, compute: ComputeSettings) -> SampledShot {
     let shot = case.shot(&[0, 1, 2], interval);
     let target = ShotToSample::new(case, &shot, compute, *sampling);
     let found = sample_shots(&[target], &Progress::default());

@@ -164,11 +164,11 @@ fn remarks(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
 
 /// Rows of the same number must be written alike.
 fn rows(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
-    let mut known: HashMap<u64, &str> = HashMap::new();
+    let mut first_spelling: HashMap<u64, &str> = HashMap::new();
     for hole in holes {
         let Some(row) = hole.row.as_deref() else { continue };
         let Ok(number) = row.parse::<f64>() else { continue };
-        let first = *known.entry(number.to_bits()).or_insert(row);
+        let first = *first_spelling.entry(number.to_bits()).or_insert(row);
         if first != row {
             let message = format!("the row is `{row}`, the same as `{first}` written otherwise");
             mistakes.push(mistake(hole.span.clone(), message, "write each row in one way"));
@@ -179,8 +179,8 @@ fn rows(holes: &[ListedHole], mistakes: &mut Vec<Mistake>) {
 /// Gives holes their whole names, `Pattern:::Hole`, where the list has several patterns; else leaves the pattern out.
 fn name_patterns(list: &mut Holes, patterns: &[String]) {
     let different: Vec<&String> = {
-        let mut known = HashSet::new();
-        patterns.iter().filter(|pattern| known.insert(*pattern)).collect()
+        let mut seen = HashSet::new();
+        patterns.iter().filter(|pattern| seen.insert(*pattern)).collect()
     };
     let several = different.len() > 1;
     for (hole, pattern) in list.holes.iter_mut().zip(patterns) {

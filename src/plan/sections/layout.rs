@@ -73,7 +73,7 @@ fn read_list(section: &SectionReader<'_>, mistakes: &Mistakes) -> Layout {
         mistakes.add(section.span.clone(), "the shelter has no tire", remedy);
     }
     let mut cables = Vec::new();
-    let mut known = HashSet::new();
+    let mut tied = HashSet::new();
     for cable in section.sections(&shelter::CABLE) {
         let most = tires.len().max(1);
         let before = mistakes.count();
@@ -86,7 +86,7 @@ fn read_list(section: &SectionReader<'_>, mistakes: &Mistakes) -> Layout {
                     format!("a cable from tire {from} to itself"),
                     "name another tire",
                 );
-            } else if !known.insert((from.min(to), from.max(to))) {
+            } else if !tied.insert((from.min(to), from.max(to))) {
                 let message = format!("tires {from} and {to} are tied twice");
                 mistakes.add(cable.span.clone(), message, "remove one of the two cables");
             }

@@ -233,12 +233,12 @@ fn read_termination(
 
 /// What to write instead of a termination that does not fit `rope`.
 fn other_termination(rope: &Rope) -> String {
-    let own = "`termination_percent` with the figure of the maker";
+    let stated = "`termination_percent` with the figure of the maker";
     let fitting = catalogue().terminations.iter().filter(|known| known.fits.contains(&rope.kind));
     let names: Vec<String> = fitting.map(|known| format!("\"{}\"", known.name)).collect();
     if names.is_empty() {
-        format!("give {own}")
+        format!("give {stated}")
     } else {
-        format!("choose {}; or give {own}", names.join(", "))
+        format!("choose {}; or give {stated}", names.join(", "))
     }
 }

@@ -133,9 +133,9 @@ fn read_targets(
             let message = format!("there is no tire {}", tire.value);
             mistakes.add(tire.span.clone(), message, format!("tires are numbered 1 to {count}"));
         }
-        let mut known = HashSet::new();
+        let mut holes_seen = HashSet::new();
         for tire in &tires.value {
-            if !known.insert(tire.value) {
+            if !holes_seen.insert(tire.value) {
                 let message = format!("tire {} is launched twice", tire.value);
                 mistakes.add(tire.span.clone(), message, "name each tire once");
             }

@@ -46,8 +46,8 @@ fn rope(cable: &CableSpec) -> [(&'static str, String); 3] {
         whole(cable.axial_stiffness_kn),
         units::exact(alone * 1e3, Unit::Kilonewton)
     );
-    let known = cable.rope.as_deref().and_then(|name| Some((name, catalogue().find(name)?)));
-    let rope = match known {
+    let from_catalogue = cable.rope.as_deref().and_then(|name| Some((name, catalogue().find(name)?)));
+    let rope = match from_catalogue {
         Some((name, rope)) => {
             let grade = if rope.grade > 0 { format!(", grade {} N/mm²", rope.grade) } else { String::new() };
             let typical =

@@ -54,13 +54,13 @@ pub fn only_planned(page: &Page<'_>) -> &'static str {
 /// What the verdict rests on, each with its name.
 fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str, String)> {
     let mut facts = vec![("Risk", risk(case, judged)), ("Launch margin", launch_margin(shot, judged))];
-    if let Some(risk) = judged.risk.drawn() {
+    if let Some(risk) = judged.sampled.drawn() {
         let inputs = explain::inputs(risk, &case.limits);
         facts.push(("What decides", inputs.unwrap_or_else(|| "too few samples to tell".to_owned())));
     }
     facts.push(("As planned", explain::peaks(case.scene(), &judged.as_planned)));
     facts.push(("Utilization as planned", utilization(case, judged)));
-    let bands = judged.risk.drawn().and_then(explain::bands);
+    let bands = judged.sampled.drawn().and_then(explain::bands);
     facts.extend(bands.map(|bands| ("Possible shots", bands)));
     facts
 }
@@ -68,7 +68,7 @@ fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str,
 /// Bounds of the share of the possible shots that fail, and the share accepted.
 fn risk(case: &Case, judged: &Judgement) -> String {
     let accepted = format!("accepted {} %", units::short(case.plan.limits.accepted_risk_percent));
-    match &judged.risk {
+    match &judged.sampled {
         Evidence::NotAsked => "not judged: the plan's own numbers only, nothing varied".to_owned(),
         Evidence::Drawn(risk) if !risk.samples.is_empty() => {
             let bounds = &risk.bounds;

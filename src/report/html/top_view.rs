@@ -100,10 +100,10 @@ fn times(shot: &Shot) -> Labels {
         ends.entry(firing.row).or_insert([n; 2])[1] = n;
     }
     let ends: BTreeSet<usize> = ends.into_values().flatten().collect();
-    let all = shot.firings.len() <= MOST_LABELS;
+    let all_labelled = shot.firings.len() <= MOST_LABELS;
     let some = "hole, some with their firing time in ms";
-    let meaning = if all { ["hole, with its firing time in ms", some] } else { [some; 2] };
-    Labels { at: written(&|n| all || ends.contains(&n)), meaning }
+    let meaning = if all_labelled { ["hole, with its firing time in ms", some] } else { [some; 2] };
+    Labels { at: written(&|n| all_labelled || ends.contains(&n)), meaning }
 }
 
 /// Holes that launch their tires aside, and the direction along the ground, as long as the launch is tilted: 1 for 90°.

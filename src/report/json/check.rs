@@ -18,7 +18,7 @@ use crate::study::eight_ms::WithinEightMs;
 use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
 use crate::study::remedies::Remedies;
-use crate::study::samples::risk::Risk;
+use crate::study::samples::sampled_shot::SampledShot;
 use crate::verdict::{Estimate, Quantity};
 
 /// The document of one plan.
@@ -103,8 +103,8 @@ pub(super) struct Percentiles {
 }
 
 impl Percentiles {
-    pub(super) fn of(risk: Option<&Risk>, quantity: Quantity) -> Self {
-        let band = risk.and_then(|risk| risk.band(quantity)).map(|band| band.map(Some));
+    pub(super) fn of(sampled: Option<&SampledShot>, quantity: Quantity) -> Self {
+        let band = sampled.and_then(|sampled| sampled.band(quantity)).map(|band| band.map(Some));
         let [p05, p50, p95, _] = band.unwrap_or_default();
         Self { p05, p50, p95 }
     }
@@ -167,7 +167,7 @@ impl CablePeakObject {
 
 impl OptionValues {
     fn new(case: &Case, judged: &Judgement) -> Self {
-        let (scene, checked, risk) = (case.scene(), &judged.as_planned, judged.risk.drawn());
+        let (scene, checked, risk) = (case.scene(), &judged.as_planned, judged.sampled.drawn());
         let drift_is_judged = risk.filter(|_| case.limits.drift.is_some());
         Self {
             nominal_verdict: checked.verdict.name(),

@@ -44,15 +44,15 @@ struct EffectResult {
 
 impl EffectResult {
     fn of(row: &EffectOnOption) -> Self {
-        let known = |change: f64| Some(change).filter(|change| change.is_finite());
+        let finite = |change: f64| Some(change).filter(|change| change.is_finite());
         let key = row.effect.key();
         Self {
             name: key.name,
             value: row.value,
             unit: key.kind.unit(),
-            flight_height_change: known(row.change(Quantity::Height)),
-            cable_force_change: known(row.change(Quantity::Force)),
-            drift_change: known(row.change(Quantity::Drift)),
+            flight_height_change: finite(row.change(Quantity::Height)),
+            cable_force_change: finite(row.change(Quantity::Force)),
+            drift_change: finite(row.change(Quantity::Drift)),
             verdict: row.verdict_with,
             verdict_without: row.verdict_without,
             required: row.is_required(),

@@ -111,7 +111,7 @@ impl ResidualObject {
         let ObservedRow { case, observed, prediction, residual } = *row;
         let (scene, watched) = (case.scene(), &observed.watched);
         let is_force = watched.quantity == ObservedQuantity::Force;
-        let known = |value: f64| Some(value).filter(|value| value.is_finite());
+        let finite = |value: f64| Some(value).filter(|value| value.is_finite());
         Self {
             option: case.plan.delays[observed.option].name.clone(),
             tire: (!is_force).then(|| scene.tire[watched.index].to_string()),
@@ -120,10 +120,10 @@ impl ResidualObject {
             at_s: (watched.quantity == ObservedQuantity::Height).then_some(watched.at),
             observed: observed.value,
             sd: observed.sd,
-            fitted: residual.and_then(|residual| known(residual.fitted)),
+            fitted: residual.and_then(|residual| finite(residual.fitted)),
             total_sd: residual.map(|residual| residual.sd),
             suspicious: residual.is_some_and(Residual::is_suspicious),
-            planned: known(prediction.planned),
+            planned: finite(prediction.planned),
             band: prediction.band,
         }
     }
@@ -159,7 +159,7 @@ impl<'a> FitDocument<'a> {
                 .collect(),
             bands: (!held.is_empty()).then_some(BandsObject { within, of: held.len() }),
             next: fit.next.map(|next| NextObservationObject {
-                observe: place(case, next.candidate.option, &next.candidate.watched),
+                observe: place(case, next.observable.option, &next.observable.watched),
                 sd: next.sd,
                 variance_share: next.share,
             }),

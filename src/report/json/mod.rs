@@ -28,8 +28,8 @@ pub use self::search::SearchDocument;
 pub use self::size::SizeDocument;
 pub use self::sweep::SweepDocument;
 pub use self::trace::TraceDocument;
-use crate::study::samples::risk::Risk;
 use crate::study::samples::risk_summary::RiskSummary;
+use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::{Case, ShotSummary};
 use crate::verdict::Verdict;
 
@@ -113,8 +113,8 @@ struct Failures {
 
 impl Failures {
     /// What the samples tell.
-    fn of(risk: &Risk) -> Self {
-        let bounds = &risk.bounds;
+    fn of(sampled: &SampledShot) -> Self {
+        let bounds = &sampled.bounds;
         Self { bounds: bounds.interval.into(), samples: bounds.samples, undecided: bounds.undecided }
     }
 }

@@ -7,7 +7,7 @@ use crate::report::warnings;
 use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
 use crate::study::samples::influence;
-use crate::study::samples::risk::Risk;
+use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::samples::sampling::Sampling;
 use crate::study::{Case, NoResult};
 use crate::verdict::{Limits, Quantity, Verdict};
@@ -52,8 +52,8 @@ pub struct PercentilesAndMost {
 
 impl PercentilesAndMost {
     /// The band of a quantity of the samples; `None` for too few samples.
-    pub fn of(risk: &Risk, quantity: Quantity) -> Option<Self> {
-        risk.band(quantity).map(|[p05, p50, p95, max]| Self { p05, p50, p95, max })
+    pub fn of(sampled: &SampledShot, quantity: Quantity) -> Option<Self> {
+        sampled.band(quantity).map(|[p05, p50, p95, max]| Self { p05, p50, p95, max })
     }
 }
 
@@ -65,14 +65,14 @@ pub struct Share {
 }
 
 /// The shares of the inputs, largest first; `None` for too few samples.
-pub fn input_shares(risk: &Risk, limits: &Limits) -> Option<Vec<Share>> {
-    let all = influence::input_shares(risk, limits)?.into_iter();
+pub fn input_shares(sampled: &SampledShot, limits: &Limits) -> Option<Vec<Share>> {
+    let all = influence::input_shares(sampled, limits)?.into_iter();
     Some(all.map(|(input, share)| Share { name: input.key().name, share }).collect())
 }
 
 impl SampledOption {
     fn new(case: &Case, name: &str, result: &Result<Judgement, NoResult>) -> Self {
-        let risk = result.as_ref().ok().and_then(|judged| judged.risk.drawn());
+        let risk = result.as_ref().ok().and_then(|judged| judged.sampled.drawn());
         let bounds = risk.map(|risk| risk.bounds);
         Self {
             name: name.to_owned(),

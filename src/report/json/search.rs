@@ -92,7 +92,7 @@ impl ScheduleObject {
 
 impl FoundValues {
     fn of(case: &Case, judged: &Judgement) -> Self {
-        let (scene, checked, risk) = (case.scene(), &judged.as_planned, judged.risk.drawn());
+        let (scene, checked, risk) = (case.scene(), &judged.as_planned, judged.sampled.drawn());
         Self {
             nominal_verdict: checked.verdict.name(),
             launch_margin: judged.launch_margin_or_zero(),
@@ -116,7 +116,7 @@ impl SearchDocument {
         let found = |(row, schedule): (OptionRow<'_>, &Schedule)| {
             let WithinEightMs { holes, charge } = row.together();
             let judged = row.result.as_ref().ok();
-            let risk = judged.and_then(|judged| judged.risk.drawn());
+            let risk = judged.and_then(|judged| judged.sampled.drawn());
             FoundSchedule {
                 name: row.delay.name.clone(),
                 schedule: ScheduleObject::of(case, schedule),

@@ -69,14 +69,14 @@ impl CombinationResult {
 impl SizeDocument {
     /// The document of all combinations.
     pub fn new(case: &Case, sizing: &Sizing) -> Self {
-        let found = sizing.lightest_choice();
-        let nearest = if found.is_none() { nearest(sizing) } else { None };
+        let chosen = sizing.lightest_choice();
+        let nearest = if chosen.is_none() { nearest(sizing) } else { None };
         Self {
             schema: "shelter.size/1",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
-            found: found.is_some(),
-            lightest: found.map(CombinationResult::of),
+            found: chosen.is_some(),
+            lightest: chosen.map(CombinationResult::of),
             tried: sizing.count_tried(),
             not_tried: sizing.combinations.len() - sizing.count_tried(),
             fragile: sizing.count_with_risk(Verdict::Fail) + sizing.count_with_risk(Verdict::Undecided),

@@ -52,9 +52,10 @@ fn beside_rivals(
     buckets: fn(&History) -> &Vec<f64>,
 ) -> Estimate {
     let parts = |run: &Outcome| slices::<SLICES>(buckets(&run.history), run.history.width, last.end.at);
-    let own = parts(last);
+    let of_last = parts(last);
     let near: Vec<_> = near.iter().map(|run| (run.step, parts(run))).collect();
-    let reach = |n: usize| own[n] + estimate(last.step, own[n], near.iter().map(|(step, v)| (*step, v[n])));
+    let reach =
+        |n: usize| of_last[n] + estimate(last.step, of_last[n], near.iter().map(|(step, v)| (*step, v[n])));
     let top = slice_at::<SLICES>(greatest.at, last.end.at);
     let highest = (0..SLICES).filter(|n| n.abs_diff(top) > 1).map(reach).fold(0.0, f64::max);
     Estimate { error: greatest.error.max(highest - greatest.value), ..greatest }

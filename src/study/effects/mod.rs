@@ -16,9 +16,9 @@ use std::time::Instant;
 pub use self::effect::Effect;
 use super::as_planned::check_many::or_unknown;
 use super::as_planned::quick_check::quick_check;
-use super::samples::risk::percentiles;
 use super::samples::rounds::{ShotToSample, run_sample_once};
 use super::samples::sample::Sample;
+use super::samples::sampled_shot::percentiles;
 use super::samples::sampling::Sampling;
 use super::work::batch::run_batch;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, catch_panic};
@@ -194,8 +194,9 @@ pub fn effects(
     progress: &Progress,
 ) -> Finding<EffectsOnOptions> {
     let mut cases = vec![case.clone()];
-    let all = Effect::ALL.into_iter().filter(|effect| effect.is_computed_by(compute.method));
-    let variants: Vec<Variant> = all.filter_map(|effect| variant(effect, &case.plan, &mut cases)).collect();
+    let computed = Effect::ALL.into_iter().filter(|effect| effect.is_computed_by(compute.method));
+    let variants: Vec<Variant> =
+        computed.filter_map(|effect| variant(effect, &case.plan, &mut cases)).collect();
     let jobs: Vec<(usize, usize)> = itertools::iproduct!(0..case.shots.len(), 0..cases.len()).collect();
     let measured = run_batch(&jobs, progress, |&(option, n)| {
         catch_panic(|| measure_option(&cases[n], option, sampling, compute, progress))
@@ -205,8 +206,8 @@ pub fn effects(
         let figures: Vec<&OptionFigures> = figures.iter().map(Option::as_ref).collect::<Option<_>>()?;
         variants.iter().map(|variant| hardest(variant, &figures, &case.limits)).collect()
     };
-    let found = measured.chunks(cases.len()).map(on_option).collect();
-    Ok(Found { value: found, partial })
+    let effects = measured.chunks(cases.len()).map(on_option).collect();
+    Ok(Found { value: effects, partial })
 }
 
 /// The plans with and without an effect, added to `cases`; `None` where there is nothing to try.

@@ -33,12 +33,12 @@ pub struct NotDetermined {
     /// The parameters: one by itself, or several of which only a combination is determined.
     pub parameters: Vec<Parameter>,
     /// What else to observe; `None` where nothing of these shots would tell.
-    pub observe: Option<Candidate>,
+    pub observe: Option<Observable>,
 }
 
 /// Something that could be observed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Candidate {
+pub struct Observable {
     /// Index of the delay option.
     pub option: usize,
     /// What to watch.
@@ -55,7 +55,7 @@ pub fn usual_sd(quantity: ObservedQuantity, value: f64) -> f64 {
 }
 
 /// Everything that could be observed of a shot under a shelter.
-pub fn candidates(scene: &Scene) -> Vec<Watched> {
+pub fn observables(scene: &Scene) -> Vec<Watched> {
     let of_tires = [ObservedQuantity::FlightHeight, ObservedQuantity::Landing, ObservedQuantity::Drift];
     let tires = itertools::iproduct!(of_tires, 0..scene.mass.len());
     let cables = (0..scene.cables.len()).map(|cable| (ObservedQuantity::Force, cable));
@@ -87,7 +87,7 @@ pub fn refuse(
     let Some(combination) = undetermined(slopes, &scales) else { return Ok(None) };
     let named = predictor.parameters.iter().zip(combination.iter()).filter(|(_, share)| share.abs() > NAMED);
     let parameters = named.map(|(&parameter, _)| parameter).collect();
-    let all = candidates(predictor.case(own).scene());
+    let all = observables(predictor.case(own).scene());
     let shots =
         predictor.shots.iter().map(|shot| ObservedShot { watched: all.clone(), ..shot.clone() }).collect();
     let wide = Predictor {
@@ -104,12 +104,12 @@ pub fn refuse(
     let (Some(more), Some(less)) = (more, less) else {
         return Ok(Some(NotDetermined { parameters, observe: None }));
     };
-    let mut best: Option<(f64, Candidate)> = None;
+    let mut best: Option<(f64, Observable)> = None;
     for (n, (more, less)) in more.iter().zip(&less).enumerate() {
         let (option, watched) = (wide.shots[n / all.len()].option, all[n % all.len()]);
         let sigma = (more - less).abs() / (2.0 * SHIFT * usual_sd(watched.quantity, *more));
         if sigma >= WORTH_OBSERVING && best.is_none_or(|(most, _)| sigma > most) {
-            best = Some((sigma, Candidate { option, watched }));
+            best = Some((sigma, Observable { option, watched }));
         }
     }
     Ok(Some(NotDetermined { parameters, observe: best.map(|(_, candidate)| candidate) }))

@@ -60,12 +60,12 @@ const MOST_ROUNDS: usize = 6;
 impl Fitting<'_> {
     /// Where the search begins: at what the plan states, or at its own numbers.
     pub fn start_coordinates(&self, plan: &Plan) -> Vec<f64> {
-        let own = |(n, parameter): (usize, &Parameter)| {
+        let start = |(n, parameter): (usize, &Parameter)| {
             let planned = || parameter.planned(plan).map(|planned| parameter.coordinate(planned));
             // Stiff ends are at the stiff end of their range.
             self.priors[n].map(|prior| prior.mean).or_else(planned).unwrap_or(self.space.ranges[n][1])
         };
-        self.predictor.parameters.iter().enumerate().map(own).collect()
+        self.predictor.parameters.iter().enumerate().map(start).collect()
     }
 
     /// Independent residuals of unit variance: those of the observations, then those of what the plan states.
@@ -85,17 +85,18 @@ impl Fitting<'_> {
 
     /// Answers of nearly equal misfit, the best first.
     pub fn answers(&self, case: &Case) -> Result<Vec<ExactAnswer>, NoResult> {
-        let own = self.start_coordinates(&case.plan);
+        let start = self.start_coordinates(&case.plan);
         let weighing =
             Weighing { predictor: &self.predictor, plan: &case.plan, others: &self.others, seen: &self.seen };
         let weights = match self.seed {
             Some(seed) => {
-                weighing.weigh_samples(&own, &self.sample_spread(|_| 0.0), seed)?.map(|local| local.weights)
+                weighing.weigh_samples(&start, &self.sample_spread(|_| 0.0), seed)?.map(|local| local.weights)
             }
-            None => weighing.weigh_without_scatter(&own)?,
+            None => weighing.weigh_without_scatter(&start)?,
         };
-        let weights = weights.ok_or_else(|| self.failure(&own))?;
-        let minima = self.space.minima(&own, &|at| self.residuals(at, &weights), self.predictor.progress)?;
+        let weights = weights.ok_or_else(|| self.failure(&start))?;
+        let minima =
+            self.space.minima(&start, &|at| self.residuals(at, &weights), self.predictor.progress)?;
         let least = minima.first().map_or(f64::INFINITY, |best| best.misfit);
         let is_worth = |minimum: &Minimum| minimum.misfit <= least + WORTH_WEIGHING;
         let worth: Vec<Minimum> = minima.into_iter().take_while(is_worth).take(MOST_WEIGHED).collect();
@@ -107,7 +108,7 @@ impl Fitting<'_> {
         let mut settled: Vec<ExactAnswer> =
             settled.ok_or(NoResult::OutOfTime)?.into_iter().flatten().collect();
         settled.sort_by(|a, b| a.unlikelihood().total_cmp(&b.unlikelihood()));
-        let least = settled.first().map(ExactAnswer::unlikelihood).ok_or_else(|| self.failure(&own))?;
+        let least = settled.first().map(ExactAnswer::unlikelihood).ok_or_else(|| self.failure(&start))?;
         settled.retain(|answer| answer.unlikelihood() <= least + NEARLY_EQUAL);
         Ok(settled.into_iter().fold(Vec::new(), |mut all: Vec<ExactAnswer>, settled| {
             if !all.iter().any(|known| known.minimum.is_same(&settled.minimum)) {

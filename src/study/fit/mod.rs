@@ -28,7 +28,7 @@ mod watch;
 pub mod weights;
 
 pub use self::answer::{Answer, Estimated, Fit, FitResult, Residual};
-pub use self::determined::{Candidate, NotDetermined};
+pub use self::determined::{NotDetermined, Observable};
 use self::fitting::Fitting;
 use self::observed_shots::ObservedShots;
 use self::parameter::{Parameter, Prior};
@@ -104,8 +104,8 @@ pub fn fit(
     let settled = fitting.answers(case)?;
     let best = &settled[0];
     let slopes = best.weights.whiten(&best.slopes).unwrap_or_else(|| best.slopes.clone());
-    let own = fitting.start_coordinates(&case.plan);
-    if let Some(refused) = determined::refuse(&fitting.predictor, &fitting.space, &own, &slopes)? {
+    let start = fitting.start_coordinates(&case.plan);
+    if let Some(refused) = determined::refuse(&fitting.predictor, &fitting.space, &start, &slopes)? {
         return Ok(whole(FitResult::NotDetermined(refused)));
     }
     let answers = settled.iter().map(|settled| fitting.answer(case, settled)).collect();

@@ -149,8 +149,8 @@ impl Parameter {
             Unknown::Friction => Some(Prior::between(unknown.friction)),
             Unknown::Slack => Some(Prior::between(unknown.slack_percent)),
             Unknown::AxialStiffness => {
-                let own = plan.cable.axial_stiffness_kn;
-                let end = |percent: f64| self.coordinate(own * (1.0 + 1e-2 * percent));
+                let planned = plan.cable.axial_stiffness_kn;
+                let end = |percent: f64| self.coordinate(planned * (1.0 + 1e-2 * percent));
                 Some(Prior::between(unknown.axial_stiffness_percent.map(end)))
             }
             Unknown::EndStiffness | Unknown::Damping => None,

@@ -5,15 +5,15 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 
-use super::determined::{Candidate, candidates, usual_sd};
+use super::determined::{Observable, observables, usual_sd};
 use super::observed_shots::{ObservedShot, ObservedShots};
 use super::predictor::observe_shot;
 use super::until_rest;
 use crate::choice::ObservedQuantity;
 use crate::plan::observations::Watched;
 use crate::study::samples::draw::{Input, draw};
-use crate::study::samples::risk::percentiles;
 use crate::study::samples::rounds::step;
+use crate::study::samples::sampled_shot::percentiles;
 use crate::study::samples::sampling::Sampling;
 use crate::study::work::batch::run_batch;
 use crate::study::{Case, ComputeSettings, NoResult, Progress};
@@ -43,7 +43,7 @@ impl Prediction {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NextObservation {
     /// The observation.
-    pub candidate: Candidate,
+    pub observable: Observable,
     /// Standard deviation that was assumed of it [SI unit].
     pub sd: f64,
     /// Share of the variance of the utilization that the observation would take away.
@@ -106,14 +106,14 @@ pub fn predict_observations(
                     let noise: f64 = random.sample(StandardNormal);
                     sample[n] + observation.sd * noise
                 });
-                let known: Vec<f64> = values.filter(|value| value.is_finite()).collect();
-                if known.is_empty() {
+                let finite: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+                if finite.is_empty() {
                     // Not one sample lifts or lands: whatever was seen is outside.
                     return Some([f64::NAN; 2]);
                 }
                 // A tire that may never lift or land has no band: what is left would be a band of the others.
-                let is_known = known.len() as f64 >= OFTEN_KNOWN * drawn.values.len() as f64;
-                is_known.then(|| percentiles(known.into_iter(), [0.05, 0.95])).flatten()
+                let is_known = finite.len() as f64 >= OFTEN_KNOWN * drawn.values.len() as f64;
+                is_known.then(|| percentiles(finite.into_iter(), [0.05, 0.95])).flatten()
             });
             all.push(Prediction { planned: planned[n], band });
         }
@@ -134,7 +134,7 @@ pub fn next_observation(
     progress: &Progress,
 ) -> Result<Option<NextObservation>, NoResult> {
     let case = &until_rest(case);
-    let watched = candidates(case.scene());
+    let watched = observables(case.scene());
     let shot = ObservedShot { option, times: Vec::new(), watched, first: 0 };
     let drawn = samples(case, &shot, sampling, compute, progress)?;
     let watched = shot.watched;
@@ -166,7 +166,7 @@ pub fn next_observation(
         let sd = usual_sd(watched.quantity, values.mean());
         let share = (beta.transpose() * &covariance * gamma)[0].powi(2) / (scatter + sd * sd) / variance;
         if share > best.map_or(0.01, |best| best.share) {
-            best = Some(NextObservation { candidate: Candidate { option, watched }, sd, share });
+            best = Some(NextObservation { observable: Observable { option, watched }, sd, share });
         }
     }
     Ok(best)

@@ -233,10 +233,10 @@ impl Weighing<'_> {
 fn fill_gaps(values: &mut DMatrix<f64>) -> Vec<bool> {
     let mut often = Vec::new();
     for mut column in values.column_iter_mut() {
-        let known: Vec<f64> = column.iter().copied().filter(|value| value.is_finite()).collect();
-        let mean = known.iter().sum::<f64>() / known.len().max(1) as f64;
+        let finite: Vec<f64> = column.iter().copied().filter(|value| value.is_finite()).collect();
+        let mean = finite.iter().sum::<f64>() / finite.len().max(1) as f64;
         column.iter_mut().filter(|value| !value.is_finite()).for_each(|value| *value = mean);
-        often.push(known.len() as f64 >= OFTEN * column.len() as f64);
+        often.push(finite.len() as f64 >= OFTEN * column.len() as f64);
     }
     often
 }

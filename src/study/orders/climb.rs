@@ -46,14 +46,14 @@ pub(super) fn climb_orders(
         }
         // All climbers take a step at once; those that meet become one.
         while !climbers.is_empty() {
-            let all = climbers.iter().flat_map(|(_, order)| exchanges(order)).unique().collect();
-            if quick_check_new_orders(case, &mut tried, first, all, interval, compute, progress)? {
+            let neighbours = climbers.iter().flat_map(|(_, order)| exchanges(order)).unique().collect();
+            if quick_check_new_orders(case, &mut tried, first, neighbours, interval, compute, progress)? {
                 return Ok(Found { value: tried, partial: true });
             }
-            let known: HashMap<&[usize], f64> =
+            let utilizations: HashMap<&[usize], f64> =
                 tried[first..].iter().map(|t| (t.order.as_slice(), utilization(case, t))).collect();
             let improved = |(sign, order): (f64, Vec<usize>)| {
-                let value = |order: &Vec<usize>| sign * known[order.as_slice()];
+                let value = |order: &Vec<usize>| sign * utilizations[order.as_slice()];
                 let next = exchanges(&order).max_by(|a, b| value(a).total_cmp(&value(b)))?;
                 (value(&next) > value(&order)).then_some((sign, next))
             };
@@ -86,8 +86,8 @@ fn quick_check_new_orders(
     compute: &ComputeSettings,
     progress: &Progress,
 ) -> Result<bool, NoResult> {
-    let known: HashSet<&[usize]> = tried[first..].iter().map(|t| t.order.as_slice()).collect();
-    let new = orders.into_iter().unique().filter(|order| !known.contains(order.as_slice()));
+    let tried_orders: HashSet<&[usize]> = tried[first..].iter().map(|t| t.order.as_slice()).collect();
+    let new = orders.into_iter().unique().filter(|order| !tried_orders.contains(order.as_slice()));
     let new = new.enumerate().map(|(n, order)| OrderToTry { number: tried.len() + n, order, interval });
     let Found { value, partial } = quick_check_orders(case, new.collect(), compute, progress)?;
     tried.extend(value);

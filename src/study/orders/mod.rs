@@ -98,8 +98,8 @@ impl Orders {
                 .remove(0);
         }
         let partial = sampled.contains(&None);
-        let known = ends.into_iter().zip(sampled).filter_map(|(n, sampled)| Some((n, sampled?)));
-        self.risks = Some(known.collect());
+        let drawn = ends.into_iter().zip(sampled).filter_map(|(n, sampled)| Some((n, sampled?)));
+        self.risks = Some(drawn.collect());
         Ok(Found { value: (), partial })
     }
 
@@ -198,13 +198,13 @@ pub fn try_orders(
         return climb_orders(case, intervals, compute, progress).and_then(or_first_failure);
     }
     let mirror_rows = mirror_rows(case);
-    let all = intervals
+    let orders = intervals
         .iter()
         .flat_map(|&interval| (0..rows).permutations(rows).map(move |order| (order, interval)));
     let per_interval = count_orders(case, 1);
-    let all = all.enumerate().map(|(number, (order, interval))| OrderToTry { number, order, interval });
-    let own = |one: &OrderToTry| shard.has(one.number) && one.order <= mirrored(&one.order, &mirror_rows);
-    let found = quick_check_orders(case, all.filter(own).collect(), compute, progress)?;
+    let orders = orders.enumerate().map(|(number, (order, interval))| OrderToTry { number, order, interval });
+    let is_ours = |one: &OrderToTry| shard.has(one.number) && one.order <= mirrored(&one.order, &mirror_rows);
+    let found = quick_check_orders(case, orders.filter(is_ours).collect(), compute, progress)?;
     let mut tried = Vec::with_capacity(2 * found.value.len());
     for one in found.value {
         let order = mirrored(&one.order, &mirror_rows);

@@ -49,10 +49,10 @@ fn stronger_ropes(plan: &Plan) -> Vec<Change> {
 /// rope, those that fit every rope that its own termination fits.
 fn stronger_terminations(plan: &Plan) -> Vec<Change> {
     let rope = plan.cable.rope.as_ref().and_then(|name| catalogue().find(name));
-    let own = plan.cable.termination.as_ref().and_then(|name| catalogue().termination(name));
-    let must_fit = match (rope, own) {
+    let planned = plan.cable.termination.as_ref().and_then(|name| catalogue().termination(name));
+    let must_fit = match (rope, planned) {
         (Some(rope), _) => vec![rope.kind],
-        (None, Some(own)) => own.fits.clone(),
+        (None, Some(planned)) => planned.fits.clone(),
         (None, None) => return Vec::new(),
     };
     let fits =

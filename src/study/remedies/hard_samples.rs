@@ -7,9 +7,9 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
 use crate::study::samples::failure_bounds::{ErrorShare, FailureBounds};
-use crate::study::samples::risk::Risk;
 use crate::study::samples::rounds::{ShotToSample, run_sample};
 use crate::study::samples::sample::Sample;
+use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::work::batch::run_batch;
 use crate::study::{NoResult, Progress};
 use crate::verdict::Verdict;
@@ -57,19 +57,19 @@ impl HardSamples {
     }
 
     /// Notes the samples of an option that failed.
-    pub(super) fn note(&mut self, option: usize, risk: &Risk) {
+    pub(super) fn note(&mut self, option: usize, sampled: &SampledShot) {
         let of_option = self.failed.entry(option).or_default();
-        for sample in risk.samples.iter().filter(|sample| sample.finest().verdict == Verdict::Fail) {
+        for sample in sampled.samples.iter().filter(|sample| sample.finest().verdict == Verdict::Fail) {
             *of_option.entry(sample.number).or_default() += 1;
         }
     }
 
     /// Numbers of the samples that failed most often, in order.
     fn numbers(&self, option: usize) -> Vec<usize> {
-        let mut all: Vec<(usize, usize)> =
+        let mut failures: Vec<(usize, usize)> =
             self.failed.get(&option).into_iter().flatten().map(|(&number, &times)| (number, times)).collect();
-        all.sort_by_key(|&(_, times)| Reverse(times));
-        let mut numbers: Vec<usize> = all.into_iter().take(MOST).map(|(number, _)| number).collect();
+        failures.sort_by_key(|&(_, times)| Reverse(times));
+        let mut numbers: Vec<usize> = failures.into_iter().take(MOST).map(|(number, _)| number).collect();
         numbers.sort_unstable();
         numbers
     }
@@ -86,9 +86,9 @@ impl HardSamples {
         let jobs: Vec<(usize, usize)> = targets.iter().enumerate().flat_map(of_target).collect();
         let drawn =
             run_batch(&jobs, progress, |&(n, number)| run_sample(&targets[n].1, number, 0, progress))?;
-        let mut all = vec![Some(Vec::new()); targets.len()];
+        let mut drawn_of_each = vec![Some(Vec::new()); targets.len()];
         for ((n, _), sample) in jobs.into_iter().zip(drawn) {
-            all[n] = all[n].take().zip(sample).map(|(mut samples, sample)| {
+            drawn_of_each[n] = drawn_of_each[n].take().zip(sample).map(|(mut samples, sample)| {
                 samples.push(sample);
                 samples
             });
@@ -98,6 +98,6 @@ impl HardSamples {
             let failing: Vec<usize> = failing.map(|sample| sample.number).collect();
             HardDrawn { samples, can_pass: self.can_pass(&failing) }
         };
-        Ok(all.into_iter().map(|drawn| drawn.map(in_reach)).collect())
+        Ok(drawn_of_each.into_iter().map(|drawn| drawn.map(in_reach)).collect())
     }
 }

@@ -22,8 +22,8 @@ use super::judge_options::OptionResults;
 use super::judgement::Evidence;
 use super::judgement::Judgement;
 use super::reasons::shot::exceeds_together;
-use super::samples::risk::Risk;
 use super::samples::rounds::{ShotToSample, sample_shots};
+use super::samples::sampled_shot::SampledShot;
 use super::samples::sampling::Sampling;
 use super::work::batch::run_batch;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, catch_panic};
@@ -143,14 +143,14 @@ pub fn find_all_remedies(
         judge_next(&task, &mut chains, &mut hard)?;
     }
     let partial = chains.iter().any(|chain| chain.found.out_of_time);
-    let mut found: Vec<Remedies> =
+    let mut remedies: Vec<Remedies> =
         options.iter().map(|&option| Remedies { option, enough_samples, kinds: Vec::new() }).collect();
     for Chain { option, found: tried, .. } in chains {
-        if let Some(of_option) = found.iter_mut().find(|of_option| of_option.option == option) {
+        if let Some(of_option) = remedies.iter_mut().find(|of_option| of_option.option == option) {
             of_option.kinds.push(tried);
         }
     }
-    Ok(Found { value: found, partial })
+    Ok(Found { value: remedies, partial })
 }
 
 /// The plan with a change; `None` where the change makes no valid plan.
@@ -167,9 +167,11 @@ fn coarse(task: &Task<'_>, options: &[usize]) -> Result<Vec<Chain>, NoResult> {
         let crowded = exceeds_together(case, &case.shots[option]);
         candidates(&case.plan, option, crowded).into_iter().map(move |changes| (option, changes))
     };
-    let all: Vec<(usize, Vec<Change>)> = options.iter().flat_map(kinds).collect();
-    let jobs: Vec<(usize, Change)> =
-        all.iter().flat_map(|(option, changes)| changes.iter().map(|&change| (*option, change))).collect();
+    let changes_by_option: Vec<(usize, Vec<Change>)> = options.iter().flat_map(kinds).collect();
+    let jobs: Vec<(usize, Change)> = changes_by_option
+        .iter()
+        .flat_map(|(option, changes)| changes.iter().map(|&change| (*option, change)))
+        .collect();
     let mut verdicts = run_batch(&jobs, progress, |(option, change)| {
         let Some(changed) = changed(case, change) else { return Ok(None) };
         match catch_panic(|| quick_check(&changed, &changed.shots[*option], compute, progress)) {
@@ -180,7 +182,7 @@ fn coarse(task: &Task<'_>, options: &[usize]) -> Result<Vec<Chain>, NoResult> {
     })?
     .into_iter();
     let mut chains = Vec::new();
-    for (option, changes) in all {
+    for (option, changes) in changes_by_option {
         let kind = changes.first().map(Change::kind);
         let (mut tried, mut left, mut out_of_time) = (Vec::new(), VecDeque::new(), false);
         for (change, verdict) in changes.into_iter().zip(verdicts.by_ref()) {
@@ -229,15 +231,15 @@ fn judge_next(task: &Task<'_>, chains: &mut [Chain], hard: &mut HardSamples) -> 
         let target = ShotToSample::new(&turn.case, &turn.case.shots[option], *task.compute, *sampling);
         targets.push((option, target.as_planned(ShotSummary::of(checked)).only_pass()));
     }
-    let risks = sample(&targets, hard, task.progress)?;
-    for ((turn, checked), risk) in passing.into_iter().zip(risks) {
+    let sampled_shots = sample(&targets, hard, task.progress)?;
+    for ((turn, checked), sampled) in passing.into_iter().zip(sampled_shots) {
         let chain = &mut chains[turn.chain];
-        match risk {
+        match sampled {
             Evidence::NotAsked => chain.note(Verdict::Undecided),
             Evidence::NotDrawn => chain.found.out_of_time = true,
-            Evidence::Drawn(risk) => {
+            Evidence::Drawn(sampled) => {
                 let judgement =
-                    Judgement { risk: Evidence::Drawn(risk), ..Judgement::of_planned_alone(checked) };
+                    Judgement { sampled: Evidence::Drawn(sampled), ..Judgement::of_planned_alone(checked) };
                 chain.note(judgement.verdict());
                 if judgement.verdict() == Verdict::Pass {
                     chain.found.passing = Some(Remedy { change: turn.change, judgement });
@@ -285,22 +287,22 @@ fn sample(
     targets: &[(usize, ShotToSample<'_>)],
     hard: &mut HardSamples,
     progress: &Progress,
-) -> Result<Vec<Evidence<Risk>>, NoResult> {
+) -> Result<Vec<Evidence<SampledShot>>, NoResult> {
     let first = hard.draw(targets, progress)?;
-    let mut risks: Vec<Evidence<Risk>> = Vec::new();
+    let mut sampled_shots: Vec<Evidence<SampledShot>> = Vec::new();
     let (mut left, mut places) = (Vec::new(), Vec::new());
     for (n, ((_, target), first)) in targets.iter().zip(&first).enumerate() {
-        risks.push(if first.is_some() { Evidence::NotAsked } else { Evidence::NotDrawn });
+        sampled_shots.push(if first.is_some() { Evidence::NotAsked } else { Evidence::NotDrawn });
         if let Some(HardDrawn { samples, can_pass: true }) = first {
             left.push(target.precomputed(samples));
             places.push(n);
         }
     }
-    for ((target, n), risk) in left.iter().zip(places).zip(sample_shots(&left, progress)?.value) {
-        hard.note(targets[n].0, &risk);
+    for ((target, n), sampled) in left.iter().zip(places).zip(sample_shots(&left, progress)?.value) {
+        hard.note(targets[n].0, &sampled);
         let sampling = target.sampling;
-        let is_complete = sampling.is_complete(&risk) || !risk.bounds.can_pass(sampling.most);
-        risks[n] = if is_complete { Evidence::Drawn(risk) } else { Evidence::NotDrawn };
+        let is_complete = sampling.is_complete(&sampled) || !sampled.bounds.can_pass(sampling.most);
+        sampled_shots[n] = if is_complete { Evidence::Drawn(sampled) } else { Evidence::NotDrawn };
     }
-    Ok(risks)
+    Ok(sampled_shots)
 }

@@ -1,7 +1,7 @@
 //! What decides how a shot turns out: the shares of the inputs in the variance of its samples.
 
 use super::draw::Input;
-use super::risk::Risk;
+use super::sampled_shot::SampledShot;
 use crate::verdict::{Limits, Quantity};
 
 /// Samples needed for the shares of the inputs.
@@ -9,14 +9,14 @@ pub const SAMPLES_FOR_SHARES: usize = 200;
 
 /// Share of each input in the variance of the quantity nearest its limit, largest first; `None` for fewer than
 /// [`SAMPLES_FOR_SHARES`] samples. The remainder is scatter from hole to hole and interaction between inputs.
-pub fn input_shares(risk: &Risk, limits: &Limits) -> Option<Vec<(Input, f64)>> {
-    let nearest = nearest_its_limit(risk, limits)?;
-    let values: Vec<f64> = risk.decided().map(|sample| sample.run.get(nearest)).collect();
+pub fn input_shares(sampled: &SampledShot, limits: &Limits) -> Option<Vec<(Input, f64)>> {
+    let nearest = nearest_its_limit(sampled, limits)?;
+    let values: Vec<f64> = sampled.decided().map(|sample| sample.run.get(nearest)).collect();
     if values.len() < SAMPLES_FOR_SHARES || values.iter().any(|value| !value.is_finite()) {
         return None;
     }
     let share = |(n, input): (usize, Input)| {
-        let inputs: Vec<f64> = risk.decided().map(|sample| sample.inputs[n]).collect();
+        let inputs: Vec<f64> = sampled.decided().map(|sample| sample.inputs[n]).collect();
         (input, share_of_variance(&inputs, &values))
     };
     let mut shares: Vec<_> = Input::ALL.into_iter().enumerate().map(share).collect();
@@ -25,11 +25,11 @@ pub fn input_shares(risk: &Risk, limits: &Limits) -> Option<Vec<(Input, f64)>> {
 }
 
 /// The quantity whose 95th percentile is the greatest share of its limit.
-fn nearest_its_limit(risk: &Risk, limits: &Limits) -> Option<Quantity> {
+fn nearest_its_limit(sampled: &SampledShot, limits: &Limits) -> Option<Quantity> {
     let mut nearest: Option<(f64, Quantity)> = None;
     for quantity in Quantity::ALL {
         let Some(limit) = limits.get(quantity) else { continue };
-        let [_, _, high, _] = risk.band(quantity)?;
+        let [_, _, high, _] = sampled.band(quantity)?;
         if nearest.is_none_or(|(most, _)| high / limit > most) {
             nearest = Some((high / limit, quantity));
         }

@@ -12,9 +12,9 @@
 pub mod draw;
 pub mod failure_bounds;
 pub mod influence;
-pub mod risk;
 pub mod risk_summary;
 pub mod rounds;
 pub mod sample;
+pub mod sampled_shot;
 pub mod sampling;
 pub mod swaps;

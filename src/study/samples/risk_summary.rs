@@ -1,8 +1,8 @@
 //! The risk of many shots of a study, of which only a summary is kept: few samples of each, or as many as a verdict needs.
 
 use super::failure_bounds::FailureBounds;
-use super::risk::{Risk, percentiles};
 use super::rounds::{ShotToSample, sample_shots};
+use super::sampled_shot::{SampledShot, percentiles};
 use super::sampling::Sampling;
 use crate::scene::Shot;
 use crate::study::{Case, ComputeSettings, NoResult, Progress, ShotSummary};
@@ -25,11 +25,11 @@ pub struct RiskSummary {
 }
 
 impl RiskSummary {
-    fn of(risk: &Risk, limits: &Limits) -> Self {
-        let shares = risk.samples.iter().map(|sample| sample.run.utilization(limits));
+    fn of(sampled: &SampledShot, limits: &Limits) -> Self {
+        let shares = sampled.samples.iter().map(|sample| sample.run.utilization(limits));
         let utilization = percentiles(shares, [0.95]).map_or(f64::INFINITY, |[p95]| p95);
-        let (verdict, is_contradicted) = (risk.verdict(), risk.is_contradicted());
-        Self { bounds: risk.bounds, verdict, is_contradicted, utilization }
+        let (verdict, is_contradicted) = (sampled.verdict(), sampled.is_contradicted());
+        Self { bounds: sampled.bounds, verdict, is_contradicted, utilization }
     }
 
     /// Whether the failing share so far does not exceed the accepted risk, and nothing speaks against the samples; not yet a
@@ -58,7 +58,8 @@ pub fn sample_shots_in_brief<'c>(
         };
         let targets: Vec<_> = shots.iter().map(target).collect();
         let risks = sample_shots(&targets, progress)?.value;
-        let summary = |risk: &Risk| sampling.is_complete(risk).then(|| RiskSummary::of(risk, &case.limits));
+        let summary =
+            |risk: &SampledShot| sampling.is_complete(risk).then(|| RiskSummary::of(risk, &case.limits));
         all.extend(risks.iter().map(summary));
     }
     Ok(all)

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::ops::{ControlFlow, Range};
 
 use super::draw::{DrawnShot, Input, draw};
-use super::risk::{LEAST_AUDITS, Risk};
 use super::sample::{Sample, SampleRun};
+use super::sampled_shot::{LEAST_AUDITS, SampledShot};
 use super::sampling::Sampling;
 use crate::choice::Accuracy;
 use crate::scene::{Scene, Shot};
@@ -57,12 +57,12 @@ impl<'c> ShotToSample<'c> {
     }
 
     /// Numbers of the samples to draw next.
-    fn next_round(&self, risk: &Risk) -> Range<usize> {
-        let drawn = risk.samples.len();
-        if self.only_pass && !risk.bounds.can_pass(self.sampling.most) {
+    fn next_round(&self, sampled: &SampledShot) -> Range<usize> {
+        let drawn = sampled.samples.len();
+        if self.only_pass && !sampled.bounds.can_pass(self.sampling.most) {
             return drawn..drawn;
         }
-        self.sampling.next_round(risk)
+        self.sampling.next_round(sampled)
     }
 
     /// The sample of a number, where another machine drew it.
@@ -81,8 +81,8 @@ impl<'c> ShotToSample<'c> {
         if self.only_pass { 0 } else { self.sampling.least.min(self.sampling.most) }
     }
 
-    fn no_samples(&self) -> Risk {
-        Risk::new(self.case, self.as_planned, self.sampling.error_share, self.compute.step.is_none())
+    fn no_samples(&self) -> SampledShot {
+        SampledShot::new(self.case, self.as_planned, self.sampling.error_share, self.compute.step.is_none())
     }
 }
 
@@ -100,7 +100,7 @@ const MOST_HALVINGS: u32 = 3;
 /// Draws and judges samples of every shot, until its risk is sure.
 ///
 /// The result is partial where a shot has no more samples than the time sufficed for.
-pub fn sample_shots(targets: &[ShotToSample<'_>], progress: &Progress) -> Finding<Vec<Risk>> {
+pub fn sample_shots(targets: &[ShotToSample<'_>], progress: &Progress) -> Finding<Vec<SampledShot>> {
     sample_shots_watched(targets, progress, &mut |_, _| ControlFlow::Continue(()))
 }
 
@@ -109,21 +109,21 @@ pub fn sample_shots(targets: &[ShotToSample<'_>], progress: &Progress) -> Findin
 pub fn sample_shots_watched(
     targets: &[ShotToSample<'_>],
     progress: &Progress,
-    watch: &mut dyn FnMut(usize, &Risk) -> ControlFlow<()>,
-) -> Finding<Vec<Risk>> {
-    let mut risks: Vec<Risk> = targets.iter().map(ShotToSample::no_samples).collect();
+    watch: &mut dyn FnMut(usize, &SampledShot) -> ControlFlow<()>,
+) -> Finding<Vec<SampledShot>> {
+    let mut sampled_shots: Vec<SampledShot> = targets.iter().map(ShotToSample::no_samples).collect();
     let keys = keys(targets, progress);
     // All samples that are drawn in any case are expected at once: how long it takes shows from the first round on.
     let mut expected: usize = targets.iter().map(ShotToSample::least).sum();
     progress.announce(expected);
     loop {
-        let round = |(n, risk): (usize, &Risk)| {
-            let (numbers, halvings) = (targets[n].next_round(risk), risk.halvings);
+        let round = |(n, sampled): (usize, &SampledShot)| {
+            let (numbers, halvings) = (targets[n].next_round(sampled), sampled.halvings);
             numbers.map(move |number| (n, number, halvings))
         };
-        let jobs: Vec<(usize, usize, u32)> = risks.iter().enumerate().flat_map(round).collect();
+        let jobs: Vec<(usize, usize, u32)> = sampled_shots.iter().enumerate().flat_map(round).collect();
         if jobs.is_empty() {
-            return Ok(Found { value: risks, partial: false });
+            return Ok(Found { value: sampled_shots, partial: false });
         }
         progress.announce(jobs.len().saturating_sub(expected));
         expected = expected.saturating_sub(jobs.len());
@@ -139,23 +139,23 @@ pub fn sample_shots_watched(
             // Samples are counted in order, so that a result is that of so many samples.
             complete[n] &= sample.is_some();
             if let Some(sample) = sample.filter(|_| complete[n]) {
-                risks[n].push(sample);
+                sampled_shots[n].push(sample);
             }
         }
         for n in jobs.iter().map(|&(n, ..)| n).collect::<BTreeSet<_>>() {
-            let (target, risk) = (&targets[n], &mut risks[n]);
-            let may_halve = !out_of_time && risk.halvings < MOST_HALVINGS && target.compute.step.is_none();
-            if may_halve && risk.is_contradicted() {
-                let halvings = risk.halvings + 1;
-                *risk = target.no_samples();
-                risk.halvings = halvings;
+            let (target, sampled) = (&targets[n], &mut sampled_shots[n]);
+            let may_halve = !out_of_time && sampled.halvings < MOST_HALVINGS && target.compute.step.is_none();
+            if may_halve && sampled.is_contradicted() {
+                let halvings = sampled.halvings + 1;
+                *sampled = target.no_samples();
+                sampled.halvings = halvings;
             }
-            if watch(n, risk).is_break() {
-                return Ok(Found { value: risks, partial: false });
+            if watch(n, sampled).is_break() {
+                return Ok(Found { value: sampled_shots, partial: false });
             }
         }
         if out_of_time {
-            return Ok(Found { value: risks, partial: true });
+            return Ok(Found { value: sampled_shots, partial: true });
         }
     }
 }

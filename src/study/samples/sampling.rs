@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::failure_bounds::ErrorShare;
 use super::influence::SAMPLES_FOR_SHARES;
-use super::risk::{Risk, SAMPLES_FOR_BANDS};
+use super::sampled_shot::{SAMPLES_FOR_BANDS, SampledShot};
 use crate::verdict::Verdict;
 
 /// Samples of a round, while few are drawn and later.
@@ -45,15 +45,15 @@ impl Sampling {
     }
 
     /// Whether no more samples are needed: there are as many as there may be, or enough for a verdict that the audit bears out.
-    pub fn is_complete(&self, risk: &Risk) -> bool {
-        let drawn = risk.samples.len();
-        drawn >= self.most || drawn >= self.least && risk.verdict_once_audited() != Verdict::Undecided
+    pub fn is_complete(&self, sampled: &SampledShot) -> bool {
+        let drawn = sampled.samples.len();
+        drawn >= self.most || drawn >= self.least && sampled.verdict_once_audited() != Verdict::Undecided
     }
 
     /// Numbers of the samples to draw next; none once they are complete.
-    pub(super) fn next_round(&self, risk: &Risk) -> Range<usize> {
-        let from = risk.samples.len();
-        if self.is_complete(risk) {
+    pub(super) fn next_round(&self, sampled: &SampledShot) -> Range<usize> {
+        let from = sampled.samples.len();
+        if self.is_complete(sampled) {
             return from..from;
         }
         let size = if from < SAMPLES_FOR_SHARES { SHORT_ROUND } else { LONG_ROUND };
@@ -87,7 +87,7 @@ mod tests {
         let text = include_str!("../../../plans/paper-5-tire.toml").to_owned();
         let source = PlanSource { path: String::new(), text };
         let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
-        let mut risk = Risk::new(&case, None, ErrorShare::Whole, false);
+        let mut risk = SampledShot::new(&case, None, ErrorShare::Whole, false);
         let (mut sizes, sampling) = (Vec::new(), Sampling::OF_VERDICT);
         loop {
             let round = sampling.next_round(&risk);

@@ -25,7 +25,7 @@ use super::as_planned::margin::LaunchMargin;
 use super::judge_options::{OptionResults, UNWATCHED, judge_all_with_margins};
 use super::judgement::Judgement;
 use super::samples::failure_bounds::ErrorShare;
-use super::samples::risk::Risk;
+use super::samples::sampled_shot::SampledShot;
 use super::samples::sampling::Sampling;
 use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, Shard};
 use crate::plan::{DelayOption, Plan, edit};
@@ -151,9 +151,9 @@ pub fn try_schedules(
     }
     let mut pool = Pool::new(case, &choices);
     pool.add(listed.allowed.unwrap_or_default());
-    let own = pool.contenders.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
-    let mut own: Vec<Contender> = own.map(|(_, contender)| contender).collect();
-    let partial = start_race(case, sampling, compute).draw(&mut own, FIRST_OF_ALL, progress)?;
+    let ours = pool.contenders.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
+    let mut ours: Vec<Contender> = ours.map(|(_, contender)| contender).collect();
+    let partial = start_race(case, sampling, compute).draw(&mut ours, FIRST_OF_ALL, progress)?;
     Ok(Found { value: true, partial })
 }
 
@@ -193,13 +193,13 @@ fn choose_finalists<'r>(
 
 /// The contenders of which no shorter one fails less.
 fn front(choices: &Choices<'_>, contenders: &[Contender]) -> Vec<FrontPoint> {
-    let known = contenders.iter().filter(|one| one.tally.samples >= SAMPLES_OF_FRONT);
+    let sampled_enough = contenders.iter().filter(|one| one.tally.samples >= SAMPLES_OF_FRONT);
     let point = |contender: &Contender| FrontPoint {
         schedule: choices.schedule(&contender.candidate),
         duration: duration(&contender.shot),
         share: RoughShare::of(contender),
     };
-    let in_turn = known.map(point).sorted_by(|a, b| {
+    let in_turn = sampled_enough.map(point).sorted_by(|a, b| {
         a.duration.total_cmp(&b.duration).then(a.share.value().total_cmp(&b.share.value()))
     });
     let mut front: Vec<FrontPoint> = Vec::new();
@@ -248,7 +248,7 @@ impl Search {
         let rank_key = |n: &usize| {
             let judged = self.results[*n].as_ref().ok();
             let share =
-                judged.and_then(|judged| judged.risk.drawn()).and_then(|risk| risk.bounds.probability());
+                judged.and_then(|judged| judged.sampled.drawn()).and_then(|risk| risk.bounds.probability());
             let share = share.unwrap_or_else(|| self.rough[*n].value());
             (judged.map_or(Verdict::Undecided, Judgement::verdict), share)
         };
@@ -278,8 +278,8 @@ impl Search {
 
     /// Bounds of the failure probability of a schedule; everything is possible where no sample tells.
     fn bounds(&self, n: usize) -> [f64; 2] {
-        let risk = self.results[n].as_ref().ok().and_then(|judged| judged.risk.drawn());
-        risk.map_or([0.0, 1.0], |risk: &Risk| risk.bounds.interval)
+        let risk = self.results[n].as_ref().ok().and_then(|judged| judged.sampled.drawn());
+        risk.map_or([0.0, 1.0], |risk: &SampledShot| risk.bounds.interval)
     }
 
     fn margin(&self, n: usize) -> f64 {

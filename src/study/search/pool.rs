@@ -40,8 +40,8 @@ impl AllowedSchedules {
             let limits: Vec<Option<BrokenLimit>> =
                 listed.par_iter().map(|one| choices.broken(&choices.schedule(one).shot(case))).collect();
             limits.iter().flatten().for_each(|limit| refused.count(*limit));
-            let all = listed.into_iter().zip(limits).filter(|(_, limit)| limit.is_none());
-            all.map(|(candidate, _)| candidate).collect()
+            let without_limit = listed.into_iter().zip(limits).filter(|(_, limit)| limit.is_none());
+            without_limit.map(|(candidate, _)| candidate).collect()
         });
         Self { allowed, refused }
     }

@@ -164,9 +164,10 @@ impl<'c> Choices<'c> {
     pub fn new(case: &'c Case) -> Result<Self, NoResult> {
         let (spec, rows) = (&case.plan.search, case.plan.blast_rows.len());
         let any_holes = || Case { hole_timing: None, ..case.clone() };
-        let own = || any_holes().intervals().into_iter().map(|interval| (interval * 1e9).round() / 1e6);
+        let of_options =
+            || any_holes().intervals().into_iter().map(|interval| (interval * 1e9).round() / 1e6);
         let intervals_ms = match spec.intervals_ms.as_slice() {
-            [] => own().collect(),
+            [] => of_options().collect(),
             given => given.to_vec(),
         };
         if intervals_ms.is_empty() && rows > 1 {

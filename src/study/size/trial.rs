@@ -10,8 +10,8 @@ use crate::scene::Shot;
 use crate::study::as_planned::check_many::check_summaries;
 use crate::study::as_planned::cover::Cover;
 use crate::study::samples::failure_bounds::FailureBounds;
-use crate::study::samples::risk::Risk;
 use crate::study::samples::rounds::{ShotToSample, sample_shots_watched};
+use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::samples::sampling::Sampling;
 use crate::study::{Case, Found, NoResult, ShotSummary, ValueWithError};
 use crate::verdict::Verdict;
@@ -126,7 +126,7 @@ impl<'q> SizeCandidate<'q> {
             ShotToSample::new(&self.case, &self.shots[n], *compute, *sampling).as_planned(planned)
         };
         let targets: Vec<ShotToSample<'_>> = hardest.iter().map(target).collect();
-        let until_one_fails = &mut |_, risk: &Risk| match risk.verdict() {
+        let until_one_fails = &mut |_, risk: &SampledShot| match risk.verdict() {
             Verdict::Fail => ControlFlow::Break(()),
             Verdict::Pass | Verdict::Undecided => ControlFlow::Continue(()),
         };

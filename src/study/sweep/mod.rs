@@ -119,8 +119,8 @@ pub fn sweep(
     case.require_hole_timing()?;
     let as_planned = sweep_as_planned(case, order, intervals, compute, progress)?;
     let Some(sampling) = sampling else { return Ok(as_planned) };
-    let own = plan_intervals(case, order).into_iter().map(nanoseconds).collect();
-    accepted::add_risk(case, as_planned, &own, sampling, compute, progress)
+    let planned = plan_intervals(case, order).into_iter().map(nanoseconds).collect();
+    accepted::add_risk(case, as_planned, &planned, sampling, compute, progress)
 }
 
 /// Sweeps the shots as planned.
@@ -168,8 +168,9 @@ fn sweep_as_planned(
         let windows = windows(case, &points);
         let recommended = recommend(case, &points, &windows);
         let wide = windows.iter().filter(|[from, to]| from < to).flatten();
-        let told = wide.copied().chain(recommended.map(|recommended| recommended.interval)).map(nanoseconds);
-        next = told.filter(|at| !exact.contains(at)).collect();
+        let ends_and_recommended =
+            wide.copied().chain(recommended.map(|recommended| recommended.interval)).map(nanoseconds);
+        next = ends_and_recommended.filter(|at| !exact.contains(at)).collect();
         if partial || next.is_empty() {
             let windows_as_planned = windows.clone();
             let order = order.to_vec();
@@ -182,16 +183,16 @@ fn sweep_as_planned(
 
 /// Intervals of the options that fire the rows at one interval [s], and of the options that fire them in this order.
 fn plan_intervals(case: &Case, order: &[usize]) -> Vec<f64> {
-    let mut own = case.intervals();
+    let mut intervals = case.intervals();
     for (delay, shot) in case.plan.delays.iter().zip(&case.shots) {
         if let Timing::At(at_ms) = &delay.timing {
             let interval = seconds(at_ms[order[1]] - at_ms[order[0]]);
             if interval >= 0.0 && case.shot(order, interval).firings == shot.firings {
-                own.push(interval);
+                intervals.push(interval);
             }
         }
     }
-    own
+    intervals
 }
 
 /// Whole nanoseconds, so that no interval has digits that nobody asked for.

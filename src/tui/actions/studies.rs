@@ -69,13 +69,13 @@ impl App {
     fn take_offer(&mut self, offer: &Offer) -> Request {
         let (text, plan) = (self.editor.text.as_str(), &self.case.plan);
         if let Offer::Option(delay) = offer
-            && let Some(own) = plan.delays.iter().position(|own| own.fires_like(delay))
+            && let Some(same) = plan.delays.iter().position(|known| known.fires_like(delay))
         {
-            self.notice = Some(format!("in the plan already: {}", plan.delays[own].name));
-            (self.screen, self.selected) = (Screen::Compare, own);
+            self.notice = Some(format!("in the plan already: {}", plan.delays[same].name));
+            (self.screen, self.selected) = (Screen::Compare, same);
             return Request::None;
         }
-        let (changed, told) = match offer {
+        let (changed, done) = match offer {
             Offer::Option(delay) => (edit::add_delays(text, plan, &[delay]), "added".to_owned()),
             Offer::Sizes { rope, tire_mass, border_rows } => (
                 edit::write_sizes(text, rope, *tire_mass, *border_rows),
@@ -96,14 +96,14 @@ impl App {
         }
         // Compare shows the verdict of the new option.
         self.screen = Screen::Compare;
-        let told = match (offer, self.case.plan.delays.last()) {
+        let done = match (offer, self.case.plan.delays.last()) {
             (Offer::Option(_), Some(added)) => {
                 self.selected = self.options.len().saturating_sub(1);
-                format!("{told}: {}", added.name)
+                format!("{done}: {}", added.name)
             }
-            _ => told,
+            _ => done,
         };
-        self.notice = Some(format!("{told} · {undo} takes it back"));
+        self.notice = Some(format!("{done} · {undo} takes it back"));
         request
     }
 }

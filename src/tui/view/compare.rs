@@ -10,7 +10,7 @@ use crate::report::spark::sparkline;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::judgement::Evidence;
 use crate::study::judgement::Judgement;
-use crate::study::samples::risk::Risk;
+use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::compare::OptionState;
 use crate::tui::compare::SortBy;
@@ -90,8 +90,8 @@ const COLUMNS: &[CompareColumn] = &[
 ];
 
 /// The samples, once there are some.
-fn sampled(judged: &Judgement) -> Option<&Risk> {
-    judged.risk.drawn().filter(|risk| !risk.samples.is_empty())
+fn sampled(judged: &Judgement) -> Option<&SampledShot> {
+    judged.sampled.drawn().filter(|risk| !risk.samples.is_empty())
 }
 
 /// Bounds of the share of shots that fail.
@@ -102,7 +102,7 @@ fn fails(judged: &Judgement) -> String {
 /// Number of samples; dots as long as more come.
 fn samples(app: &App, option: usize, judged: &Judgement) -> String {
     let more = if app.options[option].is_sampling() { "…" } else { "" };
-    match &judged.risk {
+    match &judged.sampled {
         Evidence::NotAsked => String::new(),
         risk => format!("{}{more}", risk.drawn().map_or(0, |risk| risk.samples.len())),
     }

@@ -27,7 +27,7 @@ use crate::report::{charts, no_result, warnings};
 use crate::study::judgement;
 use crate::study::judgement::Judgement;
 use crate::study::reasons::Reason;
-use crate::study::samples::risk::Risk;
+use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
 use crate::tui::compare::OptionState;
 use crate::tui::keymap::Action;
@@ -77,13 +77,13 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         Layout::vertical([Constraint::Length(lines.min(most)), Constraint::Min(0)]).areas(inside);
     frame.render_widget(Paragraph::new(facts).wrap(Wrap { trim: true }), text);
     let history = charts::history(&app.case, &judged.as_planned.history, &app.case.shots[app.selected]);
-    let risk = judged.risk.drawn().filter(|risk| !risk.samples.is_empty());
+    let risk = judged.sampled.drawn().filter(|risk| !risk.samples.is_empty());
     draw_charts(app, history, risk, frame, rest);
 }
 
 /// Draws height and force over time, and those of the samples. Where only one of both has room, the samples stand.
-fn draw_charts(app: &App, history: [Chart; 2], risk: Option<&Risk>, frame: &mut Frame, area: Rect) {
-    let rows = match risk.map(|risk| charts::samples(&app.case, risk)) {
+fn draw_charts(app: &App, history: [Chart; 2], sampled: Option<&SampledShot>, frame: &mut Frame, area: Rect) {
+    let rows = match sampled.map(|sampled| charts::samples(&app.case, sampled)) {
         None => vec![history.to_vec()],
         Some(samples) if area.height >= TWO_ROWS => vec![history.to_vec(), samples.to_vec()],
         Some(samples) if area.width >= FOUR_CHARTS => vec![[history, samples].concat()],
@@ -131,7 +131,8 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     let (case, theme, checked) = (&app.case, app.theme, &judged.as_planned);
     // As long as samples come, how many there are says more than that they do not suffice.
     let open = app.options[app.selected].is_sampling()
-        && judgement::verdict_of_both(Verdict::Pass, judged.risk.map(Risk::verdict)) == Verdict::Undecided;
+        && judgement::verdict_of_both(Verdict::Pass, judged.sampled.map(SampledShot::verdict))
+            == Verdict::Undecided;
     let reasons = judged.reasons().into_iter().filter(|why| !open || matches!(why, Reason::AsPlanned(_)));
     let mut lines: Vec<Line> = reasons
         .map(|why| {
@@ -148,7 +149,7 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     }
     let warnings = warnings::of_option(case, app.selected, judged);
     lines.extend(warnings.into_iter().map(|warning| Line::styled(format!("! {warning}"), theme.firing())));
-    let risk = judged.risk.drawn().filter(|risk| !risk.samples.is_empty());
+    let risk = judged.sampled.drawn().filter(|risk| !risk.samples.is_empty());
     if open {
         let samples = risk.map_or(0, |risk| risk.samples.len());
         lines.push(Line::styled(format!("? {samples} samples so far, more come"), theme.firing()));

@@ -31,8 +31,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         Line::from(vec![Span::styled(format!("{left:14} "), app.theme.title()), Span::raw(right)])
     };
     let key = |binding: &Binding| row(app.keymap.all_keys(binding.action), binding.text);
-    let known = BINDINGS.iter().filter(|binding| binding.is_on(app.screen));
-    let (here, everywhere): (Vec<_>, Vec<_>) = known.partition(|binding| !binding.on.is_empty());
+    let on_screen = BINDINGS.iter().filter(|binding| binding.is_on(app.screen));
+    let (here, everywhere): (Vec<_>, Vec<_>) = on_screen.partition(|binding| !binding.on.is_empty());
     let head = |title: String| Line::styled(title, app.theme.muted());
     let mut lines = Vec::new();
     if !here.is_empty() {

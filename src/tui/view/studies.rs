@@ -106,14 +106,14 @@ fn how_to_observe(app: &App) -> String {
     let [open, rerun, cancel] =
         [Action::Open, Action::Rerun, Action::Cancel].map(|action| app.keymap.hint(action));
     let option = app.case.plan.delays.get(app.selected).map_or("", |delay| delay.name.as_str());
-    let told = app.observed.lines().join("\n");
+    let typed = app.observed.lines().join("\n");
     format!(
         "{open} takes what was seen of a shot of “{option}” (selected on Compare):\n\
          3:1 1.95 0.05             greatest height of tire 3:1 and its sd, m\n\
          3:1-4:1 52000 2000        greatest force of a cable and its sd, N\n\
          3:1 landing_s 1.12 0.02   or lift_s, drift_m; firing_s as logged, alone\n\
          seen.csv                  a file as of `shelter fit`\n\
-         {rerun} fits again, {cancel} forgets; `shelter fit --write` puts estimates into the plan\n\n{told}"
+         {rerun} fits again, {cancel} forgets; `shelter fit --write` puts estimates into the plan\n\n{typed}"
     )
 }
 

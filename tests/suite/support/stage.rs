@@ -19,8 +19,8 @@ use shelter::study::judgement::Judgement;
 use shelter::study::orders::{Orders, TriedOrder};
 use shelter::study::reasons::shot::ShotReason;
 use shelter::study::samples::failure_bounds::ErrorShare;
-use shelter::study::samples::risk::Risk;
 use shelter::study::samples::sample::{Sample, SampleRun};
+use shelter::study::samples::sampled_shot::SampledShot;
 use shelter::study::samples::sampling::Sampling;
 use shelter::study::size::{Combination, Sizing, Trial, WorstShotRisk};
 use shelter::study::sweep::{Point, Recommended, Sweep};
@@ -75,8 +75,8 @@ pub fn checked(verdict: Verdict) -> CheckedShot {
 }
 
 /// Round samples, of which none fails or one in ten.
-pub fn samples(case: &Case, count: usize, some_fail: bool) -> Risk {
-    let mut risk = Risk::new(case, None, ErrorShare::Whole, false);
+pub fn samples(case: &Case, count: usize, some_fail: bool) -> SampledShot {
+    let mut risk = SampledShot::new(case, None, ErrorShare::Whole, false);
     for number in 0..count {
         let part = number as f64 / count as f64;
         let fails = some_fail && number % 10 == 3;
@@ -99,8 +99,8 @@ pub fn samples(case: &Case, count: usize, some_fail: bool) -> Risk {
 /// A judgement with 200 samples, of which one in ten fails in every second option.
 pub fn judgement(case: &Case, option: usize) -> Judgement {
     let verdict = if option.is_multiple_of(3) { Verdict::Fail } else { Verdict::Pass };
-    let risk = samples(case, 200, option.is_multiple_of(2));
-    Judgement { risk: Evidence::Drawn(risk), ..Judgement::of_planned_alone(checked(verdict)) }
+    let sampled = samples(case, 200, option.is_multiple_of(2));
+    Judgement { sampled: Evidence::Drawn(sampled), ..Judgement::of_planned_alone(checked(verdict)) }
 }
 
 /// A judged option.
@@ -113,9 +113,10 @@ pub fn finished() -> App {
     let mut app = app();
     let verdicts = [Verdict::Fail, Verdict::Pass, Verdict::Undecided];
     for (n, row) in app.options.iter_mut().enumerate() {
-        let risk = if n == 4 { samples(&app.case, 500, false) } else { samples(&app.case, 200, n % 2 == 0) };
+        let sampled =
+            if n == 4 { samples(&app.case, 500, false) } else { samples(&app.case, 200, n % 2 == 0) };
         let nominal = Judgement::of_planned_alone(checked(verdicts[n % 3]));
-        *row = done(Judgement { risk: Evidence::Drawn(risk), ..nominal }, false);
+        *row = done(Judgement { sampled: Evidence::Drawn(sampled), ..nominal }, false);
     }
     app
 }

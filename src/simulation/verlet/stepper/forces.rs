@@ -111,9 +111,10 @@ impl Stepper<'_> {
             }
         }
         // Two cables of the part may be images of each other; each of the two breaks by itself.
-        let mut known: FxHashSet<usize> = self.record.broken.iter().map(|broken| broken.cable).collect();
-        let all = self.part.reduction.cables_with_images(self.scene, &broken);
-        let new = all.into_iter().filter(|&cable| known.insert(cable));
+        let mut broken_before: FxHashSet<usize> =
+            self.record.broken.iter().map(|broken| broken.cable).collect();
+        let with_images = self.part.reduction.cables_with_images(self.scene, &broken);
+        let new = with_images.into_iter().filter(|&cable| broken_before.insert(cable));
         self.record.broken.extend(new.map(|cable| BrokenCable { at, cable }));
     }
 

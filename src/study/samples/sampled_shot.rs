@@ -24,7 +24,7 @@ pub const SAMPLES_FOR_BANDS: usize = 100;
 
 /// The samples of one shot, in order of their numbers, and what they tell.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Risk {
+pub struct SampledShot {
     /// The samples.
     pub samples: Vec<Sample>,
     /// Bounds of the failure probability.
@@ -39,7 +39,7 @@ pub struct Risk {
     limits: Limits,
 }
 
-impl Risk {
+impl SampledShot {
     /// No sample yet of a shot that was checked `as_planned`; the plan of `case` names the accepted risk.
     /// Its verdict takes this share of the probability of an error.
     pub fn new(case: &Case, as_planned: Option<ShotSummary>, share: ErrorShare, is_audited: bool) -> Self {
@@ -242,7 +242,7 @@ mod tests {
         let source = PlanSource { path: String::new(), text };
         let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let is_contradicted = |change: f64| {
-            let mut risk = Risk::new(&case, None, ErrorShare::Whole, true);
+            let mut risk = SampledShot::new(&case, None, ErrorShare::Whole, true);
             for number in 0..600 {
                 // No two changes are alike.
                 let finer = 1.0 + change * (1.0 + 1e-4 * number as f64);
