@@ -14,7 +14,7 @@ use super::status::{Status, failed};
 use crate::choice::Method;
 use crate::report::accuracy::report;
 use crate::report::json::AccuracyDocument;
-use crate::study::Found;
+use crate::study::Computed;
 use crate::study::accuracy::measure;
 use crate::study::accuracy::paper_table::{PaperRow, paper_table};
 
@@ -40,7 +40,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         return Ok(Status::Wrong);
     };
     let measured = run_study(&arguments.compute, |progress| measure(&case, option, PATIENCE, progress));
-    let Found { value: study, partial } = match measured {
+    let Computed { value: study, partial } = match measured {
         Ok(finished) => finished,
         Err(reason) => return failed(&reason),
     };

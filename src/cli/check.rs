@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{LookArguments, StudyArguments};
-use super::check_plans::{check_plans, print_checks};
+use super::judge_plans::{judge_plans, print_checks};
 use super::load_plans::open_all;
 use super::status::{Status, failed};
 use crate::report::explain::VERDICTS;
@@ -31,7 +31,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(cases) = open_all(&arguments.plans, look) else { return Ok(Status::Wrong) };
     let must_pass = if arguments.any { MustPass::One } else { MustPass::Every };
-    match check_plans(&cases, arguments.study.verdict.sampling(), &arguments.study.compute, arguments.why) {
+    match judge_plans(&cases, arguments.study.verdict.sampling(), &arguments.study.compute, arguments.why) {
         Ok(checked) => print_checks(&cases, &checked, must_pass, arguments.study.format, look),
         Err(reason) => failed(&reason),
     }

@@ -12,7 +12,7 @@ use super::run_study::run_study;
 use super::status::{Status, failed};
 use crate::report::effects::report;
 use crate::report::json::EffectsDocument;
-use crate::study::Found;
+use crate::study::Computed;
 use crate::study::effects::{SAMPLES, effects};
 
 #[derive(Args)]
@@ -31,7 +31,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         effects(&case, sampling.as_ref(), &compute, progress)
     }) {
         Err(reason) => failed(&reason),
-        Ok(Found { value: found, partial }) => {
+        Ok(Computed { value: found, partial }) => {
             let document = || EffectsDocument::new(&case, &found, partial);
             print(&[report(&case, &found, partial)], document, arguments.study.format, look)
         }

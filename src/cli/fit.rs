@@ -20,7 +20,7 @@ use crate::plan::observations::{Observations, template, used_twice};
 use crate::report::fit::{refusal, report};
 use crate::report::json::FitDocument;
 use crate::study::fit::{Fit, FitRequest, FitResult, fit, observable_names};
-use crate::study::{Case, Found, NoResult};
+use crate::study::{Case, Computed, NoResult};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -70,7 +70,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let found = match run_study(&arguments.study.compute, |progress| fit(&case, &request, &compute, progress))
     {
         Err(reason) => return failed(&reason),
-        Ok(Found { value: found, .. }) => found,
+        Ok(Computed { value: found, .. }) => found,
     };
     if was_interrupted() {
         return failed(&NoResult::Stopped);

@@ -2,7 +2,7 @@
 //!
 //! One file per command, and no command uses another. They share [`arguments`], [`load_plans`], [`run_study`] (threads,
 //! progress, signals), [`print`](mod@print) (formats) and [`status`] (exit status). Results that several commands print are
-//! in [`check_plans`] and [`print_sharded`].
+//! in [`judge_plans`] and [`print_sharded`].
 
 #[macro_use]
 mod tell;
@@ -10,13 +10,13 @@ mod tell;
 mod accuracy;
 mod arguments;
 mod check;
-mod check_plans;
 mod completions;
 mod config;
 mod deadline;
 mod effects;
 mod fit;
 mod init;
+mod judge_plans;
 mod load_plans;
 mod man;
 mod merge;

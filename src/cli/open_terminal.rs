@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::arguments::{Compute, FormatArg, LookArguments};
-use super::check_plans::{check_plans, print_checks};
+use super::judge_plans::{judge_plans, print_checks};
 use super::status::{Status, failed};
 use super::tell;
 use super::{load_plans, print_help};
@@ -23,7 +23,7 @@ pub fn plan(plan: &Path, compute: &Compute, look: &LookArguments) -> io::Result<
     let Some(case) = load_plans::open(plan, look) else { return Ok(Status::Wrong) };
     if look.plain || !io::stdout().is_terminal() {
         let cases = [case];
-        return match check_plans(&cases, Some(Sampling::OF_VERDICT), compute, false) {
+        return match judge_plans(&cases, Some(Sampling::OF_VERDICT), compute, false) {
             Ok(checked) => print_checks(&cases, &checked, MustPass::Every, FormatArg::Text, look),
             Err(reason) => failed(&reason),
         };

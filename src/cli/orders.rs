@@ -13,7 +13,7 @@ use super::save::SharedArguments;
 use super::status::{Status, failed, saved, wrong};
 use crate::study::orders::{MOST_ROWS, count_orders, orders, tries_all, try_orders};
 use crate::study::results_file::Question;
-use crate::study::{Found, Intervals};
+use crate::study::{Computed, Intervals};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -62,7 +62,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if let Some(shard) = arguments.saved.shard {
         return saved(run_saved_study(&arguments.study.compute, journal, |progress| {
             let tried = try_orders(&case, &intervals_s, shard, &compute, progress)?;
-            Ok(Found { value: (), partial: tried.partial })
+            Ok(Computed { value: (), partial: tried.partial })
         }));
     }
     let ranked = run_saved_study(&arguments.study.compute, journal, |progress| {
@@ -70,7 +70,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     });
     match ranked {
         Err(reason) => failed(&reason),
-        Ok(Found { value: orders, partial }) => {
+        Ok(Computed { value: orders, partial }) => {
             print_orders(&case, &orders, partial, arguments.study.format, look)
         }
     }

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments};
-use super::check_plans::{check_plans, print_checks};
 use super::fit::read_observations;
+use super::judge_plans::{judge_plans, print_checks};
 use super::load_plans::open_option;
 use super::print::{print_beside_verdict, print_warnings};
 use super::run_study::run_study;
@@ -22,7 +22,7 @@ use crate::study::fit::observed_shots::ObservedShots;
 use crate::study::fit::predicted::predict_observations;
 use crate::study::judge_options::MustPass;
 use crate::study::sweep::{INTERVALS, sweep};
-use crate::study::{Found, NoResult, Progress};
+use crate::study::{Computed, NoResult, Progress};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -85,7 +85,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     // A sweep needs one way to fire the holes of a row; without an option named, options that differ have none.
     let cases = [if asked.is_some() { case.with_hole_timing_or_of(option) } else { case }];
     let sampling = arguments.verdict.sampling();
-    let checked = match check_plans(&cases, sampling, &arguments.compute, false) {
+    let checked = match judge_plans(&cases, sampling, &arguments.compute, false) {
         Ok(checked) => checked,
         Err(reason) => return failed(&reason),
     };
@@ -102,7 +102,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let seen = ObservedShots::new(&files);
     let predict = |progress: &Progress| {
         let value = predict_observations(&cases[0], &seen, sampling.as_ref(), &compute, progress)?;
-        Ok(Found { value, partial: false })
+        Ok(Computed { value, partial: false })
     };
     let is_asked = !files.is_empty() && !was_interrupted();
     let predictions = match is_asked.then(|| run_study(&arguments.compute, predict)) {

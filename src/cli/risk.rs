@@ -14,7 +14,7 @@ use super::status::{Status, failed, saved, wrong};
 use crate::study::results_file::Question;
 use crate::study::samples::rounds::{ShotToSample, draw_shard};
 use crate::study::samples::sampling::Sampling;
-use crate::study::{Case, Found, Journal, Shard};
+use crate::study::{Case, Computed, Journal, Shard};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -55,7 +55,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let judge = |progress: &_| case.judge_options(&compute, Some(&sampling), progress);
     match run_saved_study(&arguments.compute, journal, judge) {
         Err(reason) => failed(&reason),
-        Ok(Found { value: results, partial }) => {
+        Ok(Computed { value: results, partial }) => {
             print_risks(&case, &results, &sampling, partial, arguments.format, look)
         }
     }
@@ -74,7 +74,7 @@ fn draw(
     let targets: Vec<_> = case.shots.iter().map(target).collect();
     let drawn = run_saved_study(&arguments.compute, journal, |progress| {
         let drawn = draw_shard(&targets, shard, progress)?;
-        Ok(Found { value: (), partial: drawn.iter().any(|(_, sample)| sample.is_none()) })
+        Ok(Computed { value: (), partial: drawn.iter().any(|(_, sample)| sample.is_none()) })
     });
     saved(drawn)
 }

@@ -11,7 +11,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::arguments::Compute;
 use super::deadline;
 use super::status::{note_interrupt, note_unsaved};
-use crate::study::{Finding, Found, Journal, NoResult, Progress, thread_pool};
+use crate::study::{ComputeResult, Computed, Journal, NoResult, Progress, thread_pool};
 use crate::units::rough_duration;
 
 /// Time between two looks at progress and signals.
@@ -28,8 +28,8 @@ const WATCHED: Duration = Duration::from_secs(1);
 /// Runs `work`. Progress and the estimate of its duration show only where standard error is a terminal.
 pub fn run_study<T: Send>(
     compute: &Compute,
-    work: impl FnOnce(&Progress) -> Finding<T> + Send,
-) -> Finding<T> {
+    work: impl FnOnce(&Progress) -> ComputeResult<T> + Send,
+) -> ComputeResult<T> {
     run_saved_study(compute, Journal::default(), work)
 }
 
@@ -37,8 +37,8 @@ pub fn run_study<T: Send>(
 pub fn run_saved_study<T: Send>(
     compute: &Compute,
     journal: Journal,
-    work: impl FnOnce(&Progress) -> Finding<T> + Send,
-) -> Finding<T> {
+    work: impl FnOnce(&Progress) -> ComputeResult<T> + Send,
+) -> ComputeResult<T> {
     deadline::note_loaded();
     let (progress, signal) = (Progress::with_journal(journal), Arc::new(AtomicBool::new(false)));
     // Once it is set, a signal ends the program by itself: a second interrupt, and whatever follows the study.
@@ -97,7 +97,7 @@ pub fn run_saved_study<T: Send>(
         note_interrupt();
     }
     match &found {
-        Ok(Found { partial: true, .. }) => {
+        Ok(Computed { partial: true, .. }) => {
             let why = if interrupted { "interrupted" } else { "the time was up" };
             tell!("{why} after {done} of {total} shots; what follows is partial");
         }

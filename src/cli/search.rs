@@ -15,7 +15,7 @@ use crate::file;
 use crate::plan::{DelayOption, edit};
 use crate::study::results_file::Question;
 use crate::study::search::{MOST_JUDGED, Search, search, try_schedules};
-use crate::study::{Case, Found};
+use crate::study::{Case, Computed};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -46,10 +46,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             try_schedules(&case, sampling.as_ref(), &compute, shard, progress)
         });
         return match tried {
-            Ok(Found { value: false, .. }) => wrong(&format!(
+            Ok(Computed { value: false, .. }) => wrong(&format!(
                 "of more than {MOST_JUDGED} schedules the best are searched, not shared: leave out --shard"
             )),
-            tried => saved(tried.map(|Found { partial, .. }| Found { value: (), partial })),
+            tried => saved(tried.map(|Computed { partial, .. }| Computed { value: (), partial })),
         };
     }
     let searched = run_saved_study(&arguments.study.compute, journal, |progress| {
@@ -57,7 +57,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     });
     match searched {
         Err(reason) => failed(&reason),
-        Ok(Found { value: found, partial }) => {
+        Ok(Computed { value: found, partial }) => {
             let status = print_search(&case, &found, partial, arguments.study.format, look)?;
             if let Some(count) = arguments.write.filter(|_| !was_interrupted()) {
                 write(arguments, &case, &found, count.into())?;

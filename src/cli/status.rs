@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::report::model::Report;
 use crate::report::no_result;
-use crate::study::{Finding, Found, NoResult};
+use crate::study::{ComputeResult, Computed, NoResult};
 use crate::verdict::Verdict;
 
 /// What a command says to the shell.
@@ -74,7 +74,7 @@ pub fn ended(result: io::Result<Status>) -> ExitCode {
 }
 
 /// The status of a shard that was saved.
-pub fn saved(finding: Finding<()>) -> io::Result<Status> {
+pub fn saved(finding: ComputeResult<()>) -> io::Result<Status> {
     match finding {
         Err(reason) => failed(&reason),
         // Nothing else comes of a shard but its file.
@@ -82,11 +82,11 @@ pub fn saved(finding: Finding<()>) -> io::Result<Status> {
             tell!("the shard is not complete: make room, and give the same command again");
             Ok(Status::Wrong)
         }
-        Ok(Found { partial: true, .. }) => {
+        Ok(Computed { partial: true, .. }) => {
             tell!("the shard is not complete: the same command goes on from there");
             Ok(Status::Fail)
         }
-        Ok(Found { partial: false, .. }) => Ok(Status::Pass),
+        Ok(Computed { partial: false, .. }) => Ok(Status::Pass),
     }
 }
 

@@ -16,7 +16,7 @@ use crate::report::json::SweepDocument;
 use crate::report::sweep::report;
 use crate::study::results_file::Question;
 use crate::study::sweep::sweep;
-use crate::study::{Case, Found, Intervals, Shard};
+use crate::study::{Case, Computed, Intervals, Shard};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -71,7 +71,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     });
     match swept {
         Err(reason) => failed(&reason),
-        Ok(Found { value: swept, partial }) => {
+        Ok(Computed { value: swept, partial }) => {
             let document = || SweepDocument::new(&case, &swept, partial);
             print(&[report(&case, &swept, partial)], document, arguments.study.format, look)
         }

@@ -4,7 +4,7 @@
 //! The work is the same functions that the commands call; the results do not depend on the number of threads. A panic is
 //! the result [`NoResult::Panicked`] of the option or study that panicked.
 
-mod check;
+mod judge;
 mod studies;
 
 use std::sync::Arc;
@@ -77,7 +77,7 @@ pub enum News {
 /// The jobs under way.
 pub struct Jobs {
     threads: usize,
-    check: Option<Arc<Progress>>,
+    judging: Option<Arc<Progress>>,
     studies: [Option<Arc<Progress>>; StudyKind::ALL.len()],
     /// Shots judged and expected of each study, as told last.
     told: [(usize, usize); StudyKind::ALL.len()],
@@ -102,14 +102,14 @@ impl Jobs {
         let threads = if threads == 0 { cores() } else { threads };
         let (sender, receiver) = channel();
         let (studies, told) = Default::default();
-        Self { threads, check: None, studies, told, sender, receiver }
+        Self { threads, judging: None, studies, told, sender, receiver }
     }
 
     /// Checks every option of `case`: first as planned, then by samples, then for its launch margin. Each result is news by
     /// itself.
-    pub fn check(&mut self, case: &Arc<Case>, compute: ComputeSettings) {
+    pub fn judge(&mut self, case: &Arc<Case>, compute: ComputeSettings) {
         let job = self.job(case, compute);
-        stop(self.check.replace(Arc::clone(&job.progress)));
+        stop(self.judging.replace(Arc::clone(&job.progress)));
         match thread_pool(self.threads) {
             Ok(pool) => pool.spawn(move || job.judge_all()),
             Err(none) => job.tell_no_result(&none),
@@ -169,7 +169,7 @@ impl Jobs {
 
 impl Drop for Jobs {
     fn drop(&mut self) {
-        stop(self.check.take());
+        stop(self.judging.take());
         StudyKind::ALL.into_iter().for_each(|kind| self.cancel(kind));
     }
 }

@@ -69,7 +69,7 @@ fn results_do_not_depend_on_the_number_of_threads() {
     let options = case.shots.len();
     let values = |threads| {
         let mut jobs = Jobs::new(threads);
-        jobs.check(&case, coarse(&case));
+        jobs.judge(&case, coarse(&case));
         let results = checked(&mut jobs, options);
         let values = results.into_iter().map(|result| result.map(|c| (c.height, c.force)));
         (values.collect::<Vec<_>>(), sampled(&mut jobs, options))
@@ -83,10 +83,10 @@ fn results_do_not_depend_on_the_number_of_threads() {
 fn a_new_request_ends_sampling() {
     let (case, mut jobs) = (case(), Jobs::new(2));
     // Hundreds of samples of each option at this step would take minutes.
-    jobs.check(&case, ComputeSettings { step: Some(5e-5), ..coarse(&case) });
+    jobs.judge(&case, ComputeSettings { step: Some(5e-5), ..coarse(&case) });
     checked(&mut jobs, case.shots.len());
-    let progress = jobs.check.clone().expect("under way");
-    jobs.check(&case, coarse(&case));
+    let progress = jobs.judging.clone().expect("under way");
+    jobs.judge(&case, coarse(&case));
     let begun = Instant::now();
     wait(|| {
         jobs.news();
@@ -98,9 +98,9 @@ fn a_new_request_ends_sampling() {
 #[test]
 fn the_newest_request_of_a_kind_wins() {
     let (case, mut jobs) = (case(), Jobs::new(2));
-    jobs.check(&case, endless(&case));
+    jobs.judge(&case, endless(&case));
     jobs.study(STUDY, &case, 0, endless(&case));
-    jobs.check(&case, coarse(&case));
+    jobs.judge(&case, coarse(&case));
     jobs.study(STUDY, &case, 0, coarse(&case));
     let (mut options, mut studies) = (Vec::new(), Vec::new());
     wait(|| {
@@ -139,7 +139,7 @@ fn a_panic_is_the_result_of_its_option_or_study_alone() {
     let (good, mut jobs) = (case(), Jobs::new(2));
     let mut bad = (*good).clone();
     bad.shots[1].firings[0].tire = usize::MAX;
-    jobs.check(&Arc::new(bad), coarse(&good));
+    jobs.judge(&Arc::new(bad), coarse(&good));
     let results = checked(&mut jobs, good.shots.len());
     for (option, result) in results.iter().enumerate() {
         assert_eq!(matches!(result, Err(NoResult::Panicked(_))), option == 1, "{option}");
@@ -152,9 +152,9 @@ fn a_panic_is_the_result_of_its_option_or_study_alone() {
 #[test]
 fn dropping_the_jobs_ends_each_of_them() {
     let (case, mut jobs) = (case(), Jobs::new(1));
-    jobs.check(&case, endless(&case));
+    jobs.judge(&case, endless(&case));
     StudyKind::ALL.into_iter().for_each(|kind| jobs.study(kind, &case, 0, endless(&case)));
-    let all: Vec<_> = jobs.studies.iter().chain([&jobs.check]).flatten().cloned().collect();
+    let all: Vec<_> = jobs.studies.iter().chain([&jobs.judging]).flatten().cloned().collect();
     assert_eq!(all.len(), 1 + StudyKind::ALL.len());
     drop(jobs);
     wait(|| all.iter().all(|progress| Arc::strong_count(progress) == 1).then_some(()));

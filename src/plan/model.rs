@@ -361,9 +361,14 @@ impl HoleTiming {
     /// The holes of a row fire together.
     pub const TOGETHER: Self = Self { interval_ms: 0.0, order: HoleOrder::DEFAULT };
 
+    /// Whether the holes of a row fire at one time.
+    pub fn is_together(&self) -> bool {
+        self.interval_ms == 0.0
+    }
+
     /// Whether the holes of every row fire alike: without an interval the order says nothing.
     pub fn is_same(&self, other: &Self) -> bool {
-        self == other || self.interval_ms == 0.0 && other.interval_ms == 0.0
+        self == other || self.is_together() && other.is_together()
     }
 
     /// In words, such as `holes 17 ms left`; `None` where they fire together.

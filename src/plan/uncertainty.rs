@@ -43,12 +43,12 @@ impl Uncertainty {
     }
 
     /// The friction assumed where the plan gives no range: ±1 % of the plan's own.
-    pub fn usual_friction(friction: f64) -> [f64; 2] {
+    pub fn assumed_friction(friction: f64) -> [f64; 2] {
         [0.99 * friction, 1.01 * friction]
     }
 
     /// The slack [%] assumed where the plan gives no range: ±0.1 percentage points, not below 0.
-    pub fn usual_slack(slack_percent: f64) -> [f64; 2] {
+    pub fn assumed_slack(slack_percent: f64) -> [f64; 2] {
         let range = cable::SLACK_PERCENT.kind.range();
         [slack_percent - 0.1, slack_percent + 0.1].map(|slack| slack.clamp(*range.start(), *range.end()))
     }

@@ -28,7 +28,8 @@ fn all_reasons(row: &OptionRow<'_>) -> String {
     }
 }
 
-/// The columns, of which people see others where the possible shots were `sampled`; without a limit on drift only the page has room for it.
+/// The columns. People see bands where the possible shots were `sampled`, else the values of the shot as planned with their errors.
+/// Drift without a limit has room on the page only.
 fn fields<'a>(sampled: bool, drift_has_limit: bool) -> [Field<OptionRow<'a>>; 34] {
     let words = |heading| Column::words(&[], heading).shown(Audience::Text);
     let shown_if = |shown: bool, column: Column| if shown { column } else { column.shown(Audience::Scripts) };
@@ -83,7 +84,7 @@ fn fields<'a>(sampled: bool, drift_has_limit: bool) -> [Field<OptionRow<'a>>; 34
             row.sampled(|sampled| Cell::Probability(sampled.breaks.interval))
         }),
         Field::new(Column::scripts(&["launch_margin"]), |row| {
-            let margin = row.result.as_ref().ok().and_then(Judgement::launch_margin_or_zero);
+            let margin = row.result.as_ref().ok().and_then(Judgement::launch_margin_for_scripts);
             margin.map_or(Cell::Nothing, Cell::Number)
         }),
         Field::new(if_sampled(LAUNCH_MARGIN), |row| {

@@ -36,8 +36,8 @@ impl OptionRow<'_> {
 
     /// A cell of the samples; nothing where there are none.
     pub fn sampled(&self, cell: impl FnOnce(&SampledShot) -> Cell) -> Cell {
-        let risk = self.result.as_ref().ok().and_then(|judged| judged.sampled.drawn());
-        risk.map_or(Cell::Nothing, cell)
+        let sampled = self.result.as_ref().ok().and_then(|judged| judged.sampled.drawn());
+        sampled.map_or(Cell::Nothing, cell)
     }
 
     /// What fires together in the shot as planned.

@@ -107,7 +107,7 @@ pub fn words(case: &Case, change: &Change) -> String {
 
 /// What the changed plan comes to: by its samples, or as planned where none were asked for.
 fn result(judgement: &Judgement) -> String {
-    let Some(risk) = judgement.sampled.drawn() else {
+    let Some(sampled) = judgement.sampled.drawn() else {
         let checked = &judgement.as_planned;
         let value = |estimate: f64, error: f64, unit: Unit| {
             format!("{} {}", units::value_by_error(estimate, error, unit), unit.symbol())
@@ -119,7 +119,7 @@ fn result(judgement: &Judgement) -> String {
         );
     };
     let band = |name: &str, quantity: Quantity, unit: Unit| {
-        let [low, _, high, _] = risk.band(quantity)?;
+        let [low, _, high, _] = sampled.band(quantity)?;
         Some(format!(
             ", {name} {} to {} {}",
             units::value(low, unit),
@@ -129,7 +129,7 @@ fn result(judgement: &Judgement) -> String {
     };
     let height = band("height", Quantity::Height, Unit::Metre);
     let force = band("force", Quantity::Force, Unit::Kilonewton);
-    let most = units::percent(risk.bounds.interval[1], 2);
+    let most = units::percent(sampled.bounds.interval[1], 2);
     format!("at most {most} fail{}{}", height.unwrap_or_default(), force.unwrap_or_default())
 }
 

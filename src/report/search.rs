@@ -62,7 +62,7 @@ fn fields<'a>() -> [Field<FoundRow<'a>>; 19] {
         }),
         Field::new(FORCE_BAND, |row| band(&row.option, Quantity::Force, Unit::Kilonewton)),
         Field::new(Column::scripts(&["launch_margin"]), |row| {
-            let margin = row.option.result.as_ref().ok().and_then(Judgement::launch_margin_or_zero);
+            let margin = row.option.result.as_ref().ok().and_then(Judgement::launch_margin_for_scripts);
             margin.map_or(Cell::Nothing, Cell::Number)
         }),
         Field::new(Column::scripts(&["holes_in_8_ms"]), |row| Cell::Count(row.option.together().holes)),

@@ -85,7 +85,7 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
 /// Warnings of an option that need no other option beside them.
 fn swaps_and_cover(case: &Case, option: usize, judged: &Judgement) -> impl Iterator<Item = String> {
     let swaps = if judged.sampled.is_asked() { swaps(case, option, SWAP) } else { Vec::new() };
-    let swaps = swaps.into_iter().map(|found| swap_warning(case, &found));
+    let swaps = swaps.into_iter().map(move |found| swap_warning(case, option, &found));
     swaps.chain(uncovered(&judged.as_planned.cover))
 }
 
@@ -94,7 +94,7 @@ const FAR_DRIFT: &str = "drift is not judged, there is no limit `drift_m`, and t
 
 /// The drift of an option where no limit judges it and it is far [m]: of the shot as planned, or of 1 in 20 of the possible shots.
 fn far_drift(case: &Case, judged: &Judgement) -> Option<f64> {
-    let of_samples = judged.sampled.drawn().and_then(|risk| risk.band(Quantity::Drift));
+    let of_samples = judged.sampled.drawn().and_then(|sampled| sampled.band(Quantity::Drift));
     let of_samples = of_samples.map_or(0.0, |[_, _, p95, _]| p95);
     let drift = judged.as_planned.drift.value.max(of_samples);
     let far = FAR * case.plan.layout.widest_tie();
@@ -102,10 +102,12 @@ fn far_drift(case: &Case, judged: &Judgement) -> Option<f64> {
 }
 
 /// The warning that two blast rows may fire in the wrong order.
-fn swap_warning(case: &Case, swap: &Swap) -> String {
+fn swap_warning(case: &Case, option: usize, swap: &Swap) -> String {
     let [first, second] = swap.rows.map(|row| &case.plan.blast_rows[row].name);
+    // Where the holes of a row fire one after another, only the first ones are the interval apart.
+    let which = if case.plan.delays[option].hole_timing.is_together() { "a given" } else { "the first" };
     format!(
-        "{} between rows {first} and {second} is short for the scatter of the detonators; a given hole of row {second} fires before a given hole of row {first} with a probability of {}",
+        "{} between rows {first} and {second} is short for the scatter of the detonators; {which} hole of row {second} fires before {which} hole of row {first} with a probability of {}",
         units::exact_milliseconds(swap.interval),
         units::percent(swap.probability, 2),
     )

@@ -12,12 +12,12 @@
 use nalgebra::{Vector2, Vector3};
 
 /// Velocity of a tire on the ground after support and friction, and the normal impulse per mass [m/s], from its free velocity.
-pub fn stop_at_ground(free: Vector3<f64>, friction: f64) -> (Vector3<f64>, f64) {
-    if free.z >= 0.0 {
-        return (free, 0.0);
+pub fn stop_at_ground(free_velocity: Vector3<f64>, friction: f64) -> (Vector3<f64>, f64) {
+    if free_velocity.z >= 0.0 {
+        return (free_velocity, 0.0);
     }
-    let sideways = apply_friction(free.xy(), -friction * free.z);
-    (Vector3::new(sideways.x, sideways.y, 0.0), -free.z)
+    let sideways = apply_friction(free_velocity.xy(), -friction * free_velocity.z);
+    (Vector3::new(sideways.x, sideways.y, 0.0), -free_velocity.z)
 }
 
 /// Sideways velocity after friction has taken up to `loss` [m/s] from its speed.
@@ -45,7 +45,7 @@ pub struct TireStep {
     /// Velocity [m/s].
     pub velocity: Vector3<f64>,
     /// Acceleration by cables, gravity and pushes, without the ground [m/s²].
-    free: Vector3<f64>,
+    free_acceleration: Vector3<f64>,
     /// Acceleration by pushes [m/s²].
     pub push_acceleration: Vector3<f64>,
     /// Coefficient of friction μ.
@@ -74,7 +74,7 @@ impl TireStep {
     pub fn new(
         displacement: Vector3<f64>,
         velocity: Vector3<f64>,
-        free: Vector3<f64>,
+        free_acceleration: Vector3<f64>,
         friction: f64,
         restitution: f64,
     ) -> Self {
@@ -83,7 +83,7 @@ impl TireStep {
         Self {
             displacement,
             velocity,
-            free,
+            free_acceleration,
             push_acceleration,
             friction,
             restitution,
@@ -105,7 +105,7 @@ impl TireStep {
             self.put_in += launch.dot(&(self.velocity + 0.5 * launch));
             self.velocity += launch;
             self.push_acceleration += push_acceleration;
-            self.free += push_acceleration;
+            self.free_acceleration += push_acceleration;
         }
         self.integrate_between(h - now, h)
     }
@@ -126,11 +126,11 @@ impl TireStep {
     /// Integrates over the time `left` [s] of a step `h` [s], phase by phase: in the air, landing, on the ground. Returns the
     /// acceleration of a free tire at its end [m/s²]. The work of pushes is not counted here.
     fn integrate_phases(&mut self, mut left: f64, h: f64) -> Vector3<f64> {
-        while !(self.on_ground() && self.free.z <= 0.0) {
+        while !(self.on_ground() && self.free_acceleration.z <= 0.0) {
             match self.time_to_landing().filter(|&landing| landing <= left) {
                 None => {
                     self.fly_freely(left);
-                    return self.free;
+                    return self.free_acceleration;
                 }
                 Some(landing) => {
                     self.fly_freely(landing);
@@ -138,9 +138,9 @@ impl TireStep {
                     left -= landing;
                 }
             }
-            if self.free.z > 0.0 {
+            if self.free_acceleration.z > 0.0 {
                 self.fly_freely(left);
-                return self.free;
+                return self.free_acceleration;
             }
         }
         self.slide(left)
@@ -148,7 +148,7 @@ impl TireStep {
 
     /// Time until the tire lands [s], for a tire in the air or leaving the ground; `None` when it does not come down.
     fn time_to_landing(&self) -> Option<f64> {
-        let (z, v, a) = (self.displacement.z, self.velocity.z, self.free.z);
+        let (z, v, a) = (self.displacement.z, self.velocity.z, self.free_acceleration.z);
         let discriminant = v * v - 2.0 * a * z;
         if discriminant < 0.0 {
             return None;
@@ -160,22 +160,22 @@ impl TireStep {
     }
 
     fn fly_freely(&mut self, time: f64) {
-        if let Some((rise, until)) = apex(self.velocity.z, self.free.z, time)
+        if let Some((rise, until)) = apex(self.velocity.z, self.free_acceleration.z, time)
             && self.displacement.z + rise > self.top.0
         {
             self.top = (self.displacement.z + rise, self.elapsed + until);
         }
         self.elapsed += time;
-        self.displacement += self.velocity * time + self.free * (0.5 * time * time);
-        self.velocity += self.free * time;
+        self.displacement += self.velocity * time + self.free_acceleration * (0.5 * time * time);
+        self.velocity += self.free_acceleration * time;
     }
 
     /// Normal speed after the landing of a tire that is falling [m/s]: 0 where all bounces still to come, a geometric series,
     /// would last less than a step of length `h` [s].
     fn rebound(&self, h: f64) -> f64 {
         let speed = -self.restitution * self.velocity.z;
-        let bounces = 2.0 * speed / (-self.free.z * (1.0 - self.restitution));
-        if self.free.z < 0.0 && bounces < h { 0.0 } else { speed }
+        let bounces = 2.0 * speed / (-self.free_acceleration.z * (1.0 - self.restitution));
+        if self.free_acceleration.z < 0.0 && bounces < h { 0.0 } else { speed }
     }
 
     /// Lands, and leaves the ground at the normal speed `rebound` [m/s]. Friction acts with the whole normal impulse.
@@ -212,8 +212,8 @@ impl TireStep {
     /// Slides while friction keeps its direction, against the velocity at the start: for `time` [s] at most, or until the tire
     /// no longer moves against friction. `None` for a tire that sticks: at rest, within the cone of friction.
     fn slide_straight(&mut self, time: f64) -> Option<Slide> {
-        let limit = -self.friction * self.free.z;
-        let (driving, velocity) = (self.free.xy(), self.velocity.xy());
+        let limit = -self.friction * self.free_acceleration.z;
+        let (driving, velocity) = (self.free_acceleration.xy(), self.velocity.xy());
         let speed = velocity.norm();
         let direction = if speed > 0.0 {
             velocity / speed

@@ -18,9 +18,10 @@
 //! | why there is no outcome | `failure` |
 //! | numbers in registers; lists in one piece of memory | `pack`, `compressed_rows` |
 //!
-//! Words of the loop: a *part* is the piece of a scene that stands for the whole where its mirror *images* move alike. Cables of
-//! equal length and stiffness form a *block*; an *element* is a cable of a block. A *pack* is as many numbers as one register
-//! holds, each in a *lane*; a *slot* is the place of a tire in the packs. A tire that nothing has moved yet is *asleep*.
+//! Words of the loop: a *part* is the piece of a scene that stands for the whole where its mirror *images* move alike. A *pack* is
+//! as many numbers as one register holds, each in a *lane*. Cables of equal length and stiffness form a *block*; a *slot* is the
+//! place of a cable in its block, or of a tire in the packs. An *element* is a place in the arrays over the cables of all blocks,
+//! which have empty places, too. A tire is *asleep* where it is not evaluated: it is at rest, and so are the tires tied to it.
 //!
 //! Two methods solve one model: `verlet` is explicit with contact in closed form, `newmark` is the source paper's. This module
 //! does not know plans, options, limits or screens. A motion that is no longer finite is a [`Failure`], never a result.

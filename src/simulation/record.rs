@@ -75,10 +75,10 @@ impl Record {
         self.ledger.greatest_residual = self.ledger.greatest_residual.max(residual.abs());
     }
 
-    /// Notes that a cable broke: the greatest force of the run is `breaking_force` [N], at the time and cable of the first
-    /// break.
-    pub fn note_break(&mut self, breaking_force: f64) {
-        let first = Peak { value: breaking_force, ..self.force };
+    /// Notes that a cable broke at a time [s]: the greatest force of the run is `breaking_force` [N], at the time and cable of
+    /// the first break.
+    pub fn note_break(&mut self, breaking_force: f64, at: f64, cable: usize) {
+        let first = Peak { value: breaking_force, at, index: cable };
         self.force = *self.first_break.get_or_insert(first);
     }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::OnceLock;
 
-use super::work::{Key, NoResult};
+use super::work::{Fingerprint, NoResult};
 use crate::choice::Method;
 use crate::plan::{DelayOption, Diagnostics, HoleTiming, Plan, PlanSource, Timing};
 use crate::scene::{Scene, Shot, seconds};
@@ -26,8 +26,8 @@ pub struct Case {
     /// How the holes of each row fire in studies that vary order and interval: as in all options of the plan; `None` where the
     /// options differ, and such a study needs to be told.
     pub hole_timing: Option<HoleTiming>,
-    /// Filled by [`Case::key`].
-    pub(in crate::study) key: OnceLock<Key>,
+    /// Filled by [`Case::fingerprint`].
+    pub(in crate::study) fingerprint: OnceLock<Fingerprint>,
 }
 
 impl Case {
@@ -57,8 +57,8 @@ impl Case {
             holes_in_8_ms: plan.limits.holes_in_8_ms,
             charge_in_8_ms: plan.limits.charge_in_8_ms_kg,
         };
-        let (source, key) = (PlanSource::default(), OnceLock::new());
-        Self { source, plan, model: Model::new(scene), shots, limits, hole_timing, key }
+        let (source, fingerprint) = (PlanSource::default(), OnceLock::new());
+        Self { source, plan, model: Model::new(scene), shots, limits, hole_timing, fingerprint }
     }
 
     /// The same case, of a plan with this file and text.
@@ -70,12 +70,17 @@ impl Case {
     pub fn with_options(&self, options: &[usize]) -> Self {
         let delays = options.iter().map(|&n| self.plan.delays[n].clone()).collect();
         let shots = options.iter().map(|&n| self.shots[n].clone()).collect();
-        Self { plan: Plan { delays, ..self.plan.clone() }, shots, key: OnceLock::new(), ..self.clone() }
+        Self {
+            plan: Plan { delays, ..self.plan.clone() },
+            shots,
+            fingerprint: OnceLock::new(),
+            ..self.clone()
+        }
     }
 
-    /// Key of everything that the plan says, but for what a shot says of itself.
-    pub(in crate::study) fn key(&self) -> Key {
-        *self.key.get_or_init(|| Key::of(&self.plan))
+    /// Fingerprint of all that the plan says.
+    pub(in crate::study) fn fingerprint(&self) -> Fingerprint {
+        *self.fingerprint.get_or_init(|| Fingerprint::of(&self.plan))
     }
 
     /// Title of the plan; the path of its file where the plan has no title.

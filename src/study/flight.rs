@@ -23,7 +23,7 @@ pub struct Flight {
 
 /// Greatest number of displacements kept, of all tires and frames: 60 MB.
 const MOST_KEPT: usize = 5_000_000;
-/// Least and greatest number of frames kept; powers of two, because a full recording is halved.
+/// Least and greatest number of frames kept; even, because a full recording is halved.
 const FRAMES: [usize; 2] = [16, 1024];
 
 /// Runs one option once, at its first step, and records frames.

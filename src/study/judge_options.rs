@@ -10,7 +10,7 @@ use super::samples::rounds::{ShotToSample, sample_shots_watched};
 use super::samples::sampled_shot::SampledShot;
 use super::samples::sampling::Sampling;
 use super::work::batch::run_batch;
-use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, catch_panic};
+use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress, ShotSummary, catch_panic};
 use crate::verdict::Verdict;
 
 /// Results of the options of one plan, in their order (`n_options`).
@@ -56,9 +56,9 @@ impl Case {
         compute: &ComputeSettings,
         sampling: Option<&Sampling>,
         progress: &Progress,
-    ) -> Finding<OptionResults> {
-        let Found { mut value, partial } = judge_all(&[(self, *compute)], sampling, progress, UNWATCHED)?;
-        Ok(Found { value: value.remove(0), partial })
+    ) -> ComputeResult<OptionResults> {
+        let Computed { mut value, partial } = judge_all(&[(self, *compute)], sampling, progress, UNWATCHED)?;
+        Ok(Computed { value: value.remove(0), partial })
     }
 }
 
@@ -69,7 +69,7 @@ pub fn judge_all(
     sampling: Option<&Sampling>,
     progress: &Progress,
     watch: Watch<'_>,
-) -> Finding<Vec<OptionResults>> {
+) -> ComputeResult<Vec<OptionResults>> {
     let of_case = |case: usize| (0..cases[case].0.shots.len()).map(move |option| CaseOption { case, option });
     let options: Vec<CaseOption> = (0..cases.len()).flat_map(of_case).collect();
     let checked = run_batch(&options, progress, |&at| {
@@ -90,7 +90,7 @@ pub fn judge_all(
     if let Some(sampling) = sampling {
         partial |= add_risks(cases, &mut results, sampling, progress, watch)?.partial;
     }
-    Ok(Found { value: results, partial })
+    Ok(Computed { value: results, partial })
 }
 
 /// Like [`judge_all`], with the launch margin of every option: what `check` with samples, the terminal and a search show.
@@ -99,10 +99,10 @@ pub fn judge_all_with_margins(
     sampling: Option<&Sampling>,
     progress: &Progress,
     watch: Watch<'_>,
-) -> Finding<Vec<OptionResults>> {
-    let Found { value: mut results, partial } = judge_all(cases, sampling, progress, watch)?;
+) -> ComputeResult<Vec<OptionResults>> {
+    let Computed { value: mut results, partial } = judge_all(cases, sampling, progress, watch)?;
     let margins = find_launch_margins(cases, &mut results, progress, watch)?;
-    Ok(Found { value: results, partial: partial || margins.partial })
+    Ok(Computed { value: results, partial: partial || margins.partial })
 }
 
 fn check_one_as_planned(
@@ -139,7 +139,7 @@ fn add_risks(
     sampling: &Sampling,
     progress: &Progress,
     watch: Watch<'_>,
-) -> Finding<()> {
+) -> ComputeResult<()> {
     let mut judged = checked_options(results);
     let target = |(at, judgement): &(CaseOption, &mut Judgement)| {
         let (case, compute) = cases[at.case];
@@ -150,12 +150,13 @@ fn add_risks(
         watch(judged[n].0, JudgeEvent::SampledSoFar(sampled));
         ControlFlow::Continue(())
     };
-    let Found { value: sampled_shots, partial } = sample_shots_watched(&targets, progress, &mut watch_round)?;
+    let Computed { value: sampled_shots, partial } =
+        sample_shots_watched(&targets, progress, &mut watch_round)?;
     for ((at, judgement), sampled) in judged.iter_mut().zip(sampled_shots) {
         watch(*at, JudgeEvent::SampledFully(&sampled));
         judgement.sampled = Evidence::Drawn(sampled);
     }
-    Ok(Found { value: (), partial })
+    Ok(Computed { value: (), partial })
 }
 
 /// An option to be sampled, checked `as_planned`; one that fails is sampled only to show by how much.
@@ -177,7 +178,7 @@ pub fn find_launch_margins(
     results: &mut [OptionResults],
     progress: &Progress,
     watch: Watch<'_>,
-) -> Finding<()> {
+) -> ComputeResult<()> {
     let judged = checked_options(results);
     let jobs: Vec<_> = judged.iter().map(|(at, judgement)| (*at, judgement.as_planned.verdict)).collect();
     let margins = run_batch(&jobs, progress, |&(at, as_planned)| {
@@ -194,7 +195,7 @@ pub fn find_launch_margins(
     for ((_, judgement), margin) in judged.into_iter().zip(margins) {
         judgement.launch_margin = margin.flatten();
     }
-    Ok(Found { value: (), partial })
+    Ok(Computed { value: (), partial })
 }
 
 /// Which options of a plan must pass.

@@ -18,9 +18,9 @@ pub struct Judgement {
 }
 
 impl Judgement {
-    /// How much faster than planned the tires may leave, as a share; `None` where nothing fails up to the greatest rise tried,
-    /// or where only a shot that passes as planned was asked for. A margin that is not known is none.
-    pub fn launch_margin_or_zero(&self) -> Option<f64> {
+    /// How much faster than planned the tires may leave, as a share, for scripts: 0 where it is not known; `None` where nothing
+    /// fails up to the greatest rise tried, or where only the shot as planned was asked for and passes.
+    pub fn launch_margin_for_scripts(&self) -> Option<f64> {
         match self.launch_margin {
             Some(LaunchMargin::UpTo { rise, .. }) => Some(rise),
             Some(LaunchMargin::BeyondTried) => None,
@@ -46,7 +46,7 @@ impl Judgement {
         let of_samples = match &self.sampled {
             Evidence::NotAsked => None,
             Evidence::NotDrawn => Some(Reason::NoSamples),
-            Evidence::Drawn(risk) if risk.samples.is_empty() => Some(Reason::NoSamples),
+            Evidence::Drawn(sampled) if sampled.samples.is_empty() => Some(Reason::NoSamples),
             Evidence::Drawn(sampled) => sampled.reason().map(Reason::Samples),
         };
         as_planned.chain(of_samples).collect()

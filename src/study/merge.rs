@@ -84,8 +84,8 @@ fn join(shards: &[(String, String)]) -> Result<Contents, String> {
     }
     let (first_name, Contents { head: first, .. }) = contents_by_name.first().ok_or("no shard to merge")?;
     for (name, Contents { head, .. }) in &contents_by_name {
-        if !head.is_of_same_study(first) {
-            return Err(format!("{name}: a shard of another study than {first_name}"));
+        if let Some(difference) = head.difference_of_study(first) {
+            return Err(format!("{name}: a shard of another study than {first_name}: {difference}"));
         }
     }
     let count = first.shard.of;

@@ -42,5 +42,6 @@ pub use as_planned::shot_summary::{ShotSummary, ValueWithError};
 pub use case::Case;
 pub use compute::ComputeSettings;
 pub use work::{
-    Finding, Found, Intervals, Journal, Key, NoResult, Progress, Shard, catch_panic, thread_pool,
+    ComputeResult, Computed, Fingerprint, Intervals, Journal, NoResult, Progress, Shard, catch_panic,
+    thread_pool,
 };

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use super::samples::sampling::Sampling;
 use super::size::Demand;
 use super::work::journal::{Line, read_body, sealed, unsealed};
-use super::{Case, ComputeSettings, Intervals, Journal, Key, Shard};
+use super::{Case, ComputeSettings, Fingerprint, Intervals, Journal, Shard};
 use crate::file;
 use crate::plan::SizeSpec;
 
@@ -108,10 +108,10 @@ impl Head {
         Ok(sealed(text.strip_suffix('}').unwrap_or(&text)))
     }
 
-    /// Whether it heads a shard of the same study, this one or another.
-    pub fn is_of_same_study(&self, other: &Head) -> bool {
+    /// What makes it no shard of the study of `other`, this one or another.
+    pub fn difference_of_study(&self, other: &Head) -> Option<&'static str> {
         let shard = Shard { index: other.shard.index, ..self.shard };
-        Head { shard, ..self.clone() } == *other
+        Head { shard, ..self.clone() }.difference(other)
     }
 
     /// What makes it the head of another study than `other`; the path of the plan does not.
@@ -131,7 +131,7 @@ pub struct Contents {
     /// Its first line.
     pub head: Head,
     /// Its results, as JSON.
-    pub known: HashMap<Key, Box<str>>,
+    pub known: HashMap<Fingerprint, Box<str>>,
     /// Whether the study was computed to its end.
     pub is_complete: bool,
     /// Number of lines of results.

@@ -31,10 +31,10 @@ use crate::study::{Case, ComputeSettings};
 pub enum Request {
     /// Nothing.
     None,
-    /// Check every option again.
-    Check,
-    /// Check every option of another plan, and end the studies of the old plan.
-    CheckNewPlan,
+    /// Judge every option again.
+    Judge,
+    /// Judge every option of another plan, and end the studies of the old plan.
+    JudgeNewPlan,
     /// Begin a study.
     Study(StudyKind),
     /// End a study.
@@ -56,7 +56,7 @@ pub enum Request {
     /// Write the page of the selected option to this file.
     Page(PathBuf),
     /// Put the contents of the screen on the clipboard.
-    Yank,
+    Copy,
     /// Give the terminal back for now.
     Suspend,
     /// Leave.
@@ -245,7 +245,7 @@ impl App {
         self.listing.baseline = None;
         self.studies.mark_as_of_plan_before(&self.case.source.text);
         self.player.option = None;
-        Request::CheckNewPlan
+        Request::JudgeNewPlan
     }
 
     /// Shows the plan of the editor's text.
@@ -342,18 +342,18 @@ impl App {
                     // Until samples arrive the option stays OPEN: a shot that passes as planned shows no PASS.
                     let sampled = Evidence::NotDrawn;
                     let judgement = Box::new(Judgement { sampled, ..Judgement::of_planned_alone(*checked) });
-                    OptionState::Done { judgement, sampling: true }
+                    OptionState::Judged { judgement, more_samples: true }
                 });
                 self.set_option(option, state);
             }
             News::Sampled { option, sampled, more } => {
-                if let Some(OptionState::Done { judgement, sampling }) = self.options.get_mut(option) {
+                if let Some(OptionState::Judged { judgement, more_samples }) = self.options.get_mut(option) {
                     judgement.sampled = Evidence::Drawn(*sampled);
-                    *sampling = more;
+                    *more_samples = more;
                 }
             }
             News::Margin { option, margin } => {
-                if let Some(OptionState::Done { judgement, .. }) = self.options.get_mut(option) {
+                if let Some(OptionState::Judged { judgement, .. }) = self.options.get_mut(option) {
                     judgement.launch_margin = Some(margin);
                 }
             }

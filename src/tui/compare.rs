@@ -18,11 +18,11 @@ pub enum OptionState {
         done: f64,
     },
     /// Judged as planned, and by the samples so far.
-    Done {
+    Judged {
         /// The judgement; without samples as long as none has come.
         judgement: Box<Judgement>,
         /// Whether more samples come.
-        sampling: bool,
+        more_samples: bool,
     },
     /// Without a result.
     Failed(NoResult),
@@ -32,7 +32,7 @@ impl OptionState {
     /// The result, once there is one.
     pub fn judgement(&self) -> Option<&Judgement> {
         match self {
-            OptionState::Done { judgement, .. } => Some(judgement),
+            OptionState::Judged { judgement, .. } => Some(judgement),
             OptionState::Waiting | OptionState::Running { .. } | OptionState::Failed(_) => None,
         }
     }
@@ -49,7 +49,7 @@ impl OptionState {
 
     /// Whether more samples come.
     pub fn is_sampling(&self) -> bool {
-        matches!(self, OptionState::Done { sampling: true, .. })
+        matches!(self, OptionState::Judged { more_samples: true, .. })
     }
 }
 
@@ -97,7 +97,7 @@ impl SortBy {
                 Verdict::Undecided => 1.0,
                 Verdict::Fail => 2.0,
             },
-            SortBy::Risk => sampled.drawn().map_or(1.0, |risk| risk.bounds.interval[1]),
+            SortBy::Risk => sampled.drawn().map_or(1.0, |sampled| sampled.bounds.interval[1]),
             SortBy::Height => as_planned.height.value,
             SortBy::Force => as_planned.force.value,
             SortBy::Drift => as_planned.drift.value,

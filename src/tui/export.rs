@@ -104,7 +104,7 @@ fn svg(app: &App) -> Result<String, String> {
             let shot = &app.case.shots[app.selected];
             let history = charts::history(&app.case, &judged.as_planned.history, shot);
             let samples =
-                judged.sampled.drawn().into_iter().flat_map(|risk| charts::samples(&app.case, risk));
+                judged.sampled.drawn().into_iter().flat_map(|sampled| charts::samples(&app.case, sampled));
             history
                 .iter()
                 .filter_map(html::svg)
@@ -138,10 +138,10 @@ fn finished(app: &App) -> Result<&ShownStudy, String> {
 /// Results of all options, once every option has one, with all its samples.
 fn results(app: &App) -> Result<OptionResults, String> {
     let result = |state: &OptionState| match state {
-        OptionState::Done { sampling: true, .. } => {
+        OptionState::Judged { more_samples: true, .. } => {
             Err("not all options have all their samples yet".to_owned())
         }
-        OptionState::Done { judgement, .. } => Ok(Ok((**judgement).clone())),
+        OptionState::Judged { judgement, .. } => Ok(Ok((**judgement).clone())),
         OptionState::Failed(no_result) => Ok(Err(no_result.clone())),
         OptionState::Waiting | OptionState::Running { .. } => {
             Err("not all options are computed yet".to_owned())

@@ -81,7 +81,7 @@ pub fn run(app: App, jobs: Jobs, look: ScreenStyle, plan: Option<&Path>) -> io::
     let mut display = Display::open()?;
     let mut session = Session { app, jobs, file: plan.map(PlanFile::new) };
     session.take_unsaved();
-    session.carry_out(Request::Check);
+    session.carry_out(Request::Judge);
     let exit = session.serve_events(&mut display, &signals, look);
     // Messages printed on the alternate screen would vanish with it.
     drop(display);
@@ -196,10 +196,10 @@ impl Session {
     fn carry_out(&mut self, request: Request) {
         match request {
             Request::None | Request::Quit | Request::Suspend => {}
-            Request::Check => self.jobs.check(&self.app.case, self.app.compute),
-            Request::CheckNewPlan => {
+            Request::Judge => self.jobs.judge(&self.app.case, self.app.compute),
+            Request::JudgeNewPlan => {
                 StudyKind::ALL.into_iter().for_each(|kind| self.jobs.cancel(kind));
-                self.jobs.check(&self.app.case, self.app.compute);
+                self.jobs.judge(&self.app.case, self.app.compute);
             }
             Request::Study(StudyKind::Fit) => match self.app.observed.read(&self.app.case) {
                 Ok(observed) => self.jobs.fit(&self.app.case, observed, self.app.compute),
@@ -232,7 +232,7 @@ impl Session {
                 self.app.ask_for_file(Purpose::Page, &file::unused_path(&stem, "html"));
             }
             Request::Page(path) => self.write(Purpose::Page, &path, export::write_page),
-            Request::Yank => {
+            Request::Copy => {
                 let copied = export::csv(&self.app).and_then(|text| {
                     let copy = io::stdout().execute(CopyToClipboard::to_clipboard_from(text)).map(|_| ());
                     copy.map_err(|error| error.to_string())

@@ -10,7 +10,7 @@ pub enum Screen {
     Compare,
     /// The selected option in motion.
     Flight,
-    /// Sweep, orders, risk, search, size, effects.
+    /// Sweep, orders, risk, search, size, effects, fit.
     Studies,
     /// The cost of accuracy.
     Accuracy,

@@ -76,6 +76,19 @@ fn links_in_documentation_lead_to_modules_functions_or_fields() {
     let broken: Vec<&&str> =
         linked.iter().filter(|name| **name != "super" && !known.contains(*name)).collect();
     assert!(broken.is_empty(), "links to nothing: {broken:?}");
+    // A link without a path leads to something that its own file declares or imports.
+    for (code, comments) in code.iter().zip(&comments) {
+        let words: BTreeSet<&str> = code.split(|c: char| !word(c)).collect();
+        let bare =
+            comments.split("[`").skip(1).filter_map(|rest| rest.split_once("`]")).map(|(name, _)| name);
+        let broken: Vec<&str> =
+            bare.filter(|name| name.chars().all(word)).filter(|name| !words.contains(name)).collect();
+        assert!(
+            broken.is_empty(),
+            "{}: links to nothing: {broken:?}",
+            code.lines().next().unwrap_or_default()
+        );
+    }
 }
 
 #[test]

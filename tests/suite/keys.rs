@@ -47,7 +47,7 @@ fn names(app: &App) -> Vec<&str> {
 fn options_are_sorted_filtered_and_compared() {
     let mut app = finished();
     for (n, row) in app.options.iter_mut().enumerate() {
-        let OptionState::Done { judgement, .. } = row else { panic!("done") };
+        let OptionState::Judged { judgement, .. } = row else { panic!("done") };
         judgement.as_planned.height.value = [1.03, 1.01, 1.02, 1.05, 1.04, 1.07, 1.06][n];
     }
     app.options[1] = OptionState::Waiting;
@@ -90,7 +90,7 @@ fn options_are_sorted_filtered_and_compared() {
 fn commands_are_chosen_by_name() {
     let mut app = finished();
     press(&mut app, ":finer");
-    assert_eq!(key(&mut app, KeyCode::Enter), Request::Check);
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::Judge);
     press(&mut app, ":zzz");
     assert!(text(&draw(&app, 100, 30)).contains("no command has these letters"));
     assert_eq!(key(&mut app, KeyCode::Enter), Request::None);
@@ -246,7 +246,7 @@ fn the_order_editor_uses_the_keys_of_the_configuration() {
     assert_eq!(names(&app), ["1", "2", "3"], "keys without an action do nothing");
     press(&mut app, "nz");
     assert_eq!(names(&app), ["2", "1", "3"]);
-    assert_eq!(key(&mut app, KeyCode::Enter), Request::CheckNewPlan);
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::JudgeNewPlan);
     assert_eq!(app.case.plan.delays[2].timing.fire_at_ms(), [20.0, 0.0, 40.0]);
 }
 
@@ -283,7 +283,7 @@ fn keys_move_and_escape_closes_but_never_quits() {
         assert_eq!(key(&mut app, KeyCode::Esc), Request::None);
     }
     assert_eq!(key(&mut app, KeyCode::Char('q')), Request::Quit);
-    assert_eq!(key(&mut app, KeyCode::Char('+')), Request::Check);
+    assert_eq!(key(&mut app, KeyCode::Char('+')), Request::Judge);
     assert!(app.options.iter().all(|row| matches!(row, OptionState::Waiting)));
 }
 
@@ -352,7 +352,7 @@ fn rows_of_studies_change_the_plan() {
     key(&mut app, KeyCode::Down);
     assert_eq!(app.studies.selected, 1, "the recommended interval, below the worst");
     let asked = key(&mut app, KeyCode::Enter);
-    assert!(matches!(asked, Request::CheckNewPlan), "{asked:?}");
+    assert!(matches!(asked, Request::JudgeNewPlan), "{asked:?}");
     assert_eq!(app.case.plan.delays.len(), options + 1);
     let added = &app.case.plan.delays[options];
     assert_eq!((added.name.as_str(), added.timing.fire_at_ms()), ("210 ms", vec![0.0, 210.0, 420.0]));

@@ -325,12 +325,12 @@ fn w_lists_changes_and_enter_makes_one_that_undo_takes_back() {
     key(&mut app, KeyCode::Down);
     assert_eq!(app.selected, 0, "arrows move in the list");
     assert!(screen(&app).contains("> termination "), "{}", screen(&app));
-    assert_eq!(key(&mut app, KeyCode::Enter), Request::CheckNewPlan);
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::JudgeNewPlan);
     assert_eq!(Ok(&app.editor.text), all[1].apply(&before).as_ref());
     assert_eq!(Some(&app.case.plan), Plan::parse("", &app.editor.text).ok().as_ref());
     assert!(screen(&app).contains("; u takes it back"), "{}", screen(&app));
     assert!(app.editor.unsaved() && app.open_remedies().is_none());
-    assert_eq!(key(&mut app, KeyCode::Char('u')), Request::CheckNewPlan);
+    assert_eq!(key(&mut app, KeyCode::Char('u')), Request::JudgeNewPlan);
     assert_eq!(app.editor.text, before);
 }
 

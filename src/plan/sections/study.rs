@@ -27,10 +27,10 @@ pub fn read_uncertainty(
         launch_tilt_deg: section.number(&uncertainty::LAUNCH_TILT_DEG),
         friction: section
             .range(&uncertainty::FRICTION, friction)
-            .unwrap_or_else(|| Uncertainty::usual_friction(friction)),
+            .unwrap_or_else(|| Uncertainty::assumed_friction(friction)),
         slack_percent: section
             .range(&uncertainty::SLACK_PERCENT, slack_percent)
-            .unwrap_or_else(|| Uncertainty::usual_slack(slack_percent)),
+            .unwrap_or_else(|| Uncertainty::assumed_slack(slack_percent)),
         axial_stiffness_percent: section
             .range(&uncertainty::AXIAL_STIFFNESS_PERCENT, 0.0)
             .unwrap_or(Uncertainty::USUAL_AXIAL_STIFFNESS),

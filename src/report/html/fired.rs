@@ -54,8 +54,8 @@ pub fn only_planned(page: &Page<'_>) -> &'static str {
 /// What the verdict rests on, each with its name.
 fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str, String)> {
     let mut facts = vec![("Risk", risk(case, judged)), ("Launch margin", launch_margin(shot, judged))];
-    if let Some(risk) = judged.sampled.drawn() {
-        let inputs = explain::inputs(risk, &case.limits);
+    if let Some(sampled) = judged.sampled.drawn() {
+        let inputs = explain::inputs(sampled, &case.limits);
         facts.push(("What decides", inputs.unwrap_or_else(|| "too few samples to tell".to_owned())));
     }
     facts.push(("As planned", explain::peaks(case.scene(), &judged.as_planned)));
@@ -70,8 +70,8 @@ fn risk(case: &Case, judged: &Judgement) -> String {
     let accepted = format!("accepted {} %", units::short(case.plan.limits.accepted_risk_percent));
     match &judged.sampled {
         Evidence::NotAsked => "not judged: the plan's own numbers only, nothing varied".to_owned(),
-        Evidence::Drawn(risk) if !risk.samples.is_empty() => {
-            let bounds = &risk.bounds;
+        Evidence::Drawn(sampled) if !sampled.samples.is_empty() => {
+            let bounds = &sampled.bounds;
             format!(
                 "{} % of the possible shots fail (95 % bounds; {} of {} samples fail); {accepted}",
                 units::probabilities(bounds.interval),

@@ -167,23 +167,23 @@ impl CablePeakObject {
 
 impl OptionValues {
     fn new(case: &Case, judged: &Judgement) -> Self {
-        let (scene, checked, risk) = (case.scene(), &judged.as_planned, judged.sampled.drawn());
-        let drift_is_judged = risk.filter(|_| case.limits.drift.is_some());
+        let (scene, checked, sampled) = (case.scene(), &judged.as_planned, judged.sampled.drawn());
+        let drift_is_judged = sampled.filter(|_| case.limits.drift.is_some());
         Self {
             nominal_verdict: checked.verdict.name(),
-            failure_probability: risk.map(Failures::of),
-            any_cable_breaks: risk.map(|risk| risk.breaks.interval.into()),
-            launch_margin: judged.launch_margin_or_zero(),
-            inputs: risk.and_then(|risk| input_shares(risk, &case.limits)),
+            failure_probability: sampled.map(Failures::of),
+            any_cable_breaks: sampled.map(|sampled| sampled.breaks.interval.into()),
+            launch_margin: judged.launch_margin_for_scripts(),
+            inputs: sampled.and_then(|sampled| input_shares(sampled, &case.limits)),
             flight_height_m: TirePeakObject::new(
                 scene,
                 &checked.height,
-                Percentiles::of(risk, Quantity::Height),
+                Percentiles::of(sampled, Quantity::Height),
             ),
             cable_force_n: CablePeakObject::new(
                 scene,
                 &checked.force,
-                Percentiles::of(risk, Quantity::Force),
+                Percentiles::of(sampled, Quantity::Force),
             ),
             cable_safety_factor: Some(checked.safety_factor).filter(|factor| factor.is_finite()),
             drift_m: TirePeakObject::new(

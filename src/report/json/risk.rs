@@ -72,8 +72,8 @@ pub fn input_shares(sampled: &SampledShot, limits: &Limits) -> Option<Vec<Share>
 
 impl SampledOption {
     fn new(case: &Case, name: &str, result: &Result<Judgement, NoResult>) -> Self {
-        let risk = result.as_ref().ok().and_then(|judged| judged.sampled.drawn());
-        let bounds = risk.map(|risk| risk.bounds);
+        let sampled = result.as_ref().ok().and_then(|judged| judged.sampled.drawn());
+        let bounds = sampled.map(|sampled| sampled.bounds);
         Self {
             name: name.to_owned(),
             verdict: result.as_ref().map_or(Verdict::Undecided, Judgement::verdict).name(),
@@ -82,9 +82,9 @@ impl SampledOption {
             undecided: bounds.map_or(0, |c| c.undecided),
             probability: bounds.and_then(|c| c.probability()),
             interval_95: bounds.map_or([0.0, 1.0], |c| c.interval),
-            flight_height_m: risk.and_then(|risk| PercentilesAndMost::of(risk, Quantity::Height)),
-            cable_force_n: risk.and_then(|risk| PercentilesAndMost::of(risk, Quantity::Force)),
-            inputs: risk.and_then(|risk| input_shares(risk, &case.limits)),
+            flight_height_m: sampled.and_then(|sampled| PercentilesAndMost::of(sampled, Quantity::Height)),
+            cable_force_n: sampled.and_then(|sampled| PercentilesAndMost::of(sampled, Quantity::Force)),
+            inputs: sampled.and_then(|sampled| input_shares(sampled, &case.limits)),
         }
     }
 }

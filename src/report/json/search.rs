@@ -92,19 +92,19 @@ impl ScheduleObject {
 
 impl FoundValues {
     fn of(case: &Case, judged: &Judgement) -> Self {
-        let (scene, checked, risk) = (case.scene(), &judged.as_planned, judged.sampled.drawn());
+        let (scene, checked, sampled) = (case.scene(), &judged.as_planned, judged.sampled.drawn());
         Self {
             nominal_verdict: checked.verdict.name(),
-            launch_margin: judged.launch_margin_or_zero(),
+            launch_margin: judged.launch_margin_for_scripts(),
             flight_height_m: TirePeakObject::new(
                 scene,
                 &checked.height,
-                Percentiles::of(risk, Quantity::Height),
+                Percentiles::of(sampled, Quantity::Height),
             ),
             cable_force_n: CablePeakObject::new(
                 scene,
                 &checked.force,
-                Percentiles::of(risk, Quantity::Force),
+                Percentiles::of(sampled, Quantity::Force),
             ),
         }
     }
@@ -116,7 +116,7 @@ impl SearchDocument {
         let found = |(row, schedule): (OptionRow<'_>, &Schedule)| {
             let WithinEightMs { holes, charge } = row.together();
             let judged = row.result.as_ref().ok();
-            let risk = judged.and_then(|judged| judged.sampled.drawn());
+            let sampled = judged.and_then(|judged| judged.sampled.drawn());
             FoundSchedule {
                 name: row.delay.name.clone(),
                 schedule: ScheduleObject::of(case, schedule),
@@ -126,8 +126,8 @@ impl SearchDocument {
                     Ok(judged) => reasons::sentences(row.case, judged),
                     Err(reason) => vec![no_result::message(reason)],
                 },
-                probability: risk.and_then(|risk| risk.bounds.probability()),
-                interval_95: risk.map(|risk| risk.bounds.interval),
+                probability: sampled.and_then(|sampled| sampled.bounds.probability()),
+                interval_95: sampled.map(|sampled| sampled.bounds.interval),
                 duration_s: duration(row.shot),
                 holes_in_8_ms: holes,
                 charge_in_8_ms_kg: charge,

@@ -51,11 +51,11 @@ impl Stepper<'_> {
         let free = self.f[tire] / mass - Vector3::z() * self.scene.gravity;
         let assumed = self.region.ground[tire];
         let lands = self.landed_within_step(tire);
-        if assumed == Ground::Free {
-            return if self.end[tire].z < 0.0 { Ground::Slip } else { Ground::Free };
+        if assumed == Ground::InAir {
+            return if self.end[tire].z < 0.0 { Ground::Slip } else { Ground::InAir };
         }
         if free.z > 0.0 && !lands {
-            return Ground::Free;
+            return Ground::InAir;
         }
         let within_cone = self.sliding(tire, h).norm() <= self.friction * (-free.z).max(0.0) * (0.5 * h);
         match assumed {

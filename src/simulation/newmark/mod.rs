@@ -192,7 +192,7 @@ impl<'a> Stepper<'a> {
             *velocity += firing.launch;
             self.record.ledger.put_in += self.scene.mass[firing.tire] * energy;
             if firing.launch != Vector3::zeros() {
-                self.region.ground[firing.tire] = Ground::Free;
+                self.region.ground[firing.tire] = Ground::InAir;
             }
             self.wake.set_moving(firing.tire, true);
             self.clock.fired += 1;
@@ -260,7 +260,7 @@ impl Motion for Snapshot<'_, '_> {
         let mass = scene.mass[tire];
         let limit = self.stepper.friction * (mass * scene.gravity - f[tire].z).max(0.0);
         match region.ground[tire] {
-            Ground::Free => (0.0, 0.0),
+            Ground::InAir => (0.0, 0.0),
             Ground::Slip => (limit, limit),
             Ground::Stick => (f[tire].xy().norm().min(limit), limit),
         }

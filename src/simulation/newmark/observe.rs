@@ -47,14 +47,18 @@ impl Stepper<'_> {
     #[cold]
     fn break_cables(&mut self, breaking_force: f64) {
         let at = self.clock.now();
-        self.record.note_break(breaking_force);
         self.peak_to_refine = None;
+        let mut hardest = (0.0, 0);
         for n in 0..self.wake.awake_cables().len() {
             let index = self.wake.awake_cables()[n];
             let strength = self.scene.strength(index);
             let cable = &mut self.scene.to_mut().cables[index];
             let length = cable.displaced(&self.u).norm();
-            if cable.force(length) > strength * breaking_force {
+            let force = cable.force(length) / strength;
+            if force > breaking_force {
+                if force > hardest.0 {
+                    hardest = (force, index);
+                }
                 self.record.ledger.dissipated += cable.energy(length);
                 self.record.broken.push(BrokenCable { at, cable: index });
                 cable.rest_length = f64::INFINITY;
@@ -64,6 +68,7 @@ impl Stepper<'_> {
                 }
             }
         }
+        self.record.note_break(breaking_force, at, hardest.1);
     }
 
     /// k (L − L0) over strength of a cable at displacements `u` [m] [N].

@@ -9,7 +9,7 @@ use crate::simulation::wake::Wake;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ground {
     /// In the air.
-    Free,
+    InAir,
     /// On the ground, at rest or coming to rest within the step.
     Stick,
     /// On the ground, moving or about to move.

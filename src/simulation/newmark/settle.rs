@@ -81,7 +81,7 @@ impl Stepper<'_> {
         for &tire in self.wake.awake_tires() {
             let free = self.f_start[tire] / self.scene.mass[tire] - Vector3::z() * self.scene.gravity;
             self.a[tire] = match self.region.ground[tire] {
-                Ground::Free => free,
+                Ground::InAir => free,
                 Ground::Stick => Vector3::zeros(),
                 Ground::Slip => (free.xy() + self.friction(free, self.v[tire].xy())).push(0.0),
             };
@@ -99,7 +99,7 @@ impl Stepper<'_> {
     fn solve(&mut self, h: f64, tolerance: f64) -> Result<(), Failure> {
         for &tire in self.wake.awake_tires() {
             match self.region.ground[tire] {
-                Ground::Free => {}
+                Ground::InAir => {}
                 Ground::Slip => self.du[tire].z = -self.u[tire].z,
                 Ground::Stick => self.du[tire] = (self.v[tire].xy() * (0.5 * h)).push(-self.u[tire].z),
             }

@@ -83,7 +83,7 @@ impl System {
         self.rows.push(Row::default());
         for &tire in wake.awake_tires().iter().filter(|&&tire| region.ground[tire] != Ground::Stick) {
             self.row[tire] = self.rows.len() as u32;
-            let (inertia, rises) = (4.0 * scene.mass[tire] / (h * h), region.ground[tire] == Ground::Free);
+            let (inertia, rises) = (4.0 * scene.mass[tire] / (h * h), region.ground[tire] == Ground::InAir);
             let mut residual = right[tire];
             residual.z = if rises { residual.z } else { 0.0 };
             let preconditioner = Matrix3::from_diagonal_element(inertia);

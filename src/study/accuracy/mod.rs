@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::as_planned::check::SURE_ERROR_FACTOR;
 use super::as_planned::step_error;
-use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress};
+use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress};
 use crate::choice::{Accuracy, Method};
 use crate::outcome::Outcome;
 use crate::scene::Shot;
@@ -112,7 +112,7 @@ pub fn measure(
     option: usize,
     patience: Duration,
     progress: &Progress,
-) -> Finding<AccuracyTable> {
+) -> ComputeResult<AccuracyTable> {
     let levels = [Accuracy::Draft, Accuracy::Field, Accuracy::Reference]
         .map(|level| LevelStep { level, step: first_step(case, level) });
     let reference_step = levels[2].step / REFERENCE_STEP_DIVISOR;
@@ -151,7 +151,7 @@ pub fn measure(
             rows.push(StepRow { method, step, result });
         }
     }
-    Ok(Found { value: AccuracyTable { option, rows, reference_step, levels }, partial })
+    Ok(Computed { value: AccuracyTable { option, rows, reference_step, levels }, partial })
 }
 
 /// Step at which refinement starts at an accuracy level, by `verlet` [s].

@@ -5,7 +5,7 @@ use super::shot_summary::ShotSummary;
 use crate::scene::Shot;
 use crate::simulation::Failure;
 use crate::study::work::batch::run_batch;
-use crate::study::{Case, ComputeSettings, Key, NoResult, Progress};
+use crate::study::{Case, ComputeSettings, Fingerprint, NoResult, Progress};
 
 /// Checks every shot, refined until its verdict is sure; `None` for the shots that the time did not suffice for.
 pub fn check_summaries(
@@ -25,7 +25,7 @@ pub fn check_summary(
     progress: &Progress,
 ) -> Result<ShotSummary, NoResult> {
     progress.journal().recall_or(
-        || Key::of(("check", case.key(), shot, compute)),
+        || Fingerprint::of(("check", case.fingerprint(), shot, compute)),
         || {
             let checked = check_shot(case, shot, compute, &mut |_| progress.flow());
             checked.map(|checked| ShotSummary::of(&checked)).map_err(|failure| progress.no_result(failure))

@@ -14,7 +14,7 @@ use crate::outcome::Outcome;
 use crate::scene::Shot;
 use crate::simulation::Motion;
 use crate::study::reasons::shot::{ShotReason, find_reasons_as_planned};
-use crate::study::{Case, ComputeSettings, Key, NoResult, Progress, ShotSummary};
+use crate::study::{Case, ComputeSettings, Fingerprint, NoResult, Progress, ShotSummary};
 use crate::verdict::Verdict;
 
 /// Number of steps above the first step of `field`: the coarsest is 8 times that, with `verlet` at most 0.8 of the critical
@@ -36,7 +36,7 @@ pub fn quick_check(
 ) -> Result<ShotSummary, NoResult> {
     let is_sure = |summary: &ShotSummary, runs| quick_check_is_sure(case, summary, runs);
     progress.journal().recall_or(
-        || Key::of(("quick check", case.key(), shot, compute)),
+        || Fingerprint::of(("quick check", case.fingerprint(), shot, compute)),
         || quick_check_until(case, shot, compute, progress, is_sure),
     )
 }

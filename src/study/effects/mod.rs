@@ -21,7 +21,7 @@ use super::samples::sample::Sample;
 use super::samples::sampled_shot::percentiles;
 use super::samples::sampling::Sampling;
 use super::work::batch::run_batch;
-use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, catch_panic};
+use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress, ShotSummary, catch_panic};
 use crate::plan::Plan;
 use crate::verdict::{Limits, Quantity, Verdict};
 
@@ -192,7 +192,7 @@ pub fn effects(
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<EffectsOnOptions> {
+) -> ComputeResult<EffectsOnOptions> {
     let mut cases = vec![case.clone()];
     let computed = Effect::ALL.into_iter().filter(|effect| effect.is_computed_by(compute.method));
     let variants: Vec<Variant> =
@@ -207,7 +207,7 @@ pub fn effects(
         variants.iter().map(|variant| hardest(variant, &figures, &case.limits)).collect()
     };
     let effects = measured.chunks(cases.len()).map(on_option).collect();
-    Ok(Found { value: effects, partial })
+    Ok(Computed { value: effects, partial })
 }
 
 /// The plans with and without an effect, added to `cases`; `None` where there is nothing to try.

@@ -46,7 +46,7 @@ pub struct Observable {
 }
 
 /// Standard deviation with which somebody observes a quantity of this value, where nobody says: 5 cm, 20 ms, 5 %.
-pub fn usual_sd(quantity: ObservedQuantity, value: f64) -> f64 {
+pub fn assumed_sd(quantity: ObservedQuantity, value: f64) -> f64 {
     match quantity {
         ObservedQuantity::FlightHeight | ObservedQuantity::Height | ObservedQuantity::Drift => 0.05,
         ObservedQuantity::Lift | ObservedQuantity::Landing => 0.02,
@@ -107,7 +107,7 @@ pub fn refuse(
     let mut best: Option<(f64, Observable)> = None;
     for (n, (more, less)) in more.iter().zip(&less).enumerate() {
         let (option, watched) = (wide.shots[n / all.len()].option, all[n % all.len()]);
-        let sigma = (more - less).abs() / (2.0 * SHIFT * usual_sd(watched.quantity, *more));
+        let sigma = (more - less).abs() / (2.0 * SHIFT * assumed_sd(watched.quantity, *more));
         if sigma >= WORTH_OBSERVING && best.is_none_or(|(most, _)| sigma > most) {
             best = Some((sigma, Observable { option, watched }));
         }

@@ -36,7 +36,7 @@ use self::predicted::{NextObservation, next_observation, predict_observations};
 use self::predictor::Predictor;
 use self::search::SearchBox;
 use super::samples::sampling::Sampling;
-use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress};
+use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress};
 use crate::choice::{Method, Unknown};
 use crate::plan::Plan;
 use crate::plan::fitted::StatedKeys;
@@ -76,7 +76,7 @@ pub fn fit(
     request: &FitRequest<'_>,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<FitResult> {
+) -> ComputeResult<FitResult> {
     let case = &until_rest(case);
     let parameters = Parameter::all(request.unknowns, &case.plan);
     let priors = match stated_priors(case, request, &parameters) {
@@ -127,8 +127,8 @@ fn until_rest(case: &Case) -> Case {
     case
 }
 
-fn whole(value: FitResult) -> Found<FitResult> {
-    Found { value, partial: false }
+fn whole(value: FitResult) -> Computed<FitResult> {
+    Computed { value, partial: false }
 }
 
 /// What `[uncertainty]` states of each parameter; an unknown of which it says that it is exact is an error.

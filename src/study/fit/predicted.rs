@@ -5,7 +5,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 
-use super::determined::{Observable, observables, usual_sd};
+use super::determined::{Observable, assumed_sd, observables};
 use super::observed_shots::{ObservedShot, ObservedShots};
 use super::predictor::observe_shot;
 use super::until_rest;
@@ -163,7 +163,7 @@ pub fn next_observation(
             continue;
         }
         let (gamma, scatter) = regression(&values);
-        let sd = usual_sd(watched.quantity, values.mean());
+        let sd = assumed_sd(watched.quantity, values.mean());
         let share = (beta.transpose() * &covariance * gamma)[0].powi(2) / (scatter + sd * sd) / variance;
         if share > best.map_or(0.01, |best| best.share) {
             best = Some(NextObservation { observable: Observable { option, watched }, sd, share });

@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::refine::refine;
 use super::{OrderToTry, TriedOrder, quick_check_orders, utilization};
-use crate::study::{Case, ComputeSettings, Finding, Found, NoResult, Progress};
+use crate::study::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress};
 
 /// Number of orders of a search that are improved by exchanges towards the worst, and towards the best.
 const CLIMBERS: usize = 24;
@@ -23,7 +23,7 @@ pub(super) fn climb_orders(
     intervals: &[f64],
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<Vec<TriedOrder>> {
+) -> ComputeResult<Vec<TriedOrder>> {
     let rows: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
     let mut tried: Vec<TriedOrder> = Vec::new();
     for (n, &interval) in intervals.iter().enumerate() {
@@ -36,7 +36,7 @@ pub(super) fn climb_orders(
         }));
         let first = tried.len();
         if quick_check_new_orders(case, &mut tried, first, starts, interval, compute, progress)? {
-            return Ok(Found { value: tried, partial: true });
+            return Ok(Computed { value: tried, partial: true });
         }
         let mut climbers: Vec<(f64, Vec<usize>)> = Vec::new();
         for sign in [1.0, -1.0] {
@@ -48,7 +48,7 @@ pub(super) fn climb_orders(
         while !climbers.is_empty() {
             let neighbours = climbers.iter().flat_map(|(_, order)| exchanges(order)).unique().collect();
             if quick_check_new_orders(case, &mut tried, first, neighbours, interval, compute, progress)? {
-                return Ok(Found { value: tried, partial: true });
+                return Ok(Computed { value: tried, partial: true });
             }
             let utilizations: HashMap<&[usize], f64> =
                 tried[first..].iter().map(|t| (t.order.as_slice(), utilization(case, t))).collect();
@@ -89,7 +89,7 @@ fn quick_check_new_orders(
     let tried_orders: HashSet<&[usize]> = tried[first..].iter().map(|t| t.order.as_slice()).collect();
     let new = orders.into_iter().unique().filter(|order| !tried_orders.contains(order.as_slice()));
     let new = new.enumerate().map(|(n, order)| OrderToTry { number: tried.len() + n, order, interval });
-    let Found { value, partial } = quick_check_orders(case, new.collect(), compute, progress)?;
+    let Computed { value, partial } = quick_check_orders(case, new.collect(), compute, progress)?;
     tried.extend(value);
     Ok(partial)
 }

@@ -29,7 +29,9 @@ use super::judgement;
 use super::judgement::Evidence;
 use super::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use super::samples::sampling::Sampling;
-use super::{Case, ComputeSettings, Finding, Found, Key, NoResult, Progress, Shard, ShotSummary};
+use super::{
+    Case, ComputeResult, ComputeSettings, Computed, Fingerprint, NoResult, Progress, Shard, ShotSummary,
+};
 use crate::verdict::Verdict;
 
 /// Greatest number of blast rows whose orders are all tried: 40,320 orders.
@@ -83,7 +85,7 @@ impl Orders {
         sampling: &Sampling,
         compute: &ComputeSettings,
         progress: &Progress,
-    ) -> Finding<()> {
+    ) -> ComputeResult<()> {
         let count = self.ranked.len();
         let ends: Vec<usize> =
             (0..count).filter(|&n| n < SAMPLED_AT_EACH_END || n + SAMPLED_AT_EACH_END >= count).collect();
@@ -100,7 +102,7 @@ impl Orders {
         let partial = sampled.contains(&None);
         let drawn = ends.into_iter().zip(sampled).filter_map(|(n, sampled)| Some((n, sampled?)));
         self.risks = Some(drawn.collect());
-        Ok(Found { value: (), partial })
+        Ok(Computed { value: (), partial })
     }
 
     /// Whether samples were asked for.
@@ -136,18 +138,18 @@ impl Orders {
 /// Ranks orders tried at `intervals` intervals, by one machine or by many; with a `sampling` it adds the risk of both ends.
 pub fn rank(
     case: &Case,
-    tried: Found<Vec<TriedOrder>>,
+    tried: Computed<Vec<TriedOrder>>,
     intervals: usize,
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<Orders> {
-    let Found { value: tried, mut partial } = tried;
+) -> ComputeResult<Orders> {
+    let Computed { value: tried, mut partial } = tried;
     let mut orders = Orders::new(case, tried, intervals);
     if let Some(sampling) = sampling {
         partial |= orders.add_risk(case, sampling, compute, progress)?.partial;
     }
-    Ok(Found { value: orders, partial })
+    Ok(Computed { value: orders, partial })
 }
 
 /// Number of possible orders, times the number of intervals.
@@ -167,7 +169,7 @@ pub fn orders(
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<Orders> {
+) -> ComputeResult<Orders> {
     let tried = try_orders(case, intervals, Shard::WHOLE, compute, progress)?;
     rank(case, tried, intervals.len(), sampling, compute, progress)
 }
@@ -179,14 +181,14 @@ pub fn try_orders(
     shard: Shard,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<Vec<TriedOrder>> {
+) -> ComputeResult<Vec<TriedOrder>> {
     if intervals.is_empty() {
         return Err(NoResult::NoInterval);
     }
     case.require_hole_timing()?;
     let rows = case.plan.blast_rows.len();
     // Where no run at all succeeds, the first order tells why.
-    let or_first_failure = |found: Found<Vec<TriedOrder>>| {
+    let or_first_failure = |found: Computed<Vec<TriedOrder>>| {
         if found.value.iter().all(|tried| tried.as_planned == ShotSummary::UNKNOWN) {
             for tried in found.value.iter().take(1) {
                 check_summary(case, &case.shot(&tried.order, tried.interval), compute, progress)?;
@@ -216,7 +218,7 @@ pub fn try_orders(
     }
     tried.sort_by_key(|tried| tried.number);
     if found.partial || shard != Shard::WHOLE {
-        return or_first_failure(Found { value: tried, partial: found.partial });
+        return or_first_failure(Computed { value: tried, partial: found.partial });
     }
     refine(case, tried, compute, progress).and_then(or_first_failure)
 }
@@ -247,7 +249,7 @@ fn quick_check_orders(
     orders: Vec<OrderToTry>,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<Vec<TriedOrder>> {
+) -> ComputeResult<Vec<TriedOrder>> {
     let enough = |summary: &ShotSummary, runs: usize| {
         quick_check_is_sure(case, summary, runs)
             || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= COARSE_RUNS
@@ -255,7 +257,7 @@ fn quick_check_orders(
     let summaries = run_checks_or_unknown(&orders, progress, |OrderToTry { order, interval, .. }| {
         let shot = case.shot(order, *interval);
         progress.journal().recall_or(
-            || Key::of(("order", case.key(), &shot, compute)),
+            || Fingerprint::of(("order", case.fingerprint(), &shot, compute)),
             || quick_check_until(case, &shot, compute, progress, enough),
         )
     })?;
@@ -263,7 +265,7 @@ fn quick_check_orders(
         as_planned.map(|as_planned| TriedOrder { number, order, interval, as_planned })
     };
     let partial = summaries.contains(&None);
-    Ok(Found { value: orders.into_iter().zip(summaries).filter_map(tried).collect(), partial })
+    Ok(Computed { value: orders.into_iter().zip(summaries).filter_map(tried).collect(), partial })
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use super::mirror_rows::{mirror_rows, mirrored};
 use super::{TriedOrder, utilization};
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, run_checks_or_unknown};
-use crate::study::{Case, ComputeSettings, Finding, Found, Progress, ShotSummary};
+use crate::study::{Case, ComputeResult, ComputeSettings, Computed, Progress, ShotSummary};
 
 /// Factor on the error of a quick check within which an order may still be the worst or the best.
 const REACH_ERROR_FACTOR: f64 = 6.0;
@@ -22,7 +22,7 @@ pub fn refine(
     mut tried: Vec<TriedOrder>,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<Vec<TriedOrder>> {
+) -> ComputeResult<Vec<TriedOrder>> {
     let mirror_rows = mirror_rows(case);
     let mut refined = HashSet::new();
     let index: HashMap<(u64, Vec<usize>), usize> =
@@ -62,7 +62,9 @@ pub fn refine(
             let checked =
                 run_checks_or_unknown(&shots, progress, |shot| check_summary(case, shot, compute, progress))?;
             for (n, as_planned) in next.into_iter().zip(checked) {
-                let Some(as_planned) = as_planned else { return Ok(Found { value: tried, partial: true }) };
+                let Some(as_planned) = as_planned else {
+                    return Ok(Computed { value: tried, partial: true });
+                };
                 for n in images[n].into_iter().chain([n]) {
                     tried[n].as_planned = as_planned;
                     refined.insert(n);
@@ -70,5 +72,5 @@ pub fn refine(
             }
         }
     }
-    Ok(Found { value: tried, partial: false })
+    Ok(Computed { value: tried, partial: false })
 }

@@ -78,13 +78,13 @@ pub enum EarlyEnd {
 }
 
 /// What the run of a shot leaves open, where the run ends too early for a verdict.
-fn early_end(case: &Case, shot: &Shot, outcome: &Outcome) -> Option<EarlyEnd> {
-    let last = shot.firings.last().map_or(0.0, |firing| firing.at);
-    if last >= case.plan.simulation.duration_s.unwrap_or(f64::INFINITY) {
-        return Some(EarlyEnd::HolesUnfired(last));
-    }
+fn early_end(shot: &Shot, outcome: &Outcome) -> Option<EarlyEnd> {
     if outcome.end.reason == EndReason::AtRest {
         return None;
+    }
+    let last = shot.firings.last().map_or(0.0, |firing| firing.at);
+    if last >= outcome.end.at {
+        return Some(EarlyEnd::HolesUnfired(last));
     }
     if outcome.tires_in_air {
         return Some(EarlyEnd::TiresInAir);
@@ -141,7 +141,7 @@ pub fn find_reasons(
     let residual = Some(outcome.ledger.residual()).filter(|&residual| !energy_balance_closes(residual));
     let residual = residual.map(ShotReason::EnergyResidual);
     let end = case.plan.simulation.duration_s.unwrap_or(outcome.end.at);
-    let early = early_end(case, shot, outcome).map(|open| ShotReason::EndsEarly { end, open });
+    let early = early_end(shot, outcome).map(|open| ShotReason::EndsEarly { end, open });
     let all = limits.chain(broken).chain(residual).chain(early);
     all.filter(|reason| reason.verdict() != Verdict::Pass).collect()
 }

@@ -26,7 +26,7 @@ use super::samples::rounds::{ShotToSample, sample_shots};
 use super::samples::sampled_shot::SampledShot;
 use super::samples::sampling::Sampling;
 use super::work::batch::run_batch;
-use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary, catch_panic};
+use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress, ShotSummary, catch_panic};
 use crate::plan::PlanSource;
 use crate::plan::edit::change::{Change, ChangeKind};
 use crate::verdict::Verdict;
@@ -122,9 +122,9 @@ pub fn find_remedies(
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<Remedies> {
-    let Found { mut value, partial } = find_all_remedies(case, &[option], sampling, compute, progress)?;
-    Ok(Found { value: value.remove(0), partial })
+) -> ComputeResult<Remedies> {
+    let Computed { mut value, partial } = find_all_remedies(case, &[option], sampling, compute, progress)?;
+    Ok(Computed { value: value.remove(0), partial })
 }
 
 /// Tries changes for the options with these indices, until the time is up. Without a `sampling` only the shots as planned count.
@@ -134,7 +134,7 @@ pub fn find_all_remedies(
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<Vec<Remedies>> {
+) -> ComputeResult<Vec<Remedies>> {
     let task = Task { case, sampling, compute, progress };
     let mut hard = HardSamples::new(case.limits.accepted_risk, sampling.map_or(0, |sampling| sampling.most));
     let enough_samples = sampling.is_none() || hard.enough_samples();
@@ -150,7 +150,7 @@ pub fn find_all_remedies(
             of_option.kinds.push(tried);
         }
     }
-    Ok(Found { value: remedies, partial })
+    Ok(Computed { value: remedies, partial })
 }
 
 /// The plan with a change; `None` where the change makes no valid plan.

@@ -127,7 +127,7 @@ pub fn draw(case: &Case, nominal: &Shot, seed: u64, number: usize) -> DrawnShot 
     if unknown.tire_mass_cv_percent > 0.0 || unknown.breaking_force_cv_percent > 0.0 {
         scene.mirrors.clear();
     }
-    // No firing may be before the start; only differences of firing times matter.
+    // No firing may be before the start: all are shifted, and so is the end of the run.
     let later = -firings.iter().map(|firing| firing.at).fold(0.0, f64::min);
     firings.iter_mut().for_each(|firing| firing.at += later);
     let shot = Shot { friction: Some(friction), ..Shot::from_firings(firings) };

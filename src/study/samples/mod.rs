@@ -4,7 +4,7 @@
 //! |---|---|
 //! | one drawn at random, and its run | [`draw`], [`sample`] |
 //! | how many; which are run when | [`sampling`], [`rounds`] |
-//! | what they tell: the risk and its verdict | [`risk`]; of thousands of shots: [`risk_summary`] |
+//! | what they tell: the risk and its verdict | [`sampled_shot`]; of thousands of shots: [`risk_summary`] |
 //! | how sure a count of failures is | [`failure_bounds`] |
 //! | which input decides | [`influence`] |
 //! | rows that may fire the wrong way round | [`swaps`] |

@@ -9,11 +9,13 @@ use super::sampled_shot::{LEAST_AUDITS, SampledShot};
 use super::sampling::Sampling;
 use crate::choice::Accuracy;
 use crate::scene::{Scene, Shot};
+use crate::simulation::RunSettings;
 use crate::study::compute::step_factor;
 use crate::study::reasons::shot::energy_balance_closes;
 use crate::study::work::batch::{run_announced_batch, run_batch};
 use crate::study::{
-    Case, ComputeSettings, Finding, Found, Key, NoResult, Progress, Shard, ShotSummary, catch_panic,
+    Case, ComputeResult, ComputeSettings, Computed, Fingerprint, NoResult, Progress, Shard, ShotSummary,
+    catch_panic,
 };
 
 /// A shot whose risk is asked for.
@@ -51,7 +53,7 @@ impl<'c> ShotToSample<'c> {
         Self { precomputed, ..self }
     }
 
-    /// The same shot, of which only a pass is of interest. A pass has the samples that it has otherwise.
+    /// The same shot, whose sampling ends as soon as no pass can come. A shot that passes gets all its samples.
     pub fn only_pass(self) -> Self {
         Self { only_pass: true, ..self }
     }
@@ -71,9 +73,9 @@ impl<'c> ShotToSample<'c> {
         found.ok().map(|n| &self.precomputed[n])
     }
 
-    /// Key of all that its samples depend on, but for their numbers.
-    pub(in crate::study) fn key(&self) -> Key {
-        Key::of((self.case.key(), self.shot, self.compute, self.sampling.seed))
+    /// Fingerprint of all that its samples depend on, but for their numbers.
+    pub(in crate::study) fn fingerprint(&self) -> Fingerprint {
+        Fingerprint::of((self.case.fingerprint(), self.shot, self.compute, self.sampling.seed))
     }
 
     /// Number of samples that are drawn whatever they tell.
@@ -100,7 +102,7 @@ const MOST_HALVINGS: u32 = 3;
 /// Draws and judges samples of every shot, until its risk is sure.
 ///
 /// The result is partial where a shot has no more samples than the time sufficed for.
-pub fn sample_shots(targets: &[ShotToSample<'_>], progress: &Progress) -> Finding<Vec<SampledShot>> {
+pub fn sample_shots(targets: &[ShotToSample<'_>], progress: &Progress) -> ComputeResult<Vec<SampledShot>> {
     sample_shots_watched(targets, progress, &mut |_, _| ControlFlow::Continue(()))
 }
 
@@ -110,7 +112,7 @@ pub fn sample_shots_watched(
     targets: &[ShotToSample<'_>],
     progress: &Progress,
     watch: &mut dyn FnMut(usize, &SampledShot) -> ControlFlow<()>,
-) -> Finding<Vec<SampledShot>> {
+) -> ComputeResult<Vec<SampledShot>> {
     let mut sampled_shots: Vec<SampledShot> = targets.iter().map(ShotToSample::no_samples).collect();
     let keys = keys(targets, progress);
     // All samples that are drawn in any case are expected at once: how long it takes shows from the first round on.
@@ -123,7 +125,7 @@ pub fn sample_shots_watched(
         };
         let jobs: Vec<(usize, usize, u32)> = sampled_shots.iter().enumerate().flat_map(round).collect();
         if jobs.is_empty() {
-            return Ok(Found { value: sampled_shots, partial: false });
+            return Ok(Computed { value: sampled_shots, partial: false });
         }
         progress.announce(jobs.len().saturating_sub(expected));
         expected = expected.saturating_sub(jobs.len());
@@ -151,30 +153,30 @@ pub fn sample_shots_watched(
                 sampled.halvings = halvings;
             }
             if watch(n, sampled).is_break() {
-                return Ok(Found { value: sampled_shots, partial: false });
+                return Ok(Computed { value: sampled_shots, partial: false });
             }
         }
         if out_of_time {
-            return Ok(Found { value: sampled_shots, partial: true });
+            return Ok(Computed { value: sampled_shots, partial: true });
         }
     }
 }
 
 /// Keys of shots in the journal; `None` where there is no journal.
-fn keys(targets: &[ShotToSample<'_>], progress: &Progress) -> Vec<Option<Key>> {
+fn keys(targets: &[ShotToSample<'_>], progress: &Progress) -> Vec<Option<Fingerprint>> {
     let is_on = progress.journal().is_on();
-    targets.iter().map(|target| is_on.then(|| target.key())).collect()
+    targets.iter().map(|target| is_on.then(|| target.fingerprint())).collect()
 }
 
 /// The sample of [`run_sample`], taken from the journal where it is there; `key` is that of the shot.
 fn recall_sample(
     target: &ShotToSample<'_>,
-    key: Option<Key>,
+    key: Option<Fingerprint>,
     number: usize,
     halvings: u32,
     progress: &Progress,
 ) -> Result<Sample, NoResult> {
-    let key = || Key::of(("sample", key, number, halvings));
+    let key = || Fingerprint::of(("sample", key, number, halvings));
     progress.journal().recall_or(key, || run_sample(target, number, halvings, progress))
 }
 
@@ -244,10 +246,11 @@ fn try_sample(
     progress: &Progress,
 ) -> Result<Sample, NoResult> {
     let ShotToSample { case, shot, compute, sampling, .. } = *target;
-    let DrawnShot { scene, shot, inputs, .. } = draw(case, shot, sampling.seed, number);
+    let DrawnShot { scene, shot, inputs, later } = draw(case, shot, sampling.seed, number);
     // The run, and whether it failed or has no energy balance.
     let run = |step: f64| {
-        let settings = case.run_settings(compute.method, step);
+        let planned = case.run_settings(compute.method, step);
+        let settings = RunSettings { duration: planned.duration.map(|duration| duration + later), ..planned };
         match case.model.run_variant(&scene, &shot, &settings, &mut |_| progress.flow()) {
             Ok(outcome) => {
                 Ok((SampleRun::new(case, &shot, &outcome), !energy_balance_closes(outcome.ledger.residual())))

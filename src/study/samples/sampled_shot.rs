@@ -242,7 +242,7 @@ mod tests {
         let source = PlanSource { path: String::new(), text };
         let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let is_contradicted = |change: f64| {
-            let mut risk = SampledShot::new(&case, None, ErrorShare::Whole, true);
+            let mut sampled = SampledShot::new(&case, None, ErrorShare::Whole, true);
             for number in 0..600 {
                 // No two changes are alike.
                 let finer = 1.0 + change * (1.0 + 1e-4 * number as f64);
@@ -254,10 +254,10 @@ mod tests {
                     drift: 0.0,
                 });
                 let finer = (number % 20 == 0).then_some(finer);
-                risk.push(Sample { number, run, finer, inputs: [1.0; Input::ALL.len()] });
+                sampled.push(Sample { number, run, finer, inputs: [1.0; Input::ALL.len()] });
             }
-            assert_eq!(risk.bounds.verdict(), Verdict::Pass);
-            (risk.is_contradicted(), risk.verdict())
+            assert_eq!(sampled.bounds.verdict(), Verdict::Pass);
+            (sampled.is_contradicted(), sampled.verdict())
         };
         assert_eq!(is_contradicted(0.012), (true, Verdict::Undecided));
         assert_eq!(is_contradicted(0.008), (false, Verdict::Pass));

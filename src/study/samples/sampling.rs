@@ -60,9 +60,8 @@ impl Sampling {
         from..(from + size).min(self.most)
     }
 
-    /// The sampling of a full verdict on a shot that a first look chose for its draws: with draws of its own.
+    /// The same sampling with other draws: a choice and the verdict on what was chosen must not share theirs.
     pub fn with_fresh_draws(&self, error_share: ErrorShare) -> Self {
-        // The complement: draws that no other use of this seed shares.
         Self { seed: !self.seed, error_share, ..*self }
     }
 
@@ -87,10 +86,10 @@ mod tests {
         let text = include_str!("../../../plans/paper-5-tire.toml").to_owned();
         let source = PlanSource { path: String::new(), text };
         let case = Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"));
-        let mut risk = SampledShot::new(&case, None, ErrorShare::Whole, false);
+        let mut sampled = SampledShot::new(&case, None, ErrorShare::Whole, false);
         let (mut sizes, sampling) = (Vec::new(), Sampling::OF_VERDICT);
         loop {
-            let round = sampling.next_round(&risk);
+            let round = sampling.next_round(&sampled);
             if round.is_empty() {
                 break;
             }
@@ -103,10 +102,10 @@ mod tests {
                     force: 1.0,
                     drift: 0.0,
                 };
-                risk.push(Sample { number, run, finer: None, inputs: [1.0; Input::ALL.len()] });
+                sampled.push(Sample { number, run, finer: None, inputs: [1.0; Input::ALL.len()] });
             }
-            let has_least = risk.samples.len() >= sampling.least;
-            assert_eq!(sampling.least_only().next_round(&risk).is_empty(), has_least);
+            let has_least = sampled.samples.len() >= sampling.least;
+            assert_eq!(sampling.least_only().next_round(&sampled).is_empty(), has_least);
         }
         assert_eq!(sizes, [50, 50, 50, 50, 100, 100, 100]);
     }

@@ -10,12 +10,13 @@ pub struct Swap {
     pub rows: [usize; 2],
     /// Planned interval between the rows [s].
     pub interval: f64,
-    /// Probability that a hole of the second row fires before a hole of the first.
+    /// Probability that the first hole of the second row fires before the first hole of the first row; where the holes of a row
+    /// fire together, of any one hole of each.
     pub probability: f64,
 }
 
-/// Pairs of successive rows of an option of which a hole of the second fires before a hole of the first with a probability of
-/// at least `least`.
+/// Pairs of successive rows of an option of which the first hole of the second fires before that of the first with a probability
+/// of at least `least`.
 pub fn swaps(case: &Case, option: usize, least: f64) -> Vec<Swap> {
     let unknown = &case.plan.uncertainty;
     let in_hole = unknown.in_hole_deviation();

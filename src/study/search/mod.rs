@@ -27,7 +27,7 @@ use super::judgement::Judgement;
 use super::samples::failure_bounds::ErrorShare;
 use super::samples::sampled_shot::SampledShot;
 use super::samples::sampling::Sampling;
-use super::{Case, ComputeSettings, Finding, Found, NoResult, Progress, Shard};
+use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress, Shard};
 use crate::plan::{DelayOption, Plan, edit};
 use crate::verdict::Verdict;
 
@@ -95,7 +95,7 @@ pub fn search(
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<Search> {
+) -> ComputeResult<Search> {
     let choices = Choices::new(case)?;
     let race = start_race(case, sampling, compute);
     let listed = AllowedSchedules::new(case, &choices);
@@ -115,7 +115,7 @@ pub fn search(
     let front = front(&choices, &contenders);
     let schedules: Vec<Schedule> = finalists.iter().map(|(schedule, _)| schedule.clone()).collect();
     let rough = finalists.iter().map(|(_, contender)| RoughShare::of(contender)).collect();
-    let (case, Found { value: results, partial }) = judge(case, &schedules, sampling, compute, progress)?;
+    let (case, Computed { value: results, partial }) = judge(case, &schedules, sampling, compute, progress)?;
     let judged = contenders.iter().filter(|one| one.tally.samples > 0).count();
     let mut found = Search {
         case,
@@ -132,7 +132,7 @@ pub fn search(
         front,
     };
     found.rank();
-    Ok(Found { value: found, partial: partial || out_of_time })
+    Ok(Computed { value: found, partial: partial || out_of_time })
 }
 
 /// Draws the first samples of the schedules of one shard, for the journal; returns whether it could: a search that does not judge
@@ -143,18 +143,18 @@ pub fn try_schedules(
     compute: &ComputeSettings,
     shard: Shard,
     progress: &Progress,
-) -> Finding<bool> {
+) -> ComputeResult<bool> {
     let choices = Choices::new(case)?;
     let listed = AllowedSchedules::new(case, &choices);
     if !listed.are_all_judged() {
-        return Ok(Found { value: false, partial: false });
+        return Ok(Computed { value: false, partial: false });
     }
     let mut pool = Pool::new(case, &choices);
     pool.add(listed.allowed.unwrap_or_default());
     let ours = pool.contenders.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
     let mut ours: Vec<Contender> = ours.map(|(_, contender)| contender).collect();
     let partial = start_race(case, sampling, compute).draw(&mut ours, FIRST_OF_ALL, progress)?;
-    Ok(Found { value: true, partial })
+    Ok(Computed { value: true, partial })
 }
 
 fn start_race<'c>(case: &'c Case, sampling: Option<&Sampling>, compute: &ComputeSettings) -> Race<'c> {
@@ -228,7 +228,7 @@ fn judge(
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Result<(Case, Found<OptionResults>), NoResult> {
+) -> Result<(Case, Computed<OptionResults>), NoResult> {
     let delays = schedules.iter().map(|schedule| option_with_free_name(case, schedule)).collect();
     let plan = Plan { delays, ..case.plan.clone() };
     let case = Case::new(plan).with_source(case.source.clone());
@@ -237,7 +237,7 @@ fn judge(
     let cases = [(&case, *compute)];
     let mut found = judge_all_with_margins(&cases, sampling.as_ref(), progress, UNWATCHED)?;
     let results = found.value.remove(0);
-    Ok((case, Found { value: results, partial: found.partial }))
+    Ok((case, Computed { value: results, partial: found.partial }))
 }
 
 impl Search {
@@ -247,8 +247,9 @@ impl Search {
     fn rank(&mut self) {
         let rank_key = |n: &usize| {
             let judged = self.results[*n].as_ref().ok();
-            let share =
-                judged.and_then(|judged| judged.sampled.drawn()).and_then(|risk| risk.bounds.probability());
+            let share = judged
+                .and_then(|judged| judged.sampled.drawn())
+                .and_then(|sampled| sampled.bounds.probability());
             let share = share.unwrap_or_else(|| self.rough[*n].value());
             (judged.map_or(Verdict::Undecided, Judgement::verdict), share)
         };
@@ -278,8 +279,8 @@ impl Search {
 
     /// Bounds of the failure probability of a schedule; everything is possible where no sample tells.
     fn bounds(&self, n: usize) -> [f64; 2] {
-        let risk = self.results[n].as_ref().ok().and_then(|judged| judged.sampled.drawn());
-        risk.map_or([0.0, 1.0], |risk: &SampledShot| risk.bounds.interval)
+        let sampled = self.results[n].as_ref().ok().and_then(|judged| judged.sampled.drawn());
+        sampled.map_or([0.0, 1.0], |sampled: &SampledShot| sampled.bounds.interval)
     }
 
     fn margin(&self, n: usize) -> f64 {
@@ -299,7 +300,8 @@ impl Search {
         all.filter(move |(_, result)| passes(result)).map(|(delay, _)| delay)
     }
 
-    /// The verdict on the best schedule; no pass where the search is `partial`: the time was up; fail where all there are were looked at and none keeps the limits of the search.
+    /// The verdict on the best schedule. A search that the time cut short (`partial`) is no pass; one that looked at all schedules,
+    /// of which none keeps its limits, is a fail.
     pub fn verdict(&self, partial: bool) -> Verdict {
         let verdict = match self.results.first() {
             None if self.complete => Verdict::Fail,

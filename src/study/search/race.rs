@@ -7,7 +7,7 @@ use crate::study::samples::rounds::{ShotToSample, run_sample_once};
 use crate::study::samples::sample::SampleRun;
 use crate::study::samples::sampling::Sampling;
 use crate::study::work::batch::run_batch;
-use crate::study::{Case, ComputeSettings, Key, NoResult, Progress};
+use crate::study::{Case, ComputeSettings, Fingerprint, NoResult, Progress};
 use crate::verdict::Verdict;
 
 /// Schedules that stay to the end, at least.
@@ -129,9 +129,10 @@ impl Race<'_> {
             Ok((run.verdict, run.utilization(&case.limits)))
         };
         let numbers = contender.tally.samples..samples;
-        progress
-            .journal()
-            .recall_or(|| Key::of(("race", target.key(), &numbers)), || numbers.clone().map(one).collect())
+        progress.journal().recall_or(
+            || Fingerprint::of(("race", target.fingerprint(), &numbers)),
+            || numbers.clone().map(one).collect(),
+        )
     }
 
     /// Sorts the contenders, the best first, after twice as many samples of each better half as before, and so on; `first` samples

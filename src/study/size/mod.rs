@@ -19,7 +19,7 @@ use self::trial::{Hardest, SizeCandidate};
 use super::judgement::{Evidence, verdict_of_both};
 use super::samples::failure_bounds::ErrorShare;
 use super::samples::sampling::Sampling;
-use super::{ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary};
+use super::{ComputeResult, ComputeSettings, Computed, NoResult, Progress, ShotSummary};
 use crate::plan::{Layout, Plan};
 use crate::ropes::{Rope, catalogue};
 use crate::verdict::Verdict;
@@ -170,7 +170,7 @@ pub fn size(
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<Sizing> {
+) -> ComputeResult<Sizing> {
     let task = SizingTask { plan, demand, compute, progress };
     let mut tried = try_all(&task)?;
     tried.sort_by(|(a, _), (b, _)| {
@@ -180,7 +180,7 @@ pub fn size(
     choose(&task, &mut tried, sampling)?;
     let sizing = Sizing { combinations: tried.into_iter().map(|(combination, _)| combination).collect() };
     let partial = sizing.count_untried(Untried::OutOfTime) > 0;
-    Ok(Found { value: sizing, partial })
+    Ok(Computed { value: sizing, partial })
 }
 
 /// Tries every combination with its shots as planned.

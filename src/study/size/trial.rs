@@ -13,7 +13,7 @@ use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::rounds::{ShotToSample, sample_shots_watched};
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::samples::sampling::Sampling;
-use crate::study::{Case, Found, NoResult, ShotSummary, ValueWithError};
+use crate::study::{Case, Computed, NoResult, ShotSummary, ValueWithError};
 use crate::verdict::Verdict;
 
 /// Number of orders, the hardest ones, that are sampled.
@@ -126,15 +126,15 @@ impl<'q> SizeCandidate<'q> {
             ShotToSample::new(&self.case, &self.shots[n], *compute, *sampling).as_planned(planned)
         };
         let targets: Vec<ShotToSample<'_>> = hardest.iter().map(target).collect();
-        let until_one_fails = &mut |_, risk: &SampledShot| match risk.verdict() {
+        let until_one_fails = &mut |_, sampled: &SampledShot| match sampled.verdict() {
             Verdict::Fail => ControlFlow::Break(()),
             Verdict::Pass | Verdict::Undecided => ControlFlow::Continue(()),
         };
-        let Found { value: risks, partial } =
+        let Computed { value: risks, partial } =
             sample_shots_watched(&targets, self.task.progress, until_one_fails)?;
-        let worst = risks.iter().map(|risk| {
-            let FailureBounds { samples, failures, interval: [_, failure_upper_bound], .. } = risk.bounds;
-            WorstShotRisk { verdict: risk.verdict(), samples, failures, failure_upper_bound }
+        let worst = risks.iter().map(|sampled| {
+            let FailureBounds { samples, failures, interval: [_, failure_upper_bound], .. } = sampled.bounds;
+            WorstShotRisk { verdict: sampled.verdict(), samples, failures, failure_upper_bound }
         });
         let nothing =
             WorstShotRisk { verdict: Verdict::Pass, samples: 0, failures: 0, failure_upper_bound: 1.0 };

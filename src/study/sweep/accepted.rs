@@ -17,7 +17,7 @@ use crate::study::judgement::Evidence;
 use crate::study::samples::failure_bounds::ErrorShare;
 use crate::study::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use crate::study::samples::sampling::Sampling;
-use crate::study::{Case, ComputeSettings, Finding, Found, NoResult, Progress, ShotSummary};
+use crate::study::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress, ShotSummary};
 use crate::verdict::Verdict;
 
 /// Most intervals that get a full verdict.
@@ -27,13 +27,13 @@ const TRIES: usize = 6;
 /// planned are among the intervals sampled.
 pub fn add_risk(
     case: &Case,
-    as_planned: Found<Sweep>,
+    as_planned: Computed<Sweep>,
     own: &BTreeSet<i64>,
     sampling: &Sampling,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<Sweep> {
-    let Found { value: mut swept, mut partial } = as_planned;
+) -> ComputeResult<Sweep> {
+    let Computed { value: mut swept, mut partial } = as_planned;
     let shot = |point: &Point| (case.shot(&swept.order, point.interval), point.as_planned);
     let chosen = choose(&swept.points, &swept.windows_as_planned, own);
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
@@ -74,7 +74,7 @@ pub fn add_risk(
             }
         }
     }
-    Ok(Found { value: swept, partial })
+    Ok(Computed { value: swept, partial })
 }
 
 /// The full verdict on a shot: as planned, and where that passes, its samples; `None` where the time was up.

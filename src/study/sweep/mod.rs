@@ -25,7 +25,7 @@ use super::judgement;
 use super::judgement::Evidence;
 use super::samples::risk_summary::RiskSummary;
 use super::samples::sampling::Sampling;
-use super::{Case, ComputeSettings, Finding, Found, Intervals, NoResult, Progress, ShotSummary};
+use super::{Case, ComputeResult, ComputeSettings, Computed, Intervals, NoResult, Progress, ShotSummary};
 use crate::plan::Timing;
 use crate::scene::seconds;
 use crate::verdict::Verdict;
@@ -112,7 +112,7 @@ pub fn sweep(
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<Sweep> {
+) -> ComputeResult<Sweep> {
     if case.plan.blast_rows.len() < 2 {
         return Err(NoResult::SingleRow);
     }
@@ -130,7 +130,7 @@ fn sweep_as_planned(
     intervals: &Intervals,
     compute: &ComputeSettings,
     progress: &Progress,
-) -> Finding<Sweep> {
+) -> ComputeResult<Sweep> {
     let mut exact: BTreeSet<i64> = plan_intervals(case, order).into_iter().map(nanoseconds).collect();
     let [from, to] = [intervals.from, intervals.to].map(nanoseconds);
     let mut next: BTreeSet<i64> = intervals.values().into_iter().map(nanoseconds).collect();
@@ -175,7 +175,7 @@ fn sweep_as_planned(
             let windows_as_planned = windows.clone();
             let order = order.to_vec();
             let value = Sweep { order, points, windows_as_planned, windows, recommended, refuted: 0 };
-            return Ok(Found { value, partial });
+            return Ok(Computed { value, partial });
         }
         exact.extend(&next);
     }

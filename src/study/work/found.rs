@@ -4,7 +4,7 @@ use crate::study::NoResult;
 
 /// The result of a study, and whether the time sufficed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found<T> {
+pub struct Computed<T> {
     /// The result.
     pub value: T,
     /// Whether the time was up before all shots were judged; `value` then comes from the shots judged by then.
@@ -12,4 +12,4 @@ pub struct Found<T> {
 }
 
 /// What a study returns: its result, or why there is none.
-pub type Finding<T> = Result<Found<T>, NoResult>;
+pub type ComputeResult<T> = Result<Computed<T>, NoResult>;

@@ -1,4 +1,4 @@
-//! Results of pieces of work by their keys: those that an earlier run of the same study saved, and those that come.
+//! Results of pieces of work by their fingerprints: those that an earlier run of the same study saved, and those that come.
 //!
 //! A study is computed from its beginning each time, and takes from the journal what is there. So its result depends neither on
 //! where it was stopped nor on which machine computed a piece.
@@ -19,10 +19,10 @@ use super::NoResult;
 
 /// What a piece of work is of: a digest of everything that its result depends on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Key(u128);
+pub struct Fingerprint(u128);
 
-impl Key {
-    /// The key of a piece of work that depends on `inputs`. `Debug` writes every digit of a number.
+impl Fingerprint {
+    /// The fingerprint of a piece of work that depends on `inputs`. `Debug` writes every digit of a number.
     pub fn of(inputs: impl Debug) -> Self {
         let mut digest = DigestOfText(Sha256::new());
         // A digest takes any text.
@@ -49,7 +49,7 @@ impl fmt::Write for DigestOfText {
 /// Results known before, and the file that takes new ones. The default knows nothing and keeps nothing.
 #[derive(Debug, Default)]
 pub struct Journal {
-    known: HashMap<Key, Box<str>>,
+    known: HashMap<Fingerprint, Box<str>>,
     file: Option<Mutex<Appender>>,
     recalled: AtomicUsize,
 }
@@ -70,7 +70,7 @@ const SYNC_EVERY: Duration = Duration::from_secs(5);
 
 impl Journal {
     /// A journal that knows these results and keeps no new ones.
-    pub fn of_known(known: HashMap<Key, Box<str>>) -> Self {
+    pub fn of_known(known: HashMap<Fingerprint, Box<str>>) -> Self {
         Self { known, ..Self::default() }
     }
 
@@ -93,28 +93,28 @@ impl Journal {
     /// The result of a piece of work: recalled, or computed and kept.
     pub fn recall_or<T: Serialize + DeserializeOwned + PartialEq>(
         &self,
-        key: impl FnOnce() -> Key,
+        fingerprint: impl FnOnce() -> Fingerprint,
         work: impl FnOnce() -> Result<T, NoResult>,
     ) -> Result<T, NoResult> {
         if !self.is_on() {
             return work();
         }
-        let key = key();
-        if let Some(result) = self.known.get(&key).and_then(|text| serde_json::from_str(text).ok()) {
+        let fingerprint = fingerprint();
+        if let Some(result) = self.known.get(&fingerprint).and_then(|text| serde_json::from_str(text).ok()) {
             self.recalled.fetch_add(1, Ordering::Relaxed);
             return Ok(result);
         }
         let result = work()?;
-        self.keep(key, &result);
+        self.keep(fingerprint, &result);
         Ok(result)
     }
 
     /// Appends a result. One that would not be read as it was written is left out, and computed anew.
-    fn keep<T: Serialize + DeserializeOwned + PartialEq>(&self, key: Key, result: &T) {
+    fn keep<T: Serialize + DeserializeOwned + PartialEq>(&self, fingerprint: Fingerprint, result: &T) {
         let Some(file) = &self.file else { return };
         let Ok(text) = serde_json::to_string(result) else { return };
         if serde_json::from_str::<T>(&text).is_ok_and(|read| read == *result) {
-            let line = sealed(&format!("{{\"{KEY}\":\"{:032x}\",\"{RESULT}\":{text}", key.0));
+            let line = sealed(&format!("{{\"{KEY}\":\"{:032x}\",\"{RESULT}\":{text}", fingerprint.0));
             file.lock().unwrap_or_else(PoisonError::into_inner).append(&line, 1);
         }
     }
@@ -182,7 +182,7 @@ pub(in crate::study) fn unsealed(line: &str) -> Option<&str> {
 /// A line after the first.
 pub(in crate::study) enum Line<'t> {
     /// A result, as JSON.
-    Result(Key, &'t str),
+    Result(Fingerprint, &'t str),
     /// So many results stand before; the study was computed to its end.
     Complete(usize),
 }
@@ -193,7 +193,7 @@ pub(in crate::study) fn read_body(body: &str) -> Option<Line<'_>> {
         return count.parse().ok().map(Line::Complete);
     }
     let (key, rest) = body.strip_prefix(&format!("{{\"{KEY}\":\""))?.split_at_checked(32)?;
-    Some(Line::Result(Key::parse(key)?, rest.strip_prefix(&format!("\",\"{RESULT}\":"))?))
+    Some(Line::Result(Fingerprint::parse(key)?, rest.strip_prefix(&format!("\",\"{RESULT}\":"))?))
 }
 
 #[cfg(test)]
@@ -205,10 +205,10 @@ mod tests {
         let mut file = tempfile::tempfile().expect("a file");
         let journal = Journal::default().appending(file.try_clone().expect("the file"), 0);
         for value in [0.1, 1e-300, f64::NAN] {
-            assert!(journal.recall_or(|| Key::of(value), || Ok(value)).is_ok());
+            assert!(journal.recall_or(|| Fingerprint::of(value), || Ok(value)).is_ok());
         }
         assert_eq!(
-            journal.recall_or(|| Key::of("stopped"), || Err::<f64, _>(NoResult::Stopped)),
+            journal.recall_or(|| Fingerprint::of("stopped"), || Err::<f64, _>(NoResult::Stopped)),
             Err(NoResult::Stopped)
         );
         journal.close().expect("written");
@@ -216,7 +216,7 @@ mod tests {
         io::Seek::rewind(&mut file)
             .and_then(|()| io::Read::read_to_string(&mut file, &mut text))
             .expect("read");
-        let known: HashMap<Key, Box<str>> = text
+        let known: HashMap<Fingerprint, Box<str>> = text
             .lines()
             .filter_map(|line| match read_body(unsealed(line)?)? {
                 Line::Result(key, result) => Some((key, result.into())),
@@ -227,7 +227,7 @@ mod tests {
         let journal = Journal::of_known(known);
         for value in [0.1, 1e-300] {
             let recalled =
-                journal.recall_or(|| Key::of(value), || -> Result<f64, _> { panic!("it is known") });
+                journal.recall_or(|| Fingerprint::of(value), || -> Result<f64, _> { panic!("it is known") });
             assert_eq!(recalled, Ok(value));
         }
         assert_eq!(journal.recalled(), 2);

@@ -18,9 +18,9 @@ mod progress;
 mod shard;
 
 pub use batch::thread_pool;
-pub use found::{Finding, Found};
+pub use found::{ComputeResult, Computed};
 pub use intervals::Intervals;
-pub use journal::{Journal, Key};
+pub use journal::{Fingerprint, Journal};
 pub use no_result::{NoResult, catch_panic};
 pub use progress::Progress;
 pub use shard::Shard;

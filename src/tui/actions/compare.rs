@@ -13,6 +13,8 @@ impl App {
         match action {
             Action::Up => self.select_listed(-1),
             Action::Down => self.select_listed(1),
+            // One option fills the screen: whoever pages looks for more of it, not for another.
+            Action::PageUp | Action::PageDown if self.zoom => {}
             Action::PageUp => self.select_listed(-page),
             Action::PageDown => self.select_listed(page),
             Action::First => self.select_listed(isize::MIN),
@@ -23,7 +25,7 @@ impl App {
                 self.listing.reversed = false;
             }
             Action::Reverse => self.listing.reversed = !self.listing.reversed,
-            Action::Remedies => return self.ask_for_remedies(),
+            Action::Why => return self.ask_for_remedies(),
             Action::Baseline => {
                 let same = self.listing.baseline == Some(self.selected);
                 self.listing.baseline = (!same).then_some(self.selected);

@@ -102,19 +102,19 @@ impl App {
             }
             Action::Save => return Request::Save,
             Action::SaveAs => return Request::NamePlan,
-            Action::Find => self.prompt = Some(Prompt::new(Purpose::Find, "")),
-            Action::Palette => self.prompt = Some(Prompt::new(Purpose::Palette, "")),
+            Action::Search => self.prompt = Some(Prompt::new(Purpose::Find, "")),
+            Action::Commands => self.prompt = Some(Prompt::new(Purpose::Palette, "")),
             Action::Export => return self.name_export(),
             Action::Page => return self.name_page(),
-            Action::Yank => return Request::Yank,
+            Action::Copy => return Request::Copy,
             Action::Theme => self.theme = self.theme.next(),
             Action::Help => {
                 self.help = !self.help;
                 self.help_scroll = 0;
             }
-            Action::Rerun => return self.check_again(self.compute.accuracy),
-            Action::Finer => return self.check_again(finer(self.compute.accuracy)),
-            Action::Coarser => return self.check_again(coarser(self.compute.accuracy)),
+            Action::Rerun => return self.judge_again(self.compute.accuracy),
+            Action::Finer => return self.change_accuracy(finer(self.compute.accuracy)),
+            Action::Coarser => return self.change_accuracy(coarser(self.compute.accuracy)),
             Action::Suspend => return Request::Suspend,
             Action::Quit => return self.quit(),
             _ => {}
@@ -191,12 +191,23 @@ impl App {
     }
 
     /// Asks to check every option at an accuracy.
-    fn check_again(&mut self, accuracy: Accuracy) -> Request {
+    /// Judges all options anew at another accuracy; says why where nothing would change.
+    fn change_accuracy(&mut self, accuracy: Accuracy) -> Request {
+        let same = match self.compute.step {
+            Some(_) => "the step is fixed by --dt",
+            None if accuracy == self.compute.accuracy => "there is no other level that way",
+            None => return self.judge_again(accuracy),
+        };
+        self.notice = Some(same.to_owned());
+        Request::None
+    }
+
+    fn judge_again(&mut self, accuracy: Accuracy) -> Request {
         self.compute.accuracy = accuracy;
         self.studies.remedy_list = None;
         self.options.fill(OptionState::Waiting);
         self.player.option = None;
-        Request::Check
+        Request::Judge
     }
 }
 

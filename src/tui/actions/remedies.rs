@@ -53,8 +53,8 @@ impl App {
         let selected = match action {
             Action::Up => selected.saturating_sub(1),
             Action::Down => (selected + 1).min(last),
-            Action::First => 0,
-            Action::Last => last,
+            Action::First | Action::PageUp => 0,
+            Action::Last | Action::PageDown => last,
             Action::Open => {
                 let change = remedies.passing().nth(selected)?.change;
                 let words = words(&self.case, &change);

@@ -42,7 +42,7 @@ pub enum Action {
     /// Compare with the selected option.
     Baseline,
     /// Find what would make the selected option pass.
-    Remedies,
+    Why,
     /// Play or pause.
     Play,
     /// Show the next firing or peak.
@@ -69,12 +69,12 @@ pub enum Action {
     Save,
     /// Write the plan under another name.
     SaveAs,
-    /// Find.
-    Find,
+    /// Search for an option.
+    Search,
     /// Choose a command by name.
-    Palette,
+    Commands,
     /// Put the contents of the screen on the clipboard.
-    Yank,
+    Copy,
     /// Write the contents of the screen to a file.
     Export,
     /// Write the page of the selected option.
@@ -198,22 +198,15 @@ pub const BINDINGS: &[Binding] = &[
         "show differences from the selected option",
         COMPARE,
     ),
-    bind(
-        Action::Remedies,
-        "why",
-        &["w"],
-        "why",
-        "what would make the option pass; Enter makes a change",
-        COMPARE,
-    ),
+    bind(Action::Why, "why", &["w"], "why", "what would make the option pass; Enter makes a change", COMPARE),
     bind(Action::Finer, "finer", &["+", "="], "finer", "finer accuracy: draft, field, reference", ALL),
     bind(Action::Coarser, "coarser", &["-"], "coarser", "coarser accuracy", ALL),
     bind(Action::Rerun, "rerun", &["r"], "", "compute again", ALL),
-    bind(Action::Find, "search", &["/"], "find", "find: options by name or verdict, values, lines", ALL),
+    bind(Action::Search, "search", &["/"], "find", "find: options by name or verdict, values, lines", ALL),
     bind(Action::Export, "export", &["e"], "export", "write what is shown to a CSV, SVG or HTML file", ALL),
     bind(Action::Page, "page", &["P"], "page", "write the page of the selected option, to sign", COMPARE),
-    bind(Action::Yank, "copy", &["y"], "", "copy what is shown to the clipboard", ALL),
-    bind(Action::Palette, "commands", &[":"], "", "choose a command by name", ALL),
+    bind(Action::Copy, "copy", &["y"], "", "copy what is shown to the clipboard", ALL),
+    bind(Action::Commands, "commands", &[":"], "", "choose a command by name", ALL),
     bind(Action::Theme, "theme", &["t"], "theme", "next theme: dark, light, sunlight", ALL),
     bind(Action::Show(Screen::Plan), "plan", &["1"], "", "the plan and its values", ALL),
     bind(Action::Show(Screen::Compare), "compare", &["2"], "", "the delay options side by side", ALL),

@@ -91,12 +91,12 @@ const COLUMNS: &[CompareColumn] = &[
 
 /// The samples, once there are some.
 fn sampled(judged: &Judgement) -> Option<&SampledShot> {
-    judged.sampled.drawn().filter(|risk| !risk.samples.is_empty())
+    judged.sampled.drawn().filter(|sampled| !sampled.samples.is_empty())
 }
 
 /// Bounds of the share of shots that fail.
 fn fails(judged: &Judgement) -> String {
-    sampled(judged).map_or_else(String::new, |risk| units::probabilities(risk.bounds.interval))
+    sampled(judged).map_or_else(String::new, |sampled| units::probabilities(sampled.bounds.interval))
 }
 
 /// Number of samples; dots as long as more come.
@@ -104,13 +104,13 @@ fn samples(app: &App, option: usize, judged: &Judgement) -> String {
     let more = if app.options[option].is_sampling() { "…" } else { "" };
     match &judged.sampled {
         Evidence::NotAsked => String::new(),
-        risk => format!("{}{more}", risk.drawn().map_or(0, |risk| risk.samples.len())),
+        sampled => format!("{}{more}", sampled.drawn().map_or(0, |sampled| sampled.samples.len())),
     }
 }
 
 /// 5th and 95th percentile of a quantity.
 fn band(judged: &Judgement, quantity: Quantity, unit: Unit) -> String {
-    let band = sampled(judged).and_then(|risk| risk.band(quantity));
+    let band = sampled(judged).and_then(|sampled| sampled.band(quantity));
     band.map_or_else(String::new, |[low, _, high, _]| {
         format!("{} to {}", units::value(low, unit), units::value(high, unit))
     })
@@ -197,7 +197,7 @@ fn row<'r>(app: &'r App, option: usize, columns: &[&CompareColumn], (name, spark
     let mut cells =
         vec![Line::styled(format!("{:1$}", cut(&label, usize::from(name)), usize::from(name)), style)];
     match &app.options[option] {
-        OptionState::Done { judgement, .. } => {
+        OptionState::Judged { judgement, .. } => {
             cells.push(verdict(app, judgement.verdict()));
             let cell =
                 |column: &&CompareColumn| Line::from((column.cell)(app, option, judgement)).right_aligned();

@@ -57,7 +57,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let inside = rule.inner(area);
     frame.render_widget(rule, area);
     let judged = match &app.options[app.selected] {
-        OptionState::Done { judgement, .. } => judgement,
+        OptionState::Judged { judgement, .. } => judgement,
         OptionState::Failed(failed) => {
             let text = format!("No result: {}", no_result::message(failed));
             return frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inside);
@@ -77,8 +77,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         Layout::vertical([Constraint::Length(lines.min(most)), Constraint::Min(0)]).areas(inside);
     frame.render_widget(Paragraph::new(facts).wrap(Wrap { trim: true }), text);
     let history = charts::history(&app.case, &judged.as_planned.history, &app.case.shots[app.selected]);
-    let risk = judged.sampled.drawn().filter(|risk| !risk.samples.is_empty());
-    draw_charts(app, history, risk, frame, rest);
+    let sampled = judged.sampled.drawn().filter(|sampled| !sampled.samples.is_empty());
+    draw_charts(app, history, sampled, frame, rest);
 }
 
 /// Draws height and force over time, and those of the samples. Where only one of both has room, the samples stand.
@@ -149,12 +149,12 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     }
     let warnings = warnings::of_option(case, app.selected, judged);
     lines.extend(warnings.into_iter().map(|warning| Line::styled(format!("! {warning}"), theme.firing())));
-    let risk = judged.sampled.drawn().filter(|risk| !risk.samples.is_empty());
+    let sampled = judged.sampled.drawn().filter(|sampled| !sampled.samples.is_empty());
     if open {
-        let samples = risk.map_or(0, |risk| risk.samples.len());
+        let samples = sampled.map_or(0, |sampled| sampled.samples.len());
         lines.push(Line::styled(format!("? {samples} samples so far, more come"), theme.firing()));
     }
-    let decided = risk.and_then(|risk| inputs(risk, &case.limits));
+    let decided = sampled.and_then(|sampled| inputs(sampled, &case.limits));
     let decided = decided.map(|inputs| format!("decided by {inputs}"));
     let launch = launch_limit(&case.shots[app.selected], judged);
     let launch = launch.map(|launch| format!("as planned it {launch}"));
@@ -163,7 +163,7 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
         lines.push(Line::from(decided.join(" · ")));
     }
     lines.push(Line::from(format!("as planned: {}", peaks(case.scene(), checked))));
-    lines.extend(risk.and_then(bands).map(Line::from));
+    lines.extend(sampled.and_then(bands).map(Line::from));
     let how = format!(
         "step {} · {} runs in {} · energy residual {:.0e} · {} {}",
         units::milliseconds(checked.step),

@@ -104,8 +104,8 @@ pub fn judgement(case: &Case, option: usize) -> Judgement {
 }
 
 /// A judged option.
-pub fn done(judgement: Judgement, sampling: bool) -> OptionState {
-    OptionState::Done { judgement: Box::new(judgement), sampling }
+pub fn done(judgement: Judgement, more_samples: bool) -> OptionState {
+    OptionState::Judged { judgement: Box::new(judgement), more_samples }
 }
 
 /// Every option with its samples: one passes, one needs more samples, five fail or are undecided as planned.

@@ -70,7 +70,7 @@ pub struct EventContext<'e> {
     pub totals: &'e mut StepTotals,
     /// Tires of the present register that were integrated by themselves.
     pub integrated: &'e mut Vec<Integrated>,
-    /// Tires of this step that were integrated by themselves, where cables are damped.
+    /// Tires that were launched or landed in this step, where cables are damped.
     pub jumped: &'e mut Vec<Jump>,
     /// Pushes that began in an earlier step or go on after this one.
     pub pushes: &'e mut Pushes,

@@ -95,21 +95,27 @@ impl Stepper<'_> {
         if !self.wake.awake_blocks.iter().copied().any(breaks) {
             return;
         }
-        self.record.note_break(self.breaking_force);
         self.peak_to_refine = None;
+        let mut hardest = (0.0, 0);
         totals.force.iter_mut().for_each(|force| *force = force.min(self.breaking_force));
         for &n in &self.wake.awake_blocks {
             let block = &self.part.blocks.blocks[n];
             for slot in 0..block.len {
-                if self.force_over_strength(n, slot) > self.breaking_force {
+                let force = self.force_over_strength(n, slot);
+                if force > self.breaking_force {
+                    let cable = self.part.blocks.cable(n, slot);
+                    if force > hardest.0 {
+                        hardest = (force, self.part.reduction.cable(cable));
+                    }
                     let lost = self.tension.remove(block, slot);
                     self.record.ledger.dissipated += lost;
                     totals.energy[slot % LANES] -= lost;
                     self.stored[n][slot % LANES] -= lost;
-                    broken.push(self.part.blocks.cable(n, slot));
+                    broken.push(cable);
                 }
             }
         }
+        self.record.note_break(self.breaking_force, at, hardest.1);
         // Two cables of the part may be images of each other; each of the two breaks by itself.
         let mut broken_before: FxHashSet<usize> =
             self.record.broken.iter().map(|broken| broken.cable).collect();

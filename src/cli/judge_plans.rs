@@ -14,10 +14,10 @@ use crate::report::model::Report;
 use crate::study::judge_options::{MustPass, OptionResults, UNWATCHED, judge_all, judge_all_with_margins};
 use crate::study::remedies::{Remedies, find_all_remedies, not_passing};
 use crate::study::samples::sampling::Sampling;
-use crate::study::{Case, Finding, Found, NoResult};
+use crate::study::{Case, ComputeResult, Computed, NoResult};
 
 /// The results of one plan.
-pub struct CheckedPlan {
+pub struct JudgedPlan {
     /// The results of its options.
     pub results: OptionResults,
     /// The changes that were tried for options that do not pass; `None` where nobody asked.
@@ -26,15 +26,15 @@ pub struct CheckedPlan {
 
 /// Checks all options of all cases in parallel; the results stand in the order of plans and options. With `why` the changes of the
 /// plans are found with which failing options would pass.
-pub fn check_plans(
+pub fn judge_plans(
     cases: &[Case],
     sampling: Option<Sampling>,
     compute: &Compute,
     why: bool,
-) -> Finding<Vec<CheckedPlan>> {
+) -> ComputeResult<Vec<JudgedPlan>> {
     let cases: Vec<_> = cases.iter().map(|case| (case, compute.settings(&case.plan))).collect();
     run_study(compute, |progress| {
-        let Found { value: results, mut partial } = match &sampling {
+        let Computed { value: results, mut partial } = match &sampling {
             Some(sampling) => judge_all_with_margins(&cases, Some(sampling), progress, UNWATCHED)?,
             // The plan's own numbers alone: nothing varies, the launches neither.
             None => judge_all(&cases, None, progress, UNWATCHED)?,
@@ -48,9 +48,9 @@ pub fn check_plans(
                 partial |= found.partial;
                 remedies = Some(found.value);
             }
-            checked.push(CheckedPlan { results, remedies });
+            checked.push(JudgedPlan { results, remedies });
         }
-        Ok(Found { value: checked, partial })
+        Ok(Computed { value: checked, partial })
     })
 }
 
@@ -65,19 +65,19 @@ enum Documents {
 /// Prints the results of all cases.
 pub fn print_checks(
     cases: &[Case],
-    checked: &Found<Vec<CheckedPlan>>,
+    checked: &Computed<Vec<JudgedPlan>>,
     must_pass: MustPass,
     format: FormatArg,
     look: &LookArguments,
 ) -> io::Result<Status> {
-    let Found { value: checked, partial } = checked;
+    let Computed { value: checked, partial } = checked;
     let pairs = || cases.iter().zip(checked);
-    let reported = |(case, CheckedPlan { results, remedies }): (&Case, &CheckedPlan)| {
+    let reported = |(case, JudgedPlan { results, remedies }): (&Case, &JudgedPlan)| {
         report(case, results, remedies.as_deref(), must_pass, *partial)
     };
     let reports: Vec<Report> = pairs().map(reported).collect();
     let documents = || {
-        let document = |(case, CheckedPlan { results, remedies }): (&Case, &CheckedPlan)| {
+        let document = |(case, JudgedPlan { results, remedies }): (&Case, &JudgedPlan)| {
             CheckDocument::new(case, results, remedies.as_deref(), must_pass, *partial)
         };
         let mut all: Vec<_> = pairs().map(document).collect();
