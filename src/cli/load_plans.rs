@@ -36,6 +36,14 @@ pub fn open_option(plan: &Path, option: Option<&str>, look: &LookArguments) -> O
     }
 }
 
+/// Indices of the delay options of these names; all options for no name.
+pub fn choose_options(case: &Case, names: &[String]) -> Result<Vec<usize>, String> {
+    match names {
+        [] => Ok((0..case.shots.len()).collect()),
+        names => names.iter().map(|name| find_option(case, Some(name))).collect(),
+    }
+}
+
 fn find_option(case: &Case, name: Option<&str>) -> Result<usize, String> {
     let names: Vec<&str> = case.plan.delays.iter().map(|delay| delay.name.as_str()).collect();
     let Some(name) = name else { return Ok(0) };

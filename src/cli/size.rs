@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{LookArguments, StudyArguments, intervals};
-use super::load_plans::open;
+use super::load_plans::{choose_options, open};
 use super::print::print;
 use super::run_study::run_saved_study;
 use super::save::SaveArguments;
@@ -117,8 +117,7 @@ fn choose_sizes(arguments: &Arguments, plan: &Plan) -> Result<SizeSpec, String> 
 /// What the shelter must hold.
 fn choose_demand(arguments: &Arguments, case: &Case) -> Result<Demand, String> {
     if !arguments.any_order {
-        let options = choose_options(&arguments.option, &case.plan)?;
-        return Ok(Demand::Options(options));
+        return Ok(Demand::Options(choose_options(case, &arguments.option)?));
     }
     if !tries_all(case) {
         return Err(format!("--any-order tries all orders of at most {MOST_ROWS} blast rows"));
@@ -130,21 +129,6 @@ fn choose_demand(arguments: &Arguments, case: &Case) -> Result<Demand, String> {
         return Err(format!("{}: give --interval FROM..TO:STEP", NoResult::NoInterval));
     }
     Ok(Demand::AnyOrder(intervals))
-}
-
-/// Indices of the delay options of these names; all options for no name.
-fn choose_options(names: &[String], plan: &Plan) -> Result<Vec<usize>, String> {
-    if names.is_empty() {
-        return Ok((0..plan.delays.len()).collect());
-    }
-    let index = |name: &String| {
-        let found = plan.delays.iter().position(|delay| delay.name == *name);
-        found.ok_or_else(|| {
-            let all: Vec<&str> = plan.delays.iter().map(|delay| delay.name.as_str()).collect();
-            format!("no delay option is named '{name}'; the options are {}", all.join(", "))
-        })
-    };
-    names.iter().map(index).collect()
 }
 
 fn write(arguments: &Arguments, case: &Case, found: &Combination) -> io::Result<()> {

@@ -24,7 +24,7 @@ pub fn substitute(symbol: char) -> Option<&'static str> {
         '▄' => "-",
         '▅' => "=",
         '▆' => "+",
-        '▇' => "*",
+        '▇' => "%",
         '█' => "#",
         '│' => "|",
         '─' => "-",
@@ -44,14 +44,33 @@ pub fn substitute(symbol: char) -> Option<&'static str> {
         '•' => ".",
         'μ' => "u",
         '─'..='╿' => "+",
-        // One dot of eight, as in a dotted limit; more are a curve.
-        '\u{2801}' | '\u{2802}' | '\u{2804}' | '\u{2808}' | '\u{2810}' | '\u{2820}' | '\u{2840}'
-        | '\u{2880}' => ".",
-        '\u{2800}'..='\u{28ff}' => "*",
+        '\u{2800}'..='\u{28ff}' => dots(symbol as u32 & 0xff),
         // Joined to the letter before.
         '\u{300}'..='\u{36f}' | '\u{200d}' | '\u{fe00}'..='\u{fe0f}' => "",
         _ => "?",
     })
+}
+
+/// Substitute of a braille character, whose dots are the bits of a number: the shape of its dots, so that a dotted limit, a line and
+/// a line drawn twofold differ.
+fn dots(bits: u32) -> &'static str {
+    // From top to bottom the dots of the left column are bits 0, 1, 2 and 6, of the right one 3, 4, 5 and 7.
+    const ROWS: [u32; 4] = [0b1001, 0b1_0010, 0b10_0100, 0b1100_0000];
+    const LEFT: u32 = 0b100_0111;
+    let height = |side: u32| -> Option<f64> {
+        let rows: Vec<usize> = (0..4).filter(|&row| bits & side & ROWS[row] != 0).collect();
+        (!rows.is_empty()).then(|| rows.iter().sum::<usize>() as f64 / rows.len() as f64)
+    };
+    match (bits.count_ones(), height(LEFT), height(!LEFT)) {
+        (0, ..) => " ",
+        (1, ..) => ".",
+        (5.., ..) => "@",
+        (_, Some(left), Some(right)) if left > right => "/",
+        (_, Some(left), Some(right)) if left < right => "\\",
+        (2, Some(_), Some(_)) => "-",
+        (_, Some(_), Some(_)) => "=",
+        _ => "|",
+    }
 }
 
 #[cfg(test)]
@@ -60,8 +79,9 @@ mod tests {
 
     #[test]
     fn every_text_has_an_ascii_form() {
-        assert_eq!(to_ascii("⠁⡀⣀⠉"), "..**", "a limit differs from a curve");
-        assert_eq!(to_ascii("1.7655 ± 0.0002 · ▁▇"), "1.7655 +- 0.0002 | _*");
+        assert_eq!(to_ascii("⠁⡀⣀⠉"), "..--", "a limit differs from a curve");
+        assert_eq!(to_ascii("⡇⢸⠤⠔⠢⣤⣶⠀"), "||-/\\=@ ", "and a cable over its limit from one below");
+        assert_eq!(to_ascii("1.7655 ± 0.0002 · ▁▇"), "1.7655 +- 0.0002 | _%");
         assert_eq!(to_ascii("e\u{301}té 爆"), "et? ?");
     }
 }

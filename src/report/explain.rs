@@ -62,6 +62,21 @@ pub fn inputs(sampled: &SampledShot, limits: &Limits) -> Option<String> {
     Some(words.join(", "))
 }
 
+/// What on site narrows the bands of a shot most: the input that decides it, and how it is found out; `None` where none decides.
+pub fn measure_first(sampled: &SampledShot, limits: &Limits) -> Option<&'static str> {
+    let shares = influence::input_shares(sampled, limits)?;
+    let (input, share) = shares.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (share >= DECIDES).then_some(match input {
+        Input::LaunchCommon => "film a shot and fit its launch velocities (Studies, Fit)",
+        Input::Friction => "drag a tire along the ground with a spring scale",
+        Input::Slack => "measure the slack of laid cables",
+        Input::AxialStiffness => "find the stiffness of the rope, by its maker or a pull test",
+    })
+}
+
+/// Share of the variance from which an input is worth a measurement.
+const DECIDES: f64 = 0.3;
+
 /// Least share of the variance worth naming.
 const LEAST_SHARE: f64 = 0.05;
 
@@ -105,10 +120,17 @@ pub fn launch_limit(shot: &Shot, judged: &Judgement) -> Option<String> {
 
 /// Greatest height and force of the samples: 5th and 95th percentile; and how likely a cable breaks. `None` for too few
 /// samples.
-pub fn bands(sampled: &SampledShot) -> Option<String> {
+pub fn bands(sampled: &SampledShot, limits: &Limits) -> Option<String> {
     let band = |quantity: Quantity, unit: Unit| {
         let [low, _, high, _] = sampled.band(quantity)?;
-        Some(format!("{} to {} {}", units::value(low, unit), units::value(high, unit), unit.symbol()))
+        let share = limits.get(quantity).map_or(f64::NAN, |limit| high / limit);
+        Some(format!(
+            "{} to {} {}, {} of the limit",
+            units::value(low, unit),
+            units::value(high, unit),
+            unit.symbol(),
+            units::percent(share, 0)
+        ))
     };
     Some(format!(
         "5 to 95 % of {} samples: height {} · force {} · a cable breaks in {} %",

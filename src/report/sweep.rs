@@ -224,9 +224,11 @@ fn conclusion(sweep: &Sweep, partial: bool) -> Conclusion {
             let passes = |point: &&Point| point.as_planned.verdict == Verdict::Pass;
             let count = sweep.points.iter().filter(passes).count();
             let best = sweep.best().map_or("none is recommended".to_owned(), |best| {
-                format!("recommended {}: PASS", units::exact_milliseconds(best.interval))
+                let best = units::exact_milliseconds(best.interval);
+                format!("{best} is recommended, and its full verdict is PASS")
             });
-            format!("{count} of {tried} intervals tried{so_far} pass as planned; {best}")
+            let whole = if count < tried { "not every interval passes: " } else { "" };
+            format!("{whole}{count} of {tried} tried{so_far} do as planned; {best}")
         }
         _ if tried == 0 => "no interval was tried".to_owned(),
         0 => format!("all {tried} intervals tried{so_far} pass (the plan's own numbers only)"),

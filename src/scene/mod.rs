@@ -7,6 +7,8 @@ mod build;
 mod mirror;
 mod shot;
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Vector2, Vector3};
 
 pub use build::{fire_at_s, seconds};
@@ -182,6 +184,22 @@ impl Scene {
     pub fn extent(&self, axis: usize) -> [f64; 2] {
         let coordinates = self.position.iter().map(|position| position[axis]);
         coordinates.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+    }
+
+    /// Numbers of the rows of a mesh with their y [m], and of its columns with their x [m]; both empty for a list of tires.
+    pub fn rows_and_columns(&self) -> [BTreeMap<i64, f64>; 2] {
+        let (mut rows, mut columns) = (BTreeMap::new(), BTreeMap::new());
+        for (tire, position) in self.tire.iter().zip(&self.position) {
+            if let TireId::Cell { row, column } | TireId::Border { row, column } = *tire
+                // The centre tires of a quincunx have half numbers.
+                && row.fract() == 0.0
+                && column.fract() == 0.0
+            {
+                rows.insert(row as i64, position.y);
+                columns.insert(column as i64, position.x);
+            }
+        }
+        [rows, columns]
     }
 
     /// Critical step of explicit central differences [s]; infinite without cables.

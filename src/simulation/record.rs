@@ -104,3 +104,20 @@ impl Record {
         Outcome { height, force, drift, broken, ledger, history, step, steps, end, tires_in_air }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The top between two steps of a force that broke nothing may lie above the force at which another cable breaks later.
+    #[test]
+    fn a_break_names_the_cable_that_broke() {
+        let mut record = Record::new(1e-3);
+        record.force = Peak { value: 101.0, at: 0.1, index: 3 };
+        record.note_break(100.0, 0.2, 7);
+        assert_eq!(record.force, Peak { value: 100.0, at: 0.2, index: 7 });
+        record.force = Peak { value: 105.0, at: 0.3, index: 9 };
+        record.note_break(100.0, 0.3, 9);
+        assert_eq!(record.force.index, 7, "the first break counts");
+    }
+}

@@ -370,6 +370,7 @@ const COMMANDS: &[&[&str]] = &[
     &["report", "plan.toml", "-o", "plan.toml"],
     &["size", "plan.toml", "--nominal", "--samples", "10"],
     &["size", "plan.toml", "--option", "none"],
+    &["effects", "plan.toml", "--option", "none"],
     &["merge", "none.jsonl"],
     &["merge", "plan.toml"],
     &["init", "plan.toml"],

@@ -3,7 +3,7 @@
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Output, Stdio};
 
-use super::support::{PROGRAM, json, shelter, shipped, text};
+use super::support::{PROGRAM, json, shelter, shipped, small_plan, text};
 
 fn on(name: &str, arguments: &[&str]) -> Output {
     let path = shipped(name);
@@ -423,7 +423,10 @@ fn names_that_mislead_are_told_or_refused() {
     let warning = "the option named \"40 ms\" fires its rows 42 ms apart, not 40 ms";
     assert!(text(&output.stderr).contains(warning), "{}", text(&output.stderr));
     let warnings = json(&output)["warnings"].to_string();
-    assert!(warnings.contains("not 40 ms") && warnings.contains("drift is not judged"), "{warnings}");
+    assert!(
+        warnings.contains("not 40 ms") && warnings.contains("says nothing of where tires end"),
+        "{warnings}"
+    );
     assert!(!text(&run("42 ms, ours").stderr).contains("apart, not"));
     for name in ["x\u{202e}SSAP", "\u{2067}a", " ", ""] {
         assert_eq!(run(name).status.code(), Some(2), "{name:?}");
@@ -503,6 +506,30 @@ fn effects_have_the_fields_scripts_read_and_a_sentence() {
         text(&output.stdout)
     );
     assert_eq!(output.status.code(), Some(0));
+}
+
+/// What an effect does to an option depends on no other option; only its cost is measured anew.
+#[test]
+fn effects_of_one_option_are_those_among_all() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let plan = folder.path().join("plan.toml");
+    std::fs::write(&plan, small_plan()).expect("written");
+    let effects = |more: &[&str]| {
+        let command =
+            [&["effects", plan.to_str().expect("UTF-8"), "--samples", "5", "--format", "json"], more]
+                .concat();
+        let mut document = json(&shelter(&command));
+        for effect in document["options"].as_array_mut().expect("options").iter_mut() {
+            for effect in effect["effects"].as_array_mut().expect("effects") {
+                effect.as_object_mut().expect("fields").remove("cost");
+            }
+        }
+        document["options"].clone()
+    };
+    let (all, one) = (effects(&[]), effects(&["--option", "42 ms"]));
+    let named = all.as_array().expect("options").iter().find(|option| option["name"] == "42 ms");
+    assert_eq!(one.as_array().map(Vec::len), Some(1));
+    assert_eq!(one.as_array().and_then(|one| one.first()), named);
 }
 
 #[test]

@@ -4,6 +4,7 @@ use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, Mous
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::layout::Position;
+use shelter::choice::Accuracy;
 use shelter::jobs::StudyKind;
 use shelter::study::NoResult;
 use shelter::tui::app::{App, Request};
@@ -180,10 +181,11 @@ fn what_was_seen_of_a_shot_is_typed_and_fitted() {
 #[test]
 fn what_is_shown_is_offered_for_export() {
     let mut app = finished();
-    let (stem, ending) = ("amur-three-rows-compare".to_owned(), "csv");
+    let plan = app.case.source.path.strip_suffix(".toml").expect("a plan").to_owned();
+    assert!(plan.contains('/'), "what is written lies beside the plan: {plan}");
     assert_eq!(
         press(&mut app, "e"),
-        Request::NameExport(stem, ending),
+        Request::NameExport(format!("{plan}-compare"), "csv"),
         "the event loop finds an unused name"
     );
     app.ask_for_file(Purpose::Export, "amur-three-rows-compare.csv");
@@ -193,7 +195,7 @@ fn what_is_shown_is_offered_for_export() {
     for (verdict, ending) in [(Verdict::Pass, "to-be-fired"), (Verdict::Fail, "fails")] {
         let has = |&n: &usize| app.judgement(n).is_some_and(|judged| judged.verdict() == verdict);
         app.selected = (0..7).find(has).expect("such an option");
-        assert_eq!(press(&mut app, "P"), Request::NamePage(format!("amur-three-rows-{ending}")));
+        assert_eq!(press(&mut app, "P"), Request::NamePage(format!("{plan}-{ending}")));
     }
     app.ask_for_file(Purpose::Page, "page.html");
     assert_eq!(key(&mut app, KeyCode::Enter), Request::Page("page.html".into()));
@@ -402,4 +404,31 @@ fn the_selected_row_is_in_sight() {
     assert_eq!(app.studies.selected, 3);
     click(&mut app, "2 3 1");
     assert_eq!(app.case.plan.delays.last().map(|delay| delay.name.as_str()), Some("2-3-1 20 ms"));
+}
+
+/// At the ends of the scale, and where the step is fixed, the keys of accuracy throw no result away.
+#[test]
+fn accuracy_that_does_not_change_computes_nothing_anew() {
+    let mut app = finished();
+    assert_eq!(app.compute.accuracy, Accuracy::Field);
+    assert_eq!(press(&mut app, "+"), Request::Judge);
+    app.options = finished().options;
+    assert_eq!((press(&mut app, "+"), app.busy()), (Request::None, false), "the finest");
+    assert_eq!((press(&mut app, "-"), press(&mut app, "-")), (Request::Judge, Request::Judge));
+    app.options = finished().options;
+    assert_eq!((press(&mut app, "-"), app.busy()), (Request::None, false), "the coarsest");
+    app.compute.step = Some(1e-3);
+    assert_eq!((press(&mut app, "+"), app.busy()), (Request::None, false));
+    assert!(app.notice.as_deref().is_some_and(|told| told.contains("--dt")), "{:?}", app.notice);
+}
+
+#[test]
+fn paging_changes_no_option_that_fills_the_screen() {
+    let mut app = finished();
+    key(&mut app, KeyCode::Enter);
+    key(&mut app, KeyCode::PageDown);
+    assert_eq!(app.selected, 0);
+    key(&mut app, KeyCode::Enter);
+    key(&mut app, KeyCode::PageDown);
+    assert_eq!(app.selected, 6);
 }

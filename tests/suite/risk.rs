@@ -513,3 +513,44 @@ fn samples_are_the_same_on_any_number_of_threads() {
     let one = on(1);
     assert_eq!(one, on(3));
 }
+
+/// Samples whose first hole would fire before time 0 are shifted, and so is the end of their run: what comes to rest by
+/// `duration_s` before the shift is no run that ends early.
+#[test]
+fn samples_are_followed_as_long_as_the_shot_as_planned() {
+    let endless = rows(
+        "[uncertainty]\nin_hole_delay_ms = 1500\ndelay_sd_ms = 60\nlaunch_cv_percent = 0\nlaunch_common_percent = 0\n",
+    );
+    let shot = &endless.shots[0];
+    let rest = |scene: &Scene, shot: &Shot| {
+        let settings = RunSettings { method: Method::Verlet, step: 1e-3, duration: None };
+        let run = endless.model.run_variant(scene, shot, &settings, &mut |_| ControlFlow::Continue(()));
+        run.expect("an outcome").end.at
+    };
+    let duration = rest(endless.scene(), shot) + 0.12;
+    let mut limited = endless.clone();
+    limited.plan.simulation.duration_s = Some(duration);
+    let verdicts = |case: &Case| {
+        let target =
+            ShotToSample::new(case, shot, ComputeSettings::of(&case.plan), Sampling::exactly(100, 1));
+        let found = sample_shots(&[target], &Progress::default()).expect("samples").value.remove(0);
+        found.samples.iter().map(|sample| sample.finest().verdict).collect::<Vec<_>>()
+    };
+    let (mut in_time, mut after_the_end_unshifted) = (0, 0);
+    for (number, (limited, endless_verdict)) in
+        verdicts(&limited).into_iter().zip(verdicts(&endless)).enumerate()
+    {
+        let DrawnShot { scene, shot, later, .. } = draw(&endless, shot, 1, number);
+        let end = rest(&scene, &shot);
+        // At another step rest is found somewhat earlier or later.
+        if end - later < duration - 0.02 {
+            assert_eq!(
+                limited, endless_verdict,
+                "sample {number}, {later} s later, rests at {end} s of {duration} s"
+            );
+            in_time += 1;
+            after_the_end_unshifted += usize::from(end > duration + 0.02);
+        }
+    }
+    assert!(in_time >= 20 && after_the_end_unshifted >= 5, "{in_time}, {after_the_end_unshifted}");
+}

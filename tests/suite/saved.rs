@@ -181,6 +181,31 @@ fn a_torn_line_is_dropped_and_a_damaged_line_is_refused() {
     assert_eq!(merged.stdout, whole.stdout, "what is saved is a shard, too");
 }
 
+/// Machines keep a plan in different folders; a plan that says something else is another study, and is told.
+#[test]
+fn shards_of_one_plan_under_two_paths_are_merged() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [plan, file] = plan_and_file(folder.path());
+    let other = folder.path().join("elsewhere.toml").to_str().expect("UTF-8").to_owned();
+    let second = format!("{file}.2");
+    let risk = |plan: &str, more: &[&str]| {
+        shelter(&[&["risk", plan, "--samples", "20", "--accuracy", "draft"], more].concat())
+    };
+    let whole = risk(&plan, &[]);
+    fs::copy(&plan, &other).expect("copied");
+    assert!(risk(&plan, &["--shard", "1/2", "-o", &file]).status.success());
+    assert!(risk(&other, &["--shard", "2/2", "-o", &second]).status.success());
+    let merged = shelter(&["merge", &file, &second]);
+    assert_eq!(merged.stdout, whole.stdout, "{}", support::text(&merged.stderr));
+    let changed = support::small_plan().replace("friction = 0.5", "friction = 0.4");
+    fs::write(&other, changed).expect("written");
+    fs::remove_file(&second).expect("removed");
+    assert!(risk(&other, &["--shard", "2/2", "-o", &second]).status.success());
+    let refused = shelter(&["merge", &file, &second]);
+    let told = support::text(&refused.stderr);
+    assert!(refused.status.code() == Some(2) && told.contains("another plan"), "{told}");
+}
+
 /// What PowerShell makes of a shard: UTF-16 or UTF-8 with a byte order mark, and line ends of Windows.
 #[test]
 fn a_shard_that_powershell_wrote_is_merged() {

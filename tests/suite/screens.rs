@@ -8,6 +8,7 @@ use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Style};
 use shelter::jobs::{News, StudyKind};
 use shelter::plan::Timing;
+use shelter::report::warnings;
 use shelter::simulation::Failure;
 use shelter::study::NoResult;
 use shelter::study::as_planned::margin::LaunchMargin;
@@ -234,7 +235,11 @@ fn notes_stand_beside_the_results() {
     assert!(orders.contains(&format!("and left out: {left_out}")), "{orders}");
     app.studies.show(StudyKind::Risk);
     let risk = text(&draw(&app, 120, 36));
-    assert!(risk.contains("is short for the scatter of the detonators"), "{risk}");
+    assert!(risk.contains("is short for the scatter of the detonators; a given hole of row 2"), "{risk}");
+    let mut case = (*app.case).clone();
+    case.plan.delays[1].hole_timing.interval_ms = 17.0;
+    let swaps = warnings::of_option(&case, 1, app.judgement(1).expect("judged"));
+    assert!(swaps[0].contains("the first hole of row 2 fires before the first hole of row 1"), "{swaps:?}");
 }
 
 /// Every screen in plain characters, and where each theme shows which style.

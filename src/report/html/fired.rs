@@ -60,7 +60,7 @@ fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str,
     }
     facts.push(("As planned", explain::peaks(case.scene(), &judged.as_planned)));
     facts.push(("Utilization as planned", utilization(case, judged)));
-    let bands = judged.sampled.drawn().and_then(explain::bands);
+    let bands = judged.sampled.drawn().and_then(|sampled| explain::bands(sampled, &case.limits));
     facts.extend(bands.map(|bands| ("Possible shots", bands)));
     facts
 }

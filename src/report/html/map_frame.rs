@@ -6,7 +6,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::scene::{Scene, TireId};
+use crate::scene::Scene;
 use crate::units;
 
 /// Where a picture is drawn.
@@ -73,17 +73,10 @@ impl Frame {
 
     /// Numbers of the rows at the left edge and of the columns at the lower edge; a list of tires has none.
     pub fn draw_numbers(&self, area: &Area<'_>, scene: &Scene, radius: i32) -> Drawn {
-        let (mut rows, mut columns) = (BTreeMap::new(), BTreeMap::new());
-        for (tire, position) in scene.tire.iter().zip(&scene.position) {
-            if let TireId::Cell { row, column } | TireId::Border { row, column } = *tire {
-                let at = self.at(position.x, position.y);
-                // The centre tires of a quincunx have half numbers.
-                if row.fract() == 0.0 && column.fract() == 0.0 {
-                    rows.insert(row as i64, at.1);
-                    columns.insert(column as i64, at.0);
-                }
-            }
-        }
+        let [rows, columns] = scene.rows_and_columns();
+        let rows: BTreeMap<i64, i32> = rows.into_iter().map(|(row, y)| (row, self.at(0.0, y).1)).collect();
+        let columns: BTreeMap<i64, i32> =
+            columns.into_iter().map(|(column, x)| (column, self.at(x, 0.0).0)).collect();
         if rows.is_empty() {
             return Ok(());
         }

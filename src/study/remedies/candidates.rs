@@ -24,13 +24,14 @@ pub(super) fn candidates(plan: &Plan, option: usize, too_much_together: bool) ->
         // Nothing but other firing times helps.
         return vec![intervals.collect()];
     }
+    // What costs least to make stands first; a lower launch is a smaller charge, which must then be seen to give it.
     vec![
+        intervals.collect(),
         stronger_ropes(plan),
         stronger_terminations(plan),
         more_border_rows(plan),
         slacks.collect(),
         LOWER_LAUNCHES.map(Change::Launch).to_vec(),
-        intervals.collect(),
     ]
 }
 

@@ -1,6 +1,6 @@
 //! The nearest changes of a plan with which a delay option that does not pass would pass.
 //!
-//! 1. Candidates come by kind (rope, termination, ballast, slack, launches, interval), from the smallest change up. Each is
+//! 1. Candidates come by kind (interval, rope, termination, ballast, slack, launches), from the smallest change up. Each is
 //!    written into the plan's text, and the plan of the new text is what is judged: whoever writes it gets this very plan.
 //! 2. All candidates are judged coarsely, as planned; those that surely fail are out.
 //! 3. Of each kind the smallest left is judged as `check` judges it: as planned, then by the samples of a verdict. Where that is

@@ -4,7 +4,7 @@
 //! 1. The intervals asked for are tried, and those of the plan's own options.
 //! 2. The interval in the middle of a *gap* between two neighbours is tried, too, where the gap is wider than [`GAP`] and a
 //!    neighbour passes, where only one neighbour passes, or where both pass but the gap is not *calm*. Gaps are halved down
-//!    to [`NARROWEST`].
+//!    to `NARROWEST` in `windows`.
 //! 3. A gap of width w is calm where u + s w ≤ 1. u is the greater upper bound (value + 1.5 errors) of the utilization at its two
 //!    neighbours; s is the steepest change of utilization with the interval in this gap and the one on either side.
 //! 4. A window is a row of passing intervals with calm gaps no wider than [`GAP`]. Its ends are intervals that were tried.

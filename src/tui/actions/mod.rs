@@ -138,9 +138,10 @@ impl App {
         Request::NamePage(format!("{}-{ending}", self.file_stem()))
     }
 
-    /// Name of the plan's file without its ending.
-    fn file_stem(&self) -> &str {
-        Path::new(&self.case.source.path).file_stem().and_then(|stem| stem.to_str()).unwrap_or("plan")
+    /// The plan's file without its ending: what is written about a plan lies beside it.
+    fn file_stem(&self) -> String {
+        let stem = Path::new(&self.case.source.path).with_extension("");
+        stem.to_str().filter(|stem| !["", "-"].contains(stem)).unwrap_or("plan").to_owned()
     }
 
     /// Closes the uppermost open thing; never leaves the program.

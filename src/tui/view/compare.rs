@@ -131,10 +131,18 @@ fn value_or_difference(app: &App, option: usize, quantity: fn(&CheckedShot) -> f
     }
 }
 
-/// The quantity of the shot as planned that is nearest to its limit or farthest past it, in percent of the limit: `F 105 %`.
+/// The quantity that is nearest to its limit or farthest past it, in percent of the limit: `F 105 %`. Of each, 95 % of the possible
+/// shots stay below the value that counts; as planned where that is greater, and as long as there are few samples.
 fn of_limit(app: &App, _: usize, judged: &Judgement) -> String {
-    let share =
-        |(letter, quantity)| Some((letter, judged.as_planned.share_of_limit(quantity, &app.case.limits)?));
+    let limits = &app.case.limits;
+    let sampled = |quantity| {
+        let [_, _, p95, _] = sampled(judged)?.band(quantity)?;
+        Some(p95 / limits.get(quantity)?)
+    };
+    let share = |(letter, quantity)| {
+        let as_planned = judged.as_planned.share_of_limit(quantity, limits)?;
+        Some((letter, sampled(quantity).map_or(as_planned, |sampled: f64| sampled.max(as_planned))))
+    };
     let shares = ['H', 'F', 'D'].into_iter().zip(Quantity::ALL).filter_map(share);
     let worst = shares.max_by(|a, b| a.1.total_cmp(&b.1));
     worst.map_or_else(String::new, |(letter, share)| format!("{letter} {}", units::percent(share, 0)))

@@ -19,7 +19,7 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use super::chart;
 use crate::jobs::StudyKind;
 use crate::outcome::EndReason;
-use crate::report::explain::{bands, broken, firing_times_text, inputs, launch_limit, peaks};
+use crate::report::explain::{bands, broken, firing_times_text, inputs, launch_limit, measure_first, peaks};
 use crate::report::model::Chart;
 use crate::report::reasons;
 use crate::report::remedies::{sentence, without_pass};
@@ -36,7 +36,7 @@ use crate::tui::theme;
 use crate::units;
 use crate::verdict::Verdict;
 
-/// Height that the text leaves to charts.
+/// Least height of charts: flatter ones tell nothing.
 const LEAST_CHART: u16 = 6;
 /// Least height of two rows of charts.
 const TWO_ROWS: u16 = 2 * LEAST_CHART;
@@ -70,11 +70,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     let facts = fact_lines(app, judged);
     let lines: u16 =
         facts.iter().map(|line| (line.width() as u16).div_ceil(inside.width.max(1)).max(1)).sum();
-    // An open list is worth more than charts.
-    let charts = if is_listed(app) { 0 } else { LEAST_CHART };
-    let most = inside.height.saturating_sub(charts);
-    let [text, rest] =
-        Layout::vertical([Constraint::Length(lines.min(most)), Constraint::Min(0)]).areas(inside);
+    // Text is worth more than charts; Enter gives both the whole screen.
+    let [text, rest] = Layout::vertical([Constraint::Length(lines), Constraint::Min(0)]).areas(inside);
     frame.render_widget(Paragraph::new(facts).wrap(Wrap { trim: true }), text);
     let history = charts::history(&app.case, &judged.as_planned.history, &app.case.shots[app.selected]);
     let sampled = judged.sampled.drawn().filter(|sampled| !sampled.samples.is_empty());
@@ -83,6 +80,9 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
 
 /// Draws height and force over time, and those of the samples. Where only one of both has room, the samples stand.
 fn draw_charts(app: &App, history: [Chart; 2], sampled: Option<&SampledShot>, frame: &mut Frame, area: Rect) {
+    if area.height < LEAST_CHART {
+        return;
+    }
     let rows = match sampled.map(|sampled| charts::samples(&app.case, sampled)) {
         None => vec![history.to_vec()],
         Some(samples) if area.height >= TWO_ROWS => vec![history.to_vec(), samples.to_vec()],
@@ -156,14 +156,16 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     }
     let decided = sampled.and_then(|sampled| inputs(sampled, &case.limits));
     let decided = decided.map(|inputs| format!("decided by {inputs}"));
+    let measure = sampled.and_then(|sampled| measure_first(sampled, &case.limits));
+    let measure = measure.map(|what| format!("to know more, {what}"));
     let launch = launch_limit(&case.shots[app.selected], judged);
     let launch = launch.map(|launch| format!("as planned it {launch}"));
-    let decided: Vec<String> = launch.into_iter().chain(decided).collect();
+    let decided: Vec<String> = launch.into_iter().chain(decided).chain(measure).collect();
     if !decided.is_empty() {
         lines.push(Line::from(decided.join(" · ")));
     }
     lines.push(Line::from(format!("as planned: {}", peaks(case.scene(), checked))));
-    lines.extend(sampled.and_then(bands).map(Line::from));
+    lines.extend(sampled.and_then(|sampled| bands(sampled, &case.limits)).map(Line::from));
     let how = format!(
         "step {} · {} runs in {} · energy residual {:.0e} · {} {}",
         units::milliseconds(checked.step),

@@ -19,6 +19,7 @@ use ratatui::widgets::canvas::{Canvas, Context, Line as Stroke, Points};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::chart::{self, Mark};
+use super::map_numbers;
 use super::widgets::color;
 use crate::jobs::StudyKind;
 use crate::outcome::Outcome;
@@ -34,6 +35,8 @@ use crate::verdict::Verdict;
 const FLASH: f64 = 0.03;
 /// Greatest height of a tire that is drawn as on the ground [m].
 const GROUND: f32 = 1e-4;
+/// Relative difference below which two values are alike: displacements are recorded in single precision.
+const ALIKE: f64 = 1e-4;
 /// Distance between the dots of a slack cable [finest dots].
 const DOTTED: f64 = 4.0;
 /// Signs for heights of one to eight eighths of the limit.
@@ -90,7 +93,8 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
         false => String::new(),
     };
     let block = titled_block(app, format!("{name}, from above{slope}"));
-    let inside = block.inner(area);
+    let around = block.inner(area);
+    let inside = map_numbers::map_area(scene, around);
     frame.render_widget(block, area);
     let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
     let (columns, rows) = (f64::from(inside.width), f64::from(inside.height));
@@ -122,12 +126,15 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
             firing[fire.tire] = Some(arrow(fire.launch.xy()));
         }
     }
-    let mut highest: HashMap<(u16, u16), (f32, Option<&str>)> = HashMap::new();
-    for (tire, u) in flight.at(time).iter().enumerate() {
-        let (x, y) = position(tire);
+    let cell = |[x, y]: [f64; 2]| {
         let x = ((x - left) / width).round().min(columns - 1.0) as u16;
         let y = ((top - y) / (2.0 * width)).round().min(rows - 1.0) as u16;
-        let cell = highest.entry((inside.x + x, inside.y + y)).or_insert((f32::MIN, None));
+        (inside.x + x, inside.y + y)
+    };
+    map_numbers::draw(scene, inside, around, cell, theme.muted(), frame.buffer_mut());
+    let mut highest: HashMap<(u16, u16), (f32, Option<&str>)> = HashMap::new();
+    for (tire, u) in flight.at(time).iter().enumerate() {
+        let cell = highest.entry(cell(position(tire).into())).or_insert((f32::MIN, None));
         let is_top = tire == flight.outcome.height.index && u[2] > GROUND;
         *cell = (cell.0.max(u[2]), firing[tire].or(cell.1).or(is_top.then_some("^")));
     }
@@ -261,9 +268,14 @@ fn even_width(layout: &plan::Layout, least: f64) -> f64 {
 /// that were recorded. Those of the whole flight stand where the width [cells] has room: the charts below have them too.
 fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<'l> {
     let (scene, limits, time) = (app.case.scene(), &app.case.limits, app.player.time);
+    // Of mirror images, which differ by rounding alone, the first counts, as it does in the peaks of the run.
     let greatest = |values: &[f64]| {
-        let most = values.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-        most.filter(|(_, value)| *value > f64::from(GROUND))
+        let higher = |most: (usize, f64), (n, &value): (usize, &f64)| match value > most.1 * (1.0 + ALIKE) {
+            true => (n, value),
+            false => most,
+        };
+        let most = values.iter().enumerate().fold((0, 0.0), higher);
+        Some(most).filter(|(_, value)| *value > f64::from(GROUND))
     };
     let heights: Vec<f64> = flight.at(time).iter().map(|u| f64::from(u[2])).collect();
     let share = |value: f64, limit: f64| format!("{} of limit", units::percent(value / limit, 0));

@@ -17,6 +17,7 @@ mod detail;
 mod fields;
 mod flight;
 mod help;
+mod map_numbers;
 mod plan;
 pub(super) mod report;
 mod studies;

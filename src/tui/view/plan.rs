@@ -9,7 +9,7 @@ use ratatui::widgets::canvas::{self, Canvas, Points};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::widgets::color;
-use super::{compare, fields};
+use super::{compare, fields, map_numbers};
 use crate::report::explain::firing_times_text;
 use crate::report::warnings;
 use crate::study::Case;
@@ -106,7 +106,11 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
     let others: Vec<(f64, f64)> =
         tires.iter().zip(&fires).filter(|(_, fires)| !**fires).map(|(tire, _)| *tire).collect();
     // The canvas puts a character half a cell left of and above a point with the same coordinates: move the characters.
-    let inside = block.inner(area);
+    let around = block.inner(area);
+    frame.render_widget(block, area);
+    // The last line is that of the legend.
+    let around = Rect { height: around.height.saturating_sub(1), ..around };
+    let inside = map_numbers::map_area(scene, around);
     let half = |length: f64, cells: u16| 0.5 * (length + 2.0 * margin) / f64::from(cells.max(2) - 1);
     let (right_by, down_by) = (half(right - left, inside.width), half(top - bottom, inside.height));
     let lines = equal_time_lines(case, app.selected);
@@ -118,7 +122,6 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
         false => sign(turn),
     };
     let canvas = Canvas::default()
-        .block(block)
         .background_color(theme.base().bg.unwrap_or(Color::Reset))
         .marker(Marker::Dot)
         .x_bounds([left - margin, right + margin])
@@ -141,7 +144,13 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
                 }
             }
         });
-    frame.render_widget(canvas, area);
+    frame.render_widget(canvas, inside);
+    let cell = |[x, y]: [f64; 2]| {
+        let across = (x - left + margin) / (right - left + 2.0 * margin) * f64::from(inside.width.max(1) - 1);
+        let down = (top - y + margin) / (top - bottom + 2.0 * margin) * f64::from(inside.height.max(1) - 1);
+        (inside.x + across.round() as u16, inside.y + down.round() as u16)
+    };
+    map_numbers::draw(scene, inside, around, cell, theme.muted(), frame.buffer_mut());
     let signs = match widest as f64 + 1.0 <= room {
         true => "numbers: fired at, ms",
         false => "signs: 1 fires first, 2 next, after 9 a, b",

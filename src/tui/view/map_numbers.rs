@@ -1,0 +1,58 @@
+//! Numbers of the rows and columns of tires beside a map of the shelter.
+
+use std::collections::BTreeMap;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+
+use crate::scene::Scene;
+
+/// Cells at the left of a map for the numbers of rows: two digits and a blank.
+const LEFT: u16 = 3;
+/// Least width and height of a map beside which there is room for numbers.
+const LEAST: (u16, u16) = (24, 6);
+
+/// The part of an area that is left for the map; all of it where numbers have no room, or tires have none.
+pub fn map_area(scene: &Scene, area: Rect) -> Rect {
+    let has_numbers = !scene.rows_and_columns()[0].is_empty();
+    if !has_numbers || area.width < LEAST.0 + LEFT || area.height < LEAST.1 + 1 {
+        return area;
+    }
+    Rect { x: area.x + LEFT, y: area.y + 1, width: area.width - LEFT, height: area.height - 1 }
+}
+
+/// Draws the numbers around `map`, the [`map_area`] of an area; `cell` is the cell of a place [m].
+pub fn draw(
+    scene: &Scene,
+    map: Rect,
+    area: Rect,
+    cell: impl Fn([f64; 2]) -> (u16, u16),
+    style: Style,
+    buffer: &mut Buffer,
+) {
+    if map == area {
+        return;
+    }
+    let [rows, columns] = scene.rows_and_columns();
+    let edges = |numbers: &BTreeMap<i64, f64>| numbers.values().next().copied().unwrap_or_default();
+    let [bottom, left] = [edges(&rows), edges(&columns)];
+    let mut last = None;
+    for (row, y) in rows {
+        let (_, y) = cell([left, y]);
+        // Rows closer than a line share it: the first has its number.
+        if last != Some(y) {
+            buffer.set_string(area.x, y, format!("{row:>2}"), style);
+        }
+        last = Some(y);
+    }
+    let mut free = area.x;
+    for (column, x) in columns {
+        let text = column.to_string();
+        let (x, _) = cell([x, bottom]);
+        if x >= free && x + text.len() as u16 <= area.right() {
+            buffer.set_string(x, area.y, &text, style);
+            free = x + text.len() as u16 + 1;
+        }
+    }
+}
