@@ -4,9 +4,6 @@ use crate::choice::Method;
 use crate::plan::keys::{self, Key};
 use crate::plan::{Layout, Plan};
 
-/// Time after the last hole over which a shelter without friction is followed [s].
-const WITHOUT_FRICTION: f64 = 3.0;
-
 /// An effect of the model that a scene may have or not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
@@ -140,10 +137,6 @@ impl Effect {
             Self::Friction => {
                 plan.ground.friction = value_or_zero;
                 plan.uncertainty.friction = [value_or_zero; 2];
-                // Without friction the shelter never comes to rest.
-                let times = plan.delays.iter().flat_map(|delay| delay.timing.fire_at_ms());
-                let last = times.fold(0.0, f64::max) * 1e-3;
-                plan.simulation.duration_s.get_or_insert(last + WITHOUT_FRICTION);
             }
             Self::Slack => {
                 plan.cable.slack_percent = value_or_zero;

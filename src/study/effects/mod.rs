@@ -10,7 +10,9 @@
 
 mod effect;
 
+use std::borrow::Cow;
 use std::cmp::Ordering;
+use std::sync::OnceLock;
 use std::time::Instant;
 
 pub use self::effect::Effect;
@@ -23,6 +25,7 @@ use super::samples::sampling::Sampling;
 use super::work::batch::run_batch;
 use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress, ShotSummary, catch_panic};
 use crate::plan::Plan;
+use crate::scene::Shot;
 use crate::verdict::{Limits, Quantity, Verdict};
 
 /// Number of samples behind a median, unless another is asked for.
@@ -240,6 +243,20 @@ fn hardest(variant: &Variant, figures: &[&OptionFigures], limits: &Limits) -> Op
     Some(EffectOnOption { is_missed_on_the_unsafe_side, ..hardest? })
 }
 
+/// Time after the last hole over which a shelter without friction is followed [s]: it never comes to rest.
+const WITHOUT_FRICTION: f64 = 3.0;
+
+/// The case, with an end of its runs where nothing comes to rest: what holds for an option depends on no other.
+fn followed<'c>(case: &'c Case, shot: &Shot) -> Cow<'c, Case> {
+    if case.plan.ground.friction > 0.0 || case.plan.simulation.duration_s.is_some() {
+        return Cow::Borrowed(case);
+    }
+    let mut ending = Case { fingerprint: OnceLock::new(), ..case.clone() };
+    let last = shot.firings.last().map_or(0.0, |firing| firing.at);
+    ending.plan.simulation.duration_s = Some(last + WITHOUT_FRICTION);
+    Cow::Owned(ending)
+}
+
 /// Screens an option as planned, and takes its first samples.
 fn measure_option(
     case: &Case,
@@ -249,6 +266,7 @@ fn measure_option(
     progress: &Progress,
 ) -> Result<OptionFigures, NoResult> {
     let shot = &case.shots[option];
+    let case = &*followed(case, shot);
     let begun = Instant::now();
     let as_planned = or_unknown(quick_check(case, shot, compute, progress))?;
     let verdict = verdict_of_values(&as_planned, case);
