@@ -12,6 +12,7 @@ use shelter::report::warnings;
 use shelter::simulation::Failure;
 use shelter::study::NoResult;
 use shelter::study::as_planned::margin::LaunchMargin;
+use shelter::study::judgement::Evidence;
 use shelter::tui::app::{App, Request};
 use shelter::tui::compare::OptionState;
 use shelter::tui::screen::Screen;
@@ -304,4 +305,26 @@ fn style_name(style: Style) -> String {
     let words: Vec<String> =
         modifiers.chain(color(style.fg)).chain(color(style.bg).map(|name| format!("on {name}"))).collect();
     if words.is_empty() { "plain".to_owned() } else { words.join(" ") }
+}
+
+/// A share of the limit that only the shot as planned keeps would flatter an option beside its samples.
+#[test]
+fn the_share_of_the_limit_is_that_of_95_percent_of_the_possible_shots() {
+    let mut app = finished();
+    let shares = |app: &App| -> String {
+        let compare = text(&draw(app, 120, 36));
+        compare.lines().find(|line| line.starts_with("all at once")).expect("the first option").to_owned()
+    };
+    let limit = app.case.limits.height;
+    let OptionState::Judged { judgement, .. } = &mut app.options[0] else { panic!("judged") };
+    let Evidence::Drawn(sampled) = &mut judgement.sampled else { panic!("sampled") };
+    for (n, sample) in sampled.samples.iter_mut().enumerate() {
+        sample.run.height = limit * if n % 10 == 0 { 1.17 } else { 0.5 };
+    }
+    assert!(shares(&app).contains("H 117 %"), "one in ten is that high: {}", shares(&app));
+    let OptionState::Judged { judgement, .. } = &mut app.options[0] else { panic!("judged") };
+    judgement.sampled = Evidence::NotDrawn;
+    let planned = judgement.as_planned.height.value / limit * 100.0;
+    let force = judgement.as_planned.force.value / app.case.limits.force * 100.0;
+    assert!(shares(&app).contains(&format!("{:.0} %", planned.max(force))), "{}", shares(&app));
 }
