@@ -22,7 +22,7 @@ pub fn canonical(path: &Path) -> io::Result<PathBuf> {
 
 /// The text of a file: UTF-8 with or without a byte order mark, or UTF-16 with one, as PowerShell writes it.
 pub fn read(path: &Path) -> io::Result<String> {
-    let bytes = std::fs::read(path)?;
+    let bytes = std::fs::read(path).map_err(|error| unreadable(path, error))?;
     let text = match bytes.as_slice() {
         [0xff, 0xfe, units @ ..] => {
             let units = units.chunks_exact(2).map(|unit| u16::from_le_bytes([unit[0], unit[1]]));
@@ -31,6 +31,19 @@ pub fn read(path: &Path) -> io::Result<String> {
         [0xef, 0xbb, 0xbf, text @ ..] | text => std::str::from_utf8(text).ok().map(str::to_owned),
     };
     text.ok_or_else(|| io::Error::new(ErrorKind::InvalidData, "it is no text"))
+}
+
+/// An error of reading a file, in the same words on every system.
+pub fn unreadable(path: &Path, error: io::Error) -> io::Error {
+    // Windows tells of a folder that it may not be read.
+    let kind = if path.is_dir() { ErrorKind::IsADirectory } else { error.kind() };
+    let words = match kind {
+        ErrorKind::NotFound => "there is no such file",
+        ErrorKind::IsADirectory => "it is a folder",
+        ErrorKind::PermissionDenied => "it may not be read",
+        _ => return error,
+    };
+    io::Error::new(kind, words)
 }
 
 /// Replaces the contents of a file by `text`, all at once: a reader, also after a loss of power, finds the old text or the new

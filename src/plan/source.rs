@@ -1,9 +1,11 @@
 //! The file that a plan, or a list of holes, was read from: its path and its text.
 
+use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 use super::{Diagnostics, Plan, sections, visible};
+use crate::file;
 
 /// Largest file read [bytes].
 pub(super) const MOST_BYTES: u64 = 64 << 20;
@@ -39,6 +41,7 @@ pub(super) type Unreadable = (String, &'static str);
 /// The bytes of a file; `-` is standard input.
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, Unreadable> {
     let cannot = |error: std::io::Error| {
+        let error = file::unreadable(path, error);
         let remedy = match error.kind() {
             std::io::ErrorKind::NotFound => {
                 "check the path, or write a starter plan with `shelter init FILE`"
@@ -52,7 +55,7 @@ pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, Unreadable> {
     let read = if path.as_os_str() == "-" {
         std::io::stdin().lock().take(MOST_BYTES + 1).read_to_end(&mut bytes)
     } else {
-        std::fs::File::open(path).and_then(|file| file.take(MOST_BYTES + 1).read_to_end(&mut bytes))
+        File::open(path).and_then(|file| file.take(MOST_BYTES + 1).read_to_end(&mut bytes))
     };
     read.map_err(cannot)?;
     if bytes.len() as u64 > MOST_BYTES {

@@ -423,7 +423,7 @@ fn files_that_cannot_be_read_name_the_path_and_the_remedy() {
     let told = |path: &std::path::Path| Plan::load(path).expect_err("unreadable").render(false);
     assert!(told(&path).contains("cannot read the file"), "missing");
     assert!(told(&path).contains("shelter init"), "missing: the remedy");
-    assert!(told(folder.path()).contains("directory"), "a directory");
+    assert!(told(folder.path()).contains("it is a folder"), "a folder");
     std::fs::write(&path, b"title = \"\xff\"").expect("written");
     assert!(told(&path).contains("not UTF-8"), "not UTF-8");
 }

@@ -5,6 +5,7 @@ use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::layout::Position;
 use shelter::choice::Accuracy;
+use shelter::file::canonical;
 use shelter::jobs::StudyKind;
 use shelter::study::NoResult;
 use shelter::tui::app::{App, Request};
@@ -13,7 +14,7 @@ use shelter::tui::config::Config;
 use shelter::tui::dispatch;
 use shelter::tui::prompt::Purpose;
 use shelter::tui::screen::Screen;
-use shelter::tui::start::{EXAMPLES, Next, Opened, Start};
+use shelter::tui::start::{Choice, EXAMPLES, Next, Opened, Start};
 use shelter::tui::studies::StudyState;
 
 use shelter::verdict::Verdict;
@@ -233,6 +234,22 @@ fn the_start_screen_uses_the_keys_of_the_configuration() {
     let mut terminal = Terminal::new(TestBackend::new(100, 30)).expect("a test terminal");
     terminal.draw(|frame| start.draw(&config, frame)).expect("drawn");
     assert!(text(terminal.backend().buffer()).contains("Ctrl-o opens · Ctrl-q leaves"));
+}
+
+/// Windows itself writes `\\?\` before the path of a file.
+#[test]
+fn a_plan_opened_lately_is_listed_once_and_as_people_write_its_path() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let plan = folder.path().join("mine.toml");
+    std::fs::write(&plan, include_str!("../../plans/paper-5-tire.toml")).expect("written");
+    let start = Start::new(folder.path(), vec![canonical(&plan).expect("a path")], None);
+    let path = |choice: &Choice| match choice {
+        Choice::File(path) => Some(path.display().to_string()),
+        _ => None,
+    };
+    let listed: Vec<_> = start.choices.iter().filter_map(path).collect();
+    assert_eq!(listed.len(), 1, "{listed:?}");
+    assert!(!listed[0].starts_with(r"\\?\"), "{listed:?}");
 }
 
 #[test]
