@@ -51,6 +51,8 @@ use self::arguments::{Compute, LookArguments};
 #[derive(Parser)]
 #[command(name = "shelter", version, args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 #[command(help_template = grouped_help())]
+// On Windows, too, where the file is `shelter.exe`.
+#[command(bin_name = "shelter")]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
