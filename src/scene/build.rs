@@ -74,8 +74,8 @@ fn way_of_row(places: &[Vector2<f64>], before: Option<Vector2<f64>>) -> Vector2<
         true if yy > xx => Vector2::y(),
         true => Vector2::x(),
         false => {
-            let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
-            Vector2::new(angle.cos(), angle.sin())
+            let angle = 0.5 * libm::atan2(2.0 * xy, xx - yy);
+            Vector2::new(libm::cos(angle), libm::sin(angle))
         }
     };
     let ahead = before.map_or(0.0, |before| way.dot(&before));
@@ -131,7 +131,7 @@ fn azimuth(degrees: f64) -> Vector2<f64> {
 fn cosine(degrees: f64) -> f64 {
     match degrees.rem_euclid(360.0) {
         90.0 | 270.0 => 0.0,
-        angle => angle.to_radians().cos(),
+        angle => libm::cos(angle.to_radians()),
     }
 }
 

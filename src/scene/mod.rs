@@ -209,6 +209,6 @@ impl Scene {
     pub fn critical_step(&self) -> f64 {
         let frequency = self.frequency_bound();
         let rate = if self.damping > 0.0 { self.rate_bound(|cable| self.viscosity(cable)) } else { 0.0 };
-        2.0 / (frequency.hypot(rate) + rate)
+        2.0 / (libm::hypot(frequency, rate) + rate)
     }
 }

@@ -8,8 +8,10 @@
 //! tire of the plan's mass: a tire of another mass leaves with the same momentum. Each gap between blast rows scatters by itself
 //! and shifts all later rows; so does each gap between the holes of a row, which shifts the later
 //! holes of its side.
+//!
+//! Functions such as the exponential come from `libm`, not from the system, whose last digits differ from another's.
 
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::Vector3;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -96,8 +98,8 @@ impl Random {
 
 /// Factor with mean 1 and a coefficient of variation [%], lognormal.
 fn factor(random: &mut ChaCha8Rng, cv_percent: f64) -> f64 {
-    let variance = (cv_percent * 1e-2).powi(2).ln_1p();
-    (variance.sqrt() * normal(random) - 0.5 * variance).exp()
+    let variance = libm::log1p((cv_percent * 1e-2).powi(2));
+    libm::exp(variance.sqrt() * normal(random) - 0.5 * variance)
 }
 
 fn normal(random: &mut ChaCha8Rng) -> f64 {
@@ -186,6 +188,16 @@ fn scatter_chain(planned: &[f64], unknown: &Uncertainty, random: &mut ChaCha8Rng
     at
 }
 
+/// A vector turned about an axis, by the length of the axis [rad] (Rodrigues).
+fn rotated(vector: Vector3<f64>, axis: Vector3<f64>) -> Vector3<f64> {
+    let angle = axis.norm();
+    if angle == 0.0 {
+        return vector;
+    }
+    let (axis, (sin, cos)) = (axis / angle, libm::sincos(angle));
+    vector * cos + axis.cross(&vector) * sin + axis * (axis.dot(&vector) * (1.0 - cos))
+}
+
 /// Scatters masses tire by tire, and launches and in-hole delays hole by hole.
 fn scatter_tires(
     scene: &mut Scene,
@@ -206,7 +218,7 @@ fn scatter_tires(
             let firing = &mut firings[hole];
             let faster = launch_common * factor(random, unknown.launch_cv_percent) / heavier;
             let axis = Vector3::new(normal(random), normal(random), 0.0) * tilt;
-            firing.launch = Rotation3::from_scaled_axis(axis) * firing.launch * faster;
+            firing.launch = rotated(firing.launch, axis) * faster;
             firing.at += in_hole * normal(random);
         }
     }

@@ -150,12 +150,14 @@ impl FailureBounds {
 /// it does not.
 fn bound(mixture: &[Beta], failures: usize, samples: usize, error: f64, end: f64) -> f64 {
     let (k, n) = (failures as f64, samples as f64);
-    let terms =
-        mixture.iter().map(|&Beta { weight, a, b }| weight.ln() + ln_beta(a + k, b + n - k) - ln_beta(a, b));
+    let terms = mixture
+        .iter()
+        .map(|&Beta { weight, a, b }| libm::log(weight) + ln_beta(a + k, b + n - k) - ln_beta(a, b));
     let mean = terms.clone().fold(f64::NEG_INFINITY, f64::max);
-    let mean = mean + terms.map(|term| (term - mean).exp()).sum::<f64>().ln();
+    let mean = mean + libm::log(terms.map(|term| libm::exp(term - mean)).sum::<f64>());
     let power = |count: f64, ln: f64| if count == 0.0 { 0.0 } else { count * ln };
-    let is_refuted = |p: f64| mean - power(k, p.ln()) - power(n - k, (-p).ln_1p()) >= -error.ln();
+    let is_refuted =
+        |p: f64| mean - power(k, libm::log(p)) - power(n - k, libm::log1p(-p)) >= -libm::log(error);
     let (mut inside, mut outside) = (k / n, end);
     if !is_refuted(end) {
         return end;
