@@ -28,7 +28,7 @@ const SCRIPT: [(&str, &str, Option<&str>); 6] = [
     ("", "1 of 7 pass", None),
     ("jjjj", "42 ms ─", Some("compare")),
     ("kkkw", "it would pass with any one", Some("remedies")),
-    ("wjjj3", "42 ms, from above", None),
+    ("wjjj3", "42 ms ✓ PASS, shown as planned", None),
     (" ", "playing", Some("flight")),
     ("4\r", "PASS", Some("sweep")),
 ];

@@ -62,15 +62,16 @@ pub fn inputs(sampled: &SampledShot, limits: &Limits) -> Option<String> {
     Some(words.join(", "))
 }
 
-/// What on site narrows the bands of a shot most: the input that decides it, and how it is found out; `None` where none decides.
+/// What on site narrows the bands of a shot most: the input that decides it, and how it is found out.
 pub fn measure_first(sampled: &SampledShot, limits: &Limits) -> Option<&'static str> {
     let shares = influence::input_shares(sampled, limits)?;
     let (input, share) = shares.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (share >= DECIDES).then_some(match input {
-        Input::LaunchCommon => "film a shot and fit its launch velocities (Studies, Fit)",
-        Input::Friction => "drag a tire along the ground with a spring scale",
-        Input::Slack => "measure the slack of laid cables",
-        Input::AxialStiffness => "find the stiffness of the rope, by its maker or a pull test",
+    Some(match input {
+        _ if share < DECIDES => "no one measurement narrows that much: most of it scatters from hole to hole",
+        Input::LaunchCommon => "to know more, film a shot and fit its launch velocities (Studies, Fit)",
+        Input::Friction => "to know more, drag a tire along the ground with a spring scale",
+        Input::Slack => "to know more, measure the slack of laid cables",
+        Input::AxialStiffness => "to know more, find the stiffness of the rope, by its maker or a pull test",
     })
 }
 

@@ -84,7 +84,7 @@ fn table_of_windows(case: &Case, sweep: &Sweep) -> Table {
         wide(windows).into_iter().map(move |window| (name, window)).collect::<Vec<_>>()
     };
     let (all, as_planned) = match sweep.has_risk() {
-        true => (named("of accepted risk", &sweep.windows), named("as planned", &sweep.windows_as_planned)),
+        true => (named("worth a check", &sweep.windows), named("as planned only", &sweep.windows_as_planned)),
         false => (named("that pass", &sweep.windows), Vec::new()),
     };
     let all = [all, as_planned].concat();
@@ -117,7 +117,7 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
     if has_risk {
         let risk = format!("{} %", case.plan.limits.accepted_risk_percent);
         let accepted: Vec<&&Point> = sampled.iter().filter(|point| point.is_accepted()).collect();
-        lines.extend(listed(&format!("windows of accepted risk{so_far}"), &sweep.windows));
+        lines.extend(listed(&format!("windows worth a check{so_far}"), &sweep.windows));
         lines.push(format!(
             "at {} of {} intervals sampled no more than {risk} of the samples fail",
             accepted.len(),
@@ -179,7 +179,7 @@ fn recommended(sweep: &Sweep, has_risk: bool) -> Vec<String> {
             ));
         }
     } else if has_risk && sweep.refuted == 0 {
-        lines.push("no interval is recommended: no window of accepted risk is wider than a point".to_owned());
+        lines.push("no interval is recommended: no window worth a check is wider than a point".to_owned());
     }
     if sweep.refuted > 0 {
         let none = if sweep.recommended.is_some() {

@@ -64,7 +64,7 @@ fn swept(app: &App) -> Option<&Sweep> {
 }
 
 /// What was seen of earlier shots, where a fit on the screen is one of this plan.
-fn observed(app: &App) -> Vec<ObservedRow<'_>> {
+pub fn observed(app: &App) -> Vec<ObservedRow<'_>> {
     match app.studies.finished(StudyKind::Fit).map(|finished| &*finished.found) {
         Some(StudyResult::Fit(fit, _)) => match &**fit {
             FitResult::Fitted(fit) => observed_rows(&app.case, &fit.observed, &fit.predictions),

@@ -109,7 +109,7 @@ fn clicks_do_what_keys_do() {
     click(&mut app, "20 ms");
     assert!(app.zoom, "a second click opens");
     key(&mut app, KeyCode::Esc);
-    click(&mut app, "force, kN");
+    click(&mut app, "plan F, kN");
     assert_eq!(app.listing.sort, SortBy::Force);
     click(&mut app, "4 Studies");
     assert_eq!(app.screen, Screen::Studies);
@@ -196,7 +196,8 @@ fn what_is_shown_is_offered_for_export() {
     for (verdict, ending) in [(Verdict::Pass, "to-be-fired"), (Verdict::Fail, "fails")] {
         let has = |&n: &usize| app.judgement(n).is_some_and(|judged| judged.verdict() == verdict);
         app.selected = (0..7).find(has).expect("such an option");
-        assert_eq!(press(&mut app, "P"), Request::NamePage(format!("{plan}-{ending}")));
+        let option = app.case.plan.delays[app.selected].name.replace(", ", "-").replace(' ', "-");
+        assert_eq!(press(&mut app, "P"), Request::NamePage(format!("{plan}-{option}-{ending}")));
     }
     app.ask_for_file(Purpose::Page, "page.html");
     assert_eq!(key(&mut app, KeyCode::Enter), Request::Page("page.html".into()));

@@ -324,7 +324,9 @@ fn the_share_of_the_limit_is_that_of_95_percent_of_the_possible_shots() {
     assert!(shares(&app).contains("H 117 %"), "one in ten is that high: {}", shares(&app));
     let OptionState::Judged { judgement, .. } = &mut app.options[0] else { panic!("judged") };
     judgement.sampled = Evidence::NotDrawn;
-    let planned = judgement.as_planned.height.value / limit * 100.0;
-    let force = judgement.as_planned.force.value / app.case.limits.force * 100.0;
-    assert!(shares(&app).contains(&format!("{:.0} %", planned.max(force))), "{}", shares(&app));
+    let alone = shares(&app);
+    assert!(
+        !alone.contains("H ") && !alone.contains("F "),
+        "the shot as planned alone would flatter: {alone}"
+    );
 }

@@ -83,7 +83,7 @@ fn studies_run_are_cancelled_and_keep_their_result() {
     watched.press("ll\r");
     watched.until("combinations tried");
     watched.press("2");
-    watched.until("samples  height, m");
+    watched.until("samples  plan H, m");
     watched.press("4");
     watched.until("combinations tried");
     watched.press("q");
@@ -272,7 +272,7 @@ fn a_walk_through_everything() {
     let mut watched = Watched::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 200, 60);
     watched.until(" of 7 pass");
     watched.press("oooo");
-    watched.until("height, m▲");
+    watched.until("plan H, m▲");
     watched.press("/42\r");
     watched.until("42 ms ─");
     watched.press("\x1b");
@@ -285,7 +285,7 @@ fn a_walk_through_everything() {
     watched.until("paused");
     watched.press("\x1b[F");
     watched.resize(60, 18);
-    watched.until("from above");
+    watched.until("shown as planned");
     watched.resize(200, 60);
     watched.press("4\r");
     watched.until("interval between rows 1, 2, 3");
@@ -312,7 +312,7 @@ fn a_walk_through_everything() {
     watched.press("\x1b[<0;18;1M\x1b[<0;18;1m");
     watched.until("height over time");
     watched.press("o");
-    watched.until("force, kN▲");
+    watched.until("plan F, kN▲");
     watched.press("\x1b[<0;3;8M\x1b[<0;3;8m");
     watched.until("25 ms, middle first ─");
     watched.resize(60, 18);

@@ -7,6 +7,7 @@ use maud::{Markup, html};
 use super::Page;
 use super::fired::only_planned;
 use super::table::word;
+use crate::report::observed::contradiction;
 use crate::study::judgement::Judgement;
 use crate::verdict::Verdict;
 
@@ -59,5 +60,8 @@ fn signed(page: &Page<'_>) -> Markup {
     };
     let verdict = page.results[option].as_ref().map_or(Verdict::Undecided, Judgement::verdict);
     let name = &page.case.plan.delays[option].name;
-    html! { "Option to be fired: “" (name) "”, " (word(verdict)) (only_planned(page)) }
+    html! {
+        "Option to be fired: “" (name) "”, " (word(verdict)) (only_planned(page))
+        @if !contradiction(page.observed).is_empty() { " (what was seen of earlier shots contradicts the plan)" }
+    }
 }

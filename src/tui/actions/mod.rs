@@ -12,6 +12,7 @@ mod studies;
 
 use std::path::Path;
 
+use itertools::Itertools;
 use ratatui::layout::Position;
 
 use super::app::{App, ClickTarget, Request};
@@ -128,14 +129,17 @@ impl App {
         Request::NameExport(format!("{}-{}", self.file_stem(), self.screen.name().to_lowercase()), ending)
     }
 
-    /// Asks for the file of the page; the name offered says whether the selected option passes.
+    /// Asks for the file of the page; the name offered says which option it is of, and whether that passes.
     fn name_page(&self) -> Request {
         let ending = match self.judgement(self.selected).map(Judgement::verdict) {
             Some(Verdict::Pass) => "to-be-fired",
             Some(Verdict::Fail) => "fails",
             Some(Verdict::Undecided) | None => "open",
         };
-        Request::NamePage(format!("{}-{ending}", self.file_stem()))
+        let option = self.case.plan.delays.get(self.selected).map_or("", |delay| delay.name.as_str());
+        let option =
+            option.split(|letter: char| !letter.is_alphanumeric()).filter(|word| !word.is_empty()).join("-");
+        Request::NamePage(format!("{}-{option}-{ending}", self.file_stem()))
     }
 
     /// The plan's file without its ending: what is written about a plan lies beside it.

@@ -16,7 +16,7 @@ use crate::tui::compare::OptionState;
 use crate::tui::compare::SortBy;
 use crate::tui::theme;
 use crate::units::{self, Unit};
-use crate::verdict::{Quantity, Verdict};
+use crate::verdict::{Estimate, Quantity, Verdict};
 
 /// A column: head, width, and the least width of a screen that shows the column.
 struct CompareColumn {
@@ -34,7 +34,7 @@ const LEAST_NAME: u16 = 8;
 const SPARKS: u16 = 150;
 
 const COLUMNS: &[CompareColumn] = &[
-    CompareColumn { head: "of limit", sort: SortBy::Verdict, width: 8, from: 0, cell: of_limit },
+    CompareColumn { head: "95 % use", sort: SortBy::Verdict, width: 8, from: 0, cell: use_of_limit },
     CompareColumn {
         head: "fails, %",
         sort: SortBy::Risk,
@@ -44,11 +44,11 @@ const COLUMNS: &[CompareColumn] = &[
     },
     CompareColumn { head: "samples", sort: SortBy::Risk, width: 7, from: 0, cell: samples },
     CompareColumn {
-        head: "height, m",
+        head: "plan H, m",
         sort: SortBy::Height,
         width: 10,
         from: 0,
-        cell: |app, option, _| value_or_difference(app, option, |checked| checked.height.value, Unit::Metre),
+        cell: |app, option, _| value_or_difference(app, option, |checked| checked.height, Unit::Metre),
     },
     CompareColumn {
         head: "5 to 95 %",
@@ -58,13 +58,11 @@ const COLUMNS: &[CompareColumn] = &[
         cell: |_, _, judged| band(judged, Quantity::Height, Unit::Metre),
     },
     CompareColumn {
-        head: "force, kN",
+        head: "plan F, kN",
         sort: SortBy::Force,
-        width: 10,
+        width: 11,
         from: 0,
-        cell: |app, option, _| {
-            value_or_difference(app, option, |checked| checked.force.value, Unit::Kilonewton)
-        },
+        cell: |app, option, _| value_or_difference(app, option, |checked| checked.force, Unit::Kilonewton),
     },
     CompareColumn {
         head: "5 to 95 %",
@@ -81,11 +79,11 @@ const COLUMNS: &[CompareColumn] = &[
         cell: |_, _, judged| units::factor(judged.as_planned.safety_factor),
     },
     CompareColumn {
-        head: "drift, m",
+        head: "plan D, m",
         sort: SortBy::Drift,
         width: 9,
         from: SPARKS,
-        cell: |app, option, _| value_or_difference(app, option, |checked| checked.drift.value, Unit::Metre),
+        cell: |app, option, _| value_or_difference(app, option, |checked| checked.drift, Unit::Metre),
     },
 ];
 
@@ -117,31 +115,33 @@ fn band(judged: &Judgement, quantity: Quantity, unit: Unit) -> String {
 }
 
 /// A quantity of the shot as planned, or its difference from the baseline.
-fn value_or_difference(app: &App, option: usize, quantity: fn(&CheckedShot) -> f64, unit: Unit) -> String {
+fn value_or_difference(
+    app: &App,
+    option: usize,
+    quantity: fn(&CheckedShot) -> Estimate,
+    unit: Unit,
+) -> String {
     let Some(mine) = app.judgement(option).map(|judged| quantity(&judged.as_planned)) else {
         return String::new();
     };
     match app.baseline() {
         Some((other, base)) if other != option => {
-            let difference = mine - quantity(&base.as_planned);
+            let difference = mine.value - quantity(&base.as_planned).value;
             let sign = if difference >= 0.0 { "+" } else { "" };
             format!("{sign}{}", units::value(difference, unit))
         }
-        _ => units::value(mine, unit),
+        _ => units::value_by_error(mine.value, mine.error, unit),
     }
 }
 
-/// The quantity that is nearest to its limit or farthest past it, in percent of the limit: `F 105 %`. Of each, 95 % of the possible
-/// shots stay below the value that counts; as planned where that is greater, and as long as there are few samples.
-fn of_limit(app: &App, _: usize, judged: &Judgement) -> String {
+/// How much of its limit 95 % of the possible shots use at most, of the quantity that uses most: `F 105 %`. The shot as planned counts
+/// where it uses more. Empty as long as there are few samples: the shot as planned alone would flatter the option.
+fn use_of_limit(app: &App, _: usize, judged: &Judgement) -> String {
     let limits = &app.case.limits;
-    let sampled = |quantity| {
-        let [_, _, p95, _] = sampled(judged)?.band(quantity)?;
-        Some(p95 / limits.get(quantity)?)
-    };
     let share = |(letter, quantity)| {
+        let [_, _, p95, _] = sampled(judged)?.band(quantity)?;
         let as_planned = judged.as_planned.share_of_limit(quantity, limits)?;
-        Some((letter, sampled(quantity).map_or(as_planned, |sampled: f64| sampled.max(as_planned))))
+        Some((letter, as_planned.max(p95 / limits.get(quantity)?)))
     };
     let shares = ['H', 'F', 'D'].into_iter().zip(Quantity::ALL).filter_map(share);
     let worst = shares.max_by(|a, b| a.1.total_cmp(&b.1));

@@ -157,7 +157,7 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     let decided = sampled.and_then(|sampled| inputs(sampled, &case.limits));
     let decided = decided.map(|inputs| format!("decided by {inputs}"));
     let measure = sampled.and_then(|sampled| measure_first(sampled, &case.limits));
-    let measure = measure.map(|what| format!("to know more, {what}"));
+    let measure = measure.map(str::to_owned);
     let launch = launch_limit(&case.shots[app.selected], judged);
     let launch = launch.map(|launch| format!("as planned it {launch}"));
     let decided: Vec<String> = launch.into_iter().chain(decided).chain(measure).collect();

@@ -26,8 +26,10 @@ use crate::outcome::Outcome;
 use crate::plan;
 use crate::report::no_result;
 use crate::study::flight::Flight;
+use crate::study::judgement::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::studies::StudyState;
+use crate::tui::theme;
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
@@ -92,7 +94,11 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
         }
         false => String::new(),
     };
-    let block = titled_block(app, format!("{name}, from above{slope}"));
+    let verdict = app.judgement(app.selected).map_or(Verdict::Undecided, Judgement::verdict);
+    let title = format!("{name} {}, shown as planned", theme::label(verdict));
+    let whole = format!("{title}, from above{slope}");
+    let fits = Span::raw(&whole).width() + 2 <= usize::from(area.width);
+    let block = titled_block(app, if fits { whole } else { title });
     let around = block.inner(area);
     let inside = map_numbers::map_area(scene, around);
     frame.render_widget(block, area);
@@ -198,7 +204,7 @@ fn arrow(along: Vector2<f64>) -> &'static str {
 fn sign(app: &App, height: f32) -> (&'static str, Style) {
     let share = f64::from(height) / app.case.limits.height;
     if height < GROUND {
-        return ("·", app.theme.muted());
+        return ("o", app.theme.muted());
     }
     let sign = LEVELS[((share * 8.0) as usize).min(7)];
     let verdict = if share > 1.0 { Verdict::Fail } else { Verdict::Pass };
@@ -227,10 +233,7 @@ fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area
     let dot = [(right - left + 2.0 * margin) / (2.0 * cells[0]), 1.03 * top / (2.0 * cells[1])];
     let scale = units::rounded(higher, if higher < 10.0 { 1 } else { 0 });
     let canvas = Canvas::default()
-        .block(titled_block(
-            app,
-            format!("{seen}, heights x {scale}: {count} of {} cables taut", scene.cables.len()),
-        ))
+        .block(titled_block(app, format!("{seen}, heights x {scale}: {count} taut")))
         .background_color(theme.base().bg.unwrap_or(Color::Reset))
         .marker(Marker::Braille)
         .x_bounds([left - margin, right + margin])
@@ -288,13 +291,13 @@ fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<
         format!("cable {} {value} kN, {}", scene.cable_name(cable), share(force, limits.force))
     });
     let Outcome { height, force, .. } = &flight.outcome;
-    let peaks = format!(
-        " · most in all: ^ {} m, grey {} kN",
-        units::value(height.value, Unit::Metre),
-        units::value(force.value, Unit::Kilonewton)
-    );
+    let pulled =
+        format!("{} kN at {}", units::value(force.value, Unit::Kilonewton), scene.cable_name(force.index));
+    let both = format!(" · most: ^ {} m, {pulled}", units::value(height.value, Unit::Metre));
+    let force_alone = format!(" · most: {pulled}");
     let mut line = Line::from(Span::styled(format!(" now: {tire} · {cable}"), app.theme.title()));
-    let marks = [peaks, " · peaks: ^, grey".to_owned()].map(|words| Span::styled(words, app.theme.muted()));
+    let marks =
+        [both, force_alone, " · ^ highest".to_owned()].map(|words| Span::styled(words, app.theme.muted()));
     if let Some(marks) = marks.into_iter().find(|marks| line.width() + marks.width() <= usize::from(width)) {
         line.push_span(marks);
     }

@@ -31,12 +31,15 @@ use ratatui::widgets::{Block, Paragraph, Wrap};
 use self::widgets::draw_row;
 use super::app::{App, Areas, ClickTarget};
 use super::compare::OptionState;
+use super::export;
 use super::keymap::{Action, BINDINGS};
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use crate::report::explain::compute_label;
 use crate::report::limits::limits_in_short;
+use crate::report::observed;
 use crate::report::warnings;
+use crate::study::judgement::Judgement;
 use crate::units;
 use crate::verdict::Verdict;
 
@@ -120,8 +123,8 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
     let unsaved = if app.editor.unsaved() { " *not saved*" } else { "" };
     let title = Line::from(vec![
         Span::styled(case.title(), theme.title()),
-        Span::styled(format!("  {}", case.source.path), theme.muted()),
         Span::styled(unsaved, theme.limit()),
+        Span::styled(format!("  {}", case.source.path), theme.muted()),
     ]);
     let state = Line::from(summary(app)).right_aligned().style(theme.title());
     let [first, second] = Layout::vertical([Constraint::Length(1); 2]).areas(area);
@@ -138,7 +141,10 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
         }
         None => {
             let warnings = warnings::of_plan(case);
+            // What was seen of earlier shots speaks against every verdict of the plan.
+            let contradiction = observed::contradiction(&export::observed(app)).pop();
             let warning = match (warnings.as_slice(), app.screen) {
+                _ if contradiction.is_some() => format!("! {} · ", contradiction.unwrap_or_default()),
                 ([], _) => String::new(),
                 // The Plan screen lists them.
                 (all, Screen::Plan) if all.len() > 1 => format!("! {} warnings, below · ", all.len()),
@@ -184,12 +190,15 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
 
 /// Draws the line being typed, with the cursor.
 fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
+    let option = app.case.plan.delays.get(app.selected).map_or("", |delay| delay.name.as_str());
+    let verdict = app.judgement(app.selected).map_or(Verdict::Undecided, Judgement::verdict);
+    let page = format!(" page of “{option}” ({}): ", verdict.label());
     let head = match prompt.purpose {
         Purpose::Find if app.screen == Screen::Plan => " find (Down: next): ",
         Purpose::Find => " find: ",
         Purpose::Palette => " : ",
         Purpose::Export => " write to (.csv, .svg, .html): ",
-        Purpose::Page => " page of the selected option, to be fired: ",
+        Purpose::Page => &page,
         Purpose::SaveAs => " save the plan as: ",
         Purpose::Observe => " seen (TIRE VALUE SD, or a .csv file): ",
     };
