@@ -183,7 +183,7 @@ fn mistaken_ranges_and_shards_are_explained() {
         (&["orders", &plan, "--shard", "1/2"], "--save <FILE>"),
         (&["risk", &plan, "--shard", "1/2", "-o", "x", "--format", "csv"], "cannot be used with"),
         (&["check", &plan, "--nominal", "--samples", "9"], "cannot be used with"),
-        (&["size", &plan, "--option", "none"], "the options are all at once"),
+        (&["size", &plan, "--option", "none"], "it has: all at once"),
         (&["size", &plan, "--ropes", "string"], "GOST 2688-80"),
         (&["size", &plan, "--ropes", "EN 818-2"], "fits no rope of EN 818-2"),
         (&["sweep", &plan, "--nominal", "--seed", "9"], "cannot be used with"),

@@ -62,15 +62,26 @@ pub fn observables(scene: &Scene) -> Vec<Watched> {
     tires.chain(cables).map(|(quantity, index)| Watched { quantity, index, at: 0.0 }).collect()
 }
 
-/// The combination of parameters [standard deviations of their ranges] that is least determined, where it is not determined;
-/// `slopes` are J.
+/// A combination of parameters [standard deviations of their ranges] that is not determined; `None` where all are. `slopes` are J.
+///
+/// Where several combinations are not, the basis that an eigenvalue solver finds of them hangs on the last digit. So the combination
+/// is the projection onto all of them of the parameter that lies nearest to them, the first of several.
 fn undetermined(slopes: &DMatrix<f64>, scales: &DVector<f64>) -> Option<DVector<f64>> {
     let scaled = slopes * DMatrix::from_diagonal(scales);
     let eigen = (scaled.transpose() * scaled).symmetric_eigen();
-    let least = eigen.eigenvalues.imin();
-    (eigen.eigenvalues[least] < DETERMINED * DETERMINED)
-        .then(|| eigen.eigenvectors.column(least).into_owned())
+    let mut projection = DMatrix::zeros(scales.len(), scales.len());
+    for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
+        if *value < DETERMINED * DETERMINED {
+            projection += vector * vector.transpose();
+        }
+    }
+    let near = projection.diagonal();
+    let nearest = near.iter().position(|&share| share > 0.0 && share >= near.max() - ALIKE)?;
+    Some(projection.column(nearest).normalize())
 }
+
+/// Difference of two squared cosines that counts as none.
+const ALIKE: f64 = 1e-6;
 
 /// Refuses parameters that observations do not determine; `slopes` are J at the best answer. What else to observe is looked for at
 /// `own`, the coordinates of the plan: where nothing is determined, the best answer lies anywhere.
@@ -127,6 +138,10 @@ mod tests {
             undetermined(&DMatrix::from_row_slice(1, 2, &[50.0, 50.0]), &scales).expect("a difference");
         assert!((combination[0] + combination[1]).abs() < 1e-9 && combination[0].abs() > NAMED);
         assert_eq!(undetermined(&DMatrix::from_row_slice(2, 2, &[50.0, 50.0, 50.0, 10.0]), &scales), None);
+        // Nothing is known of the second and the third, whatever the basis: the second stands for both.
+        let both =
+            undetermined(&DMatrix::from_row_slice(1, 3, &[50.0, 0.0, 0.0]), &DVector::from_element(3, 1.0));
+        assert!(both.is_some_and(|both| (both - DVector::from_vec(vec![0.0, 1.0, 0.0])).norm() < 1e-9));
         let alone = undetermined(&DMatrix::from_row_slice(2, 2, &[50.0, 0.1, 20.0, 0.0]), &scales)
             .expect("the second");
         assert!(alone[0].abs() < NAMED && alone[1].abs() > 0.99);
