@@ -20,7 +20,7 @@ fn the_table_appears_keys_and_resizing_work_and_q_restores() {
     watched.until("sort by the next column");
     watched.press("?");
     watched.resize(80, 24);
-    watched.until("cable force (dotted: limit)");
+    watched.until("u undo        ? help");
     watched.resize(40, 10);
     watched.until("shelter needs 60x18, has 40x10");
     watched.resize(120, 36);
@@ -278,7 +278,7 @@ fn a_walk_through_everything() {
     watched.press("\x1b");
     watched.until("long period");
     watched.press("3");
-    watched.until("cables taut");
+    watched.until(" taut");
     watched.press(" ");
     watched.until("playing");
     watched.press(" ");
