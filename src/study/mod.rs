@@ -7,6 +7,7 @@
 //! | the shots that are possible: drawn, run, counted | [`samples`] |
 //! | both together: the judgement on an option, on all options | [`judgement`], [`judge_options`] |
 //! | why an option fails, or its verdict stays open | [`reasons`] |
+//! | what fires within any 8 ms | [`eight_ms`] |
 //! | other questions of the user, one each | [`sweep`], [`orders`], [`search`], [`size`], [`remedies`], [`effects`], [`mod@fit`], [`accuracy`], [`flight`], [`trace`] |
 //! | how work runs: on all cores, with progress, to be stopped | [`work`]; on many machines: [`merge`]; results on the disk: [`results_file`] |
 //!

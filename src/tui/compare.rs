@@ -143,7 +143,8 @@ impl Listing {
         let wanted = self.filter.to_lowercase();
         let mut options: Vec<usize> = (0..states.len())
             .filter(|&option| {
-                let verdict = judged(option).map_or("", |judged| judged.verdict().name());
+                // As the screen says it: OPEN, not undecided.
+                let verdict = states[option].verdict().label().to_lowercase();
                 name(option).contains(&wanted) || verdict.contains(&wanted)
             })
             .collect();

@@ -74,6 +74,10 @@ fn options_are_sorted_filtered_and_compared() {
     assert!(app.prompt.is_none());
     key(&mut app, KeyCode::Esc);
     assert_eq!(app.listed().len(), 7, "Esc shows all again");
+    press(&mut app, "/open");
+    let is_open = |&option: &usize| app.options[option].verdict() == Verdict::Undecided;
+    assert!(!app.listed().is_empty() && app.listed().iter().all(is_open), "as the screen says it");
+    key(&mut app, KeyCode::Esc);
     press(&mut app, "/MIDDLE");
     assert_eq!(names(&app), ["25 ms, middle first"]);
     key(&mut app, KeyCode::Esc);

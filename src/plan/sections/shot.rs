@@ -131,7 +131,8 @@ fn read_targets(
         }
         for tire in tires.value.iter().filter(|tire| tire.value == 0 || tire.value > count) {
             let message = format!("there is no tire {}", tire.value);
-            mistakes.add(tire.span.clone(), message, format!("tires are numbered 1 to {count}"));
+            let last = if count == usize::MAX { String::new() } else { format!(" to {count}") };
+            mistakes.add(tire.span.clone(), message, format!("tires are numbered from 1{last}"));
         }
         let mut holes_seen = HashSet::new();
         for tire in &tires.value {

@@ -195,7 +195,6 @@ impl App {
         Request::None
     }
 
-    /// Asks to check every option at an accuracy.
     /// Judges all options anew at another accuracy; says why where nothing would change.
     fn change_accuracy(&mut self, accuracy: Accuracy) -> Request {
         let same = match self.compute.step {
