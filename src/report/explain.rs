@@ -9,7 +9,6 @@ use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::judgement::Judgement;
 use crate::study::samples::draw::Input;
-use crate::study::samples::influence;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};
@@ -52,22 +51,20 @@ pub(super) fn grams(charge: f64) -> f64 {
 }
 
 /// What decides how a shot turns out: `slack 61 %, launch 24 %, hole by hole and interplay 13 %`.
-pub fn inputs(sampled: &SampledShot, limits: &Limits) -> Option<String> {
-    let shares = influence::input_shares(sampled, limits)?;
+pub fn inputs(shares: &[(Input, f64)]) -> String {
     let unexplained = 1.0 - shares.iter().map(|(_, share)| share).sum::<f64>();
     let worth = shares.iter().filter(|(_, share)| *share >= LEAST_SHARE);
     let mut words: Vec<String> =
         worth.map(|(input, share)| format!("{} {}", input_name(*input), units::percent(*share, 0))).collect();
     words.push(format!("hole by hole and interplay {}", units::percent(unexplained.max(0.0), 0)));
-    Some(words.join(", "))
+    words.join(", ")
 }
 
-/// What on site narrows the bands of a shot most: the input that decides it, and how it is found out.
-pub fn measure_first(sampled: &SampledShot, limits: &Limits) -> Option<&'static str> {
-    let shares = influence::input_shares(sampled, limits)?;
-    let (input, share) = shares.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+/// What on site narrows the bands of a shot most: the input that decides it, the first of `shares`, and how it is found out.
+pub fn measure_first(shares: &[(Input, f64)]) -> Option<&'static str> {
+    let &(input, share) = shares.first()?;
     Some(match input {
-        _ if share < DECIDES => "no one measurement narrows that much: most of it scatters from hole to hole",
+        _ if share < DECIDES => "no one measurement narrows that much",
         Input::LaunchCommon => "to know more, film a shot and fit its launch velocities (Studies, Fit)",
         Input::Friction => "to know more, drag a tire along the ground with a spring scale",
         Input::Slack => "to know more, measure the slack of laid cables",

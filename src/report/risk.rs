@@ -9,6 +9,7 @@ use super::shared_columns::{FAILURES, VERDICT};
 use super::{report_head, warnings};
 use crate::study::Case;
 use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
+use crate::study::samples::influence::input_shares;
 use crate::study::samples::sampling::Sampling;
 use crate::units::Unit;
 use crate::verdict::{Quantity, Verdict};
@@ -47,7 +48,10 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 10] {
             row.sampled(|sampled| Cell::Count(sampled.bounds.failures))
         }),
         Field::new(Column::words(&["inputs"], "what decides it"), |row| {
-            row.sampled(|sampled| Cell::Text(inputs(sampled, &row.case.limits).unwrap_or_default()))
+            row.sampled(|sampled| {
+                let shares = input_shares(sampled, &row.case.limits);
+                Cell::Text(shares.map_or_else(String::new, |shares| inputs(&shares)))
+            })
         }),
     ]
 }

@@ -188,14 +188,16 @@ impl Scene {
 
     /// Numbers of the rows of a mesh with their y [m], and of its columns with their x [m]; both empty for a list of tires.
     pub fn rows_and_columns(&self) -> [BTreeMap<i64, f64>; 2] {
-        let (mut rows, mut columns) = (BTreeMap::new(), BTreeMap::new());
+        let (mut rows, mut columns, mut first) = (BTreeMap::new(), BTreeMap::new(), None);
         for (tire, position) in self.tire.iter().zip(&self.position) {
-            if let TireId::Cell { row, column } | TireId::Border { row, column } = *tire
-                // The centre tires of a quincunx have half numbers.
-                && row.fract() == 0.0
-                && column.fract() == 0.0
-            {
+            let (TireId::Cell { row, column } | TireId::Border { row, column }) = *tire else { continue };
+            // Tires of the first row have all columns, those of the first column all rows; the centre tires of a quincunx, between
+            // rows and columns, are in neither.
+            let (first_row, first_column) = *first.get_or_insert((row, column));
+            if column == first_column {
                 rows.insert(row as i64, position.y);
+            }
+            if row == first_row {
                 columns.insert(column as i64, position.x);
             }
         }

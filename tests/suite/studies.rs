@@ -133,7 +133,7 @@ fn risk_at(case: &Case, interval: f64, sampling: &Sampling, compute: ComputeSett
     found.expect("samples").value.remove(0)
 }
 
-/// Windows of accepted risk, against the samples of each interval drawn alone.
+/// Windows worth a check, against the samples of each interval drawn alone.
 #[test]
 fn windows_of_accepted_risk_are_those_of_the_samples() {
     let case = risky_case(1.075);

@@ -11,6 +11,7 @@ use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::judgement::Evidence;
 use crate::study::judgement::Judgement;
+use crate::study::samples::influence::input_shares;
 use crate::units;
 use crate::verdict::{Quantity, Verdict};
 
@@ -55,7 +56,8 @@ pub fn only_planned(page: &Page<'_>) -> &'static str {
 fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str, String)> {
     let mut facts = vec![("Risk", risk(case, judged)), ("Launch margin", launch_margin(shot, judged))];
     if let Some(sampled) = judged.sampled.drawn() {
-        let inputs = explain::inputs(sampled, &case.limits);
+        let shares = input_shares(sampled, &case.limits);
+        let inputs = shares.map(|shares| explain::inputs(&shares));
         facts.push(("What decides", inputs.unwrap_or_else(|| "too few samples to tell".to_owned())));
     }
     facts.push(("As planned", explain::peaks(case.scene(), &judged.as_planned)));

@@ -1,7 +1,7 @@
-//! The risk of a sweep: windows of accepted risk, and an interval whose verdict is a full one.
+//! The risk of a sweep: windows worth a check, and an interval whose verdict is a full one.
 //!
 //! 1. Of the intervals that pass as planned, some about [`MOST_SAMPLED_GAP`] apart are sampled, with the same draws at each.
-//! 2. A window of accepted risk is a row of sampled intervals, neighbours within one window of the shot as planned, whose
+//! 2. A window worth a check is a row of sampled intervals, neighbours within one window of the shot as planned, whose
 //!    failing share does not exceed the accepted risk. Its few samples at each interval prove no small risk.
 //! 3. The interval deepest inside a window (largest product of room and unused utilization, of 95 % of the samples) gets a
 //!    full verdict. Where that does not pass, the next deepest is tried, at most [`TRIES`] in all. Where it fails, the
@@ -123,7 +123,7 @@ fn choose(points: &[Point], windows: &[[f64; 2]], own: &BTreeSet<i64>) -> Vec<us
     chosen
 }
 
-/// Windows of accepted risk [s], each inside one of `as_planned`; the ends were sampled.
+/// Windows worth a check [s], each inside one of `as_planned`; the ends were sampled.
 fn accepted_windows(points: &[Point], as_planned: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut windows: Vec<[f64; 2]> = Vec::new();
     for &[from, to] in as_planned {

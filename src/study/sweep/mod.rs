@@ -67,7 +67,7 @@ pub struct Sweep {
     pub points: Vec<Point>,
     /// Ranges of intervals [s] in which every interval tried passes as planned; the ends were tried.
     pub windows_as_planned: Vec<[f64; 2]>,
-    /// Windows of accepted risk: ranges of intervals [s] in which every interval sampled is accepted; the ends were sampled.
+    /// Windows worth a check: ranges of intervals [s] in which every interval sampled is accepted; the ends were sampled.
     /// Where only the shots as planned were asked for, the windows as planned.
     pub windows: Vec<[f64; 2]>,
     /// The recommended interval; `None` where no window is wider than a point, or no full verdict passes.
@@ -85,7 +85,7 @@ impl Sweep {
     }
 }
 
-/// An interval deep inside a window of accepted risk, or without samples inside one that passes as planned.
+/// An interval deep inside a window worth a check, or without samples inside one that passes as planned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recommended {
     /// Interval between successive rows [s].

@@ -231,7 +231,7 @@ fn row<'r>(app: &'r App, option: usize, columns: &[&CompareColumn], (name, spark
 }
 
 /// A name in so many columns: where letters are left out, its end stays, because names differ there.
-fn cut(name: &str, width: usize) -> String {
+pub(super) fn cut(name: &str, width: usize) -> String {
     let letters: Vec<char> = name.chars().collect();
     if letters.len() <= width {
         return name.to_owned();

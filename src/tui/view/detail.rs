@@ -27,6 +27,7 @@ use crate::report::{charts, no_result, warnings};
 use crate::study::judgement;
 use crate::study::judgement::Judgement;
 use crate::study::reasons::Reason;
+use crate::study::samples::influence::input_shares;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
 use crate::tui::compare::OptionState;
@@ -154,10 +155,9 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
         let samples = sampled.map_or(0, |sampled| sampled.samples.len());
         lines.push(Line::styled(format!("? {samples} samples so far, more come"), theme.firing()));
     }
-    let decided = sampled.and_then(|sampled| inputs(sampled, &case.limits));
-    let decided = decided.map(|inputs| format!("decided by {inputs}"));
-    let measure = sampled.and_then(|sampled| measure_first(sampled, &case.limits));
-    let measure = measure.map(str::to_owned);
+    let shares = sampled.and_then(|sampled| input_shares(sampled, &case.limits));
+    let decided = shares.as_deref().map(|shares| format!("decided by {}", inputs(shares)));
+    let measure = shares.as_deref().and_then(measure_first).map(str::to_owned);
     let launch = launch_limit(&case.shots[app.selected], judged);
     let launch = launch.map(|launch| format!("as planned it {launch}"));
     let decided: Vec<String> = launch.into_iter().chain(decided).chain(measure).collect();

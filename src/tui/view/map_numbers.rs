@@ -6,7 +6,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 
-use crate::scene::Scene;
+use crate::scene::{Scene, TireId};
 
 /// Cells at the left of a map for the numbers of rows: two digits and a blank.
 const LEFT: u16 = 3;
@@ -15,8 +15,8 @@ const LEAST: (u16, u16) = (24, 6);
 
 /// The part of an area that is left for the map; all of it where numbers have no room, or tires have none.
 pub fn map_area(scene: &Scene, area: Rect) -> Rect {
-    let has_numbers = !scene.rows_and_columns()[0].is_empty();
-    if !has_numbers || area.width < LEAST.0 + LEFT || area.height < LEAST.1 + 1 {
+    let is_listed = matches!(scene.tire.first(), Some(TireId::Listed(_)));
+    if is_listed || area.width < LEAST.0 + LEFT || area.height < LEAST.1 + 1 {
         return area;
     }
     Rect { x: area.x + LEFT, y: area.y + 1, width: area.width - LEFT, height: area.height - 1 }

@@ -141,17 +141,21 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
         }
         None => {
             let warnings = warnings::of_plan(case);
-            // What was seen of earlier shots speaks against every verdict of the plan.
-            let contradiction = observed::contradiction(&export::observed(app)).pop();
             let warning = match (warnings.as_slice(), app.screen) {
-                _ if contradiction.is_some() => format!("! {} · ", contradiction.unwrap_or_default()),
                 ([], _) => String::new(),
                 // The Plan screen lists them.
                 (all, Screen::Plan) if all.len() > 1 => format!("! {} warnings, below · ", all.len()),
                 ([only], _) => format!("! {only} · "),
                 (all, _) => format!("! {} warnings: see Plan · ", all.len()),
             };
-            Line::from(vec![Span::styled(warning, theme.limit()), Span::styled(about, theme.muted())])
+            // What was seen of earlier shots speaks against every verdict of the plan.
+            let contradiction = observed::contradiction(&export::observed(app));
+            let contradiction: String = contradiction.iter().map(|told| format!("! {told} · ")).collect();
+            Line::from(vec![
+                Span::styled(contradiction, theme.limit()),
+                Span::styled(warning, theme.limit()),
+                Span::styled(about, theme.muted()),
+            ])
         }
     };
     frame.render_widget(line, second);
@@ -188,11 +192,14 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     draw_row(end, frame, last, areas);
 }
 
+/// Most characters of an option's name before a file that is typed.
+const LONGEST_NAME: usize = 24;
+
 /// Draws the line being typed, with the cursor.
 fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
     let option = app.case.plan.delays.get(app.selected).map_or("", |delay| delay.name.as_str());
     let verdict = app.judgement(app.selected).map_or(Verdict::Undecided, Judgement::verdict);
-    let page = format!(" page of “{option}” ({}): ", verdict.label());
+    let page = format!(" page of “{}” ({}): ", compare::cut(option, LONGEST_NAME), verdict.label());
     let head = match prompt.purpose {
         Purpose::Find if app.screen == Screen::Plan => " find (Down: next): ",
         Purpose::Find => " find: ",
@@ -205,12 +212,13 @@ fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
     if prompt.purpose == Purpose::Palette {
         command_palette::draw(app, prompt, frame, area);
     }
-    let room = usize::from(area.width).saturating_sub(head.len() + 1);
+    let wide = Span::raw(head).width();
+    let room = usize::from(area.width).saturating_sub(wide + 1);
     let scroll = prompt.input.visual_scroll(room);
     let typed: String = prompt.input.value().chars().skip(scroll).collect();
     let line = Line::from(vec![Span::styled(head, app.theme.title()), Span::raw(typed)]);
     frame.render_widget(line, area);
-    let column = head.len() + prompt.input.visual_cursor().saturating_sub(scroll);
+    let column = wide + prompt.input.visual_cursor().saturating_sub(scroll);
     let x = area.x + (column as u16).min(area.width.saturating_sub(1));
     frame.set_cursor_position(Position::new(x, area.y));
 }
