@@ -9,7 +9,7 @@ use shelter::plan::{DelayScatter, Plan, Uncertainty};
 use shelter::simulation::{Model, Motion, RunSettings};
 use shelter::study::Progress;
 use shelter::study::as_planned::check;
-use shelter::study::samples::draw::{DrawnShot, draw};
+use shelter::study::samples::random_shot::{DrawnShot, draw_shot};
 use shelter::study::work::batch::run_batch;
 use shelter::study::{Case, NoResult};
 
@@ -93,7 +93,7 @@ fn scattered(bencher: Bencher, (rows, columns, samples): (usize, usize, usize)) 
         friction: [0.4, 0.6],
         ..case.plan.uncertainty
     };
-    let drawn: Vec<_> = (0..samples).map(|number| draw(&case, &case.shots[0], 1, number)).collect();
+    let drawn: Vec<_> = (0..samples).map(|number| draw_shot(&case, &case.shots[0], 1, number)).collect();
     let settings = RunSettings { method: Method::Verlet, step: 2e-3, duration: Some(1.5) };
     let run = || {
         run_batch(&drawn, &Progress::default(), |DrawnShot { scene, shot, .. }| {

@@ -17,7 +17,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let force = value_and_error(force.value, force.error, Unit::Kilonewton);
         let failing = judged.sampled.drawn().map(|risk| probabilities(risk.bounds.interval));
         let failing = failing.unwrap_or_default();
-        let verdict = judged.verdict().label();
+        let verdict = judged.verdict().for_people();
         println!("{}: {verdict}, {failing} % of the shots fail, {force} kN as planned", delay.name);
     }
     Ok(())

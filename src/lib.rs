@@ -137,6 +137,6 @@ pub use simulation::{Model, Motion, RunSettings};
 pub use study::as_planned::check::{CheckedShot, check_as_planned};
 pub use study::judge_options::judge_all;
 pub use study::judgement::Judgement;
-pub use study::samples::sampling::Sampling;
+pub use study::samples::sample_count::Sampling;
 pub use study::{Case, ComputeSettings, Progress};
 pub use verdict::Verdict;

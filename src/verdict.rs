@@ -28,7 +28,7 @@ impl Verdict {
     }
 
     /// The verdict as people read it: PASS, OPEN or FAIL.
-    pub fn label(self) -> &'static str {
+    pub fn for_people(self) -> &'static str {
         match self {
             Verdict::Pass => "PASS",
             Verdict::Undecided => "OPEN",
@@ -37,7 +37,7 @@ impl Verdict {
     }
 
     /// The verdict as JSON and scripts spell it.
-    pub fn name(self) -> &'static str {
+    pub fn for_scripts(self) -> &'static str {
         match self {
             Verdict::Pass => "pass",
             Verdict::Undecided => "undecided",

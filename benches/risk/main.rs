@@ -8,9 +8,9 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use shelter::choice::Accuracy;
 use shelter::plan::Plan;
-use shelter::study::samples::rounds::{ShotToSample, draw_shard, sample_shots};
+use shelter::study::samples::draw_until_sure::{ShotToSample, draw_shard, sample_shots};
 use shelter::study::samples::sample::Sample;
-use shelter::study::samples::sampling::Sampling;
+use shelter::study::samples::sample_count::Sampling;
 use shelter::study::{Case, ComputeSettings, Progress, Shard};
 use shelter::verdict::Verdict;
 
@@ -175,7 +175,7 @@ fn shipped(samples: usize) {
             println!(
                 "{}, {name}: {}, {low:.4} to {high:.4}; {failing}",
                 file.to_string_lossy(),
-                verdict.label()
+                verdict.for_people()
             );
         }
     }

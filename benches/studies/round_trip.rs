@@ -16,7 +16,7 @@ use shelter::plan::observations::Observations;
 use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::predicted::predict_observations;
 use shelter::study::fit::{FitRequest, FitResult, fit, observable_names};
-use shelter::study::samples::draw::draw;
+use shelter::study::samples::random_shot::draw_shot;
 use shelter::study::{Case, ComputeSettings, Progress};
 use shelter::{Model, Sampling};
 
@@ -144,7 +144,7 @@ fn try_one(seed: u64, unknowns: &[Unknown], tally: &mut Tally) {
     let random = &mut StdRng::seed_from_u64(seed);
     let case = parsed(plan(random));
     // The shot that was observed is a sample of the plan, with draws that no fit uses.
-    let sample = draw(&case, &case.shots[0], !seed, 0);
+    let sample = draw_shot(&case, &case.shots[0], !seed, 0);
     let truth = |unknown: Unknown| match unknown {
         Unknown::Launch => sample.inputs[0],
         Unknown::Friction => sample.inputs[1],

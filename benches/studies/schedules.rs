@@ -6,8 +6,8 @@ use itertools::Itertools;
 use rayon::prelude::*;
 use shelter::plan::{HoleTiming, Plan};
 use shelter::scene::Shot;
-use shelter::study::samples::rounds::{ShotToSample, sample_shots};
-use shelter::study::samples::sampling::Sampling;
+use shelter::study::samples::draw_until_sure::{ShotToSample, sample_shots};
+use shelter::study::samples::sample_count::Sampling;
 use shelter::study::search::{Schedule, search};
 use shelter::study::{Case, ComputeSettings, Progress};
 
@@ -47,7 +47,7 @@ pub fn compare(plans: std::ops::Range<u64>) {
             100.0 * least,
             100.0 * of_found.iter().copied().fold(1.0, f64::min),
             100.0 * of_found[0],
-            found.verdict(false).name(),
+            found.verdict(false).for_scripts(),
             wall / brute,
         );
     }

@@ -10,7 +10,7 @@ use crate::plan::Plan;
 use crate::report::csv::Separators;
 use crate::report::text::Style;
 use crate::scene::seconds;
-use crate::study::samples::sampling::Sampling;
+use crate::study::samples::sample_count::Sampling;
 use crate::study::{ComputeSettings, Intervals, Shard};
 
 /// How to compute.

@@ -13,7 +13,7 @@ use crate::report::json::CheckDocument;
 use crate::report::model::Report;
 use crate::study::judge_options::{MustPass, OptionResults, UNWATCHED, judge_all, judge_all_with_margins};
 use crate::study::remedies::{Remedies, find_all_remedies, not_passing};
-use crate::study::samples::sampling::Sampling;
+use crate::study::samples::sample_count::Sampling;
 use crate::study::{Case, ComputeResult, Computed, NoResult};
 
 /// The results of one plan.

@@ -13,7 +13,7 @@ use crate::jobs::Jobs;
 use crate::plan::{PlanSource, starter};
 use crate::study::Case;
 use crate::study::judge_options::MustPass;
-use crate::study::samples::sampling::Sampling;
+use crate::study::samples::sample_count::Sampling;
 use crate::tui::config::{self, Config};
 use crate::tui::start::{Opened, Start};
 use crate::tui::{self, app::App, recovery};

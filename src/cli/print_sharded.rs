@@ -10,7 +10,7 @@ use crate::report::{orders, risk, search};
 use crate::study::Case;
 use crate::study::judge_options::OptionResults;
 use crate::study::orders::Orders;
-use crate::study::samples::sampling::Sampling;
+use crate::study::samples::sample_count::Sampling;
 use crate::study::search::Search;
 
 /// Prints the orders tried; `partial` where the time was up before all were.

@@ -12,8 +12,8 @@ use super::run_study::run_saved_study;
 use super::save::SharedArguments;
 use super::status::{Status, failed, saved, wrong};
 use crate::study::results_file::Question;
-use crate::study::samples::rounds::{ShotToSample, draw_shard};
-use crate::study::samples::sampling::Sampling;
+use crate::study::samples::draw_until_sure::{ShotToSample, draw_shard};
+use crate::study::samples::sample_count::Sampling;
 use crate::study::{Case, Computed, Journal, Shard};
 
 #[derive(Args)]

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::{Job, News};
 use crate::study::judge_options::{CaseOption, JudgeEvent, judge_all_with_margins};
-use crate::study::samples::sampling::Sampling;
+use crate::study::samples::sample_count::Sampling;
 use crate::study::{NoResult, catch_panic};
 
 /// Least time between two pieces of news about an option that computes.

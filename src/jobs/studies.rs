@@ -11,7 +11,7 @@ use crate::study::flight::{Flight, record};
 use crate::study::judge_options::OptionResults;
 use crate::study::orders::{Orders, orders};
 use crate::study::remedies::{Remedies, find_remedies};
-use crate::study::samples::sampling::Sampling;
+use crate::study::samples::sample_count::Sampling;
 use crate::study::search::{Search, search};
 use crate::study::size::{Demand, Sizing, size};
 use crate::study::sweep::{INTERVALS, Sweep, sweep};

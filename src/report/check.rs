@@ -1,8 +1,8 @@
 //! `check` as a report: one row a delay option.
 
-use super::explain::{self, broken, compute_label, launch_margin};
 use super::model::{Audience, Block, Cell, Column, Conclusion, Detail, Field, Report, Table};
 use super::option_row::{OptionRow, option_rows};
+use super::option_sentences::{self, broken, compute_label, launch_margin};
 use super::reasons;
 use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
 use super::{no_result, remedies, report_head, warnings};
@@ -40,7 +40,7 @@ fn fields<'a>(sampled: bool, drift_has_limit: bool) -> [Field<OptionRow<'a>>; 34
         Field::new(Column::scripts(&["plan"]), |row| Cell::Text(row.case.source.path.clone())),
         Field::new(Column::words(&["option"], "option"), |row| Cell::Text(row.delay.name.clone())),
         Field::new(Column::words(&[], "rows fire, as listed, at").shown(Audience::Page), |row| {
-            Cell::Text(explain::firing_times(row.delay))
+            Cell::Text(option_sentences::firing_times(row.delay))
         }),
         Field::new(VERDICT, |row| Cell::Verdict(row.verdict())),
         Field::new(Column::scripts(&["judged"]), |row| {
@@ -93,7 +93,9 @@ fn fields<'a>(sampled: bool, drift_has_limit: bool) -> [Field<OptionRow<'a>>; 34
             let margin = passes.and_then(|judged| judged.launch_margin);
             margin.map_or(Cell::Nothing, |margin| Cell::Text(launch_margin(margin)))
         }),
-        Field::new(Column::words(&[], "in 8 ms"), |row| Cell::Text(explain::together(row.together()))),
+        Field::new(Column::words(&[], "in 8 ms"), |row| {
+            Cell::Text(option_sentences::together(row.together()))
+        }),
         Field::new(Column::scripts(&["holes_in_8_ms"]), |row| Cell::Count(row.together().holes)),
         Field::new(Column::scripts(&["charge_in_8_ms_kg"]), |row| {
             row.together().charge.map_or(Cell::Nothing, Cell::Number)

@@ -97,7 +97,7 @@ fn fields<'a>(table: &Table, row: &'a Row) -> Vec<CsvValue<'a>> {
         let written = match cell {
             Cell::Nothing | Cell::Sparkline { .. } => Vec::new(),
             Cell::Text(text) => vec![as_text(text)],
-            Cell::Verdict(verdict) => vec![CsvValue::Text(verdict.name())],
+            Cell::Verdict(verdict) => vec![CsvValue::Text(verdict.for_scripts())],
             Cell::Flag(flag) => vec![CsvValue::Flag(*flag)],
             Cell::Count(count) => vec![CsvValue::Count(*count)],
             Cell::Factor(factor) if factor.is_infinite() => Vec::new(),

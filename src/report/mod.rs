@@ -4,7 +4,7 @@
 //! |---|---|
 //! | what a report is | [`model`] |
 //! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`mod@fit`], [`remedies`], [`accuracy`], `paper_table`, [`ropes`], [`trace`] |
-//! | words, charts and columns that reports share | [`explain`], [`reasons`], [`limits`], [`no_result`], [`notes`], [`warnings`], [`charts`], [`shared_columns`], rows of options |
+//! | words, charts and columns that reports share | [`option_sentences`], [`reasons`], [`limits`], [`no_result`], [`plan_notes`], [`warnings`], [`charts`], [`shared_columns`], rows of options |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |
 //! | what faces share | [`palette`], [`ascii`], [`spark`], labels of cells |
 //!
@@ -12,25 +12,25 @@
 
 pub mod accuracy;
 pub mod ascii;
+mod cell_words;
 pub mod charts;
 pub mod check;
 pub mod csv;
 pub mod effects;
-pub mod explain;
 pub mod fit;
 #[cfg(feature = "page")]
 pub mod html;
 pub mod json;
-mod label;
 pub mod limits;
 pub mod model;
 pub mod no_result;
-pub mod notes;
 pub mod observed;
 mod option_row;
+pub mod option_sentences;
 pub mod orders;
 pub mod palette;
 mod paper_table;
+pub mod plan_notes;
 pub mod reasons;
 pub mod remedies;
 pub mod risk;
@@ -85,7 +85,7 @@ fn report_head(case: &Case, sampled: bool) -> Report {
     facts += &accepted_risk(case, sampled);
     Report {
         title: title(case),
-        facts: [facts].into_iter().chain(notes::beyond_paper(plan)).collect(),
+        facts: [facts].into_iter().chain(plan_notes::beyond_paper(plan)).collect(),
         warnings: warnings::of_plan(case),
         ..Report::default()
     }

@@ -6,7 +6,7 @@ use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
     probability, sampled,
 };
-use super::{notes, report_head, row_names, warnings};
+use super::{plan_notes, report_head, row_names, warnings};
 use crate::study::Case;
 use crate::study::orders::{Orders, TriedOrder};
 use crate::study::samples::risk_summary::RiskSummary;
@@ -66,10 +66,10 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
         true => format!("{count} orders and intervals, all there are, worst first"),
         false => format!("{count} orders searched: the worst may not be among them, worst first"),
     };
-    let mut heads: Vec<String> = [head].into_iter().chain(notes::hole_timing(case)).collect();
+    let mut heads: Vec<String> = [head].into_iter().chain(plan_notes::hole_timing(case)).collect();
     let planned = case.intervals();
     if orders.ranked.iter().all(|tried| planned.contains(&tried.interval)) {
-        heads.extend(notes::options_left_out(case));
+        heads.extend(plan_notes::options_left_out(case));
     }
     if orders.has_risk() {
         heads.push(RANKING.to_owned());
@@ -97,7 +97,7 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
     if let Some((n, best)) = orders.ranked.iter().enumerate().next_back() {
         let (order, interval) =
             (row_names(case, &best.order).join(" "), units::exact_milliseconds(best.interval));
-        text += &format!("; the best, {order} at {interval}: {}", orders.verdict_on(n).label());
+        text += &format!("; the best, {order} at {interval}: {}", orders.verdict_on(n).for_people());
         text.extend(orders.risk(n).drawn().map(|risk| format!(", {}", sampled(risk))));
     }
     let picture = charts::orders(case, orders);

@@ -1,7 +1,7 @@
 //! Why the verdict on an option is no pass, in words: one sentence a reason.
 
-use super::explain::grams;
 use super::model::Detail;
+use super::option_sentences::grams;
 use crate::choice::Accuracy;
 use crate::study::judgement::Judgement;
 use crate::study::reasons::Reason;

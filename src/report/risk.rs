@@ -2,15 +2,15 @@
 
 use super::charts;
 use super::check::complete_rows;
-use super::explain::{compute_label, inputs};
 use super::model::{Block, Cell, Column, Conclusion, Field, Report, Table};
 use super::option_row::{OptionRow, option_rows};
+use super::option_sentences::{compute_label, inputs};
 use super::shared_columns::{FAILURES, VERDICT};
 use super::{report_head, warnings};
 use crate::study::Case;
 use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
 use crate::study::samples::influence::input_shares;
-use crate::study::samples::sampling::Sampling;
+use crate::study::samples::sample_count::Sampling;
 use crate::units::Unit;
 use crate::verdict::{Quantity, Verdict};
 

@@ -4,9 +4,9 @@ use super::check::{
     FORCE_BAND, HEIGHT_BAND, LAUNCH_MARGIN, NOMINAL_FORCE, NOMINAL_HEIGHT, band, complete_rows, pass_caveat,
     planned,
 };
-use super::explain::{compute_label, launch_margin, together};
 use super::model::{Audience, Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
 use super::option_row::{OptionRow, option_rows};
+use super::option_sentences::{compute_label, launch_margin, together};
 use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
 use super::{charts, report_head, row_names, warnings};
 use crate::study::Case;

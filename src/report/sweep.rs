@@ -6,7 +6,7 @@ use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
     probability, sampled,
 };
-use super::{notes, report_head, row_names, warnings};
+use super::{plan_notes, report_head, row_names, warnings};
 use crate::study::search::Schedule;
 use crate::study::sweep::{Point, Recommended, Sweep};
 use crate::study::{Case, ShotSummary};
@@ -45,7 +45,7 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
     let head = format!("interval between rows {names}: {from} to {to}, {} tried", sweep.points.len());
     let mut blocks = Vec::new();
     if !sweep.points.is_empty() {
-        blocks.push(Block::Text([head].into_iter().chain(notes::hole_timing(case)).collect()));
+        blocks.push(Block::Text([head].into_iter().chain(plan_notes::hole_timing(case)).collect()));
         blocks.extend(charts::sweep(case, sweep).into_iter().map(Block::Chart));
         blocks.push(Block::Table(table_of_highlights(case, sweep)));
         blocks.push(Block::Text(windows(case, sweep, partial)));
@@ -265,7 +265,7 @@ mod tests {
                 },
                 partial,
             );
-            format!("{}: {text}", verdict.label())
+            format!("{}: {text}", verdict.for_people())
         };
         use Verdict::{Fail, Pass, Undecided};
         assert_eq!(

@@ -59,7 +59,7 @@ pub fn text(report: &Report, style: Style) -> String {
 }
 
 fn colored(verdict: Verdict, style: Style) -> String {
-    let label = verdict.label();
+    let label = verdict.for_people();
     match style.color {
         true => format!("\x1b[1;{}m{label}\x1b[0m", Role::of(verdict).ansi()),
         false => label.to_owned(),

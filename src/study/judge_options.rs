@@ -6,9 +6,9 @@ use super::as_planned::check::{CheckProgress, CheckedShot, check_as_planned};
 use super::as_planned::margin::{LaunchMargin, launch_margin};
 use super::judgement::Evidence;
 use super::judgement::Judgement;
-use super::samples::rounds::{ShotToSample, sample_shots_watched};
+use super::samples::draw_until_sure::{ShotToSample, sample_shots_watched};
+use super::samples::sample_count::Sampling;
 use super::samples::sampled_shot::SampledShot;
-use super::samples::sampling::Sampling;
 use super::work::batch::run_batch;
 use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress, ShotSummary, catch_panic};
 use crate::verdict::Verdict;
@@ -143,7 +143,7 @@ fn add_risks(
     let mut judged = checked_options(results);
     let target = |(at, judgement): &(CaseOption, &mut Judgement)| {
         let (case, compute) = cases[at.case];
-        target(case, at.option, &ShotSummary::of(&judgement.as_planned), sampling, compute)
+        shot_to_sample(case, at.option, &ShotSummary::of(&judgement.as_planned), sampling, compute)
     };
     let targets: Vec<ShotToSample<'_>> = judged.iter().map(target).collect();
     let mut watch_round = |n: usize, sampled: &SampledShot| {
@@ -160,7 +160,7 @@ fn add_risks(
 }
 
 /// An option to be sampled, checked `as_planned`; one that fails is sampled only to show by how much.
-fn target<'c>(
+fn shot_to_sample<'c>(
     case: &'c Case,
     option: usize,
     as_planned: &ShotSummary,

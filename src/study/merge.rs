@@ -5,7 +5,7 @@
 use super::judge_options::OptionResults;
 use super::orders::{Orders, orders};
 use super::results_file::{self, Contents, Question};
-use super::samples::sampling::Sampling;
+use super::samples::sample_count::Sampling;
 use super::search::{Search, search};
 use super::{Case, Journal, NoResult, Progress};
 use crate::plan::PlanSource;

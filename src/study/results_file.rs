@@ -12,7 +12,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::samples::sampling::Sampling;
+use super::samples::sample_count::Sampling;
 use super::size::Demand;
 use super::work::journal::{Line, read_body, sealed, unsealed};
 use super::{Case, ComputeSettings, Fingerprint, Intervals, Journal, Shard};

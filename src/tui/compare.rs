@@ -144,7 +144,7 @@ impl Listing {
         let mut options: Vec<usize> = (0..states.len())
             .filter(|&option| {
                 // As the screen says it: OPEN, not undecided.
-                let verdict = states[option].verdict().label().to_lowercase();
+                let verdict = states[option].verdict().for_people().to_lowercase();
                 name(option).contains(&wanted) || verdict.contains(&wanted)
             })
             .collect();

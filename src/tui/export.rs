@@ -14,7 +14,7 @@ use crate::report::observed::{ObservedRow, observed_rows};
 use crate::report::{self, charts};
 use crate::study::fit::FitResult;
 use crate::study::judge_options::{MustPass, OptionResults};
-use crate::study::samples::sampling::Sampling;
+use crate::study::samples::sample_count::Sampling;
 use crate::study::sweep::Sweep;
 
 /// Writes the contents of the screen to a new file, in the format of the file's ending; or says why not.

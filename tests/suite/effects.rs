@@ -9,8 +9,8 @@ use shelter::scene::{Firing, Scene, Shot};
 use shelter::simulation::Failure;
 use shelter::study::as_planned::check::check_as_planned;
 use shelter::study::effects::{Effect, SAMPLES, effects};
-use shelter::study::samples::rounds::{ShotToSample, draw_shard};
-use shelter::study::samples::sampling::Sampling;
+use shelter::study::samples::draw_until_sure::{ShotToSample, draw_shard};
+use shelter::study::samples::sample_count::Sampling;
 use shelter::study::{Case, ComputeSettings, Progress, Shard};
 use shelter::verdict::{Quantity, Verdict};
 

@@ -6,7 +6,7 @@ use shelter::plan::Plan;
 use shelter::scene::Firing;
 use shelter::study::eight_ms::WithinEightMs;
 use shelter::study::orders::try_orders;
-use shelter::study::samples::draw::draw;
+use shelter::study::samples::random_shot::draw_shot;
 use shelter::study::sweep::sweep;
 use shelter::study::{Case, ComputeSettings, Intervals, NoResult, Progress, Shard};
 use shelter::verdict::Verdict;
@@ -113,7 +113,7 @@ fn the_sides_of_a_row_scatter_by_themselves() {
     let case = case(&format!("{text}\n[uncertainty]\ndelay_cv_percent = 4\n"));
     let (samples, mut squares) = (4000, 0.0);
     for number in 0..samples {
-        let shot = draw(&case, &case.shots[0], 1, number).shot;
+        let shot = draw_shot(&case, &case.shots[0], 1, number).shot;
         let at =
             |tire: usize| shot.firings.iter().find(|firing| firing.tire == tire).expect("a hole").at * 1e3;
         assert!(at(0) != at(4));
@@ -228,7 +228,7 @@ fn each_gap_scatters_by_itself_and_shifts_what_follows() {
     let mut squares = [[0.0; 5]; 2];
     let samples = 4000;
     for number in 0..samples {
-        let drawn = draw(&case, &case.shots[0], 1, number);
+        let drawn = draw_shot(&case, &case.shots[0], 1, number);
         for firing in &drawn.shot.firings {
             let planned = firing.row as f64 * 42.0 + (firing.tire % 5) as f64 * 17.0;
             let late = firing.at * 1e3 - planned;

@@ -8,7 +8,7 @@ use shelter::plan::starter::{self, QUESTIONS};
 use shelter::plan::{DelayScatter, LaunchTargets, Layout, Plan, Timing, Uncertainty};
 use shelter::scene::TireId;
 use shelter::study::judge_options::{MustPass, verdict_on_plan};
-use shelter::study::samples::sampling::Sampling;
+use shelter::study::samples::sample_count::Sampling;
 use shelter::study::{Case, ComputeSettings, Progress};
 use shelter::verdict::Verdict;
 

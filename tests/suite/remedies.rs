@@ -8,7 +8,7 @@ use shelter::plan::{Layout, Plan, PlanSource, Timing};
 use shelter::ropes::catalogue;
 use shelter::study::judgement::Judgement;
 use shelter::study::remedies::{Remedies, find_all_remedies, find_remedies};
-use shelter::study::samples::sampling::Sampling;
+use shelter::study::samples::sample_count::Sampling;
 use shelter::study::{Case, ComputeSettings, NoResult, Progress};
 use shelter::tui::app::{App, Request};
 use shelter::tui::compare::OptionState;

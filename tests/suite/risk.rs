@@ -12,12 +12,12 @@ use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::judge_options::{UNWATCHED, find_launch_margins, judge_all};
 use shelter::study::judgement::Judgement;
 use shelter::study::results_file::{self, Head, Question};
-use shelter::study::samples::draw::{DrawnShot, draw};
+use shelter::study::samples::draw_until_sure::{ShotToSample, draw_shard, sample_shots};
 use shelter::study::samples::influence::input_shares;
+use shelter::study::samples::random_shot::{DrawnShot, draw_shot};
 use shelter::study::samples::risk_summary::sample_shots_in_brief;
-use shelter::study::samples::rounds::{ShotToSample, draw_shard, sample_shots};
+use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sampled_shot::SampledShot;
-use shelter::study::samples::sampling::Sampling;
 use shelter::study::{Case, ComputeSettings, Journal, Progress, Shard, ShotSummary, thread_pool};
 use shelter::verdict::{Quantity, Verdict};
 
@@ -344,7 +344,7 @@ fn draws_have_the_moments_asked_for() {
     ];
     let mut values = names.map(|_| Vec::new());
     for number in 0..20_000 {
-        let DrawnShot { scene: drawn, shot, inputs, .. } = draw(&case, nominal, 7, number);
+        let DrawnShot { scene: drawn, shot, inputs, .. } = draw_shot(&case, nominal, 7, number);
         let first = shot.firings.iter().find(|f| f.tire == nominal.firings[0].tire).expect("the first hole");
         let same = shot.firings.iter().find(|firing| firing.tire == hole.tire).expect("the same hole");
         let heavier = drawn.mass[hole.tire] / scene.mass[hole.tire];
@@ -396,7 +396,7 @@ fn draws_have_the_moments_asked_for() {
 fn draws_are_the_same_for_every_option_and_accuracy() {
     let case = rows("[uncertainty]\nlaunch_cv_percent = 5\nlaunch_tilt_deg = 2\nin_hole_delay_ms = 500\n");
     let drawn = |option: usize, seed: u64, number: usize| {
-        let DrawnShot { scene, shot, inputs, .. } = draw(&case, &case.shots[option], seed, number);
+        let DrawnShot { scene, shot, inputs, .. } = draw_shot(&case, &case.shots[option], seed, number);
         let mut launches: Vec<_> =
             shot.firings.iter().map(|f| (f.tire, f.launch.map(f64::to_bits))).collect();
         launches.sort_by_key(|(tire, _)| *tire);
@@ -420,7 +420,7 @@ fn a_variant_runs_like_a_scene_laid_out_with_its_numbers() {
     for more in ["", "[uncertainty]\nlaunch_cv_percent = 0\ntire_mass_cv_percent = 0\n"] {
         let case = rows(more);
         for number in 0..3 {
-            let DrawnShot { scene, shot, .. } = draw(&case, &case.shots[0], 1, number);
+            let DrawnShot { scene, shot, .. } = draw_shot(&case, &case.shots[0], 1, number);
             for method in METHODS {
                 let laid_out = run_variant(&Model::new(scene.clone()), &scene, &shot, method);
                 let variant = run_variant(&base.model, &scene, &shot, method);
@@ -441,7 +441,7 @@ fn what_is_known_exactly_is_not_changed() {
         "[uncertainty]\ndelay_sd_ms = 0\nlaunch_cv_percent = 0\nlaunch_common_percent = 0\nfriction = [0.5, 0.5]\n\
          slack_percent = [2, 2]\naxial_stiffness_percent = [0, 0]\ntire_mass_cv_percent = 0\n",
     );
-    let DrawnShot { scene, shot, .. } = draw(&case, &case.shots[1], 1, 3);
+    let DrawnShot { scene, shot, .. } = draw_shot(&case, &case.shots[1], 1, 3);
     for method in METHODS {
         let exact = run_variant(&case.model, case.scene(), &case.shots[1], method);
         assert_eq!(run_variant(&case.model, &scene, &shot, method), exact);
@@ -542,7 +542,7 @@ fn samples_are_followed_as_long_as_the_shot_as_planned() {
     for (number, (limited, endless_verdict)) in
         verdicts(&limited).into_iter().zip(verdicts(&endless)).enumerate()
     {
-        let DrawnShot { scene, shot, later, .. } = draw(&endless, shot, 1, number);
+        let DrawnShot { scene, shot, later, .. } = draw_shot(&endless, shot, 1, number);
         let end = rest(&scene, &shot);
         // At another step rest is found somewhat earlier or later.
         if end - later < duration - 0.02 {

@@ -6,7 +6,7 @@ use shelter::study::eight_ms::WithinEightMs;
 use shelter::study::judge_options::OptionResults;
 use shelter::study::orders::try_orders;
 use shelter::study::samples::failure_bounds::ErrorShare;
-use shelter::study::samples::sampling::Sampling;
+use shelter::study::samples::sample_count::Sampling;
 use shelter::study::search::{MOST_JUDGED, Search, duration, search};
 use shelter::study::{Case, ComputeSettings, NoResult, Progress, Shard};
 use shelter::verdict::Verdict;

@@ -11,11 +11,11 @@ use shelter::study::as_planned::check::{check_as_planned, check_shot};
 use shelter::study::judge_options::{UNWATCHED, judge_all};
 use shelter::study::judgement::Evidence;
 use shelter::study::judgement::Judgement;
-use shelter::study::orders::{Orders, TriedOrder, orders, refine, try_orders};
+use shelter::study::orders::{Orders, TriedOrder, orders, check_extremes, try_orders};
+use shelter::study::samples::draw_until_sure::{ShotToSample, sample_shots};
 use shelter::study::samples::failure_bounds::ErrorShare;
-use shelter::study::samples::rounds::{ShotToSample, sample_shots};
+use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sampled_shot::SampledShot;
-use shelter::study::samples::sampling::Sampling;
 use shelter::study::samples::swaps::swaps;
 use shelter::study::size::{Demand, size};
 use shelter::study::sweep::{GAP, Point, Sweep, sweep};
@@ -300,7 +300,7 @@ fn an_order_without_its_mirrored_order_is_refined() {
     let tried =
         TriedOrder { number: 0, order: order.clone(), interval: 0.045, as_planned: ShotSummary::UNKNOWN };
     let compute = ComputeSettings::of(&case.plan);
-    let refined = refine(&case, vec![tried], &compute, &Progress::default()).expect("a result").value;
+    let refined = check_extremes(&case, vec![tried], &compute, &Progress::default()).expect("a result").value;
     assert_eq!(refined[0].as_planned, judged(&case, &order, 0.045));
 }
 

@@ -9,7 +9,7 @@ use crate::plan::{
 use crate::report::limits::limits;
 use crate::ropes::catalogue;
 use crate::study::judge_options::OptionResults;
-use crate::study::samples::sampling::Sampling;
+use crate::study::samples::sample_count::Sampling;
 use crate::study::{Case, ComputeSettings};
 use crate::units::{self, Unit};
 

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::Page;
 use super::table::word;
-use crate::report::{check, explain, no_result, reasons};
+use crate::report::{check, no_result, option_sentences, reasons};
 use crate::scene::Shot;
 use crate::study::Case;
 use crate::study::as_planned::margin::LaunchMargin;
@@ -22,7 +22,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     };
     let case = page.case;
     let (delay, shot, result) = (&case.plan.delays[option], &case.shots[option], &page.results[option]);
-    let together = explain::together(WithinEightMs::of(case, shot));
+    let together = option_sentences::together(WithinEightMs::of(case, shot));
     let verdict = result.as_ref().map_or(Verdict::Undecided, Judgement::verdict);
     let caveat = check::pass_caveat(case, page.sampling.is_some());
     let reasons = match result {
@@ -31,7 +31,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     };
     html! {
         div.fired {
-            p.what { "To be fired: " (delay.name) ", rows at " (explain::firing_times(delay)) }
+            p.what { "To be fired: " (delay.name) ", rows at " (option_sentences::firing_times(delay)) }
             p.large { (word(verdict)) (only_planned(page)) }
             @if verdict != Verdict::Pass { p { strong { "Do not fire this option as it stands." } } }
             @if !caveat.is_empty() { p { "Judged:" (caveat.replace(['(', ')'], "")) "." } }
@@ -57,12 +57,12 @@ fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str,
     let mut facts = vec![("Risk", risk(case, judged)), ("Launch margin", launch_margin(shot, judged))];
     if let Some(sampled) = judged.sampled.drawn() {
         let shares = input_shares(sampled, &case.limits);
-        let inputs = shares.map(|shares| explain::inputs(&shares));
+        let inputs = shares.map(|shares| option_sentences::inputs(&shares));
         facts.push(("What decides", inputs.unwrap_or_else(|| "too few samples to tell".to_owned())));
     }
-    facts.push(("As planned", explain::peaks(case.scene(), &judged.as_planned)));
+    facts.push(("As planned", option_sentences::peaks(case.scene(), &judged.as_planned)));
     facts.push(("Utilization as planned", utilization(case, judged)));
-    let bands = judged.sampled.drawn().and_then(|sampled| explain::bands(sampled, &case.limits));
+    let bands = judged.sampled.drawn().and_then(|sampled| option_sentences::bands(sampled, &case.limits));
     facts.extend(bands.map(|bands| ("Possible shots", bands)));
     facts
 }
@@ -93,7 +93,7 @@ fn launch_margin(shot: &Shot, judged: &Judgement) -> String {
         Some(LaunchMargin::NotPassing) => "none: the shot as planned does not pass".to_owned(),
         _ => "not computed".to_owned(),
     };
-    explain::launch_limit(shot, judged).map_or_else(none, |limit| format!("as planned it {limit}"))
+    option_sentences::launch_limit(shot, judged).map_or_else(none, |limit| format!("as planned it {limit}"))
 }
 
 /// The share of each limit that the shot as planned takes.

@@ -21,12 +21,12 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use super::model::{Block, Report};
 use super::observed::{self, ObservedRow, observed_table};
 use super::warnings;
-use super::{charts, check, explain, sweep};
+use super::{charts, check, option_sentences, sweep};
 use crate::file;
 use crate::study::Case;
 use crate::study::judge_options::{MustPass, OptionResults};
 use crate::study::judgement::Judgement;
-use crate::study::samples::sampling::Sampling;
+use crate::study::samples::sample_count::Sampling;
 use crate::study::sweep::Sweep;
 use crate::verdict::Verdict;
 
@@ -107,7 +107,7 @@ pub fn page(page: &Page<'_>) -> String {
                     @for fact in &report.facts { p.quiet { (fact) } }
                     @if let Some(Sampling { most, seed, .. }) = sampling {
                         p.quiet { "At most " (most) " possible shots of each option, drawn from seed " (seed) }
-                        ul { @for meaning in explain::VERDICTS { li { (meaning) } } }
+                        ul { @for meaning in option_sentences::VERDICTS { li { (meaning) } } }
                     } @else {
                         p { "The plan's own numbers only, nothing varied: other shots that may come of this plan can fail." }
                     }
@@ -161,7 +161,7 @@ fn foot(page: &Page<'_>, hash: &str) -> String {
     let option = page.fired.map(|option| {
         let verdict = page.results[option].as_ref().map_or(Verdict::Undecided, Judgement::verdict);
         let name = &page.case.plan.delays[option].name;
-        format!(" · “{name}”: {}{}", verdict.label(), fired::only_planned(page))
+        format!(" · “{name}”: {}{}", verdict.for_people(), fired::only_planned(page))
     });
     let unsaved = if page.unsaved { " (not saved)" } else { "" };
     format!(
@@ -196,7 +196,7 @@ fn over_time(page: &Page<'_>, option: usize) -> Markup {
     html! {
         section.whole {
             h2 { (case.plan.delays[option].name) " " (word(judged.verdict())) (fired::only_planned(page)) @if page.fired == Some(option) { " · to be fired" } }
-            p.quiet { (explain::computation(case.scene(), &judged.as_planned)) }
+            p.quiet { (option_sentences::computation(case.scene(), &judged.as_planned)) }
             div.charts {
                 @for chart in charts::history(case, &judged.as_planned.history, shot) {
                     div { (PreEscaped(svg(&chart).unwrap_or_default())) }

@@ -63,7 +63,7 @@ fn quoted(text: &str) -> String {
 fn verdict_colors() -> String {
     let rule = |verdict: Verdict| {
         let [red, green, blue] = Role::of(verdict).on_light();
-        format!(".{} {{ color: rgb({red}, {green}, {blue}) }}\n", verdict.name())
+        format!(".{} {{ color: rgb({red}, {green}, {blue}) }}\n", verdict.for_scripts())
     };
     [Verdict::Pass, Verdict::Undecided, Verdict::Fail].map(rule).concat()
 }

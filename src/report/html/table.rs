@@ -44,5 +44,5 @@ fn cell(cell: &Cell) -> Markup {
 
 /// A verdict in its colour.
 pub fn word(verdict: Verdict) -> Markup {
-    html! { span class=(verdict.name()) { (verdict.label()) } }
+    html! { span class=(verdict.for_scripts()) { (verdict.for_people()) } }
 }

@@ -170,7 +170,7 @@ impl OptionValues {
         let (scene, checked, sampled) = (case.scene(), &judged.as_planned, judged.sampled.drawn());
         let drift_is_judged = sampled.filter(|_| case.limits.drift.is_some());
         Self {
-            nominal_verdict: checked.verdict.name(),
+            nominal_verdict: checked.verdict.for_scripts(),
             failure_probability: sampled.map(Failures::of),
             any_cable_breaks: sampled.map(|sampled| sampled.breaks.interval.into()),
             launch_margin: judged.launch_margin_for_scripts(),
@@ -234,7 +234,7 @@ impl CheckDocument {
                 hole_order: row.delay.hole_timing.order,
                 holes_in_8_ms: holes,
                 charge_in_8_ms_kg: charge,
-                verdict: row.verdict().name(),
+                verdict: row.verdict().for_scripts(),
                 reasons: match row.result {
                     Ok(judged) => reasons::sentences(case, judged),
                     Err(reason) => vec![no_result::message(reason)],
@@ -251,7 +251,7 @@ impl CheckDocument {
             title: case.title().to_owned(),
             judged: results.iter().flatten().next().map_or("nominal", |judged| judged_inputs(case, judged)),
             accepted_risk_percent: plan.limits.accepted_risk_percent,
-            verdict: verdict_on_plan(results, must_pass).name(),
+            verdict: verdict_on_plan(results, must_pass).for_scripts(),
             partial,
             scene: SceneSize {
                 tires: scene.mass.len(),

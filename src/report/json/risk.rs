@@ -7,8 +7,8 @@ use crate::report::warnings;
 use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
 use crate::study::samples::influence;
+use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sampled_shot::SampledShot;
-use crate::study::samples::sampling::Sampling;
 use crate::study::{Case, NoResult};
 use crate::verdict::{Limits, Quantity, Verdict};
 
@@ -76,7 +76,7 @@ impl SampledOption {
         let bounds = sampled.map(|sampled| sampled.bounds);
         Self {
             name: name.to_owned(),
-            verdict: result.as_ref().map_or(Verdict::Undecided, Judgement::verdict).name(),
+            verdict: result.as_ref().map_or(Verdict::Undecided, Judgement::verdict).for_scripts(),
             samples: bounds.map_or(0, |c| c.samples),
             failures: bounds.map_or(0, |c| c.failures),
             undecided: bounds.map_or(0, |c| c.undecided),
@@ -97,7 +97,7 @@ impl RiskDocument {
             schema: "shelter.risk/1",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
-            verdict: verdict_on_plan(results, MustPass::Every).name(),
+            verdict: verdict_on_plan(results, MustPass::Every).for_scripts(),
             partial,
             limits: LimitsObject::of(case),
             samples: sampling.most,

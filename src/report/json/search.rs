@@ -94,7 +94,7 @@ impl FoundValues {
     fn of(case: &Case, judged: &Judgement) -> Self {
         let (scene, checked, sampled) = (case.scene(), &judged.as_planned, judged.sampled.drawn());
         Self {
-            nominal_verdict: checked.verdict.name(),
+            nominal_verdict: checked.verdict.for_scripts(),
             launch_margin: judged.launch_margin_for_scripts(),
             flight_height_m: TirePeakObject::new(
                 scene,
@@ -121,7 +121,7 @@ impl SearchDocument {
                 name: row.delay.name.clone(),
                 schedule: ScheduleObject::of(case, schedule),
                 fire_at_s: fire_at_s(&row.delay.timing),
-                verdict: row.verdict().name(),
+                verdict: row.verdict().for_scripts(),
                 reasons: match row.result {
                     Ok(judged) => reasons::sentences(row.case, judged),
                     Err(reason) => vec![no_result::message(reason)],
@@ -144,7 +144,7 @@ impl SearchDocument {
             schema: "shelter.search/1",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
-            verdict: search.verdict(partial).name(),
+            verdict: search.verdict(partial).for_scripts(),
             partial,
             limits: LimitsObject::of(case),
             count: search.judged,

@@ -35,7 +35,7 @@ use self::parameter::{Parameter, Prior};
 use self::predicted::{NextObservation, next_observation, predict_observations};
 use self::predictor::Predictor;
 use self::search::SearchBox;
-use super::samples::sampling::Sampling;
+use super::samples::sample_count::Sampling;
 use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress};
 use crate::choice::{Method, Unknown};
 use crate::plan::Plan;

@@ -11,10 +11,10 @@ use super::predictor::observe_shot;
 use super::until_rest;
 use crate::choice::ObservedQuantity;
 use crate::plan::observations::Watched;
-use crate::study::samples::draw::{Input, draw};
-use crate::study::samples::rounds::step;
+use crate::study::samples::draw_until_sure::sample_step;
+use crate::study::samples::random_shot::{Input, draw_shot};
+use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sampled_shot::percentiles;
-use crate::study::samples::sampling::Sampling;
 use crate::study::work::batch::run_batch;
 use crate::study::{Case, ComputeSettings, NoResult, Progress};
 use crate::verdict::Quantity;
@@ -67,8 +67,8 @@ fn samples(
 ) -> Result<Samples, NoResult> {
     let numbers: Vec<usize> = (0..sampling.least).collect();
     let runs = run_batch(&numbers, progress, |&number| {
-        let sample = draw(case, &case.shots[shot.option], sampling.seed, number);
-        let settings = case.run_settings(compute.method, step(compute, &sample.scene));
+        let sample = draw_shot(case, &case.shots[shot.option], sampling.seed, number);
+        let settings = case.run_settings(compute.method, sample_step(compute, &sample.scene));
         // In the time of the plan, as observations are.
         let fired = sample.shot.later_by(-sample.later).with_times(&shot.times);
         let values = observe_shot(case, Some(&sample.scene), &fired, &shot.watched, &settings, progress)?;

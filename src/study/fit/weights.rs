@@ -24,8 +24,8 @@ use super::predictor::{Predictor, observe_shot};
 use crate::plan::observations::Observation;
 use crate::plan::{Plan, Uncertainty};
 use crate::study::as_planned::step_error;
-use crate::study::samples::draw::draw;
-use crate::study::samples::rounds::step;
+use crate::study::samples::draw_until_sure::sample_step;
+use crate::study::samples::random_shot::draw_shot;
 use crate::study::work::batch::run_batch;
 use crate::study::{Case, NoResult};
 
@@ -206,8 +206,8 @@ impl Weighing<'_> {
         number: usize,
     ) -> Result<Option<Vec<f64>>, NoResult> {
         let Predictor { compute, progress, .. } = self.predictor;
-        let sample = draw(case, &case.shots[shot.option], seed, number);
-        let settings = case.run_settings(compute.method, step(compute, &sample.scene));
+        let sample = draw_shot(case, &case.shots[shot.option], seed, number);
+        let settings = case.run_settings(compute.method, sample_step(compute, &sample.scene));
         // In the time of the plan, as observations are.
         let fired = sample.shot.later_by(-sample.later).with_times(&shot.times);
         observe_shot(case, Some(&sample.scene), &fired, &shot.watched, &settings, progress)

@@ -7,7 +7,7 @@ use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 
-use super::refine::refine;
+use super::check_extremes::check_extremes;
 use super::{OrderToTry, TriedOrder, quick_check_orders, utilization};
 use crate::study::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress};
 
@@ -64,7 +64,7 @@ pub(super) fn climb_orders(
                 .collect();
         }
     }
-    refine(case, tried, compute, progress)
+    check_extremes(case, tried, compute, progress)
 }
 
 /// All orders that differ by an exchange of two rows.

@@ -12,23 +12,23 @@
 //! With more rows the orders are searched: random orders first; then exchanges of two rows in the worst `CLIMBERS` of
 //! them and in the best, until no exchange leads further. A search may miss the worst order; its result says so.
 
+mod check_extremes;
 mod climb;
 mod mirror_rows;
-mod refine;
 
 use std::collections::BTreeMap;
 
 use itertools::Itertools;
 
+pub use self::check_extremes::check_extremes;
 use self::climb::climb_orders;
 use self::mirror_rows::{mirror_rows, mirrored};
-pub use self::refine::refine;
 use super::as_planned::check_many::{check_summary, run_checks_or_unknown};
 use super::as_planned::quick_check::{quick_check_is_sure, quick_check_until};
 use super::judgement;
 use super::judgement::Evidence;
 use super::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
-use super::samples::sampling::Sampling;
+use super::samples::sample_count::Sampling;
 use super::{
     Case, ComputeResult, ComputeSettings, Computed, Fingerprint, NoResult, Progress, Shard, ShotSummary,
 };
@@ -220,7 +220,7 @@ pub fn try_orders(
     if found.partial || shard != Shard::WHOLE {
         return or_first_failure(Computed { value: tried, partial: found.partial });
     }
-    refine(case, tried, compute, progress).and_then(or_first_failure)
+    check_extremes(case, tried, compute, progress).and_then(or_first_failure)
 }
 
 /// An order to be checked at one interval.

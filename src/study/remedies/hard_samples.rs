@@ -6,8 +6,8 @@
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
+use crate::study::samples::draw_until_sure::{ShotToSample, run_sample};
 use crate::study::samples::failure_bounds::{ErrorShare, FailureBounds};
-use crate::study::samples::rounds::{ShotToSample, run_sample};
 use crate::study::samples::sample::Sample;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::work::batch::run_batch;

@@ -1,6 +1,6 @@
 //! What decides how a shot turns out: the shares of the inputs in the variance of its samples.
 
-use super::draw::Input;
+use super::random_shot::Input;
 use super::sampled_shot::SampledShot;
 use crate::verdict::{Limits, Quantity};
 

@@ -1,9 +1,9 @@
 //! The risk of many shots of a study, of which only a summary is kept: few samples of each, or as many as a verdict needs.
 
+use super::draw_until_sure::{ShotToSample, sample_shots};
 use super::failure_bounds::FailureBounds;
-use super::rounds::{ShotToSample, sample_shots};
+use super::sample_count::Sampling;
 use super::sampled_shot::{SampledShot, percentiles};
-use super::sampling::Sampling;
 use crate::scene::Shot;
 use crate::study::{Case, ComputeSettings, NoResult, Progress, ShotSummary};
 use crate::verdict::{Limits, Verdict};

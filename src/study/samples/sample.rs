@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::draw::Input;
+use super::random_shot::Input;
 use crate::outcome::{Outcome, Peak};
 use crate::scene::Shot;
 use crate::study::Case;

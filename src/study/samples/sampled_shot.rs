@@ -2,7 +2,7 @@
 //!
 //! A sample is run once, at a coarse step: its error falls to both sides of a limit, and the failure probability is far more
 //! exact than any one sample. The audit runs some of them again at a finer step. Where these runs, or the shot as planned,
-//! contradict the samples, the risk is open, and [`sample_shots`](super::rounds::sample_shots) samples the shot anew at half
+//! contradict the samples, the risk is open, and [`sample_shots`](super::draw_until_sure::sample_shots) samples the shot anew at half
 //! the step.
 
 use super::failure_bounds::{ErrorShare, FailureBounds};
@@ -206,7 +206,7 @@ fn sign_test_rejects(more: usize, fewer: usize) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::draw::Input;
+    use super::super::random_shot::Input;
     use super::*;
     use crate::plan::PlanSource;
 

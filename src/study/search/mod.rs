@@ -3,30 +3,30 @@
 //! 1. Candidates: the schedules within the longest duration, and the most holes and the heaviest charge within 8 ms. Up to
 //!    500,000 possible schedules all are looked at. Up to [`MOST_JUDGED`] candidates all are judged; where there are more,
 //!    2,000 at random, then the neighbours of the best, the neighbours of these, and so on. Mirror images are one.
-//! 2. A race ([`race`]): a few samples of each, twice as many of the better half, and so on.
+//! 2. Successive halving ([`successive_halving`]): a few samples of each, twice as many of the better half, and so on.
 //! 3. The best that differ from one another become delay options, which are judged as `check` judges options, with draws of their
 //!    own: the draws that chose them flatter them.
 
-mod pool;
-mod race;
 mod schedule;
+mod schedules_to_try;
+mod successive_halving;
 
 use std::cmp::Ordering;
 
 use itertools::Itertools;
 
-pub use self::pool::MOST_JUDGED;
-use self::pool::{AllowedSchedules, FIRST_OF_SEARCH, Pool};
-use self::race::{Contender, Race};
 use self::schedule::Choices;
 pub use self::schedule::{BrokenLimit, RefusedCounts};
 pub use self::schedule::{Schedule, duration};
+pub use self::schedules_to_try::MOST_JUDGED;
+use self::schedules_to_try::{AllowedSchedules, FIRST_OF_SEARCH, SchedulesToTry};
+use self::successive_halving::{SuccessiveHalving, TriedSchedule};
 use super::as_planned::margin::LaunchMargin;
 use super::judge_options::{OptionResults, UNWATCHED, judge_all_with_margins};
 use super::judgement::Judgement;
 use super::samples::failure_bounds::ErrorShare;
+use super::samples::sample_count::Sampling;
 use super::samples::sampled_shot::SampledShot;
-use super::samples::sampling::Sampling;
 use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress, Shard};
 use crate::plan::{DelayOption, Plan, edit};
 use crate::verdict::Verdict;
@@ -97,26 +97,26 @@ pub fn search(
     progress: &Progress,
 ) -> ComputeResult<Search> {
     let choices = Choices::new(case)?;
-    let race = start_race(case, sampling, compute);
+    let halving = start_halving(case, sampling, compute);
     let listed = AllowedSchedules::new(case, &choices);
     let (complete, keeping) = (listed.are_all_judged(), listed.allowed.as_ref().map(Vec::len));
-    let mut pool = Pool::new(case, &choices);
+    let mut to_try = SchedulesToTry::new(case, &choices);
     let mut out_of_time = false;
     match listed.allowed {
-        Some(allowed) if complete => pool.add(allowed),
-        allowed => out_of_time = pool.explore(allowed.as_deref(), &race, progress)?,
+        Some(allowed) if complete => to_try.add(allowed),
+        allowed => out_of_time = to_try.explore(allowed.as_deref(), &halving, progress)?,
     }
-    let mut contenders = pool.contenders;
+    let mut tried = to_try.tried;
     let first = if complete { FIRST_OF_ALL } else { FIRST_OF_SEARCH };
-    out_of_time |= race.run(&mut contenders, first, progress)?;
-    let finalists = choose_finalists(&choices, &contenders);
-    let left = contenders.iter().filter(|one| !finalists.iter().any(|(_, other)| other.shot == one.shot));
+    out_of_time |= halving.run(&mut tried, first, progress)?;
+    let finalists = choose_finalists(&choices, &tried);
+    let left = tried.iter().filter(|one| !finalists.iter().any(|(_, other)| other.shot == one.shot));
     let without_failure = left.filter(|one| one.tally.samples > 0 && one.tally.failures == 0).count();
-    let front = front(&choices, &contenders);
+    let front = front(&choices, &tried);
     let schedules: Vec<Schedule> = finalists.iter().map(|(schedule, _)| schedule.clone()).collect();
-    let rough = finalists.iter().map(|(_, contender)| RoughShare::of(contender)).collect();
+    let rough = finalists.iter().map(|(_, one)| RoughShare::of(one)).collect();
     let (case, Computed { value: results, partial }) = judge(case, &schedules, sampling, compute, progress)?;
-    let judged = contenders.iter().filter(|one| one.tally.samples > 0).count();
+    let judged = tried.iter().filter(|one| one.tally.samples > 0).count();
     let mut found = Search {
         case,
         schedules,
@@ -126,7 +126,7 @@ pub fn search(
         keeping,
         refused: listed.refused,
         judged,
-        complete: complete && judged == contenders.len(),
+        complete: complete && judged == tried.len(),
         sampled: sampling.is_some(),
         without_failure,
         front,
@@ -149,16 +149,20 @@ pub fn try_schedules(
     if !listed.are_all_judged() {
         return Ok(Computed { value: false, partial: false });
     }
-    let mut pool = Pool::new(case, &choices);
-    pool.add(listed.allowed.unwrap_or_default());
-    let ours = pool.contenders.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
-    let mut ours: Vec<Contender> = ours.map(|(_, contender)| contender).collect();
-    let partial = start_race(case, sampling, compute).draw(&mut ours, FIRST_OF_ALL, progress)?;
+    let mut to_try = SchedulesToTry::new(case, &choices);
+    to_try.add(listed.allowed.unwrap_or_default());
+    let ours = to_try.tried.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
+    let mut ours: Vec<TriedSchedule> = ours.map(|(_, one)| one).collect();
+    let partial = start_halving(case, sampling, compute).draw(&mut ours, FIRST_OF_ALL, progress)?;
     Ok(Computed { value: true, partial })
 }
 
-fn start_race<'c>(case: &'c Case, sampling: Option<&Sampling>, compute: &ComputeSettings) -> Race<'c> {
-    Race {
+fn start_halving<'c>(
+    case: &'c Case,
+    sampling: Option<&Sampling>,
+    compute: &ComputeSettings,
+) -> SuccessiveHalving<'c> {
+    SuccessiveHalving {
         case,
         compute: *compute,
         sampling: sampling.map(|sampling| sampling.with_fresh_draws(ErrorShare::Whole)),
@@ -166,8 +170,8 @@ fn start_race<'c>(case: &'c Case, sampling: Option<&Sampling>, compute: &Compute
 }
 
 impl RoughShare {
-    fn of(contender: &Contender) -> Self {
-        Self { samples: contender.tally.samples, failures: contender.tally.failures }
+    fn of(tried: &TriedSchedule) -> Self {
+        Self { samples: tried.tally.samples, failures: tried.tally.failures }
     }
 
     /// Failures over samples.
@@ -176,28 +180,28 @@ impl RoughShare {
     }
 }
 
-/// The best of the sorted contenders that differ from one another, to be judged in full.
+/// The best of the sorted schedules that differ from one another, to be judged in full.
 fn choose_finalists<'r>(
     choices: &Choices<'_>,
-    contenders: &'r [Contender],
-) -> Vec<(Schedule, &'r Contender)> {
-    let mut chosen: Vec<(Schedule, &Contender)> = Vec::new();
-    for contender in contenders.iter().filter(|one| one.tally.samples > 0) {
-        let schedule = choices.schedule(&contender.candidate);
+    tried: &'r [TriedSchedule],
+) -> Vec<(Schedule, &'r TriedSchedule)> {
+    let mut chosen: Vec<(Schedule, &TriedSchedule)> = Vec::new();
+    for one in tried.iter().filter(|one| one.tally.samples > 0) {
+        let schedule = choices.schedule(&one.candidate);
         if chosen.len() < JUDGED_IN_FULL && !chosen.iter().any(|(other, _)| other.is_nearly_same(&schedule)) {
-            chosen.push((schedule, contender));
+            chosen.push((schedule, one));
         }
     }
     chosen
 }
 
-/// The contenders of which no shorter one fails less.
-fn front(choices: &Choices<'_>, contenders: &[Contender]) -> Vec<FrontPoint> {
-    let sampled_enough = contenders.iter().filter(|one| one.tally.samples >= SAMPLES_OF_FRONT);
-    let point = |contender: &Contender| FrontPoint {
-        schedule: choices.schedule(&contender.candidate),
-        duration: duration(&contender.shot),
-        share: RoughShare::of(contender),
+/// The schedules of which no shorter one fails less.
+fn front(choices: &Choices<'_>, tried: &[TriedSchedule]) -> Vec<FrontPoint> {
+    let sampled_enough = tried.iter().filter(|one| one.tally.samples >= SAMPLES_OF_FRONT);
+    let point = |one: &TriedSchedule| FrontPoint {
+        schedule: choices.schedule(&one.candidate),
+        duration: duration(&one.shot),
+        share: RoughShare::of(one),
     };
     let in_turn = sampled_enough.map(point).sorted_by(|a, b| {
         a.duration.total_cmp(&b.duration).then(a.share.value().total_cmp(&b.share.value()))

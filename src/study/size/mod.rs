@@ -8,17 +8,17 @@
 //! A combination that holds as planned is a choice only if surely fewer shots than accepted fail of those that `[uncertainty]`
 //! describes. From the lightest on, every combination with more margin than the choices before is sampled so.
 
-mod trial;
+mod size_candidate;
 
 use std::cmp::Ordering;
 
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
-use self::trial::{Hardest, SizeCandidate};
+use self::size_candidate::{Hardest, SizeCandidate};
 use super::judgement::{Evidence, verdict_of_both};
 use super::samples::failure_bounds::ErrorShare;
-use super::samples::sampling::Sampling;
+use super::samples::sample_count::Sampling;
 use super::{ComputeResult, ComputeSettings, Computed, NoResult, Progress, ShotSummary};
 use crate::plan::{Layout, Plan};
 use crate::ropes::{Rope, catalogue};

@@ -16,7 +16,7 @@ use crate::study::as_planned::check_many::{check_summary, or_unknown};
 use crate::study::judgement::Evidence;
 use crate::study::samples::failure_bounds::ErrorShare;
 use crate::study::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
-use crate::study::samples::sampling::Sampling;
+use crate::study::samples::sample_count::Sampling;
 use crate::study::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress, ShotSummary};
 use crate::verdict::Verdict;
 

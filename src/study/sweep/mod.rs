@@ -24,7 +24,7 @@ use super::as_planned::quick_check::quick_check;
 use super::judgement;
 use super::judgement::Evidence;
 use super::samples::risk_summary::RiskSummary;
-use super::samples::sampling::Sampling;
+use super::samples::sample_count::Sampling;
 use super::{Case, ComputeResult, ComputeSettings, Computed, Intervals, NoResult, Progress, ShotSummary};
 use crate::plan::Timing;
 use crate::scene::seconds;

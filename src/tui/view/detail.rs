@@ -19,8 +19,10 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use super::chart;
 use crate::jobs::StudyKind;
 use crate::outcome::EndReason;
-use crate::report::explain::{bands, broken, firing_times_text, inputs, launch_limit, measure_first, peaks};
 use crate::report::model::Chart;
+use crate::report::option_sentences::{
+    bands, broken, firing_times_text, inputs, launch_limit, measure_first, peaks,
+};
 use crate::report::reasons;
 use crate::report::remedies::{sentence, without_pass};
 use crate::report::{charts, no_result, warnings};

@@ -95,10 +95,14 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
         false => String::new(),
     };
     let verdict = app.judgement(app.selected).map_or(Verdict::Undecided, Judgement::verdict);
-    let title = format!("{name} {}, shown as planned", theme::label(verdict));
-    let whole = format!("{title}, from above{slope}");
-    let fits = Span::raw(&whole).width() + 2 <= usize::from(area.width);
-    let block = titled_block(app, if fits { whole } else { title });
+    let title = format!("{name} {}", theme::label(verdict));
+    // The longest that has room: at least the verdict is never cut.
+    let title = [&format!(", shown as planned, from above{slope}"), ", shown as planned", ", as planned"]
+        .into_iter()
+        .map(|more| title.clone() + more)
+        .find(|whole| Span::raw(whole).width() + 2 <= usize::from(area.width))
+        .unwrap_or(title);
+    let block = titled_block(app, title);
     let around = block.inner(area);
     let inside = map_numbers::map_area(scene, around);
     frame.render_widget(block, area);

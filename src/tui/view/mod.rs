@@ -35,9 +35,9 @@ use super::export;
 use super::keymap::{Action, BINDINGS};
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
-use crate::report::explain::compute_label;
 use crate::report::limits::limits_in_short;
 use crate::report::observed;
+use crate::report::option_sentences::compute_label;
 use crate::report::warnings;
 use crate::study::judgement::Judgement;
 use crate::units;
@@ -199,7 +199,7 @@ const LONGEST_NAME: usize = 24;
 fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
     let option = app.case.plan.delays.get(app.selected).map_or("", |delay| delay.name.as_str());
     let verdict = app.judgement(app.selected).map_or(Verdict::Undecided, Judgement::verdict);
-    let page = format!(" page of “{}” ({}): ", compare::cut(option, LONGEST_NAME), verdict.label());
+    let page = format!(" page of “{}” ({}): ", compare::cut(option, LONGEST_NAME), verdict.for_people());
     let head = match prompt.purpose {
         Purpose::Find if app.screen == Screen::Plan => " find (Down: next): ",
         Purpose::Find => " find: ",

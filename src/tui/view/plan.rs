@@ -10,7 +10,7 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::widgets::color;
 use super::{compare, fields, map_numbers};
-use crate::report::explain::firing_times_text;
+use crate::report::option_sentences::firing_times_text;
 use crate::report::warnings;
 use crate::study::Case;
 use crate::tui::app::{App, Areas};

@@ -29,7 +29,7 @@ pub fn lines<'r>(report: &'r Report, filter: &str, theme: Theme, width: u16) -> 
     let kept = |text: &str| text.to_lowercase().contains(&filter);
     let (mut lines, mut offers) = (Vec::new(), Vec::new());
     if let Some(conclusion) = &report.conclusion {
-        let label = conclusion.verdict.label();
+        let label = conclusion.verdict.for_people();
         let mut wrapped = wrapped(&format!("{label}: {}", conclusion.text), width).into_iter();
         let first = wrapped.next().unwrap_or_default();
         let rest = first.strip_prefix(label).unwrap_or_default().to_owned();

@@ -107,7 +107,7 @@ fn normal(random: &mut ChaCha8Rng) -> f64 {
 }
 
 /// Draws sample `number` of the shots that the plan describes beside `nominal`.
-pub fn draw(case: &Case, nominal: &Shot, seed: u64, number: usize) -> DrawnShot {
+pub fn draw_shot(case: &Case, nominal: &Shot, seed: u64, number: usize) -> DrawnShot {
     let unknown = &case.plan.uncertainty;
     let mut random = Random::new(seed, number);
     let whole = random.at(Draws::WholeShot);

@@ -9,10 +9,10 @@ use crate::ropes::Rope;
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::check_summaries;
 use crate::study::as_planned::cover::Cover;
+use crate::study::samples::draw_until_sure::{ShotToSample, sample_shots_watched};
 use crate::study::samples::failure_bounds::FailureBounds;
-use crate::study::samples::rounds::{ShotToSample, sample_shots_watched};
+use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sampled_shot::SampledShot;
-use crate::study::samples::sampling::Sampling;
 use crate::study::{Case, Computed, NoResult, ShotSummary, ValueWithError};
 use crate::verdict::Verdict;
 

@@ -8,7 +8,7 @@ use crate::study::as_planned::check::CheckedShot;
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::judgement::Judgement;
-use crate::study::samples::draw::Input;
+use crate::study::samples::random_shot::Input;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::units::{self, Unit, value_and_error};
 use crate::verdict::{Estimate, Limits, Quantity, Verdict};

@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 use std::ops::{ControlFlow, Range};
 
-use super::draw::{DrawnShot, Input, draw};
+use super::random_shot::{DrawnShot, Input, draw_shot};
 use super::sample::{Sample, SampleRun};
+use super::sample_count::Sampling;
 use super::sampled_shot::{LEAST_AUDITS, SampledShot};
-use super::sampling::Sampling;
 use crate::choice::Accuracy;
 use crate::scene::{Scene, Shot};
 use crate::simulation::RunSettings;
@@ -232,7 +232,7 @@ const CRITICAL_STEP_FRACTION: f64 = 0.55;
 const REFERENCE_STEP_FACTOR: f64 = 0.25;
 
 /// Step of a sample [s]: the fixed step where there is one.
-pub(in crate::study) fn step(compute: &ComputeSettings, scene: &Scene) -> f64 {
+pub(in crate::study) fn sample_step(compute: &ComputeSettings, scene: &Scene) -> f64 {
     let level = if compute.accuracy == Accuracy::Reference { REFERENCE_STEP_FACTOR } else { 1.0 };
     let usual = LONGEST_STEP.min(CRITICAL_STEP_FRACTION * scene.critical_step());
     compute.step.unwrap_or(step_factor(compute.method) * level * usual)
@@ -246,7 +246,7 @@ fn try_sample(
     progress: &Progress,
 ) -> Result<Sample, NoResult> {
     let ShotToSample { case, shot, compute, sampling, .. } = *target;
-    let DrawnShot { scene, shot, inputs, later } = draw(case, shot, sampling.seed, number);
+    let DrawnShot { scene, shot, inputs, later } = draw_shot(case, shot, sampling.seed, number);
     // The run, and whether it failed or has no energy balance.
     let run = |step: f64| {
         let planned = case.run_settings(compute.method, step);
@@ -261,7 +261,7 @@ fn try_sample(
             },
         }
     };
-    let step = step(&compute, &scene) * 0.5_f64.powi(halvings as i32);
+    let step = sample_step(&compute, &scene) * 0.5_f64.powi(halvings as i32);
     let (coarse, shows_nothing) = run(step)?;
     if compute.step.is_some() {
         return Ok(Sample { number, run: coarse, finer: None, inputs });

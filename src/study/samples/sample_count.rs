@@ -73,7 +73,7 @@ impl Sampling {
 
 #[cfg(test)]
 mod tests {
-    use super::super::draw::Input;
+    use super::super::random_shot::Input;
     use super::super::sample::{Sample, SampleRun};
     use super::*;
     use crate::plan::PlanSource;

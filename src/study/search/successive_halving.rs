@@ -1,11 +1,12 @@
-//! Which of many schedules fail least: few samples of all, and ever more of ever fewer.
+//! Which of many schedules fail least: few samples of all, and ever more of ever fewer (successive halving: Karnin, Koren and
+//! Somekh 2013).
 
 use super::schedule::Candidate;
 use crate::scene::Shot;
 use crate::study::as_planned::quick_check::quick_check;
-use crate::study::samples::rounds::{ShotToSample, run_sample_once};
+use crate::study::samples::draw_until_sure::{ShotToSample, run_sample_once};
 use crate::study::samples::sample::SampleRun;
-use crate::study::samples::sampling::Sampling;
+use crate::study::samples::sample_count::Sampling;
 use crate::study::work::batch::run_batch;
 use crate::study::{Case, ComputeSettings, Fingerprint, NoResult, Progress};
 use crate::verdict::Verdict;
@@ -17,9 +18,9 @@ const MOST_SAMPLES: usize = 256;
 /// Samples that the guess from height, force and drift counts for, beside the samples that failed.
 const WEIGHT_OF_GUESS: f64 = 16.0;
 
-/// A schedule in the race.
+/// A schedule with its samples so far.
 #[derive(Clone, Debug)]
-pub struct Contender {
+pub struct TriedSchedule {
     /// The schedule.
     pub candidate: Candidate,
     /// The shot as planned.
@@ -28,7 +29,7 @@ pub struct Contender {
     pub tally: Tally,
 }
 
-impl Contender {
+impl TriedSchedule {
     /// A schedule without a sample.
     pub fn new(candidate: Candidate, shot: Shot) -> Self {
         Self { candidate, shot, tally: Tally::default() }
@@ -76,8 +77,8 @@ impl Tally {
     }
 }
 
-/// How contenders are judged.
-pub struct Race<'c> {
+/// How schedules are judged.
+pub struct SuccessiveHalving<'c> {
     /// The plan.
     pub case: &'c Case,
     /// Method and accuracy.
@@ -86,36 +87,36 @@ pub struct Race<'c> {
     pub sampling: Option<Sampling>,
 }
 
-impl Race<'_> {
-    /// Draws samples of every contender until it has `samples`; returns whether the time was up.
+impl SuccessiveHalving<'_> {
+    /// Draws samples of every schedule until it has `samples`; returns whether the time was up.
     pub fn draw(
         &self,
-        contenders: &mut [Contender],
+        tried: &mut [TriedSchedule],
         samples: usize,
         progress: &Progress,
     ) -> Result<bool, NoResult> {
         // A shot as planned is judged once.
         let samples = if self.sampling.is_some() { samples } else { 1 };
-        let jobs: Vec<&Contender> = contenders.iter().filter(|one| one.tally.samples < samples).collect();
-        let drawn = run_batch(&jobs, progress, |contender| self.runs(contender, samples, progress))?;
+        let jobs: Vec<&TriedSchedule> = tried.iter().filter(|one| one.tally.samples < samples).collect();
+        let drawn = run_batch(&jobs, progress, |one| self.runs(one, samples, progress))?;
         let out_of_time = drawn.contains(&None);
-        let waiting = contenders.iter_mut().filter(|one| one.tally.samples < samples);
-        for (contender, runs) in waiting.zip(drawn) {
+        let waiting = tried.iter_mut().filter(|one| one.tally.samples < samples);
+        for (one, runs) in waiting.zip(drawn) {
             for (verdict, utilization) in runs.into_iter().flatten() {
-                contender.tally.push(verdict, utilization);
+                one.tally.push(verdict, utilization);
             }
         }
         Ok(out_of_time)
     }
 
-    /// Verdict and utilization of the next samples of a contender; without samples, of the shot as planned.
+    /// Verdict and utilization of the next samples of a schedule; without samples, of the shot as planned.
     fn runs(
         &self,
-        contender: &Contender,
+        schedule: &TriedSchedule,
         samples: usize,
         progress: &Progress,
     ) -> Result<Vec<(Verdict, f64)>, NoResult> {
-        let (Self { case, compute, sampling }, shot) = (self, &contender.shot);
+        let (Self { case, compute, sampling }, shot) = (self, &schedule.shot);
         let Some(sampling) = sampling else {
             return match quick_check(case, shot, compute, progress) {
                 Ok(judged) => Ok(vec![(judged.verdict, judged.utilization(&case.limits))]),
@@ -128,25 +129,25 @@ impl Race<'_> {
             let run: SampleRun = run_sample_once(&target, number, progress)?.run;
             Ok((run.verdict, run.utilization(&case.limits)))
         };
-        let numbers = contender.tally.samples..samples;
+        let numbers = schedule.tally.samples..samples;
         progress.journal().recall_or(
-            || Fingerprint::of(("race", target.fingerprint(), &numbers)),
+            || Fingerprint::of(("halving", target.fingerprint(), &numbers)),
             || numbers.clone().map(one).collect(),
         )
     }
 
-    /// Sorts the contenders, the best first, after twice as many samples of each better half as before, and so on; `first` samples
+    /// Sorts the schedules, the best first, after twice as many samples of each better half as before, and so on; `first` samples
     /// of each are drawn. Returns whether the time was up.
     pub fn run(
         &self,
-        contenders: &mut [Contender],
+        tried: &mut [TriedSchedule],
         first: usize,
         progress: &Progress,
     ) -> Result<bool, NoResult> {
-        let (mut samples, mut left) = (first, contenders.len());
+        let (mut samples, mut left) = (first, tried.len());
         loop {
-            let out_of_time = self.draw(&mut contenders[..left], samples, progress)?;
-            contenders[..left].sort_by(|a, b| {
+            let out_of_time = self.draw(&mut tried[..left], samples, progress)?;
+            tried[..left].sort_by(|a, b| {
                 a.tally.estimated_failing_share().total_cmp(&b.tally.estimated_failing_share())
             });
             if out_of_time || samples >= MOST_SAMPLES || self.sampling.is_none() {

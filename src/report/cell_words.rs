@@ -10,7 +10,7 @@ impl Cell {
         match self {
             Cell::Nothing => String::new(),
             Cell::Text(text) => text.clone(),
-            Cell::Verdict(verdict) => verdict.label().to_owned(),
+            Cell::Verdict(verdict) => verdict.for_people().to_owned(),
             Cell::Flag(flag) => (if *flag { "yes" } else { "no" }).to_owned(),
             Cell::Count(count) => count.to_string(),
             Cell::Number(number) => number.to_string(),

@@ -7,8 +7,8 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::race::{Contender, Race};
 use super::schedule::{BrokenLimit, Candidate, Choices, KnownShots, RefusedCounts};
+use super::successive_halving::{SuccessiveHalving, TriedSchedule};
 use crate::study::{Case, NoResult, Progress};
 
 /// Greatest number of schedules that are all judged.
@@ -53,18 +53,18 @@ impl AllowedSchedules {
 }
 
 /// The schedules that are judged.
-pub struct Pool<'c> {
+pub struct SchedulesToTry<'c> {
     case: &'c Case,
     choices: &'c Choices<'c>,
     known: KnownShots,
     /// In the order in which they were added.
-    pub contenders: Vec<Contender>,
+    pub tried: Vec<TriedSchedule>,
 }
 
-impl<'c> Pool<'c> {
+impl<'c> SchedulesToTry<'c> {
     /// No schedule.
     pub fn new(case: &'c Case, choices: &'c Choices<'c>) -> Self {
-        Self { case, choices, known: KnownShots::default(), contenders: Vec::new() }
+        Self { case, choices, known: KnownShots::default(), tried: Vec::new() }
     }
 
     /// Adds the candidates that are allowed, and not known yet.
@@ -72,7 +72,7 @@ impl<'c> Pool<'c> {
         for candidate in candidates {
             let shot = self.choices.schedule(&candidate).shot(self.case);
             if self.choices.broken(&shot).is_none() && self.known.insert(self.case, &shot) {
-                self.contenders.push(Contender::new(candidate, shot));
+                self.tried.push(TriedSchedule::new(candidate, shot));
             }
         }
     }
@@ -82,33 +82,33 @@ impl<'c> Pool<'c> {
     pub fn explore(
         &mut self,
         allowed: Option<&[Candidate]>,
-        race: &Race<'_>,
+        halving: &SuccessiveHalving<'_>,
         progress: &Progress,
     ) -> Result<bool, NoResult> {
-        let mut random = ChaCha8Rng::seed_from_u64(race.sampling.map_or(0, |sampling| sampling.seed));
+        let mut random = ChaCha8Rng::seed_from_u64(halving.sampling.map_or(0, |sampling| sampling.seed));
         // Where the limits of the search leave few, more are drawn.
         for _ in 0..MOST_DRAWS {
             self.add([match allowed {
                 Some(allowed) => allowed[random.random_range(0..allowed.len())].clone(),
                 None => self.choices.random(&mut random),
             }]);
-            if self.contenders.len() == START {
+            if self.tried.len() == START {
                 break;
             }
         }
         let mut seen: HashSet<Candidate> = HashSet::new();
         loop {
-            if race.draw(&mut self.contenders, FIRST_OF_SEARCH, progress)? {
+            if halving.draw(&mut self.tried, FIRST_OF_SEARCH, progress)? {
                 return Ok(true);
             }
-            let unseen = self.contenders.iter().filter(|one| !seen.contains(&one.candidate));
+            let unseen = self.tried.iter().filter(|one| !seen.contains(&one.candidate));
             let best = unseen
                 .sorted_by(|a, b| {
                     a.tally.estimated_failing_share().total_cmp(&b.tally.estimated_failing_share())
                 })
                 .take(CLIMBERS);
             let best: Vec<Candidate> = best.map(|one| one.candidate.clone()).collect();
-            let room = MOST_JUDGED.saturating_sub(self.contenders.len());
+            let room = MOST_JUDGED.saturating_sub(self.tried.len());
             if best.is_empty() || room == 0 {
                 return Ok(false);
             }

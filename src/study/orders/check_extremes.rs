@@ -17,7 +17,7 @@ const REACH_ERROR_FACTOR: f64 = 6.0;
 const REFINED_TOGETHER: usize = 32;
 
 /// Checks as `check` does, at every interval, the orders that may be the worst or the best, until none is left.
-pub fn refine(
+pub fn check_extremes(
     case: &Case,
     mut tried: Vec<TriedOrder>,
     compute: &ComputeSettings,
