@@ -26,6 +26,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         ControlFlow::Continue(())
     })?;
-    println!("peak: {:.3} m at {:.3} s", outcome.height.value, outcome.height.at);
+    println!("peak: {:.3} m at {:.3} s", outcome.height.value, outcome.height.time);
     Ok(())
 }

@@ -42,6 +42,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     let model = Model::new(scene);
     let outcome = model.run(&shot, &settings, &mut |_| ControlFlow::Continue(()))?;
     let (height, force) = (outcome.height.value, outcome.force.value);
-    println!("height {height:.3} m, force {:.3} kN, at rest after {:.2} s", 1e-3 * force, outcome.end.at);
+    println!("height {height:.3} m, force {:.3} kN, at rest after {:.2} s", 1e-3 * force, outcome.end.time);
     Ok(())
 }

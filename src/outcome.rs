@@ -8,7 +8,7 @@ pub struct Peak {
     /// Greatest value [unit of the quantity].
     pub value: f64,
     /// Time of the greatest value [s].
-    pub at: f64,
+    pub time: f64,
     /// Index of the tire or cable in the scene.
     pub index: usize,
 }
@@ -26,7 +26,7 @@ pub enum EndReason {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RunEnd {
     /// Time of the end [s].
-    pub at: f64,
+    pub time: f64,
     /// Reason of the end.
     pub reason: EndReason,
 }
@@ -53,7 +53,7 @@ impl Ledger {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BrokenCable {
     /// Time of the break [s].
-    pub at: f64,
+    pub time: f64,
     /// Index of the cable.
     pub cable: usize,
 }
@@ -170,8 +170,8 @@ mod tests {
     fn a_history_stays_bounded_and_keeps_its_peaks() {
         let mut history = History::new(1e-3);
         for n in 0..100_000 {
-            let at = n as f64 * 1e-3;
-            history.note(at, if n == 777 { 9.0 } else { 1.0 }, at);
+            let time = n as f64 * 1e-3;
+            history.note(time, if n == 777 { 9.0 } else { 1.0 }, time);
         }
         assert!(history.height.len() <= History::CAPACITY);
         let peak = history.height.iter().position(|&h| h == 9.0).expect("the peak is kept");

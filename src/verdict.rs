@@ -54,7 +54,7 @@ pub struct Estimate {
     /// Estimated error, one-sided [same unit].
     pub error: f64,
     /// Time at which the value is reached [s].
-    pub at: f64,
+    pub time: f64,
     /// Index of the tire or cable.
     pub index: usize,
 }
@@ -131,12 +131,12 @@ mod tests {
 
     #[test]
     fn an_error_that_reaches_over_the_limit_leaves_the_verdict_open() {
-        let at = |value, error| Estimate { value, error, ..Estimate::default() }.judge_against(1.0);
-        assert_eq!(at(0.9, 0.1), Verdict::Pass);
-        assert_eq!(at(0.95, 0.1), Verdict::Undecided);
-        assert_eq!(at(1.05, 0.1), Verdict::Undecided);
-        assert_eq!(at(1.2, 0.1), Verdict::Fail);
-        assert_eq!(at(f64::NAN, 0.1), Verdict::Undecided);
+        let verdict_of = |value, error| Estimate { value, error, ..Estimate::default() }.judge_against(1.0);
+        assert_eq!(verdict_of(0.9, 0.1), Verdict::Pass);
+        assert_eq!(verdict_of(0.95, 0.1), Verdict::Undecided);
+        assert_eq!(verdict_of(1.05, 0.1), Verdict::Undecided);
+        assert_eq!(verdict_of(1.2, 0.1), Verdict::Fail);
+        assert_eq!(verdict_of(f64::NAN, 0.1), Verdict::Undecided);
     }
 
     #[test]

@@ -225,5 +225,5 @@ pub fn shard(text: &str) -> Result<Shard, String> {
     if number == 0 || number > count {
         return Err(wrong());
     }
-    Ok(Shard { index: number - 1, of: count })
+    Ok(Shard { index: number - 1, count })
 }

@@ -76,8 +76,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
 }
 
 fn failed(failure: &Failure) -> io::Result<Status> {
-    if let Failure::Stopped { at } = failure {
-        tell!("the time was up at {at:.3} s of the motion");
+    if let Failure::Stopped { time } = failure {
+        tell!("the time was up at {time:.3} s of the motion");
         return Ok(Status::Fail);
     }
     status::failed(&failure.clone().into())

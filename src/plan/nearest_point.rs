@@ -123,8 +123,8 @@ mod tests {
             let points: Vec<[f64; 2]> = places.iter().map(place).collect();
             let index = NearestPoint::of(points.clone());
             for (x, y) in at {
-                let at = [0.5 * f64::from(x) * scale[0].max(1.0), 0.5 * f64::from(y) * scale[1].max(1.0)];
-                prop_assert_eq!(index.to(at), by_looking_at_all(&points, at));
+                let point = [0.5 * f64::from(x) * scale[0].max(1.0), 0.5 * f64::from(y) * scale[1].max(1.0)];
+                prop_assert_eq!(index.to(point), by_looking_at_all(&points, point));
             }
         }
     }

@@ -260,11 +260,11 @@ mod tests {
         (answers[6], answers[7], answers[8]) = ("1, 4-5", "0.8 m", "9..109, 200");
         let text = super::plan(&answers).expect("answers");
         let plan = Plan::parse("new", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"));
-        let under: Vec<&str> = text.lines().filter(|line| line.starts_with("under_row")).collect();
+        let holes: Vec<&str> = text.lines().filter(|line| line.starts_with("under_row")).collect();
         assert!(
             !text.contains("# assumed: put in yours\n[[") && text.contains("free_flight_height_m = 0.8\n")
         );
-        assert_eq!(under, ["under_row = 1", "under_row = 4", "under_row = 5"]);
+        assert_eq!(holes, ["under_row = 1", "under_row = 4", "under_row = 5"]);
         let names: Vec<&str> = plan.delays.iter().map(|delay| delay.name.as_str()).collect();
         assert_eq!(names, ["9 ms", "29 ms", "49 ms", "69 ms", "89 ms", "109 ms", "200 ms"]);
         let speed = plan.launches().next().expect("a launch").speed_m_s;

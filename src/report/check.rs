@@ -60,7 +60,7 @@ fn fields<'a>(sampled: bool, drift_has_limit: bool) -> [Field<OptionRow<'a>>; 34
         }),
         Field::new(if_sampled(HEIGHT_BAND), |row| band(row, Quantity::Height, Unit::Metre)),
         Field::new(Column::scripts(&["flight_height_at_s"]), |row| {
-            row.as_planned(|checked| Cell::Number(checked.height.at))
+            row.as_planned(|checked| Cell::Number(checked.height.time))
         }),
         Field::new(Column::scripts(&["flight_height_tire"]), |row| {
             row.as_planned(|checked| Cell::Text(row.case.scene().tire[checked.height.index].to_string()))
@@ -71,7 +71,7 @@ fn fields<'a>(sampled: bool, drift_has_limit: bool) -> [Field<OptionRow<'a>>; 34
         }),
         Field::new(if_sampled(FORCE_BAND), |row| band(row, Quantity::Force, Unit::Kilonewton)),
         Field::new(Column::scripts(&["cable_force_at_s"]), |row| {
-            row.as_planned(|checked| Cell::Number(checked.force.at))
+            row.as_planned(|checked| Cell::Number(checked.force.time))
         }),
         Field::new(Column::scripts(&["cable_force_cable"]), |row| {
             row.as_planned(|checked| Cell::Text(row.case.scene().cable_name(checked.force.index)))

@@ -187,9 +187,9 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
             ));
         }
         if let Some(from) = estimate.from_stated.filter(|from| from.abs() > 2.0) {
-            let from = units::rounded(from.abs(), 1);
+            let deviations = units::rounded(from.abs(), 1);
             warnings.push(format!(
-                "{name} lies {from} sd from what [uncertainty] states of it: is the range there too narrow?"
+                "{name} lies {deviations} sd from what [uncertainty] states of it: is the range there too narrow?"
             ));
         }
     }

@@ -30,13 +30,13 @@ mod tests {
 
     #[test]
     fn only_a_run_that_failed_by_itself_has_a_remedy() {
-        let diverged = message(&Failure::Diverged { at: 0.3 }.into());
+        let diverged = message(&Failure::Diverged { time: 0.3 }.into());
         assert_eq!(
             diverged,
             "the motion is no longer finite at 0.3 s: choose a finer accuracy or a smaller step"
         );
         let lacking = message(&Failure::Effect { effect: "push", method: Method::Newmark }.into());
         assert_eq!(lacking, "newmark has no push: choose method \"verlet\", or leave it out");
-        assert_eq!(message(&Failure::Stopped { at: 0.3 }.into()), "stopped at 0.3 s before the end");
+        assert_eq!(message(&Failure::Stopped { time: 0.3 }.into()), "stopped at 0.3 s before the end");
     }
 }

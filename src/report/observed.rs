@@ -92,8 +92,8 @@ pub fn place(case: &Case, option: usize, watched: &Watched) -> String {
         ObservedQuantity::Force => scene.cable_name(watched.index),
         _ => scene.tire[watched.index].to_string(),
     };
-    let at = if watched.quantity == ObservedQuantity::Height {
-        format!(" at {} s", watched.at)
+    let when = if watched.quantity == ObservedQuantity::Height {
+        format!(" at {} s", watched.time)
     } else {
         String::new()
     };
@@ -102,7 +102,7 @@ pub fn place(case: &Case, option: usize, watched: &Watched) -> String {
     } else {
         String::new()
     };
-    format!("{option}{address} {}{at}", watched.quantity)
+    format!("{option}{address} {}{when}", watched.quantity)
 }
 
 /// A value with the digits of another's standard deviation.
@@ -135,9 +135,9 @@ pub fn bands(case: &Case, rows: &[ObservedRow<'_>]) -> Vec<String> {
         .iter()
         .filter_map(|row| Some((row.observed.option, row.prediction.contains(row.observed.value)?)))
         .collect();
-    let words = |of: &[(usize, bool)]| {
-        let within = of.iter().filter(|(_, held)| *held).count();
-        format!("{within} of {}", of.len())
+    let words = |observed: &[(usize, bool)]| {
+        let within = observed.iter().filter(|(_, held)| *held).count();
+        format!("{within} of {}", observed.len())
     };
     if held.is_empty() {
         return Vec::new();

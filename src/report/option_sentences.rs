@@ -99,7 +99,7 @@ pub fn launch_margin(margin: LaunchMargin) -> String {
 /// How much faster the tires may leave, as a sentence: `fails from +5 % launch, 6.3 m/s`; `None` where the option fails as
 /// planned, or nothing is known. `shot` is the shot as planned.
 pub fn launch_limit(shot: &Shot, judged: &Judgement) -> Option<String> {
-    let at = |factor: f64| {
+    let speed = |factor: f64| {
         let speeds = shot.firings.iter().map(|firing| factor * firing.launch.norm());
         let [least, most] = speeds.fold([f64::INFINITY, 0.0], |[a, b]: [f64; 2], v| [a.min(v), b.max(v)]);
         // Rows of different speeds have no speed in common.
@@ -108,11 +108,11 @@ pub fn launch_limit(shot: &Shot, judged: &Judgement) -> Option<String> {
     };
     match judged.launch_margin? {
         LaunchMargin::NotPassing => None,
-        LaunchMargin::UpTo { rise, then } => {
-            let (share, becomes) = (rise + 0.01, if then == Verdict::Fail { "fails" } else { "is open" });
-            Some(format!("{becomes} from +{} launch{}", units::percent(share, 0), at(1.0 + share)))
+        LaunchMargin::UpTo { rise, above } => {
+            let (share, becomes) = (rise + 0.01, if above == Verdict::Fail { "fails" } else { "is open" });
+            Some(format!("{becomes} from +{} launch{}", units::percent(share, 0), speed(1.0 + share)))
         }
-        LaunchMargin::BeyondTried => Some(format!("passes up to +100 % launch{}", at(2.0))),
+        LaunchMargin::BeyondTried => Some(format!("passes up to +100 % launch{}", speed(2.0))),
     }
 }
 
@@ -151,8 +151,8 @@ pub fn compute_label(compute: &ComputeSettings) -> String {
 /// Where and when height and force were greatest.
 fn peak(scene: &Scene, checked: &CheckedShot) -> [String; 2] {
     let CheckedShot { height, force, .. } = checked;
-    let lifted = format!("tire {}, {}", scene.tire[height.index], units::seconds(height.at));
-    let pulled = format!("cable {}, {}", scene.cable_name(force.index), units::seconds(force.at));
+    let lifted = format!("tire {}, {}", scene.tire[height.index], units::seconds(height.time));
+    let pulled = format!("cable {}, {}", scene.cable_name(force.index), units::seconds(force.time));
     [
         if height.value > 0.0 { lifted } else { "no tire lifts".to_owned() },
         if force.value > 0.0 { pulled } else { "no cable pulls".to_owned() },
@@ -164,8 +164,9 @@ const BROKEN: usize = 4;
 
 /// The cables that broke, the first ones by name.
 pub fn broken(scene: &Scene, checked: &CheckedShot) -> String {
-    let name =
-        |broken: &BrokenCable| format!("{} at {}", scene.cable_name(broken.cable), units::seconds(broken.at));
+    let name = |broken: &BrokenCable| {
+        format!("{} at {}", scene.cable_name(broken.cable), units::seconds(broken.time))
+    };
     let names: Vec<String> = checked.broken.iter().take(BROKEN).map(name).collect();
     let more = checked.broken.len().saturating_sub(BROKEN);
     let and_more = if more > 0 { format!(" and {more} more") } else { String::new() };

@@ -25,8 +25,8 @@ impl Shot {
     /// Shot of blast rows fired as a delay option says, under `scene`.
     pub fn new(scene: &Scene, rows: &[BlastRow], delay: &DelayOption) -> Self {
         let (row_at_ms, DelayOption { hole_timing, .. }) = (delay.timing.fire_at_ms(), delay);
-        let at = |row: usize, turn: f64| seconds(row_at_ms[row] + turn * hole_timing.interval_ms);
-        Self::of_rows(scene, rows, hole_timing, at)
+        let fire_at = |row: usize, turn: f64| seconds(row_at_ms[row] + turn * hole_timing.interval_ms);
+        Self::of_rows(scene, rows, hole_timing, fire_at)
     }
 
     /// Shot of blast rows fired in `order` under `scene`, `interval` [s] apart, each with its holes as `holes` says.
@@ -38,25 +38,25 @@ impl Shot {
         holes: &HoleTiming,
     ) -> Self {
         let row_at = fire_in_turn(order, interval);
-        let at = |row: usize, turn: f64| row_at[row] + turn * seconds(holes.interval_ms);
+        let fire_at = |row: usize, turn: f64| row_at[row] + turn * seconds(holes.interval_ms);
         // Whole nanoseconds, so that the shot is that of the plan which says the same in milliseconds.
-        Self::of_rows(scene, rows, holes, |row, turn| (at(row, turn) * 1e9).round() / 1e9)
+        Self::of_rows(scene, rows, holes, |row, turn| (fire_at(row, turn) * 1e9).round() / 1e9)
     }
 
     /// Shot of blast rows under `scene`, whose holes fire `at` a time [s] that follows from the row and the turn of the hole in it.
     fn of_rows(scene: &Scene, rows: &[BlastRow], holes: &HoleTiming, at: impl Fn(usize, f64) -> f64) -> Self {
         let (mut firings, mut along) = (Vec::new(), None);
         for (row, BlastRow { targets, .. }) in rows.iter().enumerate() {
-            let under = scene.firings(targets);
-            let places = scene.hole_places(targets, &under);
-            let way = way_of_row(&places, along);
-            along = Some(way);
+            let firings_of_row = scene.firings(targets);
+            let places = scene.hole_places(targets, &firings_of_row);
+            let direction = direction_of_row(&places, along);
+            along = Some(direction);
             let turns = match holes.interval_ms > 0.0 {
-                true => hole_turns(&places, way, holes.order),
-                false => vec![0; under.len()],
+                true => hole_turns(&places, direction, holes.order),
+                false => vec![0; firings_of_row.len()],
             };
-            let fire = |(firing, turn): (Firing, usize)| Firing { at: at(row, turn as f64), row, ..firing };
-            firings.extend(under.into_iter().zip(turns).map(fire));
+            let fire = |(firing, turn): (Firing, usize)| Firing { time: at(row, turn as f64), row, ..firing };
+            firings.extend(firings_of_row.into_iter().zip(turns).map(fire));
         }
         Self::from_firings(firings)
     }
@@ -64,13 +64,13 @@ impl Shot {
 
 /// Direction in which the holes of a row at these places [m] lie, from left to right: the same way as that of the row `before`, so
 /// that neighbouring rows begin at the same side; of the first row toward +x, or +y where it runs along y.
-fn way_of_row(places: &[Vector2<f64>], before: Option<Vector2<f64>>) -> Vector2<f64> {
+fn direction_of_row(places: &[Vector2<f64>], before: Option<Vector2<f64>>) -> Vector2<f64> {
     let middle = places.iter().sum::<Vector2<f64>>() / places.len().max(1) as f64;
     let moment =
         |a: usize, b: usize| places.iter().map(|p| (p[a] - middle[a]) * (p[b] - middle[b])).sum::<f64>();
     let [xx, yy, xy] = [moment(0, 0), moment(1, 1), moment(0, 1)];
     // Main axis of the moments; exactly along x or y where there is no other.
-    let way = match xy == 0.0 {
+    let direction = match xy == 0.0 {
         true if yy > xx => Vector2::y(),
         true => Vector2::x(),
         false => {
@@ -78,22 +78,22 @@ fn way_of_row(places: &[Vector2<f64>], before: Option<Vector2<f64>>) -> Vector2<
             Vector2::new(libm::cos(angle), libm::sin(angle))
         }
     };
-    let ahead = before.map_or(0.0, |before| way.dot(&before));
+    let ahead = before.map_or(0.0, |before| direction.dot(&before));
     let turned = match ahead.abs() > SIDEWAYS {
         true => ahead < 0.0,
-        false => way.x < -SIDEWAYS || way.x.abs() <= SIDEWAYS && way.y < 0.0,
+        false => direction.x < -SIDEWAYS || direction.x.abs() <= SIDEWAYS && direction.y < 0.0,
     };
-    if turned { -way } else { way }
+    if turned { -direction } else { direction }
 }
 
 /// Cosine below which two directions are at right angles.
 const SIDEWAYS: f64 = 1e-6;
 
-/// Turn of each hole of a row at these places [m], from 0 (`n_holes`); `way` points from left to right. From the middle and from
+/// Turn of each hole of a row at these places [m], from 0 (`n_holes`); `direction` points from left to right. From the middle and
 /// the ends, the n-th holes of both sides fire together: a survey of the collars to the centimetre changes nothing.
-fn hole_turns(places: &[Vector2<f64>], way: Vector2<f64>, order: HoleOrder) -> Vec<usize> {
-    let across = Vector2::new(-way.y, way.x);
-    let place = |hole: &usize| (places[*hole].dot(&way), places[*hole].dot(&across));
+fn hole_turns(places: &[Vector2<f64>], direction: Vector2<f64>, order: HoleOrder) -> Vec<usize> {
+    let across = Vector2::new(-direction.y, direction.x);
+    let place = |hole: &usize| (places[*hole].dot(&direction), places[*hole].dot(&across));
     let by_place = |a: &usize, b: &usize| {
         let ((a, beside_a), (b, beside_b)) = (place(a), place(b));
         a.total_cmp(&b).then(beside_a.total_cmp(&beside_b))
@@ -203,10 +203,10 @@ impl Scene {
 
     /// Adds tires row by row; the first tire is `first` rows and columns from the first corner of the border.
     fn lay_tires(&mut self, mesh: &Mesh, first: f64, rows: usize, columns: usize) {
-        let from = first - mesh.border_rows as f64;
+        let start = first - mesh.border_rows as f64;
         for r in 0..rows {
             for c in 0..columns {
-                let (x, y) = (from + c as f64, from + r as f64);
+                let (x, y) = (start + c as f64, start + r as f64);
                 let (row, column) = (y + 1.0, x + 1.0);
                 let inside =
                     row >= 1.0 && row <= mesh.rows as f64 && column >= 1.0 && column <= mesh.columns as f64;
@@ -223,14 +223,17 @@ impl Scene {
         let [row, column, diagonal] =
             [Link::Row, Link::Column, Link::Diagonal].map(|link| mesh.links.contains(&link));
         let (dx, dy) = (mesh.column_spacing_m, mesh.row_spacing_m);
-        let at = |r: usize, c: usize| r * columns + c;
+        let tire_at = |r: usize, c: usize| r * columns + c;
         let mut ties = Vec::new();
         for r in 0..rows {
             for c in 0..columns {
                 let (left, right, up) = (c > 0, c + 1 < columns, r + 1 < rows);
                 let mut tie = |tied: bool, r2: usize, c2: usize, x: f64, y: f64| {
                     if tied {
-                        ties.push(Tie { ends: [at(r, c), at(r2, c2)], between: Vector3::new(x, y, 0.0) });
+                        ties.push(Tie {
+                            ends: [tire_at(r, c), tire_at(r2, c2)],
+                            between: Vector3::new(x, y, 0.0),
+                        });
                     }
                 };
                 tie(row && right, r, c + 1, dx, 0.0);
@@ -288,8 +291,8 @@ impl Scene {
             }
             LaunchTargets::Holes(holes) => {
                 let nearest = NearestPoint::of(self.position.iter().map(|at| [at.x, at.y]).collect());
-                let under = |hole: &Hole| Some(firing(nearest.to([hole.x_m, hole.y_m])?, &hole.launch));
-                holes.iter().filter_map(under).collect()
+                let firing_at = |hole: &Hole| Some(firing(nearest.to([hole.x_m, hole.y_m])?, &hole.launch));
+                holes.iter().filter_map(firing_at).collect()
             }
         }
     }

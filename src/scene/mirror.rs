@@ -47,9 +47,9 @@ impl Scene {
             return None;
         }
         let key = |point: [f64; 2]| point.map(|x| (x / grain).round() as i64);
-        let at = |tire: usize| [self.position[tire].x, self.position[tire].y];
+        let place = |tire: usize| [self.position[tire].x, self.position[tire].y];
         let known: HashMap<[i64; 2], usize> =
-            (0..self.mass.len()).map(|tire| (key(at(tire)), tire)).collect();
+            (0..self.mass.len()).map(|tire| (key(place(tire)), tire)).collect();
         // Rounding may put an image into a neighbouring grain.
         let find = |point: [f64; 2]| {
             let [x, y] = key(point);
@@ -58,7 +58,7 @@ impl Scene {
         };
         let image: Vec<usize> = (0..self.mass.len())
             .map(|tire| {
-                let mut point = at(tire);
+                let mut point = place(tire);
                 point[axis] = low + high - point[axis];
                 find(point).filter(|&image| self.mass[image] == self.mass[tire])
             })

@@ -10,7 +10,7 @@ use super::Mirror;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Firing {
     /// Firing time [s].
-    pub at: f64,
+    pub time: f64,
     /// Index of the tire above the hole.
     pub tire: usize,
     /// Launch velocity: impulse of the hole over the mass of the tire [m/s].
@@ -24,14 +24,14 @@ pub struct Firing {
 }
 
 impl Firing {
-    /// Firing at time `at` [s] that launches a tire straight up with `speed` [m/s].
-    pub fn up(at: f64, tire: usize, speed: f64) -> Self {
-        Self::at_once(at, tire, Vector3::z() * speed)
+    /// Firing at `time` [s] that launches a tire straight up with `speed` [m/s].
+    pub fn up(time: f64, tire: usize, speed: f64) -> Self {
+        Self::at_once(time, tire, Vector3::z() * speed)
     }
 
-    /// Firing at time `at` [s] that gives a tire the velocity `launch` [m/s] at once.
-    pub fn at_once(at: f64, tire: usize, launch: Vector3<f64>) -> Self {
-        Self { at, tire, launch, push_time: 0.0, row: 0, charge: 0.0 }
+    /// Firing at `time` [s] that gives a tire the velocity `launch` [m/s] at once.
+    pub fn at_once(time: f64, tire: usize, launch: Vector3<f64>) -> Self {
+        Self { time, tire, launch, push_time: 0.0, row: 0, charge: 0.0 }
     }
 
     /// Its image in a mirror plane.
@@ -53,13 +53,13 @@ pub struct Shot {
 impl Shot {
     /// Shot of `firings` in any order.
     pub fn from_firings(mut firings: Vec<Firing>) -> Self {
-        firings.sort_by(|a, b| a.at.total_cmp(&b.at).then(a.tire.cmp(&b.tire)));
+        firings.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.tire.cmp(&b.tire)));
         Self { firings, friction: None }
     }
 
     /// Firing times [s], each once.
     pub fn times(&self) -> Vec<f64> {
-        let mut times: Vec<f64> = self.firings.iter().map(|firing| firing.at).collect();
+        let mut times: Vec<f64> = self.firings.iter().map(|firing| firing.time).collect();
         times.dedup();
         times
     }
@@ -72,14 +72,14 @@ impl Shot {
 
     /// The same shot, in which all holes fire later by this time [s].
     pub fn later_by(&self, time: f64) -> Self {
-        let later = |firing: &Firing| Firing { at: firing.at + time, ..*firing };
+        let later = |firing: &Firing| Firing { time: firing.time + time, ..*firing };
         Self { firings: self.firings.iter().map(later).collect(), ..*self }
     }
 
     /// The same shot, in which the holes under these tires fire at these times [s].
     pub fn with_times(&self, times: &[(usize, f64)]) -> Self {
         let time = |firing: &Firing| times.iter().find(|(tire, _)| *tire == firing.tire).map(|(_, at)| *at);
-        let timed = |firing: &Firing| Firing { at: time(firing).unwrap_or(firing.at), ..*firing };
+        let timed = |firing: &Firing| Firing { time: time(firing).unwrap_or(firing.time), ..*firing };
         Self { friction: self.friction, ..Self::from_firings(self.firings.iter().map(timed).collect()) }
     }
 
@@ -97,10 +97,10 @@ impl Shot {
             };
             let friction = Some(self.friction.unwrap_or(friction) * factor());
             let mut firings = self.firings.clone();
-            for volley in firings.chunk_by_mut(|a, b| a.at == b.at) {
+            for volley in firings.chunk_by_mut(|a, b| a.time == b.time) {
                 let (time, launch) = (factor(), factor());
                 for firing in volley {
-                    firing.at *= time;
+                    firing.time *= time;
                     firing.launch *= launch;
                 }
             }
@@ -131,14 +131,14 @@ impl Shot {
     /// holes planned a window apart do not count together.
     fn greatest_sum_within(&self, window: f64, weight: impl Fn(&Firing) -> f64) -> f64 {
         let microseconds = |time: f64| (time * 1e6).round();
-        let from = |first: usize| {
-            let end = microseconds(self.firings[first].at) + microseconds(window);
-            let within = self.firings[first..].iter().take_while(|firing| microseconds(firing.at) < end);
+        let sum_from = |first: usize| {
+            let end = microseconds(self.firings[first].time) + microseconds(window);
+            let within = self.firings[first..].iter().take_while(|firing| microseconds(firing.time) < end);
             within.map(&weight).sum::<f64>()
         };
         // The first of those that fire together stands for all.
-        let is_first = |&n: &usize| n == 0 || self.firings[n - 1].at < self.firings[n].at;
-        (0..self.firings.len()).filter(is_first).map(from).fold(0.0, f64::max)
+        let is_first = |&n: &usize| n == 0 || self.firings[n - 1].time < self.firings[n].time;
+        (0..self.firings.len()).filter(is_first).map(sum_from).fold(0.0, f64::max)
     }
 }
 
@@ -158,7 +158,7 @@ mod tests {
             assert!((friction[0] + friction[1] - 1.0).abs() < 1e-15);
             assert!((friction[0] - 0.5).abs() >= 0.5 * 0.5e-3);
             for ((more, less), firing) in more.firings.iter().zip(&less.firings).zip(&shot.firings) {
-                assert!((more.at + less.at - 2.0 * firing.at).abs() < 1e-15);
+                assert!((more.time + less.time - 2.0 * firing.time).abs() < 1e-15);
                 assert!((more.launch + less.launch - 2.0 * firing.launch).norm() < 1e-14);
                 assert!((more.launch.z / firing.launch.z - 1.0).abs() <= 1e-3);
             }

@@ -29,8 +29,8 @@ pub struct Clock {
 impl Clock {
     /// Clock at the first firing of `shot`, before which the shelter is at rest; at 0 where the shelter `slides`.
     pub fn new(shot: &Shot, settings: &RunSettings, slides: bool) -> Self {
-        let [first, last] =
-            [shot.firings.first(), shot.firings.last()].map(|firing| firing.map_or(0.0, |firing| firing.at));
+        let [first, last] = [shot.firings.first(), shot.firings.last()]
+            .map(|firing| firing.map_or(0.0, |firing| firing.time));
         let limit = settings.duration.unwrap_or(last + SETTLING_LIMIT);
         Self { base: if slides { 0.0 } else { first }, n: 0, steps: 0, fired: 0, step: settings.step, limit }
     }
@@ -58,7 +58,7 @@ impl Clock {
         if !moving {
             match firings.get(self.fired) {
                 None => return Some(EndReason::AtRest),
-                Some(next) if next.at <= self.limit => (self.base, self.n) = (next.at, 0),
+                Some(next) if next.time <= self.limit => (self.base, self.n) = (next.time, 0),
                 Some(_) => return Some(EndReason::TimeLimit),
             }
         }
@@ -72,6 +72,6 @@ impl Clock {
 
     /// End of the run for `reason`, at the limit at the latest.
     pub fn end(&self, reason: EndReason) -> RunEnd {
-        RunEnd { at: self.now() - self.overshoot(), reason }
+        RunEnd { time: self.now() - self.overshoot(), reason }
     }
 }

@@ -30,7 +30,7 @@ fn apply_friction(velocity: Vector2<f64>, loss: f64) -> Vector2<f64> {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct HoleImpulse {
     /// Time since the start of the step [s].
-    pub after: f64,
+    pub since_start: f64,
     /// Velocity added at once [m/s].
     pub launch: Vector3<f64>,
     /// Acceleration added from then on [m/s²].
@@ -59,7 +59,7 @@ pub struct TireStep {
     /// Time since the start of the step [s].
     elapsed: f64,
     /// Highest top of a parabola so far: height [m] and time since the start of the step [s].
-    pub top: (f64, f64),
+    pub peak: (f64, f64),
 }
 
 /// Rise to the top of a parabola [m] and time until the top [s]; `None` when the top is not reached within `time` [s].
@@ -78,7 +78,7 @@ impl TireStep {
         friction: f64,
         restitution: f64,
     ) -> Self {
-        let (lost, put_in, elapsed, top) = (0.0, 0.0, 0.0, (0.0, 0.0));
+        let (lost, put_in, elapsed, peak) = (0.0, 0.0, 0.0, (0.0, 0.0));
         let push_acceleration = Vector3::zeros();
         Self {
             displacement,
@@ -90,7 +90,7 @@ impl TireStep {
             lost,
             put_in,
             elapsed,
-            top,
+            peak,
         }
     }
 
@@ -99,9 +99,9 @@ impl TireStep {
     /// Returns the acceleration a of the last phase [m/s²]: v − a h/2 is the mid-step velocity of central differences.
     pub fn integrate(&mut self, h: f64, impulses: impl Iterator<Item = HoleImpulse>) -> Vector3<f64> {
         let mut now = 0.0;
-        for HoleImpulse { after, launch, push_acceleration } in impulses {
-            self.integrate_between(after - now, h);
-            now = after;
+        for HoleImpulse { since_start, launch, push_acceleration } in impulses {
+            self.integrate_between(since_start - now, h);
+            now = since_start;
             self.put_in += launch.dot(&(self.velocity + 0.5 * launch));
             self.velocity += launch;
             self.push_acceleration += push_acceleration;
@@ -161,9 +161,9 @@ impl TireStep {
 
     fn fly_freely(&mut self, time: f64) {
         if let Some((rise, until)) = apex(self.velocity.z, self.free_acceleration.z, time)
-            && self.displacement.z + rise > self.top.0
+            && self.displacement.z + rise > self.peak.0
         {
-            self.top = (self.displacement.z + rise, self.elapsed + until);
+            self.peak = (self.displacement.z + rise, self.elapsed + until);
         }
         self.elapsed += time;
         self.displacement += self.velocity * time + self.free_acceleration * (0.5 * time * time);
@@ -227,7 +227,7 @@ impl TireStep {
         let braking = -acceleration.dot(&direction);
         let stops = speed > 0.0 && braking * time >= speed;
         let moving = if stops { speed / braking } else { time };
-        let way = velocity * moving + acceleration * (0.5 * moving * moving);
+        let path = velocity * moving + acceleration * (0.5 * moving * moving);
         let mut after = velocity + acceleration * moving;
         if stops {
             after -= direction * after.dot(&direction);
@@ -237,8 +237,8 @@ impl TireStep {
             }
         }
         self.elapsed += moving;
-        self.lost += limit * way.dot(&direction);
-        self.displacement += way.push(0.0);
+        self.lost += limit * path.dot(&direction);
+        self.displacement += path.push(0.0);
         self.velocity = after.push(0.0);
         Some(Slide { time: moving, acceleration })
     }
@@ -282,8 +282,8 @@ mod tests {
             [HoleImpulse { launch: Vector3::z() * 2.0, ..HoleImpulse::default() }].into_iter(),
         );
         let sideways = 3.0 - 0.5 * 2.0;
-        let way = 3.0 * 2.0 * 2.0 / G + sideways * sideways / (2.0 * 0.5 * G);
-        assert!((step.displacement.x - way).abs() < 1e-12);
+        let expected = 3.0 * 2.0 * 2.0 / G + sideways * sideways / (2.0 * 0.5 * G);
+        assert!((step.displacement.x - expected).abs() < 1e-12);
         assert_eq!(step.velocity, Vector3::zeros());
         // The energy at the start and the energy put in are lost.
         assert!((step.lost - 0.5 * 9.0 - step.put_in).abs() < 1e-12);

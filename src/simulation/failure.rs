@@ -24,24 +24,24 @@ pub enum Failure {
         method: Method,
     },
     /// The state is no longer finite.
-    #[error("the motion is no longer finite at {at} s")]
+    #[error("the motion is no longer finite at {time} s")]
     Diverged {
         /// Time of the step [s].
-        at: f64,
+        time: f64,
     },
     /// An iteration did not settle within its bound.
-    #[error("the {what} does not settle at {at} s")]
+    #[error("the {what} does not settle at {time} s")]
     Unsettled {
         /// The iteration.
         what: Iteration,
         /// Time of the step [s].
-        at: f64,
+        time: f64,
     },
     /// The watcher stopped the run.
-    #[error("stopped at {at} s before the end")]
+    #[error("stopped at {time} s before the end")]
     Stopped {
         /// Time of the step [s].
-        at: f64,
+        time: f64,
     },
 }
 

@@ -47,7 +47,7 @@ impl Record {
         let until_top = -velocity / acceleration;
         let near = acceleration < 0.0 && until_top.abs() <= 0.5 * self.step;
         let ahead = if near { until_top } else { 0.0 };
-        self.height = Peak { value: peak.value + 0.5 * velocity * ahead, at: peak.at + ahead, ..peak };
+        self.height = Peak { value: peak.value + 0.5 * velocity * ahead, time: peak.time + ahead, ..peak };
     }
 
     /// Notes the top of a flight that no step saw [m], if that top is the greatest height so far.
@@ -65,7 +65,7 @@ impl Record {
         if before <= middle && after <= middle && before + after < 2.0 * middle && after.is_finite() {
             let (rise, bend) = (after - before, 2.0 * middle - before - after);
             self.force.value += rise * rise / (8.0 * bend);
-            self.force.at += 0.5 * self.step * rise / bend;
+            self.force.time += 0.5 * self.step * rise / bend;
         }
     }
 
@@ -77,8 +77,8 @@ impl Record {
 
     /// Notes that a cable broke at a time [s]: the greatest force of the run is `breaking_force` [N], at the time and cable of
     /// the first break.
-    pub fn note_break(&mut self, breaking_force: f64, at: f64, cable: usize) {
-        let first = Peak { value: breaking_force, at, index: cable };
+    pub fn note_break(&mut self, breaking_force: f64, time: f64, cable: usize) {
+        let first = Peak { value: breaking_force, time, index: cable };
         self.force = *self.first_break.get_or_insert(first);
     }
 
@@ -90,7 +90,7 @@ impl Record {
         reason: EndReason,
     ) -> Outcome {
         let end = clock.end(reason);
-        let (mut drift, mut tires_in_air) = (Peak { at: end.at, ..Peak::default() }, false);
+        let (mut drift, mut tires_in_air) = (Peak { time: end.time, ..Peak::default() }, false);
         for (index, displacement) in tires {
             let shift2 = displacement.xy().norm_squared();
             if shift2 > drift.value {
@@ -113,10 +113,10 @@ mod tests {
     #[test]
     fn a_break_names_the_cable_that_broke() {
         let mut record = Record::new(1e-3);
-        record.force = Peak { value: 101.0, at: 0.1, index: 3 };
+        record.force = Peak { value: 101.0, time: 0.1, index: 3 };
         record.note_break(100.0, 0.2, 7);
-        assert_eq!(record.force, Peak { value: 100.0, at: 0.2, index: 7 });
-        record.force = Peak { value: 105.0, at: 0.3, index: 9 };
+        assert_eq!(record.force, Peak { value: 100.0, time: 0.2, index: 7 });
+        record.force = Peak { value: 105.0, time: 0.3, index: 9 };
         record.note_break(100.0, 0.3, 9);
         assert_eq!(record.force.index, 7, "the first break counts");
     }

@@ -32,9 +32,9 @@ impl Ties {
             at_packs.extend(ends.iter().flat_map(|&end| packs(end, *len)).map(|pack| (pack, n as u32)));
             for first in packs(ends[0], *len) {
                 // Slots of the block whose first end is in this pack.
-                let from = (first as usize * LANES).max(ends[0]) - ends[0];
-                let to = ((first as usize + 1) * LANES).min(ends[0] + len) - ends[0];
-                let second = packs(ends[1] + from, to - from);
+                let start = (first as usize * LANES).max(ends[0]) - ends[0];
+                let end = ((first as usize + 1) * LANES).min(ends[0] + len) - ends[0];
+                let second = packs(ends[1] + start, end - start);
                 tied.extend(second.flat_map(|second| [(first, second), (second, first)]));
             }
         }
@@ -76,9 +76,9 @@ pub struct Wake<'a> {
     /// Packs set moving or resting since the last refresh.
     changed: Vec<usize>,
     /// Number of moving neighbours of each pack (`n_packs`).
-    near: Vec<u32>,
+    moving_neighbours: Vec<u32>,
     /// Number of awake packs at the ends of each block (`n_blocks`).
-    active: Vec<u32>,
+    awake_ends: Vec<u32>,
     /// Awake packs, as a set.
     awake_set: FixedBitSet,
     /// Blocks to evaluate, as a set.
@@ -98,8 +98,8 @@ impl<'a> Wake<'a> {
             moving: FixedBitSet::with_capacity(n_packs),
             counted: FixedBitSet::with_capacity(n_packs),
             changed: Vec::with_capacity(2 * n_packs),
-            near: vec![0; n_packs],
-            active: vec![0; n_blocks],
+            moving_neighbours: vec![0; n_packs],
+            awake_ends: vec![0; n_blocks],
             awake_set: FixedBitSet::with_capacity(n_packs),
             block_set: FixedBitSet::with_capacity(n_blocks),
         }
@@ -116,7 +116,7 @@ impl<'a> Wake<'a> {
 
     /// Sets all packs moving, from the next refresh on.
     pub fn set_all_moving(&mut self) {
-        (0..self.near.len()).for_each(|pack| self.set_moving(pack, true));
+        (0..self.moving_neighbours.len()).for_each(|pack| self.set_moving(pack, true));
     }
 
     /// Awake tires, where every pack is one tire.
@@ -142,7 +142,7 @@ impl<'a> Wake<'a> {
         }
         self.woke.clear();
         self.fell_asleep.clear();
-        let Self { ties, near, active, awake_set, block_set, .. } = self;
+        let Self { ties, moving_neighbours, awake_ends, awake_set, block_set, .. } = self;
         for pack in self.changed.drain(..) {
             let moves = self.moving.contains(pack);
             if self.counted.contains(pack) == moves {
@@ -151,15 +151,16 @@ impl<'a> Wake<'a> {
             self.counted.set(pack, moves);
             for &neighbour in ties.neighbours.of(pack) {
                 let neighbour = neighbour as usize;
-                near[neighbour] = if moves { near[neighbour] + 1 } else { near[neighbour] - 1 };
-                if near[neighbour] != u32::from(moves) {
+                moving_neighbours[neighbour] =
+                    if moves { moving_neighbours[neighbour] + 1 } else { moving_neighbours[neighbour] - 1 };
+                if moving_neighbours[neighbour] != u32::from(moves) {
                     continue;
                 }
                 awake_set.set(neighbour, moves);
                 for &block in ties.blocks.of(neighbour) {
                     let block = block as usize;
-                    active[block] = if moves { active[block] + 1 } else { active[block] - 1 };
-                    if active[block] == u32::from(moves) {
+                    awake_ends[block] = if moves { awake_ends[block] + 1 } else { awake_ends[block] - 1 };
+                    if awake_ends[block] == u32::from(moves) {
                         block_set.set(block, moves);
                         if moves { &mut self.woke } else { &mut self.fell_asleep }.push(block);
                     }
@@ -233,11 +234,11 @@ pub mod tests {
         let [height, force, drift] = [run.height, run.force, run.drift];
         [
             height.value,
-            height.at,
+            height.time,
             force.value,
-            force.at,
+            force.time,
             drift.value,
-            drift.at,
+            drift.time,
             run.ledger.put_in,
             run.steps as f64,
         ]

@@ -88,7 +88,7 @@ fn halve(times: &mut Vec<f64>, displacements: &mut Vec<[f32; 3]>, tires: usize) 
 impl Flight {
     /// End of the run [s].
     pub fn end(&self) -> f64 {
-        self.outcome.end.at
+        self.outcome.end.time
     }
 
     /// Elastic force of each cable of the scene at `time` [N] (`n_cables`); 0 where it is slack or broken.
@@ -97,7 +97,7 @@ impl Flight {
         let displacement = |tire: usize| Vector3::from(frame[tire].map(f64::from));
         let force = |cable: &Cable| cable.force(cable.between(cable.ends.map(displacement)).norm()).max(0.0);
         let mut forces: Vec<f64> = scene.cables.iter().map(force).collect();
-        for broken in self.outcome.broken.iter().filter(|broken| broken.at <= time) {
+        for broken in self.outcome.broken.iter().filter(|broken| broken.time <= time) {
             forces[broken.cable] = 0.0;
         }
         forces

@@ -88,7 +88,7 @@ fn join(shards: &[(String, String)]) -> Result<Contents, String> {
             return Err(format!("{name}: a shard of another study than {first_name}: {difference}"));
         }
     }
-    let count = first.shard.of;
+    let count = first.shard.count;
     for index in 0..count {
         let which = format!("shard {}/{count}", index + 1);
         match contents_by_name.iter().filter(|(_, contents)| contents.head.shard.index == index).count() {

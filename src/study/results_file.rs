@@ -170,7 +170,7 @@ pub fn read(name: &str, text: &str) -> Result<Contents, String> {
     }
     let body = unsealed(first).ok_or_else(|| damaged(0))?;
     let head: Head = serde_json::from_str(&format!("{body}}}")).map_err(|_| damaged(0))?;
-    if head.shard.index >= head.shard.of {
+    if head.shard.index >= head.shard.count {
         return Err(damaged(0));
     }
     let (mut known, mut results, mut is_complete) = (HashMap::new(), 0, false);

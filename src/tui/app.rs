@@ -377,7 +377,7 @@ impl App {
     /// Share done of the least number of runs: each run costs [`step_error::RATIO`] times the run before.
     fn share_done(&self, option: usize, runs: usize, time: f64) -> f64 {
         let firings = &self.case.shots[option].firings;
-        let last = firings.last().map_or(0.0, |firing| firing.at);
+        let last = firings.last().map_or(0.0, |firing| firing.time);
         let end = self.case.plan.simulation.duration_s.unwrap_or(last + USUAL_FLIGHT);
         let cost = |runs: f64| step_error::RATIO.powf(runs) - 1.0;
         let whole = cost(1.0 + step_error::NEIGHBOURS as f64);

@@ -89,8 +89,8 @@ impl Editor {
         let has = |field: &Field| {
             field.title().to_lowercase().contains(&text) || field.value.to_lowercase().contains(&text)
         };
-        let from = self.selected + usize::from(next);
-        let mut round = self.fields.iter().enumerate().cycle().skip(from).take(self.fields.len());
+        let first = self.selected + usize::from(next);
+        let mut round = self.fields.iter().enumerate().cycle().skip(first).take(self.fields.len());
         self.selected = round.find(|(_, field)| has(field)).map_or(self.selected, |(n, _)| n);
     }
 

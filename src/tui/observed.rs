@@ -111,7 +111,7 @@ mod tests {
         }
         let read = observed.read(&case).expect("observations");
         assert_eq!((read[0].list.len(), read[0].firings.len(), read[0].list[0].option), (3, 1, 2));
-        assert_eq!((read[0].list[1].value, read[0].list[2].watched.at), (52000.0, 0.3));
+        assert_eq!((read[0].list[1].value, read[0].list[2].watched.time), (52000.0, 0.3));
         for line in ["", "3:1", "3:1 1.95", "9:9 1.95 0.05", "3:1 2.0 0.05", "3:2 speed 2 0.1", "3:2 1 2 3 4"]
         {
             assert!(observed.add_line(&case, 2, line).is_err(), "{line}");

@@ -18,9 +18,9 @@ impl OrderEditor {
 
     /// Moves the selected row one turn earlier or later.
     pub fn shift(&mut self, later: bool) {
-        let from = self.selected;
+        let selected = self.selected;
         self.select(later);
-        self.names.swap(from, self.selected);
+        self.names.swap(selected, self.selected);
     }
 
     /// The order as a plan writes it.

@@ -139,8 +139,8 @@ impl Start {
             }
             Event::Mouse(mouse) if self.questions.is_none() => match mouse.kind {
                 MouseEventKind::Down(MouseButton::Left) => {
-                    let at = Position::new(mouse.column, mouse.row);
-                    match self.areas.iter().find(|(area, _)| area.contains(at)) {
+                    let click = Position::new(mouse.column, mouse.row);
+                    match self.areas.iter().find(|(area, _)| area.contains(click)) {
                         Some(&(_, choice)) if choice == self.selected => self.open(),
                         Some(&(_, choice)) => self.select(choice),
                         None => Next::Wait,
@@ -256,8 +256,8 @@ impl Questions {
             KeyCode::Left | KeyCode::Right if self.selected == ROPE => {
                 let ropes = &catalogue().ropes;
                 let rope = self.answers[ROPE].value();
-                let at = ropes.iter().position(|known| known.name == rope).unwrap_or(0);
-                let next = if key.code == KeyCode::Right { at + 1 } else { at.saturating_sub(1) };
+                let index = ropes.iter().position(|known| known.name == rope).unwrap_or(0);
+                let next = if key.code == KeyCode::Right { index + 1 } else { index.saturating_sub(1) };
                 if let Some(rope) = ropes.get(next) {
                     self.answers[ROPE] = Input::new(rope.name.clone());
                 }

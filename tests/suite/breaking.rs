@@ -46,8 +46,8 @@ fn the_ledger_closes_over_breaking_cables() {
         assert!(out.broken.len() > 1, "{method:?}: {}", out.broken.len());
         assert!(out.ledger.residual() < 2e-3, "{method:?} {:e}", out.ledger.residual());
         assert!(out.height.value > whole.height.value, "{method:?}");
-        assert!(out.broken.windows(2).all(|pair| pair[0].at <= pair[1].at));
-        first.push(out.broken[0].at);
+        assert!(out.broken.windows(2).all(|pair| pair[0].time <= pair[1].time));
+        first.push(out.broken[0].time);
     }
     close(first[0], first[1], 2e-4, "first break, two steps apart at most");
 }

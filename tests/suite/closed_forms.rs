@@ -18,9 +18,9 @@ fn validates_free_flight_reaches_v2_over_2g_and_lands_after_2v_over_g() {
             let out = run(&scene, &fire(&[0], LAUNCH), settings(method, h, None));
             // A parabola is followed exactly, and its top is taken between samples.
             close(out.height.value, LAUNCH * LAUNCH / (2.0 * GRAVITY), 1e-9, "height");
-            close(out.height.at, LAUNCH / GRAVITY, 1e-9, "time of the top");
+            close(out.height.time, LAUNCH / GRAVITY, 1e-9, "time of the top");
             // At rest in the step after the landing.
-            close(out.end.at, 2.0 * LAUNCH / GRAVITY, 3.0 * h, "landing");
+            close(out.end.time, 2.0 * LAUNCH / GRAVITY, 3.0 * h, "landing");
             assert!(out.ledger.residual() < 1e-9, "{method:?} {:e}", out.ledger.residual());
         }
     }
@@ -74,7 +74,7 @@ fn validates_sliding_tire_stops_where_friction_has_used_up_its_energy() {
             let amplitude = stretch - limit / stiffness;
             let swing = (std::f64::consts::PI - (limit / (stiffness * amplitude)).acos()) / omega;
             let speed = (2.0 * 0.5 * GRAVITY * (way - stretch)).sqrt();
-            close(out.end.at, swing + speed / (0.5 * GRAVITY), 5.0 * h, "time");
+            close(out.end.time, swing + speed / (0.5 * GRAVITY), 5.0 * h, "time");
         }
     }
 }
@@ -96,7 +96,7 @@ fn validates_two_free_masses_exchange_velocity_at_v_sqrt_k_mu() {
             let omega = (k / reduced).sqrt();
             // Second order: (ωh)² times a constant of the method.
             close(out.force.value, exact, factor * (omega * h).powi(2) * exact, "force");
-            close(out.force.at, 0.5 * std::f64::consts::PI / omega, h, "time of the peak");
+            close(out.force.time, 0.5 * std::f64::consts::PI / omega, h, "time of the peak");
         }
     }
 }
@@ -252,8 +252,8 @@ fn both_methods_name_the_same_end_around_rest() {
         let ends =
             METHODS.map(|method| run(&scene, &fire(&[0], launch), settings(method, h, Some(duration))).end);
         assert_eq!(ends[0], ends[1], "{duration} s");
-        let RunEnd { at, reason } = ends[0];
-        assert!(at <= duration);
+        let RunEnd { time, reason } = ends[0];
+        assert!(time <= duration);
         // The step after the landing finds the tire at rest.
         let expected = if duration < landing { EndReason::TimeLimit } else { EndReason::AtRest };
         assert!(reason == expected || (duration - landing).abs() < h, "{reason:?} after {duration} s");

@@ -113,7 +113,7 @@ fn validates_bounces_are_a_geometric_series() {
             close(top, e.powi(2 * n as i32) * free, GRAVITY * h * h, &format!("{e}: bounce {n}"));
         }
         let bounces = 2.0 * LAUNCH / (GRAVITY * (1.0 - e));
-        close(out.end.at, bounces, 4.0 * h, &format!("{e}: time of all bounces"));
+        close(out.end.time, bounces, 4.0 * h, &format!("{e}: time of all bounces"));
         assert!(out.ledger.residual() < 1e-2, "{e}: {:e}", out.ledger.residual());
         close(out.ledger.dissipated, out.ledger.put_in, 1e-2 * out.ledger.put_in, "all energy is lost");
     }

@@ -486,7 +486,7 @@ fn observations_are_the_same_whatever_separates_the_columns() {
         other.iter_mut().zip(&list).for_each(|(other, own)| other.line = own.line);
         assert_eq!(other, list, "{lines}");
     }
-    let watched = Watched { quantity: ObservedQuantity::FlightHeight, index: 0, at: 0.0 };
+    let watched = Watched { quantity: ObservedQuantity::FlightHeight, index: 0, time: 0.0 };
     assert_eq!((list[0].option, list[0].watched, list[0].value, list[0].sd), (2, watched, 1.6, 0.05));
 }
 

@@ -36,7 +36,7 @@ fn mistake(text: &str) -> String {
 fn times_ms(case: &Case, row: usize) -> Vec<f64> {
     let mut firings: Vec<&Firing> = case.shots[0].firings.iter().filter(|f| f.row == row).collect();
     firings.sort_by_key(|firing| firing.tire);
-    firings.iter().map(|firing| (firing.at * 1e6).round() * 1e-3).collect()
+    firings.iter().map(|firing| (firing.time * 1e6).round() * 1e-3).collect()
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn a_row_along_y_fires_along_y() {
         .replace("under_row = 1, launch_m_s = 5", holes);
     let firings = case(&text).shots[0].firings.clone();
     let at: Vec<(usize, f64)> =
-        firings.iter().filter(|f| f.row == 0).map(|firing| (firing.tire, firing.at)).collect();
+        firings.iter().filter(|f| f.row == 0).map(|firing| (firing.tire, firing.time)).collect();
     assert_eq!(at, [(1, 0.0), (9, 0.017)]);
 }
 
@@ -115,7 +115,7 @@ fn the_sides_of_a_row_scatter_by_themselves() {
     for number in 0..samples {
         let shot = draw_shot(&case, &case.shots[0], 1, number).shot;
         let at =
-            |tire: usize| shot.firings.iter().find(|firing| firing.tire == tire).expect("a hole").at * 1e3;
+            |tire: usize| shot.firings.iter().find(|firing| firing.tire == tire).expect("a hole").time * 1e3;
         assert!(at(0) != at(4));
         squares += (at(0) - at(4)).powi(2);
     }
@@ -231,7 +231,7 @@ fn each_gap_scatters_by_itself_and_shifts_what_follows() {
         let drawn = draw_shot(&case, &case.shots[0], 1, number);
         for firing in &drawn.shot.firings {
             let planned = firing.row as f64 * 42.0 + (firing.tire % 5) as f64 * 17.0;
-            let late = firing.at * 1e3 - planned;
+            let late = firing.time * 1e3 - planned;
             sums[firing.row][firing.tire % 5] += late;
             squares[firing.row][firing.tire % 5] += late * late;
         }

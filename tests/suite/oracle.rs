@@ -48,7 +48,7 @@ fn simple(scene: &Scene, shot: &Shot, steps: usize) -> Extremes {
                 force[b] -= line.normalize() * pull;
             }
         }
-        while let Some(firing) = shot.firings.get(fired).filter(|firing| firing.at <= now) {
+        while let Some(firing) = shot.firings.get(fired).filter(|firing| firing.time <= now) {
             v[firing.tire] += firing.launch;
             fired += 1;
         }

@@ -100,7 +100,7 @@ fn a_list_layout_names_tires_by_number_and_holes_launch_the_nearest() {
     assert!(matches!(&plan.delays[0].timing, Timing::Interval { order, .. } if order == &[1, 0]));
     let case = Case::new(plan);
     assert_eq!(case.scene().mass, [280.0, 100.0]);
-    let fired: Vec<_> = case.shots[0].firings.iter().map(|f| (f.tire, f.at)).collect();
+    let fired: Vec<_> = case.shots[0].firings.iter().map(|f| (f.tire, f.time)).collect();
     assert_eq!(fired, [(0, 0.0), (1, 0.025)]);
 }
 

@@ -80,14 +80,18 @@ fn scaled(scene: &Scene, shot: &Shot, scale: f64) -> (Scene, Shot) {
         cable.rest_length *= scale;
         cable.stiffness /= scale;
     }
-    let firing =
-        |f: &Firing| Firing { at: root * f.at, launch: root * f.launch, push_time: root * f.push_time, ..*f };
+    let firing = |f: &Firing| Firing {
+        time: root * f.time,
+        launch: root * f.launch,
+        push_time: root * f.push_time,
+        ..*f
+    };
     (large, Shot::from_firings(shot.firings.iter().map(firing).collect()))
 }
 
 /// The shot with every firing `later` [s].
 fn delayed(shot: &Shot, later: f64) -> Shot {
-    Shot::from_firings(shot.firings.iter().map(|f| Firing { at: f.at + later, ..*f }).collect())
+    Shot::from_firings(shot.firings.iter().map(|f| Firing { time: f.time + later, ..*f }).collect())
 }
 
 proptest! {
@@ -116,7 +120,7 @@ proptest! {
     #[test]
     fn contact_holds_at_every_step_and_nothing_moves_beforehand((scene, shot) in shelter(), later in 0.01..2.0_f64) {
         let shot = delayed(&shot, later);
-        let first = shot.firings[0].at;
+        let first = shot.firings[0].time;
         for &method in methods(&scene, &shot) {
             let (mut lowest, mut outside_cone, mut early, mut finite) = (0.0_f64, 0.0_f64, 0.0_f64, true);
             let out = watch(&scene, &shot, settings(method, step(&scene), Some(later + 1.0)), |motion| {
@@ -137,7 +141,7 @@ proptest! {
             let heaviest = scene.mass.iter().copied().fold(0.0, f64::max);
             let rounding = 1e-9 + 4.0 * f64::EPSILON * 10.0 * heaviest / step(&scene);
             prop_assert!(outside_cone <= rounding, "{:?} leaves the cone by {:e}", method, outside_cone);
-            prop_assert!(out.height.at >= first || out.height.value == 0.0);
+            prop_assert!(out.height.time >= first || out.height.value == 0.0);
             prop_assert!(early <= 1e-12, "{:?}: {:e} m before the first hole", method, early);
         }
     }
@@ -176,7 +180,7 @@ proptest! {
         let (a, b) = (run(&scene, &shot, settings), run(&scene, &shifted, settings));
         // A hundred seconds round to 1e-14 s; chaos may amplify that over a long run.
         prop_assert!((a.height.value - b.height.value).abs() < 1e-6 * (1.0 + a.height.value));
-        prop_assert!((a.height.at + later - b.height.at).abs() < 1e-3);
+        prop_assert!((a.height.time + later - b.height.time).abs() < 1e-3);
     }
 
     /// Mirrored and renumbered shelters give mirrored and renumbered results, up to the order of summation.
@@ -219,7 +223,7 @@ proptest! {
     fn a_model_keeps_nothing_from_run_to_run((scene, shot) in shelter(), shift in 0.0..0.1) {
         let shots: Vec<Shot> = (0..6)
             .map(|n| {
-                let later = |f: &Firing| Firing { at: f.at + n as f64 * shift * f.tire as f64, ..*f };
+                let later = |f: &Firing| Firing { time: f.time + n as f64 * shift * f.tire as f64, ..*f };
                 Shot { friction: Some(0.1 * n as f64), ..Shot::from_firings(shot.firings.iter().map(later).collect()) }
             })
             .collect();

@@ -92,7 +92,7 @@ fn drift_is_that_of_the_end_asked_for() {
     for method in METHODS {
         let drift = |h: f64| run(&scene, &shot, settings(method, h, Some(0.403))).drift;
         let (coarse, fine) = (drift(2.7e-4), drift(2e-6));
-        assert!((coarse.at - 0.403).abs() < 1e-12, "{}", coarse.at);
+        assert!((coarse.time - 0.403).abs() < 1e-12, "{}", coarse.time);
         // 0.4 of a step later it is further by 4e-4.
         close(coarse.value, fine.value, 2e-4 * fine.value, "drift");
     }
@@ -104,7 +104,7 @@ fn a_large_shelter_comes_to_rest_and_stays_bounded() {
     let scene = grid(50, 50, 1.5, 1.519e6);
     let out = run(&scene, &fire_rows(&[23, 24, 25], 50, 0.02), settings(Method::Verlet, 1e-3, None));
     assert_eq!(out.end.reason, EndReason::AtRest);
-    assert!(out.end.at < 10.0, "{} s", out.end.at);
+    assert!(out.end.time < 10.0, "{} s", out.end.time);
     assert!(out.history.height.len() <= shelter::outcome::History::CAPACITY);
     // (ωh)² of the elastic part of the energy, with ωh = 2h / critical step.
     let omega_h: f64 = 2e-3 / scene.critical_step();

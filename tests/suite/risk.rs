@@ -148,7 +148,7 @@ fn the_launch_margin_is_the_room_below_the_limit() {
     };
     assert_eq!(
         margin(6.27_f64.powi(2) / (2.0 * GRAVITY)),
-        LaunchMargin::UpTo { rise: 0.04, then: Verdict::Fail }
+        LaunchMargin::UpTo { rise: 0.04, above: Verdict::Fail }
     );
     assert_eq!(margin(5.9_f64.powi(2) / (2.0 * GRAVITY)), LaunchMargin::NotPassing);
     assert_eq!(margin(12.1_f64.powi(2) / (2.0 * GRAVITY)), LaunchMargin::BeyondTried);
@@ -285,7 +285,7 @@ fn shards_that_the_audit_contradicts_are_sampled_anew() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut known = HashMap::new();
     for index in [0, 1] {
-        let (file, shard) = (folder.path().join(index.to_string()), Shard { index, of: 2 });
+        let (file, shard) = (folder.path().join(index.to_string()), Shard { index, count: 2 });
         let head = Head::new(&case, Question::Risk { sampling }, compute, shard);
         let saved = Progress::with_journal(results_file::open(&file, &head).expect("a new file"));
         draw_shard(&[target], shard, &saved).expect("samples");
@@ -356,7 +356,7 @@ fn draws_have_the_moments_asked_for() {
             inputs[0],
             (same.launch.x / same.launch.norm()).asin(),
             (same.launch.y / same.launch.norm()).asin(),
-            same.at - first.at,
+            same.time - first.time,
             shot.friction.expect("a friction"),
             rest - 1.0,
             cable.0.stiffness * cable.0.rest_length / (cable.1.stiffness * cable.1.rest_length),
@@ -466,7 +466,7 @@ fn a_weak_cable_counts_by_its_strength() {
         let gentle = run(vec![1e9, 1.0], None);
         assert_eq!((strong.force.index, gentle.force.index), (0, 1));
         let weak = run(vec![1.0, 0.7], None);
-        assert!(weak.force.index == 1 && (weak.force.at - gentle.force.at).abs() < 1e-12);
+        assert!(weak.force.index == 1 && (weak.force.time - gentle.force.time).abs() < 1e-12);
         let ratio = weak.force.value / (gentle.force.value / 0.7);
         assert!((ratio - 1.0).abs() < 1e-12 && weak.force.value > strong.force.value, "{method:?} {ratio}");
         // A strong cable holds a force at which one of the plan's strength would break.
@@ -527,7 +527,7 @@ fn samples_are_followed_as_long_as_the_shot_as_planned() {
     let rest = |scene: &Scene, shot: &Shot| {
         let settings = RunSettings { method: Method::Verlet, step: 1e-3, duration: None };
         let run = endless.model.run_variant(scene, shot, &settings, &mut |_| ControlFlow::Continue(()));
-        run.expect("an outcome").end.at
+        run.expect("an outcome").end.time
     };
     let duration = rest(endless.scene(), shot) + 0.12;
     let mut limited = endless.clone();

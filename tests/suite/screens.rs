@@ -37,7 +37,7 @@ fn computing_failed_and_enlarged() {
     let mut app = app();
     app.options[0] = done(judgement(&app.case, 1), false);
     app.options[1] = OptionState::Running { runs: 2, done: 0.45 };
-    app.options[2] = OptionState::Failed(NoResult::Failed(Failure::Diverged { at: 0.3 }));
+    app.options[2] = OptionState::Failed(NoResult::Failed(Failure::Diverged { time: 0.3 }));
     app.selected = 1;
     insta::assert_snapshot!("computing", text(&draw(&app, 100, 30)));
     app.selected = 2;
@@ -69,7 +69,10 @@ fn samples_stream_in_and_decide() {
     let sampling = line(&app, "9 ms");
     assert!(sampling.contains("? OPEN") && sampling.contains("200…"), "{sampling}");
     app.take_news(news(&app, 500, false));
-    app.take_news(News::Margin { option: 1, margin: LaunchMargin::UpTo { rise: 0.04, then: Verdict::Fail } });
+    app.take_news(News::Margin {
+        option: 1,
+        margin: LaunchMargin::UpTo { rise: 0.04, above: Verdict::Fail },
+    });
     assert!(line(&app, "9 ms").contains("✓ PASS") && !line(&app, "9 ms").contains('…'));
     app.selected = 1;
     let screen = text(&draw(&app, 120, 36));

@@ -11,7 +11,7 @@ use shelter::study::as_planned::check::{check_as_planned, check_shot};
 use shelter::study::judge_options::{UNWATCHED, judge_all};
 use shelter::study::judgement::Evidence;
 use shelter::study::judgement::Judgement;
-use shelter::study::orders::{Orders, TriedOrder, orders, check_extremes, try_orders};
+use shelter::study::orders::{Orders, TriedOrder, check_extremes, orders, try_orders};
 use shelter::study::samples::draw_until_sure::{ShotToSample, sample_shots};
 use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::sample_count::Sampling;
@@ -333,10 +333,12 @@ fn mirrored_orders_are_judged_once() {
     let case = mirrored_case();
     let compute = ComputeSettings::of(&case.plan);
     let progress = Progress::default();
-    let tried =
-        try_orders(&case, &[0.045], Shard { index: 0, of: 2 }, &compute, &progress).expect("a result").value;
-    let other =
-        try_orders(&case, &[0.045], Shard { index: 1, of: 2 }, &compute, &progress).expect("a result").value;
+    let tried = try_orders(&case, &[0.045], Shard { index: 0, count: 2 }, &compute, &progress)
+        .expect("a result")
+        .value;
+    let other = try_orders(&case, &[0.045], Shard { index: 1, count: 2 }, &compute, &progress)
+        .expect("a result")
+        .value;
     assert_eq!(progress.counts(), (12, 12));
     let by_order: HashMap<&[usize], &TriedOrder> =
         tried.iter().chain(&other).map(|tried| (tried.order.as_slice(), tried)).collect();

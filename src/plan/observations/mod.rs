@@ -54,7 +54,7 @@ pub struct MeasuredFiring {
     /// Index of the tire above the hole.
     pub tire: usize,
     /// Time since time 0 of the plan [s].
-    pub at: f64,
+    pub time: f64,
 }
 
 /// One value that was seen.
@@ -90,7 +90,7 @@ pub struct Watched {
     /// Index of the tire, or of the cable where the quantity is a force.
     pub index: usize,
     /// Time [s] where the quantity is a height at a time; else 0.
-    pub at: f64,
+    pub time: f64,
 }
 
 /// SI unit of a quantity.
@@ -129,7 +129,7 @@ impl Observations {
         // Of what was seen, not of the text: a comment or another order of the lines makes no other shot.
         let seen = |seen: &Observation| format!("{} {:?}", known.options[seen.option], seen.what_was_seen());
         let fired = |fired: &MeasuredFiring| {
-            format!("{} {FIRING} {} {:?}", known.options[fired.option], fired.tire, fired.at)
+            format!("{} {FIRING} {} {:?}", known.options[fired.option], fired.tire, fired.time)
         };
         let mut lines: Vec<String> = list.iter().map(seen).chain(firings.iter().map(fired)).collect();
         lines.sort();
@@ -240,7 +240,7 @@ fn read(
         };
         let what = match seen {
             Seen::Value(Observation { option, watched, .. }) => {
-                (option, Some(watched.quantity), watched.index, watched.at.to_bits())
+                (option, Some(watched.quantity), watched.index, watched.time.to_bits())
             }
             Seen::Firing(MeasuredFiring { option, tire, .. }) => (option, None, tire, 0),
         };
@@ -275,25 +275,25 @@ fn separator(source: &str) -> u8 {
 
 /// Index of each of [`COLUMNS`] among the values of a line, and the number of values of a line.
 struct Columns {
-    at: [Option<usize>; COLUMNS.len()],
+    position: [Option<usize>; COLUMNS.len()],
     width: usize,
 }
 
 fn read_header(header: &Line, known: &ObservableNames) -> Result<Columns, Vec<Mistake>> {
     let width = header.values.iter().rposition(|name| !name.is_empty()).map_or(0, |last| last + 1);
-    let mut columns = Columns { at: [None; COLUMNS.len()], width };
+    let mut columns = Columns { position: [None; COLUMNS.len()], width };
     let mut mistakes = Vec::new();
     for (n, name) in header.values[..width].iter().enumerate() {
         let name = name.to_lowercase();
         match COLUMNS.iter().position(|column| *column == name) {
-            Some(column) if columns.at[column].is_some() => {
+            Some(column) if columns.position[column].is_some() => {
                 mistakes.push(mistake(
                     header,
                     format!("two columns are called `{name}`"),
                     "remove one of them",
                 ));
             }
-            Some(column) => columns.at[column] = Some(n),
+            Some(column) => columns.position[column] = Some(n),
             None => {
                 let near = nearest(&name, COLUMNS.into_iter());
                 let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
@@ -303,7 +303,7 @@ fn read_header(header: &Line, known: &ObservableNames) -> Result<Columns, Vec<Mi
             }
         }
     }
-    if columns.at == [None; COLUMNS.len()] {
+    if columns.position == [None; COLUMNS.len()] {
         let remedy = format!("begin with the line {}", COLUMNS.join(","));
         return Err(vec![mistake(header, "the first line does not name the columns", remedy)]);
     }
@@ -312,7 +312,7 @@ fn read_header(header: &Line, known: &ObservableNames) -> Result<Columns, Vec<Mi
         wanted.push(OPTION);
     }
     if mistakes.is_empty() {
-        for column in wanted.into_iter().filter(|&column| columns.at[column].is_none()) {
+        for column in wanted.into_iter().filter(|&column| columns.position[column].is_none()) {
             let name = COLUMNS[column];
             let remedy = match column {
                 SD => "add the standard deviation of each value, in the unit of the value".to_owned(),
@@ -328,7 +328,7 @@ fn read_header(header: &Line, known: &ObservableNames) -> Result<Columns, Vec<Mi
 /// Whether the numbers have decimal commas; a mistake where that cannot be told.
 fn decimal_comma(rows: &[Line], columns: &Columns, separator: u8) -> Result<bool, Vec<Mistake>> {
     let numbers = |line: &Line| -> Vec<String> {
-        let read = [AT, VALUE, SD].into_iter().filter_map(|column| columns.at[column]);
+        let read = [AT, VALUE, SD].into_iter().filter_map(|column| columns.position[column]);
         read.filter_map(|n| line.values.get(n)).cloned().collect()
     };
     let all: Vec<String> = rows.iter().flat_map(&numbers).collect();

@@ -35,7 +35,7 @@ pub(super) struct Row<'r> {
 impl Row<'_> {
     /// The text in a column; `None` where it is empty.
     fn text(&self, column: usize) -> Option<&str> {
-        let text = self.line.values.get(self.columns.at[column]?)?;
+        let text = self.line.values.get(self.columns.position[column]?)?;
         Some(text.as_str()).filter(|text| !text.is_empty())
     }
 
@@ -80,11 +80,11 @@ impl Row<'_> {
         let columns = if quantity == ObservedQuantity::Force { [CABLE, TIRE] } else { [TIRE, CABLE] };
         let index =
             if is_known { keep(self.index(quantity.name(), columns).map(|index| index as f64)) } else { 0.0 };
-        let at = if is_known { keep(self.at(quantity)) } else { 0.0 };
+        let time = if is_known { keep(self.at(quantity)) } else { 0.0 };
         let value = keep(self.number(VALUE, unit(quantity), 0.0));
         let sd = keep(self.number(SD, unit(quantity), f64::MIN_POSITIVE));
-        let whole = is_known && [option, index, at, value, sd].iter().all(|number| number.is_finite());
-        let watched = Watched { quantity, index: index as usize, at };
+        let whole = is_known && [option, index, time, value, sd].iter().all(|number| number.is_finite());
+        let watched = Watched { quantity, index: index as usize, time };
         let observation = || Observation { option: option as usize, watched, value, sd, line: line.number };
         whole.then(|| Seen::Value(observation()))
     }
@@ -92,7 +92,7 @@ impl Row<'_> {
     fn firing(&self) -> Result<MeasuredFiring, (String, String)> {
         let option = self.option()?;
         let tire = self.index(FIRING, [TIRE, CABLE])?;
-        let at = self.number(VALUE, "s", f64::NEG_INFINITY)?;
+        let time = self.number(VALUE, "s", f64::NEG_INFINITY)?;
         let address = self.text(TIRE).unwrap_or_default();
         if self.text(AT).is_some() {
             return Err((
@@ -104,12 +104,13 @@ impl Row<'_> {
             let message = format!("`{FIRING}` is taken as it was measured");
             return Err((message, "leave `sd` empty, or the line out where the time is not sure".to_owned()));
         }
-        let planned = self.known.holes[option].iter().filter(|(other, _)| *other == tire).map(|(_, at)| *at);
+        let planned =
+            self.known.holes[option].iter().filter(|(other, _)| *other == tire).map(|(_, time)| *time);
         match planned.collect::<Vec<_>>()[..] {
-            [planned] if (at - planned).abs() <= FAR_FIRING => Ok(MeasuredFiring { option, tire, at }),
+            [planned] if (time - planned).abs() <= FAR_FIRING => Ok(MeasuredFiring { option, tire, time }),
             [planned] => Err((
                 format!(
-                    "`{at}` s is far from the {planned} s at which the hole under tire {address} fires as planned"
+                    "`{time}` s is far from the {planned} s at which the hole under tire {address} fires as planned"
                 ),
                 "write seconds since time 0 of the plan".to_owned(),
             )),

@@ -77,21 +77,21 @@ fn read_list(section: &SectionReader<'_>, mistakes: &Mistakes) -> Layout {
     for cable in section.sections(&shelter::CABLE) {
         let most = tires.len().max(1);
         let before = mistakes.count();
-        let from = cable.whole_within(&listed_cable::FROM, 1..=most);
-        let to = cable.whole_within(&listed_cable::TO, 1..=most);
+        let first = cable.whole_within(&listed_cable::FROM, 1..=most);
+        let second = cable.whole_within(&listed_cable::TO, 1..=most);
         if mistakes.count() == before {
-            if from == to {
+            if first == second {
                 cable.wrong(
                     &listed_cable::TO,
-                    format!("a cable from tire {from} to itself"),
+                    format!("a cable from tire {first} to itself"),
                     "name another tire",
                 );
-            } else if !tied.insert((from.min(to), from.max(to))) {
-                let message = format!("tires {from} and {to} are tied twice");
+            } else if !tied.insert((first.min(second), first.max(second))) {
+                let message = format!("tires {first} and {second} are tied twice");
                 mistakes.add(cable.span.clone(), message, "remove one of the two cables");
             }
         }
-        cables.push((from - 1, to - 1));
+        cables.push((first - 1, second - 1));
         cable.finish();
     }
     Layout::List { tires, cables }

@@ -76,7 +76,7 @@ fn whole(stiffness: f64) -> String {
 /// When the option to be fired fires the holes of a row: `; fires at 42 ms`.
 fn fires_at(case: &Case, fired: Option<usize>, row: usize) -> String {
     let Some(shot) = fired.map(|option| &case.shots[option]) else { return String::new() };
-    let holes = || shot.firings.iter().filter(|firing| firing.row == row).map(|firing| firing.at);
+    let holes = || shot.firings.iter().filter(|firing| firing.row == row).map(|firing| firing.time);
     let (first, last) = (holes().fold(f64::INFINITY, f64::min), holes().fold(0.0, f64::max));
     match holes().count() {
         0 => String::new(),

@@ -39,7 +39,7 @@ pub fn svg(case: &Case, option: Option<usize>, checked: Option<&CheckedShot>) ->
 /// What is written at the holes.
 struct Labels {
     /// Tires over holes, each with its text, which may be empty.
-    at: Vec<(usize, String)>,
+    texts: Vec<(usize, String)>,
     /// What the texts are, for the legend: where all have room, and where only some have.
     meaning: [&'static str; 2],
 }
@@ -76,9 +76,9 @@ fn names(case: &Case) -> Labels {
         let tires = case.scene().firings(&row.targets).into_iter().map(|firing| firing.tire);
         tires.map(|tire| (tire, std::mem::take(&mut name))).collect::<Vec<_>>()
     };
-    let at = case.plan.blast_rows.iter().flat_map(row).collect();
+    let first_holes = case.plan.blast_rows.iter().flat_map(row).collect();
     Labels {
-        at,
+        texts: first_holes,
         meaning: ["hole, the first of a row with its name", "hole, some with the name of their row"],
     }
 }
@@ -88,9 +88,9 @@ fn times(shot: &Shot) -> Labels {
     let written = |kept: &dyn Fn(usize) -> bool| {
         let mut texts = BTreeMap::<usize, Vec<String>>::new();
         for (n, firing) in shot.firings.iter().enumerate() {
-            let at = texts.entry(firing.tire).or_default();
+            let texts_here = texts.entry(firing.tire).or_default();
             if kept(n) {
-                at.push(units::exact_milliseconds(firing.at).trim_end_matches(" ms").to_owned());
+                texts_here.push(units::exact_milliseconds(firing.time).trim_end_matches(" ms").to_owned());
             }
         }
         texts.into_iter().map(|(tire, texts)| (tire, texts.join(" + "))).collect()
@@ -103,7 +103,7 @@ fn times(shot: &Shot) -> Labels {
     let all_labelled = shot.firings.len() <= MOST_LABELS;
     let some = "hole, some with their firing time in ms";
     let meaning = if all_labelled { ["hole, with its firing time in ms", some] } else { [some; 2] };
-    Labels { at: written(&|n| all_labelled || ends.contains(&n)), meaning }
+    Labels { texts: written(&|n| all_labelled || ends.contains(&n)), meaning }
 }
 
 /// Holes that launch their tires aside, and the direction along the ground, as long as the launch is tilted: 1 for 90°.
@@ -124,13 +124,13 @@ fn directions(case: &Case) -> Vec<(usize, Vector2<f64>)> {
 fn draw(case: &Case, labels: &Labels, peaks: &[Peak]) -> Result<String, Box<dyn std::error::Error>> {
     let (scene, hole) = (case.scene(), color(Role::Fail));
     let frame = Frame::new(scene, 1 + peaks.len());
-    let at = |tire: usize| frame.at(scene.position[tire].x, scene.position[tire].y);
+    let place = |tire: usize| frame.at(scene.position[tire].x, scene.position[tire].y);
     let mut text = String::new();
     {
         let area = SVGBackend::with_string(&mut text, frame.size).into_drawing_area();
         if scene.cables.len() <= MOST_CABLES {
             for cable in &scene.cables {
-                area.draw(&PathElement::new(cable.ends.map(at), CABLE.stroke_width(1)))?;
+                area.draw(&PathElement::new(cable.ends.map(place), CABLE.stroke_width(1)))?;
             }
         }
         let nearest = scene.cables.iter().map(|cable| cable.ends.map(|end| scene.position[end]));
@@ -138,30 +138,30 @@ fn draw(case: &Case, labels: &Labels, peaks: &[Peak]) -> Result<String, Box<dyn 
         let spacing = frame.scale * if nearest.is_finite() { nearest } else { 2.0 };
         let radius = (0.3 * spacing).clamp(1.0, 12.0) as i32;
         // Marks lie over letters, so that no letter hides a hole.
-        let written = draw_labels(&area, labels, at, radius)?;
+        let written = draw_labels(&area, labels, place, radius)?;
         for peak in peaks {
             if let Peak::Cable(cable, _) = peak {
-                area.draw(&PathElement::new(scene.cables[*cable].ends.map(at), BLACK.stroke_width(5)))?;
+                area.draw(&PathElement::new(scene.cables[*cable].ends.map(place), BLACK.stroke_width(5)))?;
             }
         }
         for tire in 0..scene.mass.len() {
-            area.draw(&Circle::new(at(tire), radius, TIRE.stroke_width(1)))?;
+            area.draw(&Circle::new(place(tire), radius, TIRE.stroke_width(1)))?;
         }
-        for (tire, _) in &labels.at {
-            area.draw(&Circle::new(at(*tire), (radius / 2).max(1), hole.filled()))?;
+        for (tire, _) in &labels.texts {
+            area.draw(&Circle::new(place(*tire), (radius / 2).max(1), hole.filled()))?;
         }
         for peak in peaks {
             if let Peak::Tire(tire, _) = peak {
-                area.draw(&Circle::new(at(*tire), radius + 4, BLACK.stroke_width(3)))?;
+                area.draw(&Circle::new(place(*tire), radius + 4, BLACK.stroke_width(3)))?;
             }
         }
         for (tire, direction) in directions(case) {
-            let ((x, y), end) = (at(tire), direction * 0.6 * spacing);
+            let ((x, y), end) = (place(tire), direction * 0.6 * spacing);
             let end = (x + end.x as i32, y - end.y as i32);
             area.draw(&PathElement::new([(x, y), end], hole.stroke_width(2)))?;
         }
         draw_slope(case, &area, &frame)?;
-        draw_tire_numbers(case, &area, at, radius)?;
+        draw_tire_numbers(case, &area, place, radius)?;
         frame.draw_numbers(&area, scene, radius)?;
         frame.draw_scale_bar(&area)?;
         draw_legend(&area, &frame, labels.meaning[usize::from(!written)], peaks)?;
@@ -191,24 +191,24 @@ fn draw_slope(case: &Case, area: &Area<'_>, frame: &Frame) -> Drawn {
 fn draw_labels(
     area: &Area<'_>,
     labels: &Labels,
-    at: impl Fn(usize) -> (i32, i32),
+    texts: impl Fn(usize) -> (i32, i32),
     radius: i32,
 ) -> Result<bool, Box<dyn std::error::Error>> {
-    let asked: Vec<&(usize, String)> = labels.at.iter().filter(|(_, label)| !label.is_empty()).collect();
+    let asked: Vec<&(usize, String)> = labels.texts.iter().filter(|(_, label)| !label.is_empty()).collect();
     let style = ("sans-serif", LETTERS).into_font().color(&color(Role::Fail));
     let mut placed: Vec<[i32; 3]> = Vec::new();
     for (tire, label) in asked.iter().take(MOST_LABELS) {
-        let (x, y) = at(*tire);
+        let (x, y) = texts(*tire);
         let [left, top] = [x + radius + 1, y - radius - 13];
         // A letter is some 0.6 of its height wide.
         let right = left + (label.chars().count() as i32 + 1) * LETTERS * 6 / 10;
         let lies_on =
             |[from, to, high]: &[i32; 3]| left < *to && *from < right && (top - high).abs() < LETTERS;
         let hides = |(hole, _): &(usize, String)| {
-            let ((x, y), dot) = (at(*hole), radius / 2);
+            let ((x, y), dot) = (texts(*hole), radius / 2);
             left < x + dot && x - dot < right && top < y + dot && y - dot < top + LETTERS
         };
-        if !placed.iter().any(lies_on) && !labels.at.iter().any(hides) {
+        if !placed.iter().any(lies_on) && !labels.texts.iter().any(hides) {
             placed.push([left, right, top]);
             area.draw(&Text::new(label.as_str(), (left, top), style.clone()))?;
         }

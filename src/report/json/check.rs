@@ -140,18 +140,18 @@ struct BrokenAt {
 impl BrokenAt {
     fn new(scene: &Scene, broken: &BrokenCable) -> Self {
         let ends = scene.cables[broken.cable].ends;
-        Self { cable: ends.map(|end| tire_address(&scene.tire[end])), at_s: broken.at }
+        Self { cable: ends.map(|end| tire_address(&scene.tire[end])), at_s: broken.time }
     }
 }
 
 impl TirePeakObject {
     pub(super) fn new(scene: &Scene, estimate: &Estimate, band: Percentiles) -> Self {
-        let Estimate { value, error, at, index } = *estimate;
+        let Estimate { value, error, time, index } = *estimate;
         Self {
             value,
             error,
             band,
-            at_s: at,
+            at_s: time,
             tire: scene.tire.get(index).map(tire_address).unwrap_or_default(),
         }
     }
@@ -159,9 +159,9 @@ impl TirePeakObject {
 
 impl CablePeakObject {
     pub(super) fn new(scene: &Scene, estimate: &Estimate, band: Percentiles) -> Self {
-        let Estimate { value, error, at, index } = *estimate;
+        let Estimate { value, error, time, index } = *estimate;
         let ends = |cable: &crate::scene::Cable| cable.ends.map(|end| tire_address(&scene.tire[end]));
-        Self { value, error, band, at_s: at, cable: scene.cables.get(index).map(ends) }
+        Self { value, error, band, at_s: time, cable: scene.cables.get(index).map(ends) }
     }
 }
 

@@ -117,7 +117,7 @@ impl ResidualObject {
             tire: (!is_force).then(|| scene.tire[watched.index].to_string()),
             cable: is_force.then(|| scene.cable_name(watched.index)),
             quantity: watched.quantity,
-            at_s: (watched.quantity == ObservedQuantity::Height).then_some(watched.at),
+            at_s: (watched.quantity == ObservedQuantity::Height).then_some(watched.time),
             observed: observed.value,
             sd: observed.sd,
             fitted: residual.and_then(|residual| finite(residual.fitted)),

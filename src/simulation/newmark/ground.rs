@@ -97,8 +97,8 @@ impl Stepper<'_> {
     fn land(&mut self, tire: usize, h: f64, velocity: Vector3<f64>) -> Vector3<f64> {
         let (height, rise, a) = (self.u[tire].z, self.v[tire].z, self.a[tire].z);
         if let Some((more, until)) = apex(rise, a, h) {
-            let at = self.clock.now() + until;
-            self.record.note_top(Peak { value: height + more, at, index: tire });
+            let time = self.clock.now() + until;
+            self.record.note_top(Peak { value: height + more, time, index: tire });
         }
         let impact = (rise * rise - 2.0 * a * height).max(0.0).sqrt();
         let left = (h - 2.0 * height / (impact - rise).max(f64::MIN_POSITIVE)).clamp(0.0, h);

@@ -164,7 +164,7 @@ impl<'a> Stepper<'a> {
             self.refresh();
             self.observe();
             if watch(&Snapshot { stepper: &self }).is_break() {
-                return Err(Failure::Stopped { at: self.clock.now() });
+                return Err(Failure::Stopped { time: self.clock.now() });
             }
             self.step_through_firings()?;
             self.find_resting();
@@ -179,7 +179,7 @@ impl<'a> Stepper<'a> {
         }
         let (start, mut done) = (self.clock.since_base(), 0.0);
         while let Some(&firing) = self.shot.firings.get(self.clock.fired) {
-            let after = firing.at - self.clock.base - start;
+            let after = firing.time - self.clock.base - start;
             if after >= self.step {
                 break;
             }

@@ -22,7 +22,7 @@ impl Stepper<'_> {
             energy += cable.energy(length);
             force = force.max(value);
             if value > self.record.force.value {
-                self.record.force = Peak { value, at: now, index };
+                self.record.force = Peak { value, time: now, index };
                 self.peak_to_refine = Some((index, self.stretch_over_strength(index, &self.earlier)));
             }
         }
@@ -32,7 +32,7 @@ impl Stepper<'_> {
             let potential = -self.scene.gravity().dot(&self.u[tire]);
             energy += mass * (0.5 * self.v[tire].norm_squared() + potential);
             if value > self.record.height.value {
-                let peak = Peak { value, at: now, index: tire };
+                let peak = Peak { value, time: now, index: tire };
                 self.record.note_height(peak, self.v[tire].z, self.a[tire].z);
             }
         }
@@ -46,7 +46,7 @@ impl Stepper<'_> {
     /// Removes the cables whose force is above the breaking force; their elastic energy is lost, and their tires wake.
     #[cold]
     fn break_cables(&mut self, breaking_force: f64) {
-        let at = self.clock.now();
+        let time = self.clock.now();
         self.peak_to_refine = None;
         let mut hardest = (0.0, 0);
         for n in 0..self.wake.awake_cables().len() {
@@ -60,7 +60,7 @@ impl Stepper<'_> {
                     hardest = (force, index);
                 }
                 self.record.ledger.dissipated += cable.energy(length);
-                self.record.broken.push(BrokenCable { at, cable: index });
+                self.record.broken.push(BrokenCable { time, cable: index });
                 cable.rest_length = f64::INFINITY;
                 self.region.taut[index] = false;
                 for end in cable.ends {
@@ -68,7 +68,7 @@ impl Stepper<'_> {
                 }
             }
         }
-        self.record.note_break(breaking_force, at, hardest.1);
+        self.record.note_break(breaking_force, time, hardest.1);
     }
 
     /// k (L − L0) over strength of a cable at displacements `u` [m] [N].

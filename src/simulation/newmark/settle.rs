@@ -49,7 +49,7 @@ impl Stepper<'_> {
                 tolerance = FINE_TOLERANCE;
             }
         }
-        Err(Failure::Unsettled { what: Iteration::ContactRegion, at: self.clock.now() })
+        Err(Failure::Unsettled { what: Iteration::ContactRegion, time: self.clock.now() })
     }
 
     /// Sets the forces at the start of the cut.
@@ -119,14 +119,14 @@ impl Stepper<'_> {
                 displacement = displacement.max(self.du[tire].amax());
             }
             if !(correction + displacement).is_finite() {
-                return Err(Failure::Diverged { at: self.clock.now() });
+                return Err(Failure::Diverged { time: self.clock.now() });
             }
             if correction <= tolerance * displacement {
                 self.set_residual(h);
                 return Ok(());
             }
         }
-        Err(Failure::Unsettled { what: Iteration::Newton, at: self.clock.now() })
+        Err(Failure::Unsettled { what: Iteration::Newton, time: self.clock.now() })
     }
 
     /// Sets the forces and the residual of equilibrium at the end of the cut.

@@ -41,9 +41,9 @@ struct Map {
 #[derive(Clone, Copy, Debug)]
 pub struct Image {
     /// Tire that is written.
-    pub to: usize,
+    pub written: usize,
     /// Kept tire that is read; equal to `to` for a tire on a plane.
-    pub from: usize,
+    pub read: usize,
     /// Factors of x, y and z: −1 where reflected, 0 across the plane for a tire on the plane.
     pub sign: [f64; 3],
 }
@@ -97,12 +97,12 @@ impl Reduction {
         let images = tire
             .iter()
             .enumerate()
-            .map(|(to, &old)| {
+            .map(|(written, &old)| {
                 let (source, sign) = kept[old];
                 let flat = on_plane(old);
-                Image { to, from: index[source], sign: [sign[0] * flat[0], sign[1] * flat[1], 1.0] }
+                Image { written, read: index[source], sign: [sign[0] * flat[0], sign[1] * flat[1], 1.0] }
             })
-            .filter(|image| image.to != image.from || image.sign.contains(&0.0))
+            .filter(|image| image.written != image.read || image.sign.contains(&0.0))
             .collect();
         let mut part = Scene {
             position: tire.iter().map(|&t| scene.position[t]).collect(),

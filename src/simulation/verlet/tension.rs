@@ -14,7 +14,7 @@ pub struct CableForceMemory<'a> {
     /// Number of cables of the whole scene that each element stands for; 0 for an empty slot (`n_elements`).
     weight: Cow<'a, [f64]>,
     /// L² at the last evaluation less L² at rest [m²] (`n_elements`).
-    change: Aligned,
+    length2_change: Aligned,
     /// Force on the first tire of each cable, as mean over the step [N] (`n_elements`); see [`CableEvaluator::evaluate`].
     force: VectorArrays,
     /// State of the cables in each register, at the first element of the register (`n_elements`).
@@ -29,7 +29,7 @@ struct Damped<'a> {
     /// Viscosity c [N s/m].
     viscosity: &'a [f64],
     /// Change of L² over the step before [m²].
-    change: Aligned,
+    length2_change: Aligned,
     /// Force N at the last evaluation, negative where its motion is forgotten since, and at the evaluation before [N]; the latter
     /// is infinite where the force jumps, so that no parabola is laid through the jump.
     force: [Aligned; 2],
@@ -64,10 +64,10 @@ impl<'a> CableForceMemory<'a> {
         let zeros = || Aligned::zeros(viscosity.len());
         Self {
             weight: Cow::Borrowed(&blocks.weight),
-            change: Aligned::zeros(elements),
+            length2_change: Aligned::zeros(elements),
             force: VectorArrays::zeros(elements),
             state: vec![CableState::Slack; elements],
-            damped: Damped { viscosity, change: zeros(), force: [zeros(), zeros()] },
+            damped: Damped { viscosity, length2_change: zeros(), force: [zeros(), zeros()] },
         }
     }
 
@@ -77,7 +77,7 @@ impl<'a> CableForceMemory<'a> {
         let n = self.weight.len();
         CableEvaluator {
             weight: &self.weight[..n],
-            change: &mut self.change[..n],
+            length2_change: &mut self.length2_change[..n],
             force: self.force.slices_mut(),
             state: &mut self.state[..n],
             damped: &mut self.damped,
@@ -87,7 +87,7 @@ impl<'a> CableForceMemory<'a> {
     /// Length of the cable in a slot of a block at the last evaluation [m]; `None` for an empty slot.
     fn length(&self, block: &Block, slot: usize) -> Option<f64> {
         let element = block.memory + slot;
-        let length2 = self.change[element] + block.first.span.norm_squared();
+        let length2 = self.length2_change[element] + block.first.span.norm_squared();
         (self.weight[element] != 0.0).then(|| length2.sqrt())
     }
 
@@ -115,8 +115,8 @@ impl<'a> CableForceMemory<'a> {
         per_step: Vector3<f64>,
     ) {
         let change = |steps: f64| (span + between - per_step * steps).norm_squared() - span.norm_squared();
-        self.change[element] = change(1.0);
-        self.damped.change[element] = change(1.0) - change(2.0);
+        self.length2_change[element] = change(1.0);
+        self.damped.length2_change[element] = change(1.0) - change(2.0);
         self.damped.force[0][element] = -1.0;
     }
 
@@ -146,7 +146,7 @@ impl<'a> CableForceMemory<'a> {
 /// [`CableForceMemory`] during the evaluation of many blocks.
 pub struct CableEvaluator<'a, 'b> {
     weight: &'a [f64],
-    change: &'a mut [f64],
+    length2_change: &'a mut [f64],
     force: [&'a mut [f64]; 3],
     state: &'a mut [CableState],
     damped: &'a mut Damped<'b>,
@@ -208,12 +208,13 @@ impl CableEvaluator<'_, '_> {
         let end = |from: usize| -> [&[f64]; 3] { std::array::from_fn(|c| &u[c][from..from + room]) };
         let at_ends = [end(cable.ends[0]), end(cable.ends[1])];
         let weights = &self.weight[elements.clone()];
-        let changes = &mut self.change[elements.clone()];
+        let changes = &mut self.length2_change[elements.clone()];
         let [x, y, z] = &mut self.force;
         let forces = [&mut x[elements.clone()], &mut y[elements.clone()], &mut z[elements.clone()]];
         let states = &mut self.state[elements.clone()];
         let damped_elements = if DAMPED { elements } else { 0..0 };
-        let Damped { viscosity, change: old_changes, force: [samples, samples_before] } = &mut *self.damped;
+        let Damped { viscosity, length2_change: old_changes, force: [samples, samples_before] } =
+            &mut *self.damped;
         let viscosities = &viscosity[damped_elements.clone()];
         let old_changes = &mut old_changes[damped_elements.clone()];
         let samples = &mut samples[damped_elements.clone()];

@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn a_run_that_fails_is_open_unless_all_fail() {
-        let failure = NoResult::Failed(Failure::Diverged { at: 1.0 });
+        let failure = NoResult::Failed(Failure::Diverged { time: 1.0 });
         let good = ShotSummary { verdict: Verdict::Pass, ..ShotSummary::UNKNOWN };
         let work = |&job: &i32| if job == 2 { Err(failure.clone()) } else { Ok(good) };
         let some = run_checks(&[1, 2], &Progress::default(), work).expect("one of them is good");

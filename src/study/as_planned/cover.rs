@@ -48,7 +48,7 @@ impl<'s> CoverWatch<'s> {
     /// Notes the tires over the holes that fire within the step that begins now.
     pub fn observe(&mut self, motion: &dyn Motion) {
         let end = motion.time() + self.step;
-        while let Some(firing) = self.firings.get(self.cover.holes).filter(|firing| firing.at < end) {
+        while let Some(firing) = self.firings.get(self.cover.holes).filter(|firing| firing.time < end) {
             let displacement = motion.displacement(firing.tire);
             let (height, shift) = (displacement.z, displacement.xy().norm());
             let Cover { holes, uncovered, height: highest, shift: farthest } = &mut self.cover;

@@ -60,7 +60,7 @@ mod tests {
         let mut asked = Vec::new();
         let run = |asked: &mut Vec<f64>, step: f64| {
             asked.push(step);
-            let failure = Failure::Unsettled { what: Iteration::ContactRegion, at: 0.0 };
+            let failure = Failure::Unsettled { what: Iteration::ContactRegion, time: 0.0 };
             if step > coarsest { Err(failure) } else { Ok(step) }
         };
         let judge = |_: &mut Vec<f64>, runs: &[f64], _: bool| {

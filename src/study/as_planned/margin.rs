@@ -11,12 +11,12 @@ use crate::verdict::Verdict;
 pub enum LaunchMargin {
     /// The shot does not pass as planned.
     NotPassing,
-    /// The shot passes up to `rise` above the planned launch velocities; at 1 % more the verdict is `then`.
+    /// The shot passes up to `rise` above the planned launch velocities; at 1 % more the verdict is `above`.
     UpTo {
         /// Share of the planned launch velocities.
         rise: f64,
         /// Fail or undecided.
-        then: Verdict,
+        above: Verdict,
     },
     /// The shot passes up to [`MOST_PERCENT`] more.
     BeyondTried,
@@ -38,9 +38,9 @@ pub fn launch_margin(
     }
     for percent in 1..=MOST_PERCENT {
         let faster = shot.with_launches(1.0 + 1e-2 * percent as f64);
-        let then = or_unknown(quick_check(case, &faster, compute, progress))?.verdict;
-        if then != Verdict::Pass {
-            return Ok(LaunchMargin::UpTo { rise: 1e-2 * (percent - 1) as f64, then });
+        let above = or_unknown(quick_check(case, &faster, compute, progress))?.verdict;
+        if above != Verdict::Pass {
+            return Ok(LaunchMargin::UpTo { rise: 1e-2 * (percent - 1) as f64, above });
         }
     }
     Ok(LaunchMargin::BeyondTried)

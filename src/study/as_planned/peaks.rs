@@ -29,11 +29,11 @@ pub fn peaks(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
     let near = &runs[error_runs(runs.len())];
     let last = runs[runs.len() - 1];
     let estimate_of = |peak: fn(&Outcome) -> Peak| {
-        let Peak { value, at, index } = peak(last);
+        let Peak { value, time, index } = peak(last);
         let error = estimate(last.step, value, near.iter().map(|run| (run.step, peak(run).value)));
         let between = near.first().map_or(value, |coarsest| peak(coarsest).value);
         let pairs = pairs.iter().map(|pair| pair.map(|run| peak(run).value));
-        Estimate { value, error: widened(error, between, pairs), at, index }
+        Estimate { value, error: widened(error, between, pairs), time, index }
     };
     [estimate_of(|run| run.height), estimate_of(|run| run.force), estimate_of(|run| run.drift)]
 }
@@ -51,12 +51,12 @@ fn beside_rivals(
     greatest: Estimate,
     buckets: fn(&History) -> &Vec<f64>,
 ) -> Estimate {
-    let parts = |run: &Outcome| slices::<SLICES>(buckets(&run.history), run.history.width, last.end.at);
+    let parts = |run: &Outcome| slices::<SLICES>(buckets(&run.history), run.history.width, last.end.time);
     let of_last = parts(last);
     let near: Vec<_> = near.iter().map(|run| (run.step, parts(run))).collect();
     let reach =
         |n: usize| of_last[n] + estimate(last.step, of_last[n], near.iter().map(|(step, v)| (*step, v[n])));
-    let top = slice_at::<SLICES>(greatest.at, last.end.at);
+    let top = slice_at::<SLICES>(greatest.time, last.end.time);
     let highest = (0..SLICES).filter(|n| n.abs_diff(top) > 1).map(reach).fold(0.0, f64::max);
     Estimate { error: greatest.error.max(highest - greatest.value), ..greatest }
 }

@@ -252,7 +252,7 @@ fn followed<'c>(case: &'c Case, shot: &Shot) -> Cow<'c, Case> {
         return Cow::Borrowed(case);
     }
     let mut ending = Case { fingerprint: OnceLock::new(), ..case.clone() };
-    let last = shot.firings.last().map_or(0.0, |firing| firing.at);
+    let last = shot.firings.last().map_or(0.0, |firing| firing.time);
     ending.plan.simulation.duration_s = Some(last + WITHOUT_FRICTION);
     Cow::Owned(ending)
 }

@@ -59,7 +59,7 @@ pub fn observables(scene: &Scene) -> Vec<Watched> {
     let of_tires = [ObservedQuantity::FlightHeight, ObservedQuantity::Landing, ObservedQuantity::Drift];
     let tires = itertools::iproduct!(of_tires, 0..scene.mass.len());
     let cables = (0..scene.cables.len()).map(|cable| (ObservedQuantity::Force, cable));
-    tires.chain(cables).map(|(quantity, index)| Watched { quantity, index, at: 0.0 }).collect()
+    tires.chain(cables).map(|(quantity, index)| Watched { quantity, index, time: 0.0 }).collect()
 }
 
 /// A combination of parameters [standard deviations of their ranges] that is not determined; `None` where all are. `slopes` are J.

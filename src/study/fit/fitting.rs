@@ -129,11 +129,11 @@ impl Fitting<'_> {
 
     /// The answer near a minimum where nothing scatters.
     fn settle(&self, weighing: &Weighing<'_>, minimum: &Minimum) -> Result<Option<ExactAnswer>, NoResult> {
-        let Some(weights) = weighing.weigh_without_scatter(&minimum.at)? else { return Ok(None) };
-        let Some(minimum) = self.space.refine(&minimum.at, &|at| self.residuals(at, &weights))? else {
+        let Some(weights) = weighing.weigh_without_scatter(&minimum.point)? else { return Ok(None) };
+        let Some(minimum) = self.space.refine(&minimum.point, &|at| self.residuals(at, &weights))? else {
             return Ok(None);
         };
-        let Some(fitted) = self.predictor.values(&minimum.at, 1.0)? else { return Ok(None) };
+        let Some(fitted) = self.predictor.values(&minimum.point, 1.0)? else { return Ok(None) };
         let slopes = self.slopes(&minimum, &fitted)?;
         Ok(Some(ExactAnswer { minimum, fitted, slopes, weights }))
     }
@@ -146,8 +146,8 @@ impl Fitting<'_> {
         minimum: &Minimum,
         seed: u64,
     ) -> Result<Option<ExactAnswer>, NoResult> {
-        let count = minimum.at.len();
-        let (mut at, mut spread) = (minimum.at.clone(), self.sample_spread(|n| minimum.sd(n)));
+        let count = minimum.point.len();
+        let (mut at, mut spread) = (minimum.point.clone(), self.sample_spread(|n| minimum.sd(n)));
         let mut settled = None;
         for _ in 0..MOST_ROUNDS {
             let Some(SampledWeights { mean, slopes, weights }) =
@@ -173,7 +173,7 @@ impl Fitting<'_> {
             // A straight line holds no farther than the samples spread.
             let share = (0..count).map(|n| step[n].abs() / (2.0 * spread[n])).fold(1.0, f64::max);
             let next: Vec<f64> = (0..count).map(|n| at[n] + step[n] / share).collect();
-            let next = self.space.held(&next);
+            let next = self.space.clamped(&next);
             let moved = DVector::from_fn(count, |n, _| next[n] - at[n]);
             let stated = self
                 .priors
@@ -183,12 +183,12 @@ impl Fitting<'_> {
             let misfit = (residuals - whitened * &moved).norm_squared() + stated.sum::<f64>();
             let fitted =
                 mean.iter().zip((&slopes * &moved).iter()).map(|(mean, change)| mean + change).collect();
-            let minimum = Minimum { at: next, misfit, covariance };
+            let minimum = Minimum { point: next, misfit, covariance };
             let wanted = self.sample_spread(|n| minimum.sd(n));
             let is_near =
                 |n: usize| moved[n].abs() <= 0.3 * spread[n] && (wanted[n] / spread[n]).ln().abs() < 0.4;
             let is_settled = (0..count).all(is_near);
-            (at, spread) = (minimum.at.clone(), wanted);
+            (at, spread) = (minimum.point.clone(), wanted);
             settled = Some(ExactAnswer { minimum, fitted, slopes, weights });
             if is_settled {
                 break;
@@ -217,9 +217,9 @@ impl Fitting<'_> {
             let [low, high] = self.space.ranges[n];
             minimum.sd(n).clamp(1e-3 * (high - low), 0.1 * (high - low))
         };
-        let difference: Vec<f64> = (0..minimum.at.len()).map(difference).collect();
+        let difference: Vec<f64> = (0..minimum.point.len()).map(difference).collect();
         let values = DVector::from_column_slice(values);
-        let slopes = self.space.slopes(&minimum.at, &values, &difference, &predictions)?;
+        let slopes = self.space.slopes(&minimum.point, &values, &difference, &predictions)?;
         Ok(slopes.map(|slope| if slope.is_finite() { slope } else { 0.0 }))
     }
 
@@ -228,7 +228,7 @@ impl Fitting<'_> {
         let parameters = &self.predictor.parameters;
         let count = parameters.len();
         let estimate = |n: usize| {
-            let (parameter, at, [low, high]) = (parameters[n], minimum.at[n], self.space.ranges[n]);
+            let (parameter, at, [low, high]) = (parameters[n], minimum.point[n], self.space.ranges[n]);
             let near_end = 1e-6 * (high - low);
             Estimated {
                 parameter,

@@ -53,7 +53,7 @@ pub fn observable_names(case: &Case) -> ObservableNames {
         holes: case
             .shots
             .iter()
-            .map(|shot| shot.firings.iter().map(|hole| (hole.tire, hole.at)).collect())
+            .map(|shot| shot.firings.iter().map(|hole| (hole.tire, hole.time)).collect())
             .collect(),
     }
 }

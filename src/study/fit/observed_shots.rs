@@ -48,7 +48,7 @@ impl ObservedShots {
             let file = self.file[n];
             if last.replace((option, file)) != Some((option, file)) {
                 let of_shot = self.firings[file].iter().filter(|firing| firing.option == option);
-                let times = of_shot.map(|firing| (firing.tire, firing.at)).collect();
+                let times = of_shot.map(|firing| (firing.tire, firing.time)).collect();
                 shots.push(ObservedShot { option, times, watched: Vec::new(), first: n });
             }
             if let Some(shot) = shots.last_mut() {

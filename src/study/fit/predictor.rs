@@ -64,9 +64,9 @@ pub fn observe_shot(
     progress: &Progress,
 ) -> Result<Option<Vec<f64>>, NoResult> {
     // A run begins at time 0: where a hole fires before, all is moved, and moved back in what is seen.
-    let early = shot.firings.first().map_or(0.0, |firing| -firing.at.min(0.0));
+    let early = shot.firings.first().map_or(0.0, |firing| -firing.time.min(0.0));
     let shot = &shot.later_by(early);
-    let later = |watched: &Watched| Watched { at: watched.at + early, ..*watched };
+    let later = |watched: &Watched| Watched { time: watched.time + early, ..*watched };
     let moved: Vec<Watched> = watched.iter().map(later).collect();
     let mut watch = ObservationWatch::new(&moved);
     let mut look = |motion: &dyn Motion| -> ControlFlow<()> {

@@ -31,7 +31,7 @@ pub struct SearchBox {
 #[derive(Clone, Debug)]
 pub struct Minimum {
     /// Its coordinates.
-    pub at: Vec<f64>,
+    pub point: Vec<f64>,
     /// The sum of squares.
     pub misfit: f64,
     /// Inverse of JᵀJ: the covariance of the coordinates.
@@ -46,8 +46,8 @@ impl Minimum {
 
     /// Whether two minima are one answer: no coordinate differs by more than two standard deviations.
     pub fn is_same(&self, other: &Self) -> bool {
-        let near = |n: usize| (self.at[n] - other.at[n]).abs() <= 2.0 * self.sd(n).max(other.sd(n));
-        (0..self.at.len()).all(near)
+        let near = |n: usize| (self.point[n] - other.point[n]).abs() <= 2.0 * self.sd(n).max(other.sd(n));
+        (0..self.point.len()).all(near)
     }
 }
 
@@ -68,9 +68,9 @@ impl SearchBox {
         self.ranges[n][1] - self.ranges[n][0]
     }
 
-    /// The point nearest to `at` within the box.
-    pub fn held(&self, at: &[f64]) -> Vec<f64> {
-        at.iter().zip(&self.ranges).map(|(at, [low, high])| at.clamp(*low, *high)).collect()
+    /// The point of the box that is nearest to `point`.
+    pub fn clamped(&self, point: &[f64]) -> Vec<f64> {
+        point.iter().zip(&self.ranges).map(|(value, [low, high])| value.clamp(*low, *high)).collect()
     }
 
     /// Starts: `own`, and points spread evenly over the box and over the part in which the minimum is expected.
@@ -80,12 +80,12 @@ impl SearchBox {
         let inside = |ends: &[[f64; 2]], shares: &dyn Fn(usize) -> f64| -> Vec<f64> {
             ends.iter().enumerate().map(|(n, [low, high])| low + (high - low) * shares(n)).collect()
         };
-        let share = |point: usize, n: usize| match dimensions {
-            1 => point as f64 / (count - 1) as f64,
-            _ => van_der_corput(point + 1, PRIMES[n % PRIMES.len()]),
+        let share = |start: usize, n: usize| match dimensions {
+            1 => start as f64 / (count - 1) as f64,
+            _ => van_der_corput(start + 1, PRIMES[n % PRIMES.len()]),
         };
-        let over = |ends| (0..count).map(move |point| inside(ends, &|n| share(point, n)));
-        let mut starts = vec![self.held(own)];
+        let over = |ends| (0..count).map(move |start| inside(ends, &|n| share(start, n)));
+        let mut starts = vec![self.clamped(own)];
         starts.extend(over(&self.ranges));
         if self.expected != self.ranges {
             starts.extend(over(&self.expected));
@@ -133,20 +133,20 @@ impl SearchBox {
 
     /// The minimum below a start; `None` where the run at the start fails.
     pub fn refine(&self, start: &[f64], residuals: &Residuals<'_>) -> Result<Option<Minimum>, NoResult> {
-        let mut at = self.held(start);
-        let Some(mut r) = residuals(&at)? else { return Ok(None) };
-        let count = at.len();
+        let mut point = self.clamped(start);
+        let Some(mut r) = residuals(&point)? else { return Ok(None) };
+        let count = point.len();
         let mut difference: Vec<f64> = (0..count).map(|n| 0.5 * DIFFERENCE[1] * self.width(n)).collect();
         let mut damping = 1e-3;
         for _ in 0..MOST_STEPS {
-            let slopes = self.slopes(&at, &r, &difference, residuals)?;
+            let slopes = self.slopes(&point, &r, &difference, residuals)?;
             let mut fall = 0.0;
             for _ in 0..6 {
-                let next = self.held(&self.step(&at, &r, &slopes, damping));
+                let next = self.clamped(&self.step(&point, &r, &slopes, damping));
                 if let Some(lower) = residuals(&next)?.filter(|lower| lower.norm_squared() < r.norm_squared())
                 {
                     fall = r.norm_squared() - lower.norm_squared();
-                    (at, r) = (next, lower);
+                    (point, r) = (next, lower);
                     damping = (0.2 * damping).max(1e-9);
                     break;
                 }
@@ -163,22 +163,22 @@ impl SearchBox {
                 difference[n] = if fall > NO_FALL { wanted } else { 0.25 * difference[n] }.clamp(least, most);
             }
         }
-        let covariance = self.final_covariance(&at, &r, residuals)?;
-        Ok(Some(Minimum { misfit: r.norm_squared(), at, covariance }))
+        let covariance = self.final_covariance(&point, &r, residuals)?;
+        Ok(Some(Minimum { misfit: r.norm_squared(), point, covariance }))
     }
 
     /// The covariance of the coordinates, from differences of about one standard deviation to each side.
     fn final_covariance(
         &self,
-        at: &[f64],
+        point: &[f64],
         r: &DVector<f64>,
         residuals: &Residuals<'_>,
     ) -> Result<DMatrix<f64>, NoResult> {
-        let mut difference: Vec<f64> = (0..at.len()).map(|n| DIFFERENCE[1] * self.width(n)).collect();
+        let mut difference: Vec<f64> = (0..point.len()).map(|n| DIFFERENCE[1] * self.width(n)).collect();
         let mut found = DMatrix::zeros(0, 0);
         for _ in 0..2 {
-            found = self.covariance(&self.slopes(at, r, &difference, residuals)?);
-            for n in 0..at.len() {
+            found = self.covariance(&self.slopes(point, r, &difference, residuals)?);
+            for n in 0..point.len() {
                 let width = self.width(n);
                 difference[n] = found[(n, n)].max(0.0).sqrt().clamp(DIFFERENCE[0] * width, 0.1 * width);
             }
@@ -189,16 +189,16 @@ impl SearchBox {
     /// Derivatives of the residuals by central differences (`n_residuals` × `n_parameters`).
     pub fn slopes(
         &self,
-        at: &[f64],
+        point: &[f64],
         r: &DVector<f64>,
         difference: &[f64],
         residuals: &Residuals<'_>,
     ) -> Result<DMatrix<f64>, NoResult> {
-        let mut slopes = DMatrix::zeros(r.len(), at.len());
-        for n in 0..at.len() {
+        let mut slopes = DMatrix::zeros(r.len(), point.len());
+        for n in 0..point.len() {
             let beside = |side: f64| {
-                let mut beside = at.to_vec();
-                beside[n] = (at[n] + side * difference[n]).clamp(self.ranges[n][0], self.ranges[n][1]);
+                let mut beside = point.to_vec();
+                beside[n] = (point[n] + side * difference[n]).clamp(self.ranges[n][0], self.ranges[n][1]);
                 beside
             };
             let (more, less) = (beside(1.0), beside(-1.0));
@@ -224,20 +224,20 @@ impl SearchBox {
     }
 
     /// The point that one damped step leads to.
-    fn step(&self, at: &[f64], r: &DVector<f64>, slopes: &DMatrix<f64>, damping: f64) -> Vec<f64> {
+    fn step(&self, point: &[f64], r: &DVector<f64>, slopes: &DMatrix<f64>, damping: f64) -> Vec<f64> {
         let gradient = slopes.transpose() * r;
         let mut normal = slopes.transpose() * slopes;
         let pressed = |n: usize| {
             let [low, high] = self.ranges[n];
-            at[n] <= low && gradient[n] > 0.0 || at[n] >= high && gradient[n] < 0.0
+            point[n] <= low && gradient[n] > 0.0 || point[n] >= high && gradient[n] < 0.0
         };
-        for n in 0..at.len() {
+        for n in 0..point.len() {
             // A coordinate without any effect stays where it is.
             normal[(n, n)] += damping * normal[(n, n)] + 1e-12 / self.width(n).powi(2);
         }
-        let free: Vec<usize> = (0..at.len()).filter(|&n| !pressed(n)).collect();
+        let free: Vec<usize> = (0..point.len()).filter(|&n| !pressed(n)).collect();
         let normal = normal.select_rows(&free).select_columns(&free);
-        let mut next = at.to_vec();
+        let mut next = point.to_vec();
         if let Some(step) = normal.cholesky().map(|factor| factor.solve(&gradient.select_rows(&free))) {
             free.iter().zip(step.iter()).for_each(|(&n, step)| next[n] -= step);
         }

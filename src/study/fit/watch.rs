@@ -50,7 +50,7 @@ impl<'w> ObservationWatch<'w> {
                 ObservedQuantity::Drift => motion.displacement(watched.index).xy().norm(),
                 _ => motion.displacement(watched.index).z,
             };
-            track.note(time, value, watched.at);
+            track.note(time, value, watched.time);
         }
     }
 
@@ -125,7 +125,7 @@ mod tests {
             (t * (5.0 - 0.5 * gravity * t)).max(0.0) * f64::from(u8::from(t > 0.0))
         };
         let mut track =
-            ObservationWatch::new(&[Watched { quantity: ObservedQuantity::Height, index: 0, at: 0.4005 }])
+            ObservationWatch::new(&[Watched { quantity: ObservedQuantity::Height, index: 0, time: 0.4005 }])
                 .tracks[0];
         (1..2000).map(|n| f64::from(n) * 1e-3).for_each(|time| track.note(time, height(time), 0.4005));
         // The parabola is exact but for rounding; a straight line errs by g h²/8 = 1.2 µm, the lift by up to g h²/v = 2 µs.

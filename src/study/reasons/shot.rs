@@ -82,15 +82,15 @@ fn early_end(shot: &Shot, outcome: &Outcome) -> Option<EarlyEnd> {
     if outcome.end.reason == EndReason::AtRest {
         return None;
     }
-    let last = shot.firings.last().map_or(0.0, |firing| firing.at);
-    if last >= outcome.end.at {
+    let last = shot.firings.last().map_or(0.0, |firing| firing.time);
+    if last >= outcome.end.time {
         return Some(EarlyEnd::HolesUnfired(last));
     }
     if outcome.tires_in_air {
         return Some(EarlyEnd::TiresInAir);
     }
     // The greatest of all steps is the last one, or the one before.
-    if outcome.force.value > 0.0 && outcome.force.at > outcome.end.at - 2.5 * outcome.step {
+    if outcome.force.value > 0.0 && outcome.force.time > outcome.end.time - 2.5 * outcome.step {
         return Some(EarlyEnd::ForceGrowing);
     }
     Some(EarlyEnd::TiresMoving)
@@ -140,7 +140,7 @@ pub fn find_reasons(
     let broken = Some(outcome.broken.len()).filter(|&count| count > 0).map(ShotReason::Broken);
     let residual = Some(outcome.ledger.residual()).filter(|&residual| !energy_balance_closes(residual));
     let residual = residual.map(ShotReason::EnergyResidual);
-    let end = case.plan.simulation.duration_s.unwrap_or(outcome.end.at);
+    let end = case.plan.simulation.duration_s.unwrap_or(outcome.end.time);
     let early = early_end(shot, outcome).map(|open| ShotReason::EndsEarly { end, open });
     let all = limits.chain(broken).chain(residual).chain(early);
     all.filter(|reason| reason.verdict() != Verdict::Pass).collect()

@@ -130,8 +130,8 @@ pub fn draw_shot(case: &Case, nominal: &Shot, seed: u64, number: usize) -> Drawn
         scene.mirrors.clear();
     }
     // No firing may be before the start: all are shifted, and so is the end of the run.
-    let later = -firings.iter().map(|firing| firing.at).fold(0.0, f64::min);
-    firings.iter_mut().for_each(|firing| firing.at += later);
+    let later = -firings.iter().map(|firing| firing.time).fold(0.0, f64::min);
+    firings.iter_mut().for_each(|firing| firing.time += later);
     let shot = Shot { friction: Some(friction), ..Shot::from_firings(firings) };
     DrawnShot { scene, shot, inputs: [launch_common, friction, slack_percent, stiffness], later }
 }
@@ -143,17 +143,18 @@ fn scatter_gaps(firings: &mut [Firing], unknown: &Uncertainty, random: &mut Rand
     let mut holes: Vec<Vec<usize>> = vec![Vec::new(); rows];
     firings.iter().enumerate().for_each(|(n, firing)| holes[firing.row].push(n));
     let mut by_start: Vec<&[usize]> = holes.iter().map(Vec::as_slice).filter(|row| !row.is_empty()).collect();
-    by_start.sort_by(|a, b| firings[a[0]].at.total_cmp(&firings[b[0]].at));
-    let starts: Vec<f64> = by_start.iter().map(|row| firings[row[0]].at).collect();
+    by_start.sort_by(|a, b| firings[a[0]].time.total_cmp(&firings[b[0]].time));
+    let starts: Vec<f64> = by_start.iter().map(|row| firings[row[0]].time).collect();
     let scattered_starts = scatter_chain(&starts, unknown, random.at(Draws::Gaps));
     for (row, start) in by_start.into_iter().zip(scattered_starts) {
-        let first = firings[row[0]].at;
+        let first = firings[row[0]].time;
         let random = random.at(Draws::BlastRow(firings[row[0]].row));
         for side in split_by_side(row, firings) {
-            let planned: Vec<f64> = [first].into_iter().chain(side.iter().map(|&n| firings[n].at)).collect();
+            let planned: Vec<f64> =
+                [first].into_iter().chain(side.iter().map(|&n| firings[n].time)).collect();
             let scattered = scatter_chain(&planned, unknown, random);
             for (n, at) in side.into_iter().zip(&scattered[1..]) {
-                firings[n].at = at - first + start;
+                firings[n].time = at - first + start;
             }
         }
     }
@@ -163,7 +164,7 @@ fn scatter_gaps(firings: &mut [Firing], unknown: &Uncertainty, random: &mut Rand
 /// belongs to a chain of its own, such as the two sides of a row fired from its middle.
 fn split_by_side(row: &[usize], firings: &[Firing]) -> Vec<Vec<usize>> {
     let mut sides: Vec<Vec<usize>> = Vec::new();
-    for together in row.chunk_by(|&a, &b| firings[a].at == firings[b].at) {
+    for together in row.chunk_by(|&a, &b| firings[a].time == firings[b].time) {
         for (side, &hole) in together.iter().enumerate() {
             if side == sides.len() {
                 sides.push(Vec::new());
@@ -219,7 +220,7 @@ fn scatter_tires(
             let faster = launch_common * factor(random, unknown.launch_cv_percent) / heavier;
             let axis = Vector3::new(normal(random), normal(random), 0.0) * tilt;
             firing.launch = rotated(firing.launch, axis) * faster;
-            firing.at += in_hole * normal(random);
+            firing.time += in_hole * normal(random);
         }
     }
 }

@@ -61,7 +61,7 @@ impl SampleRun {
     /// Judges a run; one without energy balance shows nothing.
     pub fn new(case: &Case, shot: &Shot, outcome: &Outcome) -> Self {
         let peaks = [outcome.height, outcome.force, outcome.drift];
-        let exact = |Peak { value, at, index }| Estimate { value, error: 0.0, at, index };
+        let exact = |Peak { value, time, index }| Estimate { value, error: 0.0, time, index };
         let reasons = find_reasons(case, shot, outcome, peaks.map(exact));
         let verdict = match energy_balance_closes(outcome.ledger.residual()) {
             true => Verdict::worst(reasons.iter().map(ShotReason::verdict)),

@@ -52,12 +52,12 @@ impl Sampling {
 
     /// Numbers of the samples to draw next; none once they are complete.
     pub(super) fn next_round(&self, sampled: &SampledShot) -> Range<usize> {
-        let from = sampled.samples.len();
+        let drawn = sampled.samples.len();
         if self.is_complete(sampled) {
-            return from..from;
+            return drawn..drawn;
         }
-        let size = if from < SAMPLES_FOR_SHARES { SHORT_ROUND } else { LONG_ROUND };
-        from..(from + size).min(self.most)
+        let size = if drawn < SAMPLES_FOR_SHARES { SHORT_ROUND } else { LONG_ROUND };
+        drawn..(drawn + size).min(self.most)
     }
 
     /// The same sampling with other draws: a choice and the verdict on what was chosen must not share theirs.

@@ -177,8 +177,8 @@ pub(in crate::study) fn percentiles<const N: usize>(
 ) -> Option<[f64; N]> {
     let mut sorted: Vec<f64> = values.collect();
     sorted.sort_by(f64::total_cmp);
-    let at = |share: f64| sorted[((share * sorted.len() as f64).ceil() as usize).max(1) - 1];
-    (!sorted.is_empty()).then(|| shares.map(at))
+    let value_below = |share: f64| sorted[((share * sorted.len() as f64).ceil() as usize).max(1) - 1];
+    (!sorted.is_empty()).then(|| shares.map(value_below))
 }
 
 /// Whether changes lie to one side beyond chance, by their signs and ranks (Wilcoxon 1945): ten of which nine are alike and

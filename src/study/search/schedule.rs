@@ -105,7 +105,7 @@ impl Schedule {
 /// Time from the first hole to the last [s].
 pub fn duration(shot: &Shot) -> f64 {
     let ends = shot.firings.first().zip(shot.firings.last());
-    ends.map_or(0.0, |(first, last)| last.at - first.at)
+    ends.map_or(0.0, |(first, last)| last.time - first.time)
 }
 
 /// A schedule by the positions of its parts in the lists of [`Choices`].
@@ -341,8 +341,8 @@ type FiringKey = (u64, usize, [u64; 4]);
 fn key(firing: &Firing) -> FiringKey {
     // 0.0 and −0.0 are one.
     let bits = |number: f64| (number + 0.0).to_bits();
-    let Firing { at, tire, launch, push_time, .. } = *firing;
-    (bits(at), tire, [launch.x, launch.y, launch.z, push_time].map(bits))
+    let Firing { time, tire, launch, push_time, .. } = *firing;
+    (bits(time), tire, [launch.x, launch.y, launch.z, push_time].map(bits))
 }
 
 impl KnownShots {

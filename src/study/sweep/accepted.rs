@@ -130,16 +130,16 @@ fn accepted_windows(points: &[Point], as_planned: &[[f64; 2]]) -> Vec<[f64; 2]> 
         let inside = |point: &&Point| point.is_sampled() && (from..=to).contains(&point.interval);
         let mut before: Option<f64> = None;
         for point in points.iter().filter(inside) {
-            let at = point.interval;
+            let interval = point.interval;
             before = match (before, windows.last_mut()) {
                 _ if !point.is_accepted() => None,
-                (Some(before), Some(window)) if at - before <= 1.01 * MOST_SAMPLED_GAP => {
-                    window[1] = at;
-                    Some(at)
+                (Some(before), Some(window)) if interval - before <= 1.01 * MOST_SAMPLED_GAP => {
+                    window[1] = interval;
+                    Some(interval)
                 }
                 _ => {
-                    windows.push([at; 2]);
-                    Some(at)
+                    windows.push([interval; 2]);
+                    Some(interval)
                 }
             };
         }

@@ -215,8 +215,8 @@ fn utilization(case: &Case, point: &Point) -> f64 {
 impl Sweep {
     /// The first and the last interval tried [s].
     pub fn range(&self) -> [f64; 2] {
-        let at = |point: Option<&Point>| point.map_or(0.0, |point| point.interval);
-        [at(self.points.first()), at(self.points.last())]
+        let interval_of = |point: Option<&Point>| point.map_or(0.0, |point| point.interval);
+        [interval_of(self.points.first()), interval_of(self.points.last())]
     }
 
     /// Whether samples were asked for.

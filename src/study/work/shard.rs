@@ -8,15 +8,15 @@ pub struct Shard {
     /// Number of the shard, from 0.
     pub index: usize,
     /// Number of shards.
-    pub of: usize,
+    pub count: usize,
 }
 
 impl Shard {
     /// The whole study.
-    pub const WHOLE: Shard = Shard { index: 0, of: 1 };
+    pub const WHOLE: Shard = Shard { index: 0, count: 1 };
 
     /// Whether the shard holds piece `number` of the work.
     pub fn has(self, number: usize) -> bool {
-        number % self.of == self.index
+        number % self.count == self.index
     }
 }

@@ -16,8 +16,8 @@ impl App {
         match action {
             Action::Play => self.player.toggle(end),
             Action::NextEvent | Action::PreviousEvent => {
-                let to = self.event_beside(self.player.time, action == Action::NextEvent);
-                self.player.seek(to, end);
+                let target = self.event_beside(self.player.time, action == Action::NextEvent);
+                self.player.seek(target, end);
             }
             Action::Faster => self.player.faster(),
             Action::Slower => self.player.slower(),
@@ -40,7 +40,7 @@ impl App {
     fn event_beside(&self, time: f64, after: bool) -> f64 {
         let Some(flight) = self.studies.flight(self.selected) else { return time };
         let firings = self.case.shots[self.selected].times();
-        let peaks = [flight.outcome.height.at, flight.outcome.force.at];
+        let peaks = [flight.outcome.height.time, flight.outcome.force.time];
         let events = || firings.iter().chain(&peaks).copied();
         match after {
             true => events().filter(|&at| at > time + 1e-9).fold(self.flight_end(), f64::min),

@@ -44,16 +44,16 @@ impl App {
         let finished = self.studies.finished(self.studies.shown)?;
         let offers = finished.report.offers(&self.studies.filter);
         let count = offers.len().max(1);
-        let at = self.studies.selected.min(count - 1);
-        let to = match action {
-            Action::Up => at.saturating_sub(1),
-            Action::Down => at + 1,
-            Action::PageUp => at.saturating_sub(PAGE),
-            Action::PageDown => at + PAGE,
+        let selected = self.studies.selected.min(count - 1);
+        let moved = match action {
+            Action::Up => selected.saturating_sub(1),
+            Action::Down => selected + 1,
+            Action::PageUp => selected.saturating_sub(PAGE),
+            Action::PageDown => selected + PAGE,
             Action::First => 0,
             Action::Last => count - 1,
             Action::Open => {
-                let offer = (*offers.get(at)?).clone();
+                let offer = (*offers.get(selected)?).clone();
                 return Some(self.take_offer(&offer));
             }
             _ => return None,
@@ -61,7 +61,7 @@ impl App {
         if offers.is_empty() {
             return None;
         }
-        self.studies.selected = to.min(count - 1);
+        self.studies.selected = moved.min(count - 1);
         Some(Request::None)
     }
 

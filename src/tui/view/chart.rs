@@ -64,7 +64,7 @@ pub fn draw(app: &App, chart: &Chart, mark: Option<Mark>, frame: &mut Frame, are
     }
     let theme = app.theme;
     let (across, up) = (chart.x.ends(), chart.y.ends());
-    let at = |(x, y): (f64, f64)| (chart.x.coordinate(x), chart.y.coordinate(y));
+    let place = |(x, y): (f64, f64)| (chart.x.coordinate(x), chart.y.coordinate(y));
     let height = |share: f64| up[0] + share * (up[1] - up[0]);
     let column = |x: f64, top: f64| {
         let x = chart.x.coordinate(x).clamp(across[0], across[1]);
@@ -104,7 +104,7 @@ pub fn draw(app: &App, chart: &Chart, mark: Option<Mark>, frame: &mut Frame, are
             SeriesKind::Comparison => (theme.limit(), Marker::Braille, GraphType::Line),
             SeriesKind::Points => (theme.firing(), Marker::Dot, GraphType::Scatter),
         };
-        let points: Vec<(f64, f64)> = series.points.iter().map(|&point| at(point)).collect();
+        let points: Vec<(f64, f64)> = series.points.iter().map(|&point| place(point)).collect();
         let over = limit.filter(|_| kind == GraphType::Line).map(|limit| part_over(&points, limit, dot));
         sets.push(Set { points, style, marker, kind, name: if compared { series.name } else { "" } });
         if let Some(points) = over {
@@ -114,7 +114,7 @@ pub fn draw(app: &App, chart: &Chart, mark: Option<Mark>, frame: &mut Frame, are
     }
     if let Some(Mark::Point(x, y)) = mark {
         let (style, marker) = (theme.base(), Marker::Block);
-        let (points, kind) = (vec![at((x, y))], GraphType::Scatter);
+        let (points, kind) = (vec![place((x, y))], GraphType::Scatter);
         sets.push(Set { points, style, marker, kind, name: "chosen" });
     }
     let sets = sets.iter().map(|set| {
@@ -145,8 +145,8 @@ fn part_over(line: &[(f64, f64)], limit: f64, dot: [f64; 2]) -> Vec<(f64, f64)> 
         let [(x1, y1), (x2, y2)] = [ends[0], ends[1]];
         let count = ((x2 - x1) / dot[0]).abs().max(((y2 - y1) / dot[1]).abs());
         let count = if count.is_finite() { count.ceil().min(MOST_DOTS) } else { 0.0 };
-        let at = move |n: usize| n as f64 / count.max(1.0);
-        (0..=count as usize).map(move |n| (x1 + at(n) * (x2 - x1), y1 + at(n) * (y2 - y1)))
+        let place = move |n: usize| n as f64 / count.max(1.0);
+        (0..=count as usize).map(move |n| (x1 + place(n) * (x2 - x1), y1 + place(n) * (y2 - y1)))
     };
     line.windows(2).flat_map(points).filter(|(_, y)| *y > limit).collect()
 }

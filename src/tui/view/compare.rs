@@ -180,8 +180,8 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         if (2..2 + columns.len()).contains(&n) { line.right_aligned() } else { line }
     });
     let table = Table::new(rows, widths).header(Cells::new(cells).style(app.theme.muted()));
-    let at = listed.iter().position(|&option| option == app.selected);
-    let mut state = TableState::new().with_selected(at);
+    let selected = listed.iter().position(|&option| option == app.selected);
+    let mut state = TableState::new().with_selected(selected);
     frame.render_stateful_widget(table, area, &mut state);
     let mut x = area.x;
     for (_, sort, width) in heads {

@@ -178,7 +178,7 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
             EndReason::AtRest => "at rest after",
             EndReason::TimeLimit => "followed for",
         },
-        units::seconds(checked.end.at),
+        units::seconds(checked.end.time),
     );
     lines.push(Line::styled(how, theme.muted()));
     lines

@@ -132,7 +132,7 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
     frame.render_widget(canvas, inside);
     let mut firing = vec![None; scene.mass.len()];
     for fire in app.case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings) {
-        if (fire.at..fire.at + FLASH).contains(&time) {
+        if (fire.time..fire.time + FLASH).contains(&time) {
             firing[fire.tire] = Some(arrow(fire.launch.xy()));
         }
     }
@@ -171,8 +171,8 @@ fn draw_cable(
 ) {
     if force == 0.0 {
         let count = (((x2 - x1) / dot[0]).abs().max(((y2 - y1) / dot[1]).abs()) / DOTTED).ceil();
-        let at = |n: usize| (x1 + (x2 - x1) * n as f64 / count, y1 + (y2 - y1) * n as f64 / count);
-        let coords: Vec<(f64, f64)> = (1..count as usize).map(at).collect();
+        let dot_place = |n: usize| (x1 + (x2 - x1) * n as f64 / count, y1 + (y2 - y1) * n as f64 / count);
+        let coords: Vec<(f64, f64)> = (1..count as usize).map(dot_place).collect();
         return context.draw(&Points { coords: &coords, color: color(app.theme.muted()) });
     }
     let color = color(cable_style(app, force));
@@ -324,11 +324,11 @@ fn draw_bar(app: &App, flight: &Flight, frame: &mut Frame, area: Rect, areas: &m
     frame.render_widget(Line::styled(label, app.theme.title()), text);
     let cells = usize::from(bar.width);
     let share = if flight.end() > 0.0 { player.time / flight.end() } else { 0.0 };
-    let at = ((cells.saturating_sub(1)) as f64 * share).round() as usize;
+    let handle = ((cells.saturating_sub(1)) as f64 * share).round() as usize;
     let line = Line::from(vec![
-        Span::styled("━".repeat(at.min(cells)), app.theme.curve()),
+        Span::styled("━".repeat(handle.min(cells)), app.theme.curve()),
         Span::styled("●".repeat(cells.min(1)), app.theme.title()),
-        Span::styled("─".repeat(cells.saturating_sub(at + 1)), app.theme.muted()),
+        Span::styled("─".repeat(cells.saturating_sub(handle + 1)), app.theme.muted()),
     ]);
     frame.render_widget(line, bar);
     areas.push((bar, ClickTarget::Time(flight.end())));

@@ -98,9 +98,9 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
     for firing in case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings) {
         let hole = tires[firing.tire];
         fires[firing.tire] = true;
-        match turns.last_mut().filter(|(at, _)| *at == firing.at) {
+        match turns.last_mut().filter(|(at, _)| *at == firing.time) {
             Some((_, holes)) => holes.push(hole),
-            None => turns.push((firing.at, vec![hole])),
+            None => turns.push((firing.time, vec![hole])),
         }
     }
     let others: Vec<(f64, f64)> =
@@ -173,12 +173,12 @@ fn equal_time_lines(case: &Case, option: usize) -> Vec<[MapPoint; 2]> {
     let mut rows: Vec<Vec<(MapPoint, f64)>> = vec![Vec::new(); case.plan.blast_rows.len()];
     for firing in &shot.firings {
         let hole = case.scene().position[firing.tire];
-        rows[firing.row].push(((hole.x, hole.y), firing.at));
+        rows[firing.row].push(((hole.x, hole.y), firing.time));
     }
     rows.retain(|row| !row.is_empty());
     rows.iter_mut().for_each(|row| row.sort_by(|a, b| a.0.0.total_cmp(&b.0.0).then(a.0.1.total_cmp(&b.0.1))));
     rows.sort_by(|a, b| a[0].0.1.total_cmp(&b[0].0.1));
-    let last = shot.firings.last().map_or(0.0, |firing| firing.at);
+    let last = shot.firings.last().map_or(0.0, |firing| firing.time);
     let mut lines = Vec::new();
     for n in 1..=LINES {
         let level = last * n as f64 / (LINES + 1) as f64;

@@ -59,7 +59,7 @@ fn firing_after_1e5_s_is_firing_at_0() {
         let early = stable("early", &scene, &fire(&[4], LAUNCH), method, 1e-4, steps(method));
         assert_eq!(out.height.value, early.height.value);
         assert_eq!(out.force.value, early.force.value);
-        close(out.height.at, 1e5 + early.height.at, 1e-10, "time of the top");
+        close(out.height.time, 1e5 + early.height.time, 1e-10, "time of the top");
     }
 }
 
@@ -87,10 +87,10 @@ fn ten_hours_between_two_firings_are_two_runs() {
         let out = run(&two, &both, settings);
         // The same but for the order in which energies and forces are summed.
         close(out.height.value, alone.height.value, 1e-9, "height");
-        close(out.height.at, pause + alone.height.at, 1e-9, "time of the top");
+        close(out.height.time, pause + alone.height.time, 1e-9, "time of the top");
         close(out.force.value, alone.force.value, 1e-9 * alone.force.value, "force");
         close(out.drift.value, alone.drift.value.max(weaker.drift.value), 1e-9, "drift");
-        close(out.end.at, pause + alone.end.at, 1e-6, "end");
+        close(out.end.time, pause + alone.end.time, 1e-6, "end");
         assert_eq!(out.steps, alone.steps + weaker.steps, "{method:?}: the pause takes no step");
         let energies = alone.ledger.dissipated + weaker.ledger.dissipated;
         close(out.ledger.dissipated, energies, 1e-9 * energies, "dissipated");

@@ -58,7 +58,7 @@ fn steps(method: Method) -> usize {
 #[track_caller]
 fn stable(case: &str, scene: &Scene, shot: &Shot, method: Method, h: f64, steps: usize) -> Outcome {
     let case = format!("{case}, {method:?}, h = {h:e} s");
-    let first = shot.firings.first().map_or(0.0, |firing| firing.at);
+    let first = shot.firings.first().map_or(0.0, |firing| firing.time);
     let mut before = vec![Vector3::zeros(); scene.mass.len()];
     let (mut speed, mut highest, mut lowest) = (0.0_f64, 0.0_f64, 0.0_f64);
     let (mut outside, mut finite) = (0.0_f64, true);
@@ -80,7 +80,7 @@ fn stable(case: &str, scene: &Scene, shot: &Shot, method: Method, h: f64, steps:
     });
     let out = outcome.unwrap_or_else(|failure| panic!("{case}: {failure}"));
     let ledger = out.ledger;
-    let values = [out.height, out.force, out.drift].map(|peak| [peak.value, peak.at]);
+    let values = [out.height, out.force, out.drift].map(|peak| [peak.value, peak.time]);
     let energies = [ledger.put_in, ledger.dissipated, ledger.greatest_residual];
     finite &= values.iter().flatten().chain(&energies).all(|value| value.is_finite());
     assert!(finite, "{case}: not finite: {out:?}");
@@ -339,7 +339,7 @@ fn a_flight_shorter_than_the_step_reaches_its_height() {
         for h in [0.5, 0.7, 1.0, 1.3, 2.0, 1e3] {
             let out = stable("short flight", &scene, &fire(&[0], LAUNCH), method, h, 100);
             close(out.height.value, top.0, 1e-9, "height");
-            close(out.height.at, top.1, 1e-9, "time of the top");
+            close(out.height.time, top.1, 1e-9, "time of the top");
             assert_eq!(out.end.reason, EndReason::AtRest);
         }
         // Fired within the step, where an earlier tire is still in the air.
@@ -349,7 +349,7 @@ fn a_flight_shorter_than_the_step_reaches_its_height() {
         close(out.height.value, top.0, 1e-9, "height");
         assert_eq!(out.height.index, 1);
         close(
-            out.height.at,
+            out.height.time,
             0.25 + top.1,
             if method == Method::Verlet { 1e-9 } else { 2.0 },
             "time of the top",

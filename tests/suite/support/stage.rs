@@ -45,7 +45,7 @@ pub fn app() -> App {
 /// A result with round numbers, so that a snapshot changes with the screen and not with the physics.
 pub fn checked(verdict: Verdict) -> CheckedShot {
     let wave = |n: usize| (n as f64 * 0.05).sin().abs();
-    let estimate = |value, error, at, index| Estimate { value, error, at, index };
+    let estimate = |value, error, time, index| Estimate { value, error, time, index };
     let force = estimate(61_234.0, 45.0, 0.123, 3);
     let limit = ShotReason::Limit { quantity: Quantity::Force, verdict, estimate: force, limit: 61_019.0 };
     CheckedShot {
@@ -66,7 +66,7 @@ pub fn checked(verdict: Verdict) -> CheckedShot {
         step: 5e-4,
         steps: 2000,
         energy_residual: 3e-5,
-        end: RunEnd { at: 1.3, reason: EndReason::AtRest },
+        end: RunEnd { time: 1.3, reason: EndReason::AtRest },
         wall: Duration::from_millis(2),
         total_wall: Duration::from_millis(6),
         runs: 4,

@@ -50,18 +50,18 @@ impl Stepper<'_> {
             let pack = wake.awake_packs[n];
             let mut moving = false;
             for lane in (0..LANES).step_by(Wide::<S>::LEN) {
-                let at = pack * LANES + lane;
-                let tires = events.tires(simd, TiresBefore::new(&u, &v, forces, masses), at);
+                let first = pack * LANES + lane;
+                let tires = events.tires(simd, TiresBefore::new(&u, &v, forces, masses), first);
                 let moved = tires.kick_and_move::<SLOPED>(simd);
                 let is_higher = highest.less(tires.u[2]).any();
-                let end = at + Wide::<S>::LEN;
+                let end = first + Wide::<S>::LEN;
                 let fires = due.first().is_some_and(|due| due.tire < end);
                 let mut any_integrated = false;
                 if is_higher || fires || moved.u[2].less(zero).any() {
                     let (fired, later) = due.split_at(due.partition_point(|due| due.tire < end));
                     let state = TiresBefore::new(&u, &v, forces, masses);
                     any_integrated =
-                        events.integrate_single_tires::<SLOPED>(state, at..end, moved.u[2].pack(), fired);
+                        events.integrate_single_tires::<SLOPED>(state, first..end, moved.u[2].pack(), fired);
                     highest = Wide::splat(simd, events.record.height.value);
                     due = later;
                 }
@@ -70,8 +70,8 @@ impl Stepper<'_> {
                 tires.u[2].max(Wide::load(simd, &height, lane)).store(&mut height, lane);
                 moved.motion.max(Wide::load(simd, &motion, lane)).store(&mut motion, lane);
                 for c in 0..3 {
-                    moved.u[c].store(u[c], at);
-                    moved.v[c].store(v[c], at);
+                    moved.u[c].store(u[c], first);
+                    moved.v[c].store(v[c], first);
                 }
                 if any_integrated {
                     for Integrated { tire, displacement, velocity } in events.integrated.drain(..) {
@@ -104,8 +104,8 @@ impl Stepper<'_> {
         for n in 0..self.jumped.len() {
             let jump = self.jumped[n];
             let images = self.part.reduction.images.iter();
-            let of_jump = images.filter(|image| image.from == jump.tire && image.to != jump.tire);
-            self.jumped.extend(of_jump.map(|image| Jump { tire: image.to, ..jump }));
+            let of_jump = images.filter(|image| image.read == jump.tire && image.written != jump.tire);
+            self.jumped.extend(of_jump.map(|image| Jump { tire: image.written, ..jump }));
         }
         let Self { part, tension, u, v, jumped, step, clock, record, scene, peak_to_refine, .. } = self;
         let end = clock.now() + *step;
@@ -119,13 +119,13 @@ impl Stepper<'_> {
                 let [between, apart] = [&*u, &*v].map(|of| of.vector(second) - of.vector(first));
                 tension.forget_motion(element, cable.span, between, apart * *step);
                 let Some(since) = since_launch else { continue };
-                let then = cable.span + between - apart * since;
-                let (length, viscosity) = (then.norm(), part.viscosity[element]);
-                let force = cable.stretch_force(length) + viscosity * then.dot(&apart) / length;
+                let span_then = cable.span + between - apart * since;
+                let (length, viscosity) = (span_then.norm(), part.viscosity[element]);
+                let force = cable.stretch_force(length) + viscosity * span_then.dot(&apart) / length;
                 let index = part.reduction.cable(part.blocks.cable_of(element));
                 let value = force / scene.strength(index);
                 if length > cable.rest_length && value > record.force.value {
-                    record.force = Peak { value, at: end - since, index };
+                    record.force = Peak { value, time: end - since, index };
                     *peak_to_refine = None;
                 }
             }
@@ -137,16 +137,16 @@ impl Stepper<'_> {
     /// Images have no velocity, so that they do not drift.
     pub(super) fn copy_images(&mut self) {
         let (u, v) = (self.u.slices_mut(), self.v.slices_mut());
-        for &Image { to, from, sign } in &self.part.reduction.images {
+        for &Image { written, read, sign } in &self.part.reduction.images {
             let mut moved = false;
             for c in 0..3 {
-                let value = sign[c] * u[c][from];
-                moved |= u[c][to] != value;
-                u[c][to] = value;
-                v[c][to] = if to == from { sign[c] * v[c][to] } else { 0.0 };
+                let value = sign[c] * u[c][read];
+                moved |= u[c][written] != value;
+                u[c][written] = value;
+                v[c][written] = if written == read { sign[c] * v[c][written] } else { 0.0 };
             }
             if moved {
-                self.wake.set_moving(to / LANES, true);
+                self.wake.set_moving(written / LANES, true);
             }
         }
     }
@@ -154,9 +154,9 @@ impl Stepper<'_> {
     /// Gives images the reflected velocities of their kept tires, until the next [`Self::copy_images`].
     pub(super) fn copy_velocities(&mut self) {
         let v = self.v.slices_mut();
-        for &Image { to, from, sign } in &self.part.reduction.images {
+        for &Image { written, read, sign } in &self.part.reduction.images {
             for c in 0..3 {
-                v[c][to] = sign[c] * v[c][from];
+                v[c][written] = sign[c] * v[c][read];
             }
         }
     }

@@ -135,7 +135,7 @@ impl EventContext<'_> {
             });
             if displacement.z > self.record.height.value {
                 let index = self.part.reduction.tire(tire);
-                let peak = Peak { value: displacement.z, at: self.now, index };
+                let peak = Peak { value: displacement.z, time: self.now, index };
                 self.record.note_height(peak, velocity.z, free.z + pushed.z);
             }
             if has_event {
@@ -177,9 +177,9 @@ impl EventContext<'_> {
         let in_air = motion.displacement.z > 0.0 || motion.velocity.z > 0.0;
         let unpushed = if goes_on && in_air { last - motion.push_acceleration } else { last };
         let velocity = motion.velocity - unpushed * (0.5 * h);
-        let (height, until) = motion.top;
+        let (height, until) = motion.peak;
         let index = self.part.reduction.tire(tire);
-        self.record.note_top(Peak { value: height, at: self.now + until, index });
+        self.record.note_top(Peak { value: height, time: self.now + until, index });
         self.totals.height[0] = self.totals.height[0].max(height);
         self.totals.motion[0] = self.totals.motion[0].max(velocity.amax()).max(motion.displacement.z);
         let next_half = if goes_on {
@@ -199,7 +199,7 @@ impl EventContext<'_> {
         self.totals.put_in += mass * motion.put_in;
         let last = due.iter().rev().find(|due| due.impulse.launch != Vector3::zeros());
         if self.scene.damping > 0.0 && (last.is_some() || due.is_empty()) {
-            let since_launch = last.map(|due| self.step - due.impulse.after);
+            let since_launch = last.map(|due| self.step - due.impulse.since_start);
             self.jumped.push(Jump { tire, since_launch });
         }
         self.integrated.push(Integrated { tire, displacement: motion.displacement, velocity });

@@ -74,12 +74,12 @@ impl Stepper<'_> {
             let force = self.force_over_strength(n, slot);
             if force > self.record.force.value {
                 let index = self.part.reduction.cable(self.part.blocks.cable(n, slot));
-                self.record.force = Peak { value: force, at: self.clock.now(), index };
-                let before = match self.tension.slot_force_before(block, slot) {
+                self.record.force = Peak { value: force, time: self.clock.now(), index };
+                let force_before = match self.tension.slot_force_before(block, slot) {
                     Some(force) => force / self.strength(n, slot),
                     None => self.stretch_over_strength(n, slot, -self.step),
                 };
-                self.peak_to_refine = Some(PeakCable { block: n, slot, before });
+                self.peak_to_refine = Some(PeakCable { block: n, slot, force_before });
             }
         }
     }
@@ -87,7 +87,7 @@ impl Stepper<'_> {
     /// Removes the cables whose force over strength is above the breaking force; their elastic energy is lost.
     #[cold]
     fn break_cables(&mut self, totals: &mut StepTotals) {
-        let (at, mut broken) = (self.clock.now(), Vec::new());
+        let (time, mut broken) = (self.clock.now(), Vec::new());
         let breaks = |n: usize| {
             let slots = 0..self.part.blocks.blocks[n].len;
             slots.into_iter().any(|slot| self.force_over_strength(n, slot) > self.breaking_force)
@@ -115,24 +115,24 @@ impl Stepper<'_> {
                 }
             }
         }
-        self.record.note_break(self.breaking_force, at, hardest.1);
+        self.record.note_break(self.breaking_force, time, hardest.1);
         // Two cables of the part may be images of each other; each of the two breaks by itself.
         let mut broken_before: FxHashSet<usize> =
             self.record.broken.iter().map(|broken| broken.cable).collect();
         let with_images = self.part.reduction.cables_with_images(self.scene, &broken);
         let new = with_images.into_iter().filter(|&cable| broken_before.insert(cable));
-        self.record.broken.extend(new.map(|cable| BrokenCable { at, cable }));
+        self.record.broken.extend(new.map(|cable| BrokenCable { time, cable }));
     }
 
     /// Moves the greatest force to the top of the parabola through the forces of the steps around it, one step after it was seen.
     fn interpolate_peak(&mut self) {
-        if let Some(PeakCable { block, slot, before }) = self.peak_to_refine.take() {
+        if let Some(PeakCable { block, slot, force_before }) = self.peak_to_refine.take() {
             let damped = self.tension.slot_force_before(&self.part.blocks.blocks[block], slot).is_some();
             let after = match damped {
                 true => self.force_over_strength(block, slot),
                 false => self.stretch_over_strength(block, slot, 0.0),
             };
-            self.record.interpolate_force(before, after);
+            self.record.interpolate_force(force_before, after);
         }
     }
 

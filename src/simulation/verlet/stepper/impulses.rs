@@ -37,7 +37,7 @@ struct Push {
     /// [m/s²].
     acceleration: Vector3<f64>,
     /// Its end [s].
-    until: f64,
+    end: f64,
 }
 
 /// A tire on the ground that is under a push as a step begins.
@@ -76,7 +76,7 @@ impl Pushes {
 
 /// Acceleration of a tire by pushes as the step begins [m/s²]; `due` are the impulses of the step.
 pub fn push_at_start(due: &[DueImpulse], tire: usize) -> Vector3<f64> {
-    let here = due.iter().filter(|due| due.tire == tire && due.impulse.after <= 0.0);
+    let here = due.iter().filter(|due| due.tire == tire && due.impulse.since_start <= 0.0);
     here.map(|due| due.impulse.push_acceleration).sum()
 }
 
@@ -86,44 +86,47 @@ impl Stepper<'_> {
         let Self { clock, step, firings, due, pushes, wake, .. } = self;
         due.clear();
         let start = clock.since_base();
-        let end = start + *step;
-        let after = |at: f64| (at - start).clamp(0.0, *step);
-        let pushed = |tire, after, push| {
-            let impulse = HoleImpulse { after, push_acceleration: push, ..HoleImpulse::default() };
+        let step_end = start + *step;
+        let since_start = |time: f64| (time - start).clamp(0.0, *step);
+        let pushed = |tire, since_start, push| {
+            let impulse = HoleImpulse { since_start, push_acceleration: push, ..HoleImpulse::default() };
             DueImpulse { tire, impulse }
         };
         std::mem::swap(&mut pushes.began, &mut pushes.next);
         pushes.next.clear();
-        pushes.active.retain(|&Push { tire, acceleration, until }| {
+        pushes.active.retain(|&Push { tire, acceleration, end }| {
             due.push(pushed(tire, 0.0, acceleration));
-            let until = until - clock.base;
-            let ends = until < end;
+            let push_end = end - clock.base;
+            let ends = push_end < step_end;
             if ends {
-                due.push(pushed(tire, after(until), -acceleration));
+                due.push(pushed(tire, since_start(push_end), -acceleration));
             }
             !ends
         });
         while let Some(firing) = firings.get(clock.fired) {
-            let (tire, at) = (firing.tire, firing.at - clock.base);
-            if at >= end {
+            let (tire, time) = (firing.tire, firing.time - clock.base);
+            if time >= step_end {
                 break;
             }
             clock.fired += 1;
             if firing.push_time <= 0.0 {
-                let impulse =
-                    HoleImpulse { after: after(at), launch: firing.launch, ..HoleImpulse::default() };
+                let impulse = HoleImpulse {
+                    since_start: since_start(time),
+                    launch: firing.launch,
+                    ..HoleImpulse::default()
+                };
                 due.push(DueImpulse { tire, impulse });
                 continue;
             }
             let acceleration = firing.launch / firing.push_time;
-            due.push(pushed(tire, after(at), acceleration));
-            if at + firing.push_time < end {
-                due.push(pushed(tire, after(at + firing.push_time), -acceleration));
+            due.push(pushed(tire, since_start(time), acceleration));
+            if time + firing.push_time < step_end {
+                due.push(pushed(tire, since_start(time + firing.push_time), -acceleration));
             } else {
-                pushes.active.push(Push { tire, acceleration, until: firing.at + firing.push_time });
+                pushes.active.push(Push { tire, acceleration, end: firing.time + firing.push_time });
             }
         }
         due.iter().for_each(|due| wake.set_moving(due.tire / LANES, true));
-        due.sort_by(|a, b| a.tire.cmp(&b.tire).then(a.impulse.after.total_cmp(&b.impulse.after)));
+        due.sort_by(|a, b| a.tire.cmp(&b.tire).then(a.impulse.since_start.total_cmp(&b.impulse.since_start)));
     }
 }

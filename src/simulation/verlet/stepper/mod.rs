@@ -37,7 +37,7 @@ struct PeakCable {
     block: usize,
     slot: usize,
     /// k (L − L0) over strength of the cable one step earlier [N].
-    before: f64,
+    force_before: f64,
 }
 
 /// Energies [J] and greatest values of one step, most of them by lane.
@@ -163,7 +163,7 @@ impl<'a> Stepper<'a> {
                 true => arch.dispatch(EvaluateCables::<true>(&mut self)),
             };
             if watch(&Snapshot { stepper: &self }).is_break() {
-                return Err(Failure::Stopped { at: self.clock.now() });
+                return Err(Failure::Stopped { time: self.clock.now() });
             }
             match self.scene.downhill == Vector2::zeros() {
                 true => arch.dispatch(MoveTires::<false>(&mut self, &mut totals)),
@@ -204,7 +204,7 @@ impl<'a> Stepper<'a> {
         let dissipated = totals.dissipated.iter().sum::<f64>();
         let now = self.clock.now();
         if !(energy + dissipated).is_finite() {
-            return Err(Failure::Diverged { at: now });
+            return Err(Failure::Diverged { time: now });
         }
         self.record.balance_energy(energy, 0.5 * dissipated);
         self.record.ledger.dissipated += dissipated + totals.lost;
