@@ -57,7 +57,10 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
     let best = sweep.best().map(|point| &point.as_planned);
     let mut report = report_head(case, sweep.has_risk());
     report.blocks = blocks;
-    report.warnings.extend(warnings::count_uncovered("intervals that pass as planned", passing.into_iter()));
+    let uncovered = warnings::count_uncovered("intervals that pass as planned", passing.into_iter());
+    let best_is_covered = best.is_some_and(|shot| shot.cover.uncovered == 0);
+    let not_the_best = if best_is_covered { "; the recommended one has none" } else { "" };
+    report.warnings.extend(uncovered.map(|warning| warning + not_the_best));
     report.warnings.extend(warnings::uncovered_shot("the recommended interval", best));
     report.conclusion = Some(conclusion(sweep, partial));
     report

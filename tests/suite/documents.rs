@@ -5,10 +5,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
-const DOCUMENTS: [&str; 6] = [
+const DOCUMENTS: [&str; 7] = [
     "README.md",
     "CONTRIBUTING.md",
     "plans/README.md",
+    "plans/COMMANDS.md",
     "plans/STUDIES.md",
     "plans/NUMBERS.md",
     "benches/RESULTS.md",

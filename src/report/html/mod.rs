@@ -103,7 +103,8 @@ pub fn page(page: &Page<'_>) -> String {
                 }
                 section {
                     h2 { "Delay options" }
-                    @if fired.is_some() { (conclusion(&report)) }
+                    // Without the verdict on them: readers would take it for that of the option to be fired.
+                    @if let (Some(_), Some(conclusion)) = (fired, &report.conclusion) { p { "All options: " (conclusion.text) } }
                     @for fact in &report.facts { p.quiet { (fact) } }
                     @if let Some(Sampling { most, seed, .. }) = sampling {
                         p.quiet { "At most " (most) " possible shots of each option, drawn from seed " (seed) }
@@ -173,7 +174,7 @@ fn foot(page: &Page<'_>, hash: &str) -> String {
     )
 }
 
-/// The verdict on all options together.
+/// What a report comes to, with its verdict.
 fn conclusion(report: &Report) -> Markup {
     html! {
         @if let Some(conclusion) = &report.conclusion {

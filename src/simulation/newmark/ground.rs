@@ -54,7 +54,9 @@ impl Stepper<'_> {
         if assumed == Ground::InAir {
             return if self.end[tire].z < 0.0 { Ground::Slip } else { Ground::InAir };
         }
-        if free.z > 0.0 && !lands {
+        // Where the solution holds a tire on the ground, the residual is less the force of the ground, which cannot pull.
+        let rises = if lands { self.residual[tire].z > 0.0 } else { free.z > 0.0 };
+        if rises {
             return Ground::InAir;
         }
         let within_cone = self.sliding(tire, h).norm() <= self.friction * (-free.z).max(0.0) * (0.5 * h);

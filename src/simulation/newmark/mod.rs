@@ -101,6 +101,8 @@ struct Stepper<'a> {
     earlier: Vec<Vector3<f64>>,
     /// Contact region assumed for the step.
     region: Region,
+    /// Contact region at the start of the cut.
+    region_at_start: Region,
     /// Contact region that the solution implies.
     implied: Region,
     system: System,
@@ -144,6 +146,7 @@ impl<'a> Stepper<'a> {
             v: zeros(),
             a: zeros(),
             earlier: zeros(),
+            region_at_start: region.clone(),
             implied: region.clone(),
             region,
             system: System::new(scene),

@@ -20,8 +20,11 @@ const FINE_TOLERANCE: f64 = 1e-10;
 impl Stepper<'_> {
     /// Integrates one cut of a step over `h` [s]; halves the cut while its contact region does not settle.
     pub(super) fn advance(&mut self, h: f64, halved: usize) -> Result<(), Failure> {
+        self.region_at_start.copy_from(&self.region);
         match self.settle(h) {
             Err(Failure::Unsettled { .. }) if halved < MOST_HALVINGS => {
+                // What was assumed of the end of the whole cut says nothing of its middle.
+                self.region.copy_from(&self.region_at_start);
                 self.advance(0.5 * h, halved + 1)?;
                 self.advance(0.5 * h, halved + 1)
             }

@@ -15,7 +15,15 @@ pub(super) fn parse(written: &str) -> Option<(KeyCode, KeyModifiers)> {
     {
         (name, modifiers) = (rest, modifiers | modifier);
     }
-    let code = key_code(name, modifiers.contains(KeyModifiers::SHIFT))?;
+    // Keys are compared without Shift: a capital and BackTab have it in them, and no other key can be told apart by it.
+    let code = match (key_code(name)?, modifiers.contains(KeyModifiers::SHIFT)) {
+        (code, false) => code,
+        (KeyCode::Char(letter), true) if letter.is_ascii_alphabetic() => {
+            KeyCode::Char(letter.to_ascii_uppercase())
+        }
+        (KeyCode::Tab, true) => KeyCode::BackTab,
+        (_, true) => return None,
+    };
     Some((code, modifiers - KeyModifiers::SHIFT))
 }
 
@@ -26,8 +34,8 @@ const MODIFIERS: &[(&str, KeyModifiers)] = &[
     ("cmd-", KeyModifiers::SUPER),
 ];
 
-/// The key of a lower-case name; with Shift a letter is a capital.
-fn key_code(name: &str, shift: bool) -> Option<KeyCode> {
+/// The key of a lower-case name.
+fn key_code(name: &str) -> Option<KeyCode> {
     let code = match name {
         "esc" => KeyCode::Esc,
         "enter" => KeyCode::Enter,
@@ -48,9 +56,7 @@ fn key_code(name: &str, shift: bool) -> Option<KeyCode> {
         "tab" => KeyCode::Tab,
         _ => match (name.strip_prefix('f').and_then(|number| number.parse().ok()), name.as_bytes()) {
             (Some(number @ 1..=24), _) => KeyCode::F(number),
-            (_, &[letter]) => {
-                KeyCode::Char(char::from(if shift { letter.to_ascii_uppercase() } else { letter }))
-            }
+            (_, &[letter]) => KeyCode::Char(char::from(letter)),
             _ => return None,
         },
     };

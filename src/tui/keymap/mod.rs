@@ -130,13 +130,14 @@ mod tests {
             ("PageUp", (KeyCode::PageUp, none)),
             ("F24", (KeyCode::F(24), none)),
             ("shift-q", (KeyCode::Char('Q'), none)),
+            ("shift-tab", (KeyCode::BackTab, none)),
             ("ctrl-Q", (KeyCode::Char('q'), KeyModifiers::CONTROL)),
             ("alt--", (KeyCode::Char('-'), KeyModifiers::ALT)),
             ("ctrl-alt-minus", (KeyCode::Char('-'), KeyModifiers::CONTROL | KeyModifiers::ALT)),
         ] {
             assert_eq!(parse(written), Some(key), "{written}");
         }
-        for written in ["", "ctrl-", "f0", "f25", "a-b", "nokey"] {
+        for written in ["", "ctrl-", "f0", "f25", "a-b", "nokey", "shift-left", "shift-1"] {
             assert_eq!(parse(written), None, "{written}");
         }
     }

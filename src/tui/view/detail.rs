@@ -13,6 +13,7 @@
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::Modifier;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
@@ -76,9 +77,24 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     // Text is worth more than charts; Enter gives both the whole screen.
     let [text, rest] = Layout::vertical([Constraint::Length(lines), Constraint::Min(0)]).areas(inside);
     frame.render_widget(Paragraph::new(facts).wrap(Wrap { trim: true }), text);
+    if lines > text.height {
+        mark_cut(app, frame, text);
+    }
     let history = charts::history(&app.case, &judged.as_planned.history, &app.case.shots[app.selected]);
     let sampled = judged.sampled.drawn().filter(|sampled| !sampled.samples.is_empty());
     draw_charts(app, history, sampled, frame, rest);
+}
+
+/// Says at the end of a text that it goes on below.
+fn mark_cut(app: &App, frame: &mut Frame, text: Rect) {
+    let rest = match is_listed(app) {
+        // Enter makes the change selected there.
+        true => " … goes on below: make the window higher ".to_owned(),
+        false => format!(" … goes on below: {} ", app.keymap.hint(Action::Open)),
+    };
+    let last = Rect { y: text.bottom().saturating_sub(1), height: text.height.min(1), ..text };
+    let mark = Line::styled(rest, app.theme.firing().add_modifier(Modifier::REVERSED)).right_aligned();
+    frame.render_widget(mark, last);
 }
 
 /// Draws height and force over time, and those of the samples. Where only one of both has room, the samples stand.

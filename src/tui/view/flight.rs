@@ -231,14 +231,19 @@ fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area
     let aloft = |tire: usize| frame_of[tire][2] > GROUND;
     let tires: Vec<(f64, f64)> = (0..scene.mass.len()).map(position).collect();
     let seen = if axis == 0 { "across rows" } else { "along rows" };
-    let count = forces.iter().filter(|force| **force > 0.0).count();
     // A cell of a terminal is about twice as high as wide.
     let cells = [f64::from(area.width.max(1)), 2.0 * f64::from(area.height.saturating_sub(1).max(1))];
     let higher = (right - left + 2.0 * margin) / cells[0] / (1.03 * top / cells[1]);
     let dot = [(right - left + 2.0 * margin) / (2.0 * cells[0]), 1.03 * top / (2.0 * cells[1])];
     let scale = units::rounded(higher, if higher < 10.0 { 1 } else { 0 });
+    let count = |least: f64| forces.iter().filter(|force| **force > least).count();
+    let (taut, over) = (count(0.0), count(app.case.limits.force));
+    let title = format!("{seen}, heights x {scale}: {taut} taut");
+    let with_over = format!("{title}, {over} over the limit (double lines)");
+    let has_room = Span::raw(&with_over).width() + 2 <= usize::from(area.width);
+    let title = if over > 0 && has_room { with_over } else { title };
     let canvas = Canvas::default()
-        .block(titled_block(app, format!("{seen}, heights x {scale}: {count} taut")))
+        .block(titled_block(app, title))
         .background_color(theme.base().bg.unwrap_or(Color::Reset))
         .marker(Marker::Braille)
         .x_bounds([left - margin, right + margin])
