@@ -9,7 +9,7 @@ use super::arguments::{LookArguments, StudyArguments};
 use super::judge_plans::{judge_plans, print_checks};
 use super::load_plans::open_all;
 use super::status::{Status, failed};
-use crate::report::option_sentences::VERDICTS;
+use crate::report::words::option_sentences::VERDICTS;
 use crate::study::judge_options::MustPass;
 
 #[derive(Args)]

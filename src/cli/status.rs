@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::report::model::Report;
-use crate::report::no_result;
+use crate::report::words::no_result;
 use crate::study::{ComputeResult, Computed, NoResult};
 use crate::verdict::Verdict;
 

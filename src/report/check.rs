@@ -2,10 +2,11 @@
 
 use super::model::{Audience, Block, Cell, Column, Conclusion, Detail, Field, Report, Table};
 use super::option_row::{OptionRow, option_rows};
-use super::option_sentences::{self, broken, compute_label, launch_margin};
-use super::reasons;
 use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
-use super::{no_result, remedies, report_head, warnings};
+use super::words::option_sentences::{self, broken, compute_label, launch_margin};
+use super::words::reasons;
+use super::words::{no_result, warnings};
+use super::{remedies, report_head};
 use crate::study::Case;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};

@@ -4,15 +4,15 @@
 //! |---|---|
 //! | what a report is | [`model`] |
 //! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`mod@fit`], [`remedies`], [`accuracy`], `paper_table`, [`ropes`], [`trace`] |
-//! | words, charts and columns that reports share | [`option_sentences`], [`reasons`], [`limits`], [`no_result`], [`plan_notes`], [`warnings`], [`charts`], [`shared_columns`], rows of options |
+//! | sentences that reports and screens share | [`words`] |
+//! | charts, columns and rows that reports share | [`charts`], [`shared_columns`], `option_row` |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |
-//! | what faces share | [`palette`], [`ascii`], [`spark`], labels of cells |
+//! | what faces share | [`palette`], [`ascii`], [`spark`] |
 //!
 //! A builder decides which numbers and words a report holds. A face decides how they look, and reads no other face.
 
 pub mod accuracy;
 pub mod ascii;
-mod cell_words;
 pub mod charts;
 pub mod check;
 pub mod csv;
@@ -21,17 +21,12 @@ pub mod fit;
 #[cfg(feature = "page")]
 pub mod html;
 pub mod json;
-pub mod limits;
 pub mod model;
-pub mod no_result;
 pub mod observed;
 mod option_row;
-pub mod option_sentences;
 pub mod orders;
 pub mod palette;
 mod paper_table;
-pub mod plan_notes;
-pub mod reasons;
 pub mod remedies;
 pub mod risk;
 pub mod ropes;
@@ -42,9 +37,10 @@ pub mod spark;
 pub mod sweep;
 pub mod text;
 pub mod trace;
-pub mod warnings;
+pub mod words;
 
 use self::model::Report;
+use self::words::{limits, plan_notes, warnings};
 use crate::study::Case;
 
 /// Names of blast rows.

@@ -6,9 +6,10 @@ use super::check::{
 };
 use super::model::{Audience, Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
 use super::option_row::{OptionRow, option_rows};
-use super::option_sentences::{compute_label, launch_margin, together};
 use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
-use super::{charts, report_head, row_names, warnings};
+use super::words::option_sentences::{compute_label, launch_margin, together};
+use super::words::warnings;
+use super::{charts, report_head, row_names};
 use crate::study::Case;
 use crate::study::judgement::Judgement;
 use crate::study::search::{FrontPoint, Schedule, Search, duration};

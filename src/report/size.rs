@@ -1,11 +1,12 @@
 //! `size` as a report: the lightest combinations that hold.
 
 use super::charts;
-use super::limits::limits_of_any_rope;
 use super::model::{Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
-use super::no_result::REMEDY_IN_PLAN_WORDS;
 use super::shared_columns::{FORCE, HEIGHT, force, height};
-use super::{accepted_risk, title, warnings};
+use super::words::limits::limits_of_any_rope;
+use super::words::no_result::REMEDY_IN_PLAN_WORDS;
+use super::words::warnings;
+use super::{accepted_risk, title};
 use crate::study::Case;
 use crate::study::size::{Combination, Sizing, Trial, Untried, WorstShotRisk};
 use crate::units::{self, Unit};

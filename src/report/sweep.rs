@@ -6,7 +6,8 @@ use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
     probability, sampled,
 };
-use super::{plan_notes, report_head, row_names, warnings};
+use super::words::{plan_notes, warnings};
+use super::{report_head, row_names};
 use crate::study::search::Schedule;
 use crate::study::sweep::{Point, Recommended, Sweep};
 use crate::study::{Case, ShotSummary};

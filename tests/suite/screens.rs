@@ -8,7 +8,7 @@ use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Style};
 use shelter::jobs::{News, StudyKind};
 use shelter::plan::Timing;
-use shelter::report::warnings;
+use shelter::report::words::warnings;
 use shelter::simulation::Failure;
 use shelter::study::NoResult;
 use shelter::study::as_planned::margin::LaunchMargin;

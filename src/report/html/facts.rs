@@ -6,7 +6,7 @@ use crate::choice::OnOverload;
 use crate::plan::{
     CableSpec, DelayScatter, GroundSpec, Hole, Launch, LaunchTargets, Layout, Plan, Uncertainty,
 };
-use crate::report::limits::limits;
+use crate::report::words::limits::limits;
 use crate::ropes::catalogue;
 use crate::study::judge_options::OptionResults;
 use crate::study::samples::sample_count::Sampling;

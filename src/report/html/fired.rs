@@ -4,7 +4,8 @@ use maud::{Markup, html};
 
 use super::Page;
 use super::table::word;
-use crate::report::{check, no_result, option_sentences, reasons};
+use crate::report::check;
+use crate::report::words::{no_result, option_sentences, reasons};
 use crate::scene::Shot;
 use crate::study::Case;
 use crate::study::as_planned::margin::LaunchMargin;

@@ -20,8 +20,9 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::model::{Block, Report};
 use super::observed::{self, ObservedRow, observed_table};
-use super::warnings;
-use super::{charts, check, option_sentences, sweep};
+use super::words::option_sentences;
+use super::words::warnings;
+use super::{charts, check, sweep};
 use crate::file;
 use crate::study::Case;
 use crate::study::judge_options::{MustPass, OptionResults};

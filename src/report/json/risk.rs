@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::LimitsObject;
-use crate::report::warnings;
+use crate::report::words::warnings;
 use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
 use crate::study::samples::influence;

@@ -1,4 +1,4 @@
-//! Why the verdict on an option is no pass: why it fails, or stays open. `report::reasons` has the words.
+//! Why the verdict on an option is no pass: why it fails, or stays open. `report::words::reasons` has the words.
 
 pub mod risk;
 pub mod shot;

@@ -5,8 +5,8 @@ use ratatui::layout::{Constraint, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Row as Cells, Table, TableState};
 
-use crate::report::no_result;
 use crate::report::spark::sparkline;
+use crate::report::words::no_result;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::judgement::Evidence;
 use crate::study::judgement::Judgement;

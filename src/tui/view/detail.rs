@@ -20,13 +20,14 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use super::chart;
 use crate::jobs::StudyKind;
 use crate::outcome::EndReason;
+use crate::report::charts;
 use crate::report::model::Chart;
-use crate::report::option_sentences::{
+use crate::report::remedies::{sentence, without_pass};
+use crate::report::words::option_sentences::{
     bands, broken, firing_times_text, inputs, launch_limit, measure_first, peaks,
 };
-use crate::report::reasons;
-use crate::report::remedies::{sentence, without_pass};
-use crate::report::{charts, no_result, warnings};
+use crate::report::words::reasons;
+use crate::report::words::{no_result, warnings};
 use crate::study::judgement;
 use crate::study::judgement::Judgement;
 use crate::study::reasons::Reason;

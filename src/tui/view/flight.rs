@@ -24,7 +24,7 @@ use super::widgets::color;
 use crate::jobs::StudyKind;
 use crate::outcome::Outcome;
 use crate::plan;
-use crate::report::no_result;
+use crate::report::words::no_result;
 use crate::study::flight::Flight;
 use crate::study::judgement::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};

@@ -10,8 +10,8 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::widgets::color;
 use super::{compare, fields, map_numbers};
-use crate::report::option_sentences::firing_times_text;
-use crate::report::warnings;
+use crate::report::words::option_sentences::firing_times_text;
+use crate::report::words::warnings;
 use crate::study::Case;
 use crate::tui::app::{App, Areas};
 use crate::tui::keymap::Action;

@@ -46,7 +46,7 @@ pub fn firing_times(delay: &DelayOption) -> String {
 }
 
 /// A sum of charges [kg] to the gram, without the digits of its rounding.
-pub(super) fn grams(charge: f64) -> f64 {
+pub(in crate::report) fn grams(charge: f64) -> f64 {
     (charge * 1e3).round() / 1e3
 }
 

@@ -1,7 +1,7 @@
 //! Words of cells, headings and axes, the same in text, page and terminal.
 
-use super::model::{Axis, Block, Cell, Column, Offer, Report, Row, Scale};
-use super::spark::sparkline;
+use crate::report::model::{Axis, Block, Cell, Column, Offer, Report, Row, Scale};
+use crate::report::spark::sparkline;
 use crate::units;
 
 impl Cell {

@@ -1,8 +1,8 @@
 //! Why the verdict on an option is no pass, in words: one sentence a reason.
 
-use super::model::Detail;
 use super::option_sentences::grams;
 use crate::choice::Accuracy;
+use crate::report::model::Detail;
 use crate::study::judgement::Judgement;
 use crate::study::reasons::Reason;
 use crate::study::reasons::risk::RiskReason;

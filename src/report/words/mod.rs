@@ -1,0 +1,18 @@
+//! What reports say, the same in every face.
+//!
+//! | words of | where |
+//! |---|---|
+//! | a plan: its limits, and what it adds to the model of the source paper | [`limits`], [`plan_notes`] |
+//! | one delay option: its peaks, margins and what decides it | [`option_sentences`] |
+//! | a verdict that is no pass: why | [`reasons`] |
+//! | a result that does not come | [`no_result`] |
+//! | what a reader must know beside a verdict | [`warnings`] |
+//! | a cell, a column, an axis | `cell_words` |
+
+mod cell_words;
+pub mod limits;
+pub mod no_result;
+pub mod option_sentences;
+pub mod plan_notes;
+pub mod reasons;
+pub mod warnings;
