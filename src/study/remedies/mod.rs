@@ -231,15 +231,15 @@ fn judge_next(task: &Task<'_>, chains: &mut [Chain], hard: &mut HardSamples) -> 
         let target = ShotToSample::new(&turn.case, &turn.case.shots[option], *task.compute, *sampling);
         targets.push((option, target.as_planned(ShotSummary::of(checked)).only_pass()));
     }
-    let sampled_shots = sample(&targets, hard, task.progress)?;
-    for ((turn, checked), sampled) in passing.into_iter().zip(sampled_shots) {
+    let sampled_changes = sample(&targets, hard, task.progress)?;
+    for ((turn, checked), sampled) in passing.into_iter().zip(sampled_changes) {
         let chain = &mut chains[turn.chain];
         match sampled {
-            Evidence::NotAsked => chain.note(Verdict::Undecided),
-            Evidence::NotDrawn => chain.found.out_of_time = true,
-            Evidence::Drawn(sampled) => {
+            SampledChange::CannotPass => chain.note(Verdict::Undecided),
+            SampledChange::OutOfTime => chain.found.out_of_time = true,
+            SampledChange::Sampled(sampled) => {
                 let judgement =
-                    Judgement { sampled: Evidence::Drawn(sampled), ..Judgement::of_planned_alone(checked) };
+                    Judgement { sampled: Evidence::Drawn(*sampled), ..Judgement::of_planned_alone(checked) };
                 chain.note(judgement.verdict());
                 if judgement.verdict() == Verdict::Pass {
                     chain.found.passing = Some(Remedy { change: turn.change, judgement });
@@ -281,18 +281,31 @@ fn check_turns(
     Ok(checked.collect())
 }
 
-/// The risk of changes, each for an option: not asked for where no pass can come, not drawn where the time was up before that
-/// was known.
+/// The samples of a change.
+enum SampledChange {
+    /// The hard samples fail so often that no pass can come.
+    CannotPass,
+    /// The time was up before the verdict was known.
+    OutOfTime,
+    /// All that its verdict takes.
+    Sampled(Box<SampledShot>),
+}
+
+/// Draws the samples of changes, each for an option.
 fn sample(
     targets: &[(usize, ShotToSample<'_>)],
     hard: &mut HardSamples,
     progress: &Progress,
-) -> Result<Vec<Evidence<SampledShot>>, NoResult> {
+) -> Result<Vec<SampledChange>, NoResult> {
     let first = hard.draw(targets, progress)?;
-    let mut sampled_shots: Vec<Evidence<SampledShot>> = Vec::new();
+    let mut sampled_changes: Vec<SampledChange> = Vec::new();
     let (mut left, mut places) = (Vec::new(), Vec::new());
     for (n, ((_, target), first)) in targets.iter().zip(&first).enumerate() {
-        sampled_shots.push(if first.is_some() { Evidence::NotAsked } else { Evidence::NotDrawn });
+        sampled_changes.push(if first.is_some() {
+            SampledChange::CannotPass
+        } else {
+            SampledChange::OutOfTime
+        });
         if let Some(HardDrawn { samples, can_pass: true }) = first {
             left.push(target.precomputed(samples));
             places.push(n);
@@ -302,7 +315,10 @@ fn sample(
         hard.note(targets[n].0, &sampled);
         let sampling = target.sampling;
         let is_complete = sampling.is_complete(&sampled) || !sampled.bounds.can_pass(sampling.most);
-        sampled_shots[n] = if is_complete { Evidence::Drawn(sampled) } else { Evidence::NotDrawn };
+        sampled_changes[n] = match is_complete {
+            true => SampledChange::Sampled(Box::new(sampled)),
+            false => SampledChange::OutOfTime,
+        };
     }
-    Ok(sampled_shots)
+    Ok(sampled_changes)
 }

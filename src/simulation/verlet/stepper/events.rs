@@ -172,6 +172,7 @@ impl EventContext<'_> {
         kick_dissipation: f64,
     ) {
         let h = self.step;
+        let was_in_air = motion.displacement.z > 0.0;
         let last = motion.integrate(h, due.iter().map(|due| due.impulse));
         let goes_on = self.pushes.is_pushed_after_step(tire);
         let in_air = motion.displacement.z > 0.0 || motion.velocity.z > 0.0;
@@ -197,9 +198,11 @@ impl EventContext<'_> {
         let mass = self.part.mass[tire];
         self.totals.lost += mass * (motion.lost - next_half) - kick_dissipation;
         self.totals.put_in += mass * motion.put_in;
-        let last = due.iter().rev().find(|due| due.impulse.launch != Vector3::zeros());
-        if self.scene.damping > 0.0 && (last.is_some() || due.is_empty()) {
-            let since_launch = last.map(|due| self.step - due.impulse.since_start);
+        let last_launch = due.iter().rev().find(|due| due.impulse.launch != Vector3::zeros());
+        // In the air nothing is lost but in a landing, whether a push goes on or not.
+        let lands = was_in_air && motion.lost > 0.0;
+        if self.scene.damping > 0.0 && (last_launch.is_some() || lands) {
+            let since_launch = last_launch.map(|due| self.step - due.impulse.since_start);
             self.jumped.push(Jump { tire, since_launch });
         }
         self.integrated.push(Integrated { tire, displacement: motion.displacement, velocity });
