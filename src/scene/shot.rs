@@ -122,9 +122,9 @@ impl Shot {
         self.greatest_sum_within(window, |_| 1.0) as usize
     }
 
-    /// Heaviest charge that fires within any `window` [s], its end left out [kg].
+    /// Heaviest charge that fires within any `window` [s], its end left out [kg], to the milligram: ten charges of 8.7 kg are 87 kg.
     pub fn heaviest_charge_within(&self, window: f64) -> f64 {
-        self.greatest_sum_within(window, |firing| firing.charge)
+        (self.greatest_sum_within(window, |firing| firing.charge) * 1e6).round() / 1e6
     }
 
     /// Greatest sum of `weight` over the firings within any `window` [s], its end left out; times are rounded to 1 µs, so that
@@ -145,6 +145,16 @@ impl Shot {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// In binary the sum of ten times 8.7 is 87.00000000000001, and a limit of 87 kg would be exceeded.
+    #[test]
+    fn charges_add_up_as_written() {
+        for (count, charge, sum) in [(10, 8.7, 87.0), (3, 1.1, 3.3), (7, 12.4, 86.8), (2, 1e-6, 2e-6)] {
+            let hole = |tire| Firing { charge, ..Firing::up(0.0, tire, 6.0) };
+            let shot = Shot::from_firings((0..count).map(hole).collect());
+            assert_eq!(shot.heaviest_charge_within(8e-3), sum);
+        }
+    }
 
     #[test]
     fn shots_to_both_sides_have_the_shot_in_their_middle() {

@@ -71,7 +71,7 @@ pub struct Wake<'a> {
     pub fell_asleep: Vec<usize>,
     /// Packs that move.
     moving: FixedBitSet,
-    /// Packs that are counted as moving in `near`.
+    /// Packs that are counted as moving in `moving_neighbours`.
     counted: FixedBitSet,
     /// Packs set moving or resting since the last refresh.
     changed: Vec<usize>,

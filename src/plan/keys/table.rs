@@ -142,7 +142,7 @@ sections! {
         LAUNCH_M_S = key("launch_m_s", number("m/s", 1e-3..=1e4), "6.0", "launch velocity of the tires")
             .usual(0.5, 30.0).edit("launch, m/s");
         FREE_FLIGHT_HEIGHT_M = key("free_flight_height_m", number("m", 1e-6..=1e5), "1.83",
-            "seen on a loose test tire, instead of launch_m_s").edit("free flight height, m");
+            "seen on a loose test tire on level ground, instead of launch_m_s").edit("free flight height, m");
         TILT_DEG = key("tilt_deg", number("°", 0.0..=80.0), "10", "of the launch from the ground's normal")
             .default(0.0).edit("tilt, deg");
         TILT_TOWARD_DEG = key("tilt_toward_deg", number("°", -360.0..=360.0), "90",

@@ -42,7 +42,7 @@ struct Map {
 pub struct Image {
     /// Tire that is written.
     pub written: usize,
-    /// Kept tire that is read; equal to `to` for a tire on a plane.
+    /// Kept tire that is read; equal to [`Self::written`] for a tire on a plane.
     pub read: usize,
     /// Factors of x, y and z: −1 where reflected, 0 across the plane for a tire on the plane.
     pub sign: [f64; 3],

@@ -23,6 +23,7 @@ use super::judgement::Evidence;
 use super::judgement::Judgement;
 use super::reasons::shot::exceeds_together;
 use super::samples::draw_until_sure::{ShotToSample, sample_shots};
+use super::samples::failure_bounds::ErrorShare;
 use super::samples::sample_count::Sampling;
 use super::samples::sampled_shot::SampledShot;
 use super::work::batch::run_batch;
@@ -84,6 +85,8 @@ pub fn not_passing(results: &OptionResults) -> Vec<usize> {
 struct Chain {
     option: usize,
     left: VecDeque<Change>,
+    /// Number of changes sampled so far.
+    sampled: usize,
     found: TriedKind,
 }
 
@@ -198,7 +201,7 @@ fn coarse(task: &Task<'_>, options: &[usize]) -> Result<Vec<Chain>, NoResult> {
         }
         if let Some(kind) = kind.filter(|_| out_of_time || !tried.is_empty()) {
             let found = TriedKind { kind, tried, open: 0, out_of_time, passing: None };
-            chains.push(Chain { option, left, found });
+            chains.push(Chain { option, left, sampled: 0, found });
         }
     }
     Ok(chains)
@@ -227,8 +230,12 @@ fn judge_next(task: &Task<'_>, chains: &mut [Chain], hard: &mut HardSamples) -> 
     };
     let mut targets = Vec::with_capacity(passing.len());
     for (turn, checked) in &passing {
-        let option = chains[turn.chain].option;
-        let target = ShotToSample::new(&turn.case, &turn.case.shots[option], *task.compute, *sampling);
+        let chain = &mut chains[turn.chain];
+        chain.sampled += 1;
+        // Who tries change after change until one passes, must not be lucky more often than with one.
+        let sampling = Sampling { error_share: ErrorShare::Nth(chain.sampled), ..*sampling };
+        let option = chain.option;
+        let target = ShotToSample::new(&turn.case, &turn.case.shots[option], *task.compute, sampling);
         targets.push((option, target.as_planned(ShotSummary::of(checked)).only_pass()));
     }
     let sampled_changes = sample(&targets, hard, task.progress)?;

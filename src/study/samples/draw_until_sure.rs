@@ -262,20 +262,58 @@ fn try_sample(
         }
     };
     let step = sample_step(&compute, &scene) * 0.5_f64.powi(halvings as i32);
-    let (coarse, shows_nothing) = run(step)?;
     if compute.step.is_some() {
-        return Ok(Sample { number, run: coarse, finer: None, inputs });
+        return Ok(Sample { number, run: run(step)?.0, finer: None, inputs });
     }
     let every = if number < FIRST_SAMPLES { AUDIT_EVERY_AT_FIRST } else { AUDIT_EVERY };
     let is_audited = may_audit && number % every == every / 2;
-    let fine = if shows_nothing || is_audited { Some(run(step / AUDIT_STEP_DIVISOR)?.0) } else { None };
-    let best = fine.filter(|_| shows_nothing).unwrap_or(coarse);
-    Ok(Sample { number, run: best, finer: fine.filter(|_| is_audited), inputs })
+    let (run, finer) = run_and_audit(step, is_audited, run)?;
+    Ok(Sample { number, run, finer, inputs })
+}
+
+/// A run at `step` [s], or at the step of the audit where the first shows nothing; and a finer run than that, where the sample is
+/// audited. `run` gives a run and whether it shows nothing.
+fn run_and_audit(
+    step: f64,
+    is_audited: bool,
+    run: impl Fn(f64) -> Result<(SampleRun, bool), NoResult>,
+) -> Result<(SampleRun, Option<SampleRun>), NoResult> {
+    let (coarse, shows_nothing) = run(step)?;
+    let step = if shows_nothing { step / AUDIT_STEP_DIVISOR } else { step };
+    let first = if shows_nothing { run(step)?.0 } else { coarse };
+    let finer = if is_audited { Some(run(step / AUDIT_STEP_DIVISOR)?.0) } else { None };
+    Ok((first, finer))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::verdict::Verdict;
+
+    /// No run is its own audit: it would bear out any verdict.
+    #[test]
+    fn the_audit_is_finer_than_the_run_that_counts() {
+        let at_step = |shows_nothing_from: f64| {
+            move |step: f64| {
+                let run = SampleRun {
+                    verdict: Verdict::Pass,
+                    breaks: Verdict::Pass,
+                    height: step,
+                    force: 1.0,
+                    drift: 0.0,
+                };
+                Ok((run, step >= shows_nothing_from))
+            }
+        };
+        let steps = |shows_nothing_from, is_audited| {
+            let runs = run_and_audit(16.0, is_audited, at_step(shows_nothing_from)).expect("runs");
+            (runs.0.height, runs.1.map(|finer| finer.height))
+        };
+        assert_eq!(steps(20.0, false), (16.0, None));
+        assert_eq!(steps(20.0, true), (16.0, Some(4.0)));
+        assert_eq!(steps(10.0, false), (4.0, None));
+        assert_eq!(steps(10.0, true), (4.0, Some(1.0)));
+    }
 
     #[test]
     fn a_sample_that_panics_is_undecided_and_a_stop_stays_a_stop() {

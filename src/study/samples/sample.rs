@@ -15,9 +15,9 @@ use crate::verdict::{Estimate, Limits, Quantity, Verdict};
 pub struct Sample {
     /// Number of the sample, from 0.
     pub number: usize,
-    /// Its run at the step of samples.
+    /// Its run at the step of samples; at a finer one where that run fails or loses energy.
     pub run: SampleRun,
-    /// Its run at a finer step, for a sample of the audit.
+    /// A run at a still finer step, for a sample of the audit.
     pub finer: Option<SampleRun>,
     /// Values of the inputs in [`Input::ALL`].
     pub inputs: [f64; Input::ALL.len()],
