@@ -49,7 +49,7 @@
 //! | [`plan`] | TOML | a valid [`Plan`], or every mistake with its remedy | how a shelter moves |
 //! | [`scene`] | a plan | masses, cables, firings as flat SI arrays | [`ropes`]; how motion is computed |
 //! | [`outcome`] | | peaks, ledger, histories of a run | any other module |
-//! | [`simulation`] | scene, shot, step | an [`Outcome`](outcome::Outcome) or a [`Failure`](simulation::Failure) | [`plan`], [`ropes`], [`file`], [`units`]; options, limits, screens |
+//! | [`simulation`] | scene, shot, step | an [`Outcome`](outcome::Outcome) or a [`RunError`](simulation::RunError) | [`plan`], [`ropes`], [`file`], [`units`]; options, limits, screens |
 //! | [`verdict`] | value, error, limit | pass, fail, undecided | any other module |
 //! | [`study`] | a plan made ready | verdicts refined until sure; sweeps, orders, searches and other studies | formats, except that of its results (`study::results_file`) |
 //! | [`report`] | study results | text, JSON, CSV, a page of HTML | terminals |

@@ -88,6 +88,39 @@ impl Quantity {
     pub const ALL: [Self; 3] = [Self::Height, Self::Force, Self::Drift];
 }
 
+/// A value for each quantity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PerQuantity<T> {
+    /// That of the flight height.
+    pub height: T,
+    /// That of the cable force.
+    pub force: T,
+    /// That of the drift.
+    pub drift: T,
+}
+
+impl<T> PerQuantity<T> {
+    /// The value that `value` gives for each quantity.
+    pub fn from_fn(mut value: impl FnMut(Quantity) -> T) -> Self {
+        let [height, force, drift] = Quantity::ALL.map(&mut value);
+        Self { height, force, drift }
+    }
+
+    /// The value for a quantity.
+    pub fn get(&self, quantity: Quantity) -> &T {
+        match quantity {
+            Quantity::Height => &self.height,
+            Quantity::Force => &self.force,
+            Quantity::Drift => &self.drift,
+        }
+    }
+
+    /// The values, in the order of [`Quantity::ALL`].
+    pub fn iter(&self) -> impl Iterator<Item = &T> {
+        [&self.height, &self.force, &self.drift].into_iter()
+    }
+}
+
 /// The limits that an option must keep to pass, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use libfuzzer_sys::fuzz_target;
 use shelter::choice::Method;
 use shelter::plan::{Layout, Plan};
-use shelter::simulation::{Failure, RunSettings};
+use shelter::simulation::{RunError, RunSettings};
 use shelter::study::Case;
 
 /// Tires of the largest shelter run; larger ones only take longer.
@@ -41,7 +41,7 @@ fuzz_target!(|text: &str| {
             });
             match outcome {
                 Ok(outcome) => assert!(outcome.height.value.is_finite() && outcome.force.value.is_finite()),
-                Err(Failure::Stopped { .. }) => {}
+                Err(RunError::Stopped { .. }) => {}
                 Err(failure) => assert!(!failure.to_string().is_empty()),
             }
         }

@@ -15,8 +15,8 @@ use super::tell;
 use crate::choice::Unknown;
 use crate::file;
 use crate::plan::Plan;
-use crate::plan::fitted;
 use crate::plan::observations::{Observations, template, used_twice};
+use crate::plan::write_fit;
 use crate::report::fit::{refusal, report};
 use crate::report::json::FitDocument;
 use crate::study::fit::{Fit, FitRequest, FitResult, fit, observable_names};
@@ -127,7 +127,8 @@ fn write(path: &Path, case: &Case, files: &[Observations], fit: &Fit) -> io::Res
         return Err(io::Error::other("the plan has changed meanwhile; nothing was written"));
     }
     let checksums: Vec<String> = files.iter().map(|file| file.checksum.clone()).collect();
-    let text = fitted::write(&case.source.text, &case.plan.uncertainty, &fit.answers[0].fitted(), &checksums);
+    let text =
+        write_fit::write(&case.source.text, &case.plan.uncertainty, &fit.answers[0].fitted(), &checksums);
     let text = text.map_err(io::Error::other)?;
     if let Err(mistakes) = Plan::parse(&case.source.path, &text) {
         return Err(io::Error::other(format!(

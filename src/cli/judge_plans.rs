@@ -10,7 +10,7 @@ use super::run_study::run_study;
 use super::status::{REMEDY_AS_ARGUMENTS, Status};
 use crate::report::check::report;
 use crate::report::json::CheckDocument;
-use crate::report::model::Report;
+use crate::report::parts::Report;
 use crate::study::judge_options::{MustPass, OptionResults, UNWATCHED, judge_all, judge_all_with_margins};
 use crate::study::remedies::{Remedies, find_all_remedies, not_passing};
 use crate::study::samples::sample_count::Sampling;

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::arguments::{FormatArg, LookArguments};
 use super::status::Status;
-use crate::report::model::Report;
+use crate::report::parts::Report;
 use crate::report::{csv, json, text};
 
 /// Prints reports, or the JSON document of the same results. Returns their status. Warnings, which text holds, also go to

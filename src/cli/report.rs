@@ -18,8 +18,8 @@ use crate::plan::observations::named_twice;
 use crate::report::check;
 use crate::report::html::{self, Page};
 use crate::report::observed::observed_rows;
+use crate::study::fit::observation_bands::predict_observations;
 use crate::study::fit::observed_shots::ObservedShots;
-use crate::study::fit::predicted::predict_observations;
 use crate::study::judge_options::MustPass;
 use crate::study::sweep::{INTERVALS, sweep};
 use crate::study::{Computed, NoResult, Progress};
@@ -118,7 +118,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let page = html::page(&Page {
         case: &cases[0],
         results: &checked.value[0].results,
-        fired: asked.map(|_| option),
+        to_be_fired: asked.map(|_| option),
         sampling: sampling.as_ref(),
         sweep: swept.as_ref().map(|swept| &swept.value),
         fitted_to_observed: files.iter().any(|file| cases[0].plan.fitted_from.contains(&file.checksum)),

@@ -4,7 +4,7 @@ use std::io;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::report::model::Report;
+use crate::report::parts::Report;
 use crate::report::words::no_result;
 use crate::study::{ComputeResult, Computed, NoResult};
 use crate::verdict::Verdict;

@@ -15,7 +15,7 @@ use crate::report;
 use crate::report::csv::Separators;
 use crate::report::json::TraceDocument;
 use crate::scene::{Scene, TireId, seconds};
-use crate::simulation::Failure;
+use crate::simulation::RunError;
 use crate::study::trace::{TracedItems, trace};
 
 #[derive(Args)]
@@ -75,8 +75,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     done.map_or_else(|failure| failed(&failure), |_| Ok(Status::Pass))
 }
 
-fn failed(failure: &Failure) -> io::Result<Status> {
-    if let Failure::Stopped { time } = failure {
+fn failed(failure: &RunError) -> io::Result<Status> {
+    if let RunError::Stopped { time } = failure {
         tell!("the time was up at {time:.3} s of the motion");
         return Ok(Status::Fail);
     }

@@ -2,7 +2,7 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | the values | [`Plan`] and its parts, `model`, `uncertainty` |
+//! | the values | [`Plan`] and its parts, `values`, `uncertainty` |
 //! | what a key may be: name, unit, range, default, description | [`keys`], one table |
 //! | from TOML to values, or to mistakes | `reader` (key by key), `sections` (what a section means), `diagnostic` |
 //! | what is right, but not usual | [`usual`] |
@@ -17,10 +17,8 @@
 
 mod diagnostic;
 pub mod edit;
-pub mod fitted;
 pub mod import;
 pub mod keys;
-mod model;
 mod nearest_point;
 pub mod observations;
 mod reader;
@@ -30,15 +28,17 @@ mod source;
 pub mod starter;
 mod uncertainty;
 pub mod usual;
+mod values;
 mod visible;
+pub mod write_fit;
 
 pub use diagnostic::Diagnostics;
-pub use model::{
-    BlastRow, CableSpec, DelayOption, GroundSpec, Hole, HoleTiming, Launch, LaunchTargets, Layout,
-    LimitsSpec, ListedTire, Mesh, Plan, SearchSpec, SimulationSpec, SizeSpec, Timing, TireSpec, fire_in_turn,
-};
 pub use nearest_point::NearestPoint;
 pub use reader::nearest;
 pub use source::PlanSource;
 pub use uncertainty::{DelayScatter, Uncertainty};
+pub use values::{
+    BlastRow, CableSpec, DelayOption, GroundSpec, Hole, HoleTiming, Launch, LaunchTargets, Layout,
+    LimitsSpec, ListedTire, Mesh, Plan, SearchSpec, SimulationSpec, SizeSpec, Timing, TireSpec, fire_in_turn,
+};
 pub use visible::visible;

@@ -1,8 +1,8 @@
 //! `accuracy` as a report: what every step costs and how wrong it is, with the source paper's table where the plan is its.
 
 use super::charts;
-use super::model::{Block, Cell, Column, Field, Report, Table};
 use super::paper_table::paper_table;
+use super::parts::{Block, Cell, Column, Field, Report, Table};
 use crate::choice::Method;
 use crate::study::Case;
 use crate::study::accuracy::paper_table::PaperRow;

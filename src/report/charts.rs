@@ -1,6 +1,6 @@
 //! Charts of results as data, SI.
 
-use super::model::{Axis, Chart, Scale, Series, SeriesKind};
+use super::parts::{Axis, Chart, Scale, Series, SeriesKind};
 use crate::choice::Method;
 use crate::outcome::History;
 use crate::scene::Shot;

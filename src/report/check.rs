@@ -1,7 +1,7 @@
 //! `check` as a report: one row a delay option.
 
-use super::model::{Audience, Block, Cell, Column, Conclusion, Detail, Field, Report, Table};
 use super::option_row::{OptionRow, option_rows};
+use super::parts::{Audience, Block, Cell, Column, Conclusion, Detail, Field, Report, Table};
 use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
 use super::words::option_sentences::{self, broken, compute_label, launch_margin};
 use super::words::reasons;
@@ -56,7 +56,7 @@ fn fields<'a>(sampled: bool, drift_has_limit: bool) -> [Field<OptionRow<'a>>; 34
             row.sampled(|sampled| Cell::Probability(sampled.bounds.interval))
         }),
         Field::new(if_planned_alone(HEIGHT), |row| row.as_planned(|checked| height(checked.height.into()))),
-        Field::new(if_sampled(NOMINAL_HEIGHT), |row| {
+        Field::new(if_sampled(PLANNED_HEIGHT), |row| {
             row.as_planned(|checked| planned(checked.height, Unit::Metre))
         }),
         Field::new(if_sampled(HEIGHT_BAND), |row| band(row, Quantity::Height, Unit::Metre)),
@@ -67,7 +67,7 @@ fn fields<'a>(sampled: bool, drift_has_limit: bool) -> [Field<OptionRow<'a>>; 34
             row.as_planned(|checked| Cell::Text(row.case.scene().tire[checked.height.index].to_string()))
         }),
         Field::new(if_planned_alone(FORCE), |row| row.as_planned(|checked| force(checked.force.into()))),
-        Field::new(if_sampled(NOMINAL_FORCE), |row| {
+        Field::new(if_sampled(PLANNED_FORCE), |row| {
             row.as_planned(|checked| planned(checked.force, Unit::Kilonewton))
         }),
         Field::new(if_sampled(FORCE_BAND), |row| band(row, Quantity::Force, Unit::Kilonewton)),
@@ -135,13 +135,13 @@ fn fields<'a>(sampled: bool, drift_has_limit: bool) -> [Field<OptionRow<'a>>; 34
 }
 
 /// Greatest height of the shot as planned.
-pub(super) const NOMINAL_HEIGHT: Column = Column::numbers(&[], "height", Unit::Metre).under("as planned");
+pub(super) const PLANNED_HEIGHT: Column = Column::numbers(&[], "height", Unit::Metre).under("as planned");
 /// Band of the greatest height of the possible shots.
 pub(super) const HEIGHT_BAND: Column =
     Column::numbers(&["flight_height_p05_m", "flight_height_p95_m"], "height", Unit::Metre)
         .under("5 to 95 %");
 /// Greatest force of the shot as planned.
-pub(super) const NOMINAL_FORCE: Column = Column::numbers(&[], "force", Unit::Kilonewton).under("as planned");
+pub(super) const PLANNED_FORCE: Column = Column::numbers(&[], "force", Unit::Kilonewton).under("as planned");
 /// Band of the greatest force of the possible shots.
 pub(super) const FORCE_BAND: Column =
     Column::numbers(&["cable_force_p05_n", "cable_force_p95_n"], "force", Unit::Kilonewton)

@@ -5,7 +5,7 @@ use std::io;
 use csv::WriterBuilder;
 use serde::Serialize;
 
-use super::model::{Block, Cell, Report, Row, Table};
+use super::parts::{Block, Cell, Report, Row, Table};
 
 /// What stands between fields, and within numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! `effects` as a report: one row an effect, and what the scene requires.
 
-use super::model::{Audience, Block, Cell, Column, Conclusion, Field, Report, Table};
+use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Report, Table};
 use super::report_head;
 use crate::study::Case;
 use crate::study::effects::{Effect, EffectOnOption, EffectsOnOptions, REQUIRED};

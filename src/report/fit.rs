@@ -1,7 +1,7 @@
 //! `fit` as a report: the estimates of each answer, and every observation beside what was planned, possible and fitted.
 
-use super::model::{Audience, Block, Cell, Column, Conclusion, Field, Report, Table};
 use super::observed::{ObservedRow, bands, contradiction, fitted_rows, observed_table, place};
+use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Report, Table};
 use super::report_head;
 use crate::choice::Unknown;
 use crate::plan::observations::{Observations, unit};

@@ -2,7 +2,7 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | what a report is | [`model`] |
+//! | what a report is | [`parts`] |
 //! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`mod@fit`], [`remedies`], [`accuracy`], `paper_table`, [`ropes`], [`trace`] |
 //! | sentences that reports and screens share | [`words`] |
 //! | charts, columns and rows that reports share | [`charts`], [`shared_columns`], `option_row` |
@@ -21,12 +21,12 @@ pub mod fit;
 #[cfg(feature = "page")]
 pub mod html;
 pub mod json;
-pub mod model;
 pub mod observed;
 mod option_row;
 pub mod orders;
 pub mod palette;
 mod paper_table;
+pub mod parts;
 pub mod remedies;
 pub mod risk;
 pub mod ropes;
@@ -39,7 +39,7 @@ pub mod text;
 pub mod trace;
 pub mod words;
 
-use self::model::Report;
+use self::parts::Report;
 use self::words::{limits, plan_notes, warnings};
 use crate::study::Case;
 

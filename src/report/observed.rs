@@ -1,10 +1,10 @@
 //! What was seen of earlier shots, beside what was planned, possible and fitted.
 
-use super::model::{Align, Cell, Column, Field, Table};
+use super::parts::{Align, Cell, Column, Field, Table};
 use crate::choice::ObservedQuantity;
 use crate::plan::observations::{Observation, Watched};
 use crate::study::Case;
-use crate::study::fit::predicted::Prediction;
+use crate::study::fit::observation_bands::Prediction;
 use crate::study::fit::{Fit, Residual};
 use crate::units;
 

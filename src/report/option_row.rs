@@ -1,6 +1,6 @@
 //! A delay option and its result, as a row of a table.
 
-use super::model::Cell;
+use super::parts::Cell;
 use crate::plan::DelayOption;
 use crate::scene::Shot;
 use crate::study::as_planned::check::CheckedShot;

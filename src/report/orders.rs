@@ -1,7 +1,7 @@
 //! `orders` as a report: one row an order, from the worst to the best.
 
 use super::charts;
-use super::model::{Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
+use super::parts::{Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
 use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
     probability, sampled,

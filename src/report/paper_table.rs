@@ -1,6 +1,6 @@
 //! The table of the source paper beside ours, as a part of the report of `accuracy`.
 
-use super::model::{Block, Cell, Column, Table};
+use super::parts::{Block, Cell, Column, Table};
 use crate::choice::Method;
 use crate::study::accuracy::paper_table::{PAPER, PaperRow};
 use crate::units::Unit;

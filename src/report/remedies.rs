@@ -1,6 +1,6 @@
 //! What would make an option pass, as sentences: one a change.
 
-use super::model::Block;
+use super::parts::Block;
 use crate::plan::edit::change::Change;
 use crate::plan::{Launch, Layout, Timing};
 use crate::study::Case;

@@ -2,8 +2,8 @@
 
 use super::charts;
 use super::check::complete_rows;
-use super::model::{Block, Cell, Column, Conclusion, Field, Report, Table};
 use super::option_row::{OptionRow, option_rows};
+use super::parts::{Block, Cell, Column, Conclusion, Field, Report, Table};
 use super::report_head;
 use super::shared_columns::{FAILURES, VERDICT};
 use super::words::option_sentences::{compute_label, inputs};

@@ -1,6 +1,6 @@
 //! The rope catalogue as a report: one table a family.
 
-use super::model::{Block, Cell, Column, Report, Table};
+use super::parts::{Block, Cell, Column, Report, Table};
 use crate::ropes::{Catalogue, Rope, Termination};
 use crate::units::Unit;
 

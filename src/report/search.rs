@@ -1,11 +1,11 @@
 //! `search` as a report: one row a schedule, the best first, and the front of risk against duration.
 
 use super::check::{
-    FORCE_BAND, HEIGHT_BAND, LAUNCH_MARGIN, NOMINAL_FORCE, NOMINAL_HEIGHT, band, complete_rows, pass_caveat,
+    FORCE_BAND, HEIGHT_BAND, LAUNCH_MARGIN, PLANNED_FORCE, PLANNED_HEIGHT, band, complete_rows, pass_caveat,
     planned,
 };
-use super::model::{Audience, Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
 use super::option_row::{OptionRow, option_rows};
+use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
 use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
 use super::words::option_sentences::{compute_label, launch_margin, together};
 use super::words::warnings;
@@ -51,14 +51,14 @@ fn fields<'a>() -> [Field<FoundRow<'a>>; 19] {
         Field::new(HEIGHT.shown(Audience::Scripts), |row| {
             row.option.as_planned(|checked| height(checked.height.into()))
         }),
-        Field::new(NOMINAL_HEIGHT, |row| {
+        Field::new(PLANNED_HEIGHT, |row| {
             row.option.as_planned(|checked| planned(checked.height, Unit::Metre))
         }),
         Field::new(HEIGHT_BAND, |row| band(&row.option, Quantity::Height, Unit::Metre)),
         Field::new(FORCE.shown(Audience::Scripts), |row| {
             row.option.as_planned(|checked| force(checked.force.into()))
         }),
-        Field::new(NOMINAL_FORCE, |row| {
+        Field::new(PLANNED_FORCE, |row| {
             row.option.as_planned(|checked| planned(checked.force, Unit::Kilonewton))
         }),
         Field::new(FORCE_BAND, |row| band(&row.option, Quantity::Force, Unit::Kilonewton)),

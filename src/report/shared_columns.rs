@@ -1,6 +1,6 @@
 //! Columns that several reports share.
 
-use super::model::{Cell, Column};
+use super::parts::{Cell, Column};
 use crate::study::ValueWithError;
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::units::Unit;

@@ -1,7 +1,7 @@
 //! `size` as a report: the lightest combinations that hold.
 
 use super::charts;
-use super::model::{Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
+use super::parts::{Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
 use super::shared_columns::{FORCE, HEIGHT, force, height};
 use super::words::limits::limits_of_any_rope;
 use super::words::no_result::REMEDY_IN_PLAN_WORDS;

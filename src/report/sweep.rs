@@ -1,7 +1,7 @@
 //! `sweep` as a report: charts against the interval, the windows, the worst and the recommended interval.
 
 use super::charts;
-use super::model::{Audience, Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
+use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
 use super::shared_columns::{
     FAILURES, FORCE, HEIGHT, INTERVAL, NOMINAL_VERDICT, PROBABILITY, VERDICT, failures, force, height,
     probability, sampled,

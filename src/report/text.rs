@@ -3,8 +3,8 @@
 use unicode_width::UnicodeWidthStr;
 
 use super::ascii::to_ascii;
-use super::model::{Align, Audience, Block, Cell, Chart, Column, Report, Row, Scale, SeriesKind, Table};
 use super::palette::Role;
+use super::parts::{Align, Audience, Block, Cell, Chart, Column, Report, Row, Scale, SeriesKind, Table};
 use super::spark::sparkline;
 use crate::units;
 use crate::verdict::Verdict;
@@ -176,7 +176,7 @@ fn plot_lines(chart: &Chart) -> Vec<String> {
             grid[down][across] = series.name.chars().next().unwrap_or('*');
         }
     }
-    let ends = |axis: &super::model::Axis| {
+    let ends = |axis: &super::parts::Axis| {
         let [from, to] = axis.ends().map(|end| axis.mark(end));
         format!("{from} to {to} {}", axis.unit.symbol())
     };

@@ -1,6 +1,6 @@
 //! Quantities over time as CSV: the columns of `trace`, and the rows of a history.
 
-use super::model::{Block, Cell, Column, Report, Table};
+use super::parts::{Block, Cell, Column, Report, Table};
 use crate::outcome::History;
 use crate::scene::Scene;
 use crate::study::trace::TracedItems;

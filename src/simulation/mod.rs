@@ -15,25 +15,25 @@
 //! | which tires and cables need work in a step | `wake` |
 //! | when holes fire, when the run ends | `clock` |
 //! | peaks, broken cables, energy, history | `record` |
-//! | why there is no outcome | `failure` |
+//! | why there is no outcome | `run_error` |
 //! | numbers in registers; lists in one piece of memory | `pack`, `compressed_rows` |
 //!
 //! Words of the loop: a *part* is the piece of a scene that stands for the whole where its mirror *images* move alike. A *pack* is
-//! as many numbers as one register holds, each in a *lane*. Cables of equal length and stiffness form a *block*; a *slot* is the
-//! place of a cable in its block, or of a tire in the packs. An *element* is a place in the arrays over the cables of all blocks,
-//! which have empty places, too. A tire is *asleep* where it is not evaluated: it is at rest, and so are the tires tied to it.
+//! eight numbers, each in a *lane*: of eight tires, or of eight cables. A register of the processor holds a pack or a part of it.
+//! Cables of equal length and stiffness form a *block*; a *slot* is the place of a cable in its block, or of a tire in the packs.
+//! An *element* is a place in the arrays over the cables of all blocks, which have empty places, too. A tire is *asleep* where it is not evaluated: it is at rest, and so are the tires tied to it.
 //!
 //! Two methods solve one model: `verlet` is explicit with contact in closed form, `newmark` is the source paper's. This module
-//! does not know plans, options, limits or screens. A motion that is no longer finite is a [`Failure`], never a result.
+//! does not know plans, options, limits or screens. A motion that is no longer finite is a [`RunError`], never a result.
 
-mod cable;
+mod cable_blocks;
 mod clock;
 mod compressed_rows;
 mod contact;
-mod failure;
 mod newmark;
 mod pack;
 mod record;
+mod run_error;
 mod verlet;
 mod wake;
 
@@ -42,8 +42,8 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 
-pub use self::failure::{Failure, Iteration};
 use self::newmark::NewmarkModel;
+pub use self::run_error::{Iteration, RunError};
 use self::verlet::VerletModel;
 use crate::choice::Method;
 use crate::outcome::Outcome;
@@ -100,7 +100,7 @@ impl Model {
         shot: &Shot,
         settings: &RunSettings,
         watch: &mut Watcher<'_>,
-    ) -> Result<Outcome, Failure> {
+    ) -> Result<Outcome, RunError> {
         match settings.method {
             Method::Verlet => self.verlet.run(&self.scene, shot, settings, watch),
             Method::Newmark => self.newmark.run(&self.scene, shot, settings, watch),
@@ -115,7 +115,7 @@ impl Model {
         shot: &Shot,
         settings: &RunSettings,
         watch: &mut Watcher<'_>,
-    ) -> Result<Outcome, Failure> {
+    ) -> Result<Outcome, RunError> {
         match settings.method {
             Method::Verlet => self.verlet.run_variant(&self.scene, variant, shot, settings, watch),
             Method::Newmark => self.newmark.run(variant, shot, settings, watch),

@@ -8,7 +8,7 @@
 
 use fixedbitset::FixedBitSet;
 
-use super::cable::{Block, Blocks};
+use super::cable_blocks::{Block, Blocks};
 use super::compressed_rows::CompressedRows;
 use super::pack::LANES;
 use crate::scene::Cable;

@@ -169,7 +169,7 @@ fn shot_to_sample<'c>(
 ) -> ShotToSample<'c> {
     let fails = as_planned.verdict == Verdict::Fail;
     let sampling = if fails { sampling.least_only() } else { *sampling };
-    ShotToSample::new(case, &case.shots[option], compute, sampling).as_planned(*as_planned)
+    ShotToSample::new(case, &case.shots[option], compute, sampling).with_planned(*as_planned)
 }
 
 /// Finds the launch margin of every option of every case that has a result.

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::Case;
 use crate::outcome::Outcome;
-use crate::simulation::{Failure, Motion, RunSettings};
+use crate::simulation::{Motion, RunError, RunSettings};
 
 /// Tires and cables to record.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,7 +33,7 @@ pub fn trace(
     chosen: &TracedItems,
     every: f64,
     emit: &mut dyn FnMut(&[f64]) -> ControlFlow<()>,
-) -> Result<Outcome, Failure> {
+) -> Result<Outcome, RunError> {
     let mut row = Vec::with_capacity(1 + 5 * chosen.tires.len() + chosen.cables.len());
     let mut next = 0.0;
     case.model.run(&case.shots[option], settings, &mut |motion| {

@@ -38,11 +38,11 @@ pub fn write_page(app: &App, path: &Path) -> Result<(), String> {
 }
 
 /// The page for the blast file, headed by the option to be fired.
-fn page(app: &App, fired: Option<usize>) -> Result<String, String> {
+fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
     Ok(html::page(&Page {
         case: &app.case,
         results: &results(app)?,
-        fired,
+        to_be_fired,
         sampling: Some(&Sampling::OF_VERDICT),
         sweep: swept(app),
         fitted_to_observed: false,

@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::jobs::{StudyKind, StudyResult};
-use crate::report::model::{Block, Report};
+use crate::report::parts::{Block, Report};
 use crate::report::{self, charts};
 use crate::study::fit::FitResult;
 use crate::study::flight::Flight;

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use proptest::prelude::*;
 use shelter::choice::Method;
 use shelter::plan::{Layout, Plan};
-use shelter::simulation::{Failure, RunSettings};
+use shelter::simulation::{RunError, RunSettings};
 use shelter::study::Case;
 use shelter::tui::config::{self, Config};
 
@@ -87,7 +87,7 @@ proptest! {
                 let finite = (0..case.scene().mass.len()).all(|tire| motion.displacement(tire).norm().is_finite());
                 if left > 0 && finite { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             });
-            let stopped_early = matches!(outcome, Err(Failure::Stopped { .. })) && left > 0;
+            let stopped_early = matches!(outcome, Err(RunError::Stopped { .. })) && left > 0;
             prop_assert!(!stopped_early, "{:?}: a number is not finite", method);
         }
     }

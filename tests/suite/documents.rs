@@ -5,11 +5,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
-const DOCUMENTS: [&str; 7] = [
+const DOCUMENTS: [&str; 8] = [
     "README.md",
     "CONTRIBUTING.md",
     "plans/README.md",
     "plans/COMMANDS.md",
+    "plans/TERMINAL.md",
     "plans/STUDIES.md",
     "plans/NUMBERS.md",
     "benches/RESULTS.md",

@@ -6,7 +6,7 @@ use nalgebra::{Vector2, Vector3};
 use shelter::choice::{Accuracy, Method};
 use shelter::plan::Plan;
 use shelter::scene::{Firing, Scene, Shot};
-use shelter::simulation::Failure;
+use shelter::simulation::RunError;
 use shelter::study::as_planned::check::check_as_planned;
 use shelter::study::effects::{Effect, SAMPLES, effects};
 use shelter::study::samples::draw_until_sure::{ShotToSample, draw_shard};
@@ -140,7 +140,7 @@ fn a_bounce_rubs_with_its_whole_impulse() {
 
 #[test]
 fn newmark_refuses_what_it_lacks_by_name() {
-    let refused = |effect| Err(Failure::Effect { effect, method: Method::Newmark });
+    let refused = |effect| Err(RunError::Effect { effect, method: Method::Newmark });
     let mut scene = tires(&[(0.0, 0.0)], 280.0);
     let pushed = try_run(&scene, &pushes(&[(0.0, 0.02)]), settings(Method::Newmark, 1e-3, None));
     assert_eq!(pushed, refused("push"));

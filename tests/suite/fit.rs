@@ -7,8 +7,8 @@ use shelter::Sampling;
 use shelter::choice::{ObservedQuantity, Unknown};
 use shelter::plan::observations::{Observations, Watched, template};
 use shelter::plan::{Plan, PlanSource};
+use shelter::study::fit::observation_bands::{next_observation, predict_observations};
 use shelter::study::fit::observed_shots::ObservedShots;
-use shelter::study::fit::predicted::{next_observation, predict_observations};
 use shelter::study::fit::{Answer, Fit, FitRequest, FitResult, NotDetermined, fit, observable_names};
 use shelter::study::{Case, ComputeSettings, Progress};
 

@@ -9,7 +9,7 @@ use ratatui::style::{Color, Style};
 use shelter::jobs::{News, StudyKind};
 use shelter::plan::Timing;
 use shelter::report::words::warnings;
-use shelter::simulation::Failure;
+use shelter::simulation::RunError;
 use shelter::study::NoResult;
 use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::judgement::Evidence;
@@ -37,7 +37,7 @@ fn computing_failed_and_enlarged() {
     let mut app = app();
     app.options[0] = done(judgement(&app.case, 1), false);
     app.options[1] = OptionState::Running { runs: 2, done: 0.45 };
-    app.options[2] = OptionState::Failed(NoResult::Failed(Failure::Diverged { time: 0.3 }));
+    app.options[2] = OptionState::Failed(NoResult::Failed(RunError::Diverged { time: 0.3 }));
     app.selected = 1;
     insta::assert_snapshot!("computing", text(&draw(&app, 100, 30)));
     app.selected = 2;

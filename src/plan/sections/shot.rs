@@ -16,7 +16,7 @@ pub fn read_blast_rows(
     simulation: &SimulationSpec,
     mistakes: &Mistakes,
 ) -> Vec<BlastRow> {
-    let ground = layout.map(Ground::of);
+    let shelter = layout.map(ShelterOverHoles::of);
     let mut rows: Vec<BlastRow> = Vec::new();
     for section in root.sections(&plan::BLAST_ROW) {
         let name = section.text(&blast_row::NAME);
@@ -24,7 +24,7 @@ pub fn read_blast_rows(
             let message = format!("two blast rows are named \"{}\"", name.value);
             mistakes.add(name.span.clone(), message, "give each its own name");
         }
-        let targets = read_targets(&section, ground.as_ref(), simulation, mistakes);
+        let targets = read_targets(&section, shelter.as_ref(), simulation, mistakes);
         rows.push(BlastRow { name: name.value.to_owned(), targets });
         section.finish();
     }
@@ -48,7 +48,7 @@ pub fn check_charges(plan: &Plan, root: &SectionReader<'_>) {
 }
 
 /// The shelter as the holes under it see it.
-struct Ground<'l> {
+struct ShelterOverHoles<'l> {
     layout: &'l Layout,
     /// Tires listed one by one.
     listed: NearestPoint,
@@ -56,7 +56,7 @@ struct Ground<'l> {
     widest_tie: f64,
 }
 
-impl<'l> Ground<'l> {
+impl<'l> ShelterOverHoles<'l> {
     fn of(layout: &'l Layout) -> Self {
         let listed = match layout {
             Layout::List { tires, .. } => tires.iter().map(|tire| [tire.x_m, tire.y_m]).collect(),
@@ -79,7 +79,7 @@ impl<'l> Ground<'l> {
 
 fn read_targets(
     section: &SectionReader<'_>,
-    ground: Option<&Ground<'_>>,
+    shelter: Option<&ShelterOverHoles<'_>>,
     simulation: &SimulationSpec,
     mistakes: &Mistakes,
 ) -> LaunchTargets {
@@ -108,11 +108,11 @@ fn read_targets(
                 section.wrong(key, message, "write it in each hole of `holes`, behind its x_m and y_m");
             }
         }
-        return LaunchTargets::Holes(read_holes(section, ground, simulation));
+        return LaunchTargets::Holes(read_holes(section, shelter, simulation));
     }
     let launch = read_launch(section, simulation);
     if let Some(tires) = section.whole_numbers(&blast_row::UNDER_TIRES) {
-        let layout = ground.map(|ground| ground.layout);
+        let layout = shelter.map(|shelter| shelter.layout);
         let count = match layout {
             Some(Layout::List { tires, .. }) => tires.len(),
             Some(_) => {
@@ -145,27 +145,31 @@ fn read_targets(
         return LaunchTargets::UnderTires { tires, launch };
     }
     let row = section.number_if(&blast_row::UNDER_ROW).unwrap_or(1.0);
-    check_row(section, ground.map(|ground| ground.layout), row);
+    check_row(section, shelter.map(|shelter| shelter.layout), row);
     LaunchTargets::UnderRow { row, launch }
 }
 
 fn read_holes(
     section: &SectionReader<'_>,
-    ground: Option<&Ground<'_>>,
+    shelter: Option<&ShelterOverHoles<'_>>,
     simulation: &SimulationSpec,
 ) -> Vec<Hole> {
     let holes = section.sections(&blast_row::HOLES);
     if holes.is_empty() {
         section.wrong(&blast_row::HOLES, "a blast row without a hole", "list its holes, or remove the row");
     }
-    holes.into_iter().map(|hole| read_hole(hole, ground, simulation)).collect()
+    holes.into_iter().map(|hole| read_hole(hole, shelter, simulation)).collect()
 }
 
-fn read_hole(section: SectionReader<'_>, ground: Option<&Ground<'_>>, simulation: &SimulationSpec) -> Hole {
+fn read_hole(
+    section: SectionReader<'_>,
+    shelter: Option<&ShelterOverHoles<'_>>,
+    simulation: &SimulationSpec,
+) -> Hole {
     let x_m = section.number(&hole::X_M);
     let y_m = section.number(&hole::Y_M);
     let launch = read_launch(&section, simulation);
-    let distances = ground.map(|ground| (ground.distance_outside(x_m, y_m), ground.widest_tie));
+    let distances = shelter.map(|shelter| (shelter.distance_outside(x_m, y_m), shelter.widest_tie));
     if let Some((away, most)) = distances.filter(|(away, most)| away > most) {
         let message =
             format!("this hole lies {away:.1} m beside the shelter, whose tires lie {most:.1} m apart");

@@ -13,8 +13,8 @@ use crate::study::samples::sample_count::Sampling;
 use crate::study::{Case, ComputeSettings};
 use crate::units::{self, Unit};
 
-/// The plan as a table; the blast rows with the times at which the option to be `fired` fires them.
-pub fn shelter(case: &Case, fired: Option<usize>) -> Markup {
+/// The plan as a table; the blast rows with the times at which the option `to_be_fired` fires them.
+pub fn shelter(case: &Case, to_be_fired: Option<usize>) -> Markup {
     let (plan, scene) = (&case.plan, case.scene());
     let gone = match plan.cable.on_overload {
         OnOverload::Break => "; past its breaking force a cable is gone",
@@ -28,7 +28,7 @@ pub fn shelter(case: &Case, fired: Option<usize>) -> Markup {
             tr { th { "Ground" } td { (ground(&plan.ground)) } }
             tr { th { "Limits" } td { (limits(case)) } }
             @for (n, row) in plan.blast_rows.iter().enumerate() {
-                tr { th { "Blast row " (row.name) } td { (launched(&row.targets)) (fires_at(case, fired, n)) } }
+                tr { th { "Blast row " (row.name) } td { (launched(&row.targets)) (fires_at(case, to_be_fired, n)) } }
             }
         }
     }
@@ -74,8 +74,8 @@ fn whole(stiffness: f64) -> String {
 }
 
 /// When the option to be fired fires the holes of a row: `; fires at 42 ms`.
-fn fires_at(case: &Case, fired: Option<usize>, row: usize) -> String {
-    let Some(shot) = fired.map(|option| &case.shots[option]) else { return String::new() };
+fn fires_at(case: &Case, to_be_fired: Option<usize>, row: usize) -> String {
+    let Some(shot) = to_be_fired.map(|option| &case.shots[option]) else { return String::new() };
     let holes = || shot.firings.iter().filter(|firing| firing.row == row).map(|firing| firing.time);
     let (first, last) = (holes().fold(f64::INFINITY, f64::min), holes().fold(0.0, f64::max));
     match holes().count() {

@@ -1,8 +1,8 @@
 //! One page for the blast file: the option to be fired, what was planned, what came out, what the model leaves out, and room to
 //! sign. Nothing in it is fetched from elsewhere; it prints on A4 and Letter and reads on a phone.
 
+mod chosen_option;
 mod facts;
-mod fired;
 mod map_frame;
 mod record;
 mod style;
@@ -18,8 +18,8 @@ pub use self::top_view::svg as top_view;
 use chrono::{DateTime, Local};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::model::{Block, Report};
 use super::observed::{self, ObservedRow, observed_table};
+use super::parts::{Block, Report};
 use super::words::option_sentences;
 use super::words::warnings;
 use super::{charts, check, sweep};
@@ -38,7 +38,7 @@ pub struct Page<'a> {
     /// Results of its options (`n_options`).
     pub results: &'a OptionResults,
     /// Index of the delay option to be fired; `None` where none is chosen.
-    pub fired: Option<usize>,
+    pub to_be_fired: Option<usize>,
     /// The samples behind the verdicts; `None` where only the shots as planned were judged.
     pub sampling: Option<&'a Sampling>,
     /// A sweep of the interval between rows, whose charts the page shows.
@@ -62,16 +62,19 @@ pub fn is_page(text: &str) -> bool {
 
 /// The page as a text.
 pub fn page(page: &Page<'_>) -> String {
-    let Page { case, results, fired, sampling, .. } = *page;
+    let Page { case, results, to_be_fired, sampling, .. } = *page;
     let hash = file::checksum(&case.source.text);
     let report = check::report(case, results, None, MustPass::Every, page.partial);
-    let fired_judged = fired.and_then(|option| Some((option, results[option].as_ref().ok()?)));
+    let fired_judged = to_be_fired.and_then(|option| Some((option, results[option].as_ref().ok()?)));
     let checked = fired_judged.map(|(_, judged)| &judged.as_planned);
     let of_fired = fired_judged.map(|(option, judged)| warnings::of_option(case, option, judged));
     let contradiction = observed::contradiction(page.observed);
     let at_head = [warnings::of_plan(case), of_fired.unwrap_or_default(), contradiction].concat();
-    let others =
-        if fired.is_some() { warnings::of_options(case, results, fired) } else { report.warnings.clone() };
+    let others = if to_be_fired.is_some() {
+        warnings::of_options(case, results, to_be_fired)
+    } else {
+        report.warnings.clone()
+    };
     let text = html! {
         (DOCTYPE)
         html lang="en" {
@@ -92,20 +95,20 @@ pub fn page(page: &Page<'_>) -> String {
                     p { strong { "Not saved: " } "the plan that was computed is not the one in its file. Its text stands at the end of this page." }
                 }
                 @if page.partial { p { strong { "Ended early, before all was computed." } } }
-                (fired::head(page, &at_head))
-                @if fired.is_none() { (conclusion(&report)) }
+                (chosen_option::head(page, &at_head))
+                @if to_be_fired.is_none() { (conclusion(&report)) }
                 section {
                     h2 { "The shelter from above" }
-                    div.view { (PreEscaped(top_view(case, fired, checked))) }
+                    div.view { (PreEscaped(top_view(case, to_be_fired, checked))) }
                 }
                 section {
                     h2 { "Shelter" }
-                    (facts::shelter(case, fired))
+                    (facts::shelter(case, to_be_fired))
                 }
                 section {
                     h2 { "Delay options" }
                     // Without the verdict on them: readers would take it for that of the option to be fired.
-                    @if let (Some(_), Some(conclusion)) = (fired, &report.conclusion) { p { "All options: " (conclusion.text) } }
+                    @if let (Some(_), Some(conclusion)) = (to_be_fired, &report.conclusion) { p { "All options: " (conclusion.text) } }
                     @for fact in &report.facts { p.quiet { (fact) } }
                     @if let Some(Sampling { most, seed, .. }) = sampling {
                         p.quiet { "At most " (most) " possible shots of each option, drawn from seed " (seed) }
@@ -114,7 +117,7 @@ pub fn page(page: &Page<'_>) -> String {
                         p { "The plan's own numbers only, nothing varied: other shots that may come of this plan can fail." }
                     }
                     @for block in &report.blocks {
-                        @if let Block::Table(options) = block { div.scroll.options { (table::table(options, fired)) } }
+                        @if let Block::Table(options) = block { div.scroll.options { (table::table(options, to_be_fired)) } }
                     }
                     @for warning in others { p { strong { "Warning: " } (warning) } }
                 }
@@ -160,10 +163,10 @@ const SHORT_HASH: usize = 12;
 
 /// What every printed page says at its foot, so that no page is taken for one of another plan.
 fn foot(page: &Page<'_>, hash: &str) -> String {
-    let option = page.fired.map(|option| {
+    let option = page.to_be_fired.map(|option| {
         let verdict = page.results[option].as_ref().map_or(Verdict::Undecided, Judgement::verdict);
         let name = &page.case.plan.delays[option].name;
-        format!(" · “{name}”: {}{}", verdict.for_people(), fired::only_planned(page))
+        format!(" · “{name}”: {}{}", verdict.for_people(), chosen_option::only_planned(page))
     });
     let unsaved = if page.unsaved { " (not saved)" } else { "" };
     format!(
@@ -187,7 +190,7 @@ fn conclusion(report: &Report) -> Markup {
 /// The options, that to be fired first.
 fn in_turn(page: &Page<'_>) -> Vec<usize> {
     let mut options: Vec<usize> = (0..page.results.len()).collect();
-    options.sort_by_key(|option| Some(*option) != page.fired);
+    options.sort_by_key(|option| Some(*option) != page.to_be_fired);
     options
 }
 
@@ -197,7 +200,7 @@ fn over_time(page: &Page<'_>, option: usize) -> Markup {
     let Ok(judged) = &page.results[option] else { return Markup::default() };
     html! {
         section.whole {
-            h2 { (case.plan.delays[option].name) " " (word(judged.verdict())) (fired::only_planned(page)) @if page.fired == Some(option) { " · to be fired" } }
+            h2 { (case.plan.delays[option].name) " " (word(judged.verdict())) (chosen_option::only_planned(page)) @if page.to_be_fired == Some(option) { " · to be fired" } }
             p.quiet { (option_sentences::computation(case.scene(), &judged.as_planned)) }
             div.charts {
                 @for chart in charts::history(case, &judged.as_planned.history, shot) {

@@ -5,7 +5,7 @@
 use maud::{Markup, html};
 
 use super::Page;
-use super::fired::only_planned;
+use super::chosen_option::only_planned;
 use super::table::word;
 use crate::report::observed::contradiction;
 use crate::study::judgement::Judgement;
@@ -55,7 +55,7 @@ pub fn record(page: &Page<'_>) -> Markup {
 
 /// What is signed: the option to be fired with its verdict.
 fn signed(page: &Page<'_>) -> Markup {
-    let Some(option) = page.fired else {
+    let Some(option) = page.to_be_fired else {
         return html! { "Option to be fired: ________________" };
     };
     let verdict = page.results[option].as_ref().map_or(Verdict::Undecided, Judgement::verdict);

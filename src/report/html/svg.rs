@@ -3,8 +3,8 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use crate::report::model::{Axis, Chart, Scale, SeriesKind};
 use crate::report::palette::Role;
+use crate::report::parts::{Axis, Chart, Scale, SeriesKind};
 use crate::units;
 
 /// Width and height [px].

@@ -2,14 +2,14 @@
 
 use maud::{Markup, html};
 
-use crate::report::model::{Align, Audience, Cell, Column, Table};
+use crate::report::parts::{Align, Audience, Cell, Column, Table};
 use crate::verdict::Verdict;
 
 /// Bars of a series.
 const BARS: usize = 16;
 
-/// The columns of a table that readers of the page see; the row of the option to be `fired` stands out.
-pub fn table(table: &Table, fired: Option<usize>) -> Markup {
+/// The columns of a table that readers of the page see; the row of the option `to_be_fired` stands out.
+pub fn table(table: &Table, to_be_fired: Option<usize>) -> Markup {
     let seen = table.columns_for(|shown| matches!(shown, Audience::People | Audience::Page));
     let number = |n: usize| (table.columns[n].align == Align::Right).then_some("n");
     html! {
@@ -17,7 +17,7 @@ pub fn table(table: &Table, fired: Option<usize>) -> Markup {
             thead { tr { @for &n in &seen { th class=[number(n)] { (heading(&table.columns[n])) } } } }
             tbody {
                 @for (option, row) in table.rows.iter().enumerate() {
-                    tr.fired[fired == Some(option)] {
+                    tr.fired[to_be_fired == Some(option)] {
                         @let known = row.count_known(&seen);
                         @for &n in &seen[..known] { td class=[number(n)] { (cell(&row.cells[n])) } }
                         @if let Some(missing) = &row.missing { td colspan=(seen.len() - known) { (missing) } }

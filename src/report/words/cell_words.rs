@@ -1,6 +1,6 @@
 //! Words of cells, headings and axes, the same in text, page and terminal.
 
-use crate::report::model::{Axis, Block, Cell, Column, Offer, Report, Row, Scale};
+use crate::report::parts::{Axis, Block, Cell, Column, Offer, Report, Row, Scale};
 use crate::report::spark::sparkline;
 use crate::units;
 

@@ -1,6 +1,6 @@
 //! Why an option or a study has no result, in words, with the remedy in words of the plan.
 
-use crate::simulation::Failure;
+use crate::simulation::RunError;
 use crate::study::NoResult;
 
 /// Remedy for a run that failed at its step.
@@ -18,7 +18,7 @@ pub fn message(no_result: &NoResult) -> String {
 fn remedy(no_result: &NoResult) -> Option<&'static str> {
     match no_result {
         NoResult::Failed(failure) if failure.needs_finer_step() => Some(REMEDY_IN_PLAN_WORDS),
-        NoResult::Failed(Failure::Effect { .. }) => Some("choose method \"verlet\", or leave it out"),
+        NoResult::Failed(RunError::Effect { .. }) => Some("choose method \"verlet\", or leave it out"),
         _ => None,
     }
 }
@@ -30,13 +30,13 @@ mod tests {
 
     #[test]
     fn only_a_run_that_failed_by_itself_has_a_remedy() {
-        let diverged = message(&Failure::Diverged { time: 0.3 }.into());
+        let diverged = message(&RunError::Diverged { time: 0.3 }.into());
         assert_eq!(
             diverged,
             "the motion is no longer finite at 0.3 s: choose a finer accuracy or a smaller step"
         );
-        let lacking = message(&Failure::Effect { effect: "push", method: Method::Newmark }.into());
+        let lacking = message(&RunError::Effect { effect: "push", method: Method::Newmark }.into());
         assert_eq!(lacking, "newmark has no push: choose method \"verlet\", or leave it out");
-        assert_eq!(message(&Failure::Stopped { time: 0.3 }.into()), "stopped at 0.3 s before the end");
+        assert_eq!(message(&RunError::Stopped { time: 0.3 }.into()), "stopped at 0.3 s before the end");
     }
 }

@@ -2,7 +2,7 @@
 
 use super::option_sentences::grams;
 use crate::choice::Accuracy;
-use crate::report::model::Detail;
+use crate::report::parts::Detail;
 use crate::study::judgement::Judgement;
 use crate::study::reasons::Reason;
 use crate::study::reasons::risk::RiskReason;

@@ -3,7 +3,7 @@
 use nalgebra::{Vector2, Vector3};
 
 use super::Stepper;
-use super::region::Ground;
+use super::region::TireContact;
 use crate::outcome::Peak;
 use crate::simulation::contact::{apex, stop_at_ground};
 
@@ -46,23 +46,23 @@ impl Stepper<'_> {
     }
 
     /// Contact of a tire that the solution implies.
-    fn implied_ground(&self, tire: usize, h: f64) -> Ground {
+    fn implied_ground(&self, tire: usize, h: f64) -> TireContact {
         let mass = self.scene.mass[tire];
         let free = self.f[tire] / mass - Vector3::z() * self.scene.gravity;
         let assumed = self.region.ground[tire];
         let lands = self.landed_within_step(tire);
-        if assumed == Ground::InAir {
-            return if self.end[tire].z < 0.0 { Ground::Slip } else { Ground::InAir };
+        if assumed == TireContact::InAir {
+            return if self.end[tire].z < 0.0 { TireContact::Slip } else { TireContact::InAir };
         }
         // Where the solution holds a tire on the ground, the residual is less the force of the ground, which cannot pull.
         let rises = if lands { self.residual[tire].z > 0.0 } else { free.z > 0.0 };
         if rises {
-            return Ground::InAir;
+            return TireContact::InAir;
         }
         let within_cone = self.sliding(tire, h).norm() <= self.friction * (-free.z).max(0.0) * (0.5 * h);
         match assumed {
-            Ground::Stick if !within_cone => Ground::Slip,
-            Ground::Slip if !lands && within_cone => Ground::Stick,
+            TireContact::Stick if !within_cone => TireContact::Slip,
+            TireContact::Slip if !lands && within_cone => TireContact::Stick,
             other => other,
         }
     }
@@ -74,12 +74,12 @@ impl Stepper<'_> {
             let mass = self.scene.mass[tire];
             let mut velocity = self.du[tire] * (2.0 / h) - self.v[tire];
             let ground = self.region.ground[tire];
-            if ground == Ground::Stick {
+            if ground == TireContact::Stick {
                 let force = (self.f[tire] + self.f_start[tire]).xy() * (0.5 * h);
                 let stopped = self.v[tire].xy() * mass + force;
                 self.record.ledger.dissipated += 0.5 * stopped.dot(&self.v[tire].xy());
                 velocity = Vector3::zeros();
-            } else if ground == Ground::Slip {
+            } else if ground == TireContact::Slip {
                 velocity.z = 0.0;
                 let free = self.f[tire] / mass - Vector3::z() * self.scene.gravity;
                 let before = self.a[tire].xy() - self.f_start[tire].xy() / mass;
@@ -110,7 +110,7 @@ impl Stepper<'_> {
         let lost = 0.5 * self.scene.mass[tire] * (before.norm_squared() - after.norm_squared());
         self.record.ledger.dissipated += lost;
         if after.xy() == Vector2::zeros() {
-            self.region.ground[tire] = Ground::Stick;
+            self.region.ground[tire] = TireContact::Stick;
         }
         after
     }

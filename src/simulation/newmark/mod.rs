@@ -28,12 +28,12 @@ use std::sync::OnceLock;
 
 use nalgebra::{Vector2, Vector3};
 
-use self::region::{Ground, Region};
+use self::region::{Region, TireContact};
 use self::system::System;
 use super::clock::Clock;
 use super::record::Record;
 use super::wake::{Ties, Wake};
-use super::{Failure, Motion, RunSettings, Watcher};
+use super::{Motion, RunError, RunSettings, Watcher};
 use crate::choice::Method;
 use crate::outcome::Outcome;
 use crate::scene::{Scene, Shot};
@@ -52,18 +52,18 @@ impl NewmarkModel {
         shot: &Shot,
         settings: &RunSettings,
         watch: &mut Watcher<'_>,
-    ) -> Result<Outcome, Failure> {
+    ) -> Result<Outcome, RunError> {
         if !(settings.step > 0.0 && settings.step.is_finite()) {
-            return Err(Failure::Step { step: settings.step, limit: f64::MAX, method: Method::Newmark });
+            return Err(RunError::Step { step: settings.step, limit: f64::MAX, method: Method::Newmark });
         }
         if scene.restitution > 0.0 {
-            return Err(Failure::Effect { effect: "restitution", method: Method::Newmark });
+            return Err(RunError::Effect { effect: "restitution", method: Method::Newmark });
         }
         if scene.damping > 0.0 {
-            return Err(Failure::Effect { effect: "damping", method: Method::Newmark });
+            return Err(RunError::Effect { effect: "damping", method: Method::Newmark });
         }
         if shot.firings.iter().any(|firing| firing.push_time > 0.0) {
-            return Err(Failure::Effect { effect: "push", method: Method::Newmark });
+            return Err(RunError::Effect { effect: "push", method: Method::Newmark });
         }
         let ties = self.ties.get_or_init(|| Ties::of_cables(&scene.cables, scene.mass.len()));
         Stepper::new(scene, ties, shot, settings).run(watch)
@@ -128,7 +128,7 @@ impl<'a> Stepper<'a> {
         if slides {
             wake.set_all_moving();
         }
-        let ground = vec![if slides { Ground::Slip } else { Ground::Stick }; scene.mass.len()];
+        let ground = vec![if slides { TireContact::Slip } else { TireContact::Stick }; scene.mass.len()];
         let region = Region { taut: vec![false; scene.cables.len()], ground };
         Self {
             scene: Cow::Borrowed(scene),
@@ -159,7 +159,7 @@ impl<'a> Stepper<'a> {
     }
 
     /// Makes all steps; returns the outcome.
-    fn run(mut self, watch: &mut Watcher<'_>) -> Result<Outcome, Failure> {
+    fn run(mut self, watch: &mut Watcher<'_>) -> Result<Outcome, RunError> {
         loop {
             if let Some(reason) = self.clock.end_reason(self.moving, &self.shot.firings) {
                 return Ok(self.finish(reason));
@@ -167,7 +167,7 @@ impl<'a> Stepper<'a> {
             self.refresh();
             self.observe();
             if watch(&Snapshot { stepper: &self }).is_break() {
-                return Err(Failure::Stopped { time: self.clock.now() });
+                return Err(RunError::Stopped { time: self.clock.now() });
             }
             self.step_through_firings()?;
             self.find_resting();
@@ -176,7 +176,7 @@ impl<'a> Stepper<'a> {
     }
 
     /// Integrates one step, cut at the times at which holes fire.
-    fn step_through_firings(&mut self) -> Result<(), Failure> {
+    fn step_through_firings(&mut self) -> Result<(), RunError> {
         for &tire in self.wake.awake_tires() {
             self.earlier[tire] = self.u[tire];
         }
@@ -195,7 +195,7 @@ impl<'a> Stepper<'a> {
             *velocity += firing.launch;
             self.record.ledger.put_in += self.scene.mass[firing.tire] * energy;
             if firing.launch != Vector3::zeros() {
-                self.region.ground[firing.tire] = Ground::InAir;
+                self.region.ground[firing.tire] = TireContact::InAir;
             }
             self.wake.set_moving(firing.tire, true);
             self.clock.fired += 1;
@@ -230,7 +230,7 @@ impl<'a> Stepper<'a> {
             let tire = self.wake.awake_tires()[n];
             let moved = self.v[tire] != Vector3::zeros() || self.u[tire] != self.earlier[tire];
             self.moving |= moved || self.u[tire].z > 0.0;
-            let rests = !moved && self.region.ground[tire] == Ground::Stick;
+            let rests = !moved && self.region.ground[tire] == TireContact::Stick;
             if rests {
                 self.a[tire] = Vector3::zeros();
             }
@@ -263,9 +263,9 @@ impl Motion for Snapshot<'_, '_> {
         let mass = scene.mass[tire];
         let limit = self.stepper.friction * (mass * scene.gravity - f[tire].z).max(0.0);
         match region.ground[tire] {
-            Ground::InAir => (0.0, 0.0),
-            Ground::Slip => (limit, limit),
-            Ground::Stick => (f[tire].xy().norm().min(limit), limit),
+            TireContact::InAir => (0.0, 0.0),
+            TireContact::Slip => (limit, limit),
+            TireContact::Stick => (f[tire].xy().norm().min(limit), limit),
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::simulation::wake::Wake;
 
 /// Contact of one tire.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ground {
+pub enum TireContact {
     /// In the air.
     InAir,
     /// On the ground, at rest or coming to rest within the step.
@@ -22,7 +22,7 @@ pub struct Region {
     /// Whether each cable is taut, "switched on" in the paper (`n_cables`).
     pub taut: Vec<bool>,
     /// Contact of each tire (`n_tires`).
-    pub ground: Vec<Ground>,
+    pub ground: Vec<TireContact>,
 }
 
 /// Number of repetitions that adopt a whole region; later repetitions adopt one change each.

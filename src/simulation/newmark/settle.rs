@@ -3,10 +3,10 @@
 use nalgebra::Vector3;
 
 use super::Stepper;
-use super::region::{Ground, MOST_REPEATS};
+use super::region::{MOST_REPEATS, TireContact};
 use crate::scene::{Cable, Scene};
 use crate::simulation::wake::Wake;
-use crate::simulation::{Failure, Iteration};
+use crate::simulation::{Iteration, RunError};
 
 /// Greatest number of Newton iterations; after these the step is halved.
 const MOST_ITERATIONS: usize = 20;
@@ -19,10 +19,10 @@ const FINE_TOLERANCE: f64 = 1e-10;
 
 impl Stepper<'_> {
     /// Integrates one cut of a step over `h` [s]; halves the cut while its contact region does not settle.
-    pub(super) fn advance(&mut self, h: f64, halved: usize) -> Result<(), Failure> {
+    pub(super) fn advance(&mut self, h: f64, halved: usize) -> Result<(), RunError> {
         self.region_at_start.copy_from(&self.region);
         match self.settle(h) {
-            Err(Failure::Unsettled { .. }) if halved < MOST_HALVINGS => {
+            Err(RunError::Unsettled { .. }) if halved < MOST_HALVINGS => {
                 // What was assumed of the end of the whole cut says nothing of its middle.
                 self.region.copy_from(&self.region_at_start);
                 self.advance(0.5 * h, halved + 1)?;
@@ -33,7 +33,7 @@ impl Stepper<'_> {
     }
 
     /// Integrates over `h` [s]: repeats the solution until the contact region no longer changes.
-    fn settle(&mut self, h: f64) -> Result<(), Failure> {
+    fn settle(&mut self, h: f64) -> Result<(), RunError> {
         self.refresh();
         self.set_start_forces();
         self.set_accelerations();
@@ -52,7 +52,7 @@ impl Stepper<'_> {
                 tolerance = FINE_TOLERANCE;
             }
         }
-        Err(Failure::Unsettled { what: Iteration::ContactRegion, time: self.clock.now() })
+        Err(RunError::Unsettled { what: Iteration::ContactRegion, time: self.clock.now() })
     }
 
     /// Sets the forces at the start of the cut.
@@ -70,7 +70,7 @@ impl Stepper<'_> {
     fn wake_neighbours(&mut self) {
         for n in 0..self.wake.awake_tires().len() {
             let tire = self.wake.awake_tires()[n];
-            if self.region.ground[tire] != Ground::Stick {
+            if self.region.ground[tire] != TireContact::Stick {
                 self.wake.set_moving(tire, true);
             }
         }
@@ -84,9 +84,9 @@ impl Stepper<'_> {
         for &tire in self.wake.awake_tires() {
             let free = self.f_start[tire] / self.scene.mass[tire] - Vector3::z() * self.scene.gravity;
             self.a[tire] = match self.region.ground[tire] {
-                Ground::InAir => free,
-                Ground::Stick => Vector3::zeros(),
-                Ground::Slip => (free.xy() + self.friction(free, self.v[tire].xy())).push(0.0),
+                TireContact::InAir => free,
+                TireContact::Stick => Vector3::zeros(),
+                TireContact::Slip => (free.xy() + self.friction(free, self.v[tire].xy())).push(0.0),
             };
         }
     }
@@ -99,12 +99,12 @@ impl Stepper<'_> {
     }
 
     /// Solves equilibrium by Newton–Raphson for the assumed contact region, from the last displacement on.
-    fn solve(&mut self, h: f64, tolerance: f64) -> Result<(), Failure> {
+    fn solve(&mut self, h: f64, tolerance: f64) -> Result<(), RunError> {
         for &tire in self.wake.awake_tires() {
             match self.region.ground[tire] {
-                Ground::InAir => {}
-                Ground::Slip => self.du[tire].z = -self.u[tire].z,
-                Ground::Stick => self.du[tire] = (self.v[tire].xy() * (0.5 * h)).push(-self.u[tire].z),
+                TireContact::InAir => {}
+                TireContact::Slip => self.du[tire].z = -self.u[tire].z,
+                TireContact::Stick => self.du[tire] = (self.v[tire].xy() * (0.5 * h)).push(-self.u[tire].z),
             }
         }
         for _ in 0..MOST_ITERATIONS {
@@ -122,14 +122,14 @@ impl Stepper<'_> {
                 displacement = displacement.max(self.du[tire].amax());
             }
             if !(correction + displacement).is_finite() {
-                return Err(Failure::Diverged { time: self.clock.now() });
+                return Err(RunError::Diverged { time: self.clock.now() });
             }
             if correction <= tolerance * displacement {
                 self.set_residual(h);
                 return Ok(());
             }
         }
-        Err(Failure::Unsettled { what: Iteration::Newton, time: self.clock.now() })
+        Err(RunError::Unsettled { what: Iteration::Newton, time: self.clock.now() })
     }
 
     /// Sets the forces and the residual of equilibrium at the end of the cut.
@@ -144,7 +144,7 @@ impl Stepper<'_> {
         for &tire in self.wake.awake_tires() {
             let mass = self.scene.mass[tire];
             let mut force = self.f[tire] / mass - Vector3::z() * self.scene.gravity;
-            if self.region.ground[tire] == Ground::Slip {
+            if self.region.ground[tire] == TireContact::Slip {
                 force += self.end_friction(tire, force, h).push(0.0);
             }
             let inertia = (self.du[tire] / h - self.v[tire]) * (4.0 / h) - self.a[tire];

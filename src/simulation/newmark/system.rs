@@ -7,7 +7,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::region::{Ground, Region};
+use super::region::{Region, TireContact};
 use crate::scene::{Cable, Scene};
 use crate::simulation::wake::Wake;
 
@@ -81,9 +81,10 @@ impl System {
         self.rows.clear();
         self.links.clear();
         self.rows.push(Row::default());
-        for &tire in wake.awake_tires().iter().filter(|&&tire| region.ground[tire] != Ground::Stick) {
+        for &tire in wake.awake_tires().iter().filter(|&&tire| region.ground[tire] != TireContact::Stick) {
             self.row[tire] = self.rows.len() as u32;
-            let (inertia, rises) = (4.0 * scene.mass[tire] / (h * h), region.ground[tire] == Ground::InAir);
+            let (inertia, rises) =
+                (4.0 * scene.mass[tire] / (h * h), region.ground[tire] == TireContact::InAir);
             let mut residual = right[tire];
             residual.z = if rises { residual.z } else { 0.0 };
             let preconditioner = Matrix3::from_diagonal_element(inertia);

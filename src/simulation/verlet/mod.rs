@@ -10,15 +10,15 @@
 //! A tire that lands or is fired at within the step is integrated phase by phase instead
 //! ([`TireStep::integrate`](super::contact::TireStep::integrate)), so that landing and launch have their own time. A cable
 //! that becomes taut or slack within the step gets a force that gives the right amplitude
-//! ([`CableEvaluator::evaluate`](tension::CableEvaluator::evaluate)). The method is of second order, symplectic between events, and
+//! ([`CableEvaluator::evaluate`](cable_forces::CableEvaluator::evaluate)). The method is of second order, symplectic between events, and
 //! stable for h < 2/ω with ω² ≤ max (2/m) Σ k ([`Scene::frequency_bound`](crate::scene::Scene::frequency_bound)). The damping of
-//! cables and what it costs in stability: [`CableEvaluator::evaluate`](tension::CableEvaluator::evaluate),
+//! cables and what it costs in stability: [`CableEvaluator::evaluate`](cable_forces::CableEvaluator::evaluate),
 //! [`Scene::critical_step`](crate::scene::Scene::critical_step).
 
+mod cable_forces;
 mod kick;
 mod reduction;
 mod stepper;
-mod tension;
 
 use std::sync::{Arc, OnceLock};
 
@@ -26,11 +26,11 @@ use nalgebra::Vector3;
 
 use self::reduction::Reduction;
 use self::stepper::Stepper;
-use super::cable::Blocks;
+use super::cable_blocks::Blocks;
 
 use super::pack::LANES;
 use super::wake::Ties;
-use super::{Failure, RunSettings, Watcher};
+use super::{RunError, RunSettings, Watcher};
 use crate::choice::Method;
 use crate::outcome::Outcome;
 use crate::scene::{Cable, Mirror, Scene, Shot};
@@ -79,7 +79,7 @@ impl VerletModel {
         shot: &Shot,
         settings: &RunSettings,
         watch: &mut Watcher<'_>,
-    ) -> Result<Outcome, Failure> {
+    ) -> Result<Outcome, RunError> {
         run(self.part(scene, shot), scene, shot, settings, watch)
     }
 
@@ -91,7 +91,7 @@ impl VerletModel {
         shot: &Shot,
         settings: &RunSettings,
         watch: &mut Watcher<'_>,
-    ) -> Result<Outcome, Failure> {
+    ) -> Result<Outcome, RunError> {
         let planes = shared_planes(variant, shot);
         run(&self.part_of(scene, &planes).variant(variant), variant, shot, settings, watch)
     }
@@ -110,10 +110,10 @@ fn run(
     shot: &Shot,
     settings: &RunSettings,
     watch: &mut Watcher<'_>,
-) -> Result<Outcome, Failure> {
+) -> Result<Outcome, RunError> {
     let (step, limit) = (settings.step, part.critical_step);
     if !(step > 0.0 && step < limit) {
-        return Err(Failure::Step { step, limit, method: Method::Verlet });
+        return Err(RunError::Step { step, limit, method: Method::Verlet });
     }
     Stepper::new(part, scene, shot, settings).run(watch)
 }

@@ -13,10 +13,10 @@ use super::step_error;
 use crate::choice::Accuracy;
 use crate::outcome::{BrokenCable, History, Outcome, RunEnd};
 use crate::scene::Shot;
-use crate::simulation::{Failure, Motion};
+use crate::simulation::{Motion, RunError};
 use crate::study::reasons::shot::{ShotReason, energy_balance_closes, find_reasons_as_planned, with_limits};
 use crate::study::{Case, ComputeSettings};
-use crate::verdict::{Estimate, Limits, Quantity, Verdict};
+use crate::verdict::{Estimate, Limits, PerQuantity, Quantity, Verdict};
 
 /// A shot as planned, checked by a ladder of runs.
 #[derive(Clone, Debug)]
@@ -82,6 +82,11 @@ impl CheckedShot {
         }
     }
 
+    /// Height, force and drift.
+    pub fn estimates(&self) -> PerQuantity<Estimate> {
+        PerQuantity { height: self.height, force: self.force, drift: self.drift }
+    }
+
     /// The share of its limit that a quantity takes; `None` where it has none.
     pub fn share_of_limit(&self, quantity: Quantity, limits: &Limits) -> Option<f64> {
         Some(self.get(quantity).value / limits.get(quantity)?)
@@ -90,9 +95,10 @@ impl CheckedShot {
     /// Whether the verdict of the limits would stand with errors [`SURE_ERROR_FACTOR`] times larger, and the energy balance
     /// closes for a pass.
     fn is_sure(&self, limits: &Limits) -> bool {
+        let estimates = self.estimates();
         let verdict = |times: f64| {
             let larger = |estimate: Estimate| Estimate { error: times * estimate.error, ..estimate };
-            let each = with_limits([self.height, self.force, self.drift], limits)
+            let each = with_limits(&estimates, limits)
                 .map(|(_, estimate, limit)| larger(estimate).judge_against(limit));
             Verdict::worst(each)
         };
@@ -115,7 +121,7 @@ pub fn check_as_planned(
     option: usize,
     compute: &ComputeSettings,
     watch: &mut dyn FnMut(CheckProgress) -> ControlFlow<()>,
-) -> Result<CheckedShot, Failure> {
+) -> Result<CheckedShot, RunError> {
     check_shot(case, &case.shots[option], compute, watch)
 }
 
@@ -126,7 +132,11 @@ impl Case {
     /// # Panics
     ///
     /// Where the plan has no delay option with the index `option`.
-    pub fn check_as_planned(&self, option: usize, compute: &ComputeSettings) -> Result<CheckedShot, Failure> {
+    pub fn check_as_planned(
+        &self,
+        option: usize,
+        compute: &ComputeSettings,
+    ) -> Result<CheckedShot, RunError> {
         check_as_planned(self, option, compute, &mut |_| ControlFlow::Continue(()))
     }
 }
@@ -137,7 +147,7 @@ pub fn check_shot(
     shot: &Shot,
     compute: &ComputeSettings,
     watch: &mut dyn FnMut(CheckProgress) -> ControlFlow<()>,
-) -> Result<CheckedShot, Failure> {
+) -> Result<CheckedShot, RunError> {
     let mut runner = Runner { case, compute, watch, runs: 0, steps: 0, begun: Instant::now() };
     run_ladder(
         &mut runner,
@@ -183,7 +193,7 @@ const PAIR_CHANGE: f64 = 1e-3;
 
 impl Runner<'_> {
     /// One run at `step` [s].
-    fn run(&mut self, shot: &Shot, step: f64) -> Result<Run, Failure> {
+    fn run(&mut self, shot: &Shot, step: f64) -> Result<Run, RunError> {
         let settings = self.case.run_settings(self.compute.method, step);
         let begun = Instant::now();
         let mut cover = CoverWatch::new(self.case, &shot.firings, step);
@@ -198,7 +208,7 @@ impl Runner<'_> {
     }
 
     /// Pairs of runs of nearby shots at `step` [s]; without the pairs of which a run fails.
-    fn run_pairs(&mut self, shot: &Shot, step: f64) -> Result<Vec<[Run; 2]>, Failure> {
+    fn run_pairs(&mut self, shot: &Shot, step: f64) -> Result<Vec<[Run; 2]>, RunError> {
         let field = ComputeSettings { accuracy: Accuracy::Field, step: None, ..*self.compute };
         let finer =
             step / (field.first_step(self.case) * step_error::RATIO.powi(step_error::NEIGHBOURS as i32));
@@ -208,7 +218,7 @@ impl Runner<'_> {
             let [more, less] = shot.both_sides(self.case.scene().friction, relative, number);
             match self.run(&more, step).and_then(|more| Ok([more, self.run(&less, step)?])) {
                 Ok(pair) => pairs.push(pair),
-                Err(stopped @ Failure::Stopped { .. }) => return Err(stopped),
+                Err(stopped @ RunError::Stopped { .. }) => return Err(stopped),
                 Err(_) => {}
             }
         }
@@ -224,9 +234,10 @@ fn checked_from_runs(shot: &Shot, runs: &[Run], pairs: &[[Run; 2]], runner: &Run
     let outcomes: Vec<&Outcome> = runs.iter().map(|run| &run.outcome).collect();
     let pairs: Vec<[&Outcome; 2]> =
         pairs.iter().map(|pair| pair.each_ref().map(|run| &run.outcome)).collect();
-    let [height, force, drift] = peaks_with_rivals(&outcomes, &pairs);
+    let estimates = peaks_with_rivals(&outcomes, &pairs);
     let outcome = &last.outcome;
-    let reasons = find_reasons_as_planned(case, shot, outcome, [height, force, drift]);
+    let reasons = find_reasons_as_planned(case, shot, outcome, &estimates);
+    let PerQuantity { height, force, drift } = estimates;
     CheckedShot {
         verdict: Verdict::worst(reasons.iter().map(ShotReason::verdict)),
         reasons,

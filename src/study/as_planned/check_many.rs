@@ -3,7 +3,7 @@
 use super::check::check_shot;
 use super::shot_summary::ShotSummary;
 use crate::scene::Shot;
-use crate::simulation::Failure;
+use crate::simulation::RunError;
 use crate::study::work::batch::run_batch;
 use crate::study::{Case, ComputeSettings, Fingerprint, NoResult, Progress};
 
@@ -49,7 +49,7 @@ pub fn run_checks<J: Sync>(
     {
         return Err(NoResult::Failed(failure.clone()));
     }
-    let or_unknown = |result: Result<ShotSummary, Failure>| result.unwrap_or(ShotSummary::UNKNOWN);
+    let or_unknown = |result: Result<ShotSummary, RunError>| result.unwrap_or(ShotSummary::UNKNOWN);
     Ok(done.into_iter().map(|result| result.map(or_unknown)).collect())
 }
 
@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn a_run_that_fails_is_open_unless_all_fail() {
-        let failure = NoResult::Failed(Failure::Diverged { time: 1.0 });
+        let failure = NoResult::Failed(RunError::Diverged { time: 1.0 });
         let good = ShotSummary { verdict: Verdict::Pass, ..ShotSummary::UNKNOWN };
         let work = |&job: &i32| if job == 2 { Err(failure.clone()) } else { Ok(good) };
         let some = run_checks(&[1, 2], &Progress::default(), work).expect("one of them is good");

@@ -1,7 +1,7 @@
 //! Runs at ever finer steps, until what they tell is sure.
 
 use super::step_error;
-use crate::simulation::Failure;
+use crate::simulation::RunError;
 
 /// Greatest number of steps below the first: the finest step is 64 times finer.
 const MOST_REFINEMENTS: i32 = 12;
@@ -19,9 +19,9 @@ pub fn run_ladder<C, R, T>(
     runner: &mut C,
     first: f64,
     fixed: bool,
-    mut run: impl FnMut(&mut C, f64) -> Result<R, Failure>,
-    mut judge: impl FnMut(&mut C, &[R], bool) -> Result<(T, bool), Failure>,
-) -> Result<T, Failure> {
+    mut run: impl FnMut(&mut C, f64) -> Result<R, RunError>,
+    mut judge: impl FnMut(&mut C, &[R], bool) -> Result<(T, bool), RunError>,
+) -> Result<T, RunError> {
     let rung = |n: i32| first * step_error::RATIO.powi(n);
     let mut runs = Vec::new();
     for n in (1..=step_error::NEIGHBOURS as i32).rev() {
@@ -60,7 +60,7 @@ mod tests {
         let mut asked = Vec::new();
         let run = |asked: &mut Vec<f64>, step: f64| {
             asked.push(step);
-            let failure = Failure::Unsettled { what: Iteration::ContactRegion, time: 0.0 };
+            let failure = RunError::Unsettled { what: Iteration::ContactRegion, time: 0.0 };
             if step > coarsest { Err(failure) } else { Ok(step) }
         };
         let judge = |_: &mut Vec<f64>, runs: &[f64], _: bool| {

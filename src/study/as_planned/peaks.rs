@@ -5,27 +5,27 @@ use std::ops::Range;
 
 use super::step_error::{NEIGHBOURS, estimate, widened};
 use crate::outcome::{History, Outcome, Peak, slice_at, slices};
-use crate::verdict::Estimate;
+use crate::verdict::{Estimate, PerQuantity};
 
 /// Number of equal parts of a run in which rivals of its greatest value are looked for.
 const SLICES: usize = 32;
 
 /// Like [`peaks`]; errors of height and force reach up to rivals of the greatest value.
-pub fn peaks_with_rivals(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
+pub fn peaks_with_rivals(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> PerQuantity<Estimate> {
     let near = &runs[error_runs(runs.len())];
     let last = runs[runs.len() - 1];
-    let [height, force, drift] = peaks(runs, pairs);
-    [
-        beside_rivals(near, last, height, |history| &history.height),
-        beside_rivals(near, last, force, |history| &history.force),
+    let PerQuantity { height, force, drift } = peaks(runs, pairs);
+    PerQuantity {
+        height: beside_rivals(near, last, height, |history| &history.height),
+        force: beside_rivals(near, last, force, |history| &history.force),
         drift,
-    ]
+    }
 }
 
 /// Height, force and drift of the last of `runs`, which stand in order from the coarsest step to the finest.
 ///
 /// The errors come from the runs of [`error_runs`], and from `pairs` of nearby shots, run at the coarsest step of those.
-pub fn peaks(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
+pub fn peaks(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> PerQuantity<Estimate> {
     let near = &runs[error_runs(runs.len())];
     let last = runs[runs.len() - 1];
     let estimate_of = |peak: fn(&Outcome) -> Peak| {
@@ -35,7 +35,11 @@ pub fn peaks(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> [Estimate; 3] {
         let pairs = pairs.iter().map(|pair| pair.map(|run| peak(run).value));
         Estimate { value, error: widened(error, between, pairs), time, index }
     };
-    [estimate_of(|run| run.height), estimate_of(|run| run.force), estimate_of(|run| run.drift)]
+    PerQuantity {
+        height: estimate_of(|run| run.height),
+        force: estimate_of(|run| run.force),
+        drift: estimate_of(|run| run.drift),
+    }
 }
 
 /// Indices of the runs that give the errors of the last of `count` runs: the runs just before it, [`NEIGHBOURS`] at most.

@@ -85,8 +85,8 @@ pub fn quick_check_until(
 fn summary_of_runs(case: &Case, shot: &Shot, runs: &[Outcome], cover: Cover) -> ShotSummary {
     let all: Vec<&Outcome> = runs.iter().collect();
     let estimates = peaks(&all, &[]);
-    let reasons = find_reasons_as_planned(case, shot, all[all.len() - 1], estimates);
-    ShotSummary::new(Verdict::worst(reasons.iter().map(ShotReason::verdict)), estimates, cover)
+    let reasons = find_reasons_as_planned(case, shot, all[all.len() - 1], &estimates);
+    ShotSummary::new(Verdict::worst(reasons.iter().map(ShotReason::verdict)), &estimates, cover)
 }
 
 /// Whether the values of a quick check of `runs` runs lie so far from all limits that its verdict stands.

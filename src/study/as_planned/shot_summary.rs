@@ -4,7 +4,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::check::CheckedShot;
 use super::cover::Cover;
-use crate::verdict::{Estimate, Limits, Quantity, Verdict};
+use crate::verdict::{Estimate, Limits, PerQuantity, Quantity, Verdict};
 
 /// A computed value and its estimated error, one-sided, both in the same SI unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -60,12 +60,13 @@ impl ShotSummary {
 
     /// The numbers of a checked shot.
     pub fn of(checked: &CheckedShot) -> Self {
-        Self::new(checked.verdict, [checked.height, checked.force, checked.drift], checked.cover)
+        Self::new(checked.verdict, &checked.estimates(), checked.cover)
     }
 
-    /// A verdict with its height, force and drift, in this order, and the cover.
-    pub fn new(verdict: Verdict, estimates: [Estimate; 3], cover: Cover) -> Self {
-        let [height, force, drift] = estimates.map(ValueWithError::from);
+    /// A verdict with what it is about, and the cover.
+    pub fn new(verdict: Verdict, estimates: &PerQuantity<Estimate>, cover: Cover) -> Self {
+        let value = |quantity| ValueWithError::from(*estimates.get(quantity));
+        let PerQuantity { height, force, drift } = PerQuantity::from_fn(value);
         Self { verdict, height, force, drift, cover }
     }
 

@@ -26,7 +26,7 @@ use super::work::batch::run_batch;
 use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress, ShotSummary, catch_panic};
 use crate::plan::Plan;
 use crate::scene::Shot;
-use crate::verdict::{Limits, Quantity, Verdict};
+use crate::verdict::{Limits, PerQuantity, Quantity, Verdict};
 
 /// Number of samples behind a median, unless another is asked for.
 pub const SAMPLES: usize = 49;
@@ -44,8 +44,8 @@ pub struct EffectOnOption {
     pub value: f64,
     /// Whether the value is a probe, not the plan's own.
     pub assumed: bool,
-    /// Change of each of [`Quantity::ALL`].
-    pub changes: [QuantityChange; Quantity::ALL.len()],
+    /// Change of each quantity.
+    pub changes: PerQuantity<QuantityChange>,
     /// Whether a plan without the effect states too little, or may do so, in any direction of the effect.
     pub is_missed_on_the_unsafe_side: bool,
     /// On which side of the limits the shot as planned lies without the effect.
@@ -58,9 +58,9 @@ pub struct EffectOnOption {
 
 impl EffectOnOption {
     fn new(variant: &Variant, without: &OptionFigures, with: &OptionFigures, limits: &Limits) -> Self {
-        let changes = Quantity::ALL.map(|quantity| QuantityChange {
-            without: without.spreads[quantity as usize],
-            with: with.spreads[quantity as usize],
+        let changes = PerQuantity::from_fn(|quantity| QuantityChange {
+            without: *without.spreads.get(quantity),
+            with: *with.spreads.get(quantity),
             limit: limits.get(quantity),
         });
         Self {
@@ -78,7 +78,7 @@ impl EffectOnOption {
 
     /// Relative change of the median of a quantity.
     pub fn change(&self, quantity: Quantity) -> f64 {
-        self.changes[quantity as usize].relative()
+        self.changes.get(quantity).relative()
     }
 
     /// Whether the scene requires the effect for this option.
@@ -180,8 +180,8 @@ struct Variant {
 struct OptionFigures {
     /// On which side of the limits the shot as planned lies.
     verdict: Verdict,
-    /// Each of [`Quantity::ALL`].
-    spreads: [Spread; Quantity::ALL.len()],
+    /// Those of each quantity.
+    spreads: PerQuantity<Spread>,
     /// Median time of a sample [s].
     time: f64,
 }
@@ -271,7 +271,7 @@ fn measure_option(
     let as_planned = or_unknown(quick_check(case, shot, compute, progress))?;
     let verdict = verdict_of_values(&as_planned, case);
     let Some(sampling) = sampling else {
-        let spreads = Quantity::ALL.map(|quantity| {
+        let spreads = PerQuantity::from_fn(|quantity| {
             let value = as_planned.get(quantity).value;
             Spread { median: value, p95: value }
         });
@@ -287,8 +287,9 @@ fn measure_option(
         let [median, p95] = percentiles(values, [0.5, 0.95]).unwrap_or([f64::INFINITY; 2]);
         Spread { median, p95 }
     };
-    let spreads =
-        Quantity::ALL.map(|quantity| spread(&mut samples.iter().map(|(sample, _)| sample.run.get(quantity))));
+    let spreads = PerQuantity::from_fn(|quantity| {
+        spread(&mut samples.iter().map(|(sample, _)| sample.run.get(quantity)))
+    });
     Ok(OptionFigures { verdict, spreads, time: spread(&mut samples.iter().map(|(_, time)| *time)).median })
 }
 

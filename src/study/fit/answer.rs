@@ -1,11 +1,11 @@
 //! What a fit finds: estimates, and what speaks for and against them.
 
 use super::determined::NotDetermined;
+use super::observation_bands::{NextObservation, Prediction};
 use super::parameter::Parameter;
-use super::predicted::{NextObservation, Prediction};
 use crate::choice::Unknown;
-use crate::plan::fitted::Fitted;
 use crate::plan::observations::Observation;
+use crate::plan::write_fit::Fitted;
 
 /// What a fit finds.
 #[derive(Clone, Debug)]

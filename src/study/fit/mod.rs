@@ -14,14 +14,14 @@
 //! | how far observations may lie from it | [`weights`] |
 //! | which parameters fit best, in which separate answers | [`search`] |
 //! | whether observations determine them | [`determined`] |
-//! | how observations lie among the shots that were possible, and what to observe next | [`predicted`] |
+//! | how observations lie among the shots that were possible, and what to observe next | [`observation_bands`] |
 
 mod answer;
 pub mod determined;
 mod fitting;
+pub mod observation_bands;
 pub mod observed_shots;
 pub mod parameter;
-pub mod predicted;
 mod predictor;
 pub mod search;
 mod watch;
@@ -30,17 +30,17 @@ pub mod weights;
 pub use self::answer::{Answer, Estimated, Fit, FitResult, Residual};
 pub use self::determined::{NotDetermined, Observable};
 use self::fitting::Fitting;
+use self::observation_bands::{NextObservation, next_observation, predict_observations};
 use self::observed_shots::ObservedShots;
 use self::parameter::{Parameter, Prior};
-use self::predicted::{NextObservation, next_observation, predict_observations};
 use self::predictor::Predictor;
 use self::search::SearchBox;
 use super::samples::sample_count::Sampling;
 use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress};
 use crate::choice::{Method, Unknown};
 use crate::plan::Plan;
-use crate::plan::fitted::StatedKeys;
 use crate::plan::observations::{ObservableNames, Observations};
+use crate::plan::write_fit::StatedKeys;
 use crate::scene::TireId;
 
 /// What observations of a plan may name.
@@ -185,8 +185,12 @@ fn next(
     progress: &Progress,
 ) -> Result<Option<NextObservation>, NoResult> {
     let Some(sampling) = request.sampling else { return Ok(None) };
-    let text =
-        crate::plan::fitted::write(&case.source.text, &case.plan.uncertainty, &fit.answers[0].fitted(), &[]);
+    let text = crate::plan::write_fit::write(
+        &case.source.text,
+        &case.plan.uncertainty,
+        &fit.answers[0].fitted(),
+        &[],
+    );
     let Some(plan) = text.ok().and_then(|text| Plan::parse("", &text).ok()) else { return Ok(None) };
     let shots = fit.observed.chunk_by(|a, b| a.option == b.option);
     let Some(most) = shots.max_by_key(|shot| shot.len()) else { return Ok(None) };

@@ -5,7 +5,7 @@
 //! and a standard deviation of the coordinate is a relative one of the number.
 
 use crate::choice::Unknown;
-use crate::plan::fitted::StatedKeys;
+use crate::plan::write_fit::StatedKeys;
 use crate::plan::{Launch, LaunchTargets, Plan};
 
 /// One number to estimate.

@@ -1,4 +1,6 @@
-//! Why the possible shots fail too often or leave a verdict open.
+//! Why the possible shots fail too often or leave a verdict open; [`SampledShot::reason`] finds which it is.
+//!
+//! [`SampledShot::reason`]: crate::study::samples::sampled_shot::SampledShot::reason
 
 use crate::verdict::Verdict;
 

@@ -4,7 +4,7 @@ use crate::outcome::{EndReason, Outcome};
 use crate::scene::Shot;
 use crate::study::Case;
 use crate::study::eight_ms::WithinEightMs;
-use crate::verdict::{Estimate, Limits, Quantity, Verdict};
+use crate::verdict::{Estimate, Limits, PerQuantity, Quantity, Verdict};
 
 /// Greatest energy residual of a run that may pass, over the energy put in. A greater one says that the step is too long for
 /// the motion, whatever neighbouring steps say.
@@ -101,7 +101,7 @@ pub fn find_reasons_as_planned(
     case: &Case,
     shot: &Shot,
     outcome: &Outcome,
-    estimates: [Estimate; 3],
+    estimates: &PerQuantity<Estimate>,
 ) -> Vec<ShotReason> {
     let of_run = find_reasons(case, shot, outcome, estimates);
     of_run.into_iter().chain(too_much_together(case, WithinEightMs::of(case, shot))).collect()
@@ -129,7 +129,7 @@ pub fn find_reasons(
     case: &Case,
     shot: &Shot,
     outcome: &Outcome,
-    estimates: [Estimate; 3],
+    estimates: &PerQuantity<Estimate>,
 ) -> Vec<ShotReason> {
     let limits = with_limits(estimates, &case.limits).map(|(quantity, estimate, limit)| ShotReason::Limit {
         quantity,
@@ -138,8 +138,8 @@ pub fn find_reasons(
         limit,
     });
     let broken = Some(outcome.broken.len()).filter(|&count| count > 0).map(ShotReason::Broken);
-    let residual = Some(outcome.ledger.residual()).filter(|&residual| !energy_balance_closes(residual));
-    let residual = residual.map(ShotReason::EnergyResidual);
+    let too_large = Some(outcome.ledger.residual()).filter(|&residual| !energy_balance_closes(residual));
+    let residual = too_large.map(ShotReason::EnergyResidual);
     let end = case.plan.simulation.duration_s.unwrap_or(outcome.end.time);
     let early = early_end(shot, outcome).map(|open| ShotReason::EndsEarly { end, open });
     let all = limits.chain(broken).chain(residual).chain(early);
@@ -151,11 +151,12 @@ pub(in crate::study) fn energy_balance_closes(residual: f64) -> bool {
     residual <= MOST_RESIDUAL
 }
 
-/// The quantities that have a limit, each with its estimate and its limit; `estimates` are height, force and drift.
+/// The quantities that have a limit, each with its estimate and its limit.
 pub(in crate::study) fn with_limits(
-    estimates: [Estimate; 3],
+    estimates: &PerQuantity<Estimate>,
     limits: &Limits,
 ) -> impl Iterator<Item = (Quantity, Estimate, f64)> {
-    let all = Quantity::ALL.into_iter().zip(estimates);
-    all.filter_map(|(quantity, estimate)| Some((quantity, estimate, limits.get(quantity)?)))
+    Quantity::ALL
+        .into_iter()
+        .filter_map(|quantity| Some((quantity, *estimates.get(quantity), limits.get(quantity)?)))
 }

@@ -82,7 +82,7 @@ pub fn not_passing(results: &OptionResults) -> Vec<usize> {
 }
 
 /// The changes of one kind for one option, while they are tried.
-struct Chain {
+struct ChangesOfOneKind {
     option: usize,
     left: VecDeque<Change>,
     /// Number of changes sampled so far.
@@ -90,7 +90,7 @@ struct Chain {
     found: TriedKind,
 }
 
-impl Chain {
+impl ChangesOfOneKind {
     /// Whether the next change is to be judged.
     fn is_open(&self) -> bool {
         self.found.passing.is_none() && !self.found.out_of_time && !self.left.is_empty()
@@ -141,14 +141,14 @@ pub fn find_all_remedies(
     let task = Task { case, sampling, compute, progress };
     let mut hard = HardSamples::new(case.limits.accepted_risk, sampling.map_or(0, |sampling| sampling.most));
     let enough_samples = sampling.is_none() || hard.enough_samples();
-    let mut chains = if enough_samples { coarse(&task, options)? } else { Vec::new() };
-    while chains.iter().any(Chain::is_open) {
+    let mut chains = if enough_samples { screen_candidates(&task, options)? } else { Vec::new() };
+    while chains.iter().any(ChangesOfOneKind::is_open) {
         judge_next(&task, &mut chains, &mut hard)?;
     }
     let partial = chains.iter().any(|chain| chain.found.out_of_time);
     let mut remedies: Vec<Remedies> =
         options.iter().map(|&option| Remedies { option, enough_samples, kinds: Vec::new() }).collect();
-    for Chain { option, found: tried, .. } in chains {
+    for ChangesOfOneKind { option, found: tried, .. } in chains {
         if let Some(of_option) = remedies.iter_mut().find(|of_option| of_option.option == option) {
             of_option.kinds.push(tried);
         }
@@ -164,7 +164,7 @@ fn changed(case: &Case, change: &Change) -> Option<Case> {
 
 /// The chains of all options, each with the candidates that a coarse run as planned does not surely fail. Candidates that make no
 /// valid plan count as not tried; a kind without a candidate has no chain.
-fn coarse(task: &Task<'_>, options: &[usize]) -> Result<Vec<Chain>, NoResult> {
+fn screen_candidates(task: &Task<'_>, options: &[usize]) -> Result<Vec<ChangesOfOneKind>, NoResult> {
     let Task { case, compute, progress, .. } = *task;
     let kinds = |&option: &usize| {
         let crowded = exceeds_together(case, &case.shots[option]);
@@ -201,14 +201,18 @@ fn coarse(task: &Task<'_>, options: &[usize]) -> Result<Vec<Chain>, NoResult> {
         }
         if let Some(kind) = kind.filter(|_| out_of_time || !tried.is_empty()) {
             let found = TriedKind { kind, tried, open: 0, out_of_time, passing: None };
-            chains.push(Chain { option, left, sampled: 0, found });
+            chains.push(ChangesOfOneKind { option, left, sampled: 0, found });
         }
     }
     Ok(chains)
 }
 
 /// Judges the next change of every open chain in full.
-fn judge_next(task: &Task<'_>, chains: &mut [Chain], hard: &mut HardSamples) -> Result<(), NoResult> {
+fn judge_next(
+    task: &Task<'_>,
+    chains: &mut [ChangesOfOneKind],
+    hard: &mut HardSamples,
+) -> Result<(), NoResult> {
     let mut turns = Vec::new();
     for (n, chain) in chains.iter_mut().enumerate().filter(|(_, chain)| chain.is_open()) {
         let change = chain.left.pop_front();
@@ -236,7 +240,7 @@ fn judge_next(task: &Task<'_>, chains: &mut [Chain], hard: &mut HardSamples) -> 
         let sampling = Sampling { error_share: ErrorShare::Nth(chain.sampled), ..*sampling };
         let option = chain.option;
         let target = ShotToSample::new(&turn.case, &turn.case.shots[option], *task.compute, sampling);
-        targets.push((option, target.as_planned(ShotSummary::of(checked)).only_pass()));
+        targets.push((option, target.with_planned(ShotSummary::of(checked)).only_pass()));
     }
     let sampled_changes = sample(&targets, hard, task.progress)?;
     for ((turn, checked), sampled) in passing.into_iter().zip(sampled_changes) {
@@ -260,7 +264,7 @@ fn judge_next(task: &Task<'_>, chains: &mut [Chain], hard: &mut HardSamples) -> 
 /// Judges changes as planned; `None` for those that do not pass, which their chains note.
 fn check_turns(
     task: &Task<'_>,
-    chains: &mut [Chain],
+    chains: &mut [ChangesOfOneKind],
     turns: &[ChangeToJudge],
 ) -> Result<Vec<Option<CheckedShot>>, NoResult> {
     let options: Vec<usize> = turns.iter().map(|turn| chains[turn.chain].option).collect();
@@ -314,7 +318,7 @@ fn sample(
             SampledChange::OutOfTime
         });
         if let Some(HardDrawn { samples, can_pass: true }) = first {
-            left.push(target.precomputed(samples));
+            left.push(target.with_precomputed(samples));
             places.push(n);
         }
     }

@@ -44,12 +44,12 @@ impl<'c> ShotToSample<'c> {
     }
 
     /// The same shot, checked `as_planned`.
-    pub fn as_planned(self, as_planned: ShotSummary) -> Self {
+    pub fn with_planned(self, as_planned: ShotSummary) -> Self {
         Self { as_planned: Some(as_planned), ..self }
     }
 
     /// The same shot, of which other machines drew samples at the usual step, in order of their numbers.
-    pub fn precomputed(self, precomputed: &'c [Sample]) -> Self {
+    pub fn with_precomputed(self, precomputed: &'c [Sample]) -> Self {
         Self { precomputed, ..self }
     }
 

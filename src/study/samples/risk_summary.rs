@@ -54,7 +54,7 @@ pub fn sample_shots_in_brief<'c>(
     let mut all = Vec::with_capacity(shots.len());
     for shots in shots.chunks(AT_ONCE) {
         let target = |(shot, planned): &'c (Shot, ShotSummary)| {
-            ShotToSample::new(case, shot, *compute, *sampling).as_planned(*planned)
+            ShotToSample::new(case, shot, *compute, *sampling).with_planned(*planned)
         };
         let targets: Vec<_> = shots.iter().map(target).collect();
         let risks = sample_shots(&targets, progress)?.value;

@@ -8,7 +8,7 @@ use crate::scene::Shot;
 use crate::study::Case;
 use crate::study::as_planned::shot_summary::or_infinite;
 use crate::study::reasons::shot::{ShotReason, energy_balance_closes, find_reasons};
-use crate::verdict::{Estimate, Limits, Quantity, Verdict};
+use crate::verdict::{Estimate, Limits, PerQuantity, Quantity, Verdict};
 
 /// One sample of a shot.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -60,9 +60,10 @@ impl SampleRun {
 
     /// Judges a run; one without energy balance shows nothing.
     pub fn new(case: &Case, shot: &Shot, outcome: &Outcome) -> Self {
-        let peaks = [outcome.height, outcome.force, outcome.drift];
         let exact = |Peak { value, time, index }| Estimate { value, error: 0.0, time, index };
-        let reasons = find_reasons(case, shot, outcome, peaks.map(exact));
+        let Outcome { height, force, drift, .. } = *outcome;
+        let estimates = PerQuantity { height: exact(height), force: exact(force), drift: exact(drift) };
+        let reasons = find_reasons(case, shot, outcome, &estimates);
         let verdict = match energy_balance_closes(outcome.ledger.residual()) {
             true => Verdict::worst(reasons.iter().map(ShotReason::verdict)),
             false => Verdict::Undecided,
@@ -75,8 +76,7 @@ impl SampleRun {
             _ if ends_early => Verdict::Undecided,
             _ => Verdict::Pass,
         };
-        let [height, force, drift] = peaks.map(|peak| peak.value);
-        Self { verdict, breaks, height, force, drift }
+        Self { verdict, breaks, height: height.value, force: force.value, drift: drift.value }
     }
 
     /// Greatest share of a limit that the run uses.

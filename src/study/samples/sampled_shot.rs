@@ -9,7 +9,7 @@ use super::failure_bounds::{ErrorShare, FailureBounds};
 use super::sample::{Sample, SampleRun};
 use crate::study::reasons::risk::RiskReason;
 use crate::study::{Case, ShotSummary};
-use crate::verdict::{Limits, Quantity, Verdict};
+use crate::verdict::{Limits, PerQuantity, Quantity, Verdict};
 
 /// Factor on a difference to one side, because the audit has an error of its own.
 const BIAS_ALLOWANCE: f64 = 2.0;
@@ -134,13 +134,13 @@ impl SampledShot {
     /// times the mean difference, a share fails that is outside the bounds or on the other side of the accepted risk. Where
     /// little is unknown, all samples have the same error of the step, and none of them may change its verdict.
     fn is_biased(&self) -> bool {
-        let moved = Quantity::ALL.map(|quantity| self.bias_factor(quantity));
+        let factors = PerQuantity::from_fn(|quantity| self.bias_factor(quantity));
         let fails = |sample: &&Sample| {
-            let value = |quantity: Quantity| sample.run.get(quantity) * moved[quantity as usize];
+            let value = |quantity: Quantity| sample.run.get(quantity) * factors.get(quantity);
             self.limits.utilization(value) > 1.0
         };
         let share = self.samples.iter().filter(fails).count() as f64 / self.samples.len().max(1) as f64;
-        let is_moved = moved != [1.0; 3];
+        let is_moved = factors.iter().any(|&factor| factor != 1.0);
         let [low, high] = self.bounds.interval;
         let is_outside = is_moved && !(low..=high).contains(&share);
         is_outside

@@ -123,7 +123,7 @@ impl<'q> SizeCandidate<'q> {
     ) -> Result<Option<WorstShotRisk>, NoResult> {
         let compute = self.task.compute;
         let target = |&(n, planned): &(usize, ShotSummary)| {
-            ShotToSample::new(&self.case, &self.shots[n], *compute, *sampling).as_planned(planned)
+            ShotToSample::new(&self.case, &self.shots[n], *compute, *sampling).with_planned(planned)
         };
         let targets: Vec<ShotToSample<'_>> = hardest.iter().map(target).collect();
         let until_one_fails = &mut |_, sampled: &SampledShot| match sampled.verdict() {

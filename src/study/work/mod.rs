@@ -10,7 +10,7 @@
 //! | the part of a study that one machine computes | `shard` |
 
 pub mod batch;
-mod found;
+mod computed;
 mod intervals;
 pub mod journal;
 mod no_result;
@@ -18,7 +18,7 @@ mod progress;
 mod shard;
 
 pub use batch::thread_pool;
-pub use found::{ComputeResult, Computed};
+pub use computed::{ComputeResult, Computed};
 pub use intervals::Intervals;
 pub use journal::{Fingerprint, Journal};
 pub use no_result::{NoResult, catch_panic};

@@ -2,14 +2,14 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use crate::simulation::Failure;
+use crate::simulation::RunError;
 
 /// Why an option or a study has no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoResult {
     /// A run failed.
     #[error(transparent)]
-    Failed(#[from] Failure),
+    Failed(#[from] RunError),
     /// The user or a signal ended the study.
     #[error("interrupted before there was a result")]
     Stopped,

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::Journal;
-use crate::simulation::Failure;
+use crate::simulation::RunError;
 use crate::study::NoResult;
 
 /// Progress of a study, shared between the threads that compute and the view that shows it.
@@ -74,10 +74,10 @@ impl Progress {
     }
 
     /// Why a run of this study has no result: a run that was ended has no failure of its own.
-    pub fn no_result(&self, failure: Failure) -> NoResult {
+    pub fn no_result(&self, failure: RunError) -> NoResult {
         match failure {
-            Failure::Stopped { .. } if self.stopped() => NoResult::Stopped,
-            Failure::Stopped { .. } => NoResult::OutOfTime,
+            RunError::Stopped { .. } if self.stopped() => NoResult::Stopped,
+            RunError::Stopped { .. } => NoResult::OutOfTime,
             failure => NoResult::Failed(failure),
         }
     }

@@ -3,7 +3,7 @@
 use super::PAGE;
 use crate::jobs::StudyKind;
 use crate::plan::edit;
-use crate::report::model::Offer;
+use crate::report::parts::Offer;
 use crate::tui::app::{App, Request};
 use crate::tui::editor::EditOutcome;
 use crate::tui::keymap::Action;

@@ -7,7 +7,7 @@ use ratatui::symbols::Marker;
 use ratatui::text::Line;
 use ratatui::widgets::{self, Block, Dataset, GraphType};
 
-use crate::report::model::{Axis, Chart, Scale, SeriesKind};
+use crate::report::parts::{Axis, Chart, Scale, SeriesKind};
 use crate::tui::app::App;
 use crate::units::Unit;
 use crate::verdict::Verdict;

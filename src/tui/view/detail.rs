@@ -21,7 +21,7 @@ use super::chart;
 use crate::jobs::StudyKind;
 use crate::outcome::EndReason;
 use crate::report::charts;
-use crate::report::model::Chart;
+use crate::report::parts::Chart;
 use crate::report::remedies::{sentence, without_pass};
 use crate::report::words::option_sentences::{
     bands, broken, firing_times_text, inputs, launch_limit, measure_first, peaks,

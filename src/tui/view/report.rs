@@ -3,7 +3,7 @@
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
-use crate::report::model::{Align, Audience, Block, Cell, Column, Offer, Report, Row, Table};
+use crate::report::parts::{Align, Audience, Block, Cell, Column, Offer, Report, Row, Table};
 use crate::tui::theme::Theme;
 
 /// Bars of a sparkline.

@@ -16,7 +16,7 @@ use nalgebra::Vector3;
 use shelter::choice::Method;
 use shelter::outcome::{EndReason, Outcome};
 use shelter::scene::{Firing, Scene, Shot};
-use shelter::simulation::{Failure, Model};
+use shelter::simulation::{Model, RunError};
 
 use crate::support::scenes::{
     GRAVITY, METHODS, close, fire, fire_rows, grid, quincunx, run, settings, tie, tires, try_run, watch,
@@ -139,7 +139,7 @@ fn steps_at_and_beyond_critical_are_refused_by_verlet_and_followed_by_newmark() 
     for factor in [1.0, 1.0 + 1e-12, 2.0, 10.0] {
         let h = factor * critical;
         let refused = try_run(&scene, &fire(&[4], LAUNCH), settings(Method::Verlet, h, None));
-        assert_eq!(refused, Err(Failure::Step { step: h, limit: critical, method: Method::Verlet }));
+        assert_eq!(refused, Err(RunError::Step { step: h, limit: critical, method: Method::Verlet }));
         // Unconditionally stable: the bound on the ledger is loose here, finiteness and contact are not.
         stable("beyond critical", &scene, &fire(&[4], LAUNCH), Method::Newmark, h, 1_000);
     }
@@ -176,9 +176,9 @@ fn steps_that_are_no_steps_are_refused_by_name() {
     for method in METHODS {
         for h in [0.0, -1e-3, f64::NAN, f64::INFINITY] {
             let refused = try_run(&cross(), &fire(&[4], LAUNCH), settings(method, h, Some(1.0)));
-            assert!(matches!(refused, Err(Failure::Step { .. })), "{method:?} {h}: {refused:?}");
+            assert!(matches!(refused, Err(RunError::Step { .. })), "{method:?} {h}: {refused:?}");
             let lone = try_run(&grid(1, 1, 1.0, EA), &fire(&[0], LAUNCH), settings(method, h, Some(1.0)));
-            assert!(matches!(lone, Err(Failure::Step { .. })), "{method:?} {h}: {lone:?}");
+            assert!(matches!(lone, Err(RunError::Step { .. })), "{method:?} {h}: {lone:?}");
         }
     }
 }

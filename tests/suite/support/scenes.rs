@@ -6,7 +6,7 @@ use nalgebra::{Vector2, Vector3};
 use shelter::choice::Method;
 use shelter::outcome::Outcome;
 use shelter::scene::{Cable, Firing, Scene, Shot, TireId};
-use shelter::simulation::{Failure, Model, Motion, RunSettings};
+use shelter::simulation::{Model, Motion, RunError, RunSettings};
 
 pub const GRAVITY: f64 = 9.81;
 pub const METHODS: [Method; 2] = [Method::Verlet, Method::Newmark];
@@ -89,7 +89,7 @@ pub fn run(scene: &Scene, shot: &Shot, settings: RunSettings) -> Outcome {
     try_run(scene, shot, settings).expect("the run has an outcome")
 }
 
-pub fn try_run(scene: &Scene, shot: &Shot, settings: RunSettings) -> Result<Outcome, Failure> {
+pub fn try_run(scene: &Scene, shot: &Shot, settings: RunSettings) -> Result<Outcome, RunError> {
     Model::new(scene.clone()).run(shot, &settings, &mut |_| ControlFlow::Continue(()))
 }
 

@@ -12,8 +12,8 @@ use crate::scene::Scene;
 use crate::simulation::contact::{TireStep, stop_at_ground};
 use crate::simulation::pack::{LANES, Pack, Wide};
 use crate::simulation::record::Record;
+use crate::simulation::verlet::cable_forces::CableForces;
 use crate::simulation::verlet::kick::TirePack;
-use crate::simulation::verlet::tension::CableForces;
 
 /// Result of a tire that was integrated through the step by itself.
 #[derive(Clone, Copy, Debug)]

@@ -26,7 +26,7 @@ impl Stepper<'_> {
         if !DAMPED {
             self.interpolate_peak();
         }
-        let Self { part, wake, tension, u, stored, candidates, strengths, step, .. } = self;
+        let Self { part, wake, tension, u, stored, peak_blocks, strengths, step, .. } = self;
         let [weakest, strongest] = *strengths;
         let (blocks, stored) = (&part.blocks.blocks[..], &mut stored[..part.blocks.blocks.len()]);
         let (u, mut tension) = (u.slices(), tension.slices());
@@ -48,16 +48,16 @@ impl Stepper<'_> {
             if is_greater {
                 let over_strength = stress.force.into_iter().fold(0.0, f64::max) / strongest;
                 greatest = Wide::splat(simd, weakest * over_strength.max(self.record.force.value));
-                candidates.push(n);
+                peak_blocks.push(n);
             }
         }
         if DAMPED {
             self.interpolate_peak();
         }
         let mut totals = StepTotals { energy, force, dissipated, ..StepTotals::default() };
-        if !self.candidates.is_empty() {
+        if !self.peak_blocks.is_empty() {
             self.copy_velocities();
-            while let Some(block) = self.candidates.pop() {
+            while let Some(block) = self.peak_blocks.pop() {
                 self.note_force(block);
             }
         }

@@ -18,9 +18,9 @@ use crate::simulation::clock::Clock;
 use crate::simulation::contact::stop_at_ground;
 use crate::simulation::pack::{LANES, Pack, VectorArrays};
 use crate::simulation::record::Record;
-use crate::simulation::verlet::tension::CableForceMemory;
+use crate::simulation::verlet::cable_forces::CableForceMemory;
 use crate::simulation::wake::Wake;
-use crate::simulation::{Failure, Motion, RunSettings, Watcher};
+use crate::simulation::{Motion, RunError, RunSettings, Watcher};
 
 /// A tire whose velocity jumped within the present step.
 #[derive(Clone, Copy, Debug)]
@@ -72,7 +72,7 @@ pub(super) struct Stepper<'a> {
     /// Least and greatest strength of a cable.
     strengths: [f64; 2],
     /// Blocks that may hold the greatest force so far.
-    candidates: Vec<usize>,
+    peak_blocks: Vec<usize>,
     clock: Clock,
     /// Whether any tire moved in the last step.
     moving: bool,
@@ -125,7 +125,7 @@ impl<'a> Stepper<'a> {
             breaking_force: scene.breaking_force.unwrap_or(f64::INFINITY),
             strengths: [f64::min, f64::max]
                 .map(|of| scene.strength.iter().copied().reduce(of).unwrap_or(1.0)),
-            candidates: Vec::with_capacity(part.blocks.blocks.len()),
+            peak_blocks: Vec::with_capacity(part.blocks.blocks.len()),
             clock: Clock::new(shot, settings, slides),
             moving: slides,
             record: Record::new(settings.step),
@@ -146,7 +146,7 @@ impl<'a> Stepper<'a> {
     }
 
     /// Makes all steps; returns the outcome.
-    pub(super) fn run(mut self, watch: &mut Watcher<'_>) -> Result<Outcome, Failure> {
+    pub(super) fn run(mut self, watch: &mut Watcher<'_>) -> Result<Outcome, RunError> {
         let arch = pulp::Arch::new();
         loop {
             if let Some(reason) = self.clock.end_reason(self.moving, &self.firings) {
@@ -163,7 +163,7 @@ impl<'a> Stepper<'a> {
                 true => arch.dispatch(EvaluateCables::<true>(&mut self)),
             };
             if watch(&Snapshot { stepper: &self }).is_break() {
-                return Err(Failure::Stopped { time: self.clock.now() });
+                return Err(RunError::Stopped { time: self.clock.now() });
             }
             match self.scene.downhill == Vector2::zeros() {
                 true => arch.dispatch(MoveTires::<false>(&mut self, &mut totals)),
@@ -198,13 +198,13 @@ impl<'a> Stepper<'a> {
     }
 
     /// Writes the step to ledger and history, and ticks the clock.
-    fn end_step(&mut self, totals: &StepTotals) -> Result<(), Failure> {
+    fn end_step(&mut self, totals: &StepTotals) -> Result<(), RunError> {
         let greatest = |of: &Pack| of.iter().copied().fold(0.0, f64::max);
         let energy = totals.energy.iter().sum::<f64>() + self.asleep_on_slope;
         let dissipated = totals.dissipated.iter().sum::<f64>();
         let now = self.clock.now();
         if !(energy + dissipated).is_finite() {
-            return Err(Failure::Diverged { time: now });
+            return Err(RunError::Diverged { time: now });
         }
         self.record.balance_energy(energy, 0.5 * dissipated);
         self.record.ledger.dissipated += dissipated + totals.lost;

@@ -4,7 +4,7 @@ use crate::choice::Method;
 
 /// Reason why a run has no outcome.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Failure {
+pub enum RunError {
     /// The step is zero, negative, not finite, or too long for the method.
     #[error("the step of {step} s is outside what {method} can follow here, 0 to {limit:.3e} s")]
     Step {
@@ -45,7 +45,7 @@ pub enum Failure {
     },
 }
 
-impl Failure {
+impl RunError {
     /// Whether a finer step may help.
     pub fn needs_finer_step(&self) -> bool {
         matches!(self, Self::Step { .. } | Self::Diverged { .. } | Self::Unsettled { .. })
@@ -76,7 +76,7 @@ mod tests {
 
     #[test]
     fn a_refused_step_names_the_method_as_it_is_spelled_and_no_flag() {
-        let refused = |method| Failure::Step { step: 0.5, limit: 0.01, method }.to_string();
+        let refused = |method| RunError::Step { step: 0.5, limit: 0.01, method }.to_string();
         let text = "the step of 0.5 s is outside what verlet can follow here, 0 to 1.000e-2 s";
         assert_eq!(refused(Method::Verlet), text);
         assert_eq!(refused(Method::Newmark), text.replace("verlet", "newmark"));

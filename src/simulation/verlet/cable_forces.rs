@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use nalgebra::Vector3;
 use pulp::Simd;
 
-use crate::simulation::cable::{Block, Blocks};
+use crate::simulation::cable_blocks::{Block, Blocks};
 use crate::simulation::pack::{Aligned, LANES, Pack, VectorArrays, Wide};
 
 /// All cables from one step to the next, and their forces.

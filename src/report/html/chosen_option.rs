@@ -18,7 +18,7 @@ use crate::verdict::{Quantity, Verdict};
 
 /// The box with the option to be fired; one line where none is chosen.
 pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
-    let Some(option) = page.fired else {
+    let Some(option) = page.to_be_fired else {
         return html! { p.chosen { "No option is chosen to be fired: --option NAME of shelter report chooses one." } };
     };
     let case = page.case;
