@@ -101,8 +101,6 @@ struct Stepper<'a> {
     earlier: Vec<Vector3<f64>>,
     /// Contact region assumed for the step.
     region: Region,
-    /// Contact region at the start of the cut.
-    region_at_start: Region,
     /// Contact region that the solution implies.
     implied: Region,
     system: System,
@@ -146,7 +144,6 @@ impl<'a> Stepper<'a> {
             v: zeros(),
             a: zeros(),
             earlier: zeros(),
-            region_at_start: region.clone(),
             implied: region.clone(),
             region,
             system: System::new(scene),
@@ -276,6 +273,45 @@ mod tests {
 
     use super::*;
     use crate::simulation::wake::tests::{exact, scenes};
+
+    /// A tire 1 m above the ground, at rest, that is assumed to be on the ground, as where a longer step was given up.
+    fn tire_aloft(scene: &Scene, check: impl FnOnce(Stepper<'_>)) {
+        let ties = Ties::of_cables(&scene.cables, scene.mass.len());
+        let shot = Shot::from_firings(Vec::new());
+        let settings = RunSettings { method: Method::Newmark, step: 1e-3, duration: None };
+        let mut stepper = Stepper::new(scene, &ties, &shot, &settings);
+        stepper.u[0].z = 1.0;
+        stepper.region.ground[0] = TireContact::Slip;
+        stepper.wake.set_moving(0, true);
+        check(stepper);
+    }
+
+    /// It falls freely: 1 m − g h²/2.
+    #[test]
+    fn a_tire_that_was_assumed_on_the_ground_falls_from_where_it_is() {
+        tire_aloft(&scenes().0, |mut stepper| {
+            let h = 1e-3;
+            stepper.advance(h, 0).expect("a step");
+            assert!((stepper.u[0].z - (1.0 - 0.5 * stepper.scene.gravity * h * h)).abs() < 1e-12);
+            assert!((stepper.v[0].z + stepper.scene.gravity * h).abs() < 1e-12);
+        });
+    }
+
+    /// A solution that needs the ground to pull says that the tire is in the air.
+    #[test]
+    fn the_ground_does_not_pull() {
+        tire_aloft(&scenes().0, |mut stepper| {
+            let h = 1e-3;
+            stepper.refresh();
+            stepper.set_start_forces();
+            stepper.set_accelerations();
+            stepper.predict(h);
+            stepper.solve(h, 1e-10).expect("a solution");
+            assert_eq!(stepper.end[0].z, 0.0);
+            stepper.set_implied_region(h);
+            assert_eq!(stepper.implied.ground[0], TireContact::InAir);
+        });
+    }
 
     #[test]
     fn tires_asleep_would_not_have_moved() {

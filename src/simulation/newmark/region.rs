@@ -31,12 +31,6 @@ const AT_ONCE: usize = 8;
 pub const MOST_REPEATS: usize = 40;
 
 impl Region {
-    /// Takes the contact of `other`, a region of the same scene.
-    pub fn copy_from(&mut self, other: &Region) {
-        self.taut.copy_from_slice(&other.taut);
-        self.ground.copy_from_slice(&other.ground);
-    }
-
     /// Adopts the differences of `implied` at the tires and cables awake; returns whether there is any.
     ///
     /// The first repetitions adopt all differences at once. If these repetitions run in a circle, later ones adopt only the

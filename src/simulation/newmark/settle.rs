@@ -20,11 +20,8 @@ const FINE_TOLERANCE: f64 = 1e-10;
 impl Stepper<'_> {
     /// Integrates one cut of a step over `h` [s]; halves the cut while its contact region does not settle.
     pub(super) fn advance(&mut self, h: f64, halved: usize) -> Result<(), RunError> {
-        self.region_at_start.copy_from(&self.region);
         match self.settle(h) {
             Err(RunError::Unsettled { .. }) if halved < MOST_HALVINGS => {
-                // What was assumed of the end of the whole cut says nothing of its middle.
-                self.region.copy_from(&self.region_at_start);
                 self.advance(0.5 * h, halved + 1)?;
                 self.advance(0.5 * h, halved + 1)
             }
@@ -36,6 +33,7 @@ impl Stepper<'_> {
     fn settle(&mut self, h: f64) -> Result<(), RunError> {
         self.refresh();
         self.set_start_forces();
+        self.release_tires();
         self.set_accelerations();
         self.predict(h);
         let mut tolerance = COARSE_TOLERANCE;
@@ -55,8 +53,18 @@ impl Stepper<'_> {
         Err(RunError::Unsettled { what: Iteration::ContactRegion, time: self.clock.now() })
     }
 
+    /// Takes tires for in the air that are above the ground or leave it: what was assumed of the end of a longer cut may have them
+    /// on the ground.
+    fn release_tires(&mut self) {
+        for &tire in self.wake.awake_tires() {
+            if self.u[tire].z > 0.0 || self.v[tire].z > 0.0 {
+                self.region.ground[tire] = TireContact::InAir;
+            }
+        }
+    }
+
     /// Sets the forces at the start of the cut.
-    fn set_start_forces(&mut self) {
+    pub(super) fn set_start_forces(&mut self) {
         cable_forces(
             &self.scene,
             &self.wake,
@@ -80,7 +88,7 @@ impl Stepper<'_> {
     }
 
     /// Sets the accelerations at the start of the cut from the balance of forces.
-    fn set_accelerations(&mut self) {
+    pub(super) fn set_accelerations(&mut self) {
         for &tire in self.wake.awake_tires() {
             let free = self.f_start[tire] / self.scene.mass[tire] - Vector3::z() * self.scene.gravity;
             self.a[tire] = match self.region.ground[tire] {
@@ -92,14 +100,14 @@ impl Stepper<'_> {
     }
 
     /// Sets the displacement over the cut, for constant forces and without contact.
-    fn predict(&mut self, h: f64) {
+    pub(super) fn predict(&mut self, h: f64) {
         for &tire in self.wake.awake_tires() {
             self.du[tire] = self.v[tire] * h + self.a[tire] * (0.5 * h * h);
         }
     }
 
     /// Solves equilibrium by Newton–Raphson for the assumed contact region, from the last displacement on.
-    fn solve(&mut self, h: f64, tolerance: f64) -> Result<(), RunError> {
+    pub(super) fn solve(&mut self, h: f64, tolerance: f64) -> Result<(), RunError> {
         for &tire in self.wake.awake_tires() {
             match self.region.ground[tire] {
                 TireContact::InAir => {}
