@@ -117,8 +117,8 @@ fn every_change_offered_passes_when_made() {
         }
     }
     let amur = Case::load(shipped("amur-three-rows.toml").as_ref()).expect("a shipped plan");
-    // So few samples pass only where none fails.
-    let few = Sampling::exactly(600, 1);
+    // Half of the usual number; the first change of a kind passes with 505 of which none fails, the fourth with 800.
+    let few = Sampling::exactly(1000, 1);
     assert!(all_pass_when_made(&amur, 2, Some(&few)) > 0);
     assert!(all_pass_when_made(&amur, 6, None) > 0);
 }
