@@ -167,6 +167,9 @@ const FAR_MOVE: f64 = 1.5;
 fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
     let best = &fit.answers[0];
     let mut warnings = Vec::new();
+    if !best.is_settled {
+        warnings.push("the estimates have not settled, they may lie elsewhere: observe more".to_owned());
+    }
     for estimate in &best.estimates {
         let name = estimate.parameter.name(&case.plan);
         if estimate.is_at_end {

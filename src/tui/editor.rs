@@ -101,8 +101,13 @@ impl Editor {
 
     /// Whether a field has another value than in the file.
     pub fn is_changed(&self, field: &Field) -> bool {
-        let in_file =
-            |saved: &&Field| saved.group == field.group && saved.path.key.name == field.path.key.name;
+        // The name of an option may follow its interval; where options were added or removed, their indices tell nothing.
+        let same_fields = self.saved_fields.len() == self.fields.len();
+        let same_place = |saved: &Field| match same_fields {
+            true => saved.path.section == field.path.section && saved.path.index == field.path.index,
+            false => saved.group == field.group,
+        };
+        let in_file = |saved: &&Field| same_place(saved) && saved.path.key.name == field.path.key.name;
         self.unsaved()
             && self.saved_fields.iter().find(in_file).map(|saved| &saved.value) != Some(&field.value)
     }
@@ -116,9 +121,9 @@ impl Editor {
             let names = fields::order(&self.text, &field.path);
             self.order = (!names.is_empty()).then_some(OrderEditor { names, selected: 0 });
         } else if let Kind::Catalogue(names) = field.path.key.kind {
-            self.names = Some(NameList::new(names(), field.value.trim_matches('"')));
+            self.names = Some(NameList::new(names(), &unquoted(&field.value)));
         } else {
-            self.input = Some(Input::new(field.value.trim_matches('"').to_owned()));
+            self.input = Some(Input::new(unquoted(&field.value)));
         }
     }
 
@@ -331,6 +336,12 @@ impl Editor {
     }
 }
 
+/// The text of a value as people type it: without the quotation marks and escapes of TOML.
+fn unquoted(value: &str) -> String {
+    let text = value.parse::<toml_edit::Value>().ok().and_then(|value| value.as_str().map(str::to_owned));
+    text.unwrap_or_else(|| value.to_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use crossterm::event::KeyModifiers;
@@ -360,6 +371,38 @@ mod tests {
             }
         }
         panic!("{:?}", editor.problem);
+    }
+
+    /// Names with quotation marks, and with letters that Rust would escape in another way than TOML.
+    #[test]
+    fn names_of_any_letters_stay_themselves() {
+        let slow = "20 ms \\\"slow\\\"";
+        let text =
+            include_str!("../../plans/amur-three-rows.toml").replace("\"20 ms\"", &format!("\"{slow}\""));
+        let mut editor = Editor::new(&text);
+        editor.find("slow", false);
+        editor.begin();
+        assert_eq!(editor.input.as_ref().map(Input::value), Some("20 ms \"slow\""));
+        editor.type_key(&KeyEvent::new(KeyCode::Enter, KeyModifiers::NONE));
+        assert_eq!(editor.text, text);
+        let decomposed = "\u{438}\u{306} \"\u{a0}";
+        let order = OrderEditor { names: vec![decomposed.to_owned()], selected: 0 };
+        let parsed: toml_edit::Value = order.text().parse().expect("TOML");
+        assert_eq!(parsed.as_array().and_then(|names| names.get(0)?.as_str()), Some(decomposed));
+    }
+
+    /// The name of the option follows its interval, and both differ from the file; its other values do not.
+    #[test]
+    fn only_what_differs_from_the_file_is_marked() {
+        let mut editor = editor();
+        editor.find("20 ms: interval", false);
+        editor.begin();
+        editor.type_key(&KeyEvent::new(KeyCode::Char('u'), KeyModifiers::CONTROL));
+        type_text(&mut editor, "21");
+        editor.type_key(&KeyEvent::new(KeyCode::Enter, KeyModifiers::NONE));
+        let changed = editor.fields.iter().filter(|field| editor.is_changed(field));
+        let keys: Vec<&str> = changed.map(|field| field.path.key.name).collect();
+        assert_eq!(keys, ["name", "interval_ms"]);
     }
 
     #[test]

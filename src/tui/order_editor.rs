@@ -25,7 +25,6 @@ impl OrderEditor {
 
     /// The order as a plan writes it.
     pub fn text(&self) -> String {
-        let names: Vec<String> = self.names.iter().map(|name| format!("{name:?}")).collect();
-        format!("[{}]", names.join(", "))
+        self.names.iter().collect::<toml_edit::Array>().to_string()
     }
 }

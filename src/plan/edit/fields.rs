@@ -211,24 +211,39 @@ fn table_mut<'d>(document: &'d mut DocumentMut, path: &Path) -> Option<&'d mut d
 /// The text with a copy of one delay option, which follows the option and has a new name.
 pub fn copy_delay(text: &str, index: usize) -> Option<String> {
     let mut document: DocumentMut = text.parse().ok()?;
-    let Item::ArrayOfTables(tables) = document.get_mut("delay")? else { return None };
-    let mut all: Vec<Table> = tables.iter().cloned().collect();
-    let name = |table: &Table| table.get("name").and_then(Item::as_str).unwrap_or_default().to_owned();
-    let names: Vec<String> = all.iter().map(name).collect();
-    let mut copy = all.get(index)?.clone();
-    let new = free_name(&names[index], |new| names.iter().any(|taken| taken == new));
-    super::set(&mut copy, "name", Value::from(new));
-    copy.decor_mut().set_prefix("\n");
-    all.insert(index + 1, copy);
-    replace(tables, all);
+    let names = names(&document, "delay");
+    let new = free_name(names.get(index)?, |new| names.iter().any(|taken| taken == new));
+    match document.get_mut("delay")? {
+        Item::ArrayOfTables(tables) => {
+            let mut all: Vec<Table> = tables.iter().cloned().collect();
+            let mut copy = all.get(index)?.clone();
+            super::set(&mut copy, "name", Value::from(new));
+            copy.decor_mut().set_prefix("\n");
+            all.insert(index + 1, copy);
+            replace(tables, all);
+        }
+        Item::Value(Value::Array(list)) => {
+            let mut copy = list.get(index)?.clone();
+            copy.as_inline_table_mut()?.insert("name", Value::from(new));
+            list.insert_formatted(index + 1, copy);
+        }
+        _ => return None,
+    }
     Some(with_line_ends_of(text, &document))
 }
 
 /// The text without one delay option; `None` where the plan has no other option.
 pub fn remove_delay(text: &str, index: usize) -> Option<String> {
     let mut document: DocumentMut = text.parse().ok()?;
-    let Item::ArrayOfTables(tables) = document.get_mut("delay")? else { return None };
-    (tables.len() > 1 && index < tables.len()).then(|| tables.remove(index))?;
+    match document.get_mut("delay")? {
+        Item::ArrayOfTables(tables) if tables.len() > 1 && index < tables.len() => {
+            tables.remove(index);
+        }
+        Item::Value(Value::Array(list)) if list.len() > 1 && index < list.len() => {
+            list.remove(index);
+        }
+        _ => return None,
+    }
     Some(with_line_ends_of(text, &document))
 }
 
@@ -312,5 +327,11 @@ mod tests {
         assert_eq!(crate::plan::Plan::parse("", &removed).map(|plan| plan.delays.len()).ok(), Some(7));
         assert!(PLAN.lines().all(|line| removed.contains(line)), "comments stay:\n{removed}");
         assert_eq!(remove_delay("[[delay]]\nname = \"a\"\n", 0), None);
+        let inline = "delay = [{ name = \"a\", at_ms = [0] }, { name = \"b\", at_ms = [1] }]\n";
+        let copied = copy_delay(inline, 0).expect("a copy");
+        let three = inline.replace(" }, ", " }, { name = \"a (2)\", at_ms = [0] }, ");
+        assert_eq!(copied.replace(",{", ", {"), three);
+        assert_eq!(remove_delay(&copied, 1).as_deref(), Some(inline));
+        assert_eq!(remove_delay("delay = [{ name = \"a\" }]\n", 0), None);
     }
 }

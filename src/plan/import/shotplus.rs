@@ -169,6 +169,7 @@ impl Element {
             }
         };
         let fire_ms = stated_ms.and_then(|stated_ms| self.fire_ms(&id, stated_ms, detonators, mistakes));
+        let charge_kg = self.charge_kg(&id, mistakes);
         if mistakes.len() > before {
             return None;
         }
@@ -176,13 +177,13 @@ impl Element {
             x_m: x_m?,
             y_m: y_m?,
             row: None,
-            // Without what SHOTPlus adds for its ties.
+            // Without what SHOTPlus adds for its ties, 0.0001 ms each, of up to 49 of them.
             fire_ms: Some((fire_ms? * 100.0).round() / 100.0),
             delay_ms: None,
             from: None,
             launch_m_s: None,
             tilt,
-            charge_kg: self.charge_kg(),
+            charge_kg,
             span: self.span.clone(),
             id,
         })
@@ -237,14 +238,30 @@ impl Element {
         Some(first)
     }
 
-    /// Mass of the explosive in all decks [kg]; `None` where there is none.
-    fn charge_kg(&self) -> Option<f64> {
+    /// Mass of the explosive in all decks [kg]; `None` where there is none. A deck whose mass is not known is a mistake: the hole
+    /// would count as lighter than it is.
+    fn charge_kg(&self, id: &str, mistakes: &mut Vec<Mistake>) -> Option<f64> {
         let kinds = self.all("DesignLoading/Decks/Type");
         let weights = self.all("DesignLoading/Decks/Weight");
-        let explosive =
-            |(kind, weight): (&String, &String)| weight.parse::<f64>().ok().filter(|_| kind == "Explosive");
-        let mass = kinds.iter().zip(weights).filter_map(explosive).sum();
-        Some(mass).filter(|&mass| mass > 0.0 && kinds.len() == weights.len())
+        let explosive = kinds.iter().enumerate().filter(|(_, kind)| *kind == "Explosive");
+        let mut mass = 0.0;
+        for (deck, _) in explosive {
+            let weight = weights.get(deck).filter(|_| kinds.len() == weights.len());
+            match weight.and_then(|weight| weight.parse::<f64>().ok()).filter(|weight| *weight >= 0.0) {
+                Some(weight) => mass += weight,
+                None => {
+                    let stated = weight.map_or("missing".to_owned(), |weight| format!("`{weight}`"));
+                    let message = format!("hole {id}: the weight of its explosive is {stated}");
+                    mistakes.push(wrong(
+                        self.span.clone(),
+                        message,
+                        "let SHOTPlus charge the hole again, and save the design",
+                    ));
+                    return None;
+                }
+            }
+        }
+        Some(mass).filter(|&mass| mass > 0.0)
     }
 }
 

@@ -46,6 +46,8 @@ pub struct Answer {
     pub residuals: Vec<Residual>,
     /// Sum of the squares of the independent residuals, with those of what the plan knew of the parameters.
     pub chi_square: f64,
+    /// Whether the estimates have settled; if not, another round could move them.
+    pub is_settled: bool,
     /// Its degrees of freedom; 0 where there are as many parameters as observations.
     pub freedom: usize,
 }

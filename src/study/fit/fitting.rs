@@ -39,6 +39,8 @@ pub(super) struct ExactAnswer {
     /// Their derivatives (`n_observations` × `n_parameters`).
     pub slopes: DMatrix<f64>,
     pub weights: Weights,
+    /// Whether the last round changed little.
+    pub is_settled: bool,
 }
 
 impl ExactAnswer {
@@ -135,7 +137,7 @@ impl Fitting<'_> {
         };
         let Some(fitted) = self.predictor.values(&minimum.point, 1.0)? else { return Ok(None) };
         let slopes = self.slopes(&minimum, &fitted)?;
-        Ok(Some(ExactAnswer { minimum, fitted, slopes, weights }))
+        Ok(Some(ExactAnswer { minimum, fitted, slopes, weights, is_settled: true }))
     }
 
     /// The answer near a minimum, for the mean of what scatter makes of the predictions: samples about the answer give the mean,
@@ -189,7 +191,7 @@ impl Fitting<'_> {
                 |n: usize| moved[n].abs() <= 0.3 * spread[n] && (wanted[n] / spread[n]).ln().abs() < 0.4;
             let is_settled = (0..count).all(is_near);
             (at, spread) = (minimum.point.clone(), wanted);
-            settled = Some(ExactAnswer { minimum, fitted, slopes, weights });
+            settled = Some(ExactAnswer { minimum, fitted, slopes, weights, is_settled });
             if is_settled {
                 break;
             }
@@ -248,6 +250,7 @@ impl Fitting<'_> {
         };
         let stated = self.priors.iter().flatten().count();
         Answer {
+            is_settled: settled.is_settled,
             estimates: (0..count).map(estimate).collect(),
             correlation: (0..count).map(|a| (0..count).map(|b| correlation(a, b)).collect()).collect(),
             residuals: (0..fitted.len()).map(residual).collect(),

@@ -29,6 +29,8 @@ pub mod weights;
 
 pub use self::answer::{Answer, Estimated, Fit, FitResult, Residual};
 pub use self::determined::{NotDetermined, Observable};
+use std::sync::OnceLock;
+
 use self::fitting::Fitting;
 use self::observation_bands::{NextObservation, next_observation, predict_observations};
 use self::observed_shots::ObservedShots;
@@ -119,7 +121,7 @@ pub fn fit(
 
 /// The case without a `duration_s`, where friction brings the tires to rest: what was seen later than that is computed, too.
 fn until_rest(case: &Case) -> Case {
-    let mut case = case.clone();
+    let mut case = Case { fingerprint: OnceLock::new(), ..case.clone() };
     let least_friction = case.plan.ground.friction.min(case.plan.uncertainty.friction[0]);
     if 1e2 * least_friction > case.plan.ground.slope_percent {
         case.plan.simulation.duration_s = None;

@@ -201,10 +201,15 @@ impl SearchBox {
                 beside[n] = (point[n] + side * difference[n]).clamp(self.ranges[n][0], self.ranges[n][1]);
                 beside
             };
-            let (more, less) = (beside(1.0), beside(-1.0));
-            let [above, below] = [residuals(&more)?, residuals(&less)?];
-            let (above, below) = (above.unwrap_or_else(|| r.clone()), below.unwrap_or_else(|| r.clone()));
-            slopes.set_column(n, &((above - below) / (more[n] - less[n])));
+            // In place of a side whose run fails stands the middle.
+            let end = |side: f64| -> Result<(f64, DVector<f64>), NoResult> {
+                let place = beside(side);
+                Ok(residuals(&place)?.map_or_else(|| (point[n], r.clone()), |there| (place[n], there)))
+            };
+            let ((more, above), (less, below)) = (end(1.0)?, end(-1.0)?);
+            if more > less {
+                slopes.set_column(n, &((above - below) / (more - less)));
+            }
         }
         Ok(slopes)
     }
@@ -219,8 +224,11 @@ impl SearchBox {
         for n in 0..self.ranges.len() {
             normal[(n, n)] += (UNKNOWN * self.width(n)).powi(-2);
         }
-        let count = self.ranges.len();
-        normal.cholesky().map_or_else(|| DMatrix::zeros(count, count), |factor| factor.inverse())
+        let nothing_known = || {
+            let variance = |n: usize| (UNKNOWN * self.width(n)).powi(2);
+            DMatrix::from_diagonal(&DVector::from_fn(self.ranges.len(), |n, _| variance(n)))
+        };
+        normal.cholesky().map_or_else(nothing_known, |factor| factor.inverse())
     }
 
     /// The point that one damped step leads to.

@@ -195,9 +195,8 @@ impl<'c> Choices<'c> {
         let rows = self.rank_across.len();
         let orders: Vec<Vec<usize>> = match self.case.plan.search.orders {
             SearchedOrders::Listed => vec![(0..rows).collect()],
-            SearchedOrders::All | SearchedOrders::Adjacent => {
-                (0..rows).permutations(rows).filter(|order| self.may_fire_in(order)).collect()
-            }
+            SearchedOrders::All => (0..rows).permutations(rows).collect(),
+            SearchedOrders::Adjacent => self.adjacent_orders(),
         };
         let gaps: Vec<Vec<usize>> = match self.free_gaps {
             0 => vec![Vec::new()],
@@ -207,6 +206,26 @@ impl<'c> Choices<'c> {
         itertools::iproduct!(orders, gaps, holes)
             .map(|(order, gaps, holes)| Candidate { order, gaps, holes })
             .collect()
+    }
+
+    /// The orders in which every row but the first fires beside one that has fired, sorted. They grow from their first row to one
+    /// side or the other: of n rows there are 2ⁿ⁻¹, far fewer than all n! orders.
+    fn adjacent_orders(&self) -> Vec<Vec<usize>> {
+        let rows = self.rank_across.len();
+        let by_rank: Vec<usize> = (0..rows).sorted_by_key(|&row| self.rank_across[row]).collect();
+        // With each order, the ranks between which its rows lie.
+        let mut orders: Vec<(usize, usize, Vec<usize>)> =
+            (0..rows).map(|rank| (rank, rank + 1, vec![by_rank[rank]])).collect();
+        for _ in 1..rows {
+            let mut longer = Vec::with_capacity(2 * orders.len());
+            for (low, high, order) in orders {
+                let with = |rank: usize| [order.as_slice(), &[by_rank[rank]]].concat();
+                longer.extend((low > 0).then(|| (low - 1, high, with(low - 1))));
+                longer.extend((high < rows).then(|| (low, high + 1, with(high))));
+            }
+            orders = longer;
+        }
+        orders.into_iter().map(|(.., order)| order).sorted().collect()
     }
 
     /// Any one of them.
@@ -358,5 +377,37 @@ impl KnownShots {
         }
         let keys = images.iter().map(|shot| shot.firings.iter().map(key).collect::<Vec<_>>());
         keys.min().is_some_and(|key| self.0.insert(key))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::PlanSource;
+
+    fn rows(count: usize) -> Case {
+        let row = |n: usize| format!("[[blast_row]]\nname = \"{n}\"\nunder_row = {n}\nlaunch_m_s = 6\n");
+        let text = format!(
+            "[shelter]\nrows = {count}\ncolumns = 2\nspacing_m = 1.65\n[cable]\naxial_stiffness_kn = 1000\nbreaking_force_kn = 100\n\
+             [limits]\nflight_height_m = 2\nsafety_factor = 2\n[search]\norders = \"adjacent\"\nintervals_ms = [42]\n{}\
+             [[delay]]\nname = \"a\"\ninterval_ms = 42\n",
+            (1..=count).map(row).collect::<String>()
+        );
+        let source = PlanSource { path: String::new(), text };
+        Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"))
+    }
+
+    /// Those that grow are those among all orders that fire beside one another; of sixteen rows there are 32,768.
+    #[test]
+    fn adjacent_orders_grow_from_their_first_row() {
+        for count in 1..=6 {
+            let case = rows(count);
+            let choices = Choices::new(&case).expect("choices");
+            let all = (0..count).permutations(count).filter(|order| choices.may_fire_in(order));
+            assert_eq!(choices.adjacent_orders(), all.collect_vec(), "{count} rows");
+        }
+        let case = rows(16);
+        let choices = Choices::new(&case).expect("choices");
+        assert_eq!((choices.all().len(), choices.count()), (32_768, 32_768));
     }
 }

@@ -5,7 +5,7 @@
 //! | jobs on all cores | [`batch`] |
 //! | results that survive the end of the program | [`journal`] |
 //! | how far it is, and how it is stopped | `progress` |
-//! | a result, whole or partial; why there is none | `found`, `no_result` |
+//! | a result, whole or partial; why there is none | `computed`, `no_result` |
 //! | intervals to be tried | `intervals` |
 //! | the part of a study that one machine computes | `shard` |
 
