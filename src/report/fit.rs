@@ -1,6 +1,6 @@
 //! `fit` as a report: the estimates of each answer, and every observation beside what was planned, possible and fitted.
 
-use super::observed::{ObservedRow, bands, contradiction, fitted_rows, observed_table, place};
+use super::observed::{ObservedRow, bands, contradiction, fitted_rows, observed_rows, observed_table, place};
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Report, Table};
 use super::report_head;
 use crate::choice::Unknown;
@@ -246,11 +246,23 @@ fn conclusion(fit: &Fit) -> Option<Conclusion> {
     Some(Conclusion { verdict: Verdict::Undecided, text })
 }
 
+/// The report of a result without estimates: why, and what was seen beside what the plan says.
+pub fn report_of_refusal(case: &Case, found: &FitResult) -> Report {
+    let mut blocks = vec![Block::Text(refusal(case, found).into_iter().collect())];
+    let mut warnings = Vec::new();
+    if let FitResult::NotDetermined { observed, predictions, .. } = found {
+        let rows = observed_rows(case, observed, predictions);
+        warnings = contradiction(&rows);
+        blocks.push(Block::Table(observed_table(&rows)));
+    }
+    Report { blocks, warnings, ..Report::default() }
+}
+
 /// Why there are no estimates, with the remedy; `None` where there are.
 pub fn refusal(case: &Case, found: &FitResult) -> Option<String> {
     match found {
         FitResult::Fitted(_) => None,
-        FitResult::NotDetermined(NotDetermined { parameters, observe }) => {
+        FitResult::NotDetermined { refused: NotDetermined { parameters, observe }, .. } => {
             let names: Vec<String> = parameters.iter().map(|parameter| parameter.name(&case.plan)).collect();
             let what = match names.len() {
                 1 => format!("the observations do not determine {}", names[0]),

@@ -6,7 +6,7 @@ use crate::plan::observations::{Observation, Watched};
 use crate::study::Case;
 use crate::study::fit::observation_bands::Prediction;
 use crate::study::fit::{Fit, Residual};
-use crate::units;
+use crate::units::{self, Unit};
 
 /// An observation beside what the plan, and after a fit its best answer, say of it.
 #[derive(Clone, Copy, Debug)]
@@ -113,8 +113,28 @@ fn value_by_sd(value: f64, sd: f64) -> String {
     units::value_and_sd(value, sd).split(' ').next().unwrap_or_default().to_owned()
 }
 
-/// That the plan does not predict what was seen, where it does not; of ten observations one lies outside by chance.
+/// What was seen that speaks against the verdicts of the plan: values over a limit, and that the plan does not predict what was seen;
+/// of ten observations one lies outside by chance.
 pub fn contradiction(rows: &[ObservedRow<'_>]) -> Vec<String> {
+    rows.iter().filter_map(over_limit).chain(unpredicted(rows)).collect()
+}
+
+/// That a value over a limit was seen.
+fn over_limit(row: &ObservedRow<'_>) -> Option<String> {
+    let ObservedRow { case, observed, .. } = row;
+    let (limit, unit) = match observed.watched.quantity {
+        ObservedQuantity::FlightHeight | ObservedQuantity::Height => (Some(case.limits.height), Unit::Metre),
+        ObservedQuantity::Force => (Some(case.limits.force), Unit::Kilonewton),
+        ObservedQuantity::Drift => (case.limits.drift, Unit::Metre),
+        ObservedQuantity::Lift | ObservedQuantity::Landing => (None, Unit::Second),
+    };
+    let limit = limit.filter(|limit| observed.value > *limit)?;
+    let place = place(case, observed.option, &observed.watched);
+    let [value, limit] = [observed.value, limit].map(|value| units::value(value, unit));
+    Some(format!("{place}: {value} {} was seen, over the limit of {limit}", unit.symbol()))
+}
+
+fn unpredicted(rows: &[ObservedRow<'_>]) -> Option<String> {
     let within: Vec<bool> =
         rows.iter().filter_map(|row| row.prediction.contains(row.observed.value)).collect();
     let outside = within.iter().filter(|within| !**within).count();
@@ -126,7 +146,7 @@ pub fn contradiction(rows: &[ObservedRow<'_>]) -> Vec<String> {
             within.len()
         )
     };
-    is_odd.then(text).into_iter().collect()
+    is_odd.then(text)
 }
 
 /// How many observations lie in their bands: of each shot, and of all.

@@ -50,7 +50,7 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
         blocks.extend(charts::sweep(case, sweep).into_iter().map(Block::Chart));
         blocks.push(Block::Table(table_of_highlights(case, sweep)));
         blocks.push(Block::Text(windows(case, sweep, partial)));
-        blocks.push(Block::Table(table_of_windows(case, sweep)));
+        blocks.push(Block::Table(table_of_windows(sweep)));
     }
     blocks.push(Block::Table(Table::of(&points(), &sweep.points)));
     let passing = sweep.points.iter().map(|point| &point.as_planned);
@@ -68,22 +68,21 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
 }
 
 fn table_of_highlights(case: &Case, sweep: &Sweep) -> Table {
-    let named = [("worst", sweep.worst(case)), ("recommended", sweep.best())];
+    let best = sweep.best();
+    let named = [("recommended", best), ("worst", sweep.worst(case))];
     let named = named.into_iter().filter_map(|(name, point)| Some((name, point?)));
     // Without any sample the last column has no cell.
     let (fields, is_sampled) = (highlights(), sweep.points.iter().any(Point::is_sampled));
-    let offers: Vec<Offer> =
-        named.clone().map(|(_, point)| offer(case, &sweep.order, point.interval)).collect();
+    // Only what has a full verdict is offered; without it the first row would be another.
+    let offers = best.map(|point| {
+        let schedule = Schedule::at_interval(case, &sweep.order, point.interval);
+        Offer::Option(schedule.named_option(&case.plan.blast_rows))
+    });
     Table::of(if is_sampled { &fields[..] } else { &fields[..5] }, named).offering(offers)
 }
 
-/// The option that fires the rows of `order` at an interval [s].
-fn offer(case: &Case, order: &[usize], interval: f64) -> Offer {
-    Offer::Option(Schedule::at_interval(case, order, interval).named_option(&case.plan.blast_rows))
-}
-
-/// The wide windows, one a row; each offers the interval tried that is nearest to its middle.
-fn table_of_windows(case: &Case, sweep: &Sweep) -> Table {
+/// The wide windows, one a row.
+fn table_of_windows(sweep: &Sweep) -> Table {
     let named = |name: &'static str, windows: &[[f64; 2]]| {
         wide(windows).into_iter().map(move |window| (name, window)).collect::<Vec<_>>()
     };
@@ -92,18 +91,12 @@ fn table_of_windows(case: &Case, sweep: &Sweep) -> Table {
         false => (named("that pass", &sweep.windows), Vec::new()),
     };
     let all = [all, as_planned].concat();
-    let middle = |&(_, [from, to]): &(&str, [f64; 2])| {
-        let distance = |point: &&Point| (point.interval - 0.5 * (from + to)).abs();
-        let inside = sweep.points.iter().filter(|point| (from..=to).contains(&point.interval));
-        inside.min_by(|a, b| distance(a).total_cmp(&distance(b))).map_or(from, |point| point.interval)
-    };
-    let offers: Vec<Offer> = all.iter().map(|window| offer(case, &sweep.order, middle(window))).collect();
     let fields: [Field<(&str, [f64; 2])>; 3] = [
         Field::new(Column::words(&[], "windows"), |(name, _)| Cell::Text((*name).to_owned())),
         Field::new(Column::numbers(&[], "from", Unit::One), |(_, [from, _])| Cell::Interval(*from)),
         Field::new(Column::numbers(&[], "to", Unit::One), |(_, [_, to])| Cell::Interval(*to)),
     ];
-    Table::of(&fields, all).offering(offers)
+    Table::of(&fields, all)
 }
 
 /// Windows narrower than this are counted, not listed [s].

@@ -68,7 +68,10 @@ pub fn observed(app: &App) -> Vec<ObservedRow<'_>> {
     match app.studies.finished(StudyKind::Fit).map(|finished| &*finished.found) {
         Some(StudyResult::Fit(fit, _)) => match &**fit {
             FitResult::Fitted(fit) => observed_rows(&app.case, &fit.observed, &fit.predictions),
-            _ => Vec::new(),
+            FitResult::NotDetermined { observed, predictions, .. } => {
+                observed_rows(&app.case, observed, predictions)
+            }
+            FitResult::KnownExactly(_) | FitResult::NotInMethod(_) => Vec::new(),
         },
         _ => Vec::new(),
     }

@@ -41,6 +41,13 @@ impl Observed {
         Ok(())
     }
 
+    /// Forgets the line typed last, or the file taken last where no line was typed; what was forgotten, in words.
+    pub fn forget_last(&mut self) -> Option<String> {
+        let words =
+            |row: String| row.split(';').filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ");
+        self.typed.pop().map(words).or_else(|| self.files.pop().map(|(path, _)| path))
+    }
+
     /// The observations of the plan on the screen, a list for the typed lines and for each file; the first mistake.
     pub fn read(&self, case: &Case) -> Result<Vec<Observations>, String> {
         let names = observable_names(case);

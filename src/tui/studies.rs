@@ -57,10 +57,7 @@ impl ShownStudy {
             }
             StudyResult::Fit(fit, files) => match &**fit {
                 FitResult::Fitted(fit) => report::fit::report(case, files, fit, true),
-                refused => {
-                    let blocks = vec![Block::Text(report::fit::refusal(case, refused).into_iter().collect())];
-                    Report { blocks, ..Report::default() }
-                }
+                refused => report::fit::report_of_refusal(case, refused),
             },
             StudyResult::Accuracy(study) => report::accuracy::report(case, study, &[]),
             StudyResult::Flight(flight) => {

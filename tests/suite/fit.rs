@@ -166,7 +166,7 @@ fn what_observations_do_not_determine_is_refused_by_name() {
     for sampling in [None, Some(Sampling::exactly(20, 1))] {
         for (case, lines, unknowns, among) in &sets {
             let found = found(case, lines, unknowns, sampling);
-            let FitResult::NotDetermined(NotDetermined { parameters, .. }) = &found else {
+            let FitResult::NotDetermined { refused: NotDetermined { parameters, .. }, .. } = &found else {
                 panic!("{unknowns:?}: {found:?}")
             };
             let names: Vec<String> = parameters.iter().map(|parameter| parameter.name(&case.plan)).collect();

@@ -13,7 +13,14 @@ pub enum FitResult {
     /// Estimates.
     Fitted(Fit),
     /// The observations do not determine some of the unknowns.
-    NotDetermined(NotDetermined),
+    NotDetermined {
+        /// Which, and what would.
+        refused: NotDetermined,
+        /// The observations, in the order of their options.
+        observed: Vec<Observation>,
+        /// What the plan as it is says of each observation.
+        predictions: Vec<Prediction>,
+    },
     /// The plan says that an unknown is known exactly.
     KnownExactly(Unknown),
     /// The method of the plan has no such effect.

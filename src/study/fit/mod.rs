@@ -107,12 +107,14 @@ pub fn fit(
     let best = &settled[0];
     let slopes = best.weights.whiten(&best.slopes).unwrap_or_else(|| best.slopes.clone());
     let start = fitting.start_coordinates(&case.plan);
-    if let Some(refused) = determined::refuse(&fitting.predictor, &fitting.space, &start, &slopes)? {
-        return Ok(whole(FitResult::NotDetermined(refused)));
-    }
-    let answers = settled.iter().map(|settled| fitting.answer(case, settled)).collect();
+    let refused = determined::refuse(&fitting.predictor, &fitting.space, &start, &slopes)?;
     let predictions =
         predict_observations(case, &fitting.seen, request.sampling.as_ref(), compute, progress)?;
+    if let Some(refused) = refused {
+        let observed = fitting.seen.list;
+        return Ok(whole(FitResult::NotDetermined { refused, observed, predictions }));
+    }
+    let answers = settled.iter().map(|settled| fitting.answer(case, settled)).collect();
     let ObservedShots { list: observed, file, .. } = fitting.seen;
     let mut fit = Fit { answers, observed, file, predictions, next: None };
     fit.next = next(case, &fit, request, compute, progress)?;

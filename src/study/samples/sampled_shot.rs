@@ -162,6 +162,14 @@ impl SampledShot {
         }
     }
 
+    /// The value of a quantity that no more than the accepted share of the decided samples exceeds; `None` for fewer than
+    /// [`SAMPLES_FOR_BANDS`].
+    pub fn value_at_risk(&self, quantity: Quantity) -> Option<f64> {
+        let values = self.decided().map(|sample| sample.finest().get(quantity));
+        let [value] = percentiles(values, [1.0 - self.bounds.accepted])?;
+        (self.decided().count() >= SAMPLES_FOR_BANDS).then_some(value)
+    }
+
     /// The 5th, 50th and 95th percentile and the greatest value of a quantity over the decided samples; `None` for fewer than
     /// [`SAMPLES_FOR_BANDS`].
     pub fn band(&self, quantity: Quantity) -> Option<[f64; 4]> {

@@ -6,6 +6,7 @@ use crate::jobs::StudyKind;
 use crate::tui::app::{App, Request};
 use crate::tui::keymap::Action;
 use crate::tui::prompt::{Prompt, Purpose};
+use crate::tui::studies::StudyState;
 
 impl App {
     /// Does an action of the tab; `None` where it is one of every tab.
@@ -16,8 +17,16 @@ impl App {
                 self.notice = Some("nothing was observed yet".to_owned());
             }
             Action::Cancel if !self.studies.is_running(StudyKind::Fit) => {
-                self.observed = Default::default();
-                self.notice = Some("what was observed is forgotten".to_owned());
+                let Some(forgotten) = self.observed.forget_last() else {
+                    self.notice = Some("nothing was observed yet".to_owned());
+                    return Some(Request::None);
+                };
+                self.notice = Some(format!("no longer counted as seen: {forgotten}"));
+                if self.observed.is_empty() {
+                    self.studies.set(StudyKind::Fit, StudyState::Idle);
+                } else {
+                    return Some(self.begin_study(StudyKind::Fit));
+                }
             }
             _ => return None,
         }

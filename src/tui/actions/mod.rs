@@ -22,7 +22,9 @@ use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use crate::choice::Accuracy;
 use crate::jobs::StudyKind;
+use crate::report::observed::contradiction;
 use crate::study::judgement::Judgement;
+use crate::tui::export;
 use crate::verdict::Verdict;
 
 /// Lines that a page key moves.
@@ -132,6 +134,7 @@ impl App {
     /// Asks for the file of the page; the name offered says which option it is of, and whether that passes.
     fn name_page(&self) -> Request {
         let ending = match self.judgement(self.selected).map(Judgement::verdict) {
+            _ if !contradiction(&export::observed(self)).is_empty() => "contradicted",
             Some(Verdict::Pass) => "to-be-fired",
             Some(Verdict::Fail) => "fails",
             Some(Verdict::Undecided) | None => "open",

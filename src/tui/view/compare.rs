@@ -34,7 +34,7 @@ const LEAST_NAME: u16 = 8;
 const SPARKS: u16 = 150;
 
 const COLUMNS: &[CompareColumn] = &[
-    CompareColumn { head: "95 % use", sort: SortBy::Verdict, width: 8, from: 0, cell: use_of_limit },
+    CompareColumn { head: "limit use", sort: SortBy::Verdict, width: 9, from: 0, cell: use_of_limit },
     CompareColumn {
         head: "fails, %",
         sort: SortBy::Risk,
@@ -134,14 +134,14 @@ fn value_or_difference(
     }
 }
 
-/// How much of its limit 95 % of the possible shots use at most, of the quantity that uses most: `F 105 %`. The shot as planned counts
+/// How much of its limit all but the accepted share of the samples use at most, of the quantity that uses most: `F 105 %`. The shot as planned counts
 /// where it uses more. Empty as long as there are few samples: the shot as planned alone would flatter the option.
 fn use_of_limit(app: &App, _: usize, judged: &Judgement) -> String {
     let limits = &app.case.limits;
     let share = |(letter, quantity)| {
-        let [_, _, p95, _] = sampled(judged)?.band(quantity)?;
+        let value = sampled(judged)?.value_at_risk(quantity)?;
         let as_planned = judged.as_planned.share_of_limit(quantity, limits)?;
-        Some((letter, as_planned.max(p95 / limits.get(quantity)?)))
+        Some((letter, as_planned.max(value / limits.get(quantity)?)))
     };
     let shares = ['H', 'F', 'D'].into_iter().zip(Quantity::ALL).filter_map(share);
     let worst = shares.max_by(|a, b| a.1.total_cmp(&b.1));

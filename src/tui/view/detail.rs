@@ -20,7 +20,6 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use super::chart;
 use crate::jobs::StudyKind;
 use crate::outcome::EndReason;
-use crate::report::charts;
 use crate::report::parts::Chart;
 use crate::report::remedies::{sentence, without_pass};
 use crate::report::words::option_sentences::{
@@ -28,6 +27,7 @@ use crate::report::words::option_sentences::{
 };
 use crate::report::words::reasons;
 use crate::report::words::{no_result, warnings};
+use crate::report::{charts, observed};
 use crate::study::judgement;
 use crate::study::judgement::Judgement;
 use crate::study::reasons::Reason;
@@ -35,6 +35,7 @@ use crate::study::samples::influence::input_shares;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
 use crate::tui::compare::OptionState;
+use crate::tui::export;
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
 use crate::tui::theme;
@@ -167,6 +168,10 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     if is_listed(app) {
         lines.extend(remedy_lines(app));
     }
+    // What was seen of earlier shots speaks against every verdict of the plan.
+    let contradiction = observed::contradiction(&export::observed(app));
+    lines
+        .splice(0..0, contradiction.into_iter().map(|told| Line::styled(format!("! {told}"), theme.limit())));
     let warnings = warnings::of_option(case, app.selected, judged);
     lines.extend(warnings.into_iter().map(|warning| Line::styled(format!("! {warning}"), theme.firing())));
     let sampled = judged.sampled.drawn().filter(|sampled| !sampled.samples.is_empty());

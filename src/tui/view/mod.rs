@@ -150,7 +150,11 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
             };
             // What was seen of earlier shots speaks against every verdict of the plan.
             let contradiction = observed::contradiction(&export::observed(app));
-            let contradiction: String = contradiction.iter().map(|told| format!("! {told} · ")).collect();
+            let contradiction = if contradiction.is_empty() {
+                ""
+            } else {
+                "! what was seen contradicts this plan: see Compare · "
+            };
             Line::from(vec![
                 Span::styled(contradiction, theme.limit()),
                 Span::styled(warning, theme.limit()),
@@ -200,6 +204,7 @@ fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
     let option = app.case.plan.delays.get(app.selected).map_or("", |delay| delay.name.as_str());
     let verdict = app.judgement(app.selected).map_or(Verdict::Undecided, Judgement::verdict);
     let page = format!(" page of “{}” ({}): ", compare::cut(option, LONGEST_NAME), verdict.for_people());
+    let seen = format!(" seen of “{}” (TIRE VALUE SD, or a .csv file): ", compare::cut(option, LONGEST_NAME));
     let head = match prompt.purpose {
         Purpose::Find if app.screen == Screen::Plan => " find (Down: next): ",
         Purpose::Find => " find: ",
@@ -207,7 +212,7 @@ fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
         Purpose::Export => " write to (.csv, .svg, .html): ",
         Purpose::Page => &page,
         Purpose::SaveAs => " save the plan as: ",
-        Purpose::Observe => " seen (TIRE VALUE SD, or a .csv file): ",
+        Purpose::Observe => &seen,
     };
     if prompt.purpose == Purpose::Palette {
         command_palette::draw(app, prompt, frame, area);
