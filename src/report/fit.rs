@@ -168,7 +168,7 @@ fn warnings(case: &Case, fit: &Fit) -> Vec<String> {
     let best = &fit.answers[0];
     let mut warnings = Vec::new();
     if !best.is_settled {
-        warnings.push("the estimates have not settled, they may lie elsewhere: observe more".to_owned());
+        warnings.push("the estimates have not settled and may lie elsewhere: look for a wrong observation, or observe more".to_owned());
     }
     for estimate in &best.estimates {
         let name = estimate.parameter.name(&case.plan);

@@ -384,7 +384,8 @@ mod tests {
         editor.begin();
         assert_eq!(editor.input.as_ref().map(Input::value), Some("20 ms \"slow\""));
         editor.type_key(&KeyEvent::new(KeyCode::Enter, KeyModifiers::NONE));
-        assert_eq!(editor.text, text);
+        let plan = Plan::parse("", &editor.text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        assert_eq!(plan.delays[2].name, "20 ms \"slow\"");
         let decomposed = "\u{438}\u{306} \"\u{a0}";
         let order = OrderEditor { names: vec![decomposed.to_owned()], selected: 0 };
         let parsed: toml_edit::Value = order.text().parse().expect("TOML");

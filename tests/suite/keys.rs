@@ -179,8 +179,11 @@ fn what_was_seen_of_a_shot_is_typed_and_fitted() {
     let request = app.take_observed_file("seen.csv".as_ref(), Ok(file.to_owned()));
     assert_eq!((request, app.observed.lines().len()), (Request::Study(StudyKind::Fit), 2));
     app.studies.set(StudyKind::Fit, StudyState::Idle);
-    press(&mut app, "x");
-    assert!(app.observed.is_empty(), "forgotten");
+    assert!(matches!(key(&mut app, KeyCode::Char('x')), Request::Study(StudyKind::Fit)));
+    assert_eq!(app.observed.lines(), ["seen.csv"], "one at a time, and fitted anew");
+    app.studies.set(StudyKind::Fit, StudyState::Idle);
+    assert_eq!(key(&mut app, KeyCode::Char('x')), Request::None);
+    assert!(app.observed.is_empty() && matches!(app.studies.state(StudyKind::Fit), StudyState::Idle));
 }
 
 #[test]
@@ -374,7 +377,7 @@ fn rows_of_studies_change_the_plan() {
     app.studies.show(StudyKind::Sweep);
     study_ends(&mut app, StudyKind::Sweep, Ok(swept()));
     key(&mut app, KeyCode::Down);
-    assert_eq!(app.studies.selected, 1, "the recommended interval, below the worst");
+    assert_eq!(app.studies.selected, 0, "the recommended interval, and no other");
     let asked = key(&mut app, KeyCode::Enter);
     assert!(matches!(asked, Request::JudgeNewPlan), "{asked:?}");
     assert_eq!(app.case.plan.delays.len(), options + 1);

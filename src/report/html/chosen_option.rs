@@ -32,7 +32,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     };
     html! {
         div.fired {
-            p.what { (intent(verdict)) (delay.name) ", rows at " (option_sentences::firing_times(delay)) }
+            p.what { @if verdict == Verdict::Fail { "NOT to be fired: " } @else { "To be fired: " } (delay.name) ", rows at " (option_sentences::firing_times(delay)) }
             p.large { (word(verdict)) (only_planned(page)) }
             @if verdict != Verdict::Pass { p { strong { "Do not fire this option as it stands." } } }
             @if !caveat.is_empty() { p { "Judged:" (caveat.replace(['(', ')'], "")) "." } }
@@ -46,11 +46,6 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
             @for warning in warnings { p { strong { "Warning: " } (warning) } }
         }
     }
-}
-
-/// Words before the name of the option.
-pub fn intent(verdict: Verdict) -> &'static str {
-    if verdict == Verdict::Fail { "NOT to be fired: " } else { "To be fired: " }
 }
 
 /// Words behind a verdict for which no possible shot was judged.

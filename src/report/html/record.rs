@@ -5,7 +5,7 @@
 use maud::{Markup, html};
 
 use super::Page;
-use super::chosen_option::{intent, only_planned};
+use super::chosen_option::only_planned;
 use super::table::word;
 use crate::report::observed::contradiction;
 use crate::study::judgement::Judgement;
@@ -61,7 +61,7 @@ fn signed(page: &Page<'_>) -> Markup {
     let verdict = page.results[option].as_ref().map_or(Verdict::Undecided, Judgement::verdict);
     let name = &page.case.plan.delays[option].name;
     html! {
-        (intent(verdict)) "option “" (name) "”, " (word(verdict)) (only_planned(page))
+        "Option " @if verdict == Verdict::Fail { "NOT " } "to be fired: “" (name) "”, " (word(verdict)) (only_planned(page))
         @if !contradiction(page.observed).is_empty() { " (what was seen of earlier shots contradicts the plan)" }
     }
 }

@@ -34,7 +34,7 @@ const LEAST_NAME: u16 = 8;
 const SPARKS: u16 = 150;
 
 const COLUMNS: &[CompareColumn] = &[
-    CompareColumn { head: "limit use", sort: SortBy::Verdict, width: 9, from: 0, cell: use_of_limit },
+    CompareColumn { head: "of limit", sort: SortBy::Verdict, width: 8, from: 0, cell: use_of_limit },
     CompareColumn {
         head: "fails, %",
         sort: SortBy::Risk,
