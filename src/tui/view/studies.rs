@@ -113,7 +113,7 @@ fn how_to_observe(app: &App) -> String {
          3:1-4:1 52000 2000        greatest force of a cable and its sd, N\n\
          3:1 landing_s 1.12 0.02   or lift_s, drift_m; firing_s as logged, alone\n\
          seen.csv                  a file as of `shelter fit`\n\
-         {rerun} fits again, {cancel} forgets; `shelter fit --write` puts estimates into the plan\n\n{typed}"
+         {rerun} fits again, {cancel} takes back the last; `shelter fit --write` puts estimates into the plan\n\n{typed}"
     )
 }
 
