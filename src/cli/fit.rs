@@ -128,7 +128,7 @@ fn write(path: &Path, case: &Case, files: &[Observations], fit: &Fit) -> io::Res
     }
     let checksums: Vec<String> = files.iter().map(|file| file.checksum.clone()).collect();
     let text =
-        write_fit::write(&case.source.text, &case.plan.uncertainty, &fit.answers[0].fitted(), &checksums);
+        write_fit::write(&case.source.text, &case.plan.uncertainty, &fit.answers[0].to_write(), &checksums);
     let text = text.map_err(io::Error::other)?;
     if let Err(mistakes) = Plan::parse(&case.source.path, &text) {
         return Err(io::Error::other(format!(

@@ -14,7 +14,7 @@ use super::status::{Status, failed, saved, was_interrupted, wrong};
 use crate::file;
 use crate::plan::{DelayOption, edit};
 use crate::study::results_file::Question;
-use crate::study::search::{MOST_JUDGED, Search, search, try_schedules};
+use crate::study::search::{MOST_TRIED, Search, search, try_schedules};
 use crate::study::{Case, Computed};
 
 #[derive(Args)]
@@ -47,7 +47,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         });
         return match tried {
             Ok(Computed { value: false, .. }) => wrong(&format!(
-                "of more than {MOST_JUDGED} schedules the best are searched, not shared: leave out --shard"
+                "of more than {MOST_TRIED} schedules the best are searched, not shared: leave out --shard"
             )),
             tried => saved(tried.map(|Computed { partial, .. }| Computed { value: (), partial })),
         };

@@ -41,7 +41,7 @@ impl StatedKeys {
 
 /// One estimate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fitted {
+pub struct EstimateToWrite {
     /// What is estimated.
     pub unknown: Unknown,
     /// Index of the blast row, of a launch by row.
@@ -52,7 +52,7 @@ pub struct Fitted {
     pub sd: f64,
 }
 
-impl Fitted {
+impl EstimateToWrite {
     /// Standard deviation over estimate [%].
     fn percent(&self) -> f64 {
         1e2 * self.sd / self.value
@@ -73,7 +73,7 @@ impl Fitted {
 pub fn write(
     text: &str,
     before: &Uncertainty,
-    fitted: &[Fitted],
+    fitted: &[EstimateToWrite],
     checksums: &[String],
 ) -> Result<String, String> {
     let mut document: DocumentMut =
@@ -82,7 +82,7 @@ pub fn write(
         write_value(&mut document, estimate);
     }
     let launches = fitted.iter().filter(|one| matches!(one.unknown, Unknown::Launch | Unknown::LaunchByRow));
-    let launch_percent = launches.map(Fitted::percent).reduce(f64::max);
+    let launch_percent = launches.map(EstimateToWrite::percent).reduce(f64::max);
     change_section(&mut document, &plan::UNCERTAINTY, |section| {
         if let Some(percent) = launch_percent.filter(|percent| *percent > before.launch_common_percent) {
             set(section, uncertainty::LAUNCH_COMMON_PERCENT.name, short(percent).into());
@@ -116,7 +116,7 @@ pub fn write(
 }
 
 /// Writes an estimate in place of the plan's number.
-fn write_value(document: &mut DocumentMut, estimate: &Fitted) {
+fn write_value(document: &mut DocumentMut, estimate: &EstimateToWrite) {
     let value = estimate.value;
     let of_row = |row: usize| if estimate.row.is_none_or(|own| own == row) { value } else { 1.0 };
     match estimate.unknown {
@@ -165,7 +165,7 @@ mod tests {
 
     const PLAN: &str = include_str!("../../plans/amur-three-rows.toml");
 
-    fn written(text: &str, fitted: &[Fitted]) -> (String, Plan) {
+    fn written(text: &str, fitted: &[EstimateToWrite]) -> (String, Plan) {
         let before = Plan::parse("plan.toml", text)
             .map_or_else(|mistakes| panic!("{mistakes}"), |plan| plan.uncertainty);
         let text = write(text, &before, fitted, &["ab12".to_owned()]).expect("TOML");
@@ -173,8 +173,8 @@ mod tests {
         (text, plan)
     }
 
-    fn fitted(unknown: Unknown, value: f64, sd: f64) -> Fitted {
-        Fitted { unknown, row: None, value, sd }
+    fn fitted(unknown: Unknown, value: f64, sd: f64) -> EstimateToWrite {
+        EstimateToWrite { unknown, row: None, value, sd }
     }
 
     /// Every line that no estimate is about stays as it is, with its comment; so does an uncertainty that an estimate would narrow.
@@ -225,7 +225,8 @@ mod tests {
 
     #[test]
     fn launches_of_a_row_change_alone() {
-        let row = |row, value| Fitted { row: Some(row), ..fitted(Unknown::LaunchByRow, value, 0.05) };
+        let row =
+            |row, value| EstimateToWrite { row: Some(row), ..fitted(Unknown::LaunchByRow, value, 0.05) };
         let (_, plan) = written(PLAN, &[row(0, 0.5), row(1, 1.0), row(2, 2.0)]);
         let speeds: Vec<f64> = plan.launches().map(|launch| launch.speed_m_s).collect();
         assert_eq!(speeds, [3.0, 6.0, 12.0]);

@@ -43,7 +43,7 @@ fn observed_fields<'a>() -> [Field<ObservedRow<'a>>; 7] {
             row.prediction.contains(row.observed.value).map_or(Cell::Nothing, Cell::Flag)
         }),
         Field::new(words("fitted"), |row| {
-            row.residual.map_or(Cell::Nothing, |fit| Cell::Text(value_by_sd(fit.fitted, row.observed.sd)))
+            row.residual.map_or(Cell::Nothing, |fit| Cell::Text(value_by_sd(fit.predicted, row.observed.sd)))
         }),
         Field::new(words("residual"), |row| row.residual.map_or(Cell::Nothing, residual)),
     ]
@@ -52,7 +52,7 @@ fn observed_fields<'a>() -> [Field<ObservedRow<'a>>; 7] {
 fn residual(residual: &Residual) -> Cell {
     let deviation = units::rounded(residual.deviation, 1);
     let mark = if residual.is_suspicious() { "  suspicious" } else { "" };
-    Cell::Text(match residual.fitted.is_nan() {
+    Cell::Text(match residual.predicted.is_nan() {
         true => "never".to_owned() + mark,
         false => format!("{deviation} sd{mark}"),
     })

@@ -78,6 +78,13 @@ impl Case {
         }
     }
 
+    /// The case, followed for `duration_s` [s]; `None`: until all is at rest.
+    pub(in crate::study) fn with_duration(&self, duration_s: Option<f64>) -> Self {
+        let mut case = Self { fingerprint: OnceLock::new(), ..self.clone() };
+        case.plan.simulation.duration_s = duration_s;
+        case
+    }
+
     /// Fingerprint of all that the plan says.
     pub(in crate::study) fn fingerprint(&self) -> Fingerprint {
         *self.fingerprint.get_or_init(|| Fingerprint::of(&self.plan))

@@ -7,7 +7,7 @@ use shelter::study::judge_options::OptionResults;
 use shelter::study::orders::try_orders;
 use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::sample_count::Sampling;
-use shelter::study::search::{MOST_JUDGED, Search, duration, search};
+use shelter::study::search::{MOST_TRIED, Search, duration, search};
 use shelter::study::{Case, ComputeSettings, NoResult, Progress, Shard};
 use shelter::verdict::Verdict;
 
@@ -159,7 +159,7 @@ fn too_many_schedules_are_searched() {
     let case = case(&plan(choices));
     let found = searched(&case, None);
     assert_eq!((found.possible, found.complete), (6 * 143 * 143, false));
-    assert!(found.judged <= MOST_JUDGED && found.judged > 2000, "{}", found.judged);
+    assert!(found.judged <= MOST_TRIED && found.judged > 2000, "{}", found.judged);
     let again = searched(&case, None);
     assert_eq!(found.schedules, again.schedules, "the same every time");
     for (n, schedule) in found.schedules.iter().enumerate() {

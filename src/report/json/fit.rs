@@ -120,7 +120,7 @@ impl ResidualObject {
             at_s: (watched.quantity == ObservedQuantity::Height).then_some(watched.time),
             observed: observed.value,
             sd: observed.sd,
-            fitted: residual.and_then(|residual| finite(residual.fitted)),
+            fitted: residual.and_then(|residual| finite(residual.predicted)),
             total_sd: residual.map(|residual| residual.sd),
             suspicious: residual.is_some_and(Residual::is_suspicious),
             planned: finite(prediction.planned),

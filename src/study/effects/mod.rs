@@ -12,7 +12,6 @@ mod effect;
 
 use std::borrow::Cow;
 use std::cmp::Ordering;
-use std::sync::OnceLock;
 use std::time::Instant;
 
 pub use self::effect::Effect;
@@ -251,10 +250,8 @@ fn followed<'c>(case: &'c Case, shot: &Shot) -> Cow<'c, Case> {
     if case.plan.ground.friction > 0.0 || case.plan.simulation.duration_s.is_some() {
         return Cow::Borrowed(case);
     }
-    let mut ending = Case { fingerprint: OnceLock::new(), ..case.clone() };
     let last = shot.firings.last().map_or(0.0, |firing| firing.time);
-    ending.plan.simulation.duration_s = Some(last + WITHOUT_FRICTION);
-    Cow::Owned(ending)
+    Cow::Owned(case.with_duration(Some(last + WITHOUT_FRICTION)))
 }
 
 /// Screens an option as planned, and takes its first samples.

@@ -5,7 +5,7 @@ use super::observation_bands::{NextObservation, Prediction};
 use super::parameter::Parameter;
 use crate::choice::Unknown;
 use crate::plan::observations::Observation;
-use crate::plan::write_fit::Fitted;
+use crate::plan::write_fit::EstimateToWrite;
 
 /// What a fit finds.
 #[derive(Clone, Debug)]
@@ -80,7 +80,7 @@ pub struct Estimated {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residual {
     /// The predicted value, on average over what scatters; not a number where the tire never lifts, or never lands.
-    pub fitted: f64,
+    pub predicted: f64,
     /// Standard deviation of the observation about its prediction: stated, of computing, of the scatter of the plan.
     pub sd: f64,
     /// Observed less predicted, in these standard deviations.
@@ -114,8 +114,8 @@ impl Answer {
     }
 
     /// The estimates as a plan writes them.
-    pub fn fitted(&self) -> Vec<Fitted> {
-        let one = |estimate: &Estimated| Fitted {
+    pub fn to_write(&self) -> Vec<EstimateToWrite> {
+        let one = |estimate: &Estimated| EstimateToWrite {
             unknown: estimate.parameter.unknown,
             row: estimate.parameter.row,
             value: estimate.value,

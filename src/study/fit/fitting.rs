@@ -32,10 +32,10 @@ pub(super) struct Fitting<'p> {
 }
 
 /// An answer with what is known of its neighbourhood.
-pub(super) struct ExactAnswer {
+pub(super) struct SettledAnswer {
     pub minimum: Minimum,
     /// The predictions there.
-    pub fitted: Vec<f64>,
+    pub predicted: Vec<f64>,
     /// Their derivatives (`n_observations` × `n_parameters`).
     pub slopes: DMatrix<f64>,
     pub weights: Weights,
@@ -43,7 +43,7 @@ pub(super) struct ExactAnswer {
     pub is_settled: bool,
 }
 
-impl ExactAnswer {
+impl SettledAnswer {
     /// −2 × the logarithm of the likelihood, but for a constant.
     fn unlikelihood(&self) -> f64 {
         self.minimum.misfit + self.weights.log_determinant
@@ -86,7 +86,7 @@ impl Fitting<'_> {
     }
 
     /// Answers of nearly equal misfit, the best first.
-    pub fn answers(&self, case: &Case) -> Result<Vec<ExactAnswer>, NoResult> {
+    pub fn answers(&self, case: &Case) -> Result<Vec<SettledAnswer>, NoResult> {
         let start = self.start_coordinates(&case.plan);
         let weighing =
             Weighing { predictor: &self.predictor, plan: &case.plan, others: &self.others, seen: &self.seen };
@@ -106,13 +106,13 @@ impl Fitting<'_> {
             Some(seed) => self.settle_among_samples(&weighing, minimum, seed),
             None => self.settle(&weighing, minimum),
         })?;
-        let settled: Option<Vec<Option<ExactAnswer>>> = settled.into_iter().collect();
-        let mut settled: Vec<ExactAnswer> =
+        let settled: Option<Vec<Option<SettledAnswer>>> = settled.into_iter().collect();
+        let mut settled: Vec<SettledAnswer> =
             settled.ok_or(NoResult::OutOfTime)?.into_iter().flatten().collect();
         settled.sort_by(|a, b| a.unlikelihood().total_cmp(&b.unlikelihood()));
-        let least = settled.first().map(ExactAnswer::unlikelihood).ok_or_else(|| self.failure(&start))?;
+        let least = settled.first().map(SettledAnswer::unlikelihood).ok_or_else(|| self.failure(&start))?;
         settled.retain(|answer| answer.unlikelihood() <= least + NEARLY_EQUAL);
-        Ok(settled.into_iter().fold(Vec::new(), |mut all: Vec<ExactAnswer>, settled| {
+        Ok(settled.into_iter().fold(Vec::new(), |mut all: Vec<SettledAnswer>, settled| {
             if !all.iter().any(|known| known.minimum.is_same(&settled.minimum)) {
                 all.push(settled);
             }
@@ -130,14 +130,14 @@ impl Fitting<'_> {
     }
 
     /// The answer near a minimum where nothing scatters.
-    fn settle(&self, weighing: &Weighing<'_>, minimum: &Minimum) -> Result<Option<ExactAnswer>, NoResult> {
+    fn settle(&self, weighing: &Weighing<'_>, minimum: &Minimum) -> Result<Option<SettledAnswer>, NoResult> {
         let Some(weights) = weighing.weigh_without_scatter(&minimum.point)? else { return Ok(None) };
         let Some(minimum) = self.space.refine(&minimum.point, &|at| self.residuals(at, &weights))? else {
             return Ok(None);
         };
-        let Some(fitted) = self.predictor.values(&minimum.point, 1.0)? else { return Ok(None) };
-        let slopes = self.slopes(&minimum, &fitted)?;
-        Ok(Some(ExactAnswer { minimum, fitted, slopes, weights, is_settled: true }))
+        let Some(predicted) = self.predictor.values(&minimum.point, 1.0)? else { return Ok(None) };
+        let slopes = self.slopes(&minimum, &predicted)?;
+        Ok(Some(SettledAnswer { minimum, predicted, slopes, weights, is_settled: true }))
     }
 
     /// The answer near a minimum, for the mean of what scatter makes of the predictions: samples about the answer give the mean,
@@ -147,7 +147,7 @@ impl Fitting<'_> {
         weighing: &Weighing<'_>,
         minimum: &Minimum,
         seed: u64,
-    ) -> Result<Option<ExactAnswer>, NoResult> {
+    ) -> Result<Option<SettledAnswer>, NoResult> {
         let count = minimum.point.len();
         let (mut at, mut spread) = (minimum.point.clone(), self.sample_spread(|n| minimum.sd(n)));
         let mut settled = None;
@@ -183,7 +183,7 @@ impl Fitting<'_> {
                 .zip(&next)
                 .filter_map(|(prior, at)| prior.map(|prior| ((at - prior.mean) / prior.sd).powi(2)));
             let misfit = (residuals - whitened * &moved).norm_squared() + stated.sum::<f64>();
-            let fitted =
+            let predicted =
                 mean.iter().zip((&slopes * &moved).iter()).map(|(mean, change)| mean + change).collect();
             let minimum = Minimum { point: next, misfit, covariance };
             let wanted = self.sample_spread(|n| minimum.sd(n));
@@ -191,7 +191,7 @@ impl Fitting<'_> {
                 |n: usize| moved[n].abs() <= 0.3 * spread[n] && (wanted[n] / spread[n]).ln().abs() < 0.4;
             let is_settled = (0..count).all(is_near);
             (at, spread) = (minimum.point.clone(), wanted);
-            settled = Some(ExactAnswer { minimum, fitted, slopes, weights, is_settled });
+            settled = Some(SettledAnswer { minimum, predicted, slopes, weights, is_settled });
             if is_settled {
                 break;
             }
@@ -225,8 +225,8 @@ impl Fitting<'_> {
         Ok(slopes.map(|slope| if slope.is_finite() { slope } else { 0.0 }))
     }
 
-    pub fn answer(&self, case: &Case, settled: &ExactAnswer) -> Answer {
-        let ExactAnswer { minimum, fitted, weights, .. } = settled;
+    pub fn answer(&self, case: &Case, settled: &SettledAnswer) -> Answer {
+        let SettledAnswer { minimum, predicted, weights, .. } = settled;
         let parameters = &self.predictor.parameters;
         let count = parameters.len();
         let estimate = |n: usize| {
@@ -243,9 +243,9 @@ impl Fitting<'_> {
         };
         let correlation = |a: usize, b: usize| minimum.covariance[(a, b)] / (minimum.sd(a) * minimum.sd(b));
         let residual = |n: usize| Residual {
-            fitted: fitted[n],
+            predicted: predicted[n],
             sd: weights.sds[n],
-            deviation: (self.seen.list[n].value - fitted[n]) / weights.sds[n],
+            deviation: (self.seen.list[n].value - predicted[n]) / weights.sds[n],
             error: weights.errors[n],
         };
         let stated = self.priors.iter().flatten().count();
@@ -253,9 +253,9 @@ impl Fitting<'_> {
             is_settled: settled.is_settled,
             estimates: (0..count).map(estimate).collect(),
             correlation: (0..count).map(|a| (0..count).map(|b| correlation(a, b)).collect()).collect(),
-            residuals: (0..fitted.len()).map(residual).collect(),
+            residuals: (0..predicted.len()).map(residual).collect(),
             chi_square: minimum.misfit,
-            freedom: (fitted.len() + stated).saturating_sub(count),
+            freedom: (predicted.len() + stated).saturating_sub(count),
         }
     }
 }

@@ -29,8 +29,6 @@ pub mod weights;
 
 pub use self::answer::{Answer, Estimated, Fit, FitResult, Residual};
 pub use self::determined::{NotDetermined, Observable};
-use std::sync::OnceLock;
-
 use self::fitting::Fitting;
 use self::observation_bands::{NextObservation, next_observation, predict_observations};
 use self::observed_shots::ObservedShots;
@@ -123,12 +121,11 @@ pub fn fit(
 
 /// The case without a `duration_s`, where friction brings the tires to rest: what was seen later than that is computed, too.
 fn until_rest(case: &Case) -> Case {
-    let mut case = Case { fingerprint: OnceLock::new(), ..case.clone() };
     let least_friction = case.plan.ground.friction.min(case.plan.uncertainty.friction[0]);
-    if 1e2 * least_friction > case.plan.ground.slope_percent {
-        case.plan.simulation.duration_s = None;
+    match 1e2 * least_friction > case.plan.ground.slope_percent {
+        true => case.with_duration(None),
+        false => case.clone(),
     }
-    case
 }
 
 fn whole(value: FitResult) -> Computed<FitResult> {
@@ -192,7 +189,7 @@ fn next(
     let text = crate::plan::write_fit::write(
         &case.source.text,
         &case.plan.uncertainty,
-        &fit.answers[0].fitted(),
+        &fit.answers[0].to_write(),
         &[],
     );
     let Some(plan) = text.ok().and_then(|text| Plan::parse("", &text).ok()) else { return Ok(None) };

@@ -1,7 +1,7 @@
 //! The firing schedules with the least risk, among those that `[search]` allows.
 //!
 //! 1. Candidates: the schedules within the longest duration, and the most holes and the heaviest charge within 8 ms. Up to
-//!    500,000 possible schedules all are looked at. Up to [`MOST_JUDGED`] candidates all are judged; where there are more,
+//!    500,000 possible schedules all are looked at. Up to [`MOST_TRIED`] candidates all are tried; where there are more,
 //!    2,000 at random, then the neighbours of the best, the neighbours of these, and so on. Mirror images are one.
 //! 2. Successive halving ([`successive_halving`]): a few samples of each, twice as many of the better half, and so on.
 //! 3. The best that differ from one another become delay options, which are judged as `check` judges options, with draws of their
@@ -18,7 +18,7 @@ use itertools::Itertools;
 use self::schedule::Choices;
 pub use self::schedule::{BrokenLimit, RefusedCounts};
 pub use self::schedule::{Schedule, duration};
-pub use self::schedules_to_try::MOST_JUDGED;
+pub use self::schedules_to_try::MOST_TRIED;
 use self::schedules_to_try::{AllowedSchedules, FIRST_OF_SEARCH, SchedulesToTry};
 use self::successive_halving::{SuccessiveHalving, TriedSchedule};
 use super::as_planned::margin::LaunchMargin;
@@ -99,7 +99,7 @@ pub fn search(
     let choices = Choices::new(case)?;
     let halving = start_halving(case, sampling, compute);
     let listed = AllowedSchedules::new(case, &choices);
-    let (complete, keeping) = (listed.are_all_judged(), listed.allowed.as_ref().map(Vec::len));
+    let (complete, keeping) = (listed.are_all_tried(), listed.allowed.as_ref().map(Vec::len));
     let mut to_try = SchedulesToTry::new(case, &choices);
     let mut out_of_time = false;
     match listed.allowed {
@@ -136,7 +136,7 @@ pub fn search(
 }
 
 /// Draws the first samples of the schedules of one shard, for the journal; returns whether it could: a search that does not judge
-/// all, of more than [`MOST_JUDGED`], cannot be shared.
+/// all, of more than [`MOST_TRIED`], cannot be shared.
 pub fn try_schedules(
     case: &Case,
     sampling: Option<&Sampling>,
@@ -146,7 +146,7 @@ pub fn try_schedules(
 ) -> ComputeResult<bool> {
     let choices = Choices::new(case)?;
     let listed = AllowedSchedules::new(case, &choices);
-    if !listed.are_all_judged() {
+    if !listed.are_all_tried() {
         return Ok(Computed { value: false, partial: false });
     }
     let mut to_try = SchedulesToTry::new(case, &choices);

@@ -1,4 +1,4 @@
-//! The schedules that are judged: all that keep the limits of the search, or those that a search comes upon.
+//! The schedules that are tried: all that keep the limits of the search, or those that a search comes upon.
 
 use std::collections::HashSet;
 
@@ -11,8 +11,8 @@ use super::schedule::{BrokenLimit, Candidate, Choices, KnownShots, RefusedCounts
 use super::successive_halving::{SuccessiveHalving, TriedSchedule};
 use crate::study::{Case, NoResult, Progress};
 
-/// Greatest number of schedules that are all judged.
-pub const MOST_JUDGED: usize = 4000;
+/// Greatest number of schedules that are all tried.
+pub const MOST_TRIED: usize = 4000;
 /// Greatest number of schedules of which all are looked at, whether they keep the limits of the search.
 const MOST_LISTED: usize = 500_000;
 /// Schedules that a search begins with, and most random draws for them.
@@ -46,9 +46,9 @@ impl AllowedSchedules {
         Self { allowed, refused }
     }
 
-    /// Whether they are so few that all are judged.
-    pub fn are_all_judged(&self) -> bool {
-        self.allowed.as_ref().is_some_and(|allowed| allowed.len() <= MOST_JUDGED)
+    /// Whether they are so few that all are tried.
+    pub fn are_all_tried(&self) -> bool {
+        self.allowed.as_ref().is_some_and(|allowed| allowed.len() <= MOST_TRIED)
     }
 }
 
@@ -108,7 +108,7 @@ impl<'c> SchedulesToTry<'c> {
                 })
                 .take(CLIMBERS);
             let best: Vec<Candidate> = best.map(|one| one.candidate.clone()).collect();
-            let room = MOST_JUDGED.saturating_sub(self.tried.len());
+            let room = MOST_TRIED.saturating_sub(self.tried.len());
             if best.is_empty() || room == 0 {
                 return Ok(false);
             }

@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 
-use self::size_candidate::{Hardest, SizeCandidate};
+use self::size_candidate::{ShotsToSample, SizeCandidate};
 use super::judgement::{Evidence, verdict_of_both};
 use super::samples::failure_bounds::ErrorShare;
 use super::samples::sample_count::Sampling;
@@ -184,7 +184,7 @@ pub fn size(
 }
 
 /// Tries every combination with its shots as planned.
-fn try_all(task: &SizingTask<'_>) -> Result<Vec<(Combination, Hardest)>, NoResult> {
+fn try_all(task: &SizingTask<'_>) -> Result<Vec<(Combination, ShotsToSample)>, NoResult> {
     let plan = task.plan;
     let own_mass = [plan.tire.mass_kg];
     let masses = if plan.size.tire_mass_kg.is_empty() { &own_mass[..] } else { &plan.size.tire_mass_kg };
@@ -198,7 +198,7 @@ fn try_all(task: &SizingTask<'_>) -> Result<Vec<(Combination, Hardest)>, NoResul
         let mut stronger_holds = true;
         for rope in ropes {
             let candidate = SizeCandidate::new(task, rope, tire_mass, border_rows);
-            let (mut hardest, mut trial) = (Hardest::new(), Err(Untried::StrongerRopeDoesNotHold));
+            let (mut hardest, mut trial) = (ShotsToSample::new(), Err(Untried::StrongerRopeDoesNotHold));
             if task.progress.expired() {
                 trial = Err(Untried::OutOfTime);
             } else if stronger_holds {
@@ -238,7 +238,7 @@ fn ropes_by_stiffness(plan: &Plan) -> Vec<Vec<&'static Rope>> {
 /// Marks the choices among combinations that are sorted by mass: samples those that could be one.
 fn choose(
     task: &SizingTask<'_>,
-    tried: &mut [(Combination, Hardest)],
+    tried: &mut [(Combination, ShotsToSample)],
     sampling: Option<&Sampling>,
 ) -> Result<(), NoResult> {
     let (mut least, mut candidates) = (f64::INFINITY, 0);

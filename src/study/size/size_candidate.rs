@@ -23,7 +23,7 @@ const HARDEST: usize = 8;
 const AT_ONCE: usize = 32;
 
 /// The shots that a combination is sampled with, hardest first: the index of each and what it is as planned.
-pub(super) type Hardest = Vec<(usize, ShotSummary)>;
+pub(super) type ShotsToSample = Vec<(usize, ShotSummary)>;
 
 /// A combination made ready to run.
 pub(super) struct SizeCandidate<'q> {
@@ -66,7 +66,10 @@ impl<'q> SizeCandidate<'q> {
 
     /// Judges the shots as planned in chunks of [`AT_ONCE`], beginning with index `likeliest`. Stops after the first chunk with a
     /// shot that does not pass, and puts that shot's index into `likeliest`. `None` where the time was up.
-    pub(super) fn try_as_planned(&self, likeliest: &mut usize) -> Result<Option<(Trial, Hardest)>, NoResult> {
+    pub(super) fn try_as_planned(
+        &self,
+        likeliest: &mut usize,
+    ) -> Result<Option<(Trial, ShotsToSample)>, NoResult> {
         let (case, SizingTask { compute, progress, demand, .. }) = (&self.case, self.task);
         let mut order: Vec<usize> = (0..self.shots.len()).collect();
         if *likeliest < order.len() {
@@ -118,7 +121,7 @@ impl<'q> SizeCandidate<'q> {
     /// Samples shots until each risk is sure, or one surely fails; `None` where the time was up.
     pub(super) fn sample(
         &self,
-        hardest: &Hardest,
+        hardest: &ShotsToSample,
         sampling: &Sampling,
     ) -> Result<Option<WorstShotRisk>, NoResult> {
         let compute = self.task.compute;
