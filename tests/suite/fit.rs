@@ -5,9 +5,10 @@ use std::fs;
 
 use shelter::Sampling;
 use shelter::choice::{ObservedQuantity, Unknown};
-use shelter::plan::observations::{Observations, Watched, template};
+use shelter::plan::observations::{Observation, Observations, Watched, template};
 use shelter::plan::{Plan, PlanSource};
-use shelter::study::fit::observation_bands::{next_observation, predict_observations};
+use shelter::report::observed::{contradiction, observed_rows};
+use shelter::study::fit::observation_bands::{Prediction, next_observation, predict_observations};
 use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::{Answer, Fit, FitRequest, FitResult, NotDetermined, fit, observable_names};
 use shelter::study::{Case, ComputeSettings, Progress};
@@ -166,9 +167,14 @@ fn what_observations_do_not_determine_is_refused_by_name() {
     for sampling in [None, Some(Sampling::exactly(20, 1))] {
         for (case, lines, unknowns, among) in &sets {
             let found = found(case, lines, unknowns, sampling);
-            let FitResult::NotDetermined { refused: NotDetermined { parameters, .. }, .. } = &found else {
+            let FitResult::NotDetermined { refused, observed, predictions } = &found else {
                 panic!("{unknowns:?}: {found:?}")
             };
+            assert!(
+                !observed.is_empty() && observed.len() == predictions.len(),
+                "what was seen still speaks"
+            );
+            let NotDetermined { parameters, .. } = refused;
             let names: Vec<String> = parameters.iter().map(|parameter| parameter.name(&case.plan)).collect();
             assert!(
                 !names.is_empty() && names.iter().all(|name| among.contains(&name.as_str())),
@@ -599,6 +605,22 @@ fn the_report_tells_estimates_and_what_was_seen() {
         "{}",
         text(&csv.stdout)
     );
+}
+
+/// What was seen over a limit is told by itself, whatever is predicted: a height of 2.6 m where 2.35 m are allowed.
+#[test]
+fn what_was_seen_over_a_limit_is_told() {
+    let case = Case::load(shipped("amur-three-rows.toml").as_ref()).expect("a shipped plan");
+    let told = |value: f64, band: [f64; 2]| {
+        let watched = Watched { quantity: ObservedQuantity::FlightHeight, index: 0, time: 0.0 };
+        let seen = [Observation { option: 4, watched, value, sd: 0.05, line: 2 }];
+        contradiction(&observed_rows(&case, &seen, &[Prediction { planned: 1.67, band: Some(band) }]))
+    };
+    assert!(told(1.7, [1.4, 2.1]).is_empty());
+    assert_eq!(told(2.2, [1.4, 2.1]).len(), 1, "not predicted");
+    let over = "42 ms · 1:1 flight_height_m: 2.600 m was seen, over the limit of 2.350";
+    assert_eq!(told(2.6, [1.4, 2.7]), [over]);
+    assert_eq!(told(2.6, [1.4, 2.1]).len(), 2, "neither predicted nor allowed");
 }
 
 /// A comment, or another order of the lines, makes no other shot of what was seen.
