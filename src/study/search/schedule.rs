@@ -388,7 +388,7 @@ mod tests {
     fn rows(count: usize) -> Case {
         let row = |n: usize| format!("[[blast_row]]\nname = \"{n}\"\nunder_row = {n}\nlaunch_m_s = 6\n");
         let text = format!(
-            "[tire]\nmass_kg = 280\n[ground]\nfriction = 0.5\n[shelter]\nrows = {count}\ncolumns = 2\nspacing_m = 1.65\n[cable]\naxial_stiffness_kn = 1000\nbreaking_force_kn = 100\n\
+            "[tire]\nmass_kg = 280\n[ground]\nfriction = 0.5\n[shelter]\nlayout = \"grid\"\nrows = {count}\ncolumns = 2\nspacing_m = 1.65\n[cable]\naxial_stiffness_kn = 1000\nbreaking_force_kn = 100\n\
              [limits]\nflight_height_m = 2\ncable_safety_factor = 2\n[search]\norders = \"adjacent\"\nintervals_ms = [42]\n{}\
              [[delay]]\nname = \"a\"\ninterval_ms = 42\n",
             (1..=count).map(row).collect::<String>()
