@@ -166,6 +166,11 @@ fn refusal(tried: &TriedKind) -> Option<String> {
         Change::BorderRows(rows) => format!("not even {rows} border rows pass"),
         Change::Slack(_) => format!("no slack tried from {} % passes", range(tried)),
         Change::Launch(factor) => format!("not even launches {} lower pass", units::percent(1.0 - factor, 0)),
+        // Another option may have one of these intervals, and pass.
+        Change::Interval { .. } if tried.open > 0 => format!(
+            "no interval tried from {} ms passes surely enough after so many tries: `check` asks less of one alone",
+            range(tried)
+        ),
         Change::Interval { .. } => format!("no interval tried from {} ms passes", range(tried)),
     };
     Some(text)
