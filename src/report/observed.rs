@@ -113,8 +113,8 @@ fn value_by_sd(value: f64, sd: f64) -> String {
     units::value_and_sd(value, sd).split(' ').next().unwrap_or_default().to_owned()
 }
 
-/// What was seen that speaks against the verdicts of the plan: values over a limit, and that the plan does not predict what was seen;
-/// of ten observations one lies outside by chance.
+/// What was seen that speaks against the verdicts of the plan: values over a limit, and that the plan does not predict what was
+/// seen; of ten observations one lies outside by chance.
 pub fn contradiction(rows: &[ObservedRow<'_>]) -> Vec<String> {
     rows.iter().filter_map(over_limit).chain(unpredicted(rows)).collect()
 }

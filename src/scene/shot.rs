@@ -122,7 +122,8 @@ impl Shot {
         self.greatest_sum_within(window, |_| 1.0) as usize
     }
 
-    /// Heaviest charge that fires within any `window` [s], its end left out [kg], to the milligram: ten charges of 8.7 kg are 87 kg.
+    /// Heaviest charge that fires within any `window` [s], its end left out [kg], to the milligram: ten
+    /// charges of 8.7 kg are 87 kg.
     pub fn heaviest_charge_within(&self, window: f64) -> f64 {
         (self.greatest_sum_within(window, |firing| firing.charge) * 1e6).round() / 1e6
     }
