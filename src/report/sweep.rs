@@ -84,7 +84,7 @@ fn table_of_highlights(case: &Case, sweep: &Sweep) -> Table {
 /// The wide windows, one a row.
 fn table_of_windows(sweep: &Sweep) -> Table {
     let named = |name: &'static str, windows: &[[f64; 2]]| {
-        wide(windows).into_iter().map(move |window| (name, window)).collect::<Vec<_>>()
+        wide(windows).into_iter().map(move |window| (name, rounded_inward(window))).collect::<Vec<_>>()
     };
     let (all, as_planned) = match sweep.has_risk() {
         true => (named("worth a check", &sweep.windows), named("as planned only", &sweep.windows_as_planned)),
@@ -166,7 +166,7 @@ fn recommended(sweep: &Sweep, has_risk: bool) -> Vec<String> {
         lines.push(format!(
             "recommended {}: within {} of it {what} {} of the limits, the most room x margin",
             units::exact_milliseconds(interval),
-            units::exact_milliseconds(room),
+            units::exact_milliseconds(rounded_down(room)),
             units::percent((1e3 * utilization).ceil() * 1e-3, 1)
         ));
         if let Some(risk) = sweep.best().and_then(|point| point.risk.drawn()) {
@@ -193,12 +193,25 @@ fn wide(windows: &[[f64; 2]]) -> Vec<[f64; 2]> {
     windows.iter().copied().filter(|[from, to]| to - from >= NARROW).collect()
 }
 
+/// A window rounded to hundredths of a millisecond [s], no wider than it was.
+fn rounded_inward([from, to]: [f64; 2]) -> [f64; 2] {
+    let narrower = rounded_down(from);
+    [if narrower < from { narrower + 1e-5 } else { narrower }, rounded_down(to)]
+}
+
+/// A time rounded down to hundredths of a millisecond [s].
+fn rounded_down(time: f64) -> f64 {
+    const HUNDREDTH_NS: i64 = 10_000;
+    let nanoseconds = (time * 1e9).round() as i64;
+    (nanoseconds.div_euclid(HUNDREDTH_NS) * HUNDREDTH_NS) as f64 / 1e9
+}
+
 /// The wide windows, and how many others there are.
 fn listed(what: &str, windows: &[[f64; 2]]) -> Vec<String> {
     let window = |[from, to]: [f64; 2]| {
         format!("{} to {}", units::exact_milliseconds(from), units::exact_milliseconds(to))
     };
-    let list: Vec<String> = wide(windows).into_iter().map(window).collect();
+    let list: Vec<String> = wide(windows).into_iter().map(rounded_inward).map(window).collect();
     let mut lines = vec![match list.len() {
         0 => format!("{what}: none"),
         _ => format!("{what}: {}", list.join(" · ")),
@@ -224,8 +237,8 @@ fn conclusion(sweep: &Sweep, partial: bool) -> Conclusion {
                 let best = units::exact_milliseconds(best.interval);
                 format!("{best} is recommended, and its full verdict is PASS")
             });
-            let whole = if count < tried { "not every interval passes: " } else { "" };
-            format!("{whole}{count} of {tried} tried{so_far} do as planned; {best}")
+            let range = sweep.range().map(units::exact_milliseconds).join(" to ");
+            format!("the range as a whole, {range}; {count} of {tried} tried{so_far} pass as planned; {best}")
         }
         _ if tried == 0 => "no interval was tried".to_owned(),
         0 => format!("all {tried} intervals tried{so_far} pass (the plan's own numbers only)"),
@@ -240,6 +253,13 @@ fn conclusion(sweep: &Sweep, partial: bool) -> Conclusion {
 mod tests {
     use super::*;
     use crate::study::judgement::Evidence;
+
+    #[test]
+    fn windows_are_rounded_inward() {
+        let rounded = |window| rounded_inward(window).map(units::exact_milliseconds);
+        assert_eq!(rounded([257.65625e-3, 263.34375e-3]), ["257.66 ms", "263.34 ms"]);
+        assert_eq!(rounded([0.0, 30.5e-3]), ["0 ms", "30.5 ms"]);
+    }
 
     #[test]
     fn a_sweep_passes_only_where_every_interval_passes() {

@@ -83,7 +83,7 @@ pub struct Head {
 }
 
 /// Name of this format.
-const SCHEMA: &str = "shelter.results/1";
+const SCHEMA: &str = "shelter.results/2";
 /// Version of this program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// How every first line of this format begins, in any version.

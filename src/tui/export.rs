@@ -139,7 +139,7 @@ fn finished(app: &App) -> Result<&ShownStudy, String> {
 }
 
 /// Results of all options, once every option has one, with all its samples.
-fn results(app: &App) -> Result<OptionResults, String> {
+pub fn results(app: &App) -> Result<OptionResults, String> {
     let result = |state: &OptionState| match state {
         OptionState::Judged { more_samples: true, .. } => {
             Err("not all options have all their samples yet".to_owned())

@@ -22,6 +22,11 @@ impl Observed {
         self.typed.is_empty() && self.files.is_empty()
     }
 
+    /// Whether lines were typed: no file holds them.
+    pub fn has_typed(&self) -> bool {
+        !self.typed.is_empty()
+    }
+
     /// Takes a typed line, of a shot of `option`; the mistake in it where it is none.
     pub fn add_line(&mut self, case: &Case, option: usize, line: &str) -> Result<(), String> {
         let mut changed = self.clone();

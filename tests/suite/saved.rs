@@ -160,7 +160,7 @@ fn a_torn_line_is_dropped_and_a_damaged_line_is_refused() {
         (text.replacen("\n{", "\n\n{", 1), "saved.jsonl:2: the line is not as it was written"),
         (without(3), "results were written and"),
         (text.replacen("\"version\":\"", "\"version\":\"9", 1), "go on with that version"),
-        (text.replacen("shelter.results/1", "shelter.results/99", 1), "go on with that version"),
+        (text.replacen("shelter.results/2", "shelter.results/99", 1), "go on with that version"),
     ];
     for (changed, message) in cases {
         assert_ne!(changed, text, "{message}");

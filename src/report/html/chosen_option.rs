@@ -63,7 +63,7 @@ fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str,
     }
     facts.push(("As planned", option_sentences::peaks(case.scene(), &judged.as_planned)));
     facts.push(("Utilization as planned", utilization(case, judged)));
-    let bands = judged.sampled.drawn().and_then(|sampled| option_sentences::bands(sampled, &case.limits));
+    let bands = judged.sampled.drawn().and_then(|sampled| option_sentences::bands(case, sampled));
     facts.extend(bands.map(|bands| ("Possible shots", bands)));
     facts
 }

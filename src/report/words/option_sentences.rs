@@ -3,15 +3,15 @@
 use crate::outcome::BrokenCable;
 use crate::plan::{BlastRow, DelayOption};
 use crate::scene::{Scene, Shot, fire_at_s};
-use crate::study::ComputeSettings;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::judgement::Judgement;
 use crate::study::samples::random_shot::Input;
 use crate::study::samples::sampled_shot::SampledShot;
+use crate::study::{Case, ComputeSettings};
 use crate::units::{self, Unit, value_and_error};
-use crate::verdict::{Estimate, Limits, Quantity, Verdict};
+use crate::verdict::{Estimate, Quantity, Verdict};
 
 /// What the three verdicts mean.
 pub const VERDICTS: [&str; 3] = [
@@ -116,9 +116,13 @@ pub fn launch_limit(shot: &Shot, judged: &Judgement) -> Option<String> {
     }
 }
 
-/// Greatest height and force of the samples: 5th and 95th percentile; and how likely a cable breaks. `None` for too few
-/// samples.
-pub fn bands(sampled: &SampledShot, limits: &Limits) -> Option<String> {
+/// Cables that are named of those pulled hardest in a sample.
+const NAMED_CABLES: usize = 2;
+
+/// Greatest height and force of the samples: 5th and 95th percentile; in which cables; and how likely one breaks. `None` for too
+/// few samples.
+pub fn bands(case: &Case, sampled: &SampledShot) -> Option<String> {
+    let (scene, limits) = (case.scene(), &case.limits);
     let band = |quantity: Quantity, unit: Unit| {
         let [low, _, high, _] = sampled.band(quantity)?;
         let share = limits.get(quantity).map_or(f64::NAN, |limit| high / limit);
@@ -130,8 +134,16 @@ pub fn bands(sampled: &SampledShot, limits: &Limits) -> Option<String> {
             units::percent(share, 0)
         ))
     };
+    let cables = sampled.hardest_pulled_cables();
+    let named: Vec<String> = cables
+        .iter()
+        .take(NAMED_CABLES)
+        .map(|(cable, share)| format!("{} ({})", scene.cable_name(*cable), units::percent(*share, 0)))
+        .collect();
+    let hardest =
+        if named.is_empty() { String::new() } else { format!(", most often in {}", named.join(", ")) };
     Some(format!(
-        "5 to 95 % of {} samples: height {} · force {} · a cable breaks in {} %",
+        "5 to 95 % of {} samples: height {} · force {}{hardest} · a cable breaks in {} %",
         sampled.decided().count(),
         band(Quantity::Height, Unit::Metre)?,
         band(Quantity::Force, Unit::Kilonewton)?,

@@ -300,6 +300,7 @@ mod tests {
                     breaks: Verdict::Pass,
                     height: step,
                     force: 1.0,
+                    cable: 0,
                     drift: 0.0,
                 };
                 Ok((run, step >= shows_nothing_from))

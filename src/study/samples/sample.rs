@@ -43,6 +43,8 @@ pub struct SampleRun {
     /// Greatest cable force, of a cable of the plan's breaking force [N].
     #[serde(deserialize_with = "or_infinite")]
     pub force: f64,
+    /// Index of the cable of the greatest force.
+    pub cable: usize,
     /// Greatest drift at the end [m].
     #[serde(deserialize_with = "or_infinite")]
     pub drift: f64,
@@ -55,6 +57,7 @@ impl SampleRun {
         breaks: Verdict::Undecided,
         height: f64::INFINITY,
         force: f64::INFINITY,
+        cable: 0,
         drift: f64::INFINITY,
     };
 
@@ -76,7 +79,8 @@ impl SampleRun {
             _ if ends_early => Verdict::Undecided,
             _ => Verdict::Pass,
         };
-        Self { verdict, breaks, height: height.value, force: force.value, drift: drift.value }
+        let [height, drift] = [height.value, drift.value];
+        Self { verdict, breaks, height, force: force.value, cable: force.index, drift }
     }
 
     /// Greatest share of a limit that the run uses.

@@ -100,6 +100,7 @@ mod tests {
                     breaks: Verdict::Pass,
                     height: 0.5,
                     force: 1.0,
+                    cable: 0,
                     drift: 0.0,
                 };
                 sampled.push(Sample { number, run, finer: None, inputs: [1.0; Input::ALL.len()] });

@@ -5,6 +5,10 @@
 //! contradict the samples, the risk is open, and [`sample_shots`](super::draw_until_sure::sample_shots) samples the shot anew at half
 //! the step.
 
+use std::collections::BTreeMap;
+
+use itertools::Itertools;
+
 use super::failure_bounds::{ErrorShare, FailureBounds};
 use super::sample::{Sample, SampleRun};
 use crate::study::reasons::risk::RiskReason;
@@ -170,6 +174,17 @@ impl SampledShot {
         (self.decided().count() >= SAMPLES_FOR_BANDS).then_some(value)
     }
 
+    /// Cables with the greatest force of a decided sample, and the share of these samples in which each is; most frequent first.
+    pub fn hardest_pulled_cables(&self) -> Vec<(usize, f64)> {
+        let all = self.decided().map(|sample| sample.finest()).filter(|run| run.force > 0.0);
+        let counts: BTreeMap<usize, usize> = all.map(|run| run.cable).counts().into_iter().collect();
+        let total = self.decided().count() as f64;
+        let mut cables: Vec<_> =
+            counts.into_iter().map(|(cable, count)| (cable, count as f64 / total)).collect();
+        cables.sort_by(|a, b| b.1.total_cmp(&a.1));
+        cables
+    }
+
     /// The 5th, 50th and 95th percentile and the greatest value of a quantity over the decided samples; `None` for fewer than
     /// [`SAMPLES_FOR_BANDS`].
     pub fn band(&self, quantity: Quantity) -> Option<[f64; 4]> {
@@ -259,6 +274,7 @@ mod tests {
                     breaks: Verdict::Pass,
                     height: 0.98 * factor * case.limits.height,
                     force: 1.0,
+                    cable: 0,
                     drift: 0.0,
                 });
                 let finer = (number % 20 == 0).then_some(finer);

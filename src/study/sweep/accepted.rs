@@ -10,7 +10,7 @@
 use std::collections::BTreeSet;
 
 use super::windows::{deepest, windows};
-use super::{MOST_SAMPLED_GAP, Point, Sweep, nanoseconds};
+use super::{MOST_SAMPLED_GAP, Point, Sweep, is_whole_milliseconds, nanoseconds};
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, or_unknown};
 use crate::study::judgement::Evidence;
@@ -96,8 +96,8 @@ fn judge(
     Ok(sampled.map(|sampled| (as_planned, Some(sampled))))
 }
 
-/// Indices of the points to sample: the plan's own intervals, both ends of each window, and points between them at most
-/// [`MOST_SAMPLED_GAP`] apart. A window narrower than [`MOST_SAMPLED_GAP`] gives its first point only, and only if that is farther than
+/// Indices of the points to sample: the plan's own intervals, both ends of each window, whole milliseconds between them, and points
+/// at most [`MOST_SAMPLED_GAP`] apart. A window narrower than [`MOST_SAMPLED_GAP`] gives its first point only, and only if that is farther than
 /// [`MOST_SAMPLED_GAP`] from the last point chosen.
 fn choose(points: &[Point], windows: &[[f64; 2]], own: &BTreeSet<i64>) -> Vec<usize> {
     let mut chosen: Vec<usize> = Vec::new();
@@ -112,7 +112,10 @@ fn choose(points: &[Point], windows: &[[f64; 2]], own: &BTreeSet<i64>) -> Vec<us
         for n in first..=last {
             let next = points.get(n + 1).map_or(f64::INFINITY, |point| point.interval);
             let due = match is_wide {
-                true => n == first || n == last || beyond(chosen.last(), next),
+                true => {
+                    let is_whole = is_whole_milliseconds(points[n].interval);
+                    n == first || n == last || is_whole || beyond(chosen.last(), next)
+                }
                 false => n == first && beyond(chosen.last(), from),
             };
             if due || is_own(n) {

@@ -202,6 +202,10 @@ fn nanoseconds(interval: f64) -> i64 {
     (interval * 1e9).round() as i64
 }
 
+fn is_whole_milliseconds(interval: f64) -> bool {
+    nanoseconds(interval) % 1_000_000 == 0
+}
+
 fn in_seconds(nanoseconds: i64) -> f64 {
     nanoseconds as f64 / 1e9
 }
@@ -336,7 +340,11 @@ mod tests {
             .collect();
         let windows = windows(&case, &points);
         let recommended = recommend(&case, &points, &windows).expect("two windows");
-        assert!((recommended.interval - 8.5e-3).abs() < 1e-9 && (recommended.room - 3.4e-3).abs() < 1e-9);
+        // The middle, 8.5 ms, is no whole number of milliseconds.
+        assert!((recommended.interval - 8e-3).abs() < 1e-9 && (recommended.room - 3e-3).abs() < 1e-9);
         assert_eq!(recommended.utilization, 0.6);
+        // From 2 to 2.4 ms all whole milliseconds lie at an end.
+        let narrow = recommend(&case, &points, &windows[..1]).expect("a window");
+        assert!((narrow.interval - 2.2e-3).abs() < 1e-9, "{narrow:?}");
     }
 }

@@ -1,6 +1,6 @@
 //! Windows of passing intervals, the gaps in them that must be halved, and the interval deepest inside one.
 
-use super::{GAP, Point, Recommended, nanoseconds, passes, utilization};
+use super::{GAP, Point, Recommended, is_whole_milliseconds, nanoseconds, passes, utilization};
 use crate::study::Case;
 
 /// Gaps as narrow as this are not halved [s].
@@ -68,13 +68,24 @@ pub(super) fn recommend(case: &Case, points: &[Point], windows: &[[f64; 2]]) -> 
     deepest(points, windows, |point| utilization_with_errors(case, point), |_| true)
 }
 
-/// The interval and the room r around it for which r × (1 − greatest utilization within r) is greatest; `used` tells the
-/// utilization of a point, and `may` which points may be recommended.
+/// The interval and the room r around it for which r × (1 − greatest utilization within r) is greatest: of whole milliseconds,
+/// which electronic detonators are programmed in, and of all where none of those is inside a window. `used` tells the utilization of
+/// a point, and `may` which points may be recommended.
 pub(super) fn deepest(
     points: &[Point],
     windows: &[[f64; 2]],
     used: impl Fn(&Point) -> f64,
     may: impl Fn(&Point) -> bool,
+) -> Option<Recommended> {
+    let whole = |point: &Point| is_whole_milliseconds(point.interval) && may(point);
+    deepest_of(points, windows, &used, &whole).or_else(|| deepest_of(points, windows, &used, &may))
+}
+
+fn deepest_of(
+    points: &[Point],
+    windows: &[[f64; 2]],
+    used: &dyn Fn(&Point) -> f64,
+    may: &dyn Fn(&Point) -> bool,
 ) -> Option<Recommended> {
     let mut best: Option<(f64, Recommended)> = None;
     for &[from, to] in windows {

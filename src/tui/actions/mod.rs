@@ -131,8 +131,13 @@ impl App {
         Request::NameExport(format!("{}-{}", self.file_stem(), self.screen.name().to_lowercase()), ending)
     }
 
-    /// Asks for the file of the page; the name offered says which option it is of, and whether that passes.
-    fn name_page(&self) -> Request {
+    /// Asks for the file of the page, once all options are judged; the name offered says which option it is of, and whether that
+    /// passes.
+    fn name_page(&mut self) -> Request {
+        if let Err(missing) = export::results(self) {
+            self.notice = Some(missing);
+            return Request::None;
+        }
         let ending = match self.judgement(self.selected).map(Judgement::verdict) {
             _ if !contradiction(&export::observed(self)).is_empty() => "contradicted",
             Some(Verdict::Pass) => "to-be-fired",
@@ -187,14 +192,20 @@ impl App {
         self.studies.is_running(kind).then_some(kind)
     }
 
-    /// Asks to quit; the first time with unsaved changes only warns.
+    /// Asks to quit; the first time only warns where something would be lost.
     fn quit(&mut self) -> Request {
-        if !self.editor.unsaved() || self.warned {
-            return Request::Quit;
-        }
-        self.warned = true;
         let [save, quit] = [Action::Save, Action::Quit].map(|action| self.keymap.hint(action));
-        self.notice = Some(format!("changes are not saved: {save} saves, {quit} again leaves without"));
+        let warning = match (self.editor.unsaved(), self.observed.has_typed()) {
+            _ if self.warned => return Request::Quit,
+            (false, false) => return Request::Quit,
+            (true, false) => format!("changes are not saved: {save} saves, {quit} again leaves without"),
+            (false, true) => format!("what was typed as seen is in no file: {quit} again forgets it"),
+            (true, true) => {
+                format!("{save} saves the changes; what was typed as seen is in no file: {quit} again leaves")
+            }
+        };
+        self.warned = true;
+        self.notice = Some(warning);
         Request::None
     }
 

@@ -189,7 +189,7 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
         lines.push(Line::from(decided.join(" · ")));
     }
     lines.push(Line::from(format!("as planned: {}", peaks(case.scene(), checked))));
-    lines.extend(sampled.and_then(|sampled| bands(sampled, &case.limits)).map(Line::from));
+    lines.extend(sampled.and_then(|sampled| bands(case, sampled)).map(Line::from));
     let how = format!(
         "step {} · {} runs in {} · energy residual {:.0e} · {} {}",
         units::milliseconds(checked.step),

@@ -22,7 +22,7 @@ use super::chart::{self, Mark};
 use super::map_numbers;
 use super::widgets::color;
 use crate::jobs::StudyKind;
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, Peak};
 use crate::plan;
 use crate::report::words::no_result;
 use crate::study::flight::Flight;
@@ -104,8 +104,9 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
         .unwrap_or(title);
     let block = titled_block(app, title);
     let around = block.inner(area);
-    let inside = map_numbers::map_area(scene, around);
     frame.render_widget(block, area);
+    let around = draw_legend(app, frame, around);
+    let inside = map_numbers::map_area(scene, around);
     let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
     let (columns, rows) = (f64::from(inside.width), f64::from(inside.height));
     if columns < 2.0 || rows < 1.0 {
@@ -158,6 +159,28 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
             None => buffer.set_string(x, y, sign, style),
         };
     }
+}
+
+/// Least height of a view that has a line to spare for its legend.
+const LEGEND_FROM: u16 = 8;
+
+/// Draws what the signs of the view from above mean on its last line, as much as has room; the area left for the view.
+fn draw_legend(app: &App, frame: &mut Frame, area: Rect) -> Rect {
+    if area.height < LEGEND_FROM {
+        return area;
+    }
+    let entries = ["o ground", "▁ to █ limit", "^ highest", "arrow or * fires", "lines: taut cables"];
+    let mut legend = String::new();
+    for entry in entries {
+        let longer = format!("{legend}{}{entry}", if legend.is_empty() { " " } else { " · " });
+        if Span::raw(&longer).width() > usize::from(area.width) {
+            break;
+        }
+        legend = longer;
+    }
+    let [view, last] = Layout::vertical([Constraint::Min(0), Constraint::Length(1)]).areas(area);
+    frame.render_widget(Line::styled(legend, app.theme.muted()), last);
+    view
 }
 
 /// Draws a cable: dotted where it is slack, twofold where its force is over the limit, so that colours are not all that tells;
@@ -277,8 +300,8 @@ fn even_width(layout: &plan::Layout, least: f64) -> f64 {
     if cells >= 1.0 { spacing / cells } else { least }
 }
 
-/// The highest tire and the hardest pulled cable at the time shown, and those of the whole flight: a peak lies between two times
-/// that were recorded. Those of the whole flight stand where the width [cells] has room: the charts below have them too.
+/// The highest tire and the hardest pulled cable at the time shown, and those of the whole flight where the width [cells] has room:
+/// the charts below have them too. At the time of a peak it is the peak itself, which lies between two times that were recorded.
 fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<'l> {
     let (scene, limits, time) = (app.case.scene(), &app.case.limits, app.player.time);
     // Of mirror images, which differ by rounding alone, the first counts, as it does in the peaks of the run.
@@ -290,17 +313,22 @@ fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<
         let most = values.iter().enumerate().fold((0, 0.0), higher);
         Some(most).filter(|(_, value)| *value > f64::from(GROUND))
     };
+    let Outcome { height, force, .. } = &flight.outcome;
+    let peak = |peak: &Peak| (peak.time == time && peak.value > 0.0).then_some((peak.index, peak.value));
     let heights: Vec<f64> = flight.at(time).iter().map(|u| f64::from(u[2])).collect();
     let share = |value: f64, limit: f64| format!("{} of limit", units::percent(value / limit, 0));
-    let tire = greatest(&heights).map_or("no tire in the air".to_owned(), |(tire, height)| {
-        let value = units::value(height, Unit::Metre);
-        format!("tire {} {value} m, {}", scene.tire[tire], share(height, limits.height))
-    });
-    let cable = greatest(forces).map_or("no cable taut".to_owned(), |(cable, force)| {
-        let value = units::value(force, Unit::Kilonewton);
-        format!("cable {} {value} kN, {}", scene.cable_name(cable), share(force, limits.force))
-    });
-    let Outcome { height, force, .. } = &flight.outcome;
+    let tire = peak(height).or_else(|| greatest(&heights)).map_or(
+        "no tire in the air".to_owned(),
+        |(tire, height)| {
+            let value = units::value(height, Unit::Metre);
+            format!("tire {} {value} m, {}", scene.tire[tire], share(height, limits.height))
+        },
+    );
+    let cable =
+        peak(force).or_else(|| greatest(forces)).map_or("no cable taut".to_owned(), |(cable, force)| {
+            let value = units::value(force, Unit::Kilonewton);
+            format!("cable {} {value} kN, {}", scene.cable_name(cable), share(force, limits.force))
+        });
     let pulled =
         format!("{} kN at {}", units::value(force.value, Unit::Kilonewton), scene.cable_name(force.index));
     let both = format!(" · most: ^ {} m, {pulled}", units::value(height.value, Unit::Metre));

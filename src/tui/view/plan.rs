@@ -117,7 +117,12 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
     let times: Vec<String> = turns.iter().map(|(at, _)| (at * 1e3).round().to_string()).collect();
     let widest = times.iter().map(String::len).max().unwrap_or(0);
     let room = apart_along_x(&turns) / (2.0 * right_by);
-    let label = |turn: usize| match widest as f64 + 1.0 <= room {
+    // The last number of a row begins further left where it would be cut.
+    let holes_end = turns.iter().flat_map(|(_, holes)| holes).map(|(x, _)| *x).fold(left, f64::max);
+    let last_start = |letters: usize| right + margin - 2.0 * right_by * letters as f64;
+    let moved_left = ((holes_end + right_by - last_start(widest)) / (2.0 * right_by)).max(0.0);
+    let has_room = widest as f64 + moved_left + 1.0 <= room;
+    let label = |turn: usize| match has_room {
         true => times[turn].clone(),
         false => sign(turn),
     };
@@ -138,7 +143,7 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
                 let style = Style::new().fg(turn_color(app, turn, turns.len())).add_modifier(Modifier::BOLD);
                 let label = label(turn);
                 // A number that is cut would be another number.
-                let last = right + margin - 2.0 * right_by * label.chars().count() as f64;
+                let last = last_start(label.chars().count());
                 for &(x, y) in holes {
                     context.print((x + right_by).min(last), y - down_by, Span::styled(label.clone(), style));
                 }
@@ -151,7 +156,7 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
         (inside.x + across.round() as u16, inside.y + down.round() as u16)
     };
     map_numbers::draw(scene, inside, around, cell, theme.muted(), frame.buffer_mut());
-    let signs = match widest as f64 + 1.0 <= room {
+    let signs = match has_room {
         true => "numbers: fired at, ms",
         false => "signs: 1 fires first, 2 next, after 9 a, b",
     };
