@@ -3,32 +3,29 @@
 //! 1. An effect of the plan is compared with the plan without it; one that the plan lacks is probed at a stated value. Directed
 //!    effects are probed along x and y, both ways, and the hardest direction counts.
 //! 2. Nominal differences alone are noise where a motion has several branches. So medians are compared, over the first samples of
-//!    `[uncertainty]`, with the same draws on both sides.
+//!    `[uncertainty]`, with the same draws on both sides. Where the first [`FIRST_SAMPLES`] leave no doubt, no more are drawn.
 //! 3. An effect is required where it changes on which side of the limits the shot as planned lies; where, of a quantity that has a
 //!    limit, it changes the median or raises the 95th percentile by more than [`REQUIRED`], and by more than [`FLOOR`] of the
 //!    limit; or where one of these is not known.
 
 mod effect;
+mod runs;
 
-use std::borrow::Cow;
 use std::cmp::Ordering;
-use std::time::Instant;
+use std::collections::BTreeSet;
 
 pub use self::effect::Effect;
-use super::as_planned::check_many::or_unknown;
-use super::as_planned::quick_check::quick_check;
-use super::samples::draw_until_sure::{ShotToSample, run_sample_once};
-use super::samples::sample::Sample;
+use self::runs::{OptionRuns, is_in_doubt, measure_option, run_sample};
 use super::samples::sample_count::Sampling;
-use super::samples::sampled_shot::percentiles;
 use super::work::batch::run_batch;
-use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress, ShotSummary, catch_panic};
+use super::{Case, ComputeResult, ComputeSettings, Computed, Progress, catch_panic};
 use crate::plan::Plan;
-use crate::scene::Shot;
 use crate::verdict::{Limits, PerQuantity, Quantity, Verdict};
 
 /// Number of samples behind a median, unless another is asked for.
 pub const SAMPLES: usize = 49;
+/// Number of samples after which it shows which effects are in doubt.
+pub const FIRST_SAMPLES: usize = 17;
 /// Change of a median from which an effect is required.
 pub const REQUIRED: f64 = 0.05;
 /// Change of a median over the limit below which the effect is not required: a few newtons more or less.
@@ -56,10 +53,11 @@ pub struct EffectOnOption {
 }
 
 impl EffectOnOption {
-    fn new(variant: &Variant, without: &OptionFigures, with: &OptionFigures, limits: &Limits) -> Self {
+    fn new(variant: &Variant, without: &OptionRuns, with: &OptionRuns, limits: &Limits) -> Self {
+        let count = without.runs.len().min(with.runs.len());
         let changes = PerQuantity::from_fn(|quantity| QuantityChange {
-            without: *without.spreads.get(quantity),
-            with: *with.spreads.get(quantity),
+            without: without.spread(quantity, count),
+            with: with.spread(quantity, count),
             limit: limits.get(quantity),
         });
         Self {
@@ -71,7 +69,7 @@ impl EffectOnOption {
             changes,
             verdict_without: without.verdict,
             verdict_with: with.verdict,
-            cost: with.time / without.time,
+            cost: with.median_time(count) / without.median_time(count),
         }
     }
 
@@ -175,16 +173,6 @@ struct Variant {
     with: Vec<usize>,
 }
 
-/// What is known of one option of one plan.
-struct OptionFigures {
-    /// On which side of the limits the shot as planned lies.
-    verdict: Verdict,
-    /// Those of each quantity.
-    spreads: PerQuantity<Spread>,
-    /// Median time of a sample [s].
-    time: f64,
-}
-
 /// Index of the plan as it is among the cases.
 const AS_PLANNED: usize = 0;
 
@@ -200,16 +188,52 @@ pub fn effects(
     let variants: Vec<Variant> =
         computed.filter_map(|effect| variant(effect, &case.plan, &mut cases)).collect();
     let jobs: Vec<(usize, usize)> = itertools::iproduct!(0..case.shots.len(), 0..cases.len()).collect();
-    let measured = run_batch(&jobs, progress, |&(option, n)| {
+    let mut measured = run_batch(&jobs, progress, |&(option, n)| {
         catch_panic(|| measure_option(&cases[n], option, sampling, compute, progress))
     })?;
+    if let Some(sampling) = sampling {
+        let in_doubt = jobs_in_doubt(&measured, &variants, cases.len(), &case.limits);
+        let more: Vec<(usize, usize)> =
+            itertools::iproduct!(in_doubt, FIRST_SAMPLES..sampling.most.max(FIRST_SAMPLES)).collect();
+        let drawn = run_batch(&more, progress, |&(job, number)| {
+            let (option, n) = jobs[job];
+            catch_panic(|| run_sample(&cases[n], option, number, sampling, compute, progress))
+        })?;
+        for ((job, _), drawn) in more.into_iter().zip(drawn) {
+            measured[job] = measured[job].take().zip(drawn).map(|(mut option, drawn)| {
+                option.runs.push(drawn);
+                option
+            });
+        }
+    }
     let partial = measured.iter().any(Option::is_none);
-    let on_option = |figures: &[Option<OptionFigures>]| -> Option<Vec<EffectOnOption>> {
-        let figures: Vec<&OptionFigures> = figures.iter().map(Option::as_ref).collect::<Option<_>>()?;
-        variants.iter().map(|variant| hardest(variant, &figures, &case.limits)).collect()
+    let on_option = |measured: &[Option<OptionRuns>]| -> Option<Vec<EffectOnOption>> {
+        let runs: Vec<&OptionRuns> = measured.iter().map(Option::as_ref).collect::<Option<_>>()?;
+        variants.iter().map(|variant| hardest(variant, &runs, &case.limits)).collect()
     };
     let effects = measured.chunks(cases.len()).map(on_option).collect();
     Ok(Computed { value: effects, partial })
+}
+
+/// Indices in `measured` (`n_options` × `n_cases`) of the plans of effects in doubt, ascending.
+fn jobs_in_doubt(
+    measured: &[Option<OptionRuns>],
+    variants: &[Variant],
+    n_cases: usize,
+    limits: &Limits,
+) -> Vec<usize> {
+    let mut in_doubt = BTreeSet::new();
+    for (first, variant) in itertools::iproduct!((0..measured.len()).step_by(n_cases), variants) {
+        for &with in &variant.with {
+            let pair = [first + variant.without, first + with];
+            if let [Some(without), Some(with)] = pair.map(|job| measured[job].as_ref())
+                && is_in_doubt(without, with, limits)
+            {
+                in_doubt.extend(pair);
+            }
+        }
+    }
+    in_doubt.into_iter().collect()
 }
 
 /// The plans with and without an effect, added to `cases`; `None` where there is nothing to try.
@@ -231,72 +255,11 @@ fn variant(effect: Effect, plan: &Plan, cases: &mut Vec<Case>) -> Option<Variant
     }
 }
 
-/// The effect in its hardest direction; `figures` are those of each case.
-fn hardest(variant: &Variant, figures: &[&OptionFigures], limits: &Limits) -> Option<EffectOnOption> {
-    let all = variant
-        .with
-        .iter()
-        .map(|&n| EffectOnOption::new(variant, figures[variant.without], figures[n], limits));
+/// The effect in its hardest direction; `runs` are those of each case.
+fn hardest(variant: &Variant, runs: &[&OptionRuns], limits: &Limits) -> Option<EffectOnOption> {
+    let all =
+        variant.with.iter().map(|&n| EffectOnOption::new(variant, runs[variant.without], runs[n], limits));
     let is_missed_on_the_unsafe_side = all.clone().any(|row| row.is_missed_on_the_unsafe_side);
     let hardest = all.max_by(|a, b| a.severity().partial_cmp(&b.severity()).unwrap_or(Ordering::Equal));
     Some(EffectOnOption { is_missed_on_the_unsafe_side, ..hardest? })
-}
-
-/// Time after the last hole over which a shelter without friction is followed [s]: it never comes to rest.
-const WITHOUT_FRICTION: f64 = 3.0;
-
-/// The case, with an end of its runs where nothing comes to rest: what holds for an option depends on no other.
-fn followed<'c>(case: &'c Case, shot: &Shot) -> Cow<'c, Case> {
-    if case.plan.ground.friction > 0.0 || case.plan.simulation.duration_s.is_some() {
-        return Cow::Borrowed(case);
-    }
-    let last = shot.firings.last().map_or(0.0, |firing| firing.time);
-    Cow::Owned(case.with_duration(Some(last + WITHOUT_FRICTION)))
-}
-
-/// Screens an option as planned, and takes its first samples.
-fn measure_option(
-    case: &Case,
-    option: usize,
-    sampling: Option<&Sampling>,
-    compute: &ComputeSettings,
-    progress: &Progress,
-) -> Result<OptionFigures, NoResult> {
-    let shot = &case.shots[option];
-    let case = &*followed(case, shot);
-    let begun = Instant::now();
-    let as_planned = or_unknown(quick_check(case, shot, compute, progress))?;
-    let verdict = verdict_of_values(&as_planned, case);
-    let Some(sampling) = sampling else {
-        let spreads = PerQuantity::from_fn(|quantity| {
-            let value = as_planned.get(quantity).value;
-            Spread { median: value, p95: value }
-        });
-        return Ok(OptionFigures { verdict, spreads, time: begun.elapsed().as_secs_f64() });
-    };
-    let target = ShotToSample::new(case, shot, *compute, *sampling);
-    let timed_sample = |number: usize| -> Result<(Sample, f64), NoResult> {
-        let begun = Instant::now();
-        Ok((run_sample_once(&target, number, progress)?, begun.elapsed().as_secs_f64()))
-    };
-    let samples = (0..sampling.most).map(timed_sample).collect::<Result<Vec<_>, _>>()?;
-    let spread = |values: &mut dyn Iterator<Item = f64>| {
-        let [median, p95] = percentiles(values, [0.5, 0.95]).unwrap_or([f64::INFINITY; 2]);
-        Spread { median, p95 }
-    };
-    let spreads = PerQuantity::from_fn(|quantity| {
-        spread(&mut samples.iter().map(|(sample, _)| sample.run.get(quantity)))
-    });
-    Ok(OptionFigures { verdict, spreads, time: spread(&mut samples.iter().map(|(_, time)| *time)).median })
-}
-
-/// On which side of the limits a shot lies. A run that ends early counts by its values: without friction none comes to rest.
-fn verdict_of_values(judged: &ShotSummary, case: &Case) -> Verdict {
-    let utilization = |errors: f64| judged.with_errors(errors).utilization(&case.limits);
-    match (utilization(1.0) <= 1.0, utilization(-1.0) > 1.0) {
-        _ if judged.verdict == Verdict::Fail => Verdict::Fail,
-        (true, _) => Verdict::Pass,
-        (_, true) => Verdict::Fail,
-        _ => Verdict::Undecided,
-    }
 }
