@@ -1,39 +1,39 @@
 //! What observations of earlier shots tell of launch velocities and other unknowns.
 //!
 //! Weighted least squares: of the parameters within plausible ranges those whose predictions fit the observations best; what
-//! `[uncertainty]` of the plan states of them counts as observations. The weights are those of [`weights`], first at the plan, then
-//! at each answer. Inputs that are not estimated are not taken for exact: they weaken the weights.
+//! `[uncertainty]` of the plan states of them counts as observations. The weights are the inverse of the observations' [`covariance`],
+//! first at the plan, then at each answer. Inputs that are not estimated are not taken for exact: they widen the covariance.
 //!
 //! | question | where |
 //! |---|---|
 //! | what is found | `answer` |
 //! | which numbers are estimated, and what the plan knows of them | [`parameter`] |
-//! | which answers the observations leave, and how sure they are | `fitting` |
+//! | which answers the observations leave, and how sure they are | `problem` |
 //! | the observations by shot | [`observed_shots`] |
 //! | what a plan predicts | `predictor`, `watch` |
-//! | how far observations may lie from it | [`weights`] |
+//! | how far observations may lie from it | [`covariance`] |
 //! | which parameters fit best, in which separate answers | [`search`] |
 //! | whether observations determine them | [`determined`] |
 //! | how observations lie among the shots that were possible, and what to observe next | [`observation_bands`] |
 
 mod answer;
+pub mod covariance;
 pub mod determined;
-mod fitting;
 pub mod observation_bands;
 pub mod observed_shots;
 pub mod parameter;
 mod predictor;
+mod problem;
 pub mod search;
 mod watch;
-pub mod weights;
 
 pub use self::answer::{Answer, Estimated, Fit, FitResult, Residual};
 pub use self::determined::{NotDetermined, Observable};
-use self::fitting::Fitting;
 use self::observation_bands::{NextObservation, next_observation, predict_observations};
 use self::observed_shots::ObservedShots;
 use self::parameter::{Parameter, Prior};
 use self::predictor::Predictor;
+use self::problem::FitProblem;
 use self::search::SearchBox;
 use super::samples::sample_count::Sampling;
 use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress};
@@ -87,33 +87,33 @@ pub fn fit(
         return Ok(whole(FitResult::NotInMethod(Unknown::Damping)));
     }
     let seen = ObservedShots::new(request.files);
-    let fitting = Fitting {
+    let problem = FitProblem {
         space: search_box(&case.plan, &parameters, &priors),
         predictor: Predictor {
-            plan: plan_of_others(case, request),
+            plan: plan_of_not_estimated(case, request),
             shots: seen.distinct_shots(),
             parameters,
             compute: *compute,
             progress,
         },
-        others: others(case, request),
+        not_estimated: not_estimated(case, request),
         priors,
         seen,
         seed: request.sampling.map(|sampling| sampling.seed),
     };
-    let settled = fitting.answers(case)?;
+    let settled = problem.answers(case)?;
     let best = &settled[0];
-    let slopes = best.weights.whiten(&best.slopes).unwrap_or_else(|| best.slopes.clone());
-    let start = fitting.start_coordinates(&case.plan);
-    let refused = determined::refuse(&fitting.predictor, &fitting.space, &start, &slopes)?;
+    let slopes = best.covariance.whiten(&best.slopes).unwrap_or_else(|| best.slopes.clone());
+    let start = problem.start_coordinates(&case.plan);
+    let refused = determined::refuse(&problem.predictor, &problem.space, &start, &slopes)?;
     let predictions =
-        predict_observations(case, &fitting.seen, request.sampling.as_ref(), compute, progress)?;
+        predict_observations(case, &problem.seen, request.sampling.as_ref(), compute, progress)?;
     if let Some(refused) = refused {
-        let observed = fitting.seen.list;
+        let observed = problem.seen.list;
         return Ok(whole(FitResult::NotDetermined { refused, observed, predictions }));
     }
-    let answers = settled.iter().map(|settled| fitting.answer(case, settled)).collect();
-    let ObservedShots { list: observed, file, .. } = fitting.seen;
+    let answers = settled.iter().map(|settled| problem.answer(case, settled)).collect();
+    let ObservedShots { list: observed, file, .. } = problem.seen;
     let mut fit = Fit { answers, observed, file, predictions, next: None };
     fit.next = next(case, &fit, request, compute, progress)?;
     Ok(whole(FitResult::Fitted(fit)))
@@ -150,18 +150,18 @@ fn stated_priors(
 }
 
 /// Inputs in common that are not estimated and that are not exact.
-fn others(case: &Case, request: &FitRequest<'_>) -> Vec<(Parameter, Prior)> {
+fn not_estimated(case: &Case, request: &FitRequest<'_>) -> Vec<(Parameter, Prior)> {
     if request.sampling.is_none() {
         return Vec::new();
     }
-    let all = Parameter::others(request.unknowns).into_iter();
+    let all = Parameter::not_estimated(request.unknowns).into_iter();
     all.filter_map(|other| Some((other, other.prior(&case.plan).filter(|prior| prior.sd > 0.0)?))).collect()
 }
 
 /// The plan with the inputs that are not estimated at their means.
-fn plan_of_others(case: &Case, request: &FitRequest<'_>) -> Plan {
+fn plan_of_not_estimated(case: &Case, request: &FitRequest<'_>) -> Plan {
     let mut plan = case.plan.clone();
-    others(case, request).iter().for_each(|(other, prior)| other.set_in(&mut plan, prior.mean));
+    not_estimated(case, request).iter().for_each(|(other, prior)| other.set_in(&mut plan, prior.mean));
     plan
 }
 

@@ -54,13 +54,13 @@ impl Parameter {
     }
 
     /// The inputs that `[uncertainty]` knows in common for a whole shot, and that are not asked for.
-    pub fn others(unknowns: &[Unknown]) -> Vec<Self> {
-        let mut others = vec![Unknown::Friction, Unknown::Slack, Unknown::AxialStiffness];
+    pub fn not_estimated(unknowns: &[Unknown]) -> Vec<Self> {
+        let mut unknowns_left = vec![Unknown::Friction, Unknown::Slack, Unknown::AxialStiffness];
         if !unknowns.contains(&Unknown::LaunchByRow) {
-            others.push(Unknown::Launch);
+            unknowns_left.push(Unknown::Launch);
         }
-        others.retain(|other| !unknowns.contains(other));
-        others.into_iter().map(|unknown| Self { unknown, row: None }).collect()
+        unknowns_left.retain(|other| !unknowns.contains(other));
+        unknowns_left.into_iter().map(|unknown| Self { unknown, row: None }).collect()
     }
 
     /// Name that scripts read: that of the unknown, with that of the row.

@@ -126,9 +126,9 @@ impl SearchBox {
             let apart = |i: usize| ((starts[n][i] - starts[other][i]) / self.width(i)).powi(2);
             (0..self.ranges.len()).map(apart).sum()
         };
-        let mut others: Vec<usize> = (0..starts.len()).filter(|&other| distance(other) > 1e-12).collect();
-        others.sort_by(|&a, &b| distance(a).total_cmp(&distance(b)));
-        others.iter().take(2 * self.ranges.len()).all(|&other| misfits[n] <= misfits[other])
+        let mut neighbours: Vec<usize> = (0..starts.len()).filter(|&other| distance(other) > 1e-12).collect();
+        neighbours.sort_by(|&a, &b| distance(a).total_cmp(&distance(b)));
+        neighbours.iter().take(2 * self.ranges.len()).all(|&other| misfits[n] <= misfits[other])
     }
 
     /// The minimum below a start; `None` where the run at the start fails.

@@ -3,11 +3,11 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::answer::{Answer, Estimated, Residual};
+use super::covariance::{CovarianceModel, ObservationCovariance, SampledPrediction};
 use super::observed_shots::{ObservedShot, ObservedShots};
 use super::parameter::{Parameter, Prior};
 use super::predictor::Predictor;
 use super::search::{Minimum, SearchBox};
-use super::weights::{SampledWeights, Weighing, Weights};
 use crate::plan::Plan;
 use crate::study::work::batch::run_batch;
 use crate::study::{Case, NoResult};
@@ -15,18 +15,18 @@ use crate::study::{Case, NoResult};
 /// Misfit above the least up to which another answer is told: its likelihood is 1/20 of the best.
 const NEARLY_EQUAL: f64 = 6.0;
 
-/// The same for answers whose weights are yet to be found.
-const WORTH_WEIGHING: f64 = 40.0;
+/// The same for answers that are yet to be settled.
+const WORTH_SETTLING: f64 = 40.0;
 
-/// Most answers that are weighed.
-const MOST_WEIGHED: usize = 6;
+/// Most answers that are settled.
+const MOST_SETTLED: usize = 6;
 
 /// A fit under way.
-pub(super) struct Fitting<'p> {
+pub(super) struct FitProblem<'p> {
     pub predictor: Predictor<'p>,
     pub space: SearchBox,
     pub priors: Vec<Option<Prior>>,
-    pub others: Vec<(Parameter, Prior)>,
+    pub not_estimated: Vec<(Parameter, Prior)>,
     pub seen: ObservedShots,
     pub seed: Option<u64>,
 }
@@ -38,7 +38,7 @@ pub(super) struct SettledAnswer {
     pub predicted: Vec<f64>,
     /// Their derivatives (`n_observations` × `n_parameters`).
     pub slopes: DMatrix<f64>,
-    pub weights: Weights,
+    pub covariance: ObservationCovariance,
     /// Whether the last round changed little.
     pub is_settled: bool,
 }
@@ -46,7 +46,7 @@ pub(super) struct SettledAnswer {
 impl SettledAnswer {
     /// −2 × the logarithm of the likelihood, but for a constant.
     fn unlikelihood(&self) -> f64 {
-        self.minimum.misfit + self.weights.log_determinant
+        self.minimum.misfit + self.covariance.log_determinant
     }
 }
 
@@ -59,7 +59,7 @@ const SPREADS: [f64; 2] = [5e-3, 0.15];
 /// Most times that samples are drawn about an answer.
 const MOST_ROUNDS: usize = 6;
 
-impl Fitting<'_> {
+impl FitProblem<'_> {
     /// Where the search begins: at what the plan states, or at its own numbers.
     pub fn start_coordinates(&self, plan: &Plan) -> Vec<f64> {
         let start = |(n, parameter): (usize, &Parameter)| {
@@ -71,9 +71,13 @@ impl Fitting<'_> {
     }
 
     /// Independent residuals of unit variance: those of the observations, then those of what the plan states.
-    fn residuals(&self, at: &[f64], weights: &Weights) -> Result<Option<DVector<f64>>, NoResult> {
+    fn residuals(
+        &self,
+        at: &[f64],
+        covariance: &ObservationCovariance,
+    ) -> Result<Option<DVector<f64>>, NoResult> {
         let Some(predicted) = self.predictor.values(at, 1.0)? else { return Ok(None) };
-        let Some(of_observations) = weights.whitened_residuals(&self.seen.list, &predicted) else {
+        let Some(of_observations) = covariance.whitened_residuals(&self.seen.list, &predicted) else {
             return Ok(None);
         };
         let stated = self
@@ -88,23 +92,27 @@ impl Fitting<'_> {
     /// Answers of nearly equal misfit, the best first.
     pub fn answers(&self, case: &Case) -> Result<Vec<SettledAnswer>, NoResult> {
         let start = self.start_coordinates(&case.plan);
-        let weighing =
-            Weighing { predictor: &self.predictor, plan: &case.plan, others: &self.others, seen: &self.seen };
-        let weights = match self.seed {
-            Some(seed) => {
-                weighing.weigh_samples(&start, &self.sample_spread(|_| 0.0), seed)?.map(|local| local.weights)
-            }
-            None => weighing.weigh_without_scatter(&start)?,
+        let model = CovarianceModel {
+            predictor: &self.predictor,
+            plan: &case.plan,
+            not_estimated: &self.not_estimated,
+            seen: &self.seen,
         };
-        let weights = weights.ok_or_else(|| self.failure(&start))?;
+        let covariance = match self.seed {
+            Some(seed) => {
+                model.from_samples(&start, &self.sample_spread(|_| 0.0), seed)?.map(|local| local.covariance)
+            }
+            None => model.without_scatter(&start)?,
+        };
+        let covariance = covariance.ok_or_else(|| self.failure(&start))?;
         let minima =
-            self.space.minima(&start, &|at| self.residuals(at, &weights), self.predictor.progress)?;
+            self.space.minima(&start, &|at| self.residuals(at, &covariance), self.predictor.progress)?;
         let least = minima.first().map_or(f64::INFINITY, |best| best.misfit);
-        let is_worth = |minimum: &Minimum| minimum.misfit <= least + WORTH_WEIGHING;
-        let worth: Vec<Minimum> = minima.into_iter().take_while(is_worth).take(MOST_WEIGHED).collect();
+        let is_worth = |minimum: &Minimum| minimum.misfit <= least + WORTH_SETTLING;
+        let worth: Vec<Minimum> = minima.into_iter().take_while(is_worth).take(MOST_SETTLED).collect();
         let settled = run_batch(&worth, self.predictor.progress, |minimum| match self.seed {
-            Some(seed) => self.settle_among_samples(&weighing, minimum, seed),
-            None => self.settle(&weighing, minimum),
+            Some(seed) => self.settle_among_samples(&model, minimum, seed),
+            None => self.settle(&model, minimum),
         })?;
         let settled: Option<Vec<Option<SettledAnswer>>> = settled.into_iter().collect();
         let mut settled: Vec<SettledAnswer> =
@@ -130,21 +138,25 @@ impl Fitting<'_> {
     }
 
     /// The answer near a minimum where nothing scatters.
-    fn settle(&self, weighing: &Weighing<'_>, minimum: &Minimum) -> Result<Option<SettledAnswer>, NoResult> {
-        let Some(weights) = weighing.weigh_without_scatter(&minimum.point)? else { return Ok(None) };
-        let Some(minimum) = self.space.refine(&minimum.point, &|at| self.residuals(at, &weights))? else {
+    fn settle(
+        &self,
+        model: &CovarianceModel<'_>,
+        minimum: &Minimum,
+    ) -> Result<Option<SettledAnswer>, NoResult> {
+        let Some(covariance) = model.without_scatter(&minimum.point)? else { return Ok(None) };
+        let Some(minimum) = self.space.refine(&minimum.point, &|at| self.residuals(at, &covariance))? else {
             return Ok(None);
         };
         let Some(predicted) = self.predictor.values(&minimum.point, 1.0)? else { return Ok(None) };
         let slopes = self.slopes(&minimum, &predicted)?;
-        Ok(Some(SettledAnswer { minimum, predicted, slopes, weights, is_settled: true }))
+        Ok(Some(SettledAnswer { minimum, predicted, slopes, covariance, is_settled: true }))
     }
 
     /// The answer near a minimum, for the mean of what scatter makes of the predictions: samples about the answer give the mean,
-    /// its slopes and the weights; these give the next answer.
+    /// its slopes and the covariance of the observations; these give the next answer.
     fn settle_among_samples(
         &self,
-        weighing: &Weighing<'_>,
+        model: &CovarianceModel<'_>,
         minimum: &Minimum,
         seed: u64,
     ) -> Result<Option<SettledAnswer>, NoResult> {
@@ -152,13 +164,13 @@ impl Fitting<'_> {
         let (mut at, mut spread) = (minimum.point.clone(), self.sample_spread(|n| minimum.sd(n)));
         let mut settled = None;
         for _ in 0..MOST_ROUNDS {
-            let Some(SampledWeights { mean, slopes, weights }) =
-                weighing.weigh_samples(&at, &spread, seed)?
+            let Some(SampledPrediction { mean, slopes, covariance }) =
+                model.from_samples(&at, &spread, seed)?
             else {
                 break;
             };
             let (Some(residuals), Some(whitened)) =
-                (weights.whitened_residuals(&self.seen.list, &mean), weights.whiten(&slopes))
+                (covariance.whitened_residuals(&self.seen.list, &mean), covariance.whiten(&slopes))
             else {
                 break;
             };
@@ -170,8 +182,8 @@ impl Fitting<'_> {
                     pull[n] += (prior.mean - at[n]) / prior.sd.powi(2);
                 }
             }
-            let covariance = self.space.inverse(precision);
-            let step = &covariance * pull;
+            let of_coordinates = self.space.inverse(precision);
+            let step = &of_coordinates * pull;
             // A straight line holds no farther than the samples spread.
             let share = (0..count).map(|n| step[n].abs() / (2.0 * spread[n])).fold(1.0, f64::max);
             let next: Vec<f64> = (0..count).map(|n| at[n] + step[n] / share).collect();
@@ -185,13 +197,13 @@ impl Fitting<'_> {
             let misfit = (residuals - whitened * &moved).norm_squared() + stated.sum::<f64>();
             let predicted =
                 mean.iter().zip((&slopes * &moved).iter()).map(|(mean, change)| mean + change).collect();
-            let minimum = Minimum { point: next, misfit, covariance };
+            let minimum = Minimum { point: next, misfit, covariance: of_coordinates };
             let wanted = self.sample_spread(|n| minimum.sd(n));
             let is_near =
                 |n: usize| moved[n].abs() <= 0.3 * spread[n] && (wanted[n] / spread[n]).ln().abs() < 0.4;
             let is_settled = (0..count).all(is_near);
             (at, spread) = (minimum.point.clone(), wanted);
-            settled = Some(SettledAnswer { minimum, predicted, slopes, weights, is_settled });
+            settled = Some(SettledAnswer { minimum, predicted, slopes, covariance, is_settled });
             if is_settled {
                 break;
             }
@@ -226,7 +238,7 @@ impl Fitting<'_> {
     }
 
     pub fn answer(&self, case: &Case, settled: &SettledAnswer) -> Answer {
-        let SettledAnswer { minimum, predicted, weights, .. } = settled;
+        let SettledAnswer { minimum, predicted, covariance, .. } = settled;
         let parameters = &self.predictor.parameters;
         let count = parameters.len();
         let estimate = |n: usize| {
@@ -244,9 +256,9 @@ impl Fitting<'_> {
         let correlation = |a: usize, b: usize| minimum.covariance[(a, b)] / (minimum.sd(a) * minimum.sd(b));
         let residual = |n: usize| Residual {
             predicted: predicted[n],
-            sd: weights.sds[n],
-            deviation: (self.seen.list[n].value - predicted[n]) / weights.sds[n],
-            error: weights.errors[n],
+            sd: covariance.sds[n],
+            deviation: (self.seen.list[n].value - predicted[n]) / covariance.sds[n],
+            error: covariance.errors[n],
         };
         let stated = self.priors.iter().flatten().count();
         Answer {

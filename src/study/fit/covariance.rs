@@ -37,7 +37,7 @@ const SAMPLES_EACH: usize = 4;
 const OFTEN: f64 = 0.5;
 
 /// The covariance of observations about their predictions, and its parts.
-pub struct Weights {
+pub struct ObservationCovariance {
     /// Error of the time integration of each prediction.
     pub errors: Vec<f64>,
     /// Standard deviation of each observation about its prediction.
@@ -50,7 +50,7 @@ pub struct Weights {
 /// Residual, in standard deviations, of a prediction that has no value: the tire never lifts, or never lands.
 const NEVER: f64 = 10.0;
 
-impl Weights {
+impl ObservationCovariance {
     /// The residuals of predictions, made independent and of unit variance.
     pub fn whitened_residuals(&self, observed: &[Observation], predicted: &[f64]) -> Option<DVector<f64>> {
         let residual = |n: usize| match predicted[n].is_nan() {
@@ -74,42 +74,42 @@ impl Weights {
 }
 
 /// What a plan predicts near some coordinates.
-pub struct SampledWeights {
+pub struct SampledPrediction {
     /// The mean of each prediction at the coordinates; not a number where most samples have no value.
     pub mean: Vec<f64>,
     /// Its derivatives (`n_observations` × `n_parameters`).
     pub slopes: DMatrix<f64>,
     /// The covariance of the observations about it.
-    pub weights: Weights,
+    pub covariance: ObservationCovariance,
 }
 
 /// What predictions depend on besides the coordinates.
-pub struct Weighing<'a> {
+pub struct CovarianceModel<'a> {
     /// The predictions of the parameters.
     pub predictor: &'a Predictor<'a>,
     /// The plan as it is.
     pub plan: &'a Plan,
     /// Inputs in common that are not estimated, each with what the plan knows of it.
-    pub others: &'a [(Parameter, Prior)],
+    pub not_estimated: &'a [(Parameter, Prior)],
     /// The observations.
     pub seen: &'a ObservedShots,
 }
 
-impl Weighing<'_> {
-    /// The weights at these coordinates where nothing scatters and all inputs are exact; `None` where the run there fails.
-    pub fn weigh_without_scatter(&self, at: &[f64]) -> Result<Option<Weights>, NoResult> {
+impl CovarianceModel<'_> {
+    /// The covariance at these coordinates where nothing scatters and all inputs are exact; `None` where the run there fails.
+    pub fn without_scatter(&self, at: &[f64]) -> Result<Option<ObservationCovariance>, NoResult> {
         let Some(errors) = self.integration_errors(at)? else { return Ok(None) };
-        Ok(Weights::new(self.observation_covariance(&errors), errors))
+        Ok(ObservationCovariance::new(self.observation_covariance(&errors), errors))
     }
 
     /// The predictions near these coordinates, from samples drawn with this seed in which each coordinate spreads by a standard
     /// deviation `spread`; `None` where the run at the coordinates fails.
-    pub fn weigh_samples(
+    pub fn from_samples(
         &self,
         at: &[f64],
         spread: &[f64],
         seed: u64,
-    ) -> Result<Option<SampledWeights>, NoResult> {
+    ) -> Result<Option<SampledPrediction>, NoResult> {
         let Some(errors) = self.integration_errors(at)? else { return Ok(None) };
         let shots = self.seen.shots();
         let drawn = SAMPLES.max(SAMPLES_EACH * self.seen.list.len());
@@ -124,7 +124,7 @@ impl Weighing<'_> {
         })?;
         let samples: Option<Vec<_>> = samples.into_iter().collect();
         let samples = samples.ok_or(NoResult::OutOfTime)?;
-        let (count, inputs) = (self.seen.list.len(), 1 + at.len() + self.others.len());
+        let (count, inputs) = (self.seen.list.len(), 1 + at.len() + self.not_estimated.len());
         let mut values = DMatrix::from_element(drawn, count, f64::NAN);
         let mut regressors = DMatrix::from_element(drawn, inputs, 1.0);
         for (number, (from, runs)) in samples.iter().enumerate() {
@@ -142,8 +142,8 @@ impl Weighing<'_> {
         let found = factor.solve(&(regressors.transpose() * &values));
         let rest = &values - &regressors * &found;
         let mut covariance = self.observation_covariance(&errors);
-        let of_others = found.rows(1 + at.len(), self.others.len());
-        covariance += of_others.transpose() * of_others;
+        let of_not_estimated = found.rows(1 + at.len(), self.not_estimated.len());
+        covariance += of_not_estimated.transpose() * of_not_estimated;
         let freedom = (drawn - inputs) as f64;
         for shot in &shots {
             let toward_zero = drawn as f64 / (drawn + shot.watched.len()) as f64;
@@ -156,7 +156,11 @@ impl Weighing<'_> {
         // Slopes per coordinate, not per standard deviation of its spread.
         let slopes =
             DMatrix::from_fn(count, at.len(), |n, parameter| found[(1 + parameter, n)] / spread[parameter]);
-        Ok(Weights::new(covariance, errors).map(|weights| SampledWeights { mean, slopes, weights }))
+        Ok(ObservationCovariance::new(covariance, errors).map(|covariance| SampledPrediction {
+            mean,
+            slopes,
+            covariance,
+        }))
     }
 
     /// Covariance of what was stated of each observation and of the error of each prediction.
@@ -180,12 +184,12 @@ impl Weighing<'_> {
             parameter.set_in(&mut plan, coordinate);
             (coordinate - mean) / sd
         };
-        let others: Vec<f64> =
-            self.others.iter().map(|(other, prior)| put(other, prior.mean, prior.sd)).collect();
+        let not_estimated: Vec<f64> =
+            self.not_estimated.iter().map(|(other, prior)| put(other, prior.mean, prior.sd)).collect();
         let parameters = self.predictor.parameters.iter().zip(at.iter().zip(spread));
         let mut from: Vec<f64> =
             parameters.map(|(parameter, (&mean, &sd))| put(parameter, mean, sd)).collect();
-        from.extend(others);
+        from.extend(not_estimated);
         let exact = |value: f64| [value; 2];
         plan.uncertainty = Uncertainty {
             launch_common_percent: 0.0,
