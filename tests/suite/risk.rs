@@ -177,7 +177,7 @@ fn samples_whose_step_is_too_long_pass_nothing() {
     let risk = judged.sampled.drawn().expect("samples");
     assert_eq!((judged.as_planned.verdict, risk.bounds.verdict()), (Verdict::Pass, Verdict::Pass));
     assert_eq!(judged.verdict(), Verdict::Undecided, "{:?}", risk.samples[0]);
-    assert!(risk.halvings > 0, "the audit saw it, too");
+    assert!(risk.step_halvings > 0, "the audit saw it, too");
     // Sweeps and orders sample shots this way.
     let shots = [(case.shots[0].clone(), ShotSummary::of(&judged.as_planned))];
     let sampled =
@@ -298,7 +298,7 @@ fn shards_that_the_audit_contradicts_are_sampled_anew() {
     assert!(joined.journal().recalled() >= 100, "until the audit contradicts them");
     let whole = case.judge_options(&compute, Some(&sampling), &progress).expect("a result").value;
     let whole = whole[0].as_ref().expect("a result").sampled.drawn().expect("samples");
-    assert!(whole.halvings > 0, "a test that can fail");
+    assert!(whole.step_halvings > 0, "a test that can fail");
     assert_eq!(of_shards.remove(0).expect("a result").sampled.drawn(), Some(whole));
 }
 

@@ -11,7 +11,7 @@ use crate::simulation::{Iteration, RunError};
 /// Greatest number of Newton iterations; after these the step is halved.
 const MOST_ITERATIONS: usize = 20;
 /// Greatest number of times that a step is halved; after these the run fails.
-const MOST_HALVINGS: usize = 8;
+const MOST_STEP_HALVINGS: usize = 8;
 /// Newton stops at a correction of this size relative to the displacement over the step, while the contact region is sought.
 const COARSE_TOLERANCE: f64 = 1e-4;
 /// The same size once the contact region no longer changes.
@@ -21,7 +21,7 @@ impl Stepper<'_> {
     /// Integrates one cut of a step over `h` [s]; halves the cut while its contact region does not settle.
     pub(super) fn advance(&mut self, h: f64, halved: usize) -> Result<(), RunError> {
         match self.settle(h) {
-            Err(RunError::Unsettled { .. }) if halved < MOST_HALVINGS => {
+            Err(RunError::Unsettled { .. }) if halved < MOST_STEP_HALVINGS => {
                 self.advance(0.5 * h, halved + 1)?;
                 self.advance(0.5 * h, halved + 1)
             }

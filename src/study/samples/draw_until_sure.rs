@@ -97,7 +97,7 @@ const FIRST_SAMPLES: usize = AUDIT_EVERY_AT_FIRST * LEAST_AUDITS;
 const AUDIT_STEP_DIVISOR: f64 = 4.0;
 
 /// Most times that a shot is sampled anew at half the step.
-const MOST_HALVINGS: u32 = 3;
+const MOST_STEP_HALVINGS: u32 = 3;
 
 /// Draws and judges samples of every shot, until its risk is sure.
 ///
@@ -120,8 +120,8 @@ pub fn sample_shots_watched(
     progress.announce(expected);
     loop {
         let round = |(n, sampled): (usize, &SampledShot)| {
-            let (numbers, halvings) = (targets[n].next_round(sampled), sampled.halvings);
-            numbers.map(move |number| (n, number, halvings))
+            let (numbers, step_halvings) = (targets[n].next_round(sampled), sampled.step_halvings);
+            numbers.map(move |number| (n, number, step_halvings))
         };
         let jobs: Vec<(usize, usize, u32)> = sampled_shots.iter().enumerate().flat_map(round).collect();
         if jobs.is_empty() {
@@ -129,10 +129,10 @@ pub fn sample_shots_watched(
         }
         progress.announce(jobs.len().saturating_sub(expected));
         expected = expected.saturating_sub(jobs.len());
-        let drawn = run_announced_batch(&jobs, progress, |&(n, number, halvings)| {
+        let drawn = run_announced_batch(&jobs, progress, |&(n, number, step_halvings)| {
             match targets[n].drawn_elsewhere(number) {
-                Some(sample) if halvings == 0 => Ok(*sample),
-                _ => recall_sample(&targets[n], keys[n], number, halvings, progress),
+                Some(sample) if step_halvings == 0 => Ok(*sample),
+                _ => recall_sample(&targets[n], keys[n], number, step_halvings, progress),
             }
         })?;
         let out_of_time = drawn.contains(&None);
@@ -146,11 +146,12 @@ pub fn sample_shots_watched(
         }
         for n in jobs.iter().map(|&(n, ..)| n).collect::<BTreeSet<_>>() {
             let (target, sampled) = (&targets[n], &mut sampled_shots[n]);
-            let may_halve = !out_of_time && sampled.halvings < MOST_HALVINGS && target.compute.step.is_none();
+            let may_halve =
+                !out_of_time && sampled.step_halvings < MOST_STEP_HALVINGS && target.compute.step.is_none();
             if may_halve && sampled.is_contradicted() {
-                let halvings = sampled.halvings + 1;
+                let step_halvings = sampled.step_halvings + 1;
                 *sampled = target.no_samples();
-                sampled.halvings = halvings;
+                sampled.step_halvings = step_halvings;
             }
             if watch(n, sampled).is_break() {
                 return Ok(Computed { value: sampled_shots, partial: false });
@@ -173,11 +174,11 @@ fn recall_sample(
     target: &ShotToSample<'_>,
     key: Option<Fingerprint>,
     number: usize,
-    halvings: u32,
+    step_halvings: u32,
     progress: &Progress,
 ) -> Result<Sample, NoResult> {
-    let key = || Fingerprint::of(("sample", key, number, halvings));
-    progress.journal().recall_or(key, || run_sample(target, number, halvings, progress))
+    let key = || Fingerprint::of(("sample", key, number, step_halvings));
+    progress.journal().recall_or(key, || run_sample(target, number, step_halvings, progress))
 }
 
 /// Draws one sample and runs it once, without an audit: for a first look at a shot among many.
@@ -189,14 +190,14 @@ pub(in crate::study) fn run_sample_once(
     undecided_if_panicked(catch_panic(|| try_sample(target, number, 0, false, progress)), number)
 }
 
-/// Draws one sample and runs it, at a step halved `halvings` times; where the sample is one of the audit, also at a finer step.
+/// Draws one sample and runs it, at a step halved `step_halvings` times; where the sample is one of the audit, also at a finer step.
 pub(in crate::study) fn run_sample(
     target: &ShotToSample<'_>,
     number: usize,
-    halvings: u32,
+    step_halvings: u32,
     progress: &Progress,
 ) -> Result<Sample, NoResult> {
-    undecided_if_panicked(catch_panic(|| try_sample(target, number, halvings, true, progress)), number)
+    undecided_if_panicked(catch_panic(|| try_sample(target, number, step_halvings, true, progress)), number)
 }
 
 /// A sample in which the program panicked shows nothing; the others go on.
@@ -241,7 +242,7 @@ pub(in crate::study) fn sample_step(compute: &ComputeSettings, scene: &Scene) ->
 fn try_sample(
     target: &ShotToSample<'_>,
     number: usize,
-    halvings: u32,
+    step_halvings: u32,
     may_audit: bool,
     progress: &Progress,
 ) -> Result<Sample, NoResult> {
@@ -261,7 +262,7 @@ fn try_sample(
             },
         }
     };
-    let step = sample_step(&compute, &scene) * 0.5_f64.powi(halvings as i32);
+    let step = sample_step(&compute, &scene) * 0.5_f64.powi(step_halvings as i32);
     if compute.step.is_some() {
         return Ok(Sample { number, run: run(step)?.0, finer: None, inputs });
     }

@@ -36,7 +36,7 @@ pub struct SampledShot {
     /// Bounds of the probability that a cable breaks.
     pub breaks: FailureBounds,
     /// Times that the step was halved because finer runs contradicted the samples.
-    pub halvings: u32,
+    pub step_halvings: u32,
     /// Whether samples are audited: not where the user fixed the step.
     is_audited: bool,
     as_planned: Option<ShotSummary>,
@@ -49,7 +49,7 @@ impl SampledShot {
     pub fn new(case: &Case, as_planned: Option<ShotSummary>, share: ErrorShare, is_audited: bool) -> Self {
         let limits = case.limits;
         let bounds = FailureBounds::new(limits.accepted_risk, share);
-        Self { samples: Vec::new(), bounds, breaks: bounds, halvings: 0, is_audited, as_planned, limits }
+        Self { samples: Vec::new(), bounds, breaks: bounds, step_halvings: 0, is_audited, as_planned, limits }
     }
 
     /// Takes the next sample; one of the audit counts as it is at the finer step.
