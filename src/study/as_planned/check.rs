@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use super::cover::{Cover, CoverWatch};
-use super::ladder::run_ladder;
+use super::ladder::{Finding, run_ladder};
 use super::peaks::{error_runs, peaks_with_rivals};
 use super::step_error;
 use crate::choice::Accuracy;
@@ -157,14 +157,14 @@ pub fn check_shot(
         |runner, runs, is_last| {
             let checked = checked_from_runs(shot, runs, &[], runner);
             if !is_last && !checked.is_sure(&case.limits) {
-                return Ok((checked, false));
+                return Ok(Finding { found: checked, is_sure: false });
             }
             let coarsest = &runs[error_runs(runs.len()).start];
             let pairs = runner.run_pairs(shot, coarsest.outcome.step)?;
             let checked = checked_from_runs(shot, runs, &pairs, runner);
             // Where a nearby shot has no result, nothing says that none differs.
             let is_sure = pairs.len() == step_error::PAIRS as usize && checked.is_sure(&case.limits);
-            Ok((checked, is_sure))
+            Ok(Finding { found: checked, is_sure })
         },
     )
 }

@@ -6,11 +6,19 @@ use crate::simulation::RunError;
 /// Greatest number of steps below the first: the finest step is 64 times finer.
 const MOST_REFINEMENTS: i32 = 12;
 
+/// What the runs so far tell.
+pub struct Finding<T> {
+    /// What they tell.
+    pub found: T,
+    /// Whether it is sure, which ends the ladder.
+    pub is_sure: bool,
+}
+
 /// Runs a ladder of steps, from the coarsest to the finest, and returns the last judgement; no step is run twice.
 ///
 /// 1. The coarser neighbours of the step `first` [s] are run, then `first`, then finer steps.
 /// 2. Once there are two runs, `judge` is called after each. It gets all runs so far, and whether no finer run can follow; the last
-///    run gives the values, the others give the errors. It returns what it finds, and whether that is sure, which ends the ladder.
+///    run gives the values, the others give the errors.
 /// 3. Where `fixed`, the ladder ends at `first`. If every coarser neighbour failed, one finer run gives the error; it then stands
 ///    before `first` among the runs, so that the values stay at `first`.
 ///
@@ -20,7 +28,7 @@ pub fn run_ladder<C, R, T>(
     first: f64,
     fixed: bool,
     mut run: impl FnMut(&mut C, f64) -> Result<R, RunError>,
-    mut judge: impl FnMut(&mut C, &[R], bool) -> Result<(T, bool), RunError>,
+    mut judge: impl FnMut(&mut C, &[R], bool) -> Result<Finding<T>, RunError>,
 ) -> Result<T, RunError> {
     let rung = |n: i32| first * step_error::RATIO.powi(n);
     let mut runs = Vec::new();
@@ -41,9 +49,9 @@ pub fn run_ladder<C, R, T>(
         // A single run has no error: its neighbour is the next finer run.
         if runs.len() >= 2 {
             let is_last = fixed || finer == MOST_REFINEMENTS;
-            let (judged, is_sure) = judge(runner, &runs, is_last)?;
+            let Finding { found, is_sure } = judge(runner, &runs, is_last)?;
             if is_sure || is_last {
-                return Ok(judged);
+                return Ok(found);
             }
         }
         finer += 1;
@@ -64,8 +72,8 @@ mod tests {
             if step > coarsest { Err(failure) } else { Ok(step) }
         };
         let judge = |_: &mut Vec<f64>, runs: &[f64], _: bool| {
-            let values = runs[runs.len() - 1];
-            Ok((values, values <= sure_at))
+            let found = runs[runs.len() - 1];
+            Ok(Finding { found, is_sure: found <= sure_at })
         };
         let values = run_ladder(&mut asked, 1.0, fixed, run, judge).expect("fine steps work");
         (asked, values)

@@ -58,9 +58,9 @@ fn beside_rivals(
     let parts = |run: &Outcome| slices::<SLICES>(buckets(&run.history), run.history.width, last.end.time);
     let of_last = parts(last);
     let near: Vec<_> = near.iter().map(|run| (run.step, parts(run))).collect();
-    let reach =
+    let upper_end =
         |n: usize| of_last[n] + estimate(last.step, of_last[n], near.iter().map(|(step, v)| (*step, v[n])));
     let top = slice_at::<SLICES>(greatest.time, last.end.time);
-    let highest = (0..SLICES).filter(|n| n.abs_diff(top) > 1).map(reach).fold(0.0, f64::max);
+    let highest = (0..SLICES).filter(|n| n.abs_diff(top) > 1).map(upper_end).fold(0.0, f64::max);
     Estimate { error: greatest.error.max(highest - greatest.value), ..greatest }
 }

@@ -115,26 +115,26 @@ impl CovarianceModel<'_> {
         let drawn = SAMPLES.max(SAMPLES_EACH * self.seen.list.len());
         let numbers: Vec<usize> = (0..drawn).collect();
         let samples = run_batch(&numbers, self.predictor.progress, |&number| {
-            let (case, from) = self.sample(at, spread, seed, number);
+            let (case, deviations) = self.sample(at, spread, seed, number);
             // A seed for each shot: what scatters in one does not repeat in another.
-            let see = |(n, shot): (usize, &ObservedShot)| {
+            let observe = |(n, shot): (usize, &ObservedShot)| {
                 self.observe_sample(&case, shot, seed.wrapping_add(n as u64), number)
             };
-            Ok((from, shots.iter().enumerate().map(see).collect::<Result<Vec<_>, _>>()?))
+            Ok((deviations, shots.iter().enumerate().map(observe).collect::<Result<Vec<_>, _>>()?))
         })?;
         let samples: Option<Vec<_>> = samples.into_iter().collect();
         let samples = samples.ok_or(NoResult::OutOfTime)?;
         let (count, inputs) = (self.seen.list.len(), 1 + at.len() + self.not_estimated.len());
         let mut values = DMatrix::from_element(drawn, count, f64::NAN);
         let mut regressors = DMatrix::from_element(drawn, inputs, 1.0);
-        for (number, (from, runs)) in samples.iter().enumerate() {
-            from.iter().enumerate().for_each(|(n, from)| regressors[(number, 1 + n)] = *from);
+        for (number, (deviations, runs)) in samples.iter().enumerate() {
+            deviations.iter().enumerate().for_each(|(n, deviation)| regressors[(number, 1 + n)] = *deviation);
             for (shot, run) in shots.iter().zip(runs) {
                 let seen = shot.observations().zip(run.iter().flatten());
                 seen.for_each(|(n, &value)| values[(number, n)] = value);
             }
         }
-        let often = fill_gaps(&mut values);
+        let is_known = fill_gaps(&mut values);
         // A coordinate that cannot spread has no slope.
         let normal =
             regressors.transpose() * &regressors + DMatrix::from_diagonal_element(inputs, inputs, 1e-9);
@@ -152,7 +152,7 @@ impl CovarianceModel<'_> {
                 covariance[(a, b)] += kept * rest.column(a).dot(&rest.column(b)) / freedom;
             }
         }
-        let mean = (0..count).map(|n| if often[n] { found[(0, n)] } else { f64::NAN }).collect();
+        let mean = (0..count).map(|n| if is_known[n] { found[(0, n)] } else { f64::NAN }).collect();
         // Slopes per coordinate, not per standard deviation of its spread.
         let slopes =
             DMatrix::from_fn(count, at.len(), |n, parameter| found[(1 + parameter, n)] / spread[parameter]);
@@ -177,7 +177,7 @@ impl CovarianceModel<'_> {
         random.set_stream((number / 2) as u64);
         let side = if number.is_multiple_of(2) { 1.0 } else { -1.0 };
         let mut plan = self.plan.clone();
-        let mut put = |parameter: &Parameter, mean: f64, sd: f64| -> f64 {
+        let mut draw = |parameter: &Parameter, mean: f64, sd: f64| -> f64 {
             let [least, most] = parameter.range(self.plan);
             let normal: f64 = random.sample(StandardNormal);
             let coordinate = (mean + side * sd * normal).clamp(least, most);
@@ -185,11 +185,11 @@ impl CovarianceModel<'_> {
             (coordinate - mean) / sd
         };
         let not_estimated: Vec<f64> =
-            self.not_estimated.iter().map(|(other, prior)| put(other, prior.mean, prior.sd)).collect();
+            self.not_estimated.iter().map(|(other, prior)| draw(other, prior.mean, prior.sd)).collect();
         let parameters = self.predictor.parameters.iter().zip(at.iter().zip(spread));
-        let mut from: Vec<f64> =
-            parameters.map(|(parameter, (&mean, &sd))| put(parameter, mean, sd)).collect();
-        from.extend(not_estimated);
+        let mut deviations: Vec<f64> =
+            parameters.map(|(parameter, (&mean, &sd))| draw(parameter, mean, sd)).collect();
+        deviations.extend(not_estimated);
         let exact = |value: f64| [value; 2];
         plan.uncertainty = Uncertainty {
             launch_common_percent: 0.0,
@@ -198,7 +198,7 @@ impl CovarianceModel<'_> {
             axial_stiffness_percent: exact(0.0),
             ..plan.uncertainty
         };
-        (Case::new(plan), from)
+        (Case::new(plan), deviations)
     }
 
     /// The values seen of one shot of a sample; `None` where its run fails.
@@ -235,12 +235,12 @@ impl CovarianceModel<'_> {
 
 /// Puts the mean of a column in place of the values that it lacks. Whether each column had values often enough.
 fn fill_gaps(values: &mut DMatrix<f64>) -> Vec<bool> {
-    let mut often = Vec::new();
+    let mut has_often_values = Vec::new();
     for mut column in values.column_iter_mut() {
         let finite: Vec<f64> = column.iter().copied().filter(|value| value.is_finite()).collect();
         let mean = finite.iter().sum::<f64>() / finite.len().max(1) as f64;
         column.iter_mut().filter(|value| !value.is_finite()).for_each(|value| *value = mean);
-        often.push(finite.len() as f64 >= OFTEN * column.len() as f64);
+        has_often_values.push(finite.len() as f64 >= OFTEN * column.len() as f64);
     }
-    often
+    has_often_values
 }

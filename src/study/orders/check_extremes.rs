@@ -34,13 +34,14 @@ pub fn check_extremes(
     // Towards the worst, then towards the best.
     for (interval, sign) in itertools::iproduct!(intervals, [1.0, -1.0]) {
         loop {
-            let mine = |n: &usize| tried[*n].interval == interval;
+            let is_of_interval = |n: &usize| tried[*n].interval == interval;
             let is_known = |n: &usize| tried[*n].as_planned != ShotSummary::UNKNOWN;
-            let checked = (0..tried.len()).filter(|n| mine(n) && refined.contains(n) && is_known(n));
-            let farthest =
+            let checked =
+                (0..tried.len()).filter(|n| is_of_interval(n) && refined.contains(n) && is_known(n));
+            let farthest_checked =
                 checked.map(|n| sign * utilization(case, &tried[n])).fold(f64::NEG_INFINITY, f64::max);
             // An order whose runs failed may be the worst, and is not the best.
-            let reach = |n: usize| match is_known(&n) {
+            let reachable = |n: usize| match is_known(&n) {
                 true => {
                     sign * tried[n]
                         .as_planned
@@ -50,9 +51,9 @@ pub fn check_extremes(
                 false => sign * f64::INFINITY,
             };
             let next: Vec<usize> = (0..tried.len())
-                .filter(|n| mine(n) && !refined.contains(n) && reach(*n) > farthest)
+                .filter(|n| is_of_interval(n) && !refined.contains(n) && reachable(*n) > farthest_checked)
                 .filter(|&n| images[n].is_none_or(|image| n <= image))
-                .sorted_by(|&a, &b| reach(b).total_cmp(&reach(a)))
+                .sorted_by(|&a, &b| reachable(b).total_cmp(&reachable(a)))
                 .take(REFINED_TOGETHER)
                 .collect();
             if next.is_empty() {

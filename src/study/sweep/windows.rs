@@ -69,31 +69,33 @@ pub(super) fn recommend(case: &Case, points: &[Point], windows: &[[f64; 2]]) -> 
 }
 
 /// The interval and the room r around it for which r × (1 − greatest utilization within r) is greatest: of whole milliseconds,
-/// which electronic detonators are programmed in, and of all where none of those is inside a window. `used` tells the utilization of
-/// a point, and `may` which points may be recommended.
+/// which electronic detonators are programmed in, and of all where none of those is inside a window.
 pub(super) fn deepest(
     points: &[Point],
     windows: &[[f64; 2]],
-    used: impl Fn(&Point) -> f64,
-    may: impl Fn(&Point) -> bool,
+    utilization_of: impl Fn(&Point) -> f64,
+    may_be_recommended: impl Fn(&Point) -> bool,
 ) -> Option<Recommended> {
-    let whole = |point: &Point| is_whole_milliseconds(point.interval) && may(point);
-    deepest_of(points, windows, &used, &whole).or_else(|| deepest_of(points, windows, &used, &may))
+    let whole = |point: &Point| is_whole_milliseconds(point.interval) && may_be_recommended(point);
+    deepest_of(points, windows, &utilization_of, &whole)
+        .or_else(|| deepest_of(points, windows, &utilization_of, &may_be_recommended))
 }
 
 fn deepest_of(
     points: &[Point],
     windows: &[[f64; 2]],
-    used: &dyn Fn(&Point) -> f64,
-    may: &dyn Fn(&Point) -> bool,
+    utilization_of: &dyn Fn(&Point) -> f64,
+    may_be_recommended: &dyn Fn(&Point) -> bool,
 ) -> Option<Recommended> {
     let mut best: Option<(f64, Recommended)> = None;
     for &[from, to] in windows {
         let first = points.partition_point(|point| point.interval < from);
         let inside = &points[first..points.partition_point(|point| point.interval <= to)];
-        for (n, &Point { interval, .. }) in inside.iter().enumerate().filter(|(_, point)| may(point)) {
+        for (n, &Point { interval, .. }) in
+            inside.iter().enumerate().filter(|(_, point)| may_be_recommended(point))
+        {
             let most = ENOUGH_ROOM.min(interval - from).min(to - interval);
-            let (mut low, mut high, mut greatest) = (n, n, used(&inside[n]));
+            let (mut low, mut high, mut greatest) = (n, n, utilization_of(&inside[n]));
             // The room grows point by point, to the nearer one first.
             loop {
                 let left = low.checked_sub(1).map_or(f64::INFINITY, |n| interval - inside[n].interval);
@@ -102,11 +104,11 @@ fn deepest_of(
                 // The points at the end of the room count.
                 if left <= room {
                     low -= 1;
-                    greatest = greatest.max(used(&inside[low]));
+                    greatest = greatest.max(utilization_of(&inside[low]));
                 }
                 if right <= room {
                     high += 1;
-                    greatest = greatest.max(used(&inside[high]));
+                    greatest = greatest.max(utilization_of(&inside[high]));
                 }
                 let score = room * (1.0 - greatest);
                 if best.is_none_or(|(least, _)| score > least) && score > 0.0 {
