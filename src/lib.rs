@@ -104,6 +104,7 @@
 //! | undecided | neither pass nor fail is sure; OPEN on screens |
 //! | quick check | a coarse check of one shot among thousands |
 //! | launch margin | how much faster the tires may leave until the shot as planned fails |
+//! | input | something that `[uncertainty]` lets vary; an *unknown* is one that a fit may estimate, a *parameter* an unknown of one blast row or of all |
 //! | remedy | a change of the plan with which an option would pass |
 //! | shard, journal | one machine's part of a study; what a study has computed, kept in a file by `--save` |
 //! | face | one way to show results: text, CSV, page and terminal draw reports; JSON has documents of its own, and the table and detail of Compare draw judgements as they come |

@@ -7,6 +7,18 @@
 //! | the cover over unfired holes, which no limit judges | [`cover`] |
 //! | how much faster the tires may leave | [`margin`] |
 //! | what a study keeps of a check | [`shot_summary`] |
+//!
+//! How far an error is trusted; the constants hold the factors, and their docs the reasons:
+//!
+//! | factor | of what |
+//! |---|---|
+//! | `step_error::MARGIN` | the reported error, over the largest estimate by neighbouring steps |
+//! | `step_error::FAR_ERROR_FACTOR` | how many errors nearby shots may differ before their difference is the error |
+//! | `check::SURE_ERROR_FACTOR` | with how many errors a verdict of a check must stand |
+//! | `quick_check::SURE_PASS`, `SURE_FAIL` | the same for a quick check, whose runs are coarser |
+//! | `sweep::windows::CALM_ERROR_FACTOR` | with how many errors two intervals must pass for those between them to pass |
+//! | `orders::check_extremes::REACH_ERROR_FACTOR` | within how many errors an order may still be the worst or the best |
+//! | `samples::sampled_shot::BIAS_ALLOWANCE` | how many times the difference that an audit finds may not change a verdict |
 
 pub mod check;
 pub mod check_many;

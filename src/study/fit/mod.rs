@@ -115,7 +115,7 @@ pub fn fit(
     let answers = settled.iter().map(|settled| problem.answer(case, settled)).collect();
     let ObservedShots { list: observed, file, .. } = problem.seen;
     let mut fit = Fit { answers, observed, file, predictions, next: None };
-    fit.next = next(case, &fit, request, compute, progress)?;
+    fit.next = what_to_observe_next(case, &fit, request, compute, progress)?;
     Ok(whole(FitResult::Fitted(fit)))
 }
 
@@ -177,8 +177,8 @@ fn search_box(plan: &Plan, parameters: &[Parameter], priors: &[Option<Prior>]) -
     SearchBox { expected: ranges.iter().zip(priors).map(expected).collect(), ranges }
 }
 
-/// What to observe next, by the plan with the best answer: of a shot of the option observed most.
-fn next(
+/// What to observe next, by the plan that `fit --write` would leave: of a shot of the option observed most.
+fn what_to_observe_next(
     case: &Case,
     fit: &Fit,
     request: &FitRequest<'_>,

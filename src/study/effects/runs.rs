@@ -1,0 +1,129 @@
+//! Runs of one option of one plan, with an effect or without it: the shot as planned, and its first samples.
+
+use std::borrow::Cow;
+use std::time::Instant;
+
+use super::{FIRST_SAMPLES, REQUIRED, Spread, relative};
+use crate::scene::Shot;
+use crate::study::as_planned::check_many::or_unknown;
+use crate::study::as_planned::quick_check::quick_check;
+use crate::study::samples::draw_until_sure::{ShotToSample, run_sample_once};
+use crate::study::samples::sample_count::Sampling;
+use crate::study::samples::sampled_shot::percentiles;
+use crate::study::{Case, ComputeSettings, NoResult, Progress, ShotSummary};
+use crate::verdict::{Limits, PerQuantity, Quantity, Verdict};
+
+/// One option of one plan.
+pub(super) struct OptionRuns {
+    /// On which side of the limits the shot as planned lies.
+    pub(super) verdict: Verdict,
+    /// The first samples; without samples the shot as planned alone.
+    pub(super) runs: Vec<TimedRun>,
+}
+
+/// What one run gave, and how long it took.
+pub(super) struct TimedRun {
+    /// Its greatest values [SI]; infinite where it failed.
+    values: PerQuantity<f64>,
+    /// Computing time [s].
+    wall: f64,
+}
+
+impl OptionRuns {
+    /// The spread of a quantity over the first `count` runs.
+    pub(super) fn spread(&self, quantity: Quantity, count: usize) -> Spread {
+        let values = self.runs[..count].iter().map(|run| *run.values.get(quantity));
+        let [median, p95] = percentiles(values, [0.5, 0.95]).unwrap_or([f64::INFINITY; 2]);
+        Spread { median, p95 }
+    }
+
+    /// Median computing time of the first `count` runs [s].
+    pub(super) fn median_time(&self, count: usize) -> f64 {
+        percentiles(self.runs[..count].iter().map(|run| run.wall), [0.5]).map_or(f64::NAN, |[median]| median)
+    }
+}
+
+/// Whether more samples may tell something else of an effect: of a quantity that has a limit, the range of the changes, widened by
+/// itself to both sides, reaches [`REQUIRED`] up or down.
+pub(super) fn is_in_doubt(without: &OptionRuns, with: &OptionRuns, limits: &Limits) -> bool {
+    let reaches = |quantity: Quantity| {
+        let pairs = without.runs.iter().zip(&with.runs);
+        let changes: Vec<f64> =
+            pairs.map(|(a, b)| relative(*a.values.get(quantity), *b.values.get(quantity))).collect();
+        let least = changes.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = changes.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let widened = least - (most - least)..=most + (most - least);
+        changes.iter().any(|change| change.is_nan())
+            || [REQUIRED, -REQUIRED].iter().any(|threshold| widened.contains(threshold))
+    };
+    Quantity::ALL.into_iter().filter(|&quantity| limits.get(quantity).is_some()).any(reaches)
+}
+
+/// Time after the last hole over which a shelter without friction is followed [s]: it never comes to rest.
+const WITHOUT_FRICTION: f64 = 3.0;
+
+/// The case, with an end of its runs where nothing comes to rest: what holds for an option depends on no other.
+fn followed<'c>(case: &'c Case, shot: &Shot) -> Cow<'c, Case> {
+    if case.plan.ground.friction > 0.0 || case.plan.simulation.duration_s.is_some() {
+        return Cow::Borrowed(case);
+    }
+    let last = shot.firings.last().map_or(0.0, |firing| firing.time);
+    Cow::Owned(case.with_duration(Some(last + WITHOUT_FRICTION)))
+}
+
+/// Screens an option as planned, and takes its first samples.
+pub(super) fn measure_option(
+    case: &Case,
+    option: usize,
+    sampling: Option<&Sampling>,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<OptionRuns, NoResult> {
+    let shot = &case.shots[option];
+    let followed = &*followed(case, shot);
+    let begun = Instant::now();
+    let as_planned = or_unknown(quick_check(followed, shot, compute, progress))?;
+    let verdict = verdict_of_values(&as_planned, followed);
+    let runs = match sampling {
+        Some(sampling) => {
+            let first = 0..FIRST_SAMPLES.min(sampling.most);
+            first
+                .map(|number| run_sample(case, option, number, sampling, compute, progress))
+                .collect::<Result<_, _>>()?
+        }
+        None => {
+            let values = PerQuantity::from_fn(|quantity| as_planned.get(quantity).value);
+            vec![TimedRun { values, wall: begun.elapsed().as_secs_f64() }]
+        }
+    };
+    Ok(OptionRuns { verdict, runs })
+}
+
+/// Takes the sample of this number of an option.
+pub(super) fn run_sample(
+    case: &Case,
+    option: usize,
+    number: usize,
+    sampling: &Sampling,
+    compute: &ComputeSettings,
+    progress: &Progress,
+) -> Result<TimedRun, NoResult> {
+    let shot = &case.shots[option];
+    let case = &*followed(case, shot);
+    let target = ShotToSample::new(case, shot, *compute, *sampling);
+    let begun = Instant::now();
+    let run = run_sample_once(&target, number, progress)?.run;
+    let values = PerQuantity::from_fn(|quantity| run.get(quantity));
+    Ok(TimedRun { values, wall: begun.elapsed().as_secs_f64() })
+}
+
+/// On which side of the limits a shot lies. A run that ends early counts by its values: without friction none comes to rest.
+fn verdict_of_values(judged: &ShotSummary, case: &Case) -> Verdict {
+    let utilization = |errors: f64| judged.with_errors(errors).utilization(&case.limits);
+    match (utilization(1.0) <= 1.0, utilization(-1.0) > 1.0) {
+        _ if judged.verdict == Verdict::Fail => Verdict::Fail,
+        (true, _) => Verdict::Pass,
+        (_, true) => Verdict::Fail,
+        _ => Verdict::Undecided,
+    }
+}
