@@ -8,7 +8,7 @@ use shelter::plan::Plan;
 use shelter::scene::{Firing, Scene, Shot};
 use shelter::simulation::RunError;
 use shelter::study::as_planned::check::check_as_planned;
-use shelter::study::effects::{Effect, SAMPLES, effects};
+use shelter::study::effects::{Effect, FIRST_SAMPLES, REQUIRED, SAMPLES, effects};
 use shelter::study::samples::draw_until_sure::{ShotToSample, draw_shard};
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::{Case, ComputeSettings, Progress, Shard};
@@ -491,15 +491,15 @@ fn effects_are_those_of_an_independent_prototype() {
 /// Samples of `shelter effects`.
 const FEW: Sampling = Sampling::exactly(SAMPLES, Sampling::OF_VERDICT.seed);
 
-/// Median of the greatest force of 49 samples of the only option [N].
-fn median_force(case: &Case, compute: ComputeSettings) -> f64 {
-    let (shot, sampling) = (&case.shots[0], FEW);
-    let target = ShotToSample::new(case, shot, compute, sampling);
+/// Median of a quantity over so many samples of the only option [SI]; their number is odd.
+fn median(case: &Case, compute: ComputeSettings, quantity: Quantity, samples: usize) -> f64 {
+    let sampling = Sampling::exactly(samples, FEW.seed);
+    let target = ShotToSample::new(case, &case.shots[0], compute, sampling);
     let drawn = draw_shard(&[target], Shard::WHOLE, &Progress::default()).expect("samples");
-    let mut forces: Vec<f64> =
-        drawn.into_iter().map(|(_, sample)| sample.expect("time for all").run.force).collect();
-    forces.sort_by(f64::total_cmp);
-    forces[24]
+    let mut values: Vec<f64> =
+        drawn.into_iter().map(|(_, sample)| sample.expect("time for all").run.get(quantity)).collect();
+    values.sort_by(f64::total_cmp);
+    values[samples / 2]
 }
 
 /// Where no run succeeds nothing is known, and nothing may be left out.
@@ -530,15 +530,15 @@ fn effects_compare_plans_with_and_without_them() {
     let tight = Case::new(plan);
     let slack = of(Effect::Slack);
     assert_eq!((slack.value, slack.assumed), (2.0, false));
-    assert_eq!(
-        slack.change(Quantity::Force),
-        median_force(&case, compute) / median_force(&tight, compute) - 1.0
-    );
+    let median_force = |case: &Case, samples: usize| median(case, compute, Quantity::Force, samples);
+    let [with, without] = [&case, &tight].map(|case| median_force(case, slack.samples));
+    assert_eq!(slack.change(Quantity::Force), with / without - 1.0);
     assert_eq!([slack.verdict_without, slack.verdict_with], [verdict(&tight), verdict(&case)]);
     let slope = of(Effect::Slope);
     let sloping = [0, 90, 180, 270].map(|toward| {
         let ground = format!(", slope_percent = 10, slope_toward_deg = {toward}");
-        median_force(&three_rows(&ground, "", "", ""), compute) / median_force(&case, compute) - 1.0
+        median_force(&three_rows(&ground, "", "", ""), slope.samples) / median_force(&case, slope.samples)
+            - 1.0
     });
     assert_eq!((slope.value, slope.assumed), (10.0, true));
     let most = sloping.into_iter().fold(f64::NEG_INFINITY, f64::max);
@@ -546,6 +546,40 @@ fn effects_compare_plans_with_and_without_them() {
     // Yielding ends take more than half of the force: no median of an effect that matters is missed.
     assert!(of(Effect::Ends).is_required() && of(Effect::Ends).change(Quantity::Force) < -0.5);
     assert!(!of(Effect::Restitution).is_required(), "{:?}", of(Effect::Restitution));
+}
+
+/// Where the first samples leave no doubt whether a median changes by more than what is required, all samples say the same.
+#[test]
+fn effects_without_doubt_need_few_samples() {
+    let case = three_rows("", "", "", "");
+    let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
+    let found = effects(&case, Some(&FEW), &compute, &Progress::default()).expect("a result").value.remove(0);
+    let found = found.expect("time for all");
+    let with = [
+        (Effect::Push, three_rows("", "", "", "push_ms = 20")),
+        (Effect::Restitution, three_rows("", ", restitution = 0.3", "", "")),
+        (Effect::Damping, three_rows("", "", ", damping_percent = 5", "")),
+        (Effect::Ends, three_rows("", "", ", end_stiffness_kn_m = 2000", "")),
+    ];
+    let mut counts = Vec::new();
+    for (effect, plan) in with {
+        let of = found.iter().find(|of| of.effect == effect).expect("tried");
+        counts.push(of.samples);
+        for quantity in [Quantity::Height, Quantity::Force] {
+            let [with, without] = [&plan, &case].map(|case| median(case, compute, quantity, SAMPLES));
+            let of_all = with / without - 1.0;
+            let is_large = |change: f64| change.abs() > REQUIRED;
+            let change = of.change(quantity);
+            assert_eq!(
+                is_large(change),
+                is_large(of_all),
+                "{effect:?}: {change} of {}, {of_all}",
+                of.samples
+            );
+        }
+    }
+    assert!(counts.iter().all(|count| [FIRST_SAMPLES, SAMPLES].contains(count)), "{counts:?}");
+    assert!(counts.contains(&FIRST_SAMPLES), "{counts:?}");
 }
 
 /// A force that ends at the breaking force keeps its limit, and yet the shot fails.

@@ -40,6 +40,8 @@ pub struct EffectOnOption {
     pub value: f64,
     /// Whether the value is a probe, not the plan's own.
     pub assumed: bool,
+    /// Number of samples behind the changes; 1 where only the shots as planned count.
+    pub samples: usize,
     /// Change of each quantity.
     pub changes: PerQuantity<QuantityChange>,
     /// Whether a plan without the effect states too little, or may do so, in any direction of the effect.
@@ -64,6 +66,7 @@ impl EffectOnOption {
             effect: variant.effect,
             value: variant.value,
             assumed: variant.assumed,
+            samples: count,
             is_missed_on_the_unsafe_side: with.verdict > without.verdict
                 || changes.iter().any(QuantityChange::may_raise),
             changes,
