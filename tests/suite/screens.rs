@@ -7,14 +7,15 @@ use crossterm::event::KeyCode;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Style};
 use shelter::jobs::{News, StudyKind};
-use shelter::plan::Timing;
+use shelter::plan::{PlanSource, Timing};
 use shelter::report::words::warnings;
 use shelter::simulation::RunError;
-use shelter::study::NoResult;
 use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::judgement::Evidence;
+use shelter::study::{Case, NoResult};
 use shelter::tui::app::{App, Request};
 use shelter::tui::compare::OptionState;
+use shelter::tui::config::Config;
 use shelter::tui::screen::Screen;
 use shelter::tui::studies::StudyState;
 use shelter::tui::theme::{self, Theme};
@@ -137,6 +138,27 @@ fn the_plan_is_shown_with_its_values() {
     key(&mut app, KeyCode::Enter);
     key(&mut app, KeyCode::Char('x'));
     insta::assert_snapshot!("plan_typing", text(&draw(&app, 100, 30)));
+}
+
+/// Firing times that ran together would be other times.
+#[test]
+fn firing_times_on_the_map_never_run_together() {
+    let shipped = app();
+    let slow = shipped.editor.text.replace("interval_ms = 9\n", "interval_ms = 500\n");
+    let case = Case::parse(PlanSource { path: String::new(), text: slow }).expect("a plan");
+    let mut app = App::new(Arc::new(case), shipped.compute, &Config::default());
+    app.screen = Screen::Plan;
+    app.selected = app.case.plan.delays.iter().position(|delay| delay.name == "9 ms").expect("an option");
+    let mut with_times = 0;
+    for width in 60..=180 {
+        let screen = text(&draw(&app, width, 36));
+        let words: Vec<&str> = screen.split_whitespace().collect();
+        with_times += usize::from(words.iter().filter(|word| **word == "1000").count() >= 10);
+        for word in words.iter().filter(|word| word.bytes().all(|byte| byte.is_ascii_digit())) {
+            assert!(word.len() <= 4, "{width}: {word}\n{screen}");
+        }
+    }
+    assert!((1..=120).contains(&with_times), "wide screens have times, narrow ones signs: {with_times}");
 }
 
 #[test]

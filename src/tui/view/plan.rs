@@ -116,12 +116,12 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
     let lines = equal_time_lines(case, app.selected);
     let times: Vec<String> = turns.iter().map(|(at, _)| (at * 1e3).round().to_string()).collect();
     let widest = times.iter().map(String::len).max().unwrap_or(0);
-    let room = apart_along_x(&turns) / (2.0 * right_by);
-    // The last number of a row begins further left where it would be cut.
-    let holes_end = turns.iter().flat_map(|(_, holes)| holes).map(|(x, _)| *x).fold(left, f64::max);
+    // A number that is cut would be another number: the last of a row begins further left.
     let last_start = |letters: usize| right + margin - 2.0 * right_by * letters as f64;
-    let moved_left = ((holes_end + right_by - last_start(widest)) / (2.0 * right_by)).max(0.0);
-    let has_room = widest as f64 + moved_left + 1.0 <= room;
+    let start = |x: f64, letters: usize| (x + right_by).min(last_start(letters));
+    let cell_of_start = |x: f64| ((start(x, widest) - left + margin) / (2.0 * right_by)) as usize;
+    let starts: Vec<usize> = distinct_x(&turns).into_iter().map(cell_of_start).collect();
+    let has_room = starts.windows(2).all(|pair| pair[0] + widest < pair[1]);
     let label = |turn: usize| match has_room {
         true => times[turn].clone(),
         false => sign(turn),
@@ -142,10 +142,9 @@ fn draw_shelter(app: &App, frame: &mut Frame, area: Rect) {
             for (turn, (_, holes)) in turns.iter().enumerate() {
                 let style = Style::new().fg(turn_color(app, turn, turns.len())).add_modifier(Modifier::BOLD);
                 let label = label(turn);
-                // A number that is cut would be another number.
-                let last = last_start(label.chars().count());
+                let letters = label.chars().count();
                 for &(x, y) in holes {
-                    context.print((x + right_by).min(last), y - down_by, Span::styled(label.clone(), style));
+                    context.print(start(x, letters), y - down_by, Span::styled(label.clone(), style));
                 }
             }
         });
@@ -206,12 +205,12 @@ fn points_at(row: &[(MapPoint, f64)], level: f64) -> Vec<MapPoint> {
     row.windows(2).filter_map(between).collect()
 }
 
-/// Least distance along x between two holes [m], those of one column left out.
-fn apart_along_x(turns: &[(f64, Vec<(f64, f64)>)]) -> f64 {
+/// Where holes lie along x [m], ascending; those of one column count once.
+fn distinct_x(turns: &[(f64, Vec<MapPoint>)]) -> Vec<f64> {
     let mut along: Vec<f64> = turns.iter().flat_map(|(_, holes)| holes.iter().map(|(x, _)| *x)).collect();
     along.sort_by(f64::total_cmp);
-    let apart = along.windows(2).map(|pair| pair[1] - pair[0]);
-    apart.filter(|&apart| apart > 1e-3).fold(f64::INFINITY, f64::min)
+    along.dedup_by(|b, a| *b - *a < 1e-3);
+    along
 }
 
 /// Sign of a turn: 1 to 9, then letters, then `+`.
