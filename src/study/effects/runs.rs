@@ -43,20 +43,33 @@ impl OptionRuns {
     }
 }
 
-/// Whether more samples may tell something else of an effect: of a quantity that has a limit, the range of the changes, widened by
-/// itself to both sides, reaches [`REQUIRED`] up or down.
+/// Of [`FIRST_SAMPLES`] that fall to either side alike, so many or more fall to one side with a probability of 0.6 %.
+const CLEAR_MAJORITY: usize = 14;
+
+/// Whether more samples may tell something else of an effect on a quantity that has a limit.
+///
+/// - Where a clear majority of the changes is above [`REQUIRED`], the median is.
+/// - Where a clear majority is below −[`REQUIRED`], the median is; that the effect only lowers the quantity is sure if none rises.
+/// - Else neither the median nor the 95th percentile is beyond, if no clear minority is below, and if all changes are farther from
+///   [`REQUIRED`] than they are from one another.
 pub(super) fn is_in_doubt(without: &OptionRuns, with: &OptionRuns, limits: &Limits) -> bool {
-    let reaches = |quantity: Quantity| {
+    let is_unclear = |quantity: Quantity| {
         let pairs = without.runs.iter().zip(&with.runs);
         let changes: Vec<f64> =
             pairs.map(|(a, b)| relative(*a.values.get(quantity), *b.values.get(quantity))).collect();
+        let count = |is: &dyn Fn(f64) -> bool| changes.iter().filter(|change| is(**change)).count();
+        let above = count(&|change| change > REQUIRED);
+        let below = count(&|change| change < -REQUIRED);
         let least = changes.iter().copied().fold(f64::INFINITY, f64::min);
         let most = changes.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let widened = least - (most - least)..=most + (most - least);
-        changes.iter().any(|change| change.is_nan())
-            || [REQUIRED, -REQUIRED].iter().any(|threshold| widened.contains(threshold))
+        match () {
+            () if changes.iter().any(|change| change.is_nan()) => true,
+            () if above >= CLEAR_MAJORITY => false,
+            () if below >= CLEAR_MAJORITY => most > 0.0,
+            () => below + CLEAR_MAJORITY > changes.len() || most + (most - least) >= REQUIRED,
+        }
     };
-    Quantity::ALL.into_iter().filter(|&quantity| limits.get(quantity).is_some()).any(reaches)
+    Quantity::ALL.into_iter().filter(|&quantity| limits.get(quantity).is_some()).any(is_unclear)
 }
 
 /// Time after the last hole over which a shelter without friction is followed [s]: it never comes to rest.
