@@ -13,7 +13,6 @@ use crate::study::orders::{Orders, TriedOrder};
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::search::Schedule;
 use crate::units;
-use crate::verdict::Verdict;
 
 /// An order and its place in the ranking.
 struct RankedOrder<'a> {
@@ -88,10 +87,6 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
     for n in (0..count).filter(|&n| n < OFFERED || n + OFFERED >= count) {
         table.rows[n].offer = Some(offer(&orders.ranked[n]));
     }
-    let verdict = match orders.verdict() {
-        Verdict::Pass if partial => Verdict::Undecided,
-        verdict => verdict,
-    };
     let so_far = if partial { " so far" } else { "" };
     let planned = if orders.has_risk() { " as planned" } else { " (the plan's own numbers only)" };
     let mut text = format!("{} of {count} orders pass{planned}{so_far}", orders.passing_as_planned());
@@ -108,6 +103,6 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
     report.blocks = vec![Block::Text(heads), Block::Table(table), Block::Picture(picture)];
     report.warnings.extend(warnings::count_uncovered("orders and intervals", tried));
     report.warnings.extend(warnings::uncovered_shot("the best order", best));
-    report.conclusion = Some(Conclusion { verdict, text });
+    report.conclusion = Some(Conclusion { verdict: orders.verdict(partial), text });
     report
 }

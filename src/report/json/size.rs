@@ -14,6 +14,7 @@ pub struct SizeDocument {
     schema: &'static str,
     plan: String,
     title: String,
+    verdict: &'static str,
     found: bool,
     #[serde(flatten)]
     lightest: Option<CombinationResult>,
@@ -75,6 +76,7 @@ impl SizeDocument {
             schema: "shelter.size/1",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
+            verdict: sizing.verdict().for_scripts(),
             found: chosen.is_some(),
             lightest: chosen.map(CombinationResult::of),
             tried: sizing.count_tried(),

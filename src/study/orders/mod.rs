@@ -123,10 +123,11 @@ impl Orders {
         judgement::verdict_of_both(self.ranked[n].as_planned.verdict, self.risk(n).map(|risk| risk.verdict))
     }
 
-    /// The verdict on all orders; undecided where none was tried.
-    pub fn verdict(&self) -> Verdict {
+    /// The verdict on all orders: pass only where every order was tried and passes. It is `partial` where the time was up.
+    pub fn verdict(&self, partial: bool) -> Verdict {
         let worst = Verdict::worst((0..self.ranked.len()).map(|n| self.verdict_on(n)));
-        if self.ranked.is_empty() { Verdict::Undecided } else { worst }
+        let is_open = worst == Verdict::Pass && (partial || self.ranked.is_empty());
+        if is_open { Verdict::Undecided } else { worst }
     }
 
     /// Number of orders that pass as planned.

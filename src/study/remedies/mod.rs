@@ -103,8 +103,8 @@ impl ChangesOfOneKind {
 
 /// A change that is judged in full.
 struct ChangeToJudge {
-    /// Index of its chain.
-    chain: usize,
+    /// Index of the changes of its kind.
+    kind: usize,
     change: Change,
     case: Case,
 }
@@ -141,14 +141,14 @@ pub fn find_all_remedies(
     let task = Task { case, sampling, compute, progress };
     let mut hard = HardSamples::new(case.limits.accepted_risk, sampling.map_or(0, |sampling| sampling.most));
     let enough_samples = sampling.is_none() || hard.enough_samples();
-    let mut chains = if enough_samples { screen_candidates(&task, options)? } else { Vec::new() };
-    while chains.iter().any(ChangesOfOneKind::is_open) {
-        judge_next(&task, &mut chains, &mut hard)?;
+    let mut kinds = if enough_samples { screen_candidates(&task, options)? } else { Vec::new() };
+    while kinds.iter().any(ChangesOfOneKind::is_open) {
+        judge_next(&task, &mut kinds, &mut hard)?;
     }
-    let partial = chains.iter().any(|chain| chain.found.out_of_time);
+    let partial = kinds.iter().any(|kind| kind.found.out_of_time);
     let mut remedies: Vec<Remedies> =
         options.iter().map(|&option| Remedies { option, enough_samples, kinds: Vec::new() }).collect();
-    for ChangesOfOneKind { option, found: tried, .. } in chains {
+    for ChangesOfOneKind { option, found: tried, .. } in kinds {
         if let Some(of_option) = remedies.iter_mut().find(|of_option| of_option.option == option) {
             of_option.kinds.push(tried);
         }
@@ -162,8 +162,8 @@ fn changed(case: &Case, change: &Change) -> Option<Case> {
     Case::parse(PlanSource { path: case.source.path.clone(), text }).ok()
 }
 
-/// The chains of all options, each with the candidates that a coarse run as planned does not surely fail. Candidates that make no
-/// valid plan count as not tried; a kind without a candidate has no chain.
+/// The kinds of all options, each with the candidates that a coarse run as planned does not surely fail. Candidates that make no
+/// valid plan count as not tried; a kind without a candidate is left out.
 fn screen_candidates(task: &Task<'_>, options: &[usize]) -> Result<Vec<ChangesOfOneKind>, NoResult> {
     let Task { case, compute, progress, .. } = *task;
     let kinds = |&option: &usize| {
@@ -184,7 +184,7 @@ fn screen_candidates(task: &Task<'_>, options: &[usize]) -> Result<Vec<ChangesOf
         }
     })?
     .into_iter();
-    let mut chains = Vec::new();
+    let mut kinds = Vec::new();
     for (option, changes) in changes_by_option {
         let kind = changes.first().map(Change::kind);
         let (mut tried, mut left, mut out_of_time) = (Vec::new(), VecDeque::new(), false);
@@ -201,59 +201,59 @@ fn screen_candidates(task: &Task<'_>, options: &[usize]) -> Result<Vec<ChangesOf
         }
         if let Some(kind) = kind.filter(|_| out_of_time || !tried.is_empty()) {
             let found = TriedKind { kind, tried, open: 0, out_of_time, passing: None };
-            chains.push(ChangesOfOneKind { option, left, sampled: 0, found });
+            kinds.push(ChangesOfOneKind { option, left, sampled: 0, found });
         }
     }
-    Ok(chains)
+    Ok(kinds)
 }
 
-/// Judges the next change of every open chain in full.
+/// Judges the next change of every open kind in full.
 fn judge_next(
     task: &Task<'_>,
-    chains: &mut [ChangesOfOneKind],
+    kinds: &mut [ChangesOfOneKind],
     hard: &mut HardSamples,
 ) -> Result<(), NoResult> {
-    let mut turns = Vec::new();
-    for (n, chain) in chains.iter_mut().enumerate().filter(|(_, chain)| chain.is_open()) {
-        let change = chain.left.pop_front();
-        turns.extend(
+    let mut to_judge = Vec::new();
+    for (n, kind) in kinds.iter_mut().enumerate().filter(|(_, kind)| kind.is_open()) {
+        let change = kind.left.pop_front();
+        to_judge.extend(
             change.and_then(|change| {
-                Some(ChangeToJudge { chain: n, change, case: changed(task.case, &change)? })
+                Some(ChangeToJudge { kind: n, change, case: changed(task.case, &change)? })
             }),
         );
     }
-    let as_planned = check_turns(task, chains, &turns)?;
-    let passing = turns.iter().zip(as_planned).filter_map(|(turn, checked)| Some((turn, checked?)));
+    let as_planned = check_changes(task, kinds, &to_judge)?;
+    let passing = to_judge.iter().zip(as_planned).filter_map(|(next, checked)| Some((next, checked?)));
     let passing: Vec<(&ChangeToJudge, CheckedShot)> = passing.collect();
     let Some(sampling) = task.sampling else {
-        for (turn, checked) in passing {
+        for (next, checked) in passing {
             let judgement = Judgement::of_planned_alone(checked);
-            chains[turn.chain].found.passing = Some(Remedy { change: turn.change, judgement });
+            kinds[next.kind].found.passing = Some(Remedy { change: next.change, judgement });
         }
         return Ok(());
     };
     let mut targets = Vec::with_capacity(passing.len());
-    for (turn, checked) in &passing {
-        let chain = &mut chains[turn.chain];
-        chain.sampled += 1;
+    for (next, checked) in &passing {
+        let kind = &mut kinds[next.kind];
+        kind.sampled += 1;
         // Who tries change after change until one passes, must not be lucky more often than with one.
-        let sampling = Sampling { error_share: ErrorShare::Nth(chain.sampled), ..*sampling };
-        let option = chain.option;
-        let target = ShotToSample::new(&turn.case, &turn.case.shots[option], *task.compute, sampling);
+        let sampling = Sampling { error_share: ErrorShare::Nth(kind.sampled), ..*sampling };
+        let option = kind.option;
+        let target = ShotToSample::new(&next.case, &next.case.shots[option], *task.compute, sampling);
         targets.push((option, target.with_planned(ShotSummary::of(checked)).only_pass()));
     }
     let sampled_changes = sample(&targets, hard, task.progress)?;
-    for ((turn, checked), sampled) in passing.into_iter().zip(sampled_changes) {
-        let chain = &mut chains[turn.chain];
+    for ((next, checked), sampled) in passing.into_iter().zip(sampled_changes) {
+        let kind = &mut kinds[next.kind];
         match sampled {
-            SampledChange::CannotPass => chain.note(Verdict::Undecided),
-            SampledChange::OutOfTime => chain.found.out_of_time = true,
+            SampledChange::CannotPass => kind.note(Verdict::Undecided),
+            SampledChange::OutOfTime => kind.found.out_of_time = true,
             SampledChange::Sampled(sampled) => {
                 let judgement =
                     Judgement { sampled: Evidence::Drawn(*sampled), ..Judgement::of_planned_alone(checked) };
-                chain.note(judgement.verdict());
+                kind.note(judgement.verdict());
                 if judgement.verdict() == Verdict::Pass {
-                    chain.found.passing = Some(Remedy { change: turn.change, judgement });
+                    kind.found.passing = Some(Remedy { change: next.change, judgement });
                 }
             }
         }
@@ -261,14 +261,14 @@ fn judge_next(
     Ok(())
 }
 
-/// Judges changes as planned; `None` for those that do not pass, which their chains note.
-fn check_turns(
+/// Judges changes as planned; `None` for those that do not pass, which their kinds note.
+fn check_changes(
     task: &Task<'_>,
-    chains: &mut [ChangesOfOneKind],
-    turns: &[ChangeToJudge],
+    kinds: &mut [ChangesOfOneKind],
+    to_judge: &[ChangeToJudge],
 ) -> Result<Vec<Option<CheckedShot>>, NoResult> {
-    let options: Vec<usize> = turns.iter().map(|turn| chains[turn.chain].option).collect();
-    let jobs: Vec<(&Case, usize)> = turns.iter().map(|turn| &turn.case).zip(options).collect();
+    let options: Vec<usize> = to_judge.iter().map(|next| kinds[next.kind].option).collect();
+    let jobs: Vec<(&Case, usize)> = to_judge.iter().map(|next| &next.case).zip(options).collect();
     let all = run_batch(&jobs, task.progress, |(case, option)| {
         let check = || {
             let checked = check_as_planned(case, *option, task.compute, &mut |_| task.progress.flow());
@@ -279,13 +279,13 @@ fn check_turns(
             checked => checked.map(Some),
         }
     })?;
-    let checked = turns.iter().zip(all).map(|(turn, result)| {
-        let chain = &mut chains[turn.chain];
+    let checked = to_judge.iter().zip(all).map(|(next, result)| {
+        let kind = &mut kinds[next.kind];
         match result {
-            None => chain.found.out_of_time = true,
-            Some(None) => chain.note(Verdict::Undecided),
+            None => kind.found.out_of_time = true,
+            Some(None) => kind.note(Verdict::Undecided),
             Some(Some(checked)) if checked.verdict == Verdict::Pass => return Some(checked),
-            Some(Some(checked)) => chain.note(checked.verdict),
+            Some(Some(checked)) => kind.note(checked.verdict),
         }
         None
     });
