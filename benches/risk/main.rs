@@ -164,7 +164,7 @@ fn shipped(samples: usize) {
         for (option, result) in results.into_iter().enumerate() {
             let judged = result.expect("a result");
             let name = &case.plan.delays[option].name;
-            let [low, high] = judged.sampled.drawn().map_or([0.0, 1.0], |risk| risk.bounds.interval);
+            let [low, high] = judged.sampled.known().map_or([0.0, 1.0], |risk| risk.bounds.interval);
             let verdict = judged.verdict();
             let failing = (verdict == Verdict::Pass).then(|| {
                 let drawn = brute_force(&case, option, samples, Accuracy::Reference);

@@ -57,7 +57,7 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
     ];
     let failing = |point: &Point| match point.as_planned.verdict {
         Verdict::Fail => Some((point.interval, 1.0)),
-        _ => Some((point.interval, point.risk.drawn()?.bounds.probability()?)),
+        _ => Some((point.interval, point.risk.known()?.bounds.probability()?)),
     };
     if sweep.points.iter().any(Point::is_sampled) {
         let points = sweep.points.iter().filter_map(failing).collect();

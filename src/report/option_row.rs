@@ -36,7 +36,7 @@ impl OptionRow<'_> {
 
     /// A cell of the samples; nothing where there are none.
     pub fn sampled(&self, cell: impl FnOnce(&SampledShot) -> Cell) -> Cell {
-        let sampled = self.result.as_ref().ok().and_then(|judged| judged.sampled.drawn());
+        let sampled = self.result.as_ref().ok().and_then(|judged| judged.sampled.known());
         sampled.map_or(Cell::Nothing, cell)
     }
 

@@ -27,7 +27,7 @@ impl<'a> RankedOrder<'a> {
     }
 
     fn risk(&self) -> Option<&'a RiskSummary> {
-        self.orders.risk(self.n).drawn().copied()
+        self.orders.risk(self.n).known().copied()
     }
 }
 
@@ -94,7 +94,7 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
         let (order, interval) =
             (row_names(case, &best.order).join(" "), units::exact_milliseconds(best.interval));
         text += &format!("; the best, {order} at {interval}: {}", orders.verdict_on(n).for_people());
-        text.extend(orders.risk(n).drawn().map(|risk| format!(", {}", sampled(risk))));
+        text.extend(orders.risk(n).known().map(|risk| format!(", {}", sampled(risk))));
     }
     let picture = charts::orders(case, orders);
     let tried = orders.ranked.iter().map(|tried| &tried.as_planned);

@@ -65,7 +65,7 @@ pub fn report(case: &Case, results: &OptionResults, sampling: &Sampling, partial
     let mut blocks = vec![Block::Text(vec![head]), Block::Table(table)];
     let risks =
         case.plan.delays.iter().zip(results).filter_map(|(delay, result)| {
-            Some((delay.name.as_str(), result.as_ref().ok()?.sampled.drawn()?))
+            Some((delay.name.as_str(), result.as_ref().ok()?.sampled.known()?))
         });
     blocks.extend(risks.map(|(name, risk)| Block::Picture(charts::risk(case, name, risk))));
     let passed = results.iter().flatten().filter(|judged| judged.verdict() == Verdict::Pass).count();

@@ -22,8 +22,8 @@ fn points<'a>() -> [Field<&'a Point>; 7] {
         Field::new(FORCE.shown(Audience::Scripts), |point| force(point.as_planned.force)),
         Field::new(VERDICT.shown(Audience::Scripts), |point| Cell::Verdict(point.verdict())),
         Field::new(NOMINAL_VERDICT, |point| Cell::Verdict(point.as_planned.verdict)),
-        Field::new(PROBABILITY, |point| probability(point.risk.drawn())),
-        Field::new(FAILURES.shown(Audience::Scripts), |point| failures(point.risk.drawn())),
+        Field::new(PROBABILITY, |point| probability(point.risk.known())),
+        Field::new(FAILURES.shown(Audience::Scripts), |point| failures(point.risk.known())),
     ]
 }
 
@@ -35,7 +35,7 @@ fn highlights<'a>() -> [Field<(&'static str, &'a Point)>; 6] {
         Field::new(VERDICT.unread(), |(_, point)| Cell::Verdict(point.verdict())),
         Field::new(HEIGHT.unread(), |(_, point)| height(point.as_planned.height)),
         Field::new(FORCE.unread(), |(_, point)| force(point.as_planned.force)),
-        Field::new(FAILURES.unread(), |(_, point)| failures(point.risk.drawn())),
+        Field::new(FAILURES.unread(), |(_, point)| failures(point.risk.known())),
     ]
 }
 
@@ -125,7 +125,7 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
             lines.push(format!("inside a window the intervals sampled are at most {apart} apart"));
         }
         let open = accepted.iter().filter(|point| point.verdict() == Verdict::Undecided);
-        let samples = open.filter_map(|point| Some(point.risk.drawn()?.bounds.samples));
+        let samples = open.filter_map(|point| Some(point.risk.known()?.bounds.samples));
         if let Some(few) = samples.min() {
             let unproven =
                 format!("{few} samples cannot prove {risk}: `check` an interval before you choose it");
@@ -169,7 +169,7 @@ fn recommended(sweep: &Sweep, has_risk: bool) -> Vec<String> {
             units::exact_milliseconds(rounded_down(room)),
             units::percent((1e3 * utilization).ceil() * 1e-3, 1)
         ));
-        if let Some(risk) = sweep.best().and_then(|point| point.risk.drawn()) {
+        if let Some(risk) = sweep.best().and_then(|point| point.risk.known()) {
             lines.push(format!(
                 "its full verdict is PASS: {}, at each look surely fewer than accepted",
                 sampled(risk)

@@ -154,7 +154,7 @@ fn add_risks(
         sample_shots_watched(&targets, progress, &mut watch_round)?;
     for ((at, judgement), sampled) in judged.iter_mut().zip(sampled_shots) {
         watch(*at, JudgeEvent::SampledFully(&sampled));
-        judgement.sampled = Evidence::Drawn(sampled);
+        judgement.sampled = Evidence::Known(sampled);
     }
     Ok(Computed { value: (), partial })
 }

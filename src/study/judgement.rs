@@ -45,9 +45,9 @@ impl Judgement {
         let as_planned = self.as_planned.reasons.iter().copied().map(Reason::AsPlanned);
         let of_samples = match &self.sampled {
             Evidence::NotAsked => None,
-            Evidence::NotDrawn => Some(Reason::NoSamples),
-            Evidence::Drawn(sampled) if sampled.samples.is_empty() => Some(Reason::NoSamples),
-            Evidence::Drawn(sampled) => sampled.reason().map(Reason::Samples),
+            Evidence::Unknown => Some(Reason::NoSamples),
+            Evidence::Known(sampled) if sampled.samples.is_empty() => Some(Reason::NoSamples),
+            Evidence::Known(sampled) => sampled.reason().map(Reason::Samples),
         };
         as_planned.chain(of_samples).collect()
     }
@@ -59,17 +59,17 @@ pub enum Evidence<R> {
     /// Only the shot as planned was asked for.
     NotAsked,
     /// Samples were asked for, and none was drawn.
-    NotDrawn,
+    Unknown,
     /// What the samples tell.
-    Drawn(R),
+    Known(R),
 }
 
 impl<R> Evidence<R> {
     /// What the samples tell; `None` where none were asked for, or none was drawn.
-    pub fn drawn(&self) -> Option<&R> {
+    pub fn known(&self) -> Option<&R> {
         match self {
-            Evidence::Drawn(told) => Some(told),
-            Evidence::NotAsked | Evidence::NotDrawn => None,
+            Evidence::Known(told) => Some(told),
+            Evidence::NotAsked | Evidence::Unknown => None,
         }
     }
 
@@ -82,8 +82,8 @@ impl<R> Evidence<R> {
     pub fn map<'r, T>(&'r self, change: impl FnOnce(&'r R) -> T) -> Evidence<T> {
         match self {
             Evidence::NotAsked => Evidence::NotAsked,
-            Evidence::NotDrawn => Evidence::NotDrawn,
-            Evidence::Drawn(told) => Evidence::Drawn(change(told)),
+            Evidence::Unknown => Evidence::Unknown,
+            Evidence::Known(told) => Evidence::Known(change(told)),
         }
     }
 }
@@ -93,8 +93,8 @@ impl<R> Evidence<R> {
 pub fn verdict_of_both(as_planned: Verdict, samples: Evidence<Verdict>) -> Verdict {
     match samples {
         Evidence::NotAsked => as_planned,
-        Evidence::NotDrawn => as_planned.max(Verdict::Undecided),
-        Evidence::Drawn(sampled) => as_planned.max(sampled),
+        Evidence::Unknown => as_planned.max(Verdict::Undecided),
+        Evidence::Known(sampled) => as_planned.max(sampled),
     }
 }
 
@@ -107,10 +107,10 @@ mod tests {
         use Verdict::{Fail, Pass, Undecided};
         for as_planned in [Pass, Undecided, Fail] {
             assert_eq!(verdict_of_both(as_planned, Evidence::NotAsked), as_planned);
-            assert_eq!(verdict_of_both(as_planned, Evidence::Drawn(Pass)), as_planned);
-            assert_eq!(verdict_of_both(as_planned, Evidence::Drawn(Fail)), Fail);
+            assert_eq!(verdict_of_both(as_planned, Evidence::Known(Pass)), as_planned);
+            assert_eq!(verdict_of_both(as_planned, Evidence::Known(Fail)), Fail);
         }
-        for samples in [Evidence::NotDrawn, Evidence::Drawn(Undecided)] {
+        for samples in [Evidence::Unknown, Evidence::Known(Undecided)] {
             assert_eq!(
                 [Pass, Undecided, Fail].map(|planned| verdict_of_both(planned, samples)),
                 [Undecided, Undecided, Fail]

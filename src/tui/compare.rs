@@ -97,7 +97,7 @@ impl SortBy {
                 Verdict::Undecided => 1.0,
                 Verdict::Fail => 2.0,
             },
-            SortBy::Risk => sampled.drawn().map_or(1.0, |sampled| sampled.bounds.interval[1]),
+            SortBy::Risk => sampled.known().map_or(1.0, |sampled| sampled.bounds.interval[1]),
             SortBy::Height => as_planned.height.value,
             SortBy::Force => as_planned.force.value,
             SortBy::Drift => as_planned.drift.value,

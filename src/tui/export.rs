@@ -107,7 +107,7 @@ fn svg(app: &App) -> Result<String, String> {
             let shot = &app.case.shots[app.selected];
             let history = charts::history(&app.case, &judged.as_planned.history, shot);
             let samples =
-                judged.sampled.drawn().into_iter().flat_map(|sampled| charts::samples(&app.case, sampled));
+                judged.sampled.known().into_iter().flat_map(|sampled| charts::samples(&app.case, sampled));
             history
                 .iter()
                 .filter_map(html::svg)

@@ -53,7 +53,7 @@ pub const EXAMPLES: &[(&str, &str)] = &[
 ];
 
 /// Lines that a page key moves.
-const PAGE: usize = 10;
+const PAGE_LINES: usize = 10;
 /// Most files listed.
 const MOST: usize = 50;
 /// Largest file that is read to see whether it is a plan [bytes].
@@ -159,8 +159,8 @@ impl Start {
             _ if key.code == KeyCode::Esc => Next::Quit,
             Some(Action::Down) => self.select(self.selected + 1),
             Some(Action::Up) => self.select(self.selected.saturating_sub(1)),
-            Some(Action::PageDown) => self.select(self.selected + PAGE),
-            Some(Action::PageUp) => self.select(self.selected.saturating_sub(PAGE)),
+            Some(Action::PageDown) => self.select(self.selected + PAGE_LINES),
+            Some(Action::PageUp) => self.select(self.selected.saturating_sub(PAGE_LINES)),
             Some(Action::First) => self.select(0),
             Some(Action::Last) => self.select(usize::MAX),
             Some(Action::Open) => self.open(),

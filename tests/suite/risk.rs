@@ -174,7 +174,7 @@ fn samples_whose_step_is_too_long_pass_nothing() {
         .expect("a result")
         .value;
     let judged = found.remove(0).remove(0).expect("a result");
-    let risk = judged.sampled.drawn().expect("samples");
+    let risk = judged.sampled.known().expect("samples");
     assert_eq!((judged.as_planned.verdict, risk.bounds.verdict()), (Verdict::Pass, Verdict::Pass));
     assert_eq!(judged.verdict(), Verdict::Undecided, "{:?}", risk.samples[0]);
     assert!(risk.step_halvings > 0, "the audit saw it, too");
@@ -297,9 +297,9 @@ fn shards_that_the_audit_contradicts_are_sampled_anew() {
     let mut of_shards = case.judge_options(&compute, Some(&sampling), &joined).expect("a result").value;
     assert!(joined.journal().recalled() >= 100, "until the audit contradicts them");
     let whole = case.judge_options(&compute, Some(&sampling), &progress).expect("a result").value;
-    let whole = whole[0].as_ref().expect("a result").sampled.drawn().expect("samples");
+    let whole = whole[0].as_ref().expect("a result").sampled.known().expect("samples");
     assert!(whole.step_halvings > 0, "a test that can fail");
-    assert_eq!(of_shards.remove(0).expect("a result").sampled.drawn(), Some(whole));
+    assert_eq!(of_shards.remove(0).expect("a result").sampled.known(), Some(whole));
 }
 
 /// Mean and standard deviation.
@@ -507,7 +507,7 @@ fn samples_are_the_same_on_any_number_of_threads() {
     let on = |threads| {
         let work = || case.judge_options(&compute, Some(&sampling), &Progress::default());
         let found = thread_pool(threads).expect("threads").install(work).expect("a result").value;
-        let risk = |judged: Judgement| judged.sampled.drawn().cloned().expect("samples");
+        let risk = |judged: Judgement| judged.sampled.known().cloned().expect("samples");
         found.into_iter().map(|result| risk(result.expect("a result"))).collect::<Vec<SampledShot>>()
     };
     let one = on(1);

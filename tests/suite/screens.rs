@@ -342,13 +342,13 @@ fn the_share_of_the_limit_is_that_of_95_percent_of_the_possible_shots() {
     };
     let limit = app.case.limits.height;
     let OptionState::Judged { judgement, .. } = &mut app.options[0] else { panic!("judged") };
-    let Evidence::Drawn(sampled) = &mut judgement.sampled else { panic!("sampled") };
+    let Evidence::Known(sampled) = &mut judgement.sampled else { panic!("sampled") };
     for (n, sample) in sampled.samples.iter_mut().enumerate() {
         sample.run.height = limit * if n % 10 == 0 { 1.17 } else { 0.5 };
     }
     assert!(shares(&app).contains("H 117 %"), "one in ten is that high: {}", shares(&app));
     let OptionState::Judged { judgement, .. } = &mut app.options[0] else { panic!("judged") };
-    judgement.sampled = Evidence::NotDrawn;
+    judgement.sampled = Evidence::Unknown;
     let alone = shares(&app);
     assert!(
         !alone.contains("H ") && !alone.contains("F "),

@@ -98,7 +98,7 @@ fn the_least_risk_of_all_is_found() {
     let all_at_once = Sampling { least: 400, most: 400, seed: 9, error_share: ErrorShare::Whole };
     let found = searched(&case, Some(&FEW));
     let share = |results: &OptionResults, n: usize| {
-        let risk = results[n].as_ref().ok().and_then(|judged| judged.sampled.drawn());
+        let risk = results[n].as_ref().ok().and_then(|judged| judged.sampled.known());
         risk.and_then(|risk| risk.bounds.probability()).unwrap_or(1.0)
     };
     let compute = ComputeSettings::of(&case.plan);
@@ -194,7 +194,7 @@ fn schedules_are_written_as_options_that_check_judges_alike() {
         let [found, checked] = [found, checked].map(|result| result.as_ref().expect("a result"));
         assert_eq!(found.as_planned.height, checked.as_planned.height);
         let shared = |judged: &shelter::study::judgement::Judgement| {
-            let samples = &judged.sampled.drawn().expect("samples").samples;
+            let samples = &judged.sampled.known().expect("samples").samples;
             samples[..50.min(samples.len())].to_vec()
         };
         assert_eq!(shared(found), shared(checked), "the draws of `check`");

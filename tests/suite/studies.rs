@@ -143,7 +143,7 @@ fn windows_of_accepted_risk_are_those_of_the_samples() {
     let (mut accepted, mut refused) = (0, 0);
     for point in &sampled {
         assert!(inside(&swept.windows_as_planned, point.interval));
-        let bounds = point.risk.drawn().expect("sampled").bounds;
+        let bounds = point.risk.known().expect("sampled").bounds;
         // More samples have the few intervals that got a full verdict.
         if bounds.samples <= 100 {
             let alone = risk_at(&case, point.interval, &sampling.first_look(), compute).bounds;
@@ -180,7 +180,7 @@ fn the_recommended_interval_has_a_full_verdict() {
         &sampling.with_fresh_draws(ErrorShare::Nth(1 + swept.refuted)),
         compute,
     );
-    assert_eq!((full.verdict(), best.risk.drawn().expect("sampled").bounds), (Verdict::Pass, full.bounds));
+    assert_eq!((full.verdict(), best.risk.known().expect("sampled").bounds), (Verdict::Pass, full.bounds));
 }
 
 /// A hundred samples of an interval may keep the accepted risk, and its full verdict does not pass: it is not recommended.
@@ -205,7 +205,7 @@ fn the_ends_of_the_ranking_are_sampled() {
     assert_eq!((&ranked.ranked, ranked.ranked.len()), (&nominal.ranked, 72));
     for (n, tried) in ranked.ranked.iter().enumerate() {
         assert_eq!(nominal.verdict_on(n), tried.as_planned.verdict);
-        let Evidence::Drawn(risk) = ranked.risk(n) else {
+        let Evidence::Known(risk) = ranked.risk(n) else {
             assert!((20..52).contains(&n));
             assert!(ranked.verdict_on(n) != Verdict::Pass, "not sampled, so not sure");
             continue;

@@ -56,14 +56,14 @@ pub fn only_planned(page: &Page<'_>) -> &'static str {
 /// What the verdict rests on, each with its name.
 fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str, String)> {
     let mut facts = vec![("Risk", risk(case, judged)), ("Launch margin", launch_margin(shot, judged))];
-    if let Some(sampled) = judged.sampled.drawn() {
+    if let Some(sampled) = judged.sampled.known() {
         let shares = input_shares(sampled, &case.limits);
         let inputs = shares.map(|shares| option_sentences::inputs(&shares));
         facts.push(("What decides", inputs.unwrap_or_else(|| "too few samples to tell".to_owned())));
     }
     facts.push(("As planned", option_sentences::peaks(case.scene(), &judged.as_planned)));
     facts.push(("Utilization as planned", utilization(case, judged)));
-    let bands = judged.sampled.drawn().and_then(|sampled| option_sentences::bands(case, sampled));
+    let bands = judged.sampled.known().and_then(|sampled| option_sentences::bands(case, sampled));
     facts.extend(bands.map(|bands| ("Possible shots", bands)));
     facts
 }
@@ -73,7 +73,7 @@ fn risk(case: &Case, judged: &Judgement) -> String {
     let accepted = format!("accepted {} %", units::short(case.plan.limits.accepted_risk_percent));
     match &judged.sampled {
         Evidence::NotAsked => "not judged: the plan's own numbers only, nothing varied".to_owned(),
-        Evidence::Drawn(sampled) if !sampled.samples.is_empty() => {
+        Evidence::Known(sampled) if !sampled.samples.is_empty() => {
             let bounds = &sampled.bounds;
             format!(
                 "{} % of the possible shots fail (95 % bounds; {} of {} samples fail); {accepted}",
@@ -82,7 +82,7 @@ fn risk(case: &Case, judged: &Judgement) -> String {
                 bounds.samples
             )
         }
-        Evidence::Drawn(_) | Evidence::NotDrawn => {
+        Evidence::Known(_) | Evidence::Unknown => {
             format!("not known: no sample was drawn, ended early; {accepted}")
         }
     }

@@ -167,7 +167,7 @@ impl CablePeakObject {
 
 impl OptionValues {
     fn new(case: &Case, judged: &Judgement) -> Self {
-        let (scene, checked, sampled) = (case.scene(), &judged.as_planned, judged.sampled.drawn());
+        let (scene, checked, sampled) = (case.scene(), &judged.as_planned, judged.sampled.known());
         let drift_is_judged = sampled.filter(|_| case.limits.drift.is_some());
         Self {
             nominal_verdict: checked.verdict.for_scripts(),

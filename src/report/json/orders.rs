@@ -44,7 +44,7 @@ impl OrdersDocument {
                 order: row_names(case, &tried.order),
                 interval_s: tried.interval,
                 values: Values::of(orders.verdict_on(n), &tried.as_planned),
-                sampled: SampledValues::of(tried.as_planned.verdict, orders.risk(n).drawn().copied()),
+                sampled: SampledValues::of(tried.as_planned.verdict, orders.risk(n).known().copied()),
             }
         };
         let count = orders.ranked.len();

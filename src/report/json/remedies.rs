@@ -67,7 +67,7 @@ impl PassingChange {
             key: format!("{}.{}", section.name, key.name),
             value,
             verdict: judgement.verdict().for_scripts(),
-            failure_probability: judgement.sampled.drawn().map(Failures::of),
+            failure_probability: judgement.sampled.known().map(Failures::of),
             flight_height_m: judgement.as_planned.height.value,
             cable_force_n: judgement.as_planned.force.value,
         }

@@ -72,7 +72,7 @@ pub fn input_shares(sampled: &SampledShot, limits: &Limits) -> Option<Vec<Share>
 
 impl SampledOption {
     fn new(case: &Case, name: &str, result: &Result<Judgement, NoResult>) -> Self {
-        let sampled = result.as_ref().ok().and_then(|judged| judged.sampled.drawn());
+        let sampled = result.as_ref().ok().and_then(|judged| judged.sampled.known());
         let bounds = sampled.map(|sampled| sampled.bounds);
         Self {
             name: name.to_owned(),

@@ -92,7 +92,7 @@ impl ScheduleObject {
 
 impl FoundValues {
     fn of(case: &Case, judged: &Judgement) -> Self {
-        let (scene, checked, sampled) = (case.scene(), &judged.as_planned, judged.sampled.drawn());
+        let (scene, checked, sampled) = (case.scene(), &judged.as_planned, judged.sampled.known());
         Self {
             nominal_verdict: checked.verdict.for_scripts(),
             launch_margin: judged.launch_margin_for_scripts(),
@@ -116,7 +116,7 @@ impl SearchDocument {
         let found = |(row, schedule): (OptionRow<'_>, &Schedule)| {
             let WithinEightMs { holes, charge } = row.together();
             let judged = row.result.as_ref().ok();
-            let sampled = judged.and_then(|judged| judged.sampled.drawn());
+            let sampled = judged.and_then(|judged| judged.sampled.known());
             FoundSchedule {
                 name: row.delay.name.clone(),
                 schedule: ScheduleObject::of(case, schedule),

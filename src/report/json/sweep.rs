@@ -37,7 +37,7 @@ struct IntervalResult {
 
 impl IntervalResult {
     fn of(point: &Point) -> Self {
-        let sampled = SampledValues::of(point.as_planned.verdict, point.risk.drawn());
+        let sampled = SampledValues::of(point.as_planned.verdict, point.risk.known());
         Self { interval_s: point.interval, values: Values::of(point.verdict(), &point.as_planned), sampled }
     }
 }

@@ -26,7 +26,7 @@ pub fn sentences(case: &Case, judged: &Judgement) -> Vec<String> {
 
 /// A reason of an option in words.
 pub fn sentence(case: &Case, judged: &Judgement, reason: &Reason) -> String {
-    match (reason, judged.sampled.drawn()) {
+    match (reason, judged.sampled.known()) {
         (Reason::AsPlanned(reason), _) => of_shot(reason),
         (Reason::Samples(reason), Some(sampled)) => {
             of_risk(case, &judged.as_planned.compute, sampled, *reason)

@@ -94,7 +94,7 @@ const FAR_DRIFT: &str = "a PASS says nothing of where tires end: the plan has no
 
 /// The drift of an option where no limit judges it and it is far [m]: of the shot as planned, or of 1 in 20 of the possible shots.
 fn far_drift(case: &Case, judged: &Judgement) -> Option<f64> {
-    let of_samples = judged.sampled.drawn().and_then(|sampled| sampled.band(Quantity::Drift));
+    let of_samples = judged.sampled.known().and_then(|sampled| sampled.band(Quantity::Drift));
     let of_samples = of_samples.map_or(0.0, |[_, _, p95, _]| p95);
     let drift = judged.as_planned.drift.value.max(of_samples);
     let far = FAR * case.plan.layout.widest_tie();

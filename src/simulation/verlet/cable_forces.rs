@@ -48,7 +48,7 @@ enum CableState {
 
 /// Result of the evaluation of one block, by lane.
 #[derive(Clone, Copy, Debug)]
-pub struct Stress {
+pub struct BlockTotals {
     /// Elastic energy [J].
     pub energy: Pack,
     /// Greatest force [N].
@@ -191,7 +191,7 @@ impl CableEvaluator<'_, '_> {
         block: &Block,
         u: [&[f64]; 3],
         step: f64,
-    ) -> Stress {
+    ) -> BlockTotals {
         let (zero, half, one) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5), Wide::splat(simd, 1.0));
         let (tiny, infinite) = (Wide::splat(simd, f64::MIN_POSITIVE), Wide::splat(simd, f64::INFINITY));
         let Block { first: cable, len, memory } = block;
@@ -290,7 +290,7 @@ impl CableEvaluator<'_, '_> {
                 (per_length * d[c]).store(forces[c], at);
             }
         }
-        Stress { energy, force: greatest, dissipated }
+        BlockTotals { energy, force: greatest, dissipated }
     }
 }
 

@@ -1,4 +1,4 @@
-//! Kick and drift of the tires in one register: steps 2 and 3 of [`super`].
+//! Kick and move of the tires in one register: steps 2 and 3 of [`super`].
 
 use pulp::Simd;
 
@@ -43,7 +43,7 @@ pub struct MovedPack<S: Simd> {
 }
 
 impl<S: Simd> TirePack<S> {
-    /// Kicks and drifts the tires: free velocity v* = v + h (f/m + g), then support and friction of the ground, then
+    /// Kicks and moves the tires: free velocity v* = v + h (f/m + g), then support and friction of the ground, then
     /// u + h v. Roots and quotients are computed only where a tire slips; `SLOPED`: the ground slopes.
     #[inline(always)]
     pub fn kick_and_move<const SLOPED: bool>(&self, simd: S) -> MovedPack<S> {

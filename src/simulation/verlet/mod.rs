@@ -5,7 +5,7 @@
 //! 1. forces: f = Σ N over the taut cables at uₙ;
 //! 2. kick: v* = v + h (f/m + g) with the vector g of gravity, then on the ground p = −m v*₃ ≥ 0 and friction up to μp
 //!    ([`super::contact`]), against the velocity at tₙ, which is parallel to v + (h/2) (f/m + g) along the ground;
-//! 3. drift: uₙ₊₁ = uₙ + h v.
+//! 3. move: uₙ₊₁ = uₙ + h v.
 //!
 //! A tire that lands or is fired at within the step is integrated phase by phase instead
 //! ([`TireStep::integrate`](super::contact::TireStep::integrate)), so that landing and launch have their own time. A cable
@@ -17,14 +17,14 @@
 
 mod cable_forces;
 mod kick;
-mod reduction;
+mod mirror_reduction;
 mod stepper;
 
 use std::sync::{Arc, OnceLock};
 
 use nalgebra::Vector3;
 
-use self::reduction::Reduction;
+use self::mirror_reduction::MirrorReduction;
 use self::stepper::Stepper;
 use super::cable_blocks::Blocks;
 
@@ -45,7 +45,7 @@ pub struct VerletModel {
 /// Tires and cables that are integrated, laid out for the stepping loop; the same for every run.
 #[derive(Debug)]
 pub struct Part {
-    reduction: Arc<Reduction>,
+    reduction: Arc<MirrorReduction>,
     blocks: Blocks,
     ties: Arc<Ties>,
     /// Mass of each tire × number of tires of the whole scene that the tire stands for [kg] (`n_tires` + [`LANES`]).
@@ -125,7 +125,7 @@ fn shared_planes<'s>(scene: &'s Scene, shot: &Shot) -> Vec<&'s Mirror> {
 
 impl Part {
     fn new(scene: &Scene, planes: &[&Mirror]) -> Self {
-        let (reduction, part) = Reduction::new(scene, planes);
+        let (reduction, part) = MirrorReduction::new(scene, planes);
         let blocks = Blocks::new(&part, &reduction.cable_weight);
         let ties = Ties::of_blocks(&blocks, part.mass.len());
         Self::with_masses(scene, reduction.into(), blocks, ties.into())
@@ -137,7 +137,7 @@ impl Part {
         Self::with_masses(variant, Arc::clone(&self.reduction), blocks, Arc::clone(&self.ties))
     }
 
-    fn with_masses(scene: &Scene, reduction: Arc<Reduction>, blocks: Blocks, ties: Arc<Ties>) -> Self {
+    fn with_masses(scene: &Scene, reduction: Arc<MirrorReduction>, blocks: Blocks, ties: Arc<Ties>) -> Self {
         let weighted =
             || reduction.weight.iter().enumerate().map(|(n, &w)| (scene.mass[reduction.tire(n)], w));
         // Spare lanes behind the last tire have no energy.

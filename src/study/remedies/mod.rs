@@ -250,7 +250,7 @@ fn judge_next(
             SampledChange::OutOfTime => kind.found.out_of_time = true,
             SampledChange::Sampled(sampled) => {
                 let judgement =
-                    Judgement { sampled: Evidence::Drawn(*sampled), ..Judgement::of_planned_alone(checked) };
+                    Judgement { sampled: Evidence::Known(*sampled), ..Judgement::of_planned_alone(checked) };
                 kind.note(judgement.verdict());
                 if judgement.verdict() == Verdict::Pass {
                     kind.found.passing = Some(Remedy { change: next.change, judgement });

@@ -252,7 +252,7 @@ impl Search {
         let rank_key = |n: &usize| {
             let judged = self.results[*n].as_ref().ok();
             let share = judged
-                .and_then(|judged| judged.sampled.drawn())
+                .and_then(|judged| judged.sampled.known())
                 .and_then(|sampled| sampled.bounds.probability());
             let share = share.unwrap_or_else(|| self.rough[*n].value());
             (judged.map_or(Verdict::Undecided, Judgement::verdict), share)
@@ -283,7 +283,7 @@ impl Search {
 
     /// Bounds of the failure probability of a schedule; everything is possible where no sample tells.
     fn bounds(&self, n: usize) -> [f64; 2] {
-        let sampled = self.results[n].as_ref().ok().and_then(|judged| judged.sampled.drawn());
+        let sampled = self.results[n].as_ref().ok().and_then(|judged| judged.sampled.known());
         sampled.map_or([0.0, 1.0], |sampled: &SampledShot| sampled.bounds.interval)
     }
 

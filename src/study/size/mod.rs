@@ -257,9 +257,9 @@ fn choose(
                 combination.trial = Err(Untried::OutOfTime);
                 continue;
             };
-            sampled = Evidence::Drawn(risk);
+            sampled = Evidence::Known(risk);
         }
-        trial.risk = sampled.drawn().copied();
+        trial.risk = sampled.known().copied();
         trial.is_choice = verdict_of_both(Verdict::Pass, sampled.map(|risk| risk.verdict)) == Verdict::Pass;
         least = if trial.is_choice { trial.utilization } else { least };
         combination.trial = Ok(trial);

@@ -39,9 +39,9 @@ pub fn add_risk(
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
     let sampled = sample_shots_in_brief(case, &shots, &sampling.first_look(), compute, progress)?;
     partial |= sampled.contains(&None);
-    swept.points.iter_mut().for_each(|point| point.risk = Evidence::NotDrawn);
+    swept.points.iter_mut().for_each(|point| point.risk = Evidence::Unknown);
     for (&n, sampled) in chosen.iter().zip(sampled) {
-        swept.points[n].risk = sampled.map_or(Evidence::NotDrawn, Evidence::Drawn);
+        swept.points[n].risk = sampled.map_or(Evidence::Unknown, Evidence::Known);
     }
     swept.recommended = None;
     let mut tried = BTreeSet::new();
@@ -52,7 +52,7 @@ pub fn add_risk(
             break;
         }
         let drawn: Vec<Point> = swept.points.iter().filter(|point| point.is_sampled()).copied().collect();
-        let used = |point: &Point| point.risk.drawn().map_or(f64::INFINITY, |risk| risk.utilization);
+        let used = |point: &Point| point.risk.known().map_or(f64::INFINITY, |risk| risk.utilization);
         let open = |point: &Point| !tried.contains(&nanoseconds(point.interval));
         let Some(candidate) = deepest(&drawn, &swept.windows, used, open) else { break };
         let Some(n) = swept.points.iter().position(|point| point.interval == candidate.interval) else {
@@ -65,7 +65,7 @@ pub fn add_risk(
             Some((as_planned, risk)) => {
                 let point = &mut swept.points[n];
                 point.as_planned = as_planned;
-                point.risk = risk.map_or(point.risk, Evidence::Drawn);
+                point.risk = risk.map_or(point.risk, Evidence::Known);
                 if point.verdict() == Verdict::Pass {
                     swept.recommended = Some(candidate);
                     break;

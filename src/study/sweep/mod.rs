@@ -49,12 +49,12 @@ impl Point {
 
     /// Whether samples were drawn.
     pub fn is_sampled(&self) -> bool {
-        self.risk.drawn().is_some()
+        self.risk.known().is_some()
     }
 
     /// Whether the shot as planned passes, and the failing share of its samples does not exceed the accepted risk.
     pub fn is_accepted(&self) -> bool {
-        passes(self) && self.risk.drawn().is_some_and(RiskSummary::is_accepted)
+        passes(self) && self.risk.known().is_some_and(RiskSummary::is_accepted)
     }
 }
 

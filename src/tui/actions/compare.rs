@@ -1,6 +1,6 @@
 //! Keys of the comparison: the selected option, sorting, filter.
 
-use super::PAGE;
+use super::PAGE_LINES;
 use crate::tui::app::{App, Request};
 use crate::tui::keymap::Action;
 
@@ -9,7 +9,7 @@ impl App {
         if let Some(request) = self.act_on_remedies(action) {
             return request;
         }
-        let page = PAGE as isize;
+        let page = PAGE_LINES as isize;
         match action {
             Action::Up => self.select_listed(-1),
             Action::Down => self.select_listed(1),

@@ -1,6 +1,6 @@
 //! Keys of the flight: time, speed, view.
 
-use super::PAGE;
+use super::PAGE_LINES;
 use crate::tui::app::{App, Request};
 use crate::tui::keymap::Action;
 use crate::tui::player::Player;
@@ -24,8 +24,8 @@ impl App {
             Action::Turn => self.player.along_rows = !self.player.along_rows,
             Action::Left => seek(&mut self.player, -SCRUB),
             Action::Right => seek(&mut self.player, SCRUB),
-            Action::PageUp => seek(&mut self.player, -SCRUB * PAGE as f64),
-            Action::PageDown => seek(&mut self.player, SCRUB * PAGE as f64),
+            Action::PageUp => seek(&mut self.player, -SCRUB * PAGE_LINES as f64),
+            Action::PageDown => seek(&mut self.player, SCRUB * PAGE_LINES as f64),
             Action::First => self.player.seek(0.0, end),
             Action::Last => self.player.seek(end, end),
             Action::Up => self.select_listed(-1),

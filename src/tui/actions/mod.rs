@@ -28,7 +28,7 @@ use crate::tui::export;
 use crate::verdict::Verdict;
 
 /// Lines that a page key moves.
-pub(super) const PAGE: usize = 10;
+pub(super) const PAGE_LINES: usize = 10;
 
 impl App {
     /// Does the action of a key or of a chosen command.
@@ -54,8 +54,8 @@ impl App {
         let lines = match action {
             Action::Up => -1,
             Action::Down => 1,
-            Action::PageUp => -(PAGE as i16),
-            Action::PageDown => PAGE as i16,
+            Action::PageUp => -(PAGE_LINES as i16),
+            Action::PageDown => PAGE_LINES as i16,
             Action::First => i16::MIN,
             Action::Last => i16::MAX,
             _ => return false,
@@ -105,10 +105,10 @@ impl App {
             }
             Action::Save => return Request::Save,
             Action::SaveAs => return Request::NamePlan,
-            Action::Search => self.prompt = Some(Prompt::new(Purpose::Find, "")),
+            Action::Find => self.prompt = Some(Prompt::new(Purpose::Find, "")),
             Action::Commands => self.prompt = Some(Prompt::new(Purpose::Palette, "")),
             Action::Export => return self.name_export(),
-            Action::Page => return self.name_page(),
+            Action::WritePage => return self.name_page(),
             Action::Copy => return Request::Copy,
             Action::Theme => self.theme = self.theme.next(),
             Action::Help => {

@@ -1,6 +1,6 @@
 //! Keys of the plan: its values, its options.
 
-use super::PAGE;
+use super::PAGE_LINES;
 use crate::tui::app::{App, Request};
 use crate::tui::editor::EditOutcome;
 use crate::tui::keymap::Action;
@@ -8,7 +8,7 @@ use crossterm::event::{KeyCode, KeyEvent};
 
 impl App {
     pub(super) fn act_on_plan(&mut self, action: Action) -> Request {
-        let page = PAGE as isize;
+        let page = PAGE_LINES as isize;
         let edit = match action {
             Action::Up => return self.select_field(-1),
             Action::Down => return self.select_field(1),

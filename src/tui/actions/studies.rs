@@ -1,6 +1,6 @@
 //! The screen of studies: its tabs, and rows that offer a change of the plan.
 
-use super::PAGE;
+use super::PAGE_LINES;
 use crate::jobs::StudyKind;
 use crate::plan::edit;
 use crate::report::parts::Offer;
@@ -23,8 +23,8 @@ impl App {
         match action {
             Action::Up => self.studies.scroll(-1),
             Action::Down => self.studies.scroll(1),
-            Action::PageUp => self.studies.scroll(-(PAGE as i16)),
-            Action::PageDown => self.studies.scroll(PAGE as i16),
+            Action::PageUp => self.studies.scroll(-(PAGE_LINES as i16)),
+            Action::PageDown => self.studies.scroll(PAGE_LINES as i16),
             Action::First => self.studies.scroll = 0,
             Action::Last => self.studies.scroll = u16::MAX,
             Action::Left => self.studies.show_neighbour(-1),
@@ -48,8 +48,8 @@ impl App {
         let moved = match action {
             Action::Up => selected.saturating_sub(1),
             Action::Down => selected + 1,
-            Action::PageUp => selected.saturating_sub(PAGE),
-            Action::PageDown => selected + PAGE,
+            Action::PageUp => selected.saturating_sub(PAGE_LINES),
+            Action::PageDown => selected + PAGE_LINES,
             Action::First => 0,
             Action::Last => count - 1,
             Action::Open => {

@@ -70,7 +70,7 @@ pub enum Action {
     /// Write the plan under another name.
     SaveAs,
     /// Search for an option.
-    Search,
+    Find,
     /// Choose a command by name.
     Commands,
     /// Put the contents of the screen on the clipboard.
@@ -78,7 +78,7 @@ pub enum Action {
     /// Write the contents of the screen to a file.
     Export,
     /// Write the page of the selected option.
-    Page,
+    WritePage,
     /// Switch to the next theme.
     Theme,
     /// Show or hide the help.
@@ -202,9 +202,9 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Finer, "finer", &["+", "="], "finer", "finer accuracy: draft, field, reference", ALL),
     bind(Action::Coarser, "coarser", &["-"], "coarser", "coarser accuracy", ALL),
     bind(Action::Rerun, "rerun", &["r"], "", "compute again", ALL),
-    bind(Action::Search, "search", &["/"], "find", "find: options by name or verdict, values, lines", ALL),
+    bind(Action::Find, "search", &["/"], "find", "find: options by name or verdict, values, lines", ALL),
     bind(Action::Export, "export", &["e"], "export", "write what is shown to a CSV, SVG or HTML file", ALL),
-    bind(Action::Page, "page", &["P"], "page", "write the page of the selected option, to sign", COMPARE),
+    bind(Action::WritePage, "page", &["P"], "page", "write the page of the selected option, to sign", COMPARE),
     bind(Action::Copy, "copy", &["y"], "", "copy what is shown to the clipboard", ALL),
     bind(Action::Commands, "commands", &[":"], "", "choose a command by name", ALL),
     bind(Action::Theme, "theme", &["t"], "theme", "next theme: dark, light, sunlight", ALL),

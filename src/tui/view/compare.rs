@@ -89,7 +89,7 @@ const COLUMNS: &[CompareColumn] = &[
 
 /// The samples, once there are some.
 fn sampled(judged: &Judgement) -> Option<&SampledShot> {
-    judged.sampled.drawn().filter(|sampled| !sampled.samples.is_empty())
+    judged.sampled.known().filter(|sampled| !sampled.samples.is_empty())
 }
 
 /// Bounds of the share of shots that fail.
@@ -102,7 +102,7 @@ fn samples(app: &App, option: usize, judged: &Judgement) -> String {
     let more = if app.options[option].is_sampling() { "…" } else { "" };
     match &judged.sampled {
         Evidence::NotAsked => String::new(),
-        sampled => format!("{}{more}", sampled.drawn().map_or(0, |sampled| sampled.samples.len())),
+        sampled => format!("{}{more}", sampled.known().map_or(0, |sampled| sampled.samples.len())),
     }
 }
 

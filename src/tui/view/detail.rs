@@ -83,7 +83,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         mark_cut(app, frame, text);
     }
     let history = charts::history(&app.case, &judged.as_planned.history, &app.case.shots[app.selected]);
-    let sampled = judged.sampled.drawn().filter(|sampled| !sampled.samples.is_empty());
+    let sampled = judged.sampled.known().filter(|sampled| !sampled.samples.is_empty());
     draw_charts(app, history, sampled, frame, rest);
 }
 
@@ -174,7 +174,7 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
         .splice(0..0, contradiction.into_iter().map(|told| Line::styled(format!("! {told}"), theme.limit())));
     let warnings = warnings::of_option(case, app.selected, judged);
     lines.extend(warnings.into_iter().map(|warning| Line::styled(format!("! {warning}"), theme.firing())));
-    let sampled = judged.sampled.drawn().filter(|sampled| !sampled.samples.is_empty());
+    let sampled = judged.sampled.known().filter(|sampled| !sampled.samples.is_empty());
     if open {
         let samples = sampled.map_or(0, |sampled| sampled.samples.len());
         lines.push(Line::styled(format!("? {samples} samples so far, more come"), theme.firing()));

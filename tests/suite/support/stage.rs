@@ -101,7 +101,7 @@ pub fn samples(case: &Case, count: usize, some_fail: bool) -> SampledShot {
 pub fn judgement(case: &Case, option: usize) -> Judgement {
     let verdict = if option.is_multiple_of(3) { Verdict::Fail } else { Verdict::Pass };
     let sampled = samples(case, 200, option.is_multiple_of(2));
-    Judgement { sampled: Evidence::Drawn(sampled), ..Judgement::of_planned_alone(checked(verdict)) }
+    Judgement { sampled: Evidence::Known(sampled), ..Judgement::of_planned_alone(checked(verdict)) }
 }
 
 /// A judged option.
@@ -117,7 +117,7 @@ pub fn finished() -> App {
         let sampled =
             if n == 4 { samples(&app.case, 500, false) } else { samples(&app.case, 200, n % 2 == 0) };
         let nominal = Judgement::of_planned_alone(checked(verdicts[n % 3]));
-        *row = done(Judgement { sampled: Evidence::Drawn(sampled), ..nominal }, false);
+        *row = done(Judgement { sampled: Evidence::Known(sampled), ..nominal }, false);
     }
     app
 }

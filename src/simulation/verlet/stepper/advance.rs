@@ -1,4 +1,4 @@
-//! Second pass of a step: kick and drift of the awake tires, and copies of the kept tires to their images.
+//! Second pass of a step: kick and move of the awake tires, and copies of the kept tires to their images.
 
 use pulp::Simd;
 
@@ -7,7 +7,7 @@ use super::{Jump, StepTotals, Stepper};
 use crate::outcome::Peak;
 use crate::simulation::pack::{LANES, Wide};
 
-use crate::simulation::verlet::reduction::Image;
+use crate::simulation::verlet::mirror_reduction::Image;
 
 /// Second pass; compiled for each instruction set and chosen at run time.
 /// `SLOPED`: the ground slopes.
@@ -23,7 +23,7 @@ impl<const SLOPED: bool> pulp::WithSimd for MoveTires<'_, '_, SLOPED> {
 }
 
 impl Stepper<'_> {
-    /// Kicks and drifts the awake tires, and adds their energies and greatest values to `totals`.
+    /// Kicks and moves the awake tires, and adds their energies and greatest values to `totals`.
     #[inline(always)]
     fn move_tires<S: Simd, const SLOPED: bool>(&mut self, simd: S, totals: &mut StepTotals) {
         let zero = Wide::splat(simd, 0.0);
@@ -134,7 +134,7 @@ impl Stepper<'_> {
 
     /// Copies the reflected displacements of kept tires to their images, and keeps tires on a mirror plane in the plane.
     ///
-    /// Images have no velocity, so that they do not drift.
+    /// Images have no velocity, so that they do not move on.
     pub(super) fn copy_images(&mut self) {
         let (u, v) = (self.u.slices_mut(), self.v.slices_mut());
         for &Image { written, read, sign } in &self.part.reduction.images {

@@ -33,20 +33,20 @@ impl Stepper<'_> {
         let (mut energy, mut force, mut dissipated) = (self.asleep, [0.0; LANES], [0.0; LANES]);
         let mut greatest = Wide::splat(simd, weakest * self.record.force.value);
         for &n in &wake.awake_blocks {
-            let stress = tension.evaluate::<S, DAMPED>(simd, &blocks[n], u, *step);
-            stored[n] = stress.energy;
+            let of_block = tension.evaluate::<S, DAMPED>(simd, &blocks[n], u, *step);
+            stored[n] = of_block.energy;
             if DAMPED {
-                (0..LANES).for_each(|j| dissipated[j] += stress.dissipated[j]);
+                (0..LANES).for_each(|j| dissipated[j] += of_block.dissipated[j]);
             }
             let mut is_greater = false;
             for lane in (0..LANES).step_by(Wide::<S>::LEN) {
-                Wide::load(simd, &stress.energy, lane).add_to(&mut energy, lane);
-                let here = Wide::load(simd, &stress.force, lane);
+                Wide::load(simd, &of_block.energy, lane).add_to(&mut energy, lane);
+                let here = Wide::load(simd, &of_block.force, lane);
                 here.max(Wide::load(simd, &force, lane)).store(&mut force, lane);
                 is_greater |= greatest.less(here).any();
             }
             if is_greater {
-                let over_strength = stress.force.into_iter().fold(0.0, f64::max) / strongest;
+                let over_strength = of_block.force.into_iter().fold(0.0, f64::max) / strongest;
                 greatest = Wide::splat(simd, weakest * over_strength.max(self.record.force.value));
                 peak_blocks.push(n);
             }

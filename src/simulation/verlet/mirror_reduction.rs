@@ -14,19 +14,20 @@ use crate::scene::{Firing, Mirror, Scene, Shot};
 
 /// Relation between the part of a scene that is modelled and the whole scene.
 #[derive(Debug)]
-pub struct Reduction {
+pub struct MirrorReduction {
     /// Copies to make after every step.
     pub images: Vec<Image>,
     /// Number of tires of the whole scene that each tire stands for; 0 for an image (`n_tires`).
     pub weight: Vec<f64>,
     /// Number of cables of the whole scene that each cable stands for (`n_cables`).
     pub cable_weight: Vec<f64>,
-    /// Indices in part and whole; `None` where the part is the whole.
-    map: Option<Map>,
+    /// How the part lies in the whole scene; `None` where the part is the whole.
+    to_whole: Option<PartToWhole>,
 }
 
+/// How a part lies in the whole scene.
 #[derive(Debug)]
-struct Map {
+struct PartToWhole {
     /// Axes that the planes reflect: 0 for x, 1 for y.
     axes: Vec<usize>,
     /// Index in the whole scene of each tire of the part (`n_tires`).
@@ -48,14 +49,14 @@ pub struct Image {
     pub sign: [f64; 3],
 }
 
-impl Reduction {
-    /// Reduction of `scene` by `planes`, and the part that is modelled: kept tires and images in the order of the whole scene,
+impl MirrorReduction {
+    /// MirrorReduction of `scene` by `planes`, and the part that is modelled: kept tires and images in the order of the whole scene,
     /// and the cables of kept tires.
     pub fn new<'s>(scene: &'s Scene, planes: &[&Mirror]) -> (Self, Cow<'s, Scene>) {
         let n = scene.mass.len();
         if planes.is_empty() {
             let (weight, cable_weight) = (vec![1.0; n], vec![1.0; scene.cables.len()]);
-            return (Self { images: Vec::new(), weight, cable_weight, map: None }, Cow::Borrowed(scene));
+            return (Self { images: Vec::new(), weight, cable_weight, to_whole: None }, Cow::Borrowed(scene));
         }
         // Kept tire of each tire, and the reflections that lead to that tire.
         let kept: Vec<(usize, [f64; 2])> = (0..n)
@@ -131,7 +132,7 @@ impl Reduction {
             weight: tire.iter().map(|&t| tire_weight(t)).collect(),
             cable_weight: cables.iter().map(cable_weight).collect(),
             images,
-            map: Some(Map {
+            to_whole: Some(PartToWhole {
                 axes: planes.iter().map(|plane| plane.axis).collect(),
                 kept: kept.iter().map(|&(source, sign)| (index[source], sign)).collect(),
                 tire,
@@ -143,7 +144,7 @@ impl Reduction {
 
     /// Firings of `shot` under kept tires, with indices in the part.
     pub fn firings(&self, shot: &Shot) -> Vec<Firing> {
-        let Some(map) = &self.map else { return shot.firings.clone() };
+        let Some(map) = &self.to_whole else { return shot.firings.clone() };
         let under_kept = |firing: &Firing| {
             let tire = map.kept[firing.tire].0;
             (map.tire[tire] == firing.tire).then_some(Firing { tire, ..*firing })
@@ -153,19 +154,19 @@ impl Reduction {
 
     /// Index in the whole scene of a tire of the part.
     pub fn tire(&self, tire: usize) -> usize {
-        self.map.as_ref().map_or(tire, |map| map.tire[tire])
+        self.to_whole.as_ref().map_or(tire, |map| map.tire[tire])
     }
 
     /// Index in the whole scene of a cable of the part.
     pub fn cable(&self, cable: usize) -> usize {
-        self.map.as_ref().map_or(cable, |map| map.cable[cable])
+        self.to_whole.as_ref().map_or(cable, |map| map.cable[cable])
     }
 
     /// Indices in the whole scene of some cables of the part and of all their images, one cable after the other.
     ///
     /// The search looks through the cables of the whole scene once.
     pub fn cables_with_images(&self, scene: &Scene, cables: &[usize]) -> Vec<usize> {
-        let Some(map) = &self.map else { return cables.to_vec() };
+        let Some(map) = &self.to_whole else { return cables.to_vec() };
         let key = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
         let images = |&cable: &usize| {
             let mut all = vec![scene.cables[map.cable[cable]].ends];
@@ -185,7 +186,7 @@ impl Reduction {
 
     /// Kept tire of a tire of the whole scene, as index in the part, and the factors of x and y.
     pub fn image_of(&self, tire: usize) -> (usize, [f64; 2]) {
-        self.map.as_ref().map_or((tire, [1.0; 2]), |map| map.kept[tire])
+        self.to_whole.as_ref().map_or((tire, [1.0; 2]), |map| map.kept[tire])
     }
 
     /// Number of tires that are integrated.
