@@ -7,7 +7,7 @@ use divan::counter::ItemsCount;
 use shelter::choice::Method;
 use shelter::plan::{DelayScatter, Plan, Uncertainty};
 use shelter::simulation::{Model, Motion, RunSettings};
-use shelter::study::Progress;
+use shelter::study::StudyControl;
 use shelter::study::as_planned::check;
 use shelter::study::samples::random_shot::{DrawnShot, draw_shot};
 use shelter::study::work::batch::run_batch;
@@ -96,7 +96,7 @@ fn scattered(bencher: Bencher, (rows, columns, samples): (usize, usize, usize)) 
     let drawn: Vec<_> = (0..samples).map(|number| draw_shot(&case, &case.shots[0], 1, number)).collect();
     let settings = RunSettings { method: Method::Verlet, step: 2e-3, duration: Some(1.5) };
     let run = || {
-        run_batch(&drawn, &Progress::default(), |DrawnShot { scene, shot, .. }| {
+        run_batch(&drawn, &StudyControl::default(), |DrawnShot { scene, shot, .. }| {
             let watch = &mut |_: &dyn Motion| ControlFlow::Continue(());
             case.model.run_variant(scene, shot, &settings, watch).map_err(NoResult::Failed)
         })
@@ -115,7 +115,7 @@ fn ten_options_checked(bencher: Bencher) {
     };
     let options: Vec<usize> = (0..case.shots.len()).collect();
     bencher.bench_local(|| {
-        run_batch(&options, &Progress::default(), |&option| {
+        run_batch(&options, &StudyControl::default(), |&option| {
             check::check_as_planned(&case, option, &compute, &mut |_| ControlFlow::Continue(()))
                 .map_err(NoResult::Failed)
         })

@@ -4,13 +4,13 @@ use std::error::Error;
 use std::path::Path;
 
 use shelter::units::{Unit, probabilities, value_and_error};
-use shelter::{Case, ComputeSettings, Progress, Sampling};
+use shelter::{Case, ComputeSettings, Sampling, StudyControl};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).unwrap_or_else(|| "plans/amur-three-rows.toml".to_owned());
     let case = Case::load(Path::new(&path))?;
     let compute = ComputeSettings::of(&case.plan);
-    let found = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &Progress::default())?;
+    let found = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &StudyControl::default())?;
     for (delay, judged) in case.plan.delays.iter().zip(found.value) {
         let judged = judged?;
         let force = &judged.as_planned.force;

@@ -3,7 +3,7 @@
 //! # From a plan to a verdict
 //!
 //! ```
-//! use shelter::{Case, ComputeSettings, Plan, Progress, Sampling, Verdict};
+//! use shelter::{Case, ComputeSettings, Plan, StudyControl, Sampling, Verdict};
 //!
 //! let text = r#"
 //! shelter = { layout = "grid", rows = 2, columns = 3, spacing_m = 1.5 }
@@ -20,7 +20,7 @@
 //! let checked = case.check_as_planned(0, &compute)?;
 //! assert!(checked.height.value + checked.height.error < 1.5);
 //! // The verdict of `shelter check`, which also samples what the plan does not know:
-//! let found = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &Progress::default())?;
+//! let found = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &StudyControl::default())?;
 //! assert_eq!(found.value[0].as_ref().map(|judged| judged.verdict()), Ok(Verdict::Pass));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -139,5 +139,5 @@ pub use study::as_planned::check::{CheckedShot, check_as_planned};
 pub use study::judge_options::judge_all;
 pub use study::judgement::Judgement;
 pub use study::samples::sample_count::Sampling;
-pub use study::{Case, ComputeSettings, Progress};
+pub use study::{Case, ComputeSettings, StudyControl};
 pub use verdict::Verdict;

@@ -11,7 +11,7 @@ use shelter::plan::Plan;
 use shelter::study::samples::draw_until_sure::{ShotToSample, draw_shard, sample_shots};
 use shelter::study::samples::sample::Sample;
 use shelter::study::samples::sample_count::Sampling;
-use shelter::study::{Case, ComputeSettings, Progress, Shard};
+use shelter::study::{Case, ComputeSettings, Shard, StudyControl};
 use shelter::verdict::Verdict;
 
 fn main() {
@@ -35,7 +35,7 @@ fn brute_force(case: &Case, option: usize, samples: usize, accuracy: Accuracy) -
     let compute = ComputeSettings { accuracy, ..ComputeSettings::of(&case.plan) };
     let sampling = Sampling::exactly(samples, SEED);
     let target = ShotToSample::new(case, &case.shots[option], compute, sampling);
-    let drawn = draw_shard(&[target], Shard::WHOLE, &Progress::default()).expect("samples");
+    let drawn = draw_shard(&[target], Shard::WHOLE, &StudyControl::default()).expect("samples");
     drawn.into_iter().filter_map(|(_, sample)| sample).collect()
 }
 
@@ -130,7 +130,7 @@ fn coverage(plans: usize, seeds: u64) {
             for seed in 1..=seeds {
                 let (shot, sampling) = (&case.shots[0], Sampling { seed, ..Sampling::OF_VERDICT });
                 let target = ShotToSample::new(case, shot, compute, sampling);
-                let found = sample_shots(&[target], &Progress::default());
+                let found = sample_shots(&[target], &StudyControl::default());
                 let risk = found.expect("samples").value.remove(0);
                 let [low, high] = risk.bounds.interval;
                 covered.push((low..=high).contains(truth));
@@ -159,7 +159,7 @@ fn shipped(samples: usize) {
     for file in std::fs::read_dir(folder).expect("the plans").flatten() {
         let case = Case::load(&file.path()).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let compute = ComputeSettings::of(&case.plan);
-        let results = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &Progress::default());
+        let results = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &StudyControl::default());
         let results = results.expect("a result").value;
         for (option, result) in results.into_iter().enumerate() {
             let judged = result.expect("a result");

@@ -9,7 +9,7 @@ use shelter::scene::Shot;
 use shelter::study::samples::draw_until_sure::{ShotToSample, sample_shots};
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::search::{Schedule, search};
-use shelter::study::{Case, ComputeSettings, Progress};
+use shelter::study::{Case, ComputeSettings, StudyControl};
 
 /// Samples of each schedule by brute force, with draws of their own.
 const BRUTE: Sampling = Sampling::exactly(2000, 77);
@@ -26,14 +26,14 @@ pub fn compare(plans: std::ops::Range<u64>) {
         let case = unsure(super::plans::case(n, Some(3), n % 2 == 0), ROOM[n as usize % ROOM.len()]);
         let compute = ComputeSettings::of(&case.plan);
         let begun = Instant::now();
-        let found = search(&case, Some(&Sampling::OF_VERDICT), &compute, &Progress::default());
+        let found = search(&case, Some(&Sampling::OF_VERDICT), &compute, &StudyControl::default());
         let (found, wall) = (found.expect("a result").value, begun.elapsed().as_secs_f64());
         let begun = Instant::now();
         let schedules = all();
         let share = |schedule: &Schedule| {
             let shot: Shot = schedule.shot(&case);
             let target = ShotToSample::new(&case, &shot, compute, BRUTE);
-            let risk = sample_shots(&[target], &Progress::default()).expect("a result").value.remove(0);
+            let risk = sample_shots(&[target], &StudyControl::default()).expect("a result").value.remove(0);
             risk.bounds.probability().unwrap_or(1.0)
         };
         let shares: Vec<f64> = schedules.par_iter().map(share).collect();

@@ -39,7 +39,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some((case, option)) = open_option(&arguments.plan, arguments.option.as_deref(), look) else {
         return Ok(Status::Wrong);
     };
-    let measured = run_study(&arguments.compute, |progress| measure(&case, option, PATIENCE, progress));
+    let measured = run_study(&arguments.compute, |control| measure(&case, option, PATIENCE, control));
     let Computed { value: study, partial } = match measured {
         Ok(finished) => finished,
         Err(reason) => return failed(&reason),

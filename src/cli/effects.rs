@@ -34,9 +34,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     };
     let sampling = arguments.study.verdict.exactly(SAMPLES);
     let compute = arguments.study.compute.settings(&case.plan);
-    match run_study(&arguments.study.compute, |progress| {
-        effects(&case, sampling.as_ref(), &compute, progress)
-    }) {
+    match run_study(&arguments.study.compute, |control| effects(&case, sampling.as_ref(), &compute, control))
+    {
         Err(reason) => failed(&reason),
         Ok(Computed { value: found, partial }) => {
             let document = || EffectsDocument::new(&case, &found, partial);

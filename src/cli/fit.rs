@@ -67,8 +67,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let compute = arguments.study.compute.settings(&case.plan);
     let sampling = arguments.study.verdict.sampling();
     let request = FitRequest { files: &files, unknowns, sampling };
-    let found = match run_study(&arguments.study.compute, |progress| fit(&case, &request, &compute, progress))
-    {
+    let found = match run_study(&arguments.study.compute, |control| fit(&case, &request, &compute, control)) {
         Err(reason) => return failed(&reason),
         Ok(Computed { value: found, .. }) => found,
     };

@@ -33,18 +33,18 @@ pub fn judge_plans(
     why: bool,
 ) -> ComputeResult<Vec<JudgedPlan>> {
     let cases: Vec<_> = cases.iter().map(|case| (case, compute.settings(&case.plan))).collect();
-    run_study(compute, |progress| {
+    run_study(compute, |control| {
         let Computed { value: results, mut partial } = match &sampling {
-            Some(sampling) => judge_all_with_margins(&cases, Some(sampling), progress, UNWATCHED)?,
+            Some(sampling) => judge_all_with_margins(&cases, Some(sampling), control, UNWATCHED)?,
             // The plan's own numbers alone: nothing varies, the launches neither.
-            None => judge_all(&cases, None, progress, UNWATCHED)?,
+            None => judge_all(&cases, None, control, UNWATCHED)?,
         };
         let mut checked = Vec::new();
         for (results, (case, compute)) in results.into_iter().zip(&cases) {
             let mut remedies = None;
             if why {
                 let options = not_passing(&results);
-                let found = find_all_remedies(case, &options, sampling.as_ref(), compute, progress)?;
+                let found = find_all_remedies(case, &options, sampling.as_ref(), compute, control)?;
                 partial |= found.partial;
                 remedies = Some(found.value);
             }

@@ -60,13 +60,13 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(message) => return wrong(&message),
     };
     if let Some(shard) = arguments.saved.shard {
-        return saved(run_saved_study(&arguments.study.compute, journal, |progress| {
-            let tried = try_orders(&case, &intervals_s, shard, &compute, progress)?;
+        return saved(run_saved_study(&arguments.study.compute, journal, |control| {
+            let tried = try_orders(&case, &intervals_s, shard, &compute, control)?;
             Ok(Computed { value: (), partial: tried.partial })
         }));
     }
-    let ranked = run_saved_study(&arguments.study.compute, journal, |progress| {
-        orders(&case, &intervals_s, sampling.as_ref(), &compute, progress)
+    let ranked = run_saved_study(&arguments.study.compute, journal, |control| {
+        orders(&case, &intervals_s, sampling.as_ref(), &compute, control)
     });
     match ranked {
         Err(reason) => failed(&reason),

@@ -22,7 +22,7 @@ use crate::study::fit::observation_bands::predict_observations;
 use crate::study::fit::observed_shots::ObservedShots;
 use crate::study::judge_options::MustPass;
 use crate::study::sweep::{INTERVALS, sweep};
-use crate::study::{Computed, NoResult, Progress};
+use crate::study::{Computed, NoResult, StudyControl};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -91,8 +91,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     };
     let compute = arguments.compute.settings(&cases[0].plan);
     let swept = (arguments.sweep && !was_interrupted()).then(|| {
-        run_study(&arguments.compute, |progress| {
-            sweep(&cases[0], &order, &INTERVALS, sampling.as_ref(), &compute, progress)
+        run_study(&arguments.compute, |control| {
+            sweep(&cases[0], &order, &INTERVALS, sampling.as_ref(), &compute, control)
         })
     });
     let swept = match swept.transpose() {
@@ -100,8 +100,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(reason) => return failed(&reason),
     };
     let seen = ObservedShots::new(&files);
-    let predict = |progress: &Progress| {
-        let value = predict_observations(&cases[0], &seen, sampling.as_ref(), &compute, progress)?;
+    let predict = |control: &StudyControl| {
+        let value = predict_observations(&cases[0], &seen, sampling.as_ref(), &compute, control)?;
         Ok(Computed { value, partial: false })
     };
     let is_asked = !files.is_empty() && !was_interrupted();

@@ -52,7 +52,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if let Some(shard) = arguments.saved.shard {
         return draw(arguments, &case, &sampling, shard, journal);
     }
-    let judge = |progress: &_| case.judge_options(&compute, Some(&sampling), progress);
+    let judge = |control: &_| case.judge_options(&compute, Some(&sampling), control);
     match run_saved_study(&arguments.compute, journal, judge) {
         Err(reason) => failed(&reason),
         Ok(Computed { value: results, partial }) => {
@@ -72,8 +72,8 @@ fn draw(
     let compute = arguments.compute.settings(&case.plan);
     let target = |shot| ShotToSample::new(case, shot, compute, *sampling);
     let targets: Vec<_> = case.shots.iter().map(target).collect();
-    let drawn = run_saved_study(&arguments.compute, journal, |progress| {
-        let drawn = draw_shard(&targets, shard, progress)?;
+    let drawn = run_saved_study(&arguments.compute, journal, |control| {
+        let drawn = draw_shard(&targets, shard, control)?;
         Ok(Computed { value: (), partial: drawn.iter().any(|(_, sample)| sample.is_none()) })
     });
     saved(drawn)

@@ -11,7 +11,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::arguments::Compute;
 use super::deadline;
 use super::status::{note_interrupt, note_unsaved};
-use crate::study::{ComputeResult, Computed, Journal, NoResult, Progress, thread_pool};
+use crate::study::{ComputeResult, Computed, Journal, NoResult, StudyControl, thread_pool};
 use crate::units::rough_duration;
 
 /// Time between two looks at progress and signals.
@@ -28,7 +28,7 @@ const WATCHED: Duration = Duration::from_secs(1);
 /// Runs `work`. Progress and the estimate of its duration show only where standard error is a terminal.
 pub fn run_study<T: Send>(
     compute: &Compute,
-    work: impl FnOnce(&Progress) -> ComputeResult<T> + Send,
+    work: impl FnOnce(&StudyControl) -> ComputeResult<T> + Send,
 ) -> ComputeResult<T> {
     run_saved_study(compute, Journal::default(), work)
 }
@@ -37,10 +37,10 @@ pub fn run_study<T: Send>(
 pub fn run_saved_study<T: Send>(
     compute: &Compute,
     journal: Journal,
-    work: impl FnOnce(&Progress) -> ComputeResult<T> + Send,
+    work: impl FnOnce(&StudyControl) -> ComputeResult<T> + Send,
 ) -> ComputeResult<T> {
     deadline::note_loaded();
-    let (progress, signal) = (Progress::with_journal(journal), Arc::new(AtomicBool::new(false)));
+    let (control, signal) = (StudyControl::with_journal(journal), Arc::new(AtomicBool::new(false)));
     // Once it is set, a signal ends the program by itself: a second interrupt, and whatever follows the study.
     let may_end = Arc::new(AtomicBool::new(false));
     watch_signals(&signal, &may_end);
@@ -53,28 +53,28 @@ pub fn run_saved_study<T: Send>(
         let study = scope.spawn(|| {
             // Gone with this thread, whether it returns or panics.
             let _ended = ended;
-            on_threads(compute, || work(&progress))?
+            on_threads(compute, || work(&control))?
         });
         while end.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
-            let (done, total) = progress.counts();
+            let (done, total) = control.counts();
             bar.set_length(total as u64);
             bar.set_position(done as u64);
             if signal.swap(false, Ordering::Relaxed) {
-                progress.expire();
+                control.expire();
                 may_end.store(true, Ordering::Relaxed);
                 interrupted = true;
             }
             if let Some(timeout) = compute.timeout {
                 let late = deadline::elapsed().as_secs_f64() - timeout;
                 if late > 0.0 {
-                    progress.expire();
+                    control.expire();
                 }
                 // What is built between two runs does not look at the time.
                 if late > LATE + LATE_SHARE * timeout {
                     deadline::end("the time was up before there was a result");
                 }
             }
-            let Some(left) = time_left(&progress, begun.elapsed()) else { continue };
+            let Some(left) = time_left(&control, begun.elapsed()) else { continue };
             bar.set_message(format!("about {} left", rough_duration(left.as_secs_f64())));
             if !told && begun.elapsed() + left > LONG {
                 told = true;
@@ -90,9 +90,9 @@ pub fn run_saved_study<T: Send>(
     });
     bar.finish_and_clear();
     may_end.store(true, Ordering::Relaxed);
-    let (done, total) = progress.counts();
+    let (done, total) = control.counts();
     let found = result.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-    close(progress.into_journal(), found.as_ref().is_ok_and(|found| !found.partial));
+    close(control.into_journal(), found.as_ref().is_ok_and(|found| !found.partial));
     if interrupted {
         note_interrupt();
     }
@@ -131,9 +131,9 @@ fn watch_signals(signal: &Arc<AtomicBool>, may_end: &Arc<AtomicBool>) {
 }
 
 /// The time that a study takes from now on, from the pace of what it computed itself; `None` while too little is known.
-fn time_left(progress: &Progress, elapsed: Duration) -> Option<Duration> {
-    let (done, total) = progress.counts();
-    let computed = done.saturating_sub(progress.journal().recalled());
+fn time_left(control: &StudyControl, elapsed: Duration) -> Option<Duration> {
+    let (done, total) = control.counts();
+    let computed = done.saturating_sub(control.journal().recalled());
     (computed > 0 && elapsed > WATCHED)
         .then(|| elapsed.mul_f64(total.saturating_sub(done) as f64 / computed as f64))
 }

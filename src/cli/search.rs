@@ -42,8 +42,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(message) => return wrong(&message),
     };
     if let Some(shard) = arguments.saved.shard {
-        let tried = run_saved_study(&arguments.study.compute, journal, |progress| {
-            try_schedules(&case, sampling.as_ref(), &compute, shard, progress)
+        let tried = run_saved_study(&arguments.study.compute, journal, |control| {
+            try_schedules(&case, sampling.as_ref(), &compute, shard, control)
         });
         return match tried {
             Ok(Computed { value: false, .. }) => wrong(&format!(
@@ -52,8 +52,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
             tried => saved(tried.map(|Computed { partial, .. }| Computed { value: (), partial })),
         };
     }
-    let searched = run_saved_study(&arguments.study.compute, journal, |progress| {
-        search(&case, sampling.as_ref(), &compute, progress)
+    let searched = run_saved_study(&arguments.study.compute, journal, |control| {
+        search(&case, sampling.as_ref(), &compute, control)
     });
     match searched {
         Err(reason) => failed(&reason),

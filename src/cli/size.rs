@@ -69,8 +69,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Ok(journal) => journal,
         Err(message) => return wrong(&message),
     };
-    let sized = run_saved_study(&arguments.study.compute, journal, |progress| {
-        size(&plan, &demand, sampling.as_ref(), &compute, progress)
+    let sized = run_saved_study(&arguments.study.compute, journal, |control| {
+        size(&plan, &demand, sampling.as_ref(), &compute, control)
     });
     let sizing = match sized {
         Ok(finished) => finished.value,

@@ -66,8 +66,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Ok(journal) => journal,
         Err(message) => return wrong(&message),
     };
-    let swept = run_saved_study(&arguments.study.compute, journal, |progress| {
-        sweep(&case, &order, &arguments.interval, sampling.as_ref(), &compute, progress)
+    let swept = run_saved_study(&arguments.study.compute, journal, |control| {
+        sweep(&case, &order, &arguments.interval, sampling.as_ref(), &compute, control)
     });
     match swept {
         Err(reason) => failed(&reason),

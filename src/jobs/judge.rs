@@ -52,7 +52,7 @@ impl Job {
             }
         };
         let judged = catch_panic(|| {
-            judge_all_with_margins(&cases, Some(&Sampling::OF_VERDICT), &self.progress, &watch)
+            judge_all_with_margins(&cases, Some(&Sampling::OF_VERDICT), &self.control, &watch)
         });
         if let Err(none) = judged {
             self.tell_no_result(&none);

@@ -17,7 +17,7 @@ use crate::plan::observations::Observations;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::samples::sampled_shot::SampledShot;
-use crate::study::{Case, ComputeSettings, NoResult, Progress, catch_panic, thread_pool};
+use crate::study::{Case, ComputeSettings, NoResult, StudyControl, catch_panic, thread_pool};
 
 /// News of a job.
 #[derive(Debug)]
@@ -77,12 +77,12 @@ pub enum News {
 /// The jobs under way.
 pub struct Jobs {
     threads: usize,
-    judging: Option<Arc<Progress>>,
-    studies: [Option<Arc<Progress>>; StudyKind::ALL.len()],
+    judging: Option<Arc<StudyControl>>,
+    studies: [Option<Arc<StudyControl>>; StudyKind::ALL.len()],
     /// Shots judged and expected of each study, as told last.
     told: [(usize, usize); StudyKind::ALL.len()],
-    sender: Sender<(Arc<Progress>, News)>,
-    receiver: Receiver<(Arc<Progress>, News)>,
+    sender: Sender<(Arc<StudyControl>, News)>,
+    receiver: Receiver<(Arc<StudyControl>, News)>,
 }
 
 /// What the work of one job needs.
@@ -91,8 +91,8 @@ struct Job {
     compute: ComputeSettings,
     /// What was seen of earlier shots, for [`StudyKind::Fit`].
     observed: Vec<Observations>,
-    progress: Arc<Progress>,
-    sender: Sender<(Arc<Progress>, News)>,
+    control: Arc<StudyControl>,
+    sender: Sender<(Arc<StudyControl>, News)>,
 }
 
 impl Jobs {
@@ -109,7 +109,7 @@ impl Jobs {
     /// itself.
     pub fn judge(&mut self, case: &Arc<Case>, compute: ComputeSettings) {
         let job = self.job(case, compute);
-        stop(self.judging.replace(Arc::clone(&job.progress)));
+        stop(self.judging.replace(Arc::clone(&job.control)));
         match thread_pool(self.threads) {
             Ok(pool) => pool.spawn(move || job.judge_all()),
             Err(none) => job.tell_no_result(&none),
@@ -128,7 +128,7 @@ impl Jobs {
 
     fn begin(&mut self, kind: StudyKind, option: usize, job: Job) {
         let compute = job.compute;
-        stop(self.studies[kind as usize].replace(Arc::clone(&job.progress)));
+        stop(self.studies[kind as usize].replace(Arc::clone(&job.control)));
         self.told[kind as usize] = (0, 0);
         let tell = move |job: &Job, result| job.send(News::Studied { kind, compute, result });
         match thread_pool(self.threads) {
@@ -152,8 +152,8 @@ impl Jobs {
             news.push(told);
         }
         for kind in StudyKind::ALL {
-            let Some(progress) = &self.studies[kind as usize] else { continue };
-            let (done, total) = progress.counts();
+            let Some(control) = &self.studies[kind as usize] else { continue };
+            let (done, total) = control.counts();
             if std::mem::replace(&mut self.told[kind as usize], (done, total)) != (done, total) {
                 news.push(News::Studying { kind, done, total });
             }
@@ -163,7 +163,7 @@ impl Jobs {
 
     fn job(&self, case: &Arc<Case>, compute: ComputeSettings) -> Job {
         let (case, sender) = (Arc::clone(case), self.sender.clone());
-        Job { case, compute, observed: Vec::new(), progress: Arc::default(), sender }
+        Job { case, compute, observed: Vec::new(), control: Arc::default(), sender }
     }
 }
 
@@ -174,14 +174,14 @@ impl Drop for Jobs {
     }
 }
 
-fn stop(job: Option<Arc<Progress>>) {
-    job.iter().for_each(|progress| progress.stop());
+fn stop(job: Option<Arc<StudyControl>>) {
+    job.iter().for_each(|control| control.stop());
 }
 
 impl Job {
     fn send(&self, news: News) {
         // No receiver: the program quits, and nobody waits for the news.
-        let _ = self.sender.send((Arc::clone(&self.progress), news));
+        let _ = self.sender.send((Arc::clone(&self.control), news));
     }
 }
 

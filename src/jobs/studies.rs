@@ -103,54 +103,54 @@ const LONGEST_RUN: Duration = Duration::from_secs(1);
 
 impl Job {
     pub(super) fn study(&self, kind: StudyKind, option: usize) -> Result<StudyResult, NoResult> {
-        let Self { case, compute, progress, .. } = self;
+        let Self { case, compute, control, .. } = self;
         // Where the options differ in how the holes of a row fire, the selected one is meant.
         let with_holes = || case.with_hole_timing_or_of(option);
         match kind {
             StudyKind::Sweep => {
                 let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
                 Ok(StudyResult::Sweep(
-                    sweep(&with_holes(), &order, &INTERVALS, Some(&Sampling::OF_VERDICT), compute, progress)?
+                    sweep(&with_holes(), &order, &INTERVALS, Some(&Sampling::OF_VERDICT), compute, control)?
                         .value,
                 ))
             }
             StudyKind::Orders => {
                 let sampling = Some(&Sampling::OF_VERDICT);
                 let case = with_holes();
-                Ok(StudyResult::Orders(orders(&case, &case.intervals(), sampling, compute, progress)?.value))
+                Ok(StudyResult::Orders(orders(&case, &case.intervals(), sampling, compute, control)?.value))
             }
             StudyKind::Risk => {
-                let results = case.judge_options(compute, Some(&SAMPLING), progress)?.value;
+                let results = case.judge_options(compute, Some(&SAMPLING), control)?.value;
                 Ok(StudyResult::Risk(SAMPLING, results))
             }
             StudyKind::Search => {
                 let sampling = Some(&Sampling::OF_VERDICT);
-                let found = search(case, sampling, compute, progress)?.value;
+                let found = search(case, sampling, compute, control)?.value;
                 Ok(StudyResult::Search(Box::new(found)))
             }
             StudyKind::Size => {
                 let demand = Demand::Options((0..case.shots.len()).collect());
                 Ok(StudyResult::Size(
-                    size(&case.plan, &demand, Some(&Sampling::OF_VERDICT), compute, progress)?.value,
+                    size(&case.plan, &demand, Some(&Sampling::OF_VERDICT), compute, control)?.value,
                 ))
             }
             StudyKind::Effects => {
-                Ok(StudyResult::Effects(effects(case, Some(&EFFECTS), compute, progress)?.value))
+                Ok(StudyResult::Effects(effects(case, Some(&EFFECTS), compute, control)?.value))
             }
             StudyKind::Fit => {
                 let unknowns = &[Unknown::Launch];
                 let request =
                     FitRequest { files: &self.observed, unknowns, sampling: Some(Sampling::OF_VERDICT) };
-                let found = fit(case, &request, compute, progress)?.value;
+                let found = fit(case, &request, compute, control)?.value;
                 Ok(StudyResult::Fit(Box::new(found), self.observed.clone()))
             }
-            StudyKind::Flight => record(case, option, compute, progress).map(StudyResult::Flight),
+            StudyKind::Flight => record(case, option, compute, control).map(StudyResult::Flight),
             StudyKind::Accuracy => {
-                Ok(StudyResult::Accuracy(accuracy::measure(case, option, LONGEST_RUN, progress)?.value))
+                Ok(StudyResult::Accuracy(accuracy::measure(case, option, LONGEST_RUN, control)?.value))
             }
             StudyKind::Remedies => {
                 let sampling = Some(&Sampling::OF_VERDICT);
-                let found = find_remedies(case, option, sampling, compute, progress)?;
+                let found = find_remedies(case, option, sampling, compute, control)?;
                 Ok(StudyResult::Remedies(found.value))
             }
         }

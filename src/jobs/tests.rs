@@ -85,12 +85,12 @@ fn a_new_request_ends_sampling() {
     // Hundreds of samples of each option at this step would take minutes.
     jobs.judge(&case, ComputeSettings { step: Some(5e-5), ..coarse(&case) });
     checked(&mut jobs, case.shots.len());
-    let progress = jobs.judging.clone().expect("under way");
+    let control = jobs.judging.clone().expect("under way");
     jobs.judge(&case, coarse(&case));
     let begun = Instant::now();
     wait(|| {
         jobs.news();
-        (Arc::strong_count(&progress) == 1).then_some(())
+        (Arc::strong_count(&control) == 1).then_some(())
     });
     assert!(begun.elapsed() < Duration::from_secs(5), "{:?}", begun.elapsed());
 }
@@ -125,12 +125,12 @@ fn a_cancelled_study_ends_within_a_step_and_has_no_news() {
     let (case, mut jobs) = (case(), Jobs::new(1));
     jobs.study(STUDY, &case, 0, endless(&case));
     wait(|| jobs.news().into_iter().find(|news| matches!(news, News::Studying { done: 0, total: 1.., .. })));
-    let progress = jobs.studies[STUDY as usize].clone().expect("under way");
+    let control = jobs.studies[STUDY as usize].clone().expect("under way");
     jobs.cancel(STUDY);
     // The work and its news hold the progress; once both are gone, the test alone does.
     wait(|| {
         assert!(jobs.news().is_empty());
-        (Arc::strong_count(&progress) == 1).then_some(())
+        (Arc::strong_count(&control) == 1).then_some(())
     });
 }
 
@@ -157,5 +157,5 @@ fn dropping_the_jobs_ends_each_of_them() {
     let all: Vec<_> = jobs.studies.iter().chain([&jobs.judging]).flatten().cloned().collect();
     assert_eq!(all.len(), 1 + StudyKind::ALL.len());
     drop(jobs);
-    wait(|| all.iter().all(|progress| Arc::strong_count(progress) == 1).then_some(()));
+    wait(|| all.iter().all(|control| Arc::strong_count(control) == 1).then_some(()));
 }

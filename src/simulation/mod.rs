@@ -11,7 +11,7 @@
 //! |---|---|
 //! | the two methods, each a stepper | `verlet`, `newmark` |
 //! | a tire on the ground: support, friction, landing, push | `contact` |
-//! | forces of cables, in the order of memory | `cable` |
+//! | cables in the order of memory | `cable_blocks` |
 //! | which tires and cables need work in a step | `wake` |
 //! | when holes fire, when the run ends | `clock` |
 //! | peaks, broken cables, energy, history | `record` |

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Case, ComputeSettings, NoResult, Progress};
+use super::{Case, ComputeSettings, NoResult, StudyControl};
 use crate::outcome::Outcome;
 use crate::scene::{Cable, Scene};
 use crate::simulation::Motion;
@@ -37,7 +37,7 @@ pub fn record(
     case: &Case,
     option: usize,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<Flight, NoResult> {
     let settings = case.run_settings(compute.method, compute.first_step(case));
     let tires = case.scene().mass.len();
@@ -60,9 +60,9 @@ pub fn record(
             times.push(now);
             displacements.extend_from_slice(&latest);
         }
-        progress.flow()
+        control.flow()
     });
-    let outcome = outcome.map_err(|failure| progress.no_result(failure))?;
+    let outcome = outcome.map_err(|failure| control.no_result(failure))?;
     if times.last().is_some_and(|&last| last < now) {
         times.push(now);
         displacements.extend_from_slice(&latest);

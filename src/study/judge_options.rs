@@ -10,7 +10,9 @@ use super::samples::draw_until_sure::{ShotToSample, sample_shots_watched};
 use super::samples::sample_count::Sampling;
 use super::samples::sampled_shot::SampledShot;
 use super::work::batch::run_batch;
-use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress, ShotSummary, catch_panic};
+use super::{
+    Case, ComputeResult, ComputeSettings, Computed, NoResult, ShotSummary, StudyControl, catch_panic,
+};
 use crate::verdict::Verdict;
 
 /// Results of the options of one plan, in their order (`n_options`).
@@ -55,9 +57,9 @@ impl Case {
         &self,
         compute: &ComputeSettings,
         sampling: Option<&Sampling>,
-        progress: &Progress,
+        control: &StudyControl,
     ) -> ComputeResult<OptionResults> {
-        let Computed { mut value, partial } = judge_all(&[(self, *compute)], sampling, progress, UNWATCHED)?;
+        let Computed { mut value, partial } = judge_all(&[(self, *compute)], sampling, control, UNWATCHED)?;
         Ok(Computed { value: value.remove(0), partial })
     }
 }
@@ -67,13 +69,13 @@ impl Case {
 pub fn judge_all(
     cases: &[(&Case, ComputeSettings)],
     sampling: Option<&Sampling>,
-    progress: &Progress,
+    control: &StudyControl,
     watch: Watch<'_>,
 ) -> ComputeResult<Vec<OptionResults>> {
     let of_case = |case: usize| (0..cases[case].0.shots.len()).map(move |option| CaseOption { case, option });
     let options: Vec<CaseOption> = (0..cases.len()).flat_map(of_case).collect();
-    let checked = run_batch(&options, progress, |&at| {
-        let as_planned = catch_panic(|| check_one_as_planned(cases, at, progress, watch));
+    let checked = run_batch(&options, control, |&at| {
+        let as_planned = catch_panic(|| check_one_as_planned(cases, at, control, watch));
         watch(at, JudgeEvent::AsPlanned(&as_planned));
         match as_planned {
             Err(ended @ (NoResult::Stopped | NoResult::OutOfTime)) => Err(ended),
@@ -88,7 +90,7 @@ pub fn judge_all(
         results[at.case].push(as_planned.map(Judgement::of_planned_alone));
     }
     if let Some(sampling) = sampling {
-        partial |= add_risks(cases, &mut results, sampling, progress, watch)?.partial;
+        partial |= add_risks(cases, &mut results, sampling, control, watch)?.partial;
     }
     Ok(Computed { value: results, partial })
 }
@@ -97,18 +99,18 @@ pub fn judge_all(
 pub fn judge_all_with_margins(
     cases: &[(&Case, ComputeSettings)],
     sampling: Option<&Sampling>,
-    progress: &Progress,
+    control: &StudyControl,
     watch: Watch<'_>,
 ) -> ComputeResult<Vec<OptionResults>> {
-    let Computed { value: mut results, partial } = judge_all(cases, sampling, progress, watch)?;
-    let margins = find_launch_margins(cases, &mut results, progress, watch)?;
+    let Computed { value: mut results, partial } = judge_all(cases, sampling, control, watch)?;
+    let margins = find_launch_margins(cases, &mut results, control, watch)?;
     Ok(Computed { value: results, partial: partial || margins.partial })
 }
 
 fn check_one_as_planned(
     cases: &[(&Case, ComputeSettings)],
     at: CaseOption,
-    progress: &Progress,
+    control: &StudyControl,
     watch: Watch<'_>,
 ) -> Result<CheckedShot, NoResult> {
     let (case, compute) = &cases[at.case];
@@ -118,9 +120,9 @@ fn check_one_as_planned(
         if steps.is_multiple_of(STEPS_PER_EVENT) {
             watch(at, JudgeEvent::Running(step));
         }
-        progress.flow()
+        control.flow()
     });
-    checked.map_err(|failure| progress.no_result(failure))
+    checked.map_err(|failure| control.no_result(failure))
 }
 
 /// The options that are checked as planned.
@@ -137,7 +139,7 @@ fn add_risks(
     cases: &[(&Case, ComputeSettings)],
     results: &mut [OptionResults],
     sampling: &Sampling,
-    progress: &Progress,
+    control: &StudyControl,
     watch: Watch<'_>,
 ) -> ComputeResult<()> {
     let mut judged = checked_options(results);
@@ -151,7 +153,7 @@ fn add_risks(
         ControlFlow::Continue(())
     };
     let Computed { value: sampled_shots, partial } =
-        sample_shots_watched(&targets, progress, &mut watch_round)?;
+        sample_shots_watched(&targets, control, &mut watch_round)?;
     for ((at, judgement), sampled) in judged.iter_mut().zip(sampled_shots) {
         watch(*at, JudgeEvent::SampledFully(&sampled));
         judgement.sampled = Evidence::Known(sampled);
@@ -176,14 +178,14 @@ fn shot_to_sample<'c>(
 pub fn find_launch_margins(
     cases: &[(&Case, ComputeSettings)],
     results: &mut [OptionResults],
-    progress: &Progress,
+    control: &StudyControl,
     watch: Watch<'_>,
 ) -> ComputeResult<()> {
     let judged = checked_options(results);
     let jobs: Vec<_> = judged.iter().map(|(at, judgement)| (*at, judgement.as_planned.verdict)).collect();
-    let margins = run_batch(&jobs, progress, |&(at, as_planned)| {
+    let margins = run_batch(&jobs, control, |&(at, as_planned)| {
         let (case, compute) = &cases[at.case];
-        match catch_panic(|| launch_margin(case, &case.shots[at.option], as_planned, compute, progress)) {
+        match catch_panic(|| launch_margin(case, &case.shots[at.option], as_planned, compute, control)) {
             // The verdicts stand without it.
             Err(NoResult::Panicked(_)) => Ok(None),
             margin => margin.map(Some).inspect(|margin| {

@@ -7,7 +7,7 @@ use super::orders::{Orders, orders};
 use super::results_file::{self, Contents, Question};
 use super::samples::sample_count::Sampling;
 use super::search::{Search, search};
-use super::{Case, Journal, NoResult, Progress};
+use super::{Case, Journal, NoResult, StudyControl};
 use crate::plan::PlanSource;
 
 /// A study whose shards are joined.
@@ -48,20 +48,20 @@ impl From<NoResult> for MergeFailure {
 /// Joins shards, given as `(name, text)`, and completes their study.
 pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
     let Contents { head, known, .. } = join(shards).map_err(MergeFailure::Shards)?;
-    let progress = &Progress::with_journal(Journal::of_known(known));
+    let control = &StudyControl::with_journal(Journal::of_known(known));
     let source = PlanSource { path: head.plan, text: head.text };
     let mut case = Case::parse(source).map_err(|mistakes| MergeFailure::Shards(mistakes.first()))?;
     let compute = &head.compute;
     let answer = match head.question {
         Question::Orders { intervals_s, option, sampling } => {
             case.set_hole_timing_of(option.as_deref());
-            MergedResult::Orders(orders(&case, &intervals_s, sampling.as_ref(), compute, progress)?.value)
+            MergedResult::Orders(orders(&case, &intervals_s, sampling.as_ref(), compute, control)?.value)
         }
         Question::Risk { sampling } => {
-            MergedResult::Risk(sampling, case.judge_options(compute, Some(&sampling), progress)?.value)
+            MergedResult::Risk(sampling, case.judge_options(compute, Some(&sampling), control)?.value)
         }
         Question::Search { sampling } => {
-            MergedResult::Search(Box::new(search(&case, sampling.as_ref(), compute, progress)?.value))
+            MergedResult::Search(Box::new(search(&case, sampling.as_ref(), compute, control)?.value))
         }
         Question::Sweep { .. } | Question::Size { .. } => {
             let message =

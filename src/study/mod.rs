@@ -43,6 +43,6 @@ pub use as_planned::shot_summary::{ShotSummary, ValueWithError};
 pub use case::Case;
 pub use compute::ComputeSettings;
 pub use work::{
-    ComputeResult, Computed, Fingerprint, Intervals, Journal, NoResult, Progress, Shard, catch_panic,
+    ComputeResult, Computed, Fingerprint, Intervals, Journal, NoResult, Shard, StudyControl, catch_panic,
     thread_pool,
 };

@@ -11,7 +11,7 @@ use shelter::study::as_planned::check::check_as_planned;
 use shelter::study::effects::{Effect, FIRST_SAMPLES, REQUIRED, SAMPLES, effects};
 use shelter::study::samples::draw_until_sure::{ShotToSample, draw_shard};
 use shelter::study::samples::sample_count::Sampling;
-use shelter::study::{Case, ComputeSettings, Progress, Shard};
+use shelter::study::{Case, ComputeSettings, Shard, StudyControl};
 use shelter::verdict::{Quantity, Verdict};
 
 use super::support::scenes::{
@@ -495,7 +495,7 @@ const FEW: Sampling = Sampling::exactly(SAMPLES, Sampling::OF_VERDICT.seed);
 fn median(case: &Case, compute: ComputeSettings, quantity: Quantity, samples: usize) -> f64 {
     let sampling = Sampling::exactly(samples, FEW.seed);
     let target = ShotToSample::new(case, &case.shots[0], compute, sampling);
-    let drawn = draw_shard(&[target], Shard::WHOLE, &Progress::default()).expect("samples");
+    let drawn = draw_shard(&[target], Shard::WHOLE, &StudyControl::default()).expect("samples");
     let mut values: Vec<f64> =
         drawn.into_iter().map(|(_, sample)| sample.expect("time for all").run.get(quantity)).collect();
     values.sort_by(f64::total_cmp);
@@ -507,7 +507,8 @@ fn median(case: &Case, compute: ComputeSettings, quantity: Quantity, samples: us
 fn what_failed_runs_leave_open_is_required() {
     let case = three_rows("", "", "", "");
     let compute = ComputeSettings { step: Some(1.0), ..ComputeSettings::of(&case.plan) };
-    let found = effects(&case, Some(&FEW), &compute, &Progress::default()).expect("a result").value.remove(0);
+    let found =
+        effects(&case, Some(&FEW), &compute, &StudyControl::default()).expect("a result").value.remove(0);
     let found = found.expect("time for all");
     assert!(found.iter().all(|of| of.is_required() && of.is_missed_on_the_unsafe_side), "{found:?}");
 }
@@ -518,7 +519,8 @@ fn what_failed_runs_leave_open_is_required() {
 fn effects_compare_plans_with_and_without_them() {
     let case = three_rows("", "", "", "");
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
-    let found = effects(&case, Some(&FEW), &compute, &Progress::default()).expect("a result").value.remove(0);
+    let found =
+        effects(&case, Some(&FEW), &compute, &StudyControl::default()).expect("a result").value.remove(0);
     let found = found.expect("time for all");
     let of = |effect: Effect| *found.iter().find(|of| of.effect == effect).expect("tried");
     assert!(!found.iter().any(|of| of.effect == Effect::Ballast), "the plan has none, and none is probed");
@@ -553,7 +555,8 @@ fn effects_compare_plans_with_and_without_them() {
 fn effects_without_doubt_need_few_samples() {
     let case = three_rows("", "", "", "");
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
-    let found = effects(&case, Some(&FEW), &compute, &Progress::default()).expect("a result").value.remove(0);
+    let found =
+        effects(&case, Some(&FEW), &compute, &StudyControl::default()).expect("a result").value.remove(0);
     let found = found.expect("time for all");
     let with = [
         (Effect::Push, three_rows("", "", "", "push_ms = 20")),
@@ -595,7 +598,8 @@ fn cables_that_break_fail_with_an_effect_and_without() {
     let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
     let compute = ComputeSettings::of(&case.plan);
     assert_eq!(case.check_as_planned(0, &compute).expect("a result").verdict, Verdict::Fail);
-    let found = effects(&case, Some(&FEW), &compute, &Progress::default()).expect("a result").value.remove(0);
+    let found =
+        effects(&case, Some(&FEW), &compute, &StudyControl::default()).expect("a result").value.remove(0);
     let found = found.expect("time for all");
     let slope = found.iter().find(|of| of.effect == Effect::Slope).expect("tried");
     assert_eq!((slope.verdict_without, slope.verdict_with), (Verdict::Fail, Verdict::Fail));
@@ -606,7 +610,7 @@ fn cables_that_break_fail_with_an_effect_and_without() {
 fn effects_of_the_shot_as_planned_alone() {
     let case = three_rows("", "", "", "");
     let compute = ComputeSettings::of(&case.plan);
-    let found = effects(&case, None, &compute, &Progress::default()).expect("a result").value.remove(0);
+    let found = effects(&case, None, &compute, &StudyControl::default()).expect("a result").value.remove(0);
     let found = found.expect("time for all");
     let push = found.iter().find(|of| of.effect == Effect::Push).expect("tried");
     let pushed = three_rows("", "", "", "push_ms = 20");
@@ -636,7 +640,7 @@ fn drift_counts_where_it_has_a_limit() {
     let required = |case: Case| {
         let compute = ComputeSettings::of(&case.plan);
         let found =
-            effects(&case, Some(&FEW), &compute, &Progress::default()).expect("a result").value.remove(0);
+            effects(&case, Some(&FEW), &compute, &StudyControl::default()).expect("a result").value.remove(0);
         let found = found.expect("time for all");
         let slope = *found.iter().find(|of| of.effect == Effect::Slope).expect("tried");
         (slope.is_required(), slope.is_missed_on_the_unsafe_side)

@@ -11,7 +11,7 @@ use shelter::report::observed::{contradiction, observed_rows};
 use shelter::study::fit::observation_bands::{Prediction, next_observation, predict_observations};
 use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::{Answer, Fit, FitRequest, FitResult, NotDetermined, fit, observable_names};
-use shelter::study::{Case, ComputeSettings, Progress};
+use shelter::study::{Case, ComputeSettings, StudyControl};
 
 use crate::support::{json, shelter, shipped, small_plan, text};
 
@@ -28,7 +28,7 @@ fn observations(case: &Case, lines: &str) -> Observations {
 fn found(case: &Case, lines: &str, unknowns: &[Unknown], sampling: Option<Sampling>) -> FitResult {
     let files = [observations(case, lines)];
     let request = FitRequest { files: &files, unknowns, sampling };
-    fit(case, &request, &ComputeSettings::of(&case.plan), &Progress::default()).expect("a result").value
+    fit(case, &request, &ComputeSettings::of(&case.plan), &StudyControl::default()).expect("a result").value
 }
 
 fn fitted(case: &Case, lines: &str, unknowns: &[Unknown], sampling: Option<Sampling>) -> Fit {
@@ -231,7 +231,7 @@ fn two_unknowns_are_those_of_brute_force() {
 fn fitted_as_planned(case: &Case, lines: &str) -> Vec<(f64, f64, f64)> {
     let seen = ObservedShots::new(&[observations(case, lines)]);
     let compute = ComputeSettings::of(&case.plan);
-    let fired = predict_observations(case, &seen, None, &compute, &Progress::default());
+    let fired = predict_observations(case, &seen, None, &compute, &StudyControl::default());
     fired
         .expect("a run")
         .iter()
@@ -251,7 +251,7 @@ fn bands_are_those_of_what_could_be_seen() {
         let file = observations(&case, &format!("tire,quantity,value,sd\n1,flight_height_m,1.8,{sd}\n"));
         let seen = ObservedShots::new(&[file]);
         let sampling = Sampling::exactly(2000, 7);
-        let fired = predict_observations(&case, &seen, Some(&sampling), &compute, &Progress::default())
+        let fired = predict_observations(&case, &seen, Some(&sampling), &compute, &StudyControl::default())
             .expect("runs");
         let planned = 36.0 / 2.0 / 9.81;
         assert!((fired[0].planned - planned).abs() < 1e-6);
@@ -274,7 +274,7 @@ fn what_to_observe_next_takes_most_from_the_variance() {
     let section = EXACT.replace("launch_cv_percent = 0", "launch_cv_percent = 3\nlaunch_common_percent = 5");
     let case = lone_tire(&section);
     let compute = ComputeSettings::of(&case.plan);
-    let next = next_observation(&case, 0, &Sampling::exactly(1000, 3), &compute, &Progress::default());
+    let next = next_observation(&case, 0, &Sampling::exactly(1000, 3), &compute, &StudyControl::default());
     let next = next.expect("runs").expect("something tells");
     let variance = |share: f64| (2.0 * share * 36.0 / 2.0 / 9.81).powi(2);
     let (common, hole) = (variance(0.05), variance(0.03));
@@ -282,7 +282,7 @@ fn what_to_observe_next_takes_most_from_the_variance() {
     assert!((next.share / exact - 1.0).abs() < 0.1, "{next:?} {exact}");
     let exact =
         lone_tire(EXACT.replace("delay_sd_ms = 0", "delay_sd_ms = 0\nlaunch_common_percent = 0").as_str());
-    let none = next_observation(&exact, 0, &Sampling::exactly(100, 3), &compute, &Progress::default());
+    let none = next_observation(&exact, 0, &Sampling::exactly(100, 3), &compute, &StudyControl::default());
     assert_eq!(none.expect("runs"), None);
 }
 
@@ -299,7 +299,7 @@ fn two_files_are_two_shots() {
         let request =
             FitRequest { files, unknowns: &[Unknown::Launch], sampling: Some(Sampling::exactly(50, 1)) };
         let compute = ComputeSettings::of(&case.plan);
-        match fit(&case, &request, &compute, &Progress::default()).expect("a result").value {
+        match fit(&case, &request, &compute, &StudyControl::default()).expect("a result").value {
             FitResult::Fitted(fit) => fit.answers[0].estimates[0].sd,
             other => panic!("{other:?}"),
         }
@@ -322,14 +322,14 @@ fn measured_firing_times_take_the_place_of_planned_ones() {
     let files = [seen("1,firing_s,0.03,\n", flight + 0.03), seen("", flight)];
     let shots = ObservedShots::new(&files);
     let sampling = Sampling::exactly(200, 5);
-    let fired =
-        predict_observations(&case, &shots, Some(&sampling), &compute, &Progress::default()).expect("runs");
+    let fired = predict_observations(&case, &shots, Some(&sampling), &compute, &StudyControl::default())
+        .expect("runs");
     let [logged, not] = [0, 1].map(|n| fired[n].band.expect("samples"));
     assert!((0.5 * (logged[0] + logged[1]) - flight - 0.03).abs() < 2e-4, "{logged:?}");
     assert!((0.5 * (not[0] + not[1]) - flight).abs() < 2e-4, "{not:?}");
     assert!((fired[0].planned - flight).abs() < 1e-6, "planned is planned");
     let nominal = FitRequest { files: &files, unknowns: &[Unknown::Launch], sampling: None };
-    match fit(&case, &nominal, &compute, &Progress::default()).expect("a result").value {
+    match fit(&case, &nominal, &compute, &StudyControl::default()).expect("a result").value {
         FitResult::Fitted(fit) => assert!((fit.answers[0].estimates[0].value - 1.0).abs() < 1e-4),
         other => panic!("{other:?}"),
     }
@@ -356,7 +356,7 @@ fn what_was_not_logged_scatters_about_the_plan() {
     for logged in ["", "1,firing_s,0,\n"] {
         let lines = format!("tire,quantity,value,sd\n{logged}2,landing_s,{landing},0.0001\n");
         let shots = ObservedShots::new(&[observations(&case, &lines)]);
-        let seen = predict_observations(&case, &shots, Some(&sampling), &compute, &Progress::default());
+        let seen = predict_observations(&case, &shots, Some(&sampling), &compute, &StudyControl::default());
         let [low, high] = seen.expect("runs")[0].band.expect("samples");
         // 400 samples know the middle of the band of 4 ms and more to 0.4 ms.
         assert!((0.5 * (low + high) - landing).abs() < 1.2e-3, "{logged:?} {low} {high} {landing}");
@@ -379,8 +379,8 @@ fn what_was_seen_after_the_end_or_before_the_start_is_computed() {
     let shots = ObservedShots::new(&[observations(&case, lines)]);
     let compute = ComputeSettings::of(&case.plan);
     let sampling = Sampling::exactly(100, 1);
-    let seen =
-        predict_observations(&case, &shots, Some(&sampling), &compute, &Progress::default()).expect("runs");
+    let seen = predict_observations(&case, &shots, Some(&sampling), &compute, &StudyControl::default())
+        .expect("runs");
     let middle = |n: usize| seen[n].band.map_or(f64::NAN, |[low, high]| 0.5 * (low + high));
     let exact = 6.0 * 0.3 - 9.81 * 0.3 * 0.3 / 2.0;
     assert!((middle(0) + 0.2).abs() < 1e-3 && (middle(1) - exact).abs() < 2e-3, "{seen:?}");
@@ -394,7 +394,7 @@ fn what_no_sample_shows_lies_outside() {
     let case = case_of(&plan);
     let shots = ObservedShots::new(&[observations(&case, "tire,quantity,value,sd\n2,landing_s,0.5,0.1\n")]);
     let (compute, sampling) = (ComputeSettings::of(&case.plan), Sampling::exactly(50, 1));
-    let seen = predict_observations(&case, &shots, Some(&sampling), &compute, &Progress::default());
+    let seen = predict_observations(&case, &shots, Some(&sampling), &compute, &StudyControl::default());
     let seen = seen.expect("runs");
     assert!(seen[0].planned.is_nan());
     assert_eq!(seen[0].contains(0.5), Some(false));

@@ -1,7 +1,7 @@
 //! The recorded motion against the closed form of free flight, and its bounds.
 
 use shelter::plan::Plan;
-use shelter::study::Progress;
+use shelter::study::StudyControl;
 use shelter::study::flight::record;
 use shelter::study::{Case, ComputeSettings};
 
@@ -16,7 +16,7 @@ fn loose_tires_fly_in_parabolas_and_lie_still_at_the_end() {
     let case = Case::new(plan);
     for step in [1e-5, 1e-3] {
         let compute = ComputeSettings { step: Some(step), ..ComputeSettings::of(&case.plan) };
-        let flight = record(&case, 0, &compute, &Progress::default()).expect("a flight");
+        let flight = record(&case, 0, &compute, &StudyControl::default()).expect("a flight");
         assert!((100..=1025).contains(&flight.frames()), "{} frames", flight.frames());
         // Shelter row 1 fires at 0, row 2 at 20 ms, with 6 m/s; four columns.
         for n in 1..=10 {

@@ -9,7 +9,7 @@ use shelter::ropes::catalogue;
 use shelter::study::judgement::Judgement;
 use shelter::study::remedies::{Remedies, find_all_remedies, find_remedies};
 use shelter::study::samples::sample_count::Sampling;
-use shelter::study::{Case, ComputeSettings, NoResult, Progress};
+use shelter::study::{Case, ComputeSettings, NoResult, StudyControl};
 use shelter::tui::app::{App, Request};
 use shelter::tui::compare::OptionState;
 use shelter::verdict::Verdict;
@@ -74,7 +74,8 @@ fn parse(text: &str) -> Case {
 
 fn changes(case: &Case, option: usize, sampling: Option<&Sampling>) -> Remedies {
     let compute = ComputeSettings::of(&case.plan);
-    let found = find_remedies(case, option, sampling, &compute, &Progress::default()).expect("it computes");
+    let found =
+        find_remedies(case, option, sampling, &compute, &StudyControl::default()).expect("it computes");
     assert!(!found.partial);
     found.value
 }
@@ -84,7 +85,8 @@ fn checked(case: &Case, option: usize, change: &Change, sampling: Option<&Sampli
     let mut plan = parse(&change.apply(&case.source.text).expect("the text has a place for it")).plan;
     plan.delays = vec![plan.delays.remove(option)];
     let compute = ComputeSettings::of(&plan);
-    let found = Case::new(plan).judge_options(&compute, sampling, &Progress::default()).expect("it computes");
+    let found =
+        Case::new(plan).judge_options(&compute, sampling, &StudyControl::default()).expect("it computes");
     found.value[0].clone().expect("a result")
 }
 
@@ -291,20 +293,20 @@ fn terminations_offered_fit_and_plans_without_a_rope_have_none() {
 fn the_time_or_the_user_ends_it() {
     let case = parse(SMALL);
     let compute = ComputeSettings::of(&case.plan);
-    let find = |progress: &Progress| {
-        find_all_remedies(&case, &[0, 1], Some(&Sampling::OF_VERDICT), &compute, progress)
+    let find = |control: &StudyControl| {
+        find_all_remedies(&case, &[0, 1], Some(&Sampling::OF_VERDICT), &compute, control)
     };
-    let progress = Progress::default();
-    progress.expire();
-    let found = find(&progress).expect("what is known by then");
+    let control = StudyControl::default();
+    control.expire();
+    let found = find(&control).expect("what is known by then");
     assert!(found.partial);
     let open = found.value.iter().flat_map(|remedies| &remedies.kinds);
     assert!(
         open.clone().count() > 0 && open.clone().all(|tried| tried.out_of_time && tried.passing.is_none())
     );
-    let progress = Progress::default();
-    progress.stop();
-    assert_eq!(find(&progress).err(), Some(NoResult::Stopped));
+    let control = StudyControl::default();
+    control.stop();
+    assert_eq!(find(&control).err(), Some(NoResult::Stopped));
 }
 
 fn screen(app: &App) -> String {

@@ -18,7 +18,7 @@ use shelter::study::samples::random_shot::{DrawnShot, draw_shot};
 use shelter::study::samples::risk_summary::sample_shots_in_brief;
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sampled_shot::SampledShot;
-use shelter::study::{Case, ComputeSettings, Journal, Progress, Shard, ShotSummary, thread_pool};
+use shelter::study::{Case, ComputeSettings, Journal, Shard, ShotSummary, StudyControl, thread_pool};
 use shelter::verdict::{Quantity, Verdict};
 
 use crate::support::scenes::{GRAVITY, METHODS, fire, tie, tires};
@@ -65,7 +65,7 @@ delay = [{{ name = "20", interval_ms = 20 }}, {{ name = "60", interval_ms = 60 }
 fn risk_of(case: &Case, sampling: &Sampling) -> SampledShot {
     let (shot, compute) = (&case.shots[0], ComputeSettings::of(&case.plan));
     let target = ShotToSample::new(case, shot, compute, *sampling);
-    let found = sample_shots(&[target], &Progress::default());
+    let found = sample_shots(&[target], &StudyControl::default());
     found.expect("a result").value.remove(0)
 }
 
@@ -125,7 +125,7 @@ fn a_shot_that_passes_as_planned_fails_by_its_risk() {
     let case = lone(6.1_f64.powi(2) / (2.0 * GRAVITY), 5.0);
     let judged = |sampling: Option<&Sampling>| -> Judgement {
         let compute = ComputeSettings::of(&case.plan);
-        let found = case.judge_options(&compute, sampling, &Progress::default());
+        let found = case.judge_options(&compute, sampling, &StudyControl::default());
         found.expect("a result").value.remove(0).expect("a result")
     };
     assert_eq!(judged(None).verdict(), Verdict::Pass);
@@ -140,9 +140,10 @@ fn the_launch_margin_is_the_room_below_the_limit() {
     let margin = |height: f64| {
         let case = lone(height, 1.0);
         let cases = [(&case, ComputeSettings::of(&case.plan))];
-        let mut results = judge_all(&cases, None, &Progress::default(), UNWATCHED).expect("a result").value;
+        let mut results =
+            judge_all(&cases, None, &StudyControl::default(), UNWATCHED).expect("a result").value;
         let found =
-            find_launch_margins(&cases, &mut results, &Progress::default(), UNWATCHED).expect("a result");
+            find_launch_margins(&cases, &mut results, &StudyControl::default(), UNWATCHED).expect("a result");
         assert!(!found.partial);
         results[0].remove(0).expect("a result").launch_margin.expect("a margin")
     };
@@ -170,7 +171,7 @@ fn too_hard_for_samples() -> Case {
 fn samples_whose_step_is_too_long_pass_nothing() {
     let case = too_hard_for_samples();
     let cases = [(&case, ComputeSettings::of(&case.plan))];
-    let mut found = judge_all(&cases, Some(&Sampling::OF_VERDICT), &Progress::default(), UNWATCHED)
+    let mut found = judge_all(&cases, Some(&Sampling::OF_VERDICT), &StudyControl::default(), UNWATCHED)
         .expect("a result")
         .value;
     let judged = found.remove(0).remove(0).expect("a result");
@@ -181,7 +182,7 @@ fn samples_whose_step_is_too_long_pass_nothing() {
     // Sweeps and orders sample shots this way.
     let shots = [(case.shots[0].clone(), ShotSummary::of(&judged.as_planned))];
     let sampled =
-        sample_shots_in_brief(&case, &shots, &Sampling::OF_VERDICT, &cases[0].1, &Progress::default());
+        sample_shots_in_brief(&case, &shots, &Sampling::OF_VERDICT, &cases[0].1, &StudyControl::default());
     let sampled = sampled.expect("a result").remove(0).expect("samples");
     assert_eq!((sampled.bounds.verdict(), sampled.verdict), (Verdict::Pass, Verdict::Undecided));
 }
@@ -280,23 +281,23 @@ fn open_bounds_that_share_one_error_are_looked_through() {
 fn shards_that_the_audit_contradicts_are_sampled_anew() {
     let case = too_hard_for_samples();
     let compute = ComputeSettings::of(&case.plan);
-    let (sampling, progress) = (Sampling::exactly(600, 1), Progress::default());
+    let (sampling, control) = (Sampling::exactly(600, 1), StudyControl::default());
     let target = ShotToSample::new(&case, &case.shots[0], compute, sampling);
     let folder = tempfile::tempdir().expect("a folder");
     let mut known = HashMap::new();
     for index in [0, 1] {
         let (file, shard) = (folder.path().join(index.to_string()), Shard { index, count: 2 });
         let head = Head::new(&case, Question::Risk { sampling }, compute, shard);
-        let saved = Progress::with_journal(results_file::open(&file, &head).expect("a new file"));
+        let saved = StudyControl::with_journal(results_file::open(&file, &head).expect("a new file"));
         draw_shard(&[target], shard, &saved).expect("samples");
         let text = std::fs::read_to_string(&file).expect("a shard");
         known.extend(results_file::read("a shard", &text).expect("results").known);
     }
     assert_eq!(known.len(), 600);
-    let joined = Progress::with_journal(Journal::of_known(known));
+    let joined = StudyControl::with_journal(Journal::of_known(known));
     let mut of_shards = case.judge_options(&compute, Some(&sampling), &joined).expect("a result").value;
     assert!(joined.journal().recalled() >= 100, "until the audit contradicts them");
-    let whole = case.judge_options(&compute, Some(&sampling), &progress).expect("a result").value;
+    let whole = case.judge_options(&compute, Some(&sampling), &control).expect("a result").value;
     let whole = whole[0].as_ref().expect("a result").sampled.known().expect("samples");
     assert!(whole.step_halvings > 0, "a test that can fail");
     assert_eq!(of_shards.remove(0).expect("a result").sampled.known(), Some(whole));
@@ -505,7 +506,7 @@ fn samples_are_the_same_on_any_number_of_threads() {
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
     let sampling = Sampling::exactly(120, 1);
     let on = |threads| {
-        let work = || case.judge_options(&compute, Some(&sampling), &Progress::default());
+        let work = || case.judge_options(&compute, Some(&sampling), &StudyControl::default());
         let found = thread_pool(threads).expect("threads").install(work).expect("a result").value;
         let risk = |judged: Judgement| judged.sampled.known().cloned().expect("samples");
         found.into_iter().map(|result| risk(result.expect("a result"))).collect::<Vec<SampledShot>>()
@@ -535,7 +536,7 @@ fn samples_are_followed_as_long_as_the_shot_as_planned() {
     let verdicts = |case: &Case| {
         let target =
             ShotToSample::new(case, shot, ComputeSettings::of(&case.plan), Sampling::exactly(100, 1));
-        let found = sample_shots(&[target], &Progress::default()).expect("samples").value.remove(0);
+        let found = sample_shots(&[target], &StudyControl::default()).expect("samples").value.remove(0);
         found.samples.iter().map(|sample| sample.finest().verdict).collect::<Vec<_>>()
     };
     let (mut in_time, mut after_the_end_unshifted) = (0, 0);

@@ -20,7 +20,7 @@ use shelter::study::samples::swaps::swaps;
 use shelter::study::size::{Demand, size};
 use shelter::study::sweep::{GAP, Point, Sweep, sweep};
 use shelter::study::{Case, ComputeSettings, Intervals, Shard};
-use shelter::study::{Progress, ShotSummary};
+use shelter::study::{ShotSummary, StudyControl};
 use shelter::verdict::Verdict;
 
 use super::support::shelter;
@@ -63,8 +63,14 @@ fn judged(case: &Case, order: &[usize], interval: f64) -> ShotSummary {
 fn a_sweep_is_the_check_of_every_interval() {
     let case = case(3, "");
     let intervals = Intervals { from: 0.0, to: 0.06, step: 0.007 };
-    let swept =
-        sweep(&case, &[0, 1, 2], &intervals, None, &ComputeSettings::of(&case.plan), &Progress::default());
+    let swept = sweep(
+        &case,
+        &[0, 1, 2],
+        &intervals,
+        None,
+        &ComputeSettings::of(&case.plan),
+        &StudyControl::default(),
+    );
     let swept = swept.expect("a result").value;
     let verdict = |point: &Point| point.as_planned.verdict;
     let (mut own, mut decided) = (0, 0);
@@ -121,7 +127,7 @@ fn risky_sweep(case: &Case) -> (Sweep, Sampling, ComputeSettings) {
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
     let intervals = Intervals { from: 0.02, to: 0.06, step: 0.01 };
     let sampling = Sampling { most: 600, ..Sampling::OF_VERDICT };
-    let swept = sweep(case, &[0, 1, 2], &intervals, Some(&sampling), &compute, &Progress::default());
+    let swept = sweep(case, &[0, 1, 2], &intervals, Some(&sampling), &compute, &StudyControl::default());
     (swept.expect("a result").value, sampling, compute)
 }
 
@@ -129,7 +135,7 @@ fn risky_sweep(case: &Case) -> (Sweep, Sampling, ComputeSettings) {
 fn risk_at(case: &Case, interval: f64, sampling: &Sampling, compute: ComputeSettings) -> SampledShot {
     let shot = case.shot(&[0, 1, 2], interval);
     let target = ShotToSample::new(case, &shot, compute, *sampling);
-    let found = sample_shots(&[target], &Progress::default());
+    let found = sample_shots(&[target], &StudyControl::default());
     found.expect("samples").value.remove(0)
 }
 
@@ -197,9 +203,9 @@ fn an_interval_whose_full_verdict_does_not_pass_is_not_recommended() {
 fn the_ends_of_the_ranking_are_sampled() {
     let case = case(4, "uncertainty = { launch_cv_percent = 5 }");
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&case.plan) };
-    let (progress, intervals) = (Progress::default(), [0.02, 0.045, 0.2]);
+    let (control, intervals) = (StudyControl::default(), [0.02, 0.045, 0.2]);
     let sampling = Sampling { most: 500, ..Sampling::OF_VERDICT };
-    let orders = |sampling| orders(&case, &intervals, sampling, &compute, &progress);
+    let orders = |sampling| orders(&case, &intervals, sampling, &compute, &control);
     let nominal = orders(None).expect("a result").value;
     let ranked = orders(Some(&sampling)).expect("a result").value;
     assert_eq!((&ranked.ranked, ranked.ranked.len()), (&nominal.ranked, 72));
@@ -213,7 +219,7 @@ fn the_ends_of_the_ranking_are_sampled() {
         let sampling = if n == 71 { sampling } else { sampling.first_look() };
         let shot = case.shot(&tried.order, tried.interval);
         let target = ShotToSample::new(&case, &shot, compute, sampling);
-        let risks = sample_shots(&[target], &progress).expect("samples").value;
+        let risks = sample_shots(&[target], &control).expect("samples").value;
         assert_eq!(risk.bounds, risks[0].bounds);
         assert_eq!(ranked.verdict_on(n), tried.as_planned.verdict.max(risks[0].verdict()));
     }
@@ -227,7 +233,7 @@ fn size_offers_only_ropes_that_the_termination_fits() {
     let case = case(2, cable);
     let (demand, compute) = (Demand::Options(vec![0]), ComputeSettings::of(&case.plan));
     let compute = ComputeSettings { step: Some(2e-3), ..compute };
-    let sizing = size(&case.plan, &demand, None, &compute, &Progress::default()).expect("a result").value;
+    let sizing = size(&case.plan, &demand, None, &compute, &StudyControl::default()).expect("a result").value;
     let offered = || sizing.combinations.iter().map(|combination| combination.rope);
     assert!(offered().all(|rope| rope.kind == Kind::SteelCore));
     let steel = catalogue().ropes.iter().filter(|rope| rope.kind == Kind::SteelCore).count();
@@ -242,8 +248,9 @@ fn every_option_at_one_interval_is_a_point() {
     let case = Case::new(plan);
     let compute = ComputeSettings::of(&case.plan);
     let intervals = Intervals { from: 0.03, to: 0.035, step: 0.005 };
-    let swept =
-        sweep(&case, &[0, 1, 2], &intervals, None, &compute, &Progress::default()).expect("a result").value;
+    let swept = sweep(&case, &[0, 1, 2], &intervals, None, &compute, &StudyControl::default())
+        .expect("a result")
+        .value;
     let point = swept.points.iter().find(|point| point.interval == 0.031_062_7);
     let checked = check_as_planned(&case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a result");
     assert_eq!(point.expect("the option is tried").as_planned, ShotSummary::of(&checked));
@@ -255,8 +262,8 @@ fn orders_find_the_worst_and_the_best_of_brute_force() {
     let case = case(4, "");
     for interval in [0.02, 0.045, 0.2] {
         let compute = ComputeSettings::of(&case.plan);
-        let tried =
-            try_orders(&case, &[interval], Shard::WHOLE, &compute, &Progress::default()).expect("a result");
+        let tried = try_orders(&case, &[interval], Shard::WHOLE, &compute, &StudyControl::default())
+            .expect("a result");
         let ranked = Orders::new(&case, tried.value, 1).ranked;
         let share = |judged: &ShotSummary| judged.utilization(&case.limits);
         let brute: HashMap<Vec<usize>, ShotSummary> =
@@ -300,7 +307,8 @@ fn an_order_without_its_mirrored_order_is_refined() {
     let tried =
         TriedOrder { number: 0, order: order.clone(), interval: 0.045, as_planned: ShotSummary::UNKNOWN };
     let compute = ComputeSettings::of(&case.plan);
-    let refined = check_extremes(&case, vec![tried], &compute, &Progress::default()).expect("a result").value;
+    let refined =
+        check_extremes(&case, vec![tried], &compute, &StudyControl::default()).expect("a result").value;
     assert_eq!(refined[0].as_planned, judged(&case, &order, 0.045));
 }
 
@@ -314,14 +322,14 @@ fn a_fixed_step_is_the_step_of_every_shot() {
         let checked = check_shot(&case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
         ShotSummary::of(&checked.expect("a result"))
     };
-    let progress = Progress::default();
-    let tried = try_orders(&case, &[0.045], Shard::WHOLE, &compute, &progress).expect("a result").value;
+    let control = StudyControl::default();
+    let tried = try_orders(&case, &[0.045], Shard::WHOLE, &compute, &control).expect("a result").value;
     assert_eq!(tried.len(), 6);
     for tried in tried {
         assert_eq!(tried.as_planned, fixed(&tried.order, tried.interval));
     }
     let intervals = Intervals { from: 0.03, to: 0.031, step: 0.001 };
-    let swept = sweep(&case, &[0, 1, 2], &intervals, None, &compute, &progress).expect("a result").value;
+    let swept = sweep(&case, &[0, 1, 2], &intervals, None, &compute, &control).expect("a result").value;
     for point in swept.points {
         assert_eq!(point.as_planned, fixed(&[0, 1, 2], point.interval));
     }
@@ -332,14 +340,14 @@ fn a_fixed_step_is_the_step_of_every_shot() {
 fn mirrored_orders_are_judged_once() {
     let case = mirrored_case();
     let compute = ComputeSettings::of(&case.plan);
-    let progress = Progress::default();
-    let tried = try_orders(&case, &[0.045], Shard { index: 0, count: 2 }, &compute, &progress)
+    let control = StudyControl::default();
+    let tried = try_orders(&case, &[0.045], Shard { index: 0, count: 2 }, &compute, &control)
         .expect("a result")
         .value;
-    let other = try_orders(&case, &[0.045], Shard { index: 1, count: 2 }, &compute, &progress)
+    let other = try_orders(&case, &[0.045], Shard { index: 1, count: 2 }, &compute, &control)
         .expect("a result")
         .value;
-    assert_eq!(progress.counts(), (12, 12));
+    assert_eq!(control.counts(), (12, 12));
     let by_order: HashMap<&[usize], &TriedOrder> =
         tried.iter().chain(&other).map(|tried| (tried.order.as_slice(), tried)).collect();
     assert_eq!(by_order.len(), 24);
@@ -370,7 +378,7 @@ fn many_rows_are_searched() {
     plan.delays.clear();
     let case = Case::new(plan);
     let tried =
-        try_orders(&case, &[0.002], Shard::WHOLE, &ComputeSettings::of(&case.plan), &Progress::default());
+        try_orders(&case, &[0.002], Shard::WHOLE, &ComputeSettings::of(&case.plan), &StudyControl::default());
     let tried = tried.expect("a result").value;
     assert!(tried.len() > 1000);
     let different: HashSet<&[usize]> = tried.iter().map(|t| t.order.as_slice()).collect();
@@ -412,7 +420,7 @@ fn the_lightest_shelter_is_that_of_brute_force() {
     plan.limits.cable_safety_factor = 2.6;
     let compute = ComputeSettings { accuracy: Accuracy::Draft, ..ComputeSettings::of(&plan) };
     let (demand, sampling) = (Demand::Options(vec![0, 1]), Sampling { most: 1000, ..Sampling::OF_VERDICT });
-    let sizing = size(&plan, &demand, Some(&sampling), &compute, &Progress::default());
+    let sizing = size(&plan, &demand, Some(&sampling), &compute, &StudyControl::default());
     let sizing = sizing.expect("a result").value;
     let ropes = catalogue().ropes.iter().filter(|rope| rope.family == family);
     let combinations = itertools::iproduct!(ropes, [150.0, 400.0], 0..=1).map(|(rope, mass, border)| {
@@ -422,7 +430,7 @@ fn the_lightest_shelter_is_that_of_brute_force() {
     });
     let (mut lightest, mut fragile) = (f64::INFINITY, 0);
     for (total, case) in combinations.sorted_by(|a, b| a.0.total_cmp(&b.0)) {
-        let results = judge_all(&[(&case, compute)], Some(&sampling), &Progress::default(), UNWATCHED);
+        let results = judge_all(&[(&case, compute)], Some(&sampling), &StudyControl::default(), UNWATCHED);
         let results = results.expect("a result").value.remove(0);
         if results.iter().flatten().all(|judged| judged.verdict() == Verdict::Pass) {
             lightest = total;
@@ -502,25 +510,25 @@ fn a_study_without_time_is_partial() {
     let compute = ComputeSettings { step: Some(2e-3), ..ComputeSettings::of(&case.plan) };
     let intervals = Intervals { from: 0.0, to: 0.02, step: 0.01 };
     let (three, demand) = (Sampling::exactly(3, 1), Demand::Options(vec![0, 1]));
-    let partial = |progress: &Progress| {
+    let partial = |control: &StudyControl| {
         [
-            sweep(&case, &[0, 1], &intervals, None, &compute, progress).map(|found| found.partial),
-            try_orders(&case, &[0.02], Shard::WHOLE, &compute, progress).map(|found| found.partial),
-            size(&case.plan, &demand, Some(&three), &compute, progress).map(|found| found.partial),
-            judge_all(&[(&case, compute)], None, progress, UNWATCHED).map(|found| found.partial),
-            judge_all(&[(&case, compute)], Some(&three), progress, UNWATCHED).map(|found| found.partial),
+            sweep(&case, &[0, 1], &intervals, None, &compute, control).map(|found| found.partial),
+            try_orders(&case, &[0.02], Shard::WHOLE, &compute, control).map(|found| found.partial),
+            size(&case.plan, &demand, Some(&three), &compute, control).map(|found| found.partial),
+            judge_all(&[(&case, compute)], None, control, UNWATCHED).map(|found| found.partial),
+            judge_all(&[(&case, compute)], Some(&three), control, UNWATCHED).map(|found| found.partial),
         ]
     };
-    let out_of_time = Progress::default();
+    let out_of_time = StudyControl::default();
     out_of_time.expire();
     assert_eq!(partial(&out_of_time), [const { Ok(true) }; 5]);
-    assert_eq!(partial(&Progress::default()), [const { Ok(false) }; 5]);
+    assert_eq!(partial(&StudyControl::default()), [const { Ok(false) }; 5]);
 }
 
 #[test]
 fn a_stopped_study_has_no_result() {
     let case = case(3, "");
-    let progress = Progress::default();
-    progress.stop();
-    assert!(try_orders(&case, &[0.02], Shard::WHOLE, &ComputeSettings::of(&case.plan), &progress).is_err());
+    let control = StudyControl::default();
+    control.stop();
+    assert!(try_orders(&case, &[0.02], Shard::WHOLE, &ComputeSettings::of(&case.plan), &control).is_err());
 }

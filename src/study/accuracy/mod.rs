@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::as_planned::check::SURE_ERROR_FACTOR;
 use super::as_planned::step_error;
-use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress};
+use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, StudyControl};
 use crate::choice::{Accuracy, Method};
 use crate::outcome::Outcome;
 use crate::scene::Shot;
@@ -111,15 +111,15 @@ pub fn measure(
     case: &Case,
     option: usize,
     patience: Duration,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> ComputeResult<AccuracyTable> {
     let levels = [Accuracy::Draft, Accuracy::Field, Accuracy::Reference]
         .map(|level| LevelStep { level, step: first_step(case, level) });
     let reference_step = levels[2].step / REFERENCE_STEP_DIVISOR;
     let shot = &case.shots[option];
-    progress.announce(2 * STEPS as usize + levels.len() + 1);
-    let reference = run(case, shot, Method::Verlet, reference_step, progress)?;
-    progress.advance();
+    control.announce(2 * STEPS as usize + levels.len() + 1);
+    let reference = run(case, shot, Method::Verlet, reference_step, control)?;
+    control.advance();
     let coarsest = (0.95 * case.scene().critical_step()).min(8e-3);
     let (mut rows, mut partial) = (Vec::new(), false);
     for method in [Method::Verlet, Method::Newmark] {
@@ -136,7 +136,7 @@ pub fn measure(
             if 2 * last > patience {
                 break;
             }
-            let result = match run(case, shot, method, step, progress) {
+            let result = match run(case, shot, method, step, control) {
                 Err(NoResult::OutOfTime) => {
                     partial = true;
                     break;
@@ -145,7 +145,7 @@ pub fn measure(
                 Err(NoResult::Failed(_)) => break,
                 result => result?,
             };
-            progress.advance();
+            control.advance();
             last = result.as_ref().map_or(last, |(_, wall)| *wall);
             let result = result.map(|(outcome, wall)| compared(&outcome, wall, reference.as_ref()));
             rows.push(StepRow { method, step, result });
@@ -198,17 +198,17 @@ fn run(
     shot: &Shot,
     method: Method,
     step: f64,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<Option<(Outcome, Duration)>, NoResult> {
     let settings = case.run_settings(method, step);
     let mut best: Option<(Outcome, Duration)> = None;
     let begun = Instant::now();
     for _ in 0..5 {
         let start = Instant::now();
-        let outcome = match case.model.run(shot, &settings, &mut |_| progress.flow()) {
+        let outcome = match case.model.run(shot, &settings, &mut |_| control.flow()) {
             Ok(outcome) => outcome,
             Err(failure) if failure.needs_finer_step() => return Ok(None),
-            Err(failure) => return Err(progress.no_result(failure)),
+            Err(failure) => return Err(control.no_result(failure)),
         };
         let wall = start.elapsed();
         if best.as_ref().is_none_or(|(_, least)| wall < *least) {

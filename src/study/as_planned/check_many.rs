@@ -5,16 +5,16 @@ use super::shot_summary::ShotSummary;
 use crate::scene::Shot;
 use crate::simulation::RunError;
 use crate::study::work::batch::run_batch;
-use crate::study::{Case, ComputeSettings, Fingerprint, NoResult, Progress};
+use crate::study::{Case, ComputeSettings, Fingerprint, NoResult, StudyControl};
 
 /// Checks every shot, refined until its verdict is sure; `None` for the shots that the time did not suffice for.
 pub fn check_summaries(
     case: &Case,
     shots: &[Shot],
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<Vec<Option<ShotSummary>>, NoResult> {
-    run_checks(shots, progress, |shot| check_summary(case, shot, compute, progress))
+    run_checks(shots, control, |shot| check_summary(case, shot, compute, control))
 }
 
 /// Checks one shot, refined until its verdict is sure.
@@ -22,13 +22,13 @@ pub fn check_summary(
     case: &Case,
     shot: &Shot,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<ShotSummary, NoResult> {
-    progress.journal().recall_or(
+    control.journal().recall_or(
         || Fingerprint::of(("check", case.fingerprint(), shot, compute)),
         || {
-            let checked = check_shot(case, shot, compute, &mut |_| progress.flow());
-            checked.map(|checked| ShotSummary::of(&checked)).map_err(|failure| progress.no_result(failure))
+            let checked = check_shot(case, shot, compute, &mut |_| control.flow());
+            checked.map(|checked| ShotSummary::of(&checked)).map_err(|failure| control.no_result(failure))
         },
     )
 }
@@ -37,10 +37,10 @@ pub fn check_summary(
 /// fails, the study has no result.
 pub fn run_checks<J: Sync>(
     jobs: &[J],
-    progress: &Progress,
+    control: &StudyControl,
     work: impl Fn(&J) -> Result<ShotSummary, NoResult> + Sync,
 ) -> Result<Vec<Option<ShotSummary>>, NoResult> {
-    let done = run_batch(jobs, progress, |job| match work(job) {
+    let done = run_batch(jobs, control, |job| match work(job) {
         Err(NoResult::Failed(failure)) => Ok(Err(failure)),
         result => result.map(Ok),
     })?;
@@ -56,10 +56,10 @@ pub fn run_checks<J: Sync>(
 /// Like [`run_checks`], for a part of the jobs of a study: all of them may fail.
 pub fn run_checks_or_unknown<J: Sync>(
     jobs: &[J],
-    progress: &Progress,
+    control: &StudyControl,
     work: impl Fn(&J) -> Result<ShotSummary, NoResult> + Sync,
 ) -> Result<Vec<Option<ShotSummary>>, NoResult> {
-    run_batch(jobs, progress, |job| or_unknown(work(job)))
+    run_batch(jobs, control, |job| or_unknown(work(job)))
 }
 
 /// A run that failed is a shot of which nothing is known.
@@ -80,8 +80,8 @@ mod tests {
         let failure = NoResult::Failed(RunError::Diverged { time: 1.0 });
         let good = ShotSummary { verdict: Verdict::Pass, ..ShotSummary::UNKNOWN };
         let work = |&job: &i32| if job == 2 { Err(failure.clone()) } else { Ok(good) };
-        let some = run_checks(&[1, 2], &Progress::default(), work).expect("one of them is good");
+        let some = run_checks(&[1, 2], &StudyControl::default(), work).expect("one of them is good");
         assert_eq!(some, [Some(good), Some(ShotSummary::UNKNOWN)]);
-        assert_eq!(run_checks(&[2, 2], &Progress::default(), work), Err(failure.clone()));
+        assert_eq!(run_checks(&[2, 2], &StudyControl::default(), work), Err(failure.clone()));
     }
 }

@@ -3,7 +3,7 @@
 use super::check_many::or_unknown;
 use super::quick_check::quick_check;
 use crate::scene::Shot;
-use crate::study::{Case, ComputeSettings, NoResult, Progress};
+use crate::study::{Case, ComputeSettings, NoResult, StudyControl};
 use crate::verdict::Verdict;
 
 /// How much faster all launches may be.
@@ -31,14 +31,14 @@ pub fn launch_margin(
     shot: &Shot,
     as_planned: Verdict,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<LaunchMargin, NoResult> {
     if as_planned != Verdict::Pass {
         return Ok(LaunchMargin::NotPassing);
     }
     for percent in 1..=MOST_PERCENT {
         let faster = shot.with_launches(1.0 + 1e-2 * percent as f64);
-        let above = or_unknown(quick_check(case, &faster, compute, progress))?.verdict;
+        let above = or_unknown(quick_check(case, &faster, compute, control))?.verdict;
         if above != Verdict::Pass {
             return Ok(LaunchMargin::UpTo { rise: 1e-2 * (percent - 1) as f64, above });
         }

@@ -14,7 +14,7 @@ use crate::outcome::Outcome;
 use crate::scene::Shot;
 use crate::simulation::Motion;
 use crate::study::reasons::shot::{ShotReason, find_reasons_as_planned};
-use crate::study::{Case, ComputeSettings, Fingerprint, NoResult, Progress, ShotSummary};
+use crate::study::{Case, ComputeSettings, Fingerprint, NoResult, ShotSummary, StudyControl};
 use crate::verdict::Verdict;
 
 /// Number of steps above the first step of `field`: the coarsest is 8 times that, with `verlet` at most 0.8 of the critical
@@ -32,12 +32,12 @@ pub fn quick_check(
     case: &Case,
     shot: &Shot,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<ShotSummary, NoResult> {
     let is_sure = |summary: &ShotSummary, runs| quick_check_is_sure(case, summary, runs);
-    progress.journal().recall_or(
+    control.journal().recall_or(
         || Fingerprint::of(("quick check", case.fingerprint(), shot, compute)),
-        || quick_check_until(case, shot, compute, progress, is_sure),
+        || quick_check_until(case, shot, compute, control, is_sure),
     )
 }
 
@@ -46,11 +46,11 @@ pub fn quick_check_until(
     case: &Case,
     shot: &Shot,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
     enough: impl Fn(&ShotSummary, usize) -> bool,
 ) -> Result<ShotSummary, NoResult> {
     if compute.step.is_some() {
-        return check_summary(case, shot, compute, progress);
+        return check_summary(case, shot, compute, control);
     }
     let last = compute.first_step(case);
     let field = ComputeSettings { accuracy: Accuracy::Field, step: None, ..*compute };
@@ -61,15 +61,15 @@ pub fn quick_check_until(
         let mut cover = CoverWatch::new(case, &shot.firings, step);
         let watch = &mut |motion: &dyn Motion| {
             cover.observe(motion);
-            progress.flow()
+            control.flow()
         };
         match case.model.run(shot, &case.run_settings(compute.method, step), watch) {
             Ok(outcome) => runs.push(outcome),
             Err(failure) if failure.needs_finer_step() && !is_last => {}
-            Err(failure) => return Err(progress.no_result(failure)),
+            Err(failure) => return Err(control.no_result(failure)),
         }
         if is_last && runs.len() < RUNS_OF_PASS {
-            return check_summary(case, shot, compute, progress);
+            return check_summary(case, shot, compute, control);
         }
         if runs.len() > 1 {
             let summary = summary_of_runs(case, shot, &runs, cover.cover());

@@ -18,7 +18,7 @@ pub use self::effect::Effect;
 use self::runs::{OptionRuns, is_in_doubt, measure_option, run_sample};
 use super::samples::sample_count::Sampling;
 use super::work::batch::run_batch;
-use super::{Case, ComputeResult, ComputeSettings, Computed, Progress, catch_panic};
+use super::{Case, ComputeResult, ComputeSettings, Computed, StudyControl, catch_panic};
 use crate::plan::Plan;
 use crate::verdict::{Limits, PerQuantity, Quantity, Verdict};
 
@@ -184,23 +184,23 @@ pub fn effects(
     case: &Case,
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> ComputeResult<EffectsOnOptions> {
     let mut cases = vec![case.clone()];
     let computed = Effect::ALL.into_iter().filter(|effect| effect.is_computed_by(compute.method));
     let variants: Vec<Variant> =
         computed.filter_map(|effect| variant(effect, &case.plan, &mut cases)).collect();
     let jobs: Vec<(usize, usize)> = itertools::iproduct!(0..case.shots.len(), 0..cases.len()).collect();
-    let mut measured = run_batch(&jobs, progress, |&(option, n)| {
-        catch_panic(|| measure_option(&cases[n], option, sampling, compute, progress))
+    let mut measured = run_batch(&jobs, control, |&(option, n)| {
+        catch_panic(|| measure_option(&cases[n], option, sampling, compute, control))
     })?;
     if let Some(sampling) = sampling {
         let in_doubt = jobs_in_doubt(&measured, &variants, cases.len(), &case.limits);
         let more: Vec<(usize, usize)> =
             itertools::iproduct!(in_doubt, FIRST_SAMPLES..sampling.most.max(FIRST_SAMPLES)).collect();
-        let drawn = run_batch(&more, progress, |&(job, number)| {
+        let drawn = run_batch(&more, control, |&(job, number)| {
             let (option, n) = jobs[job];
-            catch_panic(|| run_sample(&cases[n], option, number, sampling, compute, progress))
+            catch_panic(|| run_sample(&cases[n], option, number, sampling, compute, control))
         })?;
         for ((job, _), drawn) in more.into_iter().zip(drawn) {
             measured[job] = measured[job].take().zip(drawn).map(|(mut option, drawn)| {

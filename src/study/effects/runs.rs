@@ -10,7 +10,7 @@ use crate::study::as_planned::quick_check::quick_check;
 use crate::study::samples::draw_until_sure::{ShotToSample, run_sample_once};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sampled_shot::percentiles;
-use crate::study::{Case, ComputeSettings, NoResult, Progress, ShotSummary};
+use crate::study::{Case, ComputeSettings, NoResult, ShotSummary, StudyControl};
 use crate::verdict::{Limits, PerQuantity, Quantity, Verdict};
 
 /// One option of one plan.
@@ -90,18 +90,18 @@ pub(super) fn measure_option(
     option: usize,
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<OptionRuns, NoResult> {
     let shot = &case.shots[option];
     let followed = &*followed(case, shot);
     let begun = Instant::now();
-    let as_planned = or_unknown(quick_check(followed, shot, compute, progress))?;
+    let as_planned = or_unknown(quick_check(followed, shot, compute, control))?;
     let verdict = verdict_of_values(&as_planned, followed);
     let runs = match sampling {
         Some(sampling) => {
             let first = 0..FIRST_SAMPLES.min(sampling.most);
             first
-                .map(|number| run_sample(case, option, number, sampling, compute, progress))
+                .map(|number| run_sample(case, option, number, sampling, compute, control))
                 .collect::<Result<_, _>>()?
         }
         None => {
@@ -119,13 +119,13 @@ pub(super) fn run_sample(
     number: usize,
     sampling: &Sampling,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<TimedRun, NoResult> {
     let shot = &case.shots[option];
     let case = &*followed(case, shot);
     let target = ShotToSample::new(case, shot, *compute, *sampling);
     let begun = Instant::now();
-    let run = run_sample_once(&target, number, progress)?.run;
+    let run = run_sample_once(&target, number, control)?.run;
     let values = PerQuantity::from_fn(|quantity| run.get(quantity));
     Ok(TimedRun { values, wall: begun.elapsed().as_secs_f64() })
 }

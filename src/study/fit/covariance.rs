@@ -114,7 +114,7 @@ impl CovarianceModel<'_> {
         let shots = self.seen.shots();
         let drawn = SAMPLES.max(SAMPLES_EACH * self.seen.list.len());
         let numbers: Vec<usize> = (0..drawn).collect();
-        let samples = run_batch(&numbers, self.predictor.progress, |&number| {
+        let samples = run_batch(&numbers, self.predictor.control, |&number| {
             let (case, deviations) = self.sample(at, spread, seed, number);
             // A seed for each shot: what scatters in one does not repeat in another.
             let observe = |(n, shot): (usize, &ObservedShot)| {
@@ -209,12 +209,12 @@ impl CovarianceModel<'_> {
         seed: u64,
         number: usize,
     ) -> Result<Option<Vec<f64>>, NoResult> {
-        let Predictor { compute, progress, .. } = self.predictor;
+        let Predictor { compute, control, .. } = self.predictor;
         let sample = draw_shot(case, &case.shots[shot.option], seed, number);
         let settings = case.run_settings(compute.method, sample_step(compute, &sample.scene));
         // In the time of the plan, as observations are.
         let fired = sample.shot.later_by(-sample.later).with_times(&shot.times);
-        observe_shot(case, Some(&sample.scene), &fired, &shot.watched, &settings, progress)
+        observe_shot(case, Some(&sample.scene), &fired, &shot.watched, &settings, control)
     }
 
     /// Error of each prediction, from runs at coarser steps; 0 where none of these has the value.
@@ -222,7 +222,7 @@ impl CovarianceModel<'_> {
         let Some(values) = self.predictor.values(at, 1.0)? else { return Ok(None) };
         let coarser: Vec<f64> =
             (1..=step_error::NEIGHBOURS).map(|n| step_error::RATIO.powi(n as i32)).collect();
-        let runs = run_batch(&coarser, self.predictor.progress, |&step| self.predictor.values(at, step))?;
+        let runs = run_batch(&coarser, self.predictor.control, |&step| self.predictor.values(at, step))?;
         let error = |n: usize| {
             let near =
                 coarser.iter().zip(&runs).filter_map(|(&step, run)| Some((step, run.as_ref()?.as_ref()?[n])));

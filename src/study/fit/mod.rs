@@ -36,7 +36,7 @@ use self::predictor::Predictor;
 use self::problem::FitProblem;
 use self::search::SearchBox;
 use super::samples::sample_count::Sampling;
-use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress};
+use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, StudyControl};
 use crate::choice::{Method, Unknown};
 use crate::plan::Plan;
 use crate::plan::observations::{ObservableNames, Observations};
@@ -75,7 +75,7 @@ pub fn fit(
     case: &Case,
     request: &FitRequest<'_>,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> ComputeResult<FitResult> {
     let case = &until_rest(case);
     let parameters = Parameter::all(request.unknowns, &case.plan);
@@ -94,7 +94,7 @@ pub fn fit(
             shots: seen.distinct_shots(),
             parameters,
             compute: *compute,
-            progress,
+            control,
         },
         not_estimated: not_estimated(case, request),
         priors,
@@ -106,8 +106,7 @@ pub fn fit(
     let slopes = best.covariance.whiten(&best.slopes).unwrap_or_else(|| best.slopes.clone());
     let start = problem.start_coordinates(&case.plan);
     let refused = determined::refuse(&problem.predictor, &problem.space, &start, &slopes)?;
-    let predictions =
-        predict_observations(case, &problem.seen, request.sampling.as_ref(), compute, progress)?;
+    let predictions = predict_observations(case, &problem.seen, request.sampling.as_ref(), compute, control)?;
     if let Some(refused) = refused {
         let observed = problem.seen.list;
         return Ok(whole(FitResult::NotDetermined { refused, observed, predictions }));
@@ -115,7 +114,7 @@ pub fn fit(
     let answers = settled.iter().map(|settled| problem.answer(case, settled)).collect();
     let ObservedShots { list: observed, file, .. } = problem.seen;
     let mut fit = Fit { answers, observed, file, predictions, next: None };
-    fit.next = what_to_observe_next(case, &fit, request, compute, progress)?;
+    fit.next = what_to_observe_next(case, &fit, request, compute, control)?;
     Ok(whole(FitResult::Fitted(fit)))
 }
 
@@ -183,7 +182,7 @@ fn what_to_observe_next(
     fit: &Fit,
     request: &FitRequest<'_>,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<Option<NextObservation>, NoResult> {
     let Some(sampling) = request.sampling else { return Ok(None) };
     let text = crate::plan::write_fit::write(
@@ -195,5 +194,5 @@ fn what_to_observe_next(
     let Some(plan) = text.ok().and_then(|text| Plan::parse("", &text).ok()) else { return Ok(None) };
     let shots = fit.observed.chunk_by(|a, b| a.option == b.option);
     let Some(most) = shots.max_by_key(|shot| shot.len()) else { return Ok(None) };
-    next_observation(&Case::new(plan), most[0].option, &sampling, compute, progress)
+    next_observation(&Case::new(plan), most[0].option, &sampling, compute, control)
 }

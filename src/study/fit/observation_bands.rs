@@ -16,7 +16,7 @@ use crate::study::samples::random_shot::{Input, draw_shot};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sampled_shot::percentiles;
 use crate::study::work::batch::run_batch;
-use crate::study::{Case, ComputeSettings, NoResult, Progress};
+use crate::study::{Case, ComputeSettings, NoResult, StudyControl};
 use crate::verdict::Quantity;
 
 /// Least share of samples with a value, for a band.
@@ -63,15 +63,15 @@ fn samples(
     shot: &ObservedShot,
     sampling: &Sampling,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<Samples, NoResult> {
     let numbers: Vec<usize> = (0..sampling.least).collect();
-    let runs = run_batch(&numbers, progress, |&number| {
+    let runs = run_batch(&numbers, control, |&number| {
         let sample = draw_shot(case, &case.shots[shot.option], sampling.seed, number);
         let settings = case.run_settings(compute.method, sample_step(compute, &sample.scene));
         // In the time of the plan, as observations are.
         let fired = sample.shot.later_by(-sample.later).with_times(&shot.times);
-        let values = observe_shot(case, Some(&sample.scene), &fired, &shot.watched, &settings, progress)?;
+        let values = observe_shot(case, Some(&sample.scene), &fired, &shot.watched, &settings, control)?;
         Ok(values.map(|values| (values, sample.inputs)))
     })?;
     if runs.contains(&None) {
@@ -88,16 +88,16 @@ pub fn predict_observations(
     seen: &ObservedShots,
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<Vec<Prediction>, NoResult> {
     let case = &until_rest(case);
     let mut all = Vec::new();
     for shot in seen.shots() {
         let ObservedShot { option, ref watched, .. } = shot;
         let settings = case.run_settings(compute.method, compute.first_step(case));
-        let planned = observe_shot(case, None, &case.shots[option], watched, &settings, progress)?;
+        let planned = observe_shot(case, None, &case.shots[option], watched, &settings, control)?;
         let planned = planned.unwrap_or_else(|| vec![f64::NAN; watched.len()]);
-        let drawn = sampling.map(|sampling| samples(case, &shot, sampling, compute, progress));
+        let drawn = sampling.map(|sampling| samples(case, &shot, sampling, compute, control));
         let drawn = drawn.transpose()?;
         for (n, observation) in seen.list[shot.observations()].iter().enumerate() {
             let band = drawn.as_ref().and_then(|drawn| {
@@ -131,12 +131,12 @@ pub fn next_observation(
     option: usize,
     sampling: &Sampling,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<Option<NextObservation>, NoResult> {
     let case = &until_rest(case);
     let watched = observables(case.scene());
     let shot = ObservedShot { option, times: Vec::new(), watched, first: 0 };
-    let drawn = samples(case, &shot, sampling, compute, progress)?;
+    let drawn = samples(case, &shot, sampling, compute, control)?;
     let watched = shot.watched;
     let count = drawn.values.len();
     if count <= 2 * Input::ALL.len() {

@@ -11,7 +11,7 @@ use crate::plan::Plan;
 use crate::plan::observations::Watched;
 use crate::scene::{Scene, Shot};
 use crate::simulation::{Motion, RunSettings};
-use crate::study::{Case, ComputeSettings, NoResult, Progress};
+use crate::study::{Case, ComputeSettings, NoResult, StudyControl};
 
 /// Quantities watched in the shots of a plan, and the parameters on which they depend.
 pub struct Predictor<'p> {
@@ -23,8 +23,8 @@ pub struct Predictor<'p> {
     pub shots: Vec<ObservedShot>,
     /// Method and accuracy.
     pub compute: ComputeSettings,
-    /// Progress of the study.
-    pub progress: &'p Progress,
+    /// How far the study is, and whether it goes on.
+    pub control: &'p StudyControl,
 }
 
 impl Predictor<'_> {
@@ -46,7 +46,7 @@ impl Predictor<'_> {
             let step = coarser * self.compute.first_step(&case);
             let settings = case.run_settings(self.compute.method, step);
             let shot = case.shots[*option].with_times(times);
-            let run = observe_shot(&case, None, &shot, watched, &settings, self.progress)?;
+            let run = observe_shot(&case, None, &shot, watched, &settings, self.control)?;
             let Some(values) = run else { return Ok(None) };
             all.extend(values);
         }
@@ -61,7 +61,7 @@ pub fn observe_shot(
     shot: &Shot,
     watched: &[Watched],
     settings: &RunSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<Option<Vec<f64>>, NoResult> {
     // A run begins at time 0: where a hole fires before, all is moved, and moved back in what is seen.
     let early = shot.firings.first().map_or(0.0, |firing| -firing.time.min(0.0));
@@ -71,13 +71,13 @@ pub fn observe_shot(
     let mut watch = ObservationWatch::new(&moved);
     let mut look = |motion: &dyn Motion| -> ControlFlow<()> {
         watch.observe(motion);
-        progress.flow()
+        control.flow()
     };
     let done = match variant {
         Some(variant) => case.model.run_variant(variant, shot, settings, &mut look),
         None => case.model.run(shot, settings, &mut look),
     };
-    match done.map_err(|failure| progress.no_result(failure)) {
+    match done.map_err(|failure| control.no_result(failure)) {
         Ok(outcome) => {
             let mut values = watch.values(outcome.end.reason == EndReason::AtRest);
             for (value, watched) in values.iter_mut().zip(watched) {

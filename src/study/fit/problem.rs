@@ -106,11 +106,11 @@ impl FitProblem<'_> {
         };
         let covariance = covariance.ok_or_else(|| self.failure(&start))?;
         let minima =
-            self.space.minima(&start, &|at| self.residuals(at, &covariance), self.predictor.progress)?;
+            self.space.minima(&start, &|at| self.residuals(at, &covariance), self.predictor.control)?;
         let least = minima.first().map_or(f64::INFINITY, |best| best.misfit);
         let is_worth = |minimum: &Minimum| minimum.misfit <= least + WORTH_SETTLING;
         let worth: Vec<Minimum> = minima.into_iter().take_while(is_worth).take(MOST_SETTLED).collect();
-        let settled = run_batch(&worth, self.predictor.progress, |minimum| match self.seed {
+        let settled = run_batch(&worth, self.predictor.control, |minimum| match self.seed {
             Some(seed) => self.settle_among_samples(&model, minimum, seed),
             None => self.settle(&model, minimum),
         })?;
@@ -217,11 +217,11 @@ impl FitProblem<'_> {
         let settings =
             case.run_settings(self.predictor.compute.method, self.predictor.compute.first_step(&case));
         let run = |shot: &ObservedShot| {
-            let watch = &mut |_: &dyn crate::simulation::Motion| self.predictor.progress.flow();
+            let watch = &mut |_: &dyn crate::simulation::Motion| self.predictor.control.flow();
             case.model.run(&case.shots[shot.option].with_times(&shot.times), &settings, watch).err()
         };
         let failure = self.predictor.shots.iter().find_map(run);
-        failure.map_or(NoResult::OutOfTime, |failure| self.predictor.progress.no_result(failure))
+        failure.map_or(NoResult::OutOfTime, |failure| self.predictor.control.no_result(failure))
     }
 
     /// Derivatives of the predictions at a minimum, whose `values` are these.

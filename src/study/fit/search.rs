@@ -13,7 +13,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::study::work::batch::run_batch;
-use crate::study::{NoResult, Progress};
+use crate::study::{NoResult, StudyControl};
 
 /// The residuals at given coordinates; `None` where a run fails. Their number never changes.
 pub type Residuals<'f> = dyn Fn(&[f64]) -> Result<Option<DVector<f64>>, NoResult> + Sync + 'f;
@@ -98,10 +98,10 @@ impl SearchBox {
         &self,
         own: &[f64],
         residuals: &Residuals<'_>,
-        progress: &Progress,
+        control: &StudyControl,
     ) -> Result<Vec<Minimum>, NoResult> {
         let starts = self.starts(own);
-        let misfits = run_batch(&starts, progress, |start| Ok(residuals(start)?.map(|r| r.norm_squared())))?;
+        let misfits = run_batch(&starts, control, |start| Ok(residuals(start)?.map(|r| r.norm_squared())))?;
         let misfits: Option<Vec<f64>> =
             misfits.into_iter().map(|misfit| misfit.map(|known| known.unwrap_or(f64::INFINITY))).collect();
         let Some(misfits) = misfits else { return Err(NoResult::OutOfTime) };
@@ -110,7 +110,7 @@ impl SearchBox {
         chosen.sort_by(|&a, &b| misfits[a].total_cmp(&misfits[b]));
         chosen.truncate(MOST_REFINED);
         let chosen: Vec<Vec<f64>> = chosen.into_iter().map(|n| starts[n].clone()).collect();
-        let refined = run_batch(&chosen, progress, |start| self.refine(start, residuals))?;
+        let refined = run_batch(&chosen, control, |start| self.refine(start, residuals))?;
         let refined: Option<Vec<Option<Minimum>>> = refined.into_iter().collect();
         let mut minima: Vec<Minimum> = refined.ok_or(NoResult::OutOfTime)?.into_iter().flatten().collect();
         minima.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));

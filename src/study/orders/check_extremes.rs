@@ -8,7 +8,7 @@ use super::mirror_rows::{mirror_rows, mirrored};
 use super::{TriedOrder, utilization};
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, run_checks_or_unknown};
-use crate::study::{Case, ComputeResult, ComputeSettings, Computed, Progress, ShotSummary};
+use crate::study::{Case, ComputeResult, ComputeSettings, Computed, ShotSummary, StudyControl};
 
 /// Factor on the error of a quick check within which an order may still be the worst or the best.
 const REACH_ERROR_FACTOR: f64 = 6.0;
@@ -21,7 +21,7 @@ pub fn check_extremes(
     case: &Case,
     mut tried: Vec<TriedOrder>,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> ComputeResult<Vec<TriedOrder>> {
     let mirror_rows = mirror_rows(case);
     let mut refined = HashSet::new();
@@ -61,7 +61,7 @@ pub fn check_extremes(
             }
             let shots: Vec<Shot> = next.iter().map(|&n| case.shot(&tried[n].order, interval)).collect();
             let checked =
-                run_checks_or_unknown(&shots, progress, |shot| check_summary(case, shot, compute, progress))?;
+                run_checks_or_unknown(&shots, control, |shot| check_summary(case, shot, compute, control))?;
             for (n, as_planned) in next.into_iter().zip(checked) {
                 let Some(as_planned) = as_planned else {
                     return Ok(Computed { value: tried, partial: true });

@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::check_extremes::check_extremes;
 use super::{OrderToTry, TriedOrder, quick_check_orders, utilization};
-use crate::study::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress};
+use crate::study::{Case, ComputeResult, ComputeSettings, Computed, NoResult, StudyControl};
 
 /// Number of orders of a search that are improved by exchanges towards the worst, and towards the best.
 const CLIMBERS: usize = 24;
@@ -22,7 +22,7 @@ pub(super) fn climb_orders(
     case: &Case,
     intervals: &[f64],
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> ComputeResult<Vec<TriedOrder>> {
     let rows: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
     let mut tried: Vec<TriedOrder> = Vec::new();
@@ -35,7 +35,7 @@ pub(super) fn climb_orders(
             order
         }));
         let first = tried.len();
-        if quick_check_new_orders(case, &mut tried, first, starts, interval, compute, progress)? {
+        if quick_check_new_orders(case, &mut tried, first, starts, interval, compute, control)? {
             return Ok(Computed { value: tried, partial: true });
         }
         let mut climbers: Vec<(f64, Vec<usize>)> = Vec::new();
@@ -47,7 +47,7 @@ pub(super) fn climb_orders(
         // All climbers take a step at once; those that meet become one.
         while !climbers.is_empty() {
             let neighbours = climbers.iter().flat_map(|(_, order)| exchanges(order)).unique().collect();
-            if quick_check_new_orders(case, &mut tried, first, neighbours, interval, compute, progress)? {
+            if quick_check_new_orders(case, &mut tried, first, neighbours, interval, compute, control)? {
                 return Ok(Computed { value: tried, partial: true });
             }
             let utilizations: HashMap<&[usize], f64> =
@@ -64,7 +64,7 @@ pub(super) fn climb_orders(
                 .collect();
         }
     }
-    check_extremes(case, tried, compute, progress)
+    check_extremes(case, tried, compute, control)
 }
 
 /// All orders that differ by an exchange of two rows.
@@ -84,12 +84,12 @@ fn quick_check_new_orders(
     orders: Vec<Vec<usize>>,
     interval: f64,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<bool, NoResult> {
     let tried_orders: HashSet<&[usize]> = tried[first..].iter().map(|t| t.order.as_slice()).collect();
     let new = orders.into_iter().unique().filter(|order| !tried_orders.contains(order.as_slice()));
     let new = new.enumerate().map(|(n, order)| OrderToTry { number: tried.len() + n, order, interval });
-    let Computed { value, partial } = quick_check_orders(case, new.collect(), compute, progress)?;
+    let Computed { value, partial } = quick_check_orders(case, new.collect(), compute, control)?;
     tried.extend(value);
     Ok(partial)
 }

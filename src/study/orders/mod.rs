@@ -30,7 +30,7 @@ use super::judgement::Evidence;
 use super::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use super::samples::sample_count::Sampling;
 use super::{
-    Case, ComputeResult, ComputeSettings, Computed, Fingerprint, NoResult, Progress, Shard, ShotSummary,
+    Case, ComputeResult, ComputeSettings, Computed, Fingerprint, NoResult, Shard, ShotSummary, StudyControl,
 };
 use crate::verdict::Verdict;
 
@@ -84,7 +84,7 @@ impl Orders {
         case: &Case,
         sampling: &Sampling,
         compute: &ComputeSettings,
-        progress: &Progress,
+        control: &StudyControl,
     ) -> ComputeResult<()> {
         let count = self.ranked.len();
         let ends: Vec<usize> =
@@ -94,9 +94,9 @@ impl Orders {
             (case.shot(order, *interval), *as_planned)
         };
         let shots: Vec<_> = ends.iter().map(shot).collect();
-        let mut sampled = sample_shots_in_brief(case, &shots, &sampling.first_look(), compute, progress)?;
+        let mut sampled = sample_shots_in_brief(case, &shots, &sampling.first_look(), compute, control)?;
         if let (Some(best), Some(last)) = (shots.last(), sampled.last_mut()) {
-            *last = sample_shots_in_brief(case, std::slice::from_ref(best), sampling, compute, progress)?
+            *last = sample_shots_in_brief(case, std::slice::from_ref(best), sampling, compute, control)?
                 .remove(0);
         }
         let partial = sampled.contains(&None);
@@ -143,12 +143,12 @@ pub fn rank(
     intervals: usize,
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> ComputeResult<Orders> {
     let Computed { value: tried, mut partial } = tried;
     let mut orders = Orders::new(case, tried, intervals);
     if let Some(sampling) = sampling {
-        partial |= orders.add_risk(case, sampling, compute, progress)?.partial;
+        partial |= orders.add_risk(case, sampling, compute, control)?.partial;
     }
     Ok(Computed { value: orders, partial })
 }
@@ -169,10 +169,10 @@ pub fn orders(
     intervals: &[f64],
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> ComputeResult<Orders> {
-    let tried = try_orders(case, intervals, Shard::WHOLE, compute, progress)?;
-    rank(case, tried, intervals.len(), sampling, compute, progress)
+    let tried = try_orders(case, intervals, Shard::WHOLE, compute, control)?;
+    rank(case, tried, intervals.len(), sampling, compute, control)
 }
 
 /// Tries the orders at every interval [s]; only those of `shard`.
@@ -181,7 +181,7 @@ pub fn try_orders(
     intervals: &[f64],
     shard: Shard,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> ComputeResult<Vec<TriedOrder>> {
     if intervals.is_empty() {
         return Err(NoResult::NoInterval);
@@ -192,13 +192,13 @@ pub fn try_orders(
     let or_first_failure = |found: Computed<Vec<TriedOrder>>| {
         if found.value.iter().all(|tried| tried.as_planned == ShotSummary::UNKNOWN) {
             for tried in found.value.iter().take(1) {
-                check_summary(case, &case.shot(&tried.order, tried.interval), compute, progress)?;
+                check_summary(case, &case.shot(&tried.order, tried.interval), compute, control)?;
             }
         }
         Ok(found)
     };
     if !tries_all(case) {
-        return climb_orders(case, intervals, compute, progress).and_then(or_first_failure);
+        return climb_orders(case, intervals, compute, control).and_then(or_first_failure);
     }
     let mirror_rows = mirror_rows(case);
     let orders = intervals
@@ -207,7 +207,7 @@ pub fn try_orders(
     let per_interval = count_orders(case, 1);
     let orders = orders.enumerate().map(|(number, (order, interval))| OrderToTry { number, order, interval });
     let is_ours = |one: &OrderToTry| shard.has(one.number) && one.order <= mirrored(&one.order, &mirror_rows);
-    let found = quick_check_orders(case, orders.filter(is_ours).collect(), compute, progress)?;
+    let found = quick_check_orders(case, orders.filter(is_ours).collect(), compute, control)?;
     let mut tried = Vec::with_capacity(2 * found.value.len());
     for one in found.value {
         let order = mirrored(&one.order, &mirror_rows);
@@ -221,7 +221,7 @@ pub fn try_orders(
     if found.partial || shard != Shard::WHOLE {
         return or_first_failure(Computed { value: tried, partial: found.partial });
     }
-    check_extremes(case, tried, compute, progress).and_then(or_first_failure)
+    check_extremes(case, tried, compute, control).and_then(or_first_failure)
 }
 
 /// An order to be checked at one interval.
@@ -249,17 +249,17 @@ fn quick_check_orders(
     case: &Case,
     orders: Vec<OrderToTry>,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> ComputeResult<Vec<TriedOrder>> {
     let enough = |summary: &ShotSummary, runs: usize| {
         quick_check_is_sure(case, summary, runs)
             || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= COARSE_RUNS
     };
-    let summaries = run_checks_or_unknown(&orders, progress, |OrderToTry { order, interval, .. }| {
+    let summaries = run_checks_or_unknown(&orders, control, |OrderToTry { order, interval, .. }| {
         let shot = case.shot(order, *interval);
-        progress.journal().recall_or(
+        control.journal().recall_or(
             || Fingerprint::of(("order", case.fingerprint(), &shot, compute)),
-            || quick_check_until(case, &shot, compute, progress, enough),
+            || quick_check_until(case, &shot, compute, control, enough),
         )
     })?;
     let tried = |(OrderToTry { number, order, interval }, as_planned): (_, Option<ShotSummary>)| {

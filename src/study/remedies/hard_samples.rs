@@ -11,7 +11,7 @@ use crate::study::samples::failure_bounds::{ErrorShare, FailureBounds};
 use crate::study::samples::sample::Sample;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::work::batch::run_batch;
-use crate::study::{NoResult, Progress};
+use crate::study::{NoResult, StudyControl};
 use crate::verdict::Verdict;
 
 /// Most samples that a change is tried on first.
@@ -78,14 +78,13 @@ impl HardSamples {
     pub(super) fn draw(
         &self,
         targets: &[(usize, ShotToSample<'_>)],
-        progress: &Progress,
+        control: &StudyControl,
     ) -> Result<Vec<Option<HardDrawn>>, NoResult> {
         let of_target = |(n, (option, _)): (usize, &(usize, _))| {
             self.numbers(*option).into_iter().map(move |number| (n, number))
         };
         let jobs: Vec<(usize, usize)> = targets.iter().enumerate().flat_map(of_target).collect();
-        let drawn =
-            run_batch(&jobs, progress, |&(n, number)| run_sample(&targets[n].1, number, 0, progress))?;
+        let drawn = run_batch(&jobs, control, |&(n, number)| run_sample(&targets[n].1, number, 0, control))?;
         let mut drawn_of_each = vec![Some(Vec::new()); targets.len()];
         for ((n, _), sample) in jobs.into_iter().zip(drawn) {
             drawn_of_each[n] = drawn_of_each[n].take().zip(sample).map(|(mut samples, sample)| {

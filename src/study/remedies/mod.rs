@@ -27,7 +27,9 @@ use super::samples::failure_bounds::ErrorShare;
 use super::samples::sample_count::Sampling;
 use super::samples::sampled_shot::SampledShot;
 use super::work::batch::run_batch;
-use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress, ShotSummary, catch_panic};
+use super::{
+    Case, ComputeResult, ComputeSettings, Computed, NoResult, ShotSummary, StudyControl, catch_panic,
+};
 use crate::plan::PlanSource;
 use crate::plan::edit::change::{Change, ChangeKind};
 use crate::verdict::Verdict;
@@ -115,7 +117,7 @@ struct Task<'t> {
     case: &'t Case,
     sampling: Option<&'t Sampling>,
     compute: &'t ComputeSettings,
-    progress: &'t Progress,
+    control: &'t StudyControl,
 }
 
 /// Tries changes for one option, until the time is up. Without a `sampling` only the shot as planned counts.
@@ -124,9 +126,9 @@ pub fn find_remedies(
     option: usize,
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> ComputeResult<Remedies> {
-    let Computed { mut value, partial } = find_all_remedies(case, &[option], sampling, compute, progress)?;
+    let Computed { mut value, partial } = find_all_remedies(case, &[option], sampling, compute, control)?;
     Ok(Computed { value: value.remove(0), partial })
 }
 
@@ -136,9 +138,9 @@ pub fn find_all_remedies(
     options: &[usize],
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> ComputeResult<Vec<Remedies>> {
-    let task = Task { case, sampling, compute, progress };
+    let task = Task { case, sampling, compute, control };
     let mut hard = HardSamples::new(case.limits.accepted_risk, sampling.map_or(0, |sampling| sampling.most));
     let enough_samples = sampling.is_none() || hard.enough_samples();
     let mut kinds = if enough_samples { screen_candidates(&task, options)? } else { Vec::new() };
@@ -165,7 +167,7 @@ fn changed(case: &Case, change: &Change) -> Option<Case> {
 /// The kinds of all options, each with the candidates that a coarse run as planned does not surely fail. Candidates that make no
 /// valid plan count as not tried; a kind without a candidate is left out.
 fn screen_candidates(task: &Task<'_>, options: &[usize]) -> Result<Vec<ChangesOfOneKind>, NoResult> {
-    let Task { case, compute, progress, .. } = *task;
+    let Task { case, compute, control, .. } = *task;
     let kinds = |&option: &usize| {
         let crowded = exceeds_together(case, &case.shots[option]);
         candidates(&case.plan, option, crowded).into_iter().map(move |changes| (option, changes))
@@ -175,9 +177,9 @@ fn screen_candidates(task: &Task<'_>, options: &[usize]) -> Result<Vec<ChangesOf
         .iter()
         .flat_map(|(option, changes)| changes.iter().map(|&change| (*option, change)))
         .collect();
-    let mut verdicts = run_batch(&jobs, progress, |(option, change)| {
+    let mut verdicts = run_batch(&jobs, control, |(option, change)| {
         let Some(changed) = changed(case, change) else { return Ok(None) };
-        match catch_panic(|| quick_check(&changed, &changed.shots[*option], compute, progress)) {
+        match catch_panic(|| quick_check(&changed, &changed.shots[*option], compute, control)) {
             // The judgement in full tells.
             Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(Some(Verdict::Undecided)),
             coarse => Ok(Some(coarse?.verdict)),
@@ -242,7 +244,7 @@ fn judge_next(
         let target = ShotToSample::new(&next.case, &next.case.shots[option], *task.compute, sampling);
         targets.push((option, target.with_planned(ShotSummary::of(checked)).only_pass()));
     }
-    let sampled_changes = sample(&targets, hard, task.progress)?;
+    let sampled_changes = sample(&targets, hard, task.control)?;
     for ((next, checked), sampled) in passing.into_iter().zip(sampled_changes) {
         let kind = &mut kinds[next.kind];
         match sampled {
@@ -269,10 +271,10 @@ fn check_changes(
 ) -> Result<Vec<Option<CheckedShot>>, NoResult> {
     let options: Vec<usize> = to_judge.iter().map(|next| kinds[next.kind].option).collect();
     let jobs: Vec<(&Case, usize)> = to_judge.iter().map(|next| &next.case).zip(options).collect();
-    let all = run_batch(&jobs, task.progress, |(case, option)| {
+    let all = run_batch(&jobs, task.control, |(case, option)| {
         let check = || {
-            let checked = check_as_planned(case, *option, task.compute, &mut |_| task.progress.flow());
-            checked.map_err(|failure| task.progress.no_result(failure))
+            let checked = check_as_planned(case, *option, task.compute, &mut |_| task.control.flow());
+            checked.map_err(|failure| task.control.no_result(failure))
         };
         match catch_panic(check) {
             Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(None),
@@ -306,9 +308,9 @@ enum SampledChange {
 fn sample(
     targets: &[(usize, ShotToSample<'_>)],
     hard: &mut HardSamples,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<Vec<SampledChange>, NoResult> {
-    let first = hard.draw(targets, progress)?;
+    let first = hard.draw(targets, control)?;
     let mut sampled_changes: Vec<SampledChange> = Vec::new();
     let (mut left, mut places) = (Vec::new(), Vec::new());
     for (n, ((_, target), first)) in targets.iter().zip(&first).enumerate() {
@@ -322,7 +324,7 @@ fn sample(
             places.push(n);
         }
     }
-    for ((target, n), sampled) in left.iter().zip(places).zip(sample_shots(&left, progress)?.value) {
+    for ((target, n), sampled) in left.iter().zip(places).zip(sample_shots(&left, control)?.value) {
         hard.note(targets[n].0, &sampled);
         let sampling = target.sampling;
         let is_complete = sampling.is_complete(&sampled) || !sampled.bounds.can_pass(sampling.most);

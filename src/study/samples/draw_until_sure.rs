@@ -14,7 +14,7 @@ use crate::study::compute::step_factor;
 use crate::study::reasons::shot::energy_balance_closes;
 use crate::study::work::batch::{run_announced_batch, run_batch};
 use crate::study::{
-    Case, ComputeResult, ComputeSettings, Computed, Fingerprint, NoResult, Progress, Shard, ShotSummary,
+    Case, ComputeResult, ComputeSettings, Computed, Fingerprint, NoResult, Shard, ShotSummary, StudyControl,
     catch_panic,
 };
 
@@ -102,22 +102,22 @@ const MOST_STEP_HALVINGS: u32 = 3;
 /// Draws and judges samples of every shot, until its risk is sure.
 ///
 /// The result is partial where a shot has no more samples than the time sufficed for.
-pub fn sample_shots(targets: &[ShotToSample<'_>], progress: &Progress) -> ComputeResult<Vec<SampledShot>> {
-    sample_shots_watched(targets, progress, &mut |_, _| ControlFlow::Continue(()))
+pub fn sample_shots(targets: &[ShotToSample<'_>], control: &StudyControl) -> ComputeResult<Vec<SampledShot>> {
+    sample_shots_watched(targets, control, &mut |_, _| ControlFlow::Continue(()))
 }
 
 /// Like [`sample_shots`]; `watch` sees every shot after each of its rounds, and may end the sampling of all: what it ended is not
 /// partial.
 pub fn sample_shots_watched(
     targets: &[ShotToSample<'_>],
-    progress: &Progress,
+    control: &StudyControl,
     watch: &mut dyn FnMut(usize, &SampledShot) -> ControlFlow<()>,
 ) -> ComputeResult<Vec<SampledShot>> {
     let mut sampled_shots: Vec<SampledShot> = targets.iter().map(ShotToSample::no_samples).collect();
-    let keys = keys(targets, progress);
+    let keys = keys(targets, control);
     // All samples that are drawn in any case are expected at once: how long it takes shows from the first round on.
     let mut expected: usize = targets.iter().map(ShotToSample::least).sum();
-    progress.announce(expected);
+    control.announce(expected);
     loop {
         let round = |(n, sampled): (usize, &SampledShot)| {
             let (numbers, step_halvings) = (targets[n].next_round(sampled), sampled.step_halvings);
@@ -127,12 +127,12 @@ pub fn sample_shots_watched(
         if jobs.is_empty() {
             return Ok(Computed { value: sampled_shots, partial: false });
         }
-        progress.announce(jobs.len().saturating_sub(expected));
+        control.announce(jobs.len().saturating_sub(expected));
         expected = expected.saturating_sub(jobs.len());
-        let drawn = run_announced_batch(&jobs, progress, |&(n, number, step_halvings)| {
+        let drawn = run_announced_batch(&jobs, control, |&(n, number, step_halvings)| {
             match targets[n].drawn_elsewhere(number) {
                 Some(sample) if step_halvings == 0 => Ok(*sample),
-                _ => recall_sample(&targets[n], keys[n], number, step_halvings, progress),
+                _ => recall_sample(&targets[n], keys[n], number, step_halvings, control),
             }
         })?;
         let out_of_time = drawn.contains(&None);
@@ -164,8 +164,8 @@ pub fn sample_shots_watched(
 }
 
 /// Keys of shots in the journal; `None` where there is no journal.
-fn keys(targets: &[ShotToSample<'_>], progress: &Progress) -> Vec<Option<Fingerprint>> {
-    let is_on = progress.journal().is_on();
+fn keys(targets: &[ShotToSample<'_>], control: &StudyControl) -> Vec<Option<Fingerprint>> {
+    let is_on = control.journal().is_on();
     targets.iter().map(|target| is_on.then(|| target.fingerprint())).collect()
 }
 
@@ -175,19 +175,19 @@ fn recall_sample(
     key: Option<Fingerprint>,
     number: usize,
     step_halvings: u32,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<Sample, NoResult> {
     let key = || Fingerprint::of(("sample", key, number, step_halvings));
-    progress.journal().recall_or(key, || run_sample(target, number, step_halvings, progress))
+    control.journal().recall_or(key, || run_sample(target, number, step_halvings, control))
 }
 
 /// Draws one sample and runs it once, without an audit: for a first look at a shot among many.
 pub(in crate::study) fn run_sample_once(
     target: &ShotToSample<'_>,
     number: usize,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<Sample, NoResult> {
-    undecided_if_panicked(catch_panic(|| try_sample(target, number, 0, false, progress)), number)
+    undecided_if_panicked(catch_panic(|| try_sample(target, number, 0, false, control)), number)
 }
 
 /// Draws one sample and runs it, at a step halved `step_halvings` times; where the sample is one of the audit, also at a finer step.
@@ -195,9 +195,9 @@ pub(in crate::study) fn run_sample(
     target: &ShotToSample<'_>,
     number: usize,
     step_halvings: u32,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<Sample, NoResult> {
-    undecided_if_panicked(catch_panic(|| try_sample(target, number, step_halvings, true, progress)), number)
+    undecided_if_panicked(catch_panic(|| try_sample(target, number, step_halvings, true, control)), number)
 }
 
 /// A sample in which the program panicked shows nothing; the others go on.
@@ -214,14 +214,14 @@ fn undecided_if_panicked(sample: Result<Sample, NoResult>, number: usize) -> Res
 pub fn draw_shard(
     targets: &[ShotToSample<'_>],
     shard: Shard,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<Vec<(usize, Option<Sample>)>, NoResult> {
     let of_target = |n: usize| (0..targets[n].sampling.most).map(move |number| (n, number));
     let jobs: Vec<(usize, usize)> =
         (0..targets.len()).flat_map(of_target).filter(|&(_, number)| shard.has(number)).collect();
-    let keys = keys(targets, progress);
-    let recall = |&(n, number): &(usize, usize)| recall_sample(&targets[n], keys[n], number, 0, progress);
-    let drawn = run_batch(&jobs, progress, recall)?;
+    let keys = keys(targets, control);
+    let recall = |&(n, number): &(usize, usize)| recall_sample(&targets[n], keys[n], number, 0, control);
+    let drawn = run_batch(&jobs, control, recall)?;
     Ok(jobs.into_iter().map(|(n, _)| n).zip(drawn).collect())
 }
 
@@ -244,7 +244,7 @@ fn try_sample(
     number: usize,
     step_halvings: u32,
     may_audit: bool,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<Sample, NoResult> {
     let ShotToSample { case, shot, compute, sampling, .. } = *target;
     let DrawnShot { scene, shot, inputs, later } = draw_shot(case, shot, sampling.seed, number);
@@ -252,11 +252,11 @@ fn try_sample(
     let run = |step: f64| {
         let planned = case.run_settings(compute.method, step);
         let settings = RunSettings { duration: planned.duration.map(|duration| duration + later), ..planned };
-        match case.model.run_variant(&scene, &shot, &settings, &mut |_| progress.flow()) {
+        match case.model.run_variant(&scene, &shot, &settings, &mut |_| control.flow()) {
             Ok(outcome) => {
                 Ok((SampleRun::new(case, &shot, &outcome), !energy_balance_closes(outcome.ledger.residual())))
             }
-            Err(failure) => match progress.no_result(failure) {
+            Err(failure) => match control.no_result(failure) {
                 NoResult::Failed(_) => Ok((SampleRun::UNKNOWN, true)),
                 ended => Err(ended),
             },

@@ -5,7 +5,7 @@ use super::failure_bounds::FailureBounds;
 use super::sample_count::Sampling;
 use super::sampled_shot::{SampledShot, percentiles};
 use crate::scene::Shot;
-use crate::study::{Case, ComputeSettings, NoResult, Progress, ShotSummary};
+use crate::study::{Case, ComputeSettings, NoResult, ShotSummary, StudyControl};
 use crate::verdict::{Limits, Verdict};
 
 /// Number of shots sampled together; their samples are not kept.
@@ -49,7 +49,7 @@ pub fn sample_shots_in_brief<'c>(
     shots: &'c [(Shot, ShotSummary)],
     sampling: &Sampling,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<Vec<Option<RiskSummary>>, NoResult> {
     let mut all = Vec::with_capacity(shots.len());
     for shots in shots.chunks(AT_ONCE) {
@@ -57,7 +57,7 @@ pub fn sample_shots_in_brief<'c>(
             ShotToSample::new(case, shot, *compute, *sampling).with_planned(*planned)
         };
         let targets: Vec<_> = shots.iter().map(target).collect();
-        let risks = sample_shots(&targets, progress)?.value;
+        let risks = sample_shots(&targets, control)?.value;
         let summary =
             |risk: &SampledShot| sampling.is_complete(risk).then(|| RiskSummary::of(risk, &case.limits));
         all.extend(risks.iter().map(summary));

@@ -27,7 +27,7 @@ use super::judgement::Judgement;
 use super::samples::failure_bounds::ErrorShare;
 use super::samples::sample_count::Sampling;
 use super::samples::sampled_shot::SampledShot;
-use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress, Shard};
+use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Shard, StudyControl};
 use crate::plan::{DelayOption, Plan, edit};
 use crate::verdict::Verdict;
 
@@ -94,7 +94,7 @@ pub fn search(
     case: &Case,
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> ComputeResult<Search> {
     let choices = Choices::new(case)?;
     let halving = start_halving(case, sampling, compute);
@@ -104,18 +104,18 @@ pub fn search(
     let mut out_of_time = false;
     match listed.allowed {
         Some(allowed) if complete => to_try.add(allowed),
-        allowed => out_of_time = to_try.explore(allowed.as_deref(), &halving, progress)?,
+        allowed => out_of_time = to_try.explore(allowed.as_deref(), &halving, control)?,
     }
     let mut tried = to_try.tried;
     let first = if complete { FIRST_OF_ALL } else { FIRST_OF_SEARCH };
-    out_of_time |= halving.run(&mut tried, first, progress)?;
+    out_of_time |= halving.run(&mut tried, first, control)?;
     let finalists = choose_finalists(&choices, &tried);
     let left = tried.iter().filter(|one| !finalists.iter().any(|(_, other)| other.shot == one.shot));
     let without_failure = left.filter(|one| one.tally.samples > 0 && one.tally.failures == 0).count();
     let front = front(&choices, &tried);
     let schedules: Vec<Schedule> = finalists.iter().map(|(schedule, _)| schedule.clone()).collect();
     let rough = finalists.iter().map(|(_, one)| RoughShare::of(one)).collect();
-    let (case, Computed { value: results, partial }) = judge(case, &schedules, sampling, compute, progress)?;
+    let (case, Computed { value: results, partial }) = judge(case, &schedules, sampling, compute, control)?;
     let judged = tried.iter().filter(|one| one.tally.samples > 0).count();
     let mut found = Search {
         case,
@@ -142,7 +142,7 @@ pub fn try_schedules(
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
     shard: Shard,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> ComputeResult<bool> {
     let choices = Choices::new(case)?;
     let listed = AllowedSchedules::new(case, &choices);
@@ -153,7 +153,7 @@ pub fn try_schedules(
     to_try.add(listed.allowed.unwrap_or_default());
     let ours = to_try.tried.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
     let mut ours: Vec<TriedSchedule> = ours.map(|(_, one)| one).collect();
-    let partial = start_halving(case, sampling, compute).draw(&mut ours, FIRST_OF_ALL, progress)?;
+    let partial = start_halving(case, sampling, compute).draw(&mut ours, FIRST_OF_ALL, control)?;
     Ok(Computed { value: true, partial })
 }
 
@@ -231,7 +231,7 @@ fn judge(
     schedules: &[Schedule],
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<(Case, Computed<OptionResults>), NoResult> {
     let delays = schedules.iter().map(|schedule| option_with_free_name(case, schedule)).collect();
     let plan = Plan { delays, ..case.plan.clone() };
@@ -239,7 +239,7 @@ fn judge(
     let sampling =
         sampling.map(|sampling| Sampling { error_share: ErrorShare::OneOf(JUDGED_IN_FULL), ..*sampling });
     let cases = [(&case, *compute)];
-    let mut found = judge_all_with_margins(&cases, sampling.as_ref(), progress, UNWATCHED)?;
+    let mut found = judge_all_with_margins(&cases, sampling.as_ref(), control, UNWATCHED)?;
     let results = found.value.remove(0);
     Ok((case, Computed { value: results, partial: found.partial }))
 }

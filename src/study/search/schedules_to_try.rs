@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::schedule::{BrokenLimit, Candidate, Choices, KnownShots, RefusedCounts};
 use super::successive_halving::{SuccessiveHalving, TriedSchedule};
-use crate::study::{Case, NoResult, Progress};
+use crate::study::{Case, NoResult, StudyControl};
 
 /// Greatest number of schedules that are all tried.
 pub const MOST_TRIED: usize = 4000;
@@ -83,7 +83,7 @@ impl<'c> SchedulesToTry<'c> {
         &mut self,
         allowed: Option<&[Candidate]>,
         halving: &SuccessiveHalving<'_>,
-        progress: &Progress,
+        control: &StudyControl,
     ) -> Result<bool, NoResult> {
         let mut random = ChaCha8Rng::seed_from_u64(halving.sampling.map_or(0, |sampling| sampling.seed));
         // Where the limits of the search leave few, more are drawn.
@@ -98,7 +98,7 @@ impl<'c> SchedulesToTry<'c> {
         }
         let mut seen: HashSet<Candidate> = HashSet::new();
         loop {
-            if halving.draw(&mut self.tried, FIRST_OF_SEARCH, progress)? {
+            if halving.draw(&mut self.tried, FIRST_OF_SEARCH, control)? {
                 return Ok(true);
             }
             let unseen = self.tried.iter().filter(|one| !seen.contains(&one.candidate));

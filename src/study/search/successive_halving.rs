@@ -8,7 +8,7 @@ use crate::study::samples::draw_until_sure::{ShotToSample, run_sample_once};
 use crate::study::samples::sample::SampleRun;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::work::batch::run_batch;
-use crate::study::{Case, ComputeSettings, Fingerprint, NoResult, Progress};
+use crate::study::{Case, ComputeSettings, Fingerprint, NoResult, StudyControl};
 use crate::verdict::Verdict;
 
 /// Schedules that stay to the end, at least.
@@ -93,12 +93,12 @@ impl SuccessiveHalving<'_> {
         &self,
         tried: &mut [TriedSchedule],
         samples: usize,
-        progress: &Progress,
+        control: &StudyControl,
     ) -> Result<bool, NoResult> {
         // A shot as planned is judged once.
         let samples = if self.sampling.is_some() { samples } else { 1 };
         let jobs: Vec<&TriedSchedule> = tried.iter().filter(|one| one.tally.samples < samples).collect();
-        let drawn = run_batch(&jobs, progress, |one| self.runs(one, samples, progress))?;
+        let drawn = run_batch(&jobs, control, |one| self.runs(one, samples, control))?;
         let out_of_time = drawn.contains(&None);
         let waiting = tried.iter_mut().filter(|one| one.tally.samples < samples);
         for (one, runs) in waiting.zip(drawn) {
@@ -114,11 +114,11 @@ impl SuccessiveHalving<'_> {
         &self,
         schedule: &TriedSchedule,
         samples: usize,
-        progress: &Progress,
+        control: &StudyControl,
     ) -> Result<Vec<(Verdict, f64)>, NoResult> {
         let (Self { case, compute, sampling }, shot) = (self, &schedule.shot);
         let Some(sampling) = sampling else {
-            return match quick_check(case, shot, compute, progress) {
+            return match quick_check(case, shot, compute, control) {
                 Ok(judged) => Ok(vec![(judged.verdict, judged.utilization(&case.limits))]),
                 Err(NoResult::Failed(_)) => Ok(vec![(Verdict::Undecided, f64::INFINITY)]),
                 Err(ended) => Err(ended),
@@ -126,11 +126,11 @@ impl SuccessiveHalving<'_> {
         };
         let target = ShotToSample::new(case, shot, *compute, *sampling);
         let one = |number: usize| -> Result<(Verdict, f64), NoResult> {
-            let run: SampleRun = run_sample_once(&target, number, progress)?.run;
+            let run: SampleRun = run_sample_once(&target, number, control)?.run;
             Ok((run.verdict, run.utilization(&case.limits)))
         };
         let numbers = schedule.tally.samples..samples;
-        progress.journal().recall_or(
+        control.journal().recall_or(
             || Fingerprint::of(("halving", target.fingerprint(), &numbers)),
             || numbers.clone().map(one).collect(),
         )
@@ -142,11 +142,11 @@ impl SuccessiveHalving<'_> {
         &self,
         tried: &mut [TriedSchedule],
         first: usize,
-        progress: &Progress,
+        control: &StudyControl,
     ) -> Result<bool, NoResult> {
         let (mut samples, mut left) = (first, tried.len());
         loop {
-            let out_of_time = self.draw(&mut tried[..left], samples, progress)?;
+            let out_of_time = self.draw(&mut tried[..left], samples, control)?;
             tried[..left].sort_by(|a, b| {
                 a.tally.estimated_failing_share().total_cmp(&b.tally.estimated_failing_share())
             });

@@ -19,7 +19,7 @@ use self::size_candidate::{ShotsToSample, SizeCandidate};
 use super::judgement::{Evidence, verdict_of_both};
 use super::samples::failure_bounds::ErrorShare;
 use super::samples::sample_count::Sampling;
-use super::{ComputeResult, ComputeSettings, Computed, NoResult, Progress, ShotSummary};
+use super::{ComputeResult, ComputeSettings, Computed, NoResult, ShotSummary, StudyControl};
 use crate::plan::{Layout, Plan};
 use crate::ropes::{Rope, catalogue};
 use crate::verdict::Verdict;
@@ -159,7 +159,7 @@ struct SizingTask<'q> {
     plan: &'q Plan,
     demand: &'q Demand,
     compute: &'q ComputeSettings,
-    progress: &'q Progress,
+    control: &'q StudyControl,
 }
 
 /// Tries the combinations that the plan allows, of ropes that its termination fits, until the time is up. Without a `sampling`
@@ -169,9 +169,9 @@ pub fn size(
     demand: &Demand,
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> ComputeResult<Sizing> {
-    let task = SizingTask { plan, demand, compute, progress };
+    let task = SizingTask { plan, demand, compute, control };
     let mut tried = try_all(&task)?;
     tried.sort_by(|(a, _), (b, _)| {
         let strength = |c: &Combination| c.rope.breaking_force_kn;
@@ -199,7 +199,7 @@ fn try_all(task: &SizingTask<'_>) -> Result<Vec<(Combination, ShotsToSample)>, N
         for rope in ropes {
             let candidate = SizeCandidate::new(task, rope, tire_mass, border_rows);
             let (mut hardest, mut trial) = (ShotsToSample::new(), Err(Untried::StrongerRopeDoesNotHold));
-            if task.progress.expired() {
+            if task.control.expired() {
                 trial = Err(Untried::OutOfTime);
             } else if stronger_holds {
                 match candidate.try_as_planned(&mut likeliest) {

@@ -70,7 +70,7 @@ impl<'q> SizeCandidate<'q> {
         &self,
         likeliest: &mut usize,
     ) -> Result<Option<(Trial, ShotsToSample)>, NoResult> {
-        let (case, SizingTask { compute, progress, demand, .. }) = (&self.case, self.task);
+        let (case, SizingTask { compute, control, demand, .. }) = (&self.case, self.task);
         let mut order: Vec<usize> = (0..self.shots.len()).collect();
         if *likeliest < order.len() {
             order.swap(0, *likeliest);
@@ -79,7 +79,7 @@ impl<'q> SizeCandidate<'q> {
         let mut holds = true;
         for chunk in order.chunks(AT_ONCE) {
             let part: Vec<Shot> = chunk.iter().map(|&n| self.shots[n].clone()).collect();
-            let chunk_judged = check_summaries(case, &part, compute, progress)?;
+            let chunk_judged = check_summaries(case, &part, compute, control)?;
             let Some(chunk_judged) = chunk_judged.into_iter().collect::<Option<Vec<_>>>() else {
                 return Ok(None);
             };
@@ -134,7 +134,7 @@ impl<'q> SizeCandidate<'q> {
             Verdict::Pass | Verdict::Undecided => ControlFlow::Continue(()),
         };
         let Computed { value: risks, partial } =
-            sample_shots_watched(&targets, self.task.progress, until_one_fails)?;
+            sample_shots_watched(&targets, self.task.control, until_one_fails)?;
         let worst = risks.iter().map(|sampled| {
             let FailureBounds { samples, failures, interval: [_, failure_upper_bound], .. } = sampled.bounds;
             WorstShotRisk { verdict: sampled.verdict(), samples, failures, failure_upper_bound }

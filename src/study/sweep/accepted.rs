@@ -17,7 +17,7 @@ use crate::study::judgement::Evidence;
 use crate::study::samples::failure_bounds::ErrorShare;
 use crate::study::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use crate::study::samples::sample_count::Sampling;
-use crate::study::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Progress, ShotSummary};
+use crate::study::{Case, ComputeResult, ComputeSettings, Computed, NoResult, ShotSummary, StudyControl};
 use crate::verdict::Verdict;
 
 /// Most intervals that get a full verdict.
@@ -31,13 +31,13 @@ pub fn add_risk(
     own: &BTreeSet<i64>,
     sampling: &Sampling,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> ComputeResult<Sweep> {
     let Computed { value: mut swept, mut partial } = as_planned;
     let shot = |point: &Point| (case.shot(&swept.order, point.interval), point.as_planned);
     let chosen = choose(&swept.points, &swept.windows_as_planned, own);
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
-    let sampled = sample_shots_in_brief(case, &shots, &sampling.first_look(), compute, progress)?;
+    let sampled = sample_shots_in_brief(case, &shots, &sampling.first_look(), compute, control)?;
     partial |= sampled.contains(&None);
     swept.points.iter_mut().for_each(|point| point.risk = Evidence::Unknown);
     for (&n, sampled) in chosen.iter().zip(sampled) {
@@ -60,7 +60,7 @@ pub fn add_risk(
         };
         tried.insert(nanoseconds(candidate.interval));
         let fresh = sampling.with_fresh_draws(ErrorShare::Nth(tried.len()));
-        match judge(case, case.shot(&swept.order, candidate.interval), &fresh, compute, progress)? {
+        match judge(case, case.shot(&swept.order, candidate.interval), &fresh, compute, control)? {
             None => partial = true,
             Some((as_planned, risk)) => {
                 let point = &mut swept.points[n];
@@ -83,16 +83,16 @@ fn judge(
     shot: Shot,
     sampling: &Sampling,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> Result<Option<(ShotSummary, Option<RiskSummary>)>, NoResult> {
-    let as_planned = match or_unknown(check_summary(case, &shot, compute, progress)) {
+    let as_planned = match or_unknown(check_summary(case, &shot, compute, control)) {
         Err(NoResult::OutOfTime) => return Ok(None),
         judged => judged?,
     };
     if as_planned.verdict != Verdict::Pass {
         return Ok(Some((as_planned, None)));
     }
-    let sampled = sample_shots_in_brief(case, &[(shot, as_planned)], sampling, compute, progress)?.remove(0);
+    let sampled = sample_shots_in_brief(case, &[(shot, as_planned)], sampling, compute, control)?.remove(0);
     Ok(sampled.map(|sampled| (as_planned, Some(sampled))))
 }
 

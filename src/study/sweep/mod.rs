@@ -25,7 +25,7 @@ use super::judgement;
 use super::judgement::Evidence;
 use super::samples::risk_summary::RiskSummary;
 use super::samples::sample_count::Sampling;
-use super::{Case, ComputeResult, ComputeSettings, Computed, Intervals, NoResult, Progress, ShotSummary};
+use super::{Case, ComputeResult, ComputeSettings, Computed, Intervals, NoResult, ShotSummary, StudyControl};
 use crate::plan::Timing;
 use crate::scene::seconds;
 use crate::verdict::Verdict;
@@ -111,16 +111,16 @@ pub fn sweep(
     intervals: &Intervals,
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> ComputeResult<Sweep> {
     if case.plan.blast_rows.len() < 2 {
         return Err(NoResult::SingleRow);
     }
     case.require_hole_timing()?;
-    let as_planned = sweep_as_planned(case, order, intervals, compute, progress)?;
+    let as_planned = sweep_as_planned(case, order, intervals, compute, control)?;
     let Some(sampling) = sampling else { return Ok(as_planned) };
     let planned = plan_intervals(case, order).into_iter().map(nanoseconds).collect();
-    accepted::add_risk(case, as_planned, &planned, sampling, compute, progress)
+    accepted::add_risk(case, as_planned, &planned, sampling, compute, control)
 }
 
 /// Sweeps the shots as planned.
@@ -129,7 +129,7 @@ fn sweep_as_planned(
     order: &[usize],
     intervals: &Intervals,
     compute: &ComputeSettings,
-    progress: &Progress,
+    control: &StudyControl,
 ) -> ComputeResult<Sweep> {
     let mut exact: BTreeSet<i64> = plan_intervals(case, order).into_iter().map(nanoseconds).collect();
     let [from, to] = [intervals.from, intervals.to].map(nanoseconds);
@@ -141,14 +141,14 @@ fn sweep_as_planned(
         let work = |&at: &i64| {
             let shot = case.shot(order, in_seconds(at));
             match exact.contains(&at) {
-                true => check_summary(case, &shot, compute, progress),
-                false => quick_check(case, &shot, compute, progress),
+                true => check_summary(case, &shot, compute, control),
+                false => quick_check(case, &shot, compute, control),
             }
         };
         // Of the points between points that are known, all may fail.
         let checked = match tried.is_empty() {
-            true => run_checks(&jobs, progress, work)?,
-            false => run_checks_or_unknown(&jobs, progress, work)?,
+            true => run_checks(&jobs, control, work)?,
+            false => run_checks_or_unknown(&jobs, control, work)?,
         };
         // Out of time: gaps keep the width they have, and windows end there.
         let partial = checked.contains(&None);

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{NoResult, Progress};
+use super::{NoResult, StudyControl};
 
 /// `threads` threads to compute on, one per core where 0; they end once the pool is dropped and its work is done.
 pub fn thread_pool(threads: usize) -> Result<rayon::ThreadPool, NoResult> {
@@ -14,30 +14,30 @@ pub fn thread_pool(threads: usize) -> Result<rayon::ThreadPool, NoResult> {
 /// number of threads does not change the results.
 pub fn run_batch<J: Sync, T: Send>(
     jobs: &[J],
-    progress: &Progress,
+    control: &StudyControl,
     work: impl Fn(&J) -> Result<T, NoResult> + Sync,
 ) -> Result<Vec<Option<T>>, NoResult> {
-    progress.announce(jobs.len());
-    run_announced_batch(jobs, progress, work)
+    control.announce(jobs.len());
+    run_announced_batch(jobs, control, work)
 }
 
-/// Like [`run_batch`], for jobs that [`Progress::announce`] knows of already.
+/// Like [`run_batch`], for jobs that [`StudyControl::announce`] knows of already.
 pub fn run_announced_batch<J: Sync, T: Send>(
     jobs: &[J],
-    progress: &Progress,
+    control: &StudyControl,
     work: impl Fn(&J) -> Result<T, NoResult> + Sync,
 ) -> Result<Vec<Option<T>>, NoResult> {
     let one = |job: &J| {
-        if progress.stopped() {
+        if control.stopped() {
             return Err(NoResult::Stopped);
         }
-        if progress.expired() {
+        if control.expired() {
             return Ok(None);
         }
         match work(job) {
             Err(NoResult::OutOfTime) => Ok(None),
             result => {
-                progress.advance();
+                control.advance();
                 result.map(Some)
             }
         }
@@ -53,20 +53,20 @@ mod tests {
 
     #[test]
     fn a_job_that_ends_as_the_time_is_up_keeps_its_result() {
-        let progress = Progress::default();
+        let control = StudyControl::default();
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
         let work = |&job: &i32| {
-            progress.expire();
+            control.expire();
             Ok(job)
         };
-        assert_eq!(pool.install(|| run_batch(&[1, 2], &progress, work)), Ok(vec![Some(1), None]));
+        assert_eq!(pool.install(|| run_batch(&[1, 2], &control, work)), Ok(vec![Some(1), None]));
     }
 
     #[test]
     fn a_panic_is_told_and_the_others_go_on() {
         let jobs = [1, 2, 3];
         let work = |&job: &i32| Ok(catch_panic(|| if job == 2 { panic!("job {job}") } else { Ok(10 * job) }));
-        let results = run_batch(&jobs, &Progress::default(), work).expect("nobody stopped it");
+        let results = run_batch(&jobs, &StudyControl::default(), work).expect("nobody stopped it");
         assert_eq!(results, [Some(Ok(10)), Some(Err(NoResult::Panicked("job 2".to_owned()))), Some(Ok(30))]);
     }
 }

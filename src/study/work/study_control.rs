@@ -7,9 +7,9 @@ use super::Journal;
 use crate::simulation::RunError;
 use crate::study::NoResult;
 
-/// Progress of a study, shared between the threads that compute and the view that shows it.
+/// Progress and end of a study, shared between the threads that compute and the view that shows it.
 #[derive(Debug, Default)]
-pub struct Progress {
+pub struct StudyControl {
     stopped: AtomicBool,
     out_of_time: AtomicBool,
     done: AtomicUsize,
@@ -17,8 +17,8 @@ pub struct Progress {
     journal: Journal,
 }
 
-impl Progress {
-    /// The progress of a study whose results are kept in a journal.
+impl StudyControl {
+    /// The control of a study whose results are kept in a journal.
     pub fn with_journal(journal: Journal) -> Self {
         Self { journal, ..Self::default() }
     }
