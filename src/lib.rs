@@ -107,6 +107,8 @@
 //! | input | something that `[uncertainty]` lets vary; an *unknown* is one that a fit may estimate, a *parameter* an unknown of one blast row or of all |
 //! | remedy | a change of the plan with which an option would pass |
 //! | shard, journal | one machine's part of a study; what a study has computed, kept in a file by `--save` |
+//! | check | of one shot: as planned; the *command* `check` judges every option |
+//! | report, page | the result of a study as data, which every face draws; the *page* is the HTML for the blast file, which the command `report` writes |
 //! | face | one way to show results: text, CSV, page and terminal draw reports; JSON has documents of its own, and the table and detail of Compare draw judgements as they come |
 //!
 //! A word in brackets behind a field, such as (`n_tires`), is its length.

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::arguments::{LookArguments, StudyArguments};
-use super::judge_plans::{judge_plans, print_checks};
+use super::judge_plans::{judge_plans, print_judged_plans};
 use super::load_plans::open_all;
 use super::status::{Status, failed};
 use crate::report::words::option_sentences::VERDICTS;
@@ -32,7 +32,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let Some(cases) = open_all(&arguments.plans, look) else { return Ok(Status::Wrong) };
     let must_pass = if arguments.any { MustPass::One } else { MustPass::Every };
     match judge_plans(&cases, arguments.study.verdict.sampling(), &arguments.study.compute, arguments.why) {
-        Ok(checked) => print_checks(&cases, &checked, must_pass, arguments.study.format, look),
+        Ok(checked) => print_judged_plans(&cases, &checked, must_pass, arguments.study.format, look),
         Err(reason) => failed(&reason),
     }
 }

@@ -1,4 +1,4 @@
-//! Checking all options of some plans and printing their results, for every command that does.
+//! Judging all options of some plans and printing their results, for every command that does.
 
 use std::io;
 
@@ -24,7 +24,7 @@ pub struct JudgedPlan {
     pub remedies: Option<Vec<Remedies>>,
 }
 
-/// Checks all options of all cases in parallel; the results stand in the order of plans and options. With `why` the changes of the
+/// Judges all options of all cases in parallel; the results stand in the order of plans and options. With `why` the changes of the
 /// plans are found with which failing options would pass.
 pub fn judge_plans(
     cases: &[Case],
@@ -39,7 +39,7 @@ pub fn judge_plans(
             // The plan's own numbers alone: nothing varies, the launches neither.
             None => judge_all(&cases, None, control, UNWATCHED)?,
         };
-        let mut checked = Vec::new();
+        let mut judged = Vec::new();
         for (results, (case, compute)) in results.into_iter().zip(&cases) {
             let mut remedies = None;
             if why {
@@ -48,9 +48,9 @@ pub fn judge_plans(
                 partial |= found.partial;
                 remedies = Some(found.value);
             }
-            checked.push(JudgedPlan { results, remedies });
+            judged.push(JudgedPlan { results, remedies });
         }
-        Ok(Computed { value: checked, partial })
+        Ok(Computed { value: judged, partial })
     })
 }
 
@@ -63,15 +63,15 @@ enum Documents {
 }
 
 /// Prints the results of all cases.
-pub fn print_checks(
+pub fn print_judged_plans(
     cases: &[Case],
-    checked: &Computed<Vec<JudgedPlan>>,
+    judged: &Computed<Vec<JudgedPlan>>,
     must_pass: MustPass,
     format: FormatArg,
     look: &LookArguments,
 ) -> io::Result<Status> {
-    let Computed { value: checked, partial } = checked;
-    let pairs = || cases.iter().zip(checked);
+    let Computed { value: judged, partial } = judged;
+    let pairs = || cases.iter().zip(judged);
     let reported = |(case, JudgedPlan { results, remedies }): (&Case, &JudgedPlan)| {
         report(case, results, remedies.as_deref(), must_pass, *partial)
     };
@@ -89,10 +89,7 @@ pub fn print_checks(
     let status = print(&reports, documents, format, look)?;
     let needs_finer_step =
         |failed: &NoResult| matches!(failed, NoResult::Failed(failure) if failure.needs_finer_step());
-    if checked
-        .iter()
-        .flat_map(|checked| &checked.results)
-        .any(|result| result.as_ref().is_err_and(needs_finer_step))
+    if judged.iter().flat_map(|plan| &plan.results).any(|result| result.as_ref().is_err_and(needs_finer_step))
     {
         tell!("a run failed: {REMEDY_AS_ARGUMENTS}");
     }

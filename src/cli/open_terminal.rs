@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::arguments::{Compute, FormatArg, LookArguments};
-use super::judge_plans::{judge_plans, print_checks};
+use super::judge_plans::{judge_plans, print_judged_plans};
 use super::status::{Status, failed};
 use super::tell;
 use super::{load_plans, print_help};
@@ -24,7 +24,7 @@ pub fn plan(plan: &Path, compute: &Compute, look: &LookArguments) -> io::Result<
     if look.plain || !io::stdout().is_terminal() {
         let cases = [case];
         return match judge_plans(&cases, Some(Sampling::OF_VERDICT), compute, false) {
-            Ok(checked) => print_checks(&cases, &checked, MustPass::Every, FormatArg::Text, look),
+            Ok(checked) => print_judged_plans(&cases, &checked, MustPass::Every, FormatArg::Text, look),
             Err(reason) => failed(&reason),
         };
     }

@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments};
 use super::fit::read_observations;
-use super::judge_plans::{judge_plans, print_checks};
+use super::judge_plans::{judge_plans, print_judged_plans};
 use super::load_plans::open_option;
 use super::print::{print_beside_verdict, print_warnings};
 use super::run_study::run_study;
@@ -137,7 +137,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         tell!("wrote {}", output.display());
     }
     match arguments.format {
-        Some(format) => print_checks(&cases, &checked, MustPass::Every, format, look),
+        Some(format) => print_judged_plans(&cases, &checked, MustPass::Every, format, look),
         None => {
             let reports =
                 [check::report(&cases[0], &checked.value[0].results, None, MustPass::Every, checked.partial)];

@@ -2,7 +2,7 @@
 
 use super::option_row::{OptionRow, option_rows};
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Detail, Field, Report, Table};
-use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
+use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height, launch_margin_share};
 use super::words::option_sentences::{self, broken, compute_label, launch_margin};
 use super::words::reasons;
 use super::words::{no_result, warnings};
@@ -31,13 +31,13 @@ fn all_reasons(row: &OptionRow<'_>) -> String {
 
 /// The columns. People see bands where the possible shots were `sampled`, else the values of the shot as planned with their errors.
 /// Drift without a limit has room on the page only.
-fn fields<'a>(sampled: bool, drift_has_limit: bool) -> [Field<OptionRow<'a>>; 34] {
+fn fields<'a>(sampled: bool, drift_has_limit: bool) -> Vec<Field<OptionRow<'a>>> {
     let words = |heading| Column::words(&[], heading).shown(Audience::Text);
     let shown_if = |shown: bool, column: Column| if shown { column } else { column.shown(Audience::Scripts) };
     let if_sampled = |column| shown_if(sampled, column);
     let if_planned_alone = |column| shown_if(!sampled, column);
     let drift = if drift_has_limit { DRIFT } else { DRIFT.shown(Audience::Page) };
-    [
+    let fields: [Field<OptionRow<'a>>; _] = [
         Field::new(Column::scripts(&["plan"]), |row| Cell::Text(row.case.source.path.clone())),
         Field::new(Column::words(&["option"], "option"), |row| Cell::Text(row.delay.name.clone())),
         Field::new(Column::words(&[], "rows fire, as listed, at").shown(Audience::Page), |row| {
@@ -85,7 +85,7 @@ fn fields<'a>(sampled: bool, drift_has_limit: bool) -> [Field<OptionRow<'a>>; 34
             row.sampled(|sampled| Cell::Probability(sampled.breaks.interval))
         }),
         Field::new(Column::scripts(&["launch_margin"]), |row| {
-            let margin = row.result.as_ref().ok().and_then(Judgement::launch_margin_for_scripts);
+            let margin = row.result.as_ref().ok().and_then(launch_margin_share);
             margin.map_or(Cell::Nothing, Cell::Number)
         }),
         Field::new(if_sampled(LAUNCH_MARGIN), |row| {
@@ -131,7 +131,8 @@ fn fields<'a>(sampled: bool, drift_has_limit: bool) -> [Field<OptionRow<'a>>; 34
         Field::new(words("force over time"), |row| {
             row.as_planned(|checked| bars(&checked.history.force, row.case.limits.force))
         }),
-    ]
+    ];
+    Vec::from(fields)
 }
 
 /// Greatest height of the shot as planned.

@@ -6,12 +6,11 @@ use super::check::{
 };
 use super::option_row::{OptionRow, option_rows};
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Offer, Report, Table};
-use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height};
+use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height, launch_margin_share};
 use super::words::option_sentences::{compute_label, launch_margin, together};
 use super::words::warnings;
 use super::{charts, report_head, row_names};
 use crate::study::Case;
-use crate::study::judgement::Judgement;
 use crate::study::search::{FrontPoint, Schedule, Search, duration};
 use crate::units::{self, Unit};
 use crate::verdict::Quantity;
@@ -63,7 +62,7 @@ fn fields<'a>() -> [Field<FoundRow<'a>>; 19] {
         }),
         Field::new(FORCE_BAND, |row| band(&row.option, Quantity::Force, Unit::Kilonewton)),
         Field::new(Column::scripts(&["launch_margin"]), |row| {
-            let margin = row.option.result.as_ref().ok().and_then(Judgement::launch_margin_for_scripts);
+            let margin = row.option.result.as_ref().ok().and_then(launch_margin_share);
             margin.map_or(Cell::Nothing, Cell::Number)
         }),
         Field::new(Column::scripts(&["holes_in_8_ms"]), |row| Cell::Count(row.option.together().holes)),

@@ -2,8 +2,11 @@
 
 use super::parts::{Cell, Column};
 use crate::study::ValueWithError;
+use crate::study::as_planned::margin::LaunchMargin;
+use crate::study::judgement::Judgement;
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::units::Unit;
+use crate::verdict::Verdict;
 
 /// Pass, open or fail.
 pub const VERDICT: Column = Column::words(&["verdict"], "");
@@ -30,6 +33,17 @@ pub fn height(height: ValueWithError) -> Cell {
 /// Cell of [`FORCE`].
 pub fn force(force: ValueWithError) -> Cell {
     Cell::Estimate { value: force.value, error: force.error, unit: Unit::Kilonewton }
+}
+
+/// How much faster than planned the tires may leave, as a share: 0 where it is not known; `None` where nothing fails up to the
+/// greatest rise tried, or where only the shot as planned was asked for and passes.
+pub fn launch_margin_share(judged: &Judgement) -> Option<f64> {
+    match judged.launch_margin {
+        Some(LaunchMargin::UpTo { rise, .. }) => Some(rise),
+        Some(LaunchMargin::BeyondTried) => None,
+        None if !judged.sampled.is_asked() && judged.as_planned.verdict == Verdict::Pass => None,
+        Some(LaunchMargin::NotPassing) | None => Some(0.0),
+    }
 }
 
 /// Cell of [`FAILURES`]; nothing where no sample was drawn.

@@ -26,7 +26,7 @@ pub struct Scene {
     pub tire: Vec<TireId>,
     /// Cables (`n_cables`).
     pub cables: Vec<Cable>,
-    /// Coefficient of friction.
+    /// Coefficient of friction, where the shot names none.
     pub friction: f64,
     /// Gravity into the ground [m/s²].
     pub gravity: f64,

@@ -46,7 +46,8 @@ impl Firing {
 pub struct Shot {
     /// Firings in order of time, then of tires (`n_holes`).
     pub firings: Vec<Firing>,
-    /// Coefficient of friction for this shot; `None`: the friction of the scene.
+    /// Coefficient of friction in this shot, which counts before that of the scene: nearby shots and samples vary it, and share the
+    /// scene. `None`: the friction of the scene.
     pub friction: Option<f64>,
 }
 

@@ -95,11 +95,16 @@ impl Case {
         self.plan.title.as_deref().unwrap_or(&self.source.path)
     }
 
-    /// The shot of blast rows fired in `order`, `interval` [s] apart. Studies refuse a case without [`Case::hole_timing`] by
-    /// [`Case::require_hole_timing`] before they ask for shots; here its rows fire at once.
+    /// The shot of blast rows fired in `order`, `interval` [s] apart, of a case that [`Case::require_hole_timing`] does not refuse.
     pub fn shot(&self, order: &[usize], interval: f64) -> Shot {
-        let holes = self.hole_timing.unwrap_or(HoleTiming::TOGETHER);
+        let holes = self.shared_hole_timing();
         Shot::in_order(self.scene(), &self.plan.blast_rows, order, interval, &holes)
+    }
+
+    /// How the holes of each row fire in all options, of a case that [`Case::require_hole_timing`] does not refuse.
+    pub(in crate::study) fn shared_hole_timing(&self) -> HoleTiming {
+        debug_assert!(self.hole_timing.is_some(), "a study that varies the interval has to refuse this case");
+        self.hole_timing.unwrap_or(HoleTiming::TOGETHER)
     }
 
     /// Refuses a study that varies order or interval, where the options differ in how the holes of a row fire.

@@ -18,17 +18,6 @@ pub struct Judgement {
 }
 
 impl Judgement {
-    /// How much faster than planned the tires may leave, as a share, for scripts: 0 where it is not known; `None` where nothing
-    /// fails up to the greatest rise tried, or where only the shot as planned was asked for and passes.
-    pub fn launch_margin_for_scripts(&self) -> Option<f64> {
-        match self.launch_margin {
-            Some(LaunchMargin::UpTo { rise, .. }) => Some(rise),
-            Some(LaunchMargin::BeyondTried) => None,
-            None if !self.sampled.is_asked() && self.as_planned.verdict == Verdict::Pass => None,
-            Some(LaunchMargin::NotPassing) | None => Some(0.0),
-        }
-    }
-
     /// The judgement of the shot as planned alone.
     pub fn of_planned_alone(as_planned: CheckedShot) -> Self {
         Self { as_planned, sampled: Evidence::NotAsked, launch_margin: None }

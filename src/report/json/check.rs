@@ -10,6 +10,7 @@ use crate::choice::HoleOrder;
 use crate::outcome::BrokenCable;
 use crate::report::check::judged_inputs;
 use crate::report::option_row::option_rows;
+use crate::report::shared_columns::launch_margin_share;
 use crate::report::words::reasons;
 use crate::report::words::{no_result, warnings};
 use crate::scene::{Scene, TireId, fire_at_s, seconds};
@@ -33,7 +34,7 @@ pub struct CheckDocument {
     partial: bool,
     scene: SceneSize,
     limits: LimitsObject,
-    options: Vec<CheckedOption>,
+    options: Vec<JudgedOption>,
     warnings: Vec<String>,
 }
 
@@ -45,7 +46,7 @@ struct SceneSize {
 }
 
 #[derive(Serialize)]
-struct CheckedOption {
+struct JudgedOption {
     name: String,
     fire_at_s: Vec<f64>,
     hole_interval_s: f64,
@@ -173,7 +174,7 @@ impl OptionValues {
             nominal_verdict: checked.verdict.for_scripts(),
             failure_probability: sampled.map(Failures::of),
             any_cable_breaks: sampled.map(|sampled| sampled.breaks.interval.into()),
-            launch_margin: judged.launch_margin_for_scripts(),
+            launch_margin: launch_margin_share(judged),
             inputs: sampled.and_then(|sampled| input_shares(sampled, &case.limits)),
             flight_height_m: TirePeakObject::new(
                 scene,
@@ -227,7 +228,7 @@ impl CheckDocument {
         let options = option_rows(case, results).enumerate().map(|(n, row)| {
             let tried = remedies.map(|all| all.iter().find(|remedies| remedies.option == n));
             let WithinEightMs { holes, charge } = row.together();
-            CheckedOption {
+            JudgedOption {
                 name: row.delay.name.clone(),
                 fire_at_s: fire_at_s(&row.delay.timing),
                 hole_interval_s: seconds(row.delay.hole_timing.interval_ms),

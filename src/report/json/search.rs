@@ -7,6 +7,7 @@ use super::check::{CablePeakObject, Percentiles, TirePeakObject};
 use crate::choice::HoleOrder;
 use crate::report::option_row::{OptionRow, option_rows};
 use crate::report::row_names;
+use crate::report::shared_columns::launch_margin_share;
 use crate::report::words::no_result;
 use crate::report::words::reasons;
 use crate::scene::{fire_at_s, seconds};
@@ -95,7 +96,7 @@ impl FoundValues {
         let (scene, checked, sampled) = (case.scene(), &judged.as_planned, judged.sampled.known());
         Self {
             nominal_verdict: checked.verdict.for_scripts(),
-            launch_margin: judged.launch_margin_for_scripts(),
+            launch_margin: launch_margin_share(judged),
             flight_height_m: TirePeakObject::new(
                 scene,
                 &checked.height,

@@ -36,7 +36,7 @@ impl Schedule {
         Self {
             order: order.to_vec(),
             gaps_ms: vec![gap_ms; order.len() - 1],
-            hole_timing: case.hole_timing.unwrap_or(HoleTiming::TOGETHER),
+            hole_timing: case.shared_hole_timing(),
         }
     }
 
