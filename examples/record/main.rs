@@ -1,7 +1,7 @@
 //! Records the program as a person uses it: `cargo run --release --example record`.
 //!
-//! The program runs on a pseudo-terminal of 100 x 30 cells and gets the keys of [`SCRIPT`]. `walk.cast` holds all that it wrote, for
-//! `asciinema play examples/record/walk.cast`; a picture of the screen at each step named is written beside it as SVG.
+//! The program runs on a pseudo-terminal of 100 x 30 cells and gets the keys of [`SCRIPT`]. `walk.cast` holds all that it wrote,
+//! for `asciinema play examples/record/walk.cast`; a picture of the screen at each step named is written beside it as SVG.
 
 mod picture;
 

@@ -77,7 +77,7 @@ fn write(arguments: &Arguments, case: &Case, found: &Search, count: usize) -> io
         tell!("nothing was written: no schedule found passes");
         return Ok(());
     }
-    let is_known = |delay: &&&DelayOption| case.plan.delays.iter().any(|own| own.fires_like(delay));
+    let is_known = |delay: &&&DelayOption| case.plan.delays.iter().any(|planned| planned.fires_like(delay));
     let (known, delays): (Vec<&DelayOption>, Vec<&DelayOption>) = best.iter().partition(is_known);
     known.iter().for_each(|delay| tell!("in the plan already: {}", delay.name));
     if delays.is_empty() {

@@ -96,7 +96,7 @@ struct Job {
 }
 
 impl Jobs {
-    /// No job yet. Each job will use `threads` threads; 0: one per core.
+    /// The runner without a job; each job will use `threads` threads; 0: one per core.
     pub fn new(threads: usize) -> Self {
         let cores = || thread::available_parallelism().map_or(1, usize::from);
         let threads = if threads == 0 { cores() } else { threads };

@@ -81,7 +81,7 @@ pub fn write(
     for estimate in fitted {
         write_value(&mut document, estimate);
     }
-    let launches = fitted.iter().filter(|one| matches!(one.unknown, Unknown::Launch | Unknown::LaunchByRow));
+    let launches = fitted.iter().filter(|estimate| matches!(estimate.unknown, Unknown::Launch | Unknown::LaunchByRow));
     let launch_percent = launches.map(EstimateToWrite::percent).reduce(f64::max);
     change_section(&mut document, &plan::UNCERTAINTY, |section| {
         if let Some(percent) = launch_percent.filter(|percent| *percent > before.launch_common_percent) {
@@ -118,7 +118,7 @@ pub fn write(
 /// Writes an estimate in place of the plan's number.
 fn write_value(document: &mut DocumentMut, estimate: &EstimateToWrite) {
     let value = estimate.value;
-    let of_row = |row: usize| if estimate.row.is_none_or(|own| own == row) { value } else { 1.0 };
+    let of_row = |row: usize| if estimate.row.is_none_or(|named| named == row) { value } else { 1.0 };
     match estimate.unknown {
         Unknown::Launch | Unknown::LaunchByRow => {
             change_launches(document, &|row, speed| short(speed * of_row(row)), &|row, height| {

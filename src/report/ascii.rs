@@ -51,8 +51,8 @@ pub fn substitute(symbol: char) -> Option<&'static str> {
     })
 }
 
-/// Substitute of a braille character, whose dots are the bits of a number: the shape of its dots, so that a dotted limit, a line and
-/// a line drawn twofold differ.
+/// Substitute of a braille character, whose dots are the bits of a number: the shape of its dots, so that a dotted limit, a line
+/// and a line drawn twofold differ.
 fn dots(bits: u32) -> &'static str {
     // From top to bottom the dots of the left column are bits 0, 1, 2 and 6, of the right one 3, 4, 5 and 7.
     const ROWS: [u32; 4] = [0b1001, 0b1_0010, 0b10_0100, 0b1100_0000];

@@ -21,7 +21,8 @@
 //! Words of the loop: a *part* is the piece of a scene that stands for the whole where its mirror *images* move alike. A *pack* is
 //! eight numbers, each in a *lane*: of eight tires, or of eight cables. A register of the processor holds a pack or a part of it.
 //! Cables of equal length and stiffness form a *block*; a *slot* is the place of a cable in its block, or of a tire in the packs.
-//! An *element* is a place in the arrays over the cables of all blocks, which have empty places, too. A tire is *asleep* where it is not evaluated: it is at rest, and so are the tires tied to it.
+//! An *element* is a place in the arrays over the cables of all blocks, which have empty places, too. A tire is *asleep* where it
+//! is not evaluated: it is at rest, and so are the tires tied to it.
 //!
 //! Two methods solve one model: `verlet` is explicit with contact in closed form, `newmark` is the source paper's. This module
 //! does not know plans, options, limits or screens. A motion that is no longer finite is a [`RunError`], never a result.

@@ -363,8 +363,8 @@ fn what_was_not_logged_scatters_about_the_plan() {
     }
 }
 
-/// A plan whose runs end before something was seen: it is computed until rest, and the launch is found; a hole that was logged before
-/// time 0 moves what is seen with it.
+/// A plan whose runs end before something was seen: it is computed until rest, and the launch is found; a hole that was logged
+/// before time 0 moves what is seen with it.
 #[test]
 fn what_was_seen_after_the_end_or_before_the_start_is_computed() {
     let exact = EXACT.replace("delay_sd_ms = 0", "delay_sd_ms = 0\nlaunch_common_percent = 0");

@@ -1,7 +1,8 @@
 //! Reads what was seen of earlier shots: a table of values of tires and cables, each with its standard deviation.
 //!
-//! A line may also state the measured firing time of a hole ([`FIRING`]). The header names the columns of [`COLUMNS`], in any order. Separators, decimal commas and a byte order mark are read as in lists
-//! of holes ([`import`](super::import)). Lines that begin with `#` are left out.
+//! A line may also state the measured firing time of a hole ([`FIRING`]). The header names the columns of [`COLUMNS`], in any
+//! order. Separators, decimal commas and a byte order mark are read as in lists of holes ([`import`](super::import)). Lines that
+//! begin with `#` are left out.
 
 mod row;
 
@@ -144,7 +145,7 @@ impl Observations {
         if are_told_apart && self.firings != other.firings {
             return false;
         }
-        let is_in_other = |seen: &&Observation| other.list.iter().any(|one| one.is_as(seen));
+        let is_in_other = |seen: &&Observation| other.list.iter().any(|known| known.is_as(seen));
         let common = self.list.iter().filter(is_in_other).count();
         2 * common > self.list.len().min(other.list.len())
     }

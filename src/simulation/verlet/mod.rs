@@ -8,11 +8,11 @@
 //! 3. move: uₙ₊₁ = uₙ + h v.
 //!
 //! A tire that lands or is fired at within the step is integrated phase by phase instead
-//! ([`TireStep::integrate`](super::contact::TireStep::integrate)), so that landing and launch have their own time. A cable
-//! that becomes taut or slack within the step gets a force that gives the right amplitude
-//! ([`CableEvaluator::evaluate`](cable_forces::CableEvaluator::evaluate)). The method is of second order, symplectic between events, and
-//! stable for h < 2/ω with ω² ≤ max (2/m) Σ k ([`Scene::frequency_bound`](crate::scene::Scene::frequency_bound)). The damping of
-//! cables and what it costs in stability: [`CableEvaluator::evaluate`](cable_forces::CableEvaluator::evaluate),
+//! ([`TireStep::integrate`](super::contact::TireStep::integrate)), so that landing and launch have their own time. A cable that
+//! becomes taut or slack within the step gets a force that gives the right amplitude
+//! ([`CableEvaluator::evaluate`](cable_forces::CableEvaluator::evaluate)). The method is of second order, symplectic between
+//! events, and stable for h < 2/ω with ω² ≤ max (2/m) Σ k ([`Scene::frequency_bound`](crate::scene::Scene::frequency_bound)). The
+//! damping of cables and what it costs in stability: [`CableEvaluator::evaluate`](cable_forces::CableEvaluator::evaluate),
 //! [`Scene::critical_step`](crate::scene::Scene::critical_step).
 
 mod cable_forces;
@@ -27,7 +27,6 @@ use nalgebra::Vector3;
 use self::mirror_reduction::MirrorReduction;
 use self::stepper::Stepper;
 use super::cable_blocks::Blocks;
-
 use super::pack::LANES;
 use super::wake::Ties;
 use super::{RunError, RunSettings, Watcher};

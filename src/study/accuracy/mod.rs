@@ -162,7 +162,7 @@ fn first_step(case: &Case, accuracy: Accuracy) -> f64 {
 impl AccuracyTable {
     /// The limit that is hardest to decide on by the first run at a level; `None` where that is not stable, or nothing moves.
     pub fn nearest_limit(&self, level: Accuracy, limits: &Limits) -> Option<NearestLimit> {
-        let step = self.levels.iter().find(|one| one.level == level)?.step;
+        let step = self.levels.iter().find(|row| row.level == level)?.step;
         let mut rows = self.rows.iter().filter(|row| row.method == Method::Verlet && row.step == step);
         let run = rows.find_map(|row| row.result)?;
         let values = [

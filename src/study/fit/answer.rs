@@ -115,12 +115,12 @@ impl Answer {
 
     /// The estimates as a plan writes them.
     pub fn to_write(&self) -> Vec<EstimateToWrite> {
-        let one = |estimate: &Estimated| EstimateToWrite {
+        let to_write = |estimate: &Estimated| EstimateToWrite {
             unknown: estimate.parameter.unknown,
             row: estimate.parameter.row,
             value: estimate.value,
             sd: estimate.sd,
         };
-        self.estimates.iter().map(one).collect()
+        self.estimates.iter().map(to_write).collect()
     }
 }

@@ -64,8 +64,8 @@ pub fn observables(scene: &Scene) -> Vec<Watched> {
 
 /// A combination of parameters [standard deviations of their ranges] that is not determined; `None` where all are. `slopes` are J.
 ///
-/// Where several combinations are not, the basis that an eigenvalue solver finds of them hangs on the last digit. So the combination
-/// is the projection onto all of them of the parameter that lies nearest to them, the first of several.
+/// Where several combinations are not, the basis that an eigenvalue solver finds of them hangs on the last digit. So the
+/// combination is the projection onto all of them of the parameter that lies nearest to them, the first of several.
 fn undetermined(slopes: &DMatrix<f64>, scales: &DVector<f64>) -> Option<DVector<f64>> {
     let scaled = slopes * DMatrix::from_diagonal(scales);
     let eigen = (scaled.transpose() * scaled).symmetric_eigen();

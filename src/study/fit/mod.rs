@@ -1,8 +1,9 @@
 //! What observations of earlier shots tell of launch velocities and other unknowns.
 //!
 //! Weighted least squares: of the parameters within plausible ranges those whose predictions fit the observations best; what
-//! `[uncertainty]` of the plan states of them counts as observations. The weights are the inverse of the observations' [`covariance`],
-//! first at the plan, then at each answer. Inputs that are not estimated are not taken for exact: they widen the covariance.
+//! `[uncertainty]` of the plan states of them counts as observations. The weights are the inverse of the observations'
+//! [`covariance`], first at the plan, then at each answer. Inputs that are not estimated are not taken for exact: they widen the
+//! covariance.
 //!
 //! | question | where |
 //! |---|---|

@@ -81,8 +81,8 @@ fn samples(
     Ok(Samples { values, inputs })
 }
 
-/// Each observation beside what the plan says of it; without a `sampling` there are no bands. The bands are those of the firing times
-/// that were measured, where some were.
+/// Each observation beside what the plan says of it; without a `sampling` there are no bands. The bands are those of the firing
+/// times that were measured, where some were.
 pub fn predict_observations(
     case: &Case,
     seen: &ObservedShots,

@@ -190,7 +190,8 @@ pub(in crate::study) fn run_sample_once(
     undecided_if_panicked(catch_panic(|| try_sample(target, number, 0, false, control)), number)
 }
 
-/// Draws one sample and runs it, at a step halved `step_halvings` times; where the sample is one of the audit, also at a finer step.
+/// Draws one sample and runs it, at a step halved `step_halvings` times; where the sample is one of the audit, also at a finer
+/// step.
 pub(in crate::study) fn run_sample(
     target: &ShotToSample<'_>,
     number: usize,

@@ -72,7 +72,7 @@ impl ErrorShare {
 }
 
 impl FailureBounds {
-    /// No sample yet of a shot whose verdict takes this share of the probability of an error.
+    /// Bounds before the first sample of a shot whose verdict takes this share of the probability of an error.
     pub fn new(accepted: f64, share: ErrorShare) -> Self {
         let beta = |weight, a, b| Beta { weight, a, b };
         Self {

@@ -1,9 +1,8 @@
 //! How likely a shot fails when what is not known varies as `[uncertainty]` says: what its samples tell.
 //!
-//! A sample is run once, at a coarse step: its error falls to both sides of a limit, and the failure probability is far more
-//! exact than any one sample. The audit runs some of them again at a finer step. Where these runs, or the shot as planned,
-//! contradict the samples, the risk is open, and [`sample_shots`](super::draw_until_sure::sample_shots) samples the shot anew at half
-//! the step.
+//! A sample is run once, at a coarse step: its error falls to both sides of a limit, and the failure probability is far more exact
+//! than any one sample. The audit runs some of them again at a finer step. Where these runs, or the shot as planned, contradict the
+//! samples, the risk is open, and [`sample_shots`](super::draw_until_sure::sample_shots) samples the shot anew at half the step.
 
 use std::collections::BTreeMap;
 
@@ -44,7 +43,7 @@ pub struct SampledShot {
 }
 
 impl SampledShot {
-    /// No sample yet of a shot that was checked `as_planned`; the plan of `case` names the accepted risk.
+    /// A shot without samples, checked `as_planned`; the plan of `case` names the accepted risk.
     /// Its verdict takes this share of the probability of an error.
     pub fn new(case: &Case, as_planned: Option<ShotSummary>, share: ErrorShare, is_audited: bool) -> Self {
         let limits = case.limits;

@@ -110,13 +110,13 @@ pub fn search(
     let first = if complete { FIRST_OF_ALL } else { FIRST_OF_SEARCH };
     out_of_time |= halving.run(&mut tried, first, control)?;
     let finalists = choose_finalists(&choices, &tried);
-    let left = tried.iter().filter(|one| !finalists.iter().any(|(_, other)| other.shot == one.shot));
-    let without_failure = left.filter(|one| one.tally.samples > 0 && one.tally.failures == 0).count();
+    let not_chosen = tried.iter().filter(|trial| !finalists.iter().any(|(_, other)| other.shot == trial.shot));
+    let without_failure = not_chosen.filter(|trial| trial.tally.samples > 0 && trial.tally.failures == 0).count();
     let front = front(&choices, &tried);
     let schedules: Vec<Schedule> = finalists.iter().map(|(schedule, _)| schedule.clone()).collect();
-    let rough = finalists.iter().map(|(_, one)| RoughShare::of(one)).collect();
+    let rough = finalists.iter().map(|(_, trial)| RoughShare::of(trial)).collect();
     let (case, Computed { value: results, partial }) = judge(case, &schedules, sampling, compute, control)?;
-    let judged = tried.iter().filter(|one| one.tally.samples > 0).count();
+    let judged = tried.iter().filter(|trial| trial.tally.samples > 0).count();
     let mut found = Search {
         case,
         schedules,
@@ -152,7 +152,7 @@ pub fn try_schedules(
     let mut to_try = SchedulesToTry::new(case, &choices);
     to_try.add(listed.allowed.unwrap_or_default());
     let ours = to_try.tried.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
-    let mut ours: Vec<TriedSchedule> = ours.map(|(_, one)| one).collect();
+    let mut ours: Vec<TriedSchedule> = ours.map(|(_, trial)| trial).collect();
     let partial = start_halving(case, sampling, compute).draw(&mut ours, FIRST_OF_ALL, control)?;
     Ok(Computed { value: true, partial })
 }
@@ -186,10 +186,10 @@ fn choose_finalists<'r>(
     tried: &'r [TriedSchedule],
 ) -> Vec<(Schedule, &'r TriedSchedule)> {
     let mut chosen: Vec<(Schedule, &TriedSchedule)> = Vec::new();
-    for one in tried.iter().filter(|one| one.tally.samples > 0) {
-        let schedule = choices.schedule(&one.candidate);
+    for trial in tried.iter().filter(|trial| trial.tally.samples > 0) {
+        let schedule = choices.schedule(&trial.candidate);
         if chosen.len() < JUDGED_IN_FULL && !chosen.iter().any(|(other, _)| other.is_nearly_same(&schedule)) {
-            chosen.push((schedule, one));
+            chosen.push((schedule, trial));
         }
     }
     chosen
@@ -197,11 +197,11 @@ fn choose_finalists<'r>(
 
 /// The schedules of which no shorter one fails less.
 fn front(choices: &Choices<'_>, tried: &[TriedSchedule]) -> Vec<FrontPoint> {
-    let sampled_enough = tried.iter().filter(|one| one.tally.samples >= SAMPLES_OF_FRONT);
-    let point = |one: &TriedSchedule| FrontPoint {
-        schedule: choices.schedule(&one.candidate),
-        duration: duration(&one.shot),
-        share: RoughShare::of(one),
+    let sampled_enough = tried.iter().filter(|trial| trial.tally.samples >= SAMPLES_OF_FRONT);
+    let point = |trial: &TriedSchedule| FrontPoint {
+        schedule: choices.schedule(&trial.candidate),
+        duration: duration(&trial.shot),
+        share: RoughShare::of(trial),
     };
     let in_turn = sampled_enough.map(point).sorted_by(|a, b| {
         a.duration.total_cmp(&b.duration).then(a.share.value().total_cmp(&b.share.value()))

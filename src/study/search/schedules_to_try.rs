@@ -38,7 +38,7 @@ impl AllowedSchedules {
         let listed = (choices.count() <= MOST_LISTED).then(|| choices.all());
         let allowed = listed.map(|listed| {
             let limits: Vec<Option<BrokenLimit>> =
-                listed.par_iter().map(|one| choices.broken(&choices.schedule(one).shot(case))).collect();
+                listed.par_iter().map(|candidate| choices.broken(&choices.schedule(candidate).shot(case))).collect();
             limits.iter().flatten().for_each(|limit| refused.count(*limit));
             let without_limit = listed.into_iter().zip(limits).filter(|(_, limit)| limit.is_none());
             without_limit.map(|(candidate, _)| candidate).collect()
@@ -101,18 +101,18 @@ impl<'c> SchedulesToTry<'c> {
             if halving.draw(&mut self.tried, FIRST_OF_SEARCH, control)? {
                 return Ok(true);
             }
-            let unseen = self.tried.iter().filter(|one| !seen.contains(&one.candidate));
+            let unseen = self.tried.iter().filter(|trial| !seen.contains(&trial.candidate));
             let best = unseen
                 .sorted_by(|a, b| {
                     a.tally.estimated_failing_share().total_cmp(&b.tally.estimated_failing_share())
                 })
                 .take(CLIMBERS);
-            let best: Vec<Candidate> = best.map(|one| one.candidate.clone()).collect();
+            let best: Vec<Candidate> = best.map(|trial| trial.candidate.clone()).collect();
             let room = MOST_TRIED.saturating_sub(self.tried.len());
             if best.is_empty() || room == 0 {
                 return Ok(false);
             }
-            let near = best.iter().flat_map(|one| self.choices.neighbours(one)).unique().take(room);
+            let near = best.iter().flat_map(|candidate| self.choices.neighbours(candidate)).unique().take(room);
             self.add(near.collect::<Vec<_>>());
             seen.extend(best);
         }

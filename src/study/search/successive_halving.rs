@@ -97,13 +97,13 @@ impl SuccessiveHalving<'_> {
     ) -> Result<bool, NoResult> {
         // A shot as planned is judged once.
         let samples = if self.sampling.is_some() { samples } else { 1 };
-        let jobs: Vec<&TriedSchedule> = tried.iter().filter(|one| one.tally.samples < samples).collect();
-        let drawn = run_batch(&jobs, control, |one| self.runs(one, samples, control))?;
+        let jobs: Vec<&TriedSchedule> = tried.iter().filter(|trial| trial.tally.samples < samples).collect();
+        let drawn = run_batch(&jobs, control, |trial| self.runs(trial, samples, control))?;
         let out_of_time = drawn.contains(&None);
-        let waiting = tried.iter_mut().filter(|one| one.tally.samples < samples);
-        for (one, runs) in waiting.zip(drawn) {
+        let waiting = tried.iter_mut().filter(|trial| trial.tally.samples < samples);
+        for (trial, runs) in waiting.zip(drawn) {
             for (verdict, utilization) in runs.into_iter().flatten() {
-                one.tally.push(verdict, utilization);
+                trial.tally.push(verdict, utilization);
             }
         }
         Ok(out_of_time)
@@ -125,14 +125,14 @@ impl SuccessiveHalving<'_> {
             };
         };
         let target = ShotToSample::new(case, shot, *compute, *sampling);
-        let one = |number: usize| -> Result<(Verdict, f64), NoResult> {
+        let run_sample = |number: usize| -> Result<(Verdict, f64), NoResult> {
             let run: SampleRun = run_sample_once(&target, number, control)?.run;
             Ok((run.verdict, run.utilization(&case.limits)))
         };
         let numbers = schedule.tally.samples..samples;
         control.journal().recall_or(
             || Fingerprint::of(("halving", target.fingerprint(), &numbers)),
-            || numbers.clone().map(one).collect(),
+            || numbers.clone().map(run_sample).collect(),
         )
     }
 

@@ -97,8 +97,8 @@ fn judge(
 }
 
 /// Indices of the points to sample: the plan's own intervals, both ends of each window, whole milliseconds between them, and points
-/// at most [`MOST_SAMPLED_GAP`] apart. A window narrower than [`MOST_SAMPLED_GAP`] gives its first point only, and only if that is farther than
-/// [`MOST_SAMPLED_GAP`] from the last point chosen.
+/// at most [`MOST_SAMPLED_GAP`] apart. A window narrower than that gives its first point only, and only if that is farther from the
+/// last point chosen.
 fn choose(points: &[Point], windows: &[[f64; 2]], own: &BTreeSet<i64>) -> Vec<usize> {
     let mut chosen: Vec<usize> = Vec::new();
     for &[from, to] in windows {

@@ -27,7 +27,7 @@ pub fn run_announced_batch<J: Sync, T: Send>(
     control: &StudyControl,
     work: impl Fn(&J) -> Result<T, NoResult> + Sync,
 ) -> Result<Vec<Option<T>>, NoResult> {
-    let one = |job: &J| {
+    let run_job = |job: &J| {
         if control.stopped() {
             return Err(NoResult::Stopped);
         }
@@ -42,7 +42,7 @@ pub fn run_announced_batch<J: Sync, T: Send>(
             }
         }
     };
-    let results: Vec<_> = jobs.par_iter().map(one).collect();
+    let results: Vec<_> = jobs.par_iter().map(run_job).collect();
     results.into_iter().collect()
 }
 

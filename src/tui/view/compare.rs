@@ -135,7 +135,8 @@ fn value_or_difference(
 }
 
 /// How much of its limit all but the accepted share of the samples use at most, of the quantity that uses most: `F 105 %`. The shot
-/// as planned counts where it uses more. Empty as long as there are few samples: the shot as planned alone would flatter the option.
+/// as planned counts where it uses more. Empty as long as there are few samples: the shot as planned alone would flatter the
+/// option.
 fn use_of_limit(app: &App, _: usize, judged: &Judgement) -> String {
     let limits = &app.case.limits;
     let share = |(letter, quantity)| {

@@ -227,8 +227,8 @@ fn arrow(along: Vector2<f64>) -> &'static str {
     ["→", "↗", "↑", "↖", "←", "↙", "↓", "↘"][eighths]
 }
 
-/// Sign and style of a height: a letter on the ground, which looks like no cable, in ASCII either; above it a taller bar the higher,
-/// and another colour past the limit.
+/// Sign and style of a height: a letter on the ground, which looks like no cable, in ASCII either; above it a taller bar the
+/// higher, and another colour past the limit.
 fn sign(app: &App, height: f32) -> (&'static str, Style) {
     let share = f64::from(height) / app.case.limits.height;
     if height < GROUND {

@@ -6,7 +6,6 @@ use super::events::{EventContext, Integrated, TiresBefore};
 use super::{Jump, StepTotals, Stepper};
 use crate::outcome::Peak;
 use crate::simulation::pack::{LANES, Wide};
-
 use crate::simulation::verlet::mirror_reduction::Image;
 
 /// Second pass; compiled for each instruction set and chosen at run time.
