@@ -117,36 +117,36 @@ impl Job {
             StudyKind::Orders => {
                 let sampling = Some(&Sampling::OF_VERDICT);
                 let case = with_holes();
-                Ok(StudyResult::Orders(orders(&case, &case.intervals(), sampling, compute, control)?.value))
+                Ok(StudyResult::Orders(orders(&case, &case.intervals(), sampling, compute, control)?.whole()))
             }
             StudyKind::Risk => {
-                let results = case.judge_options(compute, Some(&SAMPLING), control)?.value;
+                let results = case.judge_options(compute, Some(&SAMPLING), control)?.whole();
                 Ok(StudyResult::Risk(SAMPLING, results))
             }
             StudyKind::Search => {
                 let sampling = Some(&Sampling::OF_VERDICT);
-                let found = search(case, sampling, compute, control)?.value;
+                let found = search(case, sampling, compute, control)?.whole();
                 Ok(StudyResult::Search(Box::new(found)))
             }
             StudyKind::Size => {
                 let demand = Demand::Options((0..case.shots.len()).collect());
                 Ok(StudyResult::Size(
-                    size(&case.plan, &demand, Some(&Sampling::OF_VERDICT), compute, control)?.value,
+                    size(&case.plan, &demand, Some(&Sampling::OF_VERDICT), compute, control)?.whole(),
                 ))
             }
             StudyKind::Effects => {
-                Ok(StudyResult::Effects(effects(case, Some(&EFFECTS), compute, control)?.value))
+                Ok(StudyResult::Effects(effects(case, Some(&EFFECTS), compute, control)?.whole()))
             }
             StudyKind::Fit => {
                 let unknowns = &[Unknown::Launch];
                 let request =
                     FitRequest { files: &self.observed, unknowns, sampling: Some(Sampling::OF_VERDICT) };
-                let found = fit(case, &request, compute, control)?.value;
+                let found = fit(case, &request, compute, control)?.whole();
                 Ok(StudyResult::Fit(Box::new(found), self.observed.clone()))
             }
             StudyKind::Flight => record(case, option, compute, control).map(StudyResult::Flight),
             StudyKind::Accuracy => {
-                Ok(StudyResult::Accuracy(accuracy::measure(case, option, LONGEST_RUN, control)?.value))
+                Ok(StudyResult::Accuracy(accuracy::measure(case, option, LONGEST_RUN, control)?.whole()))
             }
             StudyKind::Remedies => {
                 let sampling = Some(&Sampling::OF_VERDICT);

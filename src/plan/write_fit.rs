@@ -81,7 +81,8 @@ pub fn write(
     for estimate in fitted {
         write_value(&mut document, estimate);
     }
-    let launches = fitted.iter().filter(|estimate| matches!(estimate.unknown, Unknown::Launch | Unknown::LaunchByRow));
+    let launches =
+        fitted.iter().filter(|estimate| matches!(estimate.unknown, Unknown::Launch | Unknown::LaunchByRow));
     let launch_percent = launches.map(EstimateToWrite::percent).reduce(f64::max);
     change_section(&mut document, &plan::UNCERTAINTY, |section| {
         if let Some(percent) = launch_percent.filter(|percent| *percent > before.launch_common_percent) {

@@ -55,13 +55,13 @@ pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
     let answer = match head.question {
         Question::Orders { intervals_s, option, sampling } => {
             case.set_hole_timing_of(option.as_deref());
-            MergedResult::Orders(orders(&case, &intervals_s, sampling.as_ref(), compute, control)?.value)
+            MergedResult::Orders(orders(&case, &intervals_s, sampling.as_ref(), compute, control)?.whole())
         }
         Question::Risk { sampling } => {
-            MergedResult::Risk(sampling, case.judge_options(compute, Some(&sampling), control)?.value)
+            MergedResult::Risk(sampling, case.judge_options(compute, Some(&sampling), control)?.whole())
         }
         Question::Search { sampling } => {
-            MergedResult::Search(Box::new(search(&case, sampling.as_ref(), compute, control)?.value))
+            MergedResult::Search(Box::new(search(&case, sampling.as_ref(), compute, control)?.whole()))
         }
         Question::Sweep { .. } | Question::Size { .. } => {
             let message =

@@ -110,8 +110,10 @@ pub fn search(
     let first = if complete { FIRST_OF_ALL } else { FIRST_OF_SEARCH };
     out_of_time |= halving.run(&mut tried, first, control)?;
     let finalists = choose_finalists(&choices, &tried);
-    let not_chosen = tried.iter().filter(|trial| !finalists.iter().any(|(_, other)| other.shot == trial.shot));
-    let without_failure = not_chosen.filter(|trial| trial.tally.samples > 0 && trial.tally.failures == 0).count();
+    let not_chosen =
+        tried.iter().filter(|trial| !finalists.iter().any(|(_, other)| other.shot == trial.shot));
+    let without_failure =
+        not_chosen.filter(|trial| trial.tally.samples > 0 && trial.tally.failures == 0).count();
     let front = front(&choices, &tried);
     let schedules: Vec<Schedule> = finalists.iter().map(|(schedule, _)| schedule.clone()).collect();
     let rough = finalists.iter().map(|(_, trial)| RoughShare::of(trial)).collect();

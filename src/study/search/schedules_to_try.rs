@@ -37,8 +37,10 @@ impl AllowedSchedules {
         let mut refused = RefusedCounts::default();
         let listed = (choices.count() <= MOST_LISTED).then(|| choices.all());
         let allowed = listed.map(|listed| {
-            let limits: Vec<Option<BrokenLimit>> =
-                listed.par_iter().map(|candidate| choices.broken(&choices.schedule(candidate).shot(case))).collect();
+            let limits: Vec<Option<BrokenLimit>> = listed
+                .par_iter()
+                .map(|candidate| choices.broken(&choices.schedule(candidate).shot(case)))
+                .collect();
             limits.iter().flatten().for_each(|limit| refused.count(*limit));
             let without_limit = listed.into_iter().zip(limits).filter(|(_, limit)| limit.is_none());
             without_limit.map(|(candidate, _)| candidate).collect()
@@ -112,7 +114,8 @@ impl<'c> SchedulesToTry<'c> {
             if best.is_empty() || room == 0 {
                 return Ok(false);
             }
-            let near = best.iter().flat_map(|candidate| self.choices.neighbours(candidate)).unique().take(room);
+            let near =
+                best.iter().flat_map(|candidate| self.choices.neighbours(candidate)).unique().take(room);
             self.add(near.collect::<Vec<_>>());
             seen.extend(best);
         }

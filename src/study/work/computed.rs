@@ -11,5 +11,13 @@ pub struct Computed<T> {
     pub partial: bool,
 }
 
+impl<T> Computed<T> {
+    /// The result of a study whose time has no end: nobody expires its [`StudyControl`](super::StudyControl).
+    pub fn whole(self) -> T {
+        debug_assert!(!self.partial, "a partial result has to be told as one");
+        self.value
+    }
+}
+
 /// What a study returns: its result, or why there is none.
 pub type ComputeResult<T> = Result<Computed<T>, NoResult>;

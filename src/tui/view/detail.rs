@@ -170,8 +170,10 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     }
     // What was seen of earlier shots speaks against every verdict of the plan.
     let contradiction = observed::contradiction(&export::observed(app));
-    lines
-        .splice(0..0, contradiction.into_iter().map(|sentence| Line::styled(format!("! {sentence}"), theme.limit())));
+    lines.splice(
+        0..0,
+        contradiction.into_iter().map(|sentence| Line::styled(format!("! {sentence}"), theme.limit())),
+    );
     let warnings = warnings::of_option(case, app.selected, judged);
     lines.extend(warnings.into_iter().map(|warning| Line::styled(format!("! {warning}"), theme.firing())));
     let sampled = judged.sampled.known().filter(|sampled| !sampled.samples.is_empty());
