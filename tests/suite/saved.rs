@@ -66,7 +66,7 @@ fn a_study_that_was_killed_ends_as_one_that_was_not() {
         let command = [command, &draft[..], &["--format", format]].concat();
         let begun = Instant::now();
         let whole = shelter(&command);
-        let (last, midways) = killed(&command, &file, begun.elapsed(), 6);
+        let (last, midways) = killed(&command, &file, begun.elapsed(), 4);
         assert_eq!(support::text(&last.stdout), support::text(&whole.stdout), "{command:?}");
         assert_eq!(last.status.code(), whole.status.code());
         midway += midways;
