@@ -17,7 +17,7 @@ use crate::file;
 use crate::plan::observations::named_twice;
 use crate::report::check;
 use crate::report::html::{self, Page};
-use crate::report::observed::observed_rows;
+use crate::report::observed::{contradiction, observed_rows};
 use crate::study::fit::observation_bands::predict_observations;
 use crate::study::fit::observed_shots::ObservedShots;
 use crate::study::judge_options::MustPass;
@@ -115,6 +115,13 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if was_interrupted() {
         return failed(&NoResult::Stopped);
     }
+    let observed = observed_rows(&cases[0], &seen.list, predictions.as_deref().unwrap_or_default());
+    let contradiction = match predictions {
+        None => {
+            vec!["what was seen of earlier shots was not compared with the plan: the time was up".to_owned()]
+        }
+        Some(_) => contradiction(&observed),
+    };
     let page = html::page(&Page {
         case: &cases[0],
         results: &checked.value[0].results,
@@ -122,7 +129,8 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         sampling: sampling.as_ref(),
         sweep: swept.as_ref().map(|swept| &swept.value),
         fitted_to_observed: files.iter().any(|file| cases[0].plan.fitted_from.contains(&file.checksum)),
-        observed: &observed_rows(&cases[0], &seen.list, predictions.as_deref().unwrap_or_default()),
+        observed: &observed,
+        contradiction: &contradiction,
         partial: checked.partial
             || predictions.is_none()
             || swept.as_ref().is_some_and(|swept| swept.partial),

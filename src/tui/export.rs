@@ -10,7 +10,7 @@ use crate::file;
 use crate::jobs::{StudyKind, StudyResult};
 use crate::report::csv::Separators;
 use crate::report::html::{self, Page};
-use crate::report::observed::{ObservedRow, observed_rows};
+use crate::report::observed::{self, ObservedRow, observed_rows};
 use crate::report::{self, charts};
 use crate::study::fit::FitResult;
 use crate::study::judge_options::{MustPass, OptionResults};
@@ -47,6 +47,7 @@ fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
         sweep: swept(app),
         fitted_to_observed: false,
         observed: &observed(app),
+        contradiction: &contradiction(app),
         partial: false,
         unsaved: !is_saved(app),
         date: &html::today(),
@@ -76,6 +77,18 @@ pub fn observed(app: &App) -> Vec<ObservedRow<'_>> {
         _ => Vec::new(),
     }
 }
+
+/// Why what was seen of earlier shots speaks against the verdicts on the screen: it contradicts them, or is not compared with this plan.
+pub fn contradiction(app: &App) -> Vec<String> {
+    let rows = observed(app);
+    match rows.is_empty() && !app.observed.is_empty() {
+        true => vec![NOT_COMPARED.to_owned()],
+        false => observed::contradiction(&rows),
+    }
+}
+
+/// What is said until a fit has compared what was seen with the plan on the screen.
+const NOT_COMPARED: &str = "what was seen of earlier shots is not compared with this plan: see Studies, Fit";
 
 /// Whether the file of the plan holds the very text that was computed.
 fn is_saved(app: &App) -> bool {

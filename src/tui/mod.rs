@@ -200,6 +200,11 @@ impl Session {
             Request::JudgeNewPlan => {
                 StudyKind::ALL.into_iter().for_each(|kind| self.jobs.cancel(kind));
                 self.jobs.judge(&self.app.case, self.app.compute);
+                // What was seen is compared with every plan.
+                if !self.app.observed.is_empty() {
+                    let request = self.app.begin_study(StudyKind::Fit);
+                    self.carry_out(request);
+                }
             }
             Request::Study(StudyKind::Fit) => match self.app.observed.read(&self.app.case) {
                 Ok(observed) => self.jobs.fit(&self.app.case, observed, self.app.compute),

@@ -32,9 +32,15 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     };
     html! {
         div.fired {
-            p.what { @if verdict == Verdict::Fail { "NOT to be fired: " } @else { "To be fired: " } (delay.name) ", rows at " (option_sentences::firing_times(delay)) }
+            p.what { (firing_instruction(page, option)) ": " (delay.name) ", rows at " (option_sentences::firing_times(delay)) }
             p.large { (word(verdict)) (only_planned(page)) }
-            @if verdict != Verdict::Pass { p { strong { "Do not fire this option as it stands." } } }
+            @if !page.contradiction.is_empty() {
+                p { strong { "What was seen of earlier shots speaks against this plan and its verdicts." } }
+            }
+            @for sentence in page.contradiction { p { strong { (sentence) } } }
+            @if must_not_fire(page, option) || verdict != Verdict::Pass {
+                p { strong { "Do not fire this option as it stands." } }
+            }
             @if !caveat.is_empty() { p { "Judged:" (caveat.replace(['(', ')'], "")) "." } }
             @for reason in &reasons { p { (reason) } }
             table.facts {
@@ -46,6 +52,17 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
             @for warning in warnings { p { strong { "Warning: " } (warning) } }
         }
     }
+}
+
+/// Whether an option fails, or what was seen speaks against its verdict.
+fn must_not_fire(page: &Page<'_>, option: usize) -> bool {
+    let verdict = page.results[option].as_ref().map_or(Verdict::Undecided, Judgement::verdict);
+    verdict == Verdict::Fail || !page.contradiction.is_empty()
+}
+
+/// What the page says of the option that it is about: wherever one of its sheets lies alone, nobody takes it for another order.
+pub fn firing_instruction(page: &Page<'_>, option: usize) -> &'static str {
+    if must_not_fire(page, option) { "NOT to be fired" } else { "To be fired" }
 }
 
 /// Words behind a verdict for which no possible shot was judged.

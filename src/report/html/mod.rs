@@ -47,6 +47,8 @@ pub struct Page<'a> {
     pub fitted_to_observed: bool,
     /// What was seen of earlier shots; empty where nobody told.
     pub observed: &'a [ObservedRow<'a>],
+    /// Why what was seen speaks against the verdicts of the page; empty where it does not.
+    pub contradiction: &'a [String],
     /// Whether the time was up before all was computed.
     pub partial: bool,
     /// Whether the text of the plan differs from its file.
@@ -68,8 +70,7 @@ pub fn page(page: &Page<'_>) -> String {
     let fired_judged = to_be_fired.and_then(|option| Some((option, results[option].as_ref().ok()?)));
     let checked = fired_judged.map(|(_, judged)| &judged.as_planned);
     let of_fired = fired_judged.map(|(option, judged)| warnings::of_option(case, option, judged));
-    let contradiction = observed::contradiction(page.observed);
-    let at_head = [warnings::of_plan(case), of_fired.unwrap_or_default(), contradiction].concat();
+    let at_head = [warnings::of_plan(case), of_fired.unwrap_or_default()].concat();
     let others = if to_be_fired.is_some() {
         warnings::of_options(case, results, to_be_fired)
     } else {
@@ -200,7 +201,7 @@ fn over_time(page: &Page<'_>, option: usize) -> Markup {
     let Ok(judged) = &page.results[option] else { return Markup::default() };
     html! {
         section.whole {
-            h2 { (case.plan.delays[option].name) " " (word(judged.verdict())) (chosen_option::only_planned(page)) @if page.to_be_fired == Some(option) { " · to be fired" } }
+            h2 { (case.plan.delays[option].name) " " (word(judged.verdict())) (chosen_option::only_planned(page)) @if page.to_be_fired == Some(option) { " · " (chosen_option::firing_instruction(page, option)) } }
             p.quiet { (option_sentences::computation(case.scene(), &judged.as_planned)) }
             div.charts {
                 @for chart in charts::history(case, &judged.as_planned.history, shot) {

@@ -5,9 +5,8 @@
 use maud::{Markup, html};
 
 use super::Page;
-use super::chosen_option::only_planned;
+use super::chosen_option::{firing_instruction, only_planned};
 use super::table::word;
-use crate::report::observed::contradiction;
 use crate::study::judgement::Judgement;
 use crate::verdict::Verdict;
 
@@ -61,7 +60,7 @@ fn signed(page: &Page<'_>) -> Markup {
     let verdict = page.results[option].as_ref().map_or(Verdict::Undecided, Judgement::verdict);
     let name = &page.case.plan.delays[option].name;
     html! {
-        "Option " @if verdict == Verdict::Fail { "NOT " } "to be fired: “" (name) "”, " (word(verdict)) (only_planned(page))
-        @if !contradiction(page.observed).is_empty() { " (what was seen of earlier shots contradicts the plan)" }
+        (firing_instruction(page, option)) ": option “" (name) "”, " (word(verdict)) (only_planned(page))
+        @if !page.contradiction.is_empty() { " (what was seen of earlier shots speaks against the plan)" }
     }
 }

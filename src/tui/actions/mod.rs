@@ -22,7 +22,6 @@ use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use crate::choice::Accuracy;
 use crate::jobs::StudyKind;
-use crate::report::observed::contradiction;
 use crate::study::judgement::Judgement;
 use crate::tui::export;
 use crate::verdict::Verdict;
@@ -139,7 +138,7 @@ impl App {
             return Request::None;
         }
         let ending = match self.judgement(self.selected).map(Judgement::verdict) {
-            _ if !contradiction(&export::observed(self)).is_empty() => "contradicted",
+            _ if !export::contradiction(self).is_empty() => "contradicted",
             Some(Verdict::Pass) => "to-be-fired",
             Some(Verdict::Fail) => "fails",
             Some(Verdict::Undecided) | None => "open",

@@ -20,6 +20,7 @@ use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 use super::chart;
 use crate::jobs::StudyKind;
 use crate::outcome::EndReason;
+use crate::report::charts;
 use crate::report::parts::Chart;
 use crate::report::remedies::{sentence, without_pass};
 use crate::report::words::option_sentences::{
@@ -27,7 +28,6 @@ use crate::report::words::option_sentences::{
 };
 use crate::report::words::reasons;
 use crate::report::words::{no_result, warnings};
-use crate::report::{charts, observed};
 use crate::study::judgement;
 use crate::study::judgement::Judgement;
 use crate::study::reasons::Reason;
@@ -169,7 +169,7 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
         lines.extend(remedy_lines(app));
     }
     // What was seen of earlier shots speaks against every verdict of the plan.
-    let contradiction = observed::contradiction(&export::observed(app));
+    let contradiction = export::contradiction(app);
     lines.splice(
         0..0,
         contradiction.into_iter().map(|sentence| Line::styled(format!("! {sentence}"), theme.limit())),

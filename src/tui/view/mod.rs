@@ -35,7 +35,6 @@ use super::export;
 use super::keymap::{Action, BINDINGS};
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
-use crate::report::observed;
 use crate::report::words::limits::limits_in_short;
 use crate::report::words::option_sentences::compute_label;
 use crate::report::words::warnings;
@@ -149,9 +148,10 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
                 (all, _) => format!("! {} warnings: see Plan · ", all.len()),
             };
             // What was seen of earlier shots speaks against every verdict of the plan.
-            let contradiction = observed::contradiction(&export::observed(app));
-            let contradiction = if contradiction.is_empty() {
+            let contradiction = if export::contradiction(app).is_empty() {
                 ""
+            } else if export::observed(app).is_empty() {
+                "! what was seen is not compared with this plan · "
             } else {
                 "! what was seen contradicts this plan: see Compare · "
             };
