@@ -168,7 +168,7 @@ fn refusal(tried: &TriedKind) -> Option<String> {
         Change::Launch(factor) => format!("not even launches {} lower pass", units::percent(1.0 - factor, 0)),
         // Another option may have one of these intervals, and pass.
         Change::Interval { .. } if tried.open > 0 => format!(
-            "no interval tried from {} ms passes surely enough after so many tries: `check` asks less of one alone",
+            "no interval tried from {} ms surely passes: the more are tried, the more each has to prove; one chosen alone has less to prove",
             range(tried)
         ),
         Change::Interval { .. } => format!("no interval tried from {} ms passes", range(tried)),

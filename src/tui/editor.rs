@@ -77,6 +77,16 @@ impl Editor {
         self.problem = None;
     }
 
+    /// Selects the times of a delay option; no other field of it that is selected already.
+    pub fn select_option(&mut self, option: usize) {
+        let is_of_option =
+            |field: &Field| field.path.section == plan::DELAY.name && field.path.index == Some(option);
+        if !self.field().is_some_and(is_of_option) {
+            let times = self.fields.iter().position(|field| is_of_option(field) && is_timing(field));
+            self.selected = times.unwrap_or(self.selected);
+        }
+    }
+
     /// The selected field.
     pub fn field(&self) -> Option<&Field> {
         self.fields.get(self.selected)
@@ -311,13 +321,8 @@ impl Editor {
     pub fn copy_option(&mut self, option: usize) -> EditOutcome {
         let copied = fields::copy_delay(&self.text, option);
         let outcome = self.adopt(copied.ok_or_else(|| "there is no delay option to copy".to_owned()));
-        let is_timing = |field: &Field| {
-            let Path { section, index, key } = field.path;
-            let times = [delay::INTERVAL_MS.name, delay::AT_MS.name].contains(&key.name);
-            section == plan::DELAY.name && index == Some(option + 1) && times && !field.value.is_empty()
-        };
-        if let (EditOutcome::Changed(_), Some(at)) = (&outcome, self.fields.iter().position(is_timing)) {
-            self.selected = at;
+        if matches!(outcome, EditOutcome::Changed(_)) {
+            self.select_option(option + 1);
             self.input = Some(Input::default());
         }
         outcome
@@ -340,6 +345,12 @@ impl Editor {
 fn unquoted(value: &str) -> String {
     let text = value.parse::<toml_edit::Value>().ok().and_then(|value| value.as_str().map(str::to_owned));
     text.unwrap_or_else(|| value.to_owned())
+}
+
+/// Whether a field holds the times of a delay option.
+fn is_timing(field: &Field) -> bool {
+    let Path { key, .. } = field.path;
+    [delay::INTERVAL_MS.name, delay::AT_MS.name].contains(&key.name) && !field.value.is_empty()
 }
 
 #[cfg(test)]

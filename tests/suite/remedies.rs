@@ -331,6 +331,11 @@ fn w_lists_changes_and_enter_makes_one_that_undo_takes_back() {
     assert_eq!(key(&mut app, KeyCode::Char('w')), Request::None, "closed");
     assert!(!screen(&app).contains("> interval "));
     assert_eq!(key(&mut app, KeyCode::Char('w')), Request::None, "and known when opened again");
+    key(&mut app, KeyCode::End);
+    assert!(matches!(all.last(), Some(Change::Launch(_))), "{all:?}");
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::None, "a number in the plan makes no charge smaller");
+    assert!(screen(&app).contains("launches follow from the charge") && app.editor.text == before);
+    key(&mut app, KeyCode::Home);
     key(&mut app, KeyCode::Down);
     assert_eq!(app.selected, 0, "arrows move in the list");
     assert!(screen(&app).contains("> rope "), "{}", screen(&app));

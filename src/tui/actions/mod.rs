@@ -91,9 +91,9 @@ impl App {
     /// Does an action that is the same on every screen.
     pub(super) fn act_anywhere(&mut self, action: Action) -> Request {
         match action {
-            Action::Show(screen) => self.screen = screen,
-            Action::NextScreen => self.screen = self.screen.next_by(1),
-            Action::PreviousScreen => self.screen = self.screen.next_by(Screen::ALL.len() - 1),
+            Action::Show(screen) => self.show(screen),
+            Action::NextScreen => self.show(self.screen.next_by(1)),
+            Action::PreviousScreen => self.show(self.screen.next_by(Screen::ALL.len() - 1)),
             Action::Undo => {
                 let edit = self.editor.undo();
                 return self.edited(edit);
@@ -122,6 +122,14 @@ impl App {
             _ => {}
         }
         Request::None
+    }
+
+    /// Shows a screen. On that of the plan the option is selected that is on the others.
+    fn show(&mut self, screen: Screen) {
+        if screen == Screen::Plan && self.screen != Screen::Plan {
+            self.editor.select_option(self.selected);
+        }
+        self.screen = screen;
     }
 
     /// Asks for the file to export to; the name offered says plan and screen.

@@ -1,6 +1,7 @@
 //! The list of changes with which an option would pass: asked for, walked, and one of them made.
 
 use crate::jobs::StudyKind;
+use crate::plan::edit::change::Change;
 use crate::report::remedies::words;
 use crate::study::remedies::Remedies;
 use crate::tui::app::{App, Request};
@@ -57,6 +58,14 @@ impl App {
             Action::Last | Action::PageDown => last,
             Action::Open => {
                 let change = remedies.passing().nth(selected)?.change;
+                if matches!(change, Change::Launch(_)) {
+                    // A number in the plan makes no charge smaller.
+                    self.notice = Some(
+                        "launches follow from the charge: film a shot of a smaller one, and write what was seen"
+                            .to_owned(),
+                    );
+                    return Some(Request::None);
+                }
                 let words = words(&self.case, &change);
                 let edit = self.editor.adopt(change.apply(&self.editor.text));
                 let request = self.edited(edit);

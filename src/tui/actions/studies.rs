@@ -44,6 +44,10 @@ impl App {
         let finished = self.studies.finished(self.studies.shown)?;
         let offers = finished.report.offers(&self.studies.filter);
         let count = offers.len().max(1);
+        if count == 1 && action != Action::Open {
+            // Nothing to choose: the keys scroll.
+            return None;
+        }
         let selected = self.studies.selected.min(count - 1);
         let moved = match action {
             Action::Up => selected.saturating_sub(1),

@@ -12,6 +12,7 @@ const WORDS: &[(&str, &str)] = &[
     ("✓ PASS", "passes as planned; surely fewer shots fail than accepted"),
     ("✗ FAIL", "fails as planned, or surely more shots fail than accepted"),
     ("? OPEN", "neither: more samples come, or a reason stands below"),
+    ("of limit", "what all samples but the accepted share use of it at most"),
     ("fails, %", "share of possible shots that fail: its bounds, 95 % sure"),
     ("samples", "possible shots drawn; … as long as more come"),
     ("height, force", "greatest of the shot as planned"),

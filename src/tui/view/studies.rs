@@ -158,8 +158,8 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
     let [text, pictures] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(area);
     let beyond = (all.len() as u16).saturating_sub(height);
     areas.push((text, ClickTarget::Lines(beyond)));
-    // The selected row stays in the middle, where there is room above it.
-    let scrolled = match selected {
+    // Of several rows to choose from, the selected one stays in the middle, where there is room above it.
+    let scrolled = match selected.filter(|_| offers.len() > 1) {
         Some(line) => (line as u16).saturating_sub(height / 2).min(beyond),
         None => app.studies.scroll.min(beyond),
     };
@@ -169,5 +169,10 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
         areas.extend(row.map(|row| (row, ClickTarget::Offer(n))));
     }
     frame.render_widget(Paragraph::new(all.split_off(usize::from(scrolled))), text);
+    if scrolled < beyond {
+        let more = format!(" {} more lines: {} ", beyond - scrolled, app.keymap.hint(Action::Down));
+        let last = Rect { y: text.bottom().saturating_sub(1), height: 1.min(text.height), ..text };
+        frame.render_widget(Line::styled(more, app.theme.limit()).right_aligned(), last);
+    }
     chart::draw_all(app, &charts, frame, pictures);
 }
