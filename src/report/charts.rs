@@ -11,7 +11,7 @@ use crate::study::search::FrontPoint;
 use crate::study::size::{Combination, Sizing};
 use crate::study::sweep::{Point, Sweep};
 use crate::study::{Case, ShotSummary};
-use crate::units::Unit;
+use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict};
 
 /// Room above the greatest value.
@@ -60,15 +60,21 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
         _ => Some((point.interval, point.risk.known()?.bounds.probability()?)),
     };
     if sweep.points.iter().any(Point::is_sampled) {
-        let points = sweep.points.iter().filter_map(failing).collect();
         let accepted = case.limits.accepted_risk;
+        // Beside 100 % the limit would lie on the axis.
+        let top = (ACCEPTED_TIMES * accepted).min(1.0);
+        let points =
+            sweep.points.iter().filter_map(failing).map(|(at, share)| (at, share.min(top))).collect();
         let chart = quantity_chart(interval, ("failing share", Unit::Percent), points, accepted);
-        let title = format!("{} (100 % where the shot as planned fails)", chart.title);
-        let y = axis("failing share", Unit::Percent, [0.0, 1.0]);
+        let title = format!("{} (at the top: {} and more)", chart.title, units::percent(top, 0));
+        let y = axis("failing share", Unit::Percent, [0.0, top]);
         charts.push(Chart { title, y, windows: sweep.windows.clone(), ..chart });
     }
     charts
 }
+
+/// How many times the accepted share of failures the axis of a sweep reaches.
+const ACCEPTED_TIMES: f64 = 10.0;
 
 /// Failing share against duration: the schedules of which no shorter one judged fails less.
 pub fn front(case: &Case, front: &[FrontPoint]) -> Chart {

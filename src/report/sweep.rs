@@ -87,7 +87,10 @@ fn table_of_windows(sweep: &Sweep) -> Table {
         wide(windows).into_iter().map(move |window| (name, rounded_inward(window))).collect::<Vec<_>>()
     };
     let (all, as_planned) = match sweep.has_risk() {
-        true => (named("worth a check", &sweep.windows), named("as planned only", &sweep.windows_as_planned)),
+        true => (
+            named("worth a check, not proven", &sweep.windows),
+            named("as planned, no permission", &sweep.windows_as_planned),
+        ),
         false => (named("that pass", &sweep.windows), Vec::new()),
     };
     let all = [all, as_planned].concat();
@@ -110,11 +113,11 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
     let so_far = if partial { " so far" } else { "" };
     let sampled: Vec<&Point> = sweep.points.iter().filter(|point| point.is_sampled()).collect();
     let has_risk = sweep.has_risk();
-    let mut lines = Vec::new();
+    let mut lines = recommended(sweep, has_risk);
     if has_risk {
         let risk = format!("{} %", case.plan.limits.accepted_risk_percent);
         let accepted: Vec<&&Point> = sampled.iter().filter(|point| point.is_accepted()).collect();
-        lines.extend(listed(&format!("windows worth a check{so_far}"), &sweep.windows));
+        lines.extend(listed(&format!("worth a check, not proven{so_far}"), &sweep.windows));
         lines.push(format!(
             "at {} of {} intervals sampled no more than {risk} of the samples fail",
             accepted.len(),
@@ -127,12 +130,11 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
         let open = accepted.iter().filter(|point| point.verdict() == Verdict::Undecided);
         let samples = open.filter_map(|point| Some(point.risk.known()?.bounds.samples));
         if let Some(few) = samples.min() {
-            let unproven =
-                format!("{few} samples cannot prove {risk}: `check` an interval before you choose it");
-            lines.insert(0, unproven);
+            lines
+                .push(format!("{few} samples cannot prove {risk}: `check` an interval before you choose it"));
         }
         lines.extend(listed(
-            &format!("windows as planned, nothing varied{so_far}"),
+            &format!("as planned, nothing varied, no permission to fire{so_far}"),
             &sweep.windows_as_planned,
         ));
     } else {
@@ -147,7 +149,6 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
             )),
         }
     }
-    lines.extend(recommended(sweep, has_risk));
     if !has_risk {
         lines.push("judged: the shots as planned only, nothing varied".to_owned());
     }

@@ -1,5 +1,6 @@
 //! What the user says was seen of earlier shots: lines typed on the screen, and files.
 
+use crate::plan::Plan;
 use crate::plan::observations::{COLUMNS, Observations, used_twice};
 use crate::study::Case;
 use crate::study::fit::observable_names;
@@ -9,17 +10,24 @@ use crate::study::fit::observable_names;
 pub struct Observed {
     /// Lines that were typed, as rows of a table.
     typed: Vec<String>,
-    /// Name and text of each file.
-    files: Vec<(String, String)>,
+    files: Vec<SeenFile>,
+}
+
+/// A file of observations, or typed lines that were put into the plan.
+#[derive(Clone, Debug)]
+struct SeenFile {
+    path: String,
+    text: String,
+    checksum: String,
 }
 
 /// Name of the typed lines among the files.
-const TYPED: &str = "typed";
+const TYPED: &str = "what was typed";
 
 impl Observed {
-    /// Whether nothing was told.
-    pub fn is_empty(&self) -> bool {
-        self.typed.is_empty() && self.files.is_empty()
+    /// Whether nothing was told that the plan does not hold already.
+    pub fn is_empty(&self, plan: &Plan) -> bool {
+        self.typed.is_empty() && self.not_in(plan).next().is_none()
     }
 
     /// Whether lines were typed: no file holds them.
@@ -27,10 +35,21 @@ impl Observed {
         !self.typed.is_empty()
     }
 
+    /// The files that were not fitted into a plan.
+    fn not_in(&self, plan: &Plan) -> impl Iterator<Item = &SeenFile> {
+        self.files.iter().filter(|file| !plan.fitted_from.contains(&file.checksum))
+    }
+
     /// Takes a typed line, of a shot of `option`; the mistake in it where it is none.
     pub fn add_line(&mut self, case: &Case, option: usize, line: &str) -> Result<(), String> {
+        let row = row(&case.plan.delays[option].name, line);
+        let what = |row: &str| row.rsplitn(3, ';').nth(2).map(str::to_owned);
+        if let Some(same) = self.typed.iter().find(|typed| what(typed) == what(&row)) {
+            let same = in_words(same);
+            return Err(format!("this was typed already, as {same}: give one value, their mean"));
+        }
         let mut changed = self.clone();
-        changed.typed.push(row(&case.plan.delays[option].name, line));
+        changed.typed.push(row);
         changed.read(case)?;
         *self = changed;
         Ok(())
@@ -38,46 +57,76 @@ impl Observed {
 
     /// Takes a file; the mistake in it where it holds no observations of this plan.
     pub fn add_file(&mut self, case: &Case, path: &str, text: &str) -> Result<(), String> {
+        let file = parse(case, path, text)?;
+        let plan = (&case.plan.fitted_from, &case.source.path);
+        used_twice(std::slice::from_ref(&file), plan.0, plan.1).map_or(Ok(()), Err)?;
         let mut changed = self.clone();
-        changed.files.retain(|(known, _)| known != path);
-        changed.files.push((path.to_owned(), text.to_owned()));
+        changed.files.retain(|known| known.path != path);
+        changed.files.push(SeenFile {
+            path: path.to_owned(),
+            text: text.to_owned(),
+            checksum: file.checksum,
+        });
         changed.read(case)?;
         *self = changed;
         Ok(())
     }
 
     /// Forgets the line typed last, or the file taken last where no line was typed; what was forgotten, in words.
-    pub fn forget_last(&mut self) -> Option<String> {
-        let words =
-            |row: String| row.split(';').filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ");
-        self.typed.pop().map(words).or_else(|| self.files.pop().map(|(path, _)| path))
+    pub fn forget_last(&mut self, plan: &Plan) -> Option<String> {
+        if let Some(row) = self.typed.pop() {
+            return Some(in_words(&row));
+        }
+        let last = self.files.iter().rposition(|file| !plan.fitted_from.contains(&file.checksum))?;
+        Some(self.files.remove(last).path)
     }
 
-    /// The observations of the plan on the screen, a list for the typed lines and for each file; the first mistake.
+    /// Takes the typed lines, read as one of these files, for a file: the next lines are those of another.
+    pub fn close_typed(&mut self, files: &[Observations]) {
+        let typed = files.iter().find(|file| file.path == TYPED && self.has_typed());
+        if let Some(Observations { checksum, .. }) = typed {
+            let (path, text, checksum) = (TYPED.to_owned(), self.typed_text(), checksum.clone());
+            self.files.push(SeenFile { path, text, checksum });
+            self.typed.clear();
+        }
+    }
+
+    fn typed_text(&self) -> String {
+        [COLUMNS.join(";"), self.typed.join("\n")].join("\n")
+    }
+
+    /// The observations that the plan on the screen does not hold already, a list for the typed lines and for each file; the first
+    /// mistake.
     pub fn read(&self, case: &Case) -> Result<Vec<Observations>, String> {
-        let names = observable_names(case);
-        let typed = [COLUMNS.join(";"), self.typed.join("\n")].join("\n");
-        let typed = (!self.typed.is_empty()).then_some((TYPED, typed.as_str()));
-        let files = self.files.iter().map(|(path, text)| (path.as_str(), text.as_str()));
-        let read = |(path, text): (&str, &str)| {
-            Observations::parse(path, text, &names).map_err(|mistakes| {
-                let first = mistakes.iter().next();
-                let (line, message, remedy) =
-                    first.map_or((0, "", ""), |(line, _, message, remedy)| (line, message, remedy));
-                let place = if path == TYPED { String::new() } else { format!("{path}, line {line}: ") };
-                format!("{place}{message}: {remedy}")
-            })
-        };
-        let all = typed.into_iter().chain(files).map(read).collect::<Result<Vec<_>, _>>()?;
+        let typed = self.typed_text();
+        let typed = self.has_typed().then_some((TYPED, typed.as_str()));
+        let files = self.not_in(&case.plan).map(|file| (file.path.as_str(), file.text.as_str()));
+        let read = typed.into_iter().chain(files).map(|(path, text)| parse(case, path, text));
+        let all = read.collect::<Result<Vec<_>, _>>()?;
         used_twice(&all, &case.plan.fitted_from, &case.source.path).map_or(Ok(all), Err)
     }
 
     /// What was told, line by line: the typed ones as they count, and the names of the files.
-    pub fn lines(&self) -> Vec<String> {
-        let typed = self.typed.iter().map(|row| row.split(';').filter(|part| !part.is_empty()));
-        let typed = typed.map(|parts| parts.collect::<Vec<_>>().join(" "));
-        typed.chain(self.files.iter().map(|(path, _)| path.clone())).collect()
+    pub fn lines(&self, plan: &Plan) -> Vec<String> {
+        let typed = self.typed.iter().map(|row| in_words(row));
+        typed.chain(self.not_in(plan).map(|file| file.path.clone())).collect()
     }
+}
+
+/// The observations of a text; the first mistake in it.
+fn parse(case: &Case, path: &str, text: &str) -> Result<Observations, String> {
+    Observations::parse(path, text, &observable_names(case)).map_err(|mistakes| {
+        let first = mistakes.iter().next();
+        let (line, message, remedy) =
+            first.map_or((0, "", ""), |(line, _, message, remedy)| (line, message, remedy));
+        let place = if path == TYPED { String::new() } else { format!("{path}, line {line}: ") };
+        format!("{place}{message}: {remedy}")
+    })
+}
+
+/// A row as it was typed.
+fn in_words(row: &str) -> String {
+    row.split(';').filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
 /// The row of a typed line: tire or cable, a quantity where it is not the greatest height or force, the time of a height at a time,
@@ -139,6 +188,6 @@ mod tests {
             observed.clone().add_file(&case, "other.csv", same).map_err(|told| told.contains("same")),
             Err(true)
         );
-        assert_eq!(observed.lines().len(), 4);
+        assert_eq!(observed.lines(&case.plan).len(), 4);
     }
 }

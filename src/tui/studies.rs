@@ -4,9 +4,10 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::jobs::{StudyKind, StudyResult};
+use crate::plan::observations::Observations;
 use crate::report::parts::{Block, Report};
 use crate::report::{self, charts};
-use crate::study::fit::FitResult;
+use crate::study::fit::{Fit, FitResult};
 use crate::study::flight::Flight;
 use crate::study::remedies::Remedies;
 use crate::study::{Case, ComputeSettings, NoResult};
@@ -70,6 +71,18 @@ impl ShownStudy {
             }
         };
         Self { found, compute, report }
+    }
+
+    /// The fit behind estimates that may go into the plan, and the observations that it is from; or why there are none.
+    pub fn estimates(&self) -> Result<(&Fit, &[Observations]), &str> {
+        match (&*self.found, &self.report.conclusion) {
+            (StudyResult::Fit(..), Some(conclusion)) => Err(&conclusion.text),
+            (StudyResult::Fit(found, files), None) => match &**found {
+                FitResult::Fitted(fit) => Ok((fit, files)),
+                _ => Err("what was seen determines none"),
+            },
+            _ => Err("this is no fit"),
+        }
     }
 }
 

@@ -4,10 +4,11 @@ use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, Mous
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::layout::Position;
-use shelter::choice::Accuracy;
+use shelter::choice::{Accuracy, Unknown};
 use shelter::file::canonical;
-use shelter::jobs::StudyKind;
-use shelter::study::NoResult;
+use shelter::jobs::{StudyKind, StudyResult};
+use shelter::study::fit::{FitRequest, fit};
+use shelter::study::{NoResult, StudyControl};
 use shelter::tui::app::{App, Request};
 use shelter::tui::compare::{OptionState, SortBy};
 use shelter::tui::config::Config;
@@ -170,20 +171,61 @@ fn what_was_seen_of_a_shot_is_typed_and_fitted() {
         app.prompt.as_mut().expect("a line").input.reset();
         line.chars().for_each(|letter| drop(key(&mut app, KeyCode::Char(letter))));
         let request = key(&mut app, KeyCode::Enter);
-        (request, app.observed.lines().len(), app.prompt.take().map(|prompt| prompt.input.value().to_owned()))
+        (
+            request,
+            app.observed.lines(&app.case.plan).len(),
+            app.prompt.take().map(|prompt| prompt.input.value().to_owned()),
+        )
     };
     assert_eq!(typed("3:1 1.95 0.05"), (Request::Study(StudyKind::Fit), 1, None));
     assert_eq!(typed("9:9 1.95 0.05"), (Request::None, 1, Some("9:9 1.95 0.05".to_owned())), "to be mended");
     assert_eq!(typed("seen.csv"), (Request::ReadObserved("seen.csv".into()), 1, None));
     let file = "option,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,1.7,0.05\n";
     let request = app.take_observed_file("seen.csv".as_ref(), Ok(file.to_owned()));
-    assert_eq!((request, app.observed.lines().len()), (Request::Study(StudyKind::Fit), 2));
+    assert_eq!((request, app.observed.lines(&app.case.plan).len()), (Request::Study(StudyKind::Fit), 2));
     app.studies.set(StudyKind::Fit, StudyState::Idle);
     assert!(matches!(key(&mut app, KeyCode::Char('x')), Request::Study(StudyKind::Fit)));
-    assert_eq!(app.observed.lines(), ["seen.csv"], "one at a time, and fitted anew");
+    assert_eq!(app.observed.lines(&app.case.plan), ["seen.csv"], "one at a time, and fitted anew");
     app.studies.set(StudyKind::Fit, StudyState::Idle);
     assert_eq!(key(&mut app, KeyCode::Char('x')), Request::None);
-    assert!(app.observed.is_empty() && matches!(app.studies.state(StudyKind::Fit), StudyState::Idle));
+    assert!(
+        app.observed.is_empty(&app.case.plan)
+            && matches!(app.studies.state(StudyKind::Fit), StudyState::Idle)
+    );
+}
+
+#[test]
+fn what_was_seen_stands_against_the_verdicts_until_the_plan_holds_it() {
+    let mut app = finished();
+    let (seen, says) = ("3:1 1.95 0.05", |app: &App, words: &str| text(&draw(app, 120, 36)).contains(words));
+    app.selected = 2;
+    assert_eq!(app.observed.add_line(&app.case, 2, seen), Ok(()));
+    let twice = app.observed.add_line(&app.case, 2, "3:1 2.05 0.05");
+    assert!(twice.is_err_and(|why| why.contains("typed already, as 20 ms 3:1 flight_height_m 1.95 0.05")));
+    let Request::NamePage(page) = press(&mut app, "2P") else { panic!("a page is offered") };
+    assert!(page.ends_with("-contradicted") && says(&app, "not compared with this plan"), "{page}");
+    assert_eq!(press(&mut app, "4E"), Request::None);
+    app.studies.show(StudyKind::Fit);
+    assert_eq!(press(&mut app, "E"), Request::None);
+    assert!(says(&app, "no estimate goes into the plan: nothing was fitted"), "nor before the fit has ended");
+
+    let files = app.observed.read(&app.case).expect("observations");
+    let request = FitRequest { files: &files, unknowns: &[Unknown::Launch], sampling: None };
+    let found = fit(&app.case, &request, &app.compute, &StudyControl::default()).expect("a fit").value;
+    study_ends(&mut app, StudyKind::Fit, Ok(StudyResult::Fit(Box::new(found), files)));
+    assert!(says(&app, "E puts the estimates into it"));
+    let before = app.editor.text.clone();
+    assert_eq!(press(&mut app, "E"), Request::JudgeNewPlan);
+    assert_eq!((app.screen, app.case.plan.fitted_from.len()), (Screen::Compare, 1));
+    assert!(app.observed.is_empty(&app.case.plan) && !says(&app, "what was seen"), "the plan holds it");
+    let file = app.observed.clone().add_line(&app.case, 2, "3:2 1.5 0.05");
+    assert_eq!(file, Ok(()), "the next lines count alone");
+
+    assert_eq!(press(&mut app, "u"), Request::JudgeNewPlan);
+    assert!(app.editor.text == before && !app.observed.is_empty(&app.case.plan));
+    key(&mut app, KeyCode::Esc);
+    assert!(says(&app, "not compared with this plan"), "{}", text(&draw(&app, 120, 36)));
+    assert_eq!(app.observed.forget_last(&app.case.plan).as_deref(), Some("what was typed"));
 }
 
 #[test]

@@ -218,7 +218,7 @@ fn a_page_without_samples_says_so_wherever_it_says_pass() {
         // The head, the signature, the heading of its charts, and the foot of every printed page.
         format!("<p class=\"large\"><span class=\"pass\">PASS</span>{caveat}"),
         format!("“109 ms”, <span class=\"pass\">PASS</span>{caveat}"),
-        format!("109 ms <span class=\"pass\">PASS</span>{caveat} · to be fired"),
+        format!("109 ms <span class=\"pass\">PASS</span>{caveat} · To be fired"),
         in_style_sheet(&format!("“109 ms”: PASS{caveat}")),
     ] {
         assert!(page.contains(&place), "{place}\n{page}");
@@ -397,7 +397,7 @@ fn what_the_law_asks_and_no_program_knows_is_blank_and_there_is_room_to_sign() {
     }
     let signed = words(of_class(&page, "signatures").expect("lines to sign"));
     assert_eq!(signed.matches("signature").count(), 2);
-    assert!(signed.contains("Option to be fired: “<b>”, "), "what is signed: {signed}");
+    assert!(signed.contains("To be fired: option “<b>”, "), "what is signed: {signed}");
 }
 
 #[test]
@@ -456,6 +456,28 @@ fn what_was_seen_of_earlier_shots_stands_on_the_page() {
     assert!(!page.contains("fitted"), "nothing was fitted");
     let (_, without) = report(PLAN, &["--nominal"]);
     assert!(!without.expect("a page").contains("Earlier shots"));
+
+    // The limit is 1.8 m.
+    std::fs::write(&seen, line(1.9)).expect("written");
+    let (_, page) = report(PLAN, &["--nominal", "--observed", &path, "--option", "<b>"]);
+    let page = xml(&page.expect("a page"));
+    let page = Document::parse(&page).expect("XML");
+    let [head, signed] =
+        ["fired", "signatures"].map(|class| words(of_class(&page, class).expect("such a part")));
+    assert!(head.starts_with("NOT to be fired: <b>") && head.contains("over the limit of 1.800"), "{head}");
+    assert!(
+        head.contains("Do not fire this option as it stands.") && !head.contains("To be fired"),
+        "{head}"
+    );
+    assert!(
+        signed.contains("NOT to be fired: option “<b>”") && signed.contains("speaks against the plan"),
+        "{signed}"
+    );
+    section(&page, "<b> ")
+        .descendants()
+        .find(|node| words(*node).ends_with("NOT to be fired"))
+        .expect("at its charts");
+
     std::fs::write(&seen, line(1.6).replace("1:1", "9:9")).expect("written");
     let (wrong, _) = report(PLAN, &["--nominal", "--observed", &path]);
     assert_eq!(wrong.status.code(), Some(2));

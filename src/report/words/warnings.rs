@@ -90,7 +90,7 @@ fn swaps_and_cover(case: &Case, option: usize, judged: &Judgement) -> impl Itera
 }
 
 /// What is wrong where tires drift far.
-const FAR_DRIFT: &str = "a PASS says nothing of where tires end: the plan has no limit `drift_m`, and they end far from where they lay";
+const FAR_DRIFT: &str = "a PASS says nothing of where tires end: the plan has no limit `drift_m`, and as planned or in 1 of 20 possible shots a tire ends this far from where it lay";
 
 /// The drift of an option where no limit judges it and it is far [m]: of the shot as planned, or of 1 in 20 of the possible shots.
 fn far_drift(case: &Case, judged: &Judgement) -> Option<f64> {

@@ -340,11 +340,11 @@ mod tests {
             .collect();
         let windows = windows(&case, &points);
         let recommended = recommend(&case, &points, &windows).expect("two windows");
-        // The middle, 8.4 ms, is no whole number of milliseconds.
-        assert!((recommended.interval - 8e-3).abs() < 1e-9 && (recommended.room - 3e-3).abs() < 1e-9);
+        // A window begins and ends a point before the limit. The middle of 5.1 to 11.7 ms is no whole number of milliseconds.
+        assert!((recommended.interval - 8e-3).abs() < 1e-9 && (recommended.room - 2.9e-3).abs() < 1e-9);
         assert_eq!(recommended.utilization, 0.6);
-        // From 2 to 2.4 ms all whole milliseconds lie at an end.
-        let narrow = recommend(&case, &points, &windows[..1]).expect("a window");
+        // From 2.1 to 2.3 ms there is no whole one.
+        let narrow = recommend(&case, &points, &[[2.1e-3, 2.3e-3]]).expect("a window");
         assert!((narrow.interval - 2.2e-3).abs() < 1e-9, "{narrow:?}");
     }
 }

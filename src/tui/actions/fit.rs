@@ -3,34 +3,67 @@
 use std::path::Path;
 
 use crate::jobs::StudyKind;
+use crate::plan::write_fit;
 use crate::tui::app::{App, Request};
+use crate::tui::editor::EditOutcome;
 use crate::tui::keymap::Action;
 use crate::tui::prompt::{Prompt, Purpose};
-use crate::tui::studies::StudyState;
+use crate::tui::screen::Screen;
+use crate::tui::studies::{ShownStudy, StudyState};
 
 impl App {
     /// Does an action of the tab; `None` where it is one of every tab.
     pub(super) fn act_on_fit(&mut self, action: Action) -> Option<Request> {
         match action {
             Action::Open => self.prompt = Some(Prompt::new(Purpose::Observe, "")),
-            Action::Rerun if self.observed.is_empty() => {
+            Action::Rerun if self.observed.is_empty(&self.case.plan) => {
                 self.notice = Some("nothing was observed yet".to_owned());
             }
             Action::Cancel if !self.studies.is_running(StudyKind::Fit) => {
-                let Some(forgotten) = self.observed.forget_last() else {
+                let Some(forgotten) = self.observed.forget_last(&self.case.plan) else {
                     self.notice = Some("nothing was observed yet".to_owned());
                     return Some(Request::None);
                 };
                 self.notice = Some(format!("no longer counted as seen: {forgotten}"));
-                if self.observed.is_empty() {
+                if self.observed.is_empty(&self.case.plan) {
                     self.studies.set(StudyKind::Fit, StudyState::Idle);
                 } else {
                     return Some(self.begin_study(StudyKind::Fit));
                 }
             }
+            Action::UseEstimates => return Some(self.use_estimates()),
             _ => return None,
         }
         Some(Request::None)
+    }
+
+    /// Puts the estimates into the plan, which holds what was seen from then on; or says why not.
+    fn use_estimates(&mut self) -> Request {
+        let finished = self.studies.finished(StudyKind::Fit);
+        let estimates = finished.map_or(Err("nothing was fitted to this plan yet"), ShownStudy::estimates);
+        let (fit, files) = match estimates {
+            Ok(estimates) => estimates,
+            Err(why) => {
+                self.notice = Some(format!("no estimate goes into the plan: {why}"));
+                return Request::None;
+            }
+        };
+        let checksums: Vec<String> = files.iter().map(|file| file.checksum.clone()).collect();
+        let (before, fitted) = (&self.case.plan.uncertainty, fit.answers[0].to_write());
+        let text = write_fit::write(&self.editor.text, before, &fitted, &checksums);
+        let files = files.to_vec();
+        let edit = self.editor.adopt(text);
+        if matches!(edit, EditOutcome::None) {
+            self.notice = self.editor.problem.clone();
+            return Request::None;
+        }
+        self.observed.close_typed(&files);
+        let request = self.edited(edit);
+        self.screen = Screen::Compare;
+        let undo = self.keymap.hint(Action::Undo);
+        self.notice =
+            Some(format!("the plan has the launches of the fit: judged anew · {undo} takes it back"));
+        request
     }
 
     /// Takes a typed observation of a shot of the selected option, or the name of a file of observations, and fits.

@@ -57,6 +57,8 @@ pub enum Action {
     Turn,
     /// End the study shown.
     Cancel,
+    /// Put the estimates of the fit into the plan.
+    UseEstimates,
     /// Copy the selected option.
     AddOption,
     /// Remove the selected option.
@@ -147,6 +149,8 @@ const FLIGHT: &[Screen] = &[Screen::Flight];
 
 const SIDEWAYS: &[Screen] = &[Screen::Plan, Screen::Flight, Screen::Studies];
 
+const STUDIES: &[Screen] = &[Screen::Studies];
+
 const ASKED: &[Screen] = &[Screen::Studies, Screen::Accuracy];
 
 /// Every action. Actions of few screens stand first, because the footer shows only as many as fit.
@@ -168,6 +172,14 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Left, "left", &["left", "h"], "", "smaller value, study before, back in time", SIDEWAYS),
     bind(Action::Right, "right", &["right", "l"], "step", "larger value, next study, on in time", SIDEWAYS),
     bind(Action::Cancel, "cancel", &["x"], "cancel", "end what computes here", ASKED),
+    bind(
+        Action::UseEstimates,
+        "use-estimates",
+        &["E"],
+        "",
+        "put the estimates of the fit into the plan",
+        STUDIES,
+    ),
     bind(
         Action::AddOption,
         "add-option",

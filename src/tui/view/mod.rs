@@ -26,7 +26,8 @@ mod widgets;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Position, Rect};
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, Paragraph, Wrap};
+use ratatui::widgets::{Block, Clear, Paragraph, Wrap};
+use unicode_width::UnicodeWidthStr;
 
 use self::widgets::draw_row;
 use super::app::{App, Areas, ClickTarget};
@@ -74,6 +75,7 @@ pub fn draw(app: &App, frame: &mut Frame) -> Areas {
         Some(prompt) => draw_prompt(app, prompt, frame, footer),
         None => draw_footer(app, frame, footer, &mut areas),
     }
+    draw_long_notice(app, frame, header.union(body));
     if app.help {
         help::draw(app, frame, area, &mut areas);
     }
@@ -165,6 +167,22 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
     frame.render_widget(line, second);
 }
 
+/// Lines that a notice may cover.
+const NOTICE_LINES: u16 = 4;
+
+/// Draws a notice that is wider than its line of the header over the lines below.
+fn draw_long_notice(app: &App, frame: &mut Frame, area: Rect) {
+    let Some(notice) = app.notice.as_ref().filter(|notice| notice.width() > usize::from(area.width)) else {
+        return;
+    };
+    // Broken at words, a line is filled to four fifths at least.
+    let lines = notice.width().div_ceil(usize::from(area.width) * 4 / 5) as u16;
+    let place = Rect { y: area.y + 1, height: lines.min(NOTICE_LINES), ..area }.intersection(area);
+    let style = app.theme.base().patch(app.theme.limit());
+    frame.render_widget(Clear, place);
+    frame.render_widget(Paragraph::new(notice.as_str()).style(style).wrap(Wrap { trim: true }), place);
+}
+
 /// State of the whole plan: options checked as planned, options that need more samples, or options that pass.
 fn summary(app: &App) -> String {
     let count = |has: fn(&OptionState) -> bool| app.options.iter().filter(|state| has(state)).count();
@@ -203,7 +221,9 @@ const LONGEST_NAME: usize = 24;
 fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
     let option = app.case.plan.delays.get(app.selected).map_or("", |delay| delay.name.as_str());
     let verdict = app.judgement(app.selected).map_or(Verdict::Undecided, Judgement::verdict);
-    let page = format!(" page of “{}” ({}): ", compare::cut(option, LONGEST_NAME), verdict.for_people());
+    let against = if export::contradiction(app).is_empty() { "" } else { ", contradicted" };
+    let verdict = verdict.for_people();
+    let page = format!(" page of “{}” ({verdict}{against}): ", compare::cut(option, LONGEST_NAME));
     let seen = format!(" seen of “{}” (TIRE VALUE SD, or a .csv file): ", compare::cut(option, LONGEST_NAME));
     let head = match prompt.purpose {
         Purpose::Find if app.screen == Screen::Plan => " find (Down: next): ",

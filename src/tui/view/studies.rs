@@ -28,9 +28,10 @@ const ROOM_FOR_CHARTS: u16 = 15;
 /// Name of a study, and the question that it answers.
 fn name_and_question(kind: StudyKind) -> (&'static str, &'static str) {
     match kind {
-        StudyKind::Sweep => {
-            ("Sweep", "Which intervals between rows pass? From 0 to 500 ms, closer where the answer changes.")
-        }
+        StudyKind::Sweep => (
+            "Sweep",
+            "Which interval between rows passes? From 0 to 500 ms, closer where the answer changes.",
+        ),
         StudyKind::Orders => (
             "Orders",
             "Which order of the rows is worst, which best? All orders at the intervals of the plan.",
@@ -103,28 +104,33 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
 
 /// How observations are told, and those that were.
 fn how_to_observe(app: &App) -> String {
-    let [open, rerun, cancel] =
-        [Action::Open, Action::Rerun, Action::Cancel].map(|action| app.keymap.hint(action));
+    let [open, rerun, cancel, use_] = [Action::Open, Action::Rerun, Action::Cancel, Action::UseEstimates]
+        .map(|action| app.keymap.hint(action));
     let option = app.case.plan.delays.get(app.selected).map_or("", |delay| delay.name.as_str());
-    let typed = app.observed.lines().join("\n");
+    let typed = app.observed.lines(&app.case.plan).join("\n");
     format!(
         "{open} takes what was seen of a shot of “{option}” (selected on Compare):\n\
          3:1 1.95 0.05             greatest height of tire 3:1 and its sd, m\n\
          3:1-4:1 52000 2000        greatest force of a cable and its sd, N\n\
          3:1 landing_s 1.12 0.02   or lift_s, drift_m; firing_s as logged, alone\n\
          seen.csv                  a file as of `shelter fit`\n\
-         {rerun} fits again, {cancel} takes back the last; `shelter fit --write` puts estimates into the plan\n\n{typed}"
+         {rerun} fits again, {cancel} takes back the last, {use_} puts the estimates into the plan\n\n{typed}"
     )
 }
 
 /// The settings that a result was computed with; a warning where the settings are others now.
 fn settings(app: &App, finished: &ShownStudy) -> Line<'static> {
     let label = compute_label(&finished.compute);
-    if finished.compute == app.compute {
-        return Line::styled(format!(" {label} "), app.theme.title());
+    if finished.compute != app.compute {
+        let again = app.keymap.hint(Action::Rerun);
+        return Line::styled(format!(" computed with {label}; {again} computes again "), app.theme.limit());
     }
-    let again = app.keymap.hint(Action::Rerun);
-    Line::styled(format!(" computed with {label}; {again} computes again "), app.theme.limit())
+    if finished.estimates().is_ok() {
+        let use_ = app.keymap.hint(Action::UseEstimates);
+        let text = format!(" Compare judges the plan as it is: {use_} puts the estimates into it ");
+        return Line::styled(text, app.theme.limit());
+    }
+    Line::styled(format!(" {label} "), app.theme.title())
 }
 
 /// That a result is not of the plan on the screen.
