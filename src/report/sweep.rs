@@ -220,7 +220,8 @@ fn listed(what: &str, windows: &[[f64; 2]]) -> Vec<String> {
     let narrow = windows.len() - list.len();
     if narrow > 0 {
         let narrowest = units::exact_milliseconds(NARROW);
-        lines.push(format!("not listed: {narrow} windows and points narrower than {narrowest}"));
+        let what = if narrow == 1 { "window or point" } else { "windows and points" };
+        lines.push(format!("not listed: {narrow} {what} narrower than {narrowest}"));
     }
     lines
 }

@@ -126,7 +126,8 @@ fn parse(case: &Case, path: &str, text: &str) -> Result<Observations, String> {
 
 /// A row as it was typed.
 fn in_words(row: &str) -> String {
-    row.split(';').filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
+    let parts = row.split(';').map(|part| part.trim_matches('"')).filter(|part| !part.is_empty());
+    parts.collect::<Vec<_>>().join(" ")
 }
 
 /// The row of a typed line: tire or cable, a quantity where it is not the greatest height or force, the time of a height at a time,

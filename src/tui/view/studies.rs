@@ -10,7 +10,7 @@
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, Borders, Paragraph};
+use ratatui::widgets::{Block, Borders, Clear, Paragraph};
 
 use super::chart;
 use super::report::{ReportLines, lines};
@@ -176,9 +176,15 @@ fn draw_finished(app: &App, finished: &ShownStudy, frame: &mut Frame, area: Rect
     }
     frame.render_widget(Paragraph::new(all.split_off(usize::from(scrolled))), text);
     if scrolled < beyond {
-        let more = format!(" {} more lines: {} ", beyond - scrolled, app.keymap.hint(Action::Down));
+        // The mark takes a line of its own: half a line of numbers would be misread.
+        let hidden = beyond - scrolled + 1;
+        let more = format!("{hidden} more lines: {} ", app.keymap.hint(Action::Down));
         let last = Rect { y: text.bottom().saturating_sub(1), height: 1.min(text.height), ..text };
-        frame.render_widget(Line::styled(more, app.theme.limit()).right_aligned(), last);
+        frame.render_widget(Clear, last);
+        frame.render_widget(
+            Paragraph::new(more).style(app.theme.base().patch(app.theme.limit())).right_aligned(),
+            last,
+        );
     }
     chart::draw_all(app, &charts, frame, pictures);
 }
