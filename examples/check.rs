@@ -13,7 +13,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let found = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &StudyControl::default())?;
     for (delay, judged) in case.plan.delays.iter().zip(found.value) {
         let judged = judged?;
-        let force = &judged.as_planned.force;
+        let force = &judged.checked.force;
         let force = value_and_error(force.value, force.error, Unit::Kilonewton);
         let failing = judged.sampled.known().map(|risk| probabilities(risk.bounds.interval));
         let failing = failing.unwrap_or_default();

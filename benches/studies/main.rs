@@ -111,7 +111,7 @@ fn compare_orders(rows: usize, random: u64) {
             let begun = Instant::now();
             let found = try_orders(&case, &[interval], Shard::WHOLE, &compute, &StudyControl::default());
             let (found, wall) = (found.expect("a result").value, begun.elapsed().as_secs_f64());
-            let found: Vec<ShotSummary> = found.iter().map(|tried| tried.as_planned).collect();
+            let found: Vec<ShotSummary> = found.iter().map(|tried| tried.planned).collect();
             let begun = Instant::now();
             let compared = hardest_and_easiest(&case, rows, interval);
             let brute: Vec<ShotSummary> =

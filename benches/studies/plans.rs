@@ -19,8 +19,8 @@ pub fn case(n: u64, rows: Option<usize>, rim_to_rim: bool) -> Case {
     let reached =
         sweep(&strict, &order, &intervals, None, &compute, &StudyControl::default()).expect("a result").value;
     let [mut heights, mut forces]: [Vec<f64>; 2] = [
-        reached.points.iter().map(|point| point.as_planned.height.value).collect(),
-        reached.points.iter().map(|point| point.as_planned.force.value).collect(),
+        reached.points.iter().map(|point| point.planned.height.value).collect(),
+        reached.points.iter().map(|point| point.planned.force.value).collect(),
     ];
     let mut random = Random(n);
     let mut quantile = |values: &mut Vec<f64>, low: f64, high: f64| {

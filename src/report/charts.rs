@@ -46,7 +46,7 @@ const FORCE: &str = "cable force";
 pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
     let interval = axis("interval", Unit::Millisecond, sweep.range());
     let chart = |name, unit, quantity: fn(&ShotSummary) -> f64, limit| {
-        let point = |point: &Point| (point.interval, quantity(&point.as_planned));
+        let point = |point: &Point| (point.interval, quantity(&point.planned));
         // A run that failed has no value.
         let points = sweep.points.iter().map(point).filter(|(_, value)| value.is_finite()).collect();
         Chart { windows: sweep.windows.clone(), ..quantity_chart(interval, (name, unit), points, limit) }
@@ -55,7 +55,7 @@ pub fn sweep(case: &Case, sweep: &Sweep) -> Vec<Chart> {
         chart(height_name(case), Unit::Metre, |judged| judged.height.value, case.limits.height),
         chart(FORCE, Unit::Kilonewton, |judged| judged.force.value, case.limits.force),
     ];
-    let failing = |point: &Point| match point.as_planned.verdict {
+    let failing = |point: &Point| match point.planned.verdict {
         Verdict::Fail => Some((point.interval, 1.0)),
         _ => Some((point.interval, point.risk.known()?.bounds.probability()?)),
     };
@@ -144,7 +144,7 @@ pub fn work_and_error(measured: &Measured) -> Option<(f64, f64)> {
 
 /// Utilization of every order, from the worst to the best.
 pub fn orders(case: &Case, orders: &Orders) -> Chart {
-    let share = orders.ranked.iter().map(|tried| tried.as_planned.utilization(&case.limits));
+    let share = orders.ranked.iter().map(|tried| tried.planned.utilization(&case.limits));
     let curve = share.enumerate().map(|(n, share)| ((n + 1) as f64, share)).collect();
     utilization("from the worst order to the best", ("order", Unit::One), curve, Vec::new())
 }

@@ -90,7 +90,7 @@ fn fields<'a>(sampled: bool, drift_has_limit: bool) -> Vec<Field<OptionRow<'a>>>
         }),
         Field::new(if_sampled(LAUNCH_MARGIN), |row| {
             let judged = row.result.as_ref().ok();
-            let passes = judged.filter(|judged| judged.as_planned.verdict == Verdict::Pass);
+            let passes = judged.filter(|judged| judged.checked.verdict == Verdict::Pass);
             let margin = passes.and_then(|judged| judged.launch_margin);
             margin.map_or(Cell::Nothing, |margin| Cell::Text(launch_margin(margin)))
         }),
@@ -170,7 +170,7 @@ pub fn report(
     let mut text =
         format!("{passed} of {} options pass{so_far}{}", results.len(), pass_caveat(case, sampled));
     if let Some(judged) = results.iter().flatten().next() {
-        text += &format!(" · {}", compute_label(&judged.as_planned.compute));
+        text += &format!(" · {}", compute_label(&judged.checked.compute));
     }
     let mut report = report_head(case, sampled);
     report.blocks.push(Block::Table(table));
@@ -218,7 +218,7 @@ pub(super) fn complete_rows(table: &mut Table, case: &Case, results: &OptionResu
 }
 
 fn details(case: &Case, judged: &Judgement) -> Vec<Detail> {
-    let checked = &judged.as_planned;
+    let checked = &judged.checked;
     let mut details = reasons::details(case, judged);
     if !checked.broken.is_empty() {
         details.push(Detail { verdict: Verdict::Fail, text: broken(case.scene(), checked) });

@@ -31,7 +31,7 @@ pub fn option_rows<'a>(
 impl OptionRow<'_> {
     /// A cell of the shot as planned; nothing where there is no result.
     pub fn as_planned(&self, cell: impl FnOnce(&CheckedShot) -> Cell) -> Cell {
-        self.result.as_ref().map_or(Cell::Nothing, |judged| cell(&judged.as_planned))
+        self.result.as_ref().map_or(Cell::Nothing, |judged| cell(&judged.checked))
     }
 
     /// A cell of the samples; nothing where there are none.

@@ -38,8 +38,8 @@ fn fields<'a>() -> [Field<RankedOrder<'a>>; 5] {
         }),
         Field::new(INTERVAL, |row| Cell::Interval(row.tried().interval)),
         Field::new(VERDICT, |row| Cell::Verdict(row.orders.verdict_on(row.n))),
-        Field::new(HEIGHT, |row| height(row.tried().as_planned.height)),
-        Field::new(FORCE, |row| force(row.tried().as_planned.force)),
+        Field::new(HEIGHT, |row| height(row.tried().planned.height)),
+        Field::new(FORCE, |row| force(row.tried().planned.force)),
     ]
 }
 
@@ -48,7 +48,7 @@ fn sampled_fields<'a>() -> [Field<RankedOrder<'a>>; 3] {
     [
         Field::new(FAILURES, |row| failures(row.risk())),
         Field::new(PROBABILITY, |row| probability(row.risk())),
-        Field::new(NOMINAL_VERDICT, |row| Cell::Verdict(row.tried().as_planned.verdict)),
+        Field::new(NOMINAL_VERDICT, |row| Cell::Verdict(row.tried().planned.verdict)),
     ]
 }
 
@@ -97,8 +97,8 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
         text.extend(orders.risk(n).known().map(|risk| format!(", {}", sampled(risk))));
     }
     let picture = charts::orders(case, orders);
-    let tried = orders.ranked.iter().map(|tried| &tried.as_planned);
-    let best = orders.ranked.last().map(|best| &best.as_planned);
+    let tried = orders.ranked.iter().map(|tried| &tried.planned);
+    let best = orders.ranked.last().map(|best| &best.planned);
     let mut report = report_head(case, orders.has_risk());
     report.blocks = vec![Block::Text(heads), Block::Table(table), Block::Picture(picture)];
     report.warnings.extend(warnings::count_uncovered("orders and intervals", tried));

@@ -108,7 +108,7 @@ pub fn words(case: &Case, change: &Change) -> String {
 /// What the changed plan comes to: by its samples, or as planned where none were asked for.
 fn result(judgement: &Judgement) -> String {
     let Some(sampled) = judgement.sampled.known() else {
-        let checked = &judgement.as_planned;
+        let checked = &judgement.checked;
         let value = |estimate: f64, error: f64, unit: Unit| {
             format!("{} {}", units::value_by_error(estimate, error, unit), unit.symbol())
         };

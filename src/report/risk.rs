@@ -72,7 +72,7 @@ pub fn report(case: &Case, results: &OptionResults, sampling: &Sampling, partial
     let mut text =
         format!("{passed} of {} options pass{}", results.len(), if partial { " so far" } else { "" });
     if let Some(judged) = results.iter().flatten().next() {
-        text += &format!(" · {}", compute_label(&judged.as_planned.compute));
+        text += &format!(" · {}", compute_label(&judged.checked.compute));
     }
     let mut report = report_head(case, true);
     report.blocks = blocks;

@@ -101,7 +101,7 @@ pub fn report(case: &Case, search: &Search, partial: bool) -> Report {
     };
     text += pass_caveat(case, sampled);
     if let Some(judged) = search.results.iter().flatten().next() {
-        text += &format!(" · {}", compute_label(&judged.as_planned.compute));
+        text += &format!(" · {}", compute_label(&judged.checked.compute));
     }
     let mut report = report_head(case, sampled);
     report.blocks = blocks;

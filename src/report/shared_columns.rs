@@ -41,7 +41,7 @@ pub fn launch_margin_share(judged: &Judgement) -> Option<f64> {
     match judged.launch_margin {
         Some(LaunchMargin::UpTo { rise, .. }) => Some(rise),
         Some(LaunchMargin::BeyondTried) => None,
-        None if !judged.sampled.is_asked() && judged.as_planned.verdict == Verdict::Pass => None,
+        None if !judged.sampled.is_asked() && judged.checked.verdict == Verdict::Pass => None,
         Some(LaunchMargin::NotPassing) | None => Some(0.0),
     }
 }

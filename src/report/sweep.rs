@@ -18,10 +18,10 @@ use crate::verdict::Verdict;
 fn points<'a>() -> [Field<&'a Point>; 7] {
     [
         Field::new(INTERVAL.shown(Audience::Scripts), |point| Cell::Interval(point.interval)),
-        Field::new(HEIGHT.shown(Audience::Scripts), |point| height(point.as_planned.height)),
-        Field::new(FORCE.shown(Audience::Scripts), |point| force(point.as_planned.force)),
+        Field::new(HEIGHT.shown(Audience::Scripts), |point| height(point.planned.height)),
+        Field::new(FORCE.shown(Audience::Scripts), |point| force(point.planned.force)),
         Field::new(VERDICT.shown(Audience::Scripts), |point| Cell::Verdict(point.verdict())),
-        Field::new(NOMINAL_VERDICT, |point| Cell::Verdict(point.as_planned.verdict)),
+        Field::new(NOMINAL_VERDICT, |point| Cell::Verdict(point.planned.verdict)),
         Field::new(PROBABILITY, |point| probability(point.risk.known())),
         Field::new(FAILURES.shown(Audience::Scripts), |point| failures(point.risk.known())),
     ]
@@ -33,8 +33,8 @@ fn highlights<'a>() -> [Field<(&'static str, &'a Point)>; 6] {
         Field::new(Column::words(&[], ""), |(name, _)| Cell::Text((*name).to_owned())),
         Field::new(INTERVAL.unread(), |(_, point)| Cell::Interval(point.interval)),
         Field::new(VERDICT.unread(), |(_, point)| Cell::Verdict(point.verdict())),
-        Field::new(HEIGHT.unread(), |(_, point)| height(point.as_planned.height)),
-        Field::new(FORCE.unread(), |(_, point)| force(point.as_planned.force)),
+        Field::new(HEIGHT.unread(), |(_, point)| height(point.planned.height)),
+        Field::new(FORCE.unread(), |(_, point)| force(point.planned.force)),
         Field::new(FAILURES.unread(), |(_, point)| failures(point.risk.known())),
     ]
 }
@@ -53,9 +53,9 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
         blocks.push(Block::Table(table_of_windows(sweep)));
     }
     blocks.push(Block::Table(Table::of(&points(), &sweep.points)));
-    let passing = sweep.points.iter().map(|point| &point.as_planned);
+    let passing = sweep.points.iter().map(|point| &point.planned);
     let passing: Vec<&ShotSummary> = passing.filter(|shot| shot.verdict == Verdict::Pass).collect();
-    let best = sweep.best().map(|point| &point.as_planned);
+    let best = sweep.best().map(|point| &point.planned);
     let mut report = report_head(case, sweep.has_risk());
     report.blocks = blocks;
     let uncovered = warnings::count_uncovered("intervals that pass as planned", passing.into_iter());
@@ -233,7 +233,7 @@ fn conclusion(sweep: &Sweep, partial: bool) -> Conclusion {
     let has_risk = sweep.has_risk();
     let text = match not_passing {
         _ if has_risk => {
-            let passes = |point: &&Point| point.as_planned.verdict == Verdict::Pass;
+            let passes = |point: &&Point| point.planned.verdict == Verdict::Pass;
             let count = sweep.points.iter().filter(passes).count();
             let best = sweep.best().map_or("none is recommended".to_owned(), |best| {
                 let best = units::exact_milliseconds(best.interval);
@@ -269,7 +269,7 @@ mod tests {
             let as_planned = |verdict| ShotSummary { verdict, ..ShotSummary::UNKNOWN };
             let point = |(n, &verdict): (usize, &Verdict)| Point {
                 interval: n as f64,
-                as_planned: as_planned(verdict),
+                planned: as_planned(verdict),
                 risk: Evidence::NotAsked,
             };
             let points = verdicts.iter().enumerate().map(point).collect();

@@ -145,7 +145,7 @@ fn add_risks(
     let mut judged = checked_options(results);
     let target = |(at, judgement): &(CaseOption, &mut Judgement)| {
         let (case, compute) = cases[at.case];
-        shot_to_sample(case, at.option, &ShotSummary::of(&judgement.as_planned), sampling, compute)
+        shot_to_sample(case, at.option, &ShotSummary::of(&judgement.checked), sampling, compute)
     };
     let targets: Vec<ShotToSample<'_>> = judged.iter().map(target).collect();
     let mut watch_round = |n: usize, sampled: &SampledShot| {
@@ -182,7 +182,7 @@ pub fn find_launch_margins(
     watch: Watch<'_>,
 ) -> ComputeResult<()> {
     let judged = checked_options(results);
-    let jobs: Vec<_> = judged.iter().map(|(at, judgement)| (*at, judgement.as_planned.verdict)).collect();
+    let jobs: Vec<_> = judged.iter().map(|(at, judgement)| (*at, judgement.checked.verdict)).collect();
     let margins = run_batch(&jobs, control, |&(at, as_planned)| {
         let (case, compute) = &cases[at.case];
         match catch_panic(|| launch_margin(case, &case.shots[at.option], as_planned, compute, control)) {

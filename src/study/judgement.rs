@@ -10,7 +10,7 @@ use crate::verdict::Verdict;
 #[derive(Clone, Debug)]
 pub struct Judgement {
     /// The shot as planned.
-    pub as_planned: CheckedShot,
+    pub checked: CheckedShot,
     /// The shots that `[uncertainty]` describes. Of a sampling that the time cut short there may be no sample.
     pub sampled: Evidence<SampledShot>,
     /// How much faster than planned the tires may leave; `None` where it was not asked for, or the time was up.
@@ -19,19 +19,19 @@ pub struct Judgement {
 
 impl Judgement {
     /// The judgement of the shot as planned alone.
-    pub fn of_planned_alone(as_planned: CheckedShot) -> Self {
-        Self { as_planned, sampled: Evidence::NotAsked, launch_margin: None }
+    pub fn of_planned_alone(checked: CheckedShot) -> Self {
+        Self { checked, sampled: Evidence::NotAsked, launch_margin: None }
     }
 
     /// Pass where the shot as planned passes and surely fewer shots than accepted fail; fail where the shot as planned
     /// fails, or surely more shots than accepted.
     pub fn verdict(&self) -> Verdict {
-        verdict_of_both(self.as_planned.verdict, self.sampled.map(SampledShot::verdict))
+        verdict_of_both(self.checked.verdict, self.sampled.map(SampledShot::verdict))
     }
 
     /// Why the verdict is no pass; empty for a pass.
     pub fn reasons(&self) -> Vec<Reason> {
-        let as_planned = self.as_planned.reasons.iter().copied().map(Reason::AsPlanned);
+        let as_planned = self.checked.reasons.iter().copied().map(Reason::AsPlanned);
         let of_samples = match &self.sampled {
             Evidence::NotAsked => None,
             Evidence::Unknown => Some(Reason::NoSamples),

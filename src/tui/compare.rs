@@ -89,7 +89,7 @@ impl SortBy {
 
     /// The number that orders results by this key; `Plan` and `Name` need none.
     fn value(self, judgement: &Judgement) -> f64 {
-        let Judgement { as_planned, sampled, .. } = judgement;
+        let Judgement { checked, sampled, .. } = judgement;
         match self {
             SortBy::Plan | SortBy::Name => 0.0,
             SortBy::Verdict => match judgement.verdict() {
@@ -98,9 +98,9 @@ impl SortBy {
                 Verdict::Fail => 2.0,
             },
             SortBy::Risk => sampled.known().map_or(1.0, |sampled| sampled.bounds.interval[1]),
-            SortBy::Height => as_planned.height.value,
-            SortBy::Force => as_planned.force.value,
-            SortBy::Drift => as_planned.drift.value,
+            SortBy::Height => checked.height.value,
+            SortBy::Force => checked.force.value,
+            SortBy::Drift => checked.drift.value,
         }
     }
 }

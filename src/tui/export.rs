@@ -112,13 +112,13 @@ pub fn csv(app: &App) -> Result<String, String> {
 fn svg(app: &App) -> Result<String, String> {
     let pictures = match app.screen {
         Screen::Plan => {
-            let checked = app.judgement(app.selected).map(|judged| &judged.as_planned);
+            let checked = app.judgement(app.selected).map(|judged| &judged.checked);
             vec![html::top_view(&app.case, Some(app.selected), checked)]
         }
         Screen::Compare => {
             let judged = app.judgement(app.selected).ok_or("the selected option has no result yet")?;
             let shot = &app.case.shots[app.selected];
-            let history = charts::history(&app.case, &judged.as_planned.history, shot);
+            let history = charts::history(&app.case, &judged.checked.history, shot);
             let samples =
                 judged.sampled.known().into_iter().flat_map(|sampled| charts::samples(&app.case, sampled));
             history

@@ -104,8 +104,8 @@ fn all_pass_when_made(case: &Case, option: usize, sampling: Option<&Sampling>) -
         assert!(offered.starts_with(&of_check), "{:?}", passing.change);
         let suffices = sampling.is_some_and(|sampling| sampling.least < sampling.most);
         assert_eq!(offered.len() > of_check.len(), suffices, "{:?}", passing.change);
-        assert_eq!(judged.as_planned.height, passing.judgement.as_planned.height);
-        assert_eq!(judged.as_planned.force, passing.judgement.as_planned.force);
+        assert_eq!(judged.checked.height, passing.judgement.checked.height);
+        assert_eq!(judged.checked.force, passing.judgement.checked.force);
     }
     found.passing().count()
 }

@@ -130,7 +130,7 @@ fn a_shot_that_passes_as_planned_fails_by_its_risk() {
     };
     assert_eq!(judged(None).verdict(), Verdict::Pass);
     let both = judged(Some(&Sampling::OF_VERDICT));
-    assert_eq!((both.as_planned.verdict, both.verdict()), (Verdict::Pass, Verdict::Fail));
+    assert_eq!((both.checked.verdict, both.verdict()), (Verdict::Pass, Verdict::Fail));
 }
 
 /// A lone tire launched with 6 m/s under a limit that 6.27 m/s reach: it passes up to +4 %. One that fails as planned has no
@@ -176,11 +176,11 @@ fn samples_whose_step_is_too_long_pass_nothing() {
         .value;
     let judged = found.remove(0).remove(0).expect("a result");
     let risk = judged.sampled.known().expect("samples");
-    assert_eq!((judged.as_planned.verdict, risk.bounds.verdict()), (Verdict::Pass, Verdict::Pass));
+    assert_eq!((judged.checked.verdict, risk.bounds.verdict()), (Verdict::Pass, Verdict::Pass));
     assert_eq!(judged.verdict(), Verdict::Undecided, "{:?}", risk.samples[0]);
     assert!(risk.step_halvings > 0, "the audit saw it, too");
     // Sweeps and orders sample shots this way.
-    let shots = [(case.shots[0].clone(), ShotSummary::of(&judged.as_planned))];
+    let shots = [(case.shots[0].clone(), ShotSummary::of(&judged.checked))];
     let sampled =
         sample_shots_in_brief(&case, &shots, &Sampling::OF_VERDICT, &cases[0].1, &StudyControl::default());
     let sampled = sampled.expect("a result").remove(0).expect("samples");

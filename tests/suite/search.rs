@@ -82,7 +82,7 @@ fn as_planned_the_best_of_all_is_found() {
         all.judge_options(&compute, None, &StudyControl::default()).expect("a result").value;
     let utilization = |results: &OptionResults| -> f64 {
         let of = results.iter().flatten().map(|judged| {
-            let checked = &judged.as_planned;
+            let checked = &judged.checked;
             (checked.height.value / all.limits.height).max(checked.force.value / all.limits.force)
         });
         of.fold(f64::INFINITY, f64::min)
@@ -193,7 +193,7 @@ fn schedules_are_written_as_options_that_check_judges_alike() {
         again.judge_options(&compute, Some(&FEW), &StudyControl::default()).expect("a result").value;
     for (found, checked) in found.results.iter().zip(&checked[1..]) {
         let [found, checked] = [found, checked].map(|result| result.as_ref().expect("a result"));
-        assert_eq!(found.as_planned.height, checked.as_planned.height);
+        assert_eq!(found.checked.height, checked.checked.height);
         let shared = |judged: &shelter::study::judgement::Judgement| {
             let samples = &judged.sampled.known().expect("samples").samples;
             samples[..50.min(samples.len())].to_vec()
@@ -278,7 +278,7 @@ fn a_slope_takes_mirror_images_away() {
     let tried = tried.expect("a result").value;
     let height = |order: [usize; 3]| {
         let of_order = tried.iter().find(|tried| tried.order == order);
-        of_order.expect("every order").as_planned.height
+        of_order.expect("every order").planned.height
     };
     for order in [[0, 1, 2], [2, 1, 0], [1, 0, 2], [1, 2, 0]] {
         let flow =

@@ -72,13 +72,13 @@ fn a_sweep_is_the_check_of_every_interval() {
         &StudyControl::default(),
     );
     let swept = swept.expect("a result").value;
-    let verdict = |point: &Point| point.as_planned.verdict;
+    let verdict = |point: &Point| point.planned.verdict;
     let (mut own, mut decided) = (0, 0);
     for point in &swept.points {
         let checked = judged(&case, &[0, 1, 2], point.interval);
         if [0.02, 0.045].contains(&point.interval) {
             own += 1;
-            assert_eq!(point.as_planned, checked);
+            assert_eq!(point.planned, checked);
         }
         if verdict(point) != Verdict::Undecided {
             decided += 1;
@@ -90,8 +90,8 @@ fn a_sweep_is_the_check_of_every_interval() {
     }
     assert_eq!(own, 2);
     assert!(decided > 100 && 20 * decided > 19 * swept.points.len(), "{decided} of {}", swept.points.len());
-    let shares: Vec<f64> = swept.points.iter().map(|p| p.as_planned.utilization(&case.limits)).collect();
-    let worst = swept.worst(&case).expect("points").as_planned.utilization(&case.limits);
+    let shares: Vec<f64> = swept.points.iter().map(|p| p.planned.utilization(&case.limits)).collect();
+    let worst = swept.worst(&case).expect("points").planned.utilization(&case.limits);
     assert_eq!(worst, shares.iter().copied().fold(0.0, f64::max));
     // Where the verdict changes, neighbours are 1/32 ms apart at most.
     for pair in swept
@@ -110,7 +110,7 @@ fn a_sweep_is_the_check_of_every_interval() {
     let recommended = swept.recommended.expect("a window");
     let near = |point: &&Point| (point.interval - recommended.interval).abs() <= recommended.room;
     for point in swept.points.iter().filter(near) {
-        assert!(point.as_planned.with_errors(1.0).utilization(&case.limits) <= recommended.utilization);
+        assert!(point.planned.with_errors(1.0).utilization(&case.limits) <= recommended.utilization);
     }
 }
 
@@ -175,10 +175,7 @@ fn the_recommended_interval_has_a_full_verdict() {
     let best = swept.best().expect("a window");
     let shot = case.shot(&[0, 1, 2], best.interval);
     let checked = check_shot(&case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
-    assert_eq!(
-        (best.verdict(), best.as_planned),
-        (Verdict::Pass, ShotSummary::of(&checked.expect("a result")))
-    );
+    assert_eq!((best.verdict(), best.planned), (Verdict::Pass, ShotSummary::of(&checked.expect("a result"))));
     // The first look chose the interval for its draws; the verdict has others.
     let full = risk_at(
         &case,
@@ -210,7 +207,7 @@ fn the_ends_of_the_ranking_are_sampled() {
     let ranked = orders(Some(&sampling)).expect("a result").value;
     assert_eq!((&ranked.ranked, ranked.ranked.len()), (&nominal.ranked, 72));
     for (n, tried) in ranked.ranked.iter().enumerate() {
-        assert_eq!(nominal.verdict_on(n), tried.as_planned.verdict);
+        assert_eq!(nominal.verdict_on(n), tried.planned.verdict);
         let Evidence::Known(risk) = ranked.risk(n) else {
             assert!((20..52).contains(&n));
             assert!(ranked.verdict_on(n) != Verdict::Pass, "not sampled, so not sure");
@@ -221,7 +218,7 @@ fn the_ends_of_the_ranking_are_sampled() {
         let target = ShotToSample::new(&case, &shot, compute, sampling);
         let risks = sample_shots(&[target], &control).expect("samples").value;
         assert_eq!(risk.bounds, risks[0].bounds);
-        assert_eq!(ranked.verdict_on(n), tried.as_planned.verdict.max(risks[0].verdict()));
+        assert_eq!(ranked.verdict_on(n), tried.planned.verdict.max(risks[0].verdict()));
     }
 }
 
@@ -253,7 +250,7 @@ fn every_option_at_one_interval_is_a_point() {
         .value;
     let point = swept.points.iter().find(|point| point.interval == 0.031_062_7);
     let checked = check_as_planned(&case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a result");
-    assert_eq!(point.expect("the option is tried").as_planned, ShotSummary::of(&checked));
+    assert_eq!(point.expect("the option is tried").planned, ShotSummary::of(&checked));
 }
 
 /// All orders stand in the ranking once, with the verdict of `check`; the worst and the best have the very numbers.
@@ -269,14 +266,14 @@ fn orders_find_the_worst_and_the_best_of_brute_force() {
         let brute: HashMap<Vec<usize>, ShotSummary> =
             (0..4).permutations(4).map(|order| (order.clone(), judged(&case, &order, interval))).collect();
         assert_eq!(ranked.len(), 24);
-        for tried in ranked.iter().filter(|tried| tried.as_planned.verdict != Verdict::Undecided) {
-            assert_eq!(tried.as_planned.verdict, brute[&tried.order].verdict);
+        for tried in ranked.iter().filter(|tried| tried.planned.verdict != Verdict::Undecided) {
+            assert_eq!(tried.planned.verdict, brute[&tried.order].verdict);
         }
         let all = || brute.values().map(share);
         let [worst, best] = [&ranked[0], &ranked[23]];
-        assert_eq!(share(&worst.as_planned), all().fold(0.0, f64::max));
-        assert_eq!(share(&best.as_planned), all().fold(f64::INFINITY, f64::min));
-        assert_eq!(worst.as_planned, brute[&worst.order]);
+        assert_eq!(share(&worst.planned), all().fold(0.0, f64::max));
+        assert_eq!(share(&best.planned), all().fold(f64::INFINITY, f64::min));
+        assert_eq!(worst.planned, brute[&worst.order]);
     }
 }
 
@@ -305,11 +302,11 @@ fn an_order_without_its_mirrored_order_is_refined() {
     let case = mirrored_case();
     let order = vec![3, 2, 1, 0];
     let tried =
-        TriedOrder { number: 0, order: order.clone(), interval: 0.045, as_planned: ShotSummary::UNKNOWN };
+        TriedOrder { number: 0, order: order.clone(), interval: 0.045, planned: ShotSummary::UNKNOWN };
     let compute = ComputeSettings::of(&case.plan);
     let refined =
         check_extremes(&case, vec![tried], &compute, &StudyControl::default()).expect("a result").value;
-    assert_eq!(refined[0].as_planned, judged(&case, &order, 0.045));
+    assert_eq!(refined[0].planned, judged(&case, &order, 0.045));
 }
 
 /// With a fixed step no study chooses steps of its own.
@@ -326,12 +323,12 @@ fn a_fixed_step_is_the_step_of_every_shot() {
     let tried = try_orders(&case, &[0.045], Shard::WHOLE, &compute, &control).expect("a result").value;
     assert_eq!(tried.len(), 6);
     for tried in tried {
-        assert_eq!(tried.as_planned, fixed(&tried.order, tried.interval));
+        assert_eq!(tried.planned, fixed(&tried.order, tried.interval));
     }
     let intervals = Intervals { from: 0.03, to: 0.031, step: 0.001 };
     let swept = sweep(&case, &[0, 1, 2], &intervals, None, &compute, &control).expect("a result").value;
     for point in swept.points {
-        assert_eq!(point.as_planned, fixed(&[0, 1, 2], point.interval));
+        assert_eq!(point.planned, fixed(&[0, 1, 2], point.interval));
     }
 }
 
@@ -354,11 +351,11 @@ fn mirrored_orders_are_judged_once() {
     for (number, order) in (0..4).permutations(4).enumerate() {
         let mirrored: Vec<usize> = order.iter().map(|row| 3 - row).collect();
         let [one, image] = [&order, &mirrored].map(|order| by_order[order.as_slice()]);
-        assert_eq!((one.number, one.as_planned), (number, image.as_planned));
+        assert_eq!((one.number, one.planned), (number, image.planned));
         let brute = judged(&case, &order, 0.045);
         assert!(
-            (one.as_planned.height.value - brute.height.value).abs()
-                < one.as_planned.height.error + brute.height.error
+            (one.planned.height.value - brute.height.value).abs()
+                < one.planned.height.error + brute.height.error
         );
     }
 }
@@ -386,7 +383,7 @@ fn many_rows_are_searched() {
     let listed: Vec<usize> = (0..rows).collect();
     let reversed: Vec<usize> = (0..rows).rev().collect();
     assert_eq!([&tried[0].order, &tried[1].order], [&listed, &reversed]);
-    let share = |tried: &TriedOrder| tried.as_planned.utilization(&case.limits);
+    let share = |tried: &TriedOrder| tried.planned.utilization(&case.limits);
     let by_order: HashMap<&[usize], f64> = tried.iter().map(|t| (t.order.as_slice(), share(t))).collect();
     let ranked = Orders::new(&case, tried.clone(), 1).ranked;
     let worst = &ranked[0];
@@ -436,7 +433,7 @@ fn the_lightest_shelter_is_that_of_brute_force() {
             lightest = total;
             break;
         }
-        let passes_as_planned = |judged: &Judgement| judged.as_planned.verdict == Verdict::Pass;
+        let passes_as_planned = |judged: &Judgement| judged.checked.verdict == Verdict::Pass;
         fragile += usize::from(results.iter().flatten().all(passes_as_planned));
     }
     let found = sizing.lightest_choice().map_or(f64::INFINITY, |found| found.total_mass);

@@ -78,7 +78,7 @@ fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str,
         let inputs = shares.map(|shares| option_sentences::inputs(&shares));
         facts.push(("What decides", inputs.unwrap_or_else(|| "too few samples to tell".to_owned())));
     }
-    facts.push(("As planned", option_sentences::peaks(case.scene(), &judged.as_planned)));
+    facts.push(("As planned", option_sentences::peaks(case.scene(), &judged.checked)));
     facts.push(("Utilization as planned", utilization(case, judged)));
     let bands = judged.sampled.known().and_then(|sampled| option_sentences::bands(case, sampled));
     facts.extend(bands.map(|bands| ("Possible shots", bands)));
@@ -118,7 +118,7 @@ fn launch_margin(shot: &Shot, judged: &Judgement) -> String {
 fn utilization(case: &Case, judged: &Judgement) -> String {
     let names = ["height", "force", "drift"].into_iter().zip(Quantity::ALL);
     let share = |(name, quantity): (&str, Quantity)| {
-        let share = judged.as_planned.share_of_limit(quantity, &case.limits)?;
+        let share = judged.checked.share_of_limit(quantity, &case.limits)?;
         Some(format!("{name} {}", units::percent(share, 0)))
     };
     format!("{} of the limit", names.filter_map(share).collect::<Vec<_>>().join(" · "))

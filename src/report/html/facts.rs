@@ -208,7 +208,7 @@ fn quoted(path: &str) -> String {
 pub fn command(case: &Case, results: &OptionResults, sampling: Option<&Sampling>) -> String {
     let mut command = format!("shelter check {}", quoted(&case.source.path));
     let (asked, of_plan) = (
-        results.iter().flatten().next().map(|judged| judged.as_planned.compute),
+        results.iter().flatten().next().map(|judged| judged.checked.compute),
         ComputeSettings::of(&case.plan),
     );
     if let Some(ComputeSettings { method, accuracy, step }) = asked.filter(|asked| *asked != of_plan) {

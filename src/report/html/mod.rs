@@ -68,7 +68,7 @@ pub fn page(page: &Page<'_>) -> String {
     let hash = file::checksum(&case.source.text);
     let report = check::report(case, results, None, MustPass::Every, page.partial);
     let fired_judged = to_be_fired.and_then(|option| Some((option, results[option].as_ref().ok()?)));
-    let checked = fired_judged.map(|(_, judged)| &judged.as_planned);
+    let checked = fired_judged.map(|(_, judged)| &judged.checked);
     let of_fired = fired_judged.map(|(option, judged)| warnings::of_option(case, option, judged));
     let at_head = [warnings::of_plan(case), of_fired.unwrap_or_default()].concat();
     let others = if to_be_fired.is_some() {
@@ -202,9 +202,9 @@ fn over_time(page: &Page<'_>, option: usize) -> Markup {
     html! {
         section.whole {
             h2 { (case.plan.delays[option].name) " " (word(judged.verdict())) (chosen_option::only_planned(page)) @if page.to_be_fired == Some(option) { " · " (chosen_option::firing_instruction(page, option)) } }
-            p.quiet { (option_sentences::computation(case.scene(), &judged.as_planned)) }
+            p.quiet { (option_sentences::computation(case.scene(), &judged.checked)) }
             div.charts {
-                @for chart in charts::history(case, &judged.as_planned.history, shot) {
+                @for chart in charts::history(case, &judged.checked.history, shot) {
                     div { (PreEscaped(svg(&chart).unwrap_or_default())) }
                 }
             }

@@ -168,7 +168,7 @@ impl CablePeakObject {
 
 impl OptionValues {
     fn new(case: &Case, judged: &Judgement) -> Self {
-        let (scene, checked, sampled) = (case.scene(), &judged.as_planned, judged.sampled.known());
+        let (scene, checked, sampled) = (case.scene(), &judged.checked, judged.sampled.known());
         let drift_is_judged = sampled.filter(|_| case.limits.drift.is_some());
         Self {
             nominal_verdict: checked.verdict.for_scripts(),
@@ -224,7 +224,7 @@ impl CheckDocument {
             .iter()
             .flatten()
             .next()
-            .map_or(plan.simulation.method, |judged| judged.as_planned.compute.method);
+            .map_or(plan.simulation.method, |judged| judged.checked.compute.method);
         let options = option_rows(case, results).enumerate().map(|(n, row)| {
             let tried = remedies.map(|all| all.iter().find(|remedies| remedies.option == n));
             let WithinEightMs { holes, charge } = row.together();

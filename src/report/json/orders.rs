@@ -43,8 +43,8 @@ impl OrdersDocument {
             OrderResult {
                 order: row_names(case, &tried.order),
                 interval_s: tried.interval,
-                values: Values::of(orders.verdict_on(n), &tried.as_planned),
-                sampled: SampledValues::of(tried.as_planned.verdict, orders.risk(n).known().copied()),
+                values: Values::of(orders.verdict_on(n), &tried.planned),
+                sampled: SampledValues::of(tried.planned.verdict, orders.risk(n).known().copied()),
             }
         };
         let count = orders.ranked.len();

@@ -68,8 +68,8 @@ impl PassingChange {
             value,
             verdict: judgement.verdict().for_scripts(),
             failure_probability: judgement.sampled.known().map(Failures::of),
-            flight_height_m: judgement.as_planned.height.value,
-            cable_force_n: judgement.as_planned.force.value,
+            flight_height_m: judgement.checked.height.value,
+            cable_force_n: judgement.checked.force.value,
         }
     }
 }

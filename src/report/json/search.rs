@@ -93,7 +93,7 @@ impl ScheduleObject {
 
 impl FoundValues {
     fn of(case: &Case, judged: &Judgement) -> Self {
-        let (scene, checked, sampled) = (case.scene(), &judged.as_planned, judged.sampled.known());
+        let (scene, checked, sampled) = (case.scene(), &judged.checked, judged.sampled.known());
         Self {
             nominal_verdict: checked.verdict.for_scripts(),
             launch_margin: launch_margin_share(judged),

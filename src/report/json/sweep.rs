@@ -37,8 +37,8 @@ struct IntervalResult {
 
 impl IntervalResult {
     fn of(point: &Point) -> Self {
-        let sampled = SampledValues::of(point.as_planned.verdict, point.risk.known());
-        Self { interval_s: point.interval, values: Values::of(point.verdict(), &point.as_planned), sampled }
+        let sampled = SampledValues::of(point.planned.verdict, point.risk.known());
+        Self { interval_s: point.interval, values: Values::of(point.verdict(), &point.planned), sampled }
     }
 }
 

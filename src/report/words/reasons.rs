@@ -28,9 +28,7 @@ pub fn sentences(case: &Case, judged: &Judgement) -> Vec<String> {
 pub fn sentence(case: &Case, judged: &Judgement, reason: &Reason) -> String {
     match (reason, judged.sampled.known()) {
         (Reason::AsPlanned(reason), _) => of_shot(reason),
-        (Reason::Samples(reason), Some(sampled)) => {
-            of_risk(case, &judged.as_planned.compute, sampled, *reason)
-        }
+        (Reason::Samples(reason), Some(sampled)) => of_risk(case, &judged.checked.compute, sampled, *reason),
         (Reason::Samples(_) | Reason::NoSamples, _) => {
             "no sample of the possible shots was drawn: ended early".to_owned()
         }

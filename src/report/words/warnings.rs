@@ -86,7 +86,7 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
 fn swaps_and_cover(case: &Case, option: usize, judged: &Judgement) -> impl Iterator<Item = String> {
     let swaps = if judged.sampled.is_asked() { swaps(case, option, SWAP) } else { Vec::new() };
     let swaps = swaps.into_iter().map(move |found| swap_warning(case, option, &found));
-    swaps.chain(uncovered(&judged.as_planned.cover))
+    swaps.chain(uncovered(&judged.checked.cover))
 }
 
 /// What is wrong where tires drift far.
@@ -96,7 +96,7 @@ const FAR_DRIFT: &str = "a PASS says nothing of where tires end: the plan has no
 fn far_drift(case: &Case, judged: &Judgement) -> Option<f64> {
     let of_samples = judged.sampled.known().and_then(|sampled| sampled.band(Quantity::Drift));
     let of_samples = of_samples.map_or(0.0, |[_, _, p95, _]| p95);
-    let drift = judged.as_planned.drift.value.max(of_samples);
+    let drift = judged.checked.drift.value.max(of_samples);
     let far = FAR * case.plan.layout.widest_tie();
     (case.limits.drift.is_none() && drift > far).then_some(drift)
 }

@@ -35,7 +35,7 @@ pub fn check_extremes(
     for (interval, sign) in itertools::iproduct!(intervals, [1.0, -1.0]) {
         loop {
             let is_of_interval = |n: &usize| tried[*n].interval == interval;
-            let is_known = |n: &usize| tried[*n].as_planned != ShotSummary::UNKNOWN;
+            let is_known = |n: &usize| tried[*n].planned != ShotSummary::UNKNOWN;
             let checked =
                 (0..tried.len()).filter(|n| is_of_interval(n) && refined.contains(n) && is_known(n));
             let farthest_checked =
@@ -43,10 +43,7 @@ pub fn check_extremes(
             // An order whose runs failed may be the worst, and is not the best.
             let reachable = |n: usize| match is_known(&n) {
                 true => {
-                    sign * tried[n]
-                        .as_planned
-                        .with_errors(sign * REACH_ERROR_FACTOR)
-                        .utilization(&case.limits)
+                    sign * tried[n].planned.with_errors(sign * REACH_ERROR_FACTOR).utilization(&case.limits)
                 }
                 false => sign * f64::INFINITY,
             };
@@ -62,12 +59,12 @@ pub fn check_extremes(
             let shots: Vec<Shot> = next.iter().map(|&n| case.shot(&tried[n].order, interval)).collect();
             let checked =
                 run_checks_or_unknown(&shots, control, |shot| check_summary(case, shot, compute, control))?;
-            for (n, as_planned) in next.into_iter().zip(checked) {
-                let Some(as_planned) = as_planned else {
+            for (n, planned) in next.into_iter().zip(checked) {
+                let Some(planned) = planned else {
                     return Ok(Computed { value: tried, partial: true });
                 };
                 for n in images[n].into_iter().chain([n]) {
-                    tried[n].as_planned = as_planned;
+                    tried[n].planned = planned;
                     refined.insert(n);
                 }
             }

@@ -54,7 +54,7 @@ pub struct TriedOrder {
     /// Interval between successive rows [s].
     pub interval: f64,
     /// Verdict, height, force and drift.
-    pub as_planned: ShotSummary,
+    pub planned: ShotSummary,
 }
 
 /// Result of trying orders.
@@ -90,8 +90,8 @@ impl Orders {
         let ends: Vec<usize> =
             (0..count).filter(|&n| n < SAMPLED_AT_EACH_END || n + SAMPLED_AT_EACH_END >= count).collect();
         let shot = |&n: &usize| {
-            let TriedOrder { order, interval, as_planned, .. } = &self.ranked[n];
-            (case.shot(order, *interval), *as_planned)
+            let TriedOrder { order, interval, planned, .. } = &self.ranked[n];
+            (case.shot(order, *interval), *planned)
         };
         let shots: Vec<_> = ends.iter().map(shot).collect();
         let mut sampled = sample_shots_in_brief(case, &shots, &sampling.first_look(), compute, control)?;
@@ -120,7 +120,7 @@ impl Orders {
 
     /// The verdict on the order ranked `n`: as planned, and of its samples where samples were asked for.
     pub fn verdict_on(&self, n: usize) -> Verdict {
-        judgement::verdict_of_both(self.ranked[n].as_planned.verdict, self.risk(n).map(|risk| risk.verdict))
+        judgement::verdict_of_both(self.ranked[n].planned.verdict, self.risk(n).map(|risk| risk.verdict))
     }
 
     /// The verdict on all orders: pass only where every order was tried and passes. It is `partial` where the time was up.
@@ -132,7 +132,7 @@ impl Orders {
 
     /// Number of orders that pass as planned.
     pub fn passing_as_planned(&self) -> usize {
-        self.ranked.iter().filter(|tried| tried.as_planned.verdict == Verdict::Pass).count()
+        self.ranked.iter().filter(|tried| tried.planned.verdict == Verdict::Pass).count()
     }
 }
 
@@ -190,7 +190,7 @@ pub fn try_orders(
     let rows = case.plan.blast_rows.len();
     // Where no run at all succeeds, the first order tells why.
     let or_first_failure = |found: Computed<Vec<TriedOrder>>| {
-        if found.value.iter().all(|tried| tried.as_planned == ShotSummary::UNKNOWN) {
+        if found.value.iter().all(|tried| tried.planned == ShotSummary::UNKNOWN) {
             for tried in found.value.iter().take(1) {
                 check_summary(case, &case.shot(&tried.order, tried.interval), compute, control)?;
             }
@@ -241,7 +241,7 @@ fn lexicographic_number(order: &[usize]) -> usize {
 }
 
 fn utilization(case: &Case, tried: &TriedOrder) -> f64 {
-    tried.as_planned.utilization(&case.limits)
+    tried.planned.utilization(&case.limits)
 }
 
 /// Checks orders quickly.
@@ -262,8 +262,8 @@ fn quick_check_orders(
             || quick_check_until(case, &shot, compute, control, enough),
         )
     })?;
-    let tried = |(OrderToTry { number, order, interval }, as_planned): (_, Option<ShotSummary>)| {
-        as_planned.map(|as_planned| TriedOrder { number, order, interval, as_planned })
+    let tried = |(OrderToTry { number, order, interval }, planned): (_, Option<ShotSummary>)| {
+        planned.map(|planned| TriedOrder { number, order, interval, planned })
     };
     let partial = summaries.contains(&None);
     Ok(Computed { value: orders.into_iter().zip(summaries).filter_map(tried).collect(), partial })

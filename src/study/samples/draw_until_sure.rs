@@ -26,7 +26,7 @@ pub struct ShotToSample<'c> {
     /// The shot as planned.
     pub shot: &'c Shot,
     /// The shot as planned, judged by finer runs; `None` where it is not known.
-    pub as_planned: Option<ShotSummary>,
+    pub planned: Option<ShotSummary>,
     /// Method and accuracy.
     pub compute: ComputeSettings,
     /// Number of samples and seed.
@@ -40,12 +40,12 @@ pub struct ShotToSample<'c> {
 impl<'c> ShotToSample<'c> {
     /// A shot that nobody has judged or sampled yet.
     pub fn new(case: &'c Case, shot: &'c Shot, compute: ComputeSettings, sampling: Sampling) -> Self {
-        Self { case, shot, as_planned: None, compute, sampling, precomputed: &[], only_pass: false }
+        Self { case, shot, planned: None, compute, sampling, precomputed: &[], only_pass: false }
     }
 
-    /// The same shot, checked `as_planned`.
-    pub fn with_planned(self, as_planned: ShotSummary) -> Self {
-        Self { as_planned: Some(as_planned), ..self }
+    /// The same shot, with its check as `planned`.
+    pub fn with_planned(self, planned: ShotSummary) -> Self {
+        Self { planned: Some(planned), ..self }
     }
 
     /// The same shot, of which other machines drew samples at the usual step, in order of their numbers.
@@ -84,7 +84,7 @@ impl<'c> ShotToSample<'c> {
     }
 
     fn no_samples(&self) -> SampledShot {
-        SampledShot::new(self.case, self.as_planned, self.sampling.error_share, self.compute.step.is_none())
+        SampledShot::new(self.case, self.planned, self.sampling.error_share, self.compute.step.is_none())
     }
 }
 

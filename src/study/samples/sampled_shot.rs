@@ -38,17 +38,17 @@ pub struct SampledShot {
     pub step_halvings: u32,
     /// Whether samples are audited: not where the user fixed the step.
     is_audited: bool,
-    as_planned: Option<ShotSummary>,
+    planned: Option<ShotSummary>,
     limits: Limits,
 }
 
 impl SampledShot {
-    /// A shot without samples, checked `as_planned`; the plan of `case` names the accepted risk.
+    /// A shot without samples, checked as `planned`; the plan of `case` names the accepted risk.
     /// Its verdict takes this share of the probability of an error.
-    pub fn new(case: &Case, as_planned: Option<ShotSummary>, share: ErrorShare, is_audited: bool) -> Self {
+    pub fn new(case: &Case, planned: Option<ShotSummary>, share: ErrorShare, is_audited: bool) -> Self {
         let limits = case.limits;
         let bounds = FailureBounds::new(limits.accepted_risk, share);
-        Self { samples: Vec::new(), bounds, breaks: bounds, step_halvings: 0, is_audited, as_planned, limits }
+        Self { samples: Vec::new(), bounds, breaks: bounds, step_halvings: 0, is_audited, planned, limits }
     }
 
     /// Takes the next sample; one of the audit counts as it is at the finer step.
@@ -99,7 +99,7 @@ impl SampledShot {
     /// Whether the samples pass only because their step is too long: the shot as planned, computed more finely, exceeds the
     /// greatest sample by d, and that sample + 2 d is past a limit.
     pub fn planned_exceeds_samples(&self) -> bool {
-        let Some(planned) = self.as_planned else { return false };
+        let Some(planned) = self.planned else { return false };
         let would_fail = |quantity: Quantity| {
             let (refined, values) =
                 (planned.get(quantity).value, self.decided().map(|s| s.run.get(quantity)));

@@ -34,7 +34,7 @@ pub fn add_risk(
     control: &StudyControl,
 ) -> ComputeResult<Sweep> {
     let Computed { value: mut swept, mut partial } = as_planned;
-    let shot = |point: &Point| (case.shot(&swept.order, point.interval), point.as_planned);
+    let shot = |point: &Point| (case.shot(&swept.order, point.interval), point.planned);
     let chosen = choose(&swept.points, &swept.windows_as_planned, own);
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
     let sampled = sample_shots_in_brief(case, &shots, &sampling.first_look(), compute, control)?;
@@ -64,7 +64,7 @@ pub fn add_risk(
             None => partial = true,
             Some((as_planned, risk)) => {
                 let point = &mut swept.points[n];
-                point.as_planned = as_planned;
+                point.planned = as_planned;
                 point.risk = risk.map_or(point.risk, Evidence::Known);
                 if point.verdict() == Verdict::Pass {
                     swept.recommended = Some(candidate);

@@ -36,7 +36,7 @@ pub struct Point {
     /// Interval between successive rows [s].
     pub interval: f64,
     /// Verdict, height, force and drift of the shot as planned.
-    pub as_planned: ShotSummary,
+    pub planned: ShotSummary,
     /// What the samples tell.
     pub risk: Evidence<RiskSummary>,
 }
@@ -44,7 +44,7 @@ pub struct Point {
 impl Point {
     /// The verdict: of the shot as planned, and of its samples where they were asked for.
     pub fn verdict(&self) -> Verdict {
-        judgement::verdict_of_both(self.as_planned.verdict, self.risk.map(|risk| risk.verdict))
+        judgement::verdict_of_both(self.planned.verdict, self.risk.map(|risk| risk.verdict))
     }
 
     /// Whether samples were drawn.
@@ -152,14 +152,10 @@ fn sweep_as_planned(
         };
         // Out of time: gaps keep the width they have, and windows end there.
         let partial = checked.contains(&None);
-        tried.extend(jobs.into_iter().zip(checked).filter_map(|(at, as_planned)| Some((at, as_planned?))));
+        tried.extend(jobs.into_iter().zip(checked).filter_map(|(at, planned)| Some((at, planned?))));
         let points: Vec<Point> = tried
             .iter()
-            .map(|(&at, &as_planned)| Point {
-                interval: in_seconds(at),
-                as_planned,
-                risk: Evidence::NotAsked,
-            })
+            .map(|(&at, &planned)| Point { interval: in_seconds(at), planned, risk: Evidence::NotAsked })
             .collect();
         next = if partial { BTreeSet::new() } else { midpoints(case, &points).into_iter().collect() };
         if !next.is_empty() {
@@ -211,11 +207,11 @@ fn in_seconds(nanoseconds: i64) -> f64 {
 }
 
 fn passes(point: &Point) -> bool {
-    point.as_planned.verdict == Verdict::Pass
+    point.planned.verdict == Verdict::Pass
 }
 
 fn utilization(case: &Case, point: &Point) -> f64 {
-    point.as_planned.utilization(&case.limits)
+    point.planned.utilization(&case.limits)
 }
 
 impl Sweep {
@@ -269,14 +265,14 @@ mod tests {
             let value = height(at as f64 * 1e-6);
             let verdict = if value > 1.0 { Verdict::Fail } else { Verdict::Pass };
             let height = ValueWithError { value, error: 0.0 };
-            let as_planned = ShotSummary {
+            let planned = ShotSummary {
                 verdict,
                 height,
                 force: ValueWithError::default(),
                 drift: ValueWithError::default(),
                 cover: Cover::NONE,
             };
-            Point { interval: in_seconds(at), as_planned, risk: Evidence::NotAsked }
+            Point { interval: in_seconds(at), planned, risk: Evidence::NotAsked }
         };
         let count = (20.0 / step) as i64;
         let mut points: Vec<Point> = (0..=count).map(|n| point((n as f64 * step * 1e6) as i64)).collect();
@@ -328,14 +324,14 @@ mod tests {
                 let value = height(0.1 * f64::from(n));
                 let verdict = if value > 1.0 { Verdict::Fail } else { Verdict::Pass };
                 let height = ValueWithError { value, error: 0.0 };
-                let as_planned = ShotSummary {
+                let planned = ShotSummary {
                     verdict,
                     height,
                     force: ValueWithError::default(),
                     drift: ValueWithError::default(),
                     cover: Cover::NONE,
                 };
-                Point { interval: in_seconds(i64::from(n) * 100_000), as_planned, risk: Evidence::NotAsked }
+                Point { interval: in_seconds(i64::from(n) * 100_000), planned, risk: Evidence::NotAsked }
             })
             .collect();
         let windows = windows(&case, &points);

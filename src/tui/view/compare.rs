@@ -76,7 +76,7 @@ const COLUMNS: &[CompareColumn] = &[
         sort: SortBy::Force,
         width: 6,
         from: 125,
-        cell: |_, _, judged| units::factor(judged.as_planned.safety_factor),
+        cell: |_, _, judged| units::factor(judged.checked.safety_factor),
     },
     CompareColumn {
         head: "plan D, m",
@@ -121,12 +121,12 @@ fn value_or_difference(
     quantity: fn(&CheckedShot) -> Estimate,
     unit: Unit,
 ) -> String {
-    let Some(mine) = app.judgement(option).map(|judged| quantity(&judged.as_planned)) else {
+    let Some(mine) = app.judgement(option).map(|judged| quantity(&judged.checked)) else {
         return String::new();
     };
     match app.baseline() {
         Some((other, base)) if other != option => {
-            let difference = mine.value - quantity(&base.as_planned).value;
+            let difference = mine.value - quantity(&base.checked).value;
             let sign = if difference >= 0.0 { "+" } else { "" };
             format!("{sign}{}", units::value(difference, unit))
         }
@@ -141,7 +141,7 @@ fn use_of_limit(app: &App, _: usize, judged: &Judgement) -> String {
     let limits = &app.case.limits;
     let share = |(letter, quantity)| {
         let value = sampled(judged)?.value_at_risk(quantity)?;
-        let as_planned = judged.as_planned.share_of_limit(quantity, limits)?;
+        let as_planned = judged.checked.share_of_limit(quantity, limits)?;
         Some((letter, as_planned.max(value / limits.get(quantity)?)))
     };
     let shares = ['H', 'F', 'D'].into_iter().zip(Quantity::ALL).filter_map(share);
@@ -212,7 +212,7 @@ fn row<'r>(app: &'r App, option: usize, columns: &[&CompareColumn], (name, spark
                 |column: &&CompareColumn| Line::from((column.cell)(app, option, judgement)).right_aligned();
             cells.extend(columns.iter().map(cell));
             let width = usize::from(spark);
-            let (history, limits) = (&judgement.as_planned.history, &app.case.limits);
+            let (history, limits) = (&judgement.checked.history, &app.case.limits);
             let spark = |series, limit| Line::styled(sparkline(series, width, limit), app.theme.curve());
             cells.push(spark(&history.height, limits.height));
             cells.push(spark(&history.force, limits.force));

@@ -82,7 +82,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
     if lines > text.height {
         mark_cut(app, frame, text);
     }
-    let history = charts::history(&app.case, &judged.as_planned.history, &app.case.shots[app.selected]);
+    let history = charts::history(&app.case, &judged.checked.history, &app.case.shots[app.selected]);
     let sampled = judged.sampled.known().filter(|sampled| !sampled.samples.is_empty());
     draw_charts(app, history, sampled, frame, rest);
 }
@@ -149,7 +149,7 @@ fn remedy_lines<'a>(app: &App) -> Vec<Line<'a>> {
 }
 
 fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
-    let (case, theme, checked) = (&app.case, app.theme, &judged.as_planned);
+    let (case, theme, checked) = (&app.case, app.theme, &judged.checked);
     // As long as samples come, how many there are says more than that they do not suffice.
     let open = app.options[app.selected].is_sampling()
         && judgement::verdict_of_both(Verdict::Pass, judged.sampled.map(SampledShot::verdict))

@@ -164,7 +164,7 @@ pub fn swept() -> StudyResult {
         let force = ValueWithError { value: 76_000.0 * share, error: 250.0 };
         Point {
             interval: n as f64 * 0.01,
-            as_planned: ShotSummary {
+            planned: ShotSummary {
                 verdict,
                 height,
                 force,
@@ -239,7 +239,7 @@ pub fn spreads(app: &App) -> [(StudyKind, StudyResult); 3] {
         number,
         order: order.to_vec(),
         interval: 0.02,
-        as_planned: shot_summary(1.5 - 0.2 * number as f64),
+        planned: shot_summary(1.5 - 0.2 * number as f64),
     });
     let judged = app.options.iter().enumerate().map(|(n, _)| Ok(judgement(&app.case, n)));
     let combinations = catalogue().ropes.iter().take(8).enumerate().map(|(n, rope)| {
