@@ -32,7 +32,7 @@ const MOST_CHECKED_ROWS: usize = 6;
 /// Number of orders of more rows that are checked at each end.
 const ENDS: usize = 400;
 /// Intervals at which orders are compared [s].
-const INTERVALS: [f64; 3] = [0.009, 0.042, 0.109];
+const DEFAULT_INTERVALS: [f64; 3] = [0.009, 0.042, 0.109];
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
@@ -107,7 +107,7 @@ fn compare_orders(rows: usize, random: u64) {
             let all = all.iter().map(|judged| judged.utilization(&case.limits));
             [all.clone().max_by(order), all.min_by(order)].map(|end| end.expect("an order"))
         };
-        for interval in INTERVALS {
+        for interval in DEFAULT_INTERVALS {
             let begun = Instant::now();
             let found = try_orders(&case, &[interval], Shard::WHOLE, &compute, &StudyControl::default());
             let (found, wall) = (found.expect("a result").value, begun.elapsed().as_secs_f64());

@@ -14,7 +14,7 @@ use shelter::study::{Case, ComputeSettings, StudyControl};
 /// Samples of each schedule by brute force, with draws of their own.
 const BRUTE: Sampling = Sampling::exactly(2000, 77);
 /// Intervals to choose from, gap by gap [ms].
-const INTERVALS: [f64; 6] = [9.0, 17.0, 25.0, 42.0, 67.0, 109.0];
+const DEFAULT_INTERVALS: [f64; 6] = [9.0, 17.0, 25.0, 42.0, 67.0, 109.0];
 
 /// Compares on the random plans of these numbers, of three rows: 6 orders and 36 pairs of intervals.
 pub fn compare(plans: std::ops::Range<u64>) {
@@ -61,7 +61,7 @@ fn unsure(case: Case, room: f64) -> Case {
     let mut plan: Plan = case.plan;
     plan.limits.flight_height_m *= room;
     plan.cable.breaking_force_kn *= room;
-    plan.search.intervals_ms = INTERVALS.to_vec();
+    plan.search.intervals_ms = DEFAULT_INTERVALS.to_vec();
     plan.search.equal_intervals = false;
     let unknown = &mut plan.uncertainty;
     (unknown.launch_common_percent, unknown.launch_cv_percent) = (5.0, 5.0);
@@ -71,7 +71,7 @@ fn unsure(case: Case, room: f64) -> Case {
 }
 
 fn all() -> Vec<Schedule> {
-    let gaps = INTERVALS.iter().cartesian_product(INTERVALS);
+    let gaps = DEFAULT_INTERVALS.iter().cartesian_product(DEFAULT_INTERVALS);
     let orders = (0..3).permutations(3);
     let schedule = |(order, (&first, second)): (Vec<usize>, (&f64, f64))| Schedule {
         order,

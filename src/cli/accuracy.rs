@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, LookArguments};
+use super::arguments::{ComputeArguments, FormatArg, LookArguments};
 use super::load_plans::open_option;
 use super::print::print;
 use super::run_study::run_study;
@@ -32,7 +32,7 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value = "text")]
     format: FormatArg,
     #[command(flatten)]
-    compute: Compute,
+    compute: ComputeArguments,
 }
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {

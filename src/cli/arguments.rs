@@ -15,7 +15,7 @@ use crate::study::{ComputeSettings, Intervals, Shard};
 
 /// How to compute.
 #[derive(Args, Clone)]
-pub struct Compute {
+pub struct ComputeArguments {
     /// How fine a verdict starts and ends
     #[arg(long, value_parser = named::<Accuracy>(Accuracy::NAMES))]
     pub accuracy: Option<Accuracy>,
@@ -33,7 +33,7 @@ pub struct Compute {
     pub timeout: Option<f64>,
 }
 
-impl Compute {
+impl ComputeArguments {
     /// Settings of the plan, with those that the command line overrides.
     pub fn settings(&self, plan: &Plan) -> ComputeSettings {
         let asked = ComputeSettings::of(plan);
@@ -182,7 +182,7 @@ pub struct StudyArguments {
     #[arg(long, value_enum, default_value = "text")]
     pub format: FormatArg,
     #[command(flatten)]
-    pub compute: Compute,
+    pub compute: ComputeArguments,
 }
 
 /// A parser that takes the names of a choice, and shows them in the help.

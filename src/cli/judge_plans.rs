@@ -4,7 +4,7 @@ use std::io;
 
 use serde::Serialize;
 
-use super::arguments::{Compute, FormatArg, LookArguments};
+use super::arguments::{ComputeArguments, FormatArg, LookArguments};
 use super::print::print;
 use super::run_study::run_study;
 use super::status::{REMEDY_AS_ARGUMENTS, Status};
@@ -29,7 +29,7 @@ pub struct JudgedPlan {
 pub fn judge_plans(
     cases: &[Case],
     sampling: Option<Sampling>,
-    compute: &Compute,
+    compute: &ComputeArguments,
     why: bool,
 ) -> ComputeResult<Vec<JudgedPlan>> {
     let cases: Vec<_> = cases.iter().map(|case| (case, compute.settings(&case.plan))).collect();

@@ -43,7 +43,7 @@ use std::process::ExitCode;
 use clap::error::ErrorKind;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use self::arguments::{Compute, LookArguments};
+use self::arguments::{ComputeArguments, LookArguments};
 
 /// Which blasting delay is safe under a shelter of tires and cables.
 ///
@@ -60,7 +60,7 @@ struct Cli {
     #[arg(value_name = "PLAN")]
     plan: Option<PathBuf>,
     #[command(flatten)]
-    compute: Compute,
+    compute: ComputeArguments,
     #[command(flatten)]
     look: LookArguments,
 }

@@ -4,7 +4,7 @@ use std::io::{self, IsTerminal};
 use std::path::Path;
 use std::sync::Arc;
 
-use super::arguments::{Compute, FormatArg, LookArguments};
+use super::arguments::{ComputeArguments, FormatArg, LookArguments};
 use super::judge_plans::{judge_plans, print_judged_plans};
 use super::status::{Status, failed};
 use super::tell;
@@ -19,7 +19,7 @@ use crate::tui::start::{Opened, Start};
 use crate::tui::{self, app::App, recovery};
 
 /// Opens a plan in the terminal; where output is no terminal or only words are wanted, says the same as `check`.
-pub fn plan(plan: &Path, compute: &Compute, look: &LookArguments) -> io::Result<Status> {
+pub fn plan(plan: &Path, compute: &ComputeArguments, look: &LookArguments) -> io::Result<Status> {
     let Some(case) = load_plans::open(plan, look) else { return Ok(Status::Wrong) };
     if look.plain || !io::stdout().is_terminal() {
         let cases = [case];
@@ -42,7 +42,7 @@ pub fn plan(plan: &Path, compute: &Compute, look: &LookArguments) -> io::Result<
 }
 
 /// Without a plan: offers what there is; where output is no terminal, the help.
-pub fn start(compute: &Compute, look: &LookArguments) -> io::Result<Status> {
+pub fn start(compute: &ComputeArguments, look: &LookArguments) -> io::Result<Status> {
     if !io::stdout().is_terminal() {
         print_help()?;
         return Ok(Status::Wrong);
@@ -75,7 +75,7 @@ pub fn start(compute: &Compute, look: &LookArguments) -> io::Result<Status> {
     }
 }
 
-fn needs_keyboard(compute: &Compute) -> io::Result<()> {
+fn needs_keyboard(compute: &ComputeArguments) -> io::Result<()> {
     let wrong = if !io::stdin().is_terminal() {
         "the terminal UI needs a keyboard on standard input; scripts use `shelter check`"
     } else if compute.timeout.is_some() {
@@ -94,7 +94,7 @@ fn show(
     app: App,
     file: Option<&Path>,
     config: &Config,
-    compute: &Compute,
+    compute: &ComputeArguments,
     look: &LookArguments,
 ) -> io::Result<Status> {
     let threads = compute.threads.unwrap_or(0).into();

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, LookArguments, VerdictArguments};
+use super::arguments::{ComputeArguments, FormatArg, LookArguments, VerdictArguments};
 use super::fit::read_observations;
 use super::judge_plans::{judge_plans, print_judged_plans};
 use super::load_plans::open_option;
@@ -21,7 +21,7 @@ use crate::report::observed::{contradiction, observed_rows};
 use crate::study::fit::observation_bands::predict_observations;
 use crate::study::fit::observed_shots::ObservedShots;
 use crate::study::judge_options::MustPass;
-use crate::study::sweep::{INTERVALS, sweep};
+use crate::study::sweep::{DEFAULT_INTERVALS, sweep};
 use crate::study::{Computed, NoResult, StudyControl};
 
 #[derive(Args)]
@@ -49,7 +49,7 @@ pub struct Arguments {
     #[command(flatten)]
     verdict: VerdictArguments,
     #[command(flatten)]
-    compute: Compute,
+    compute: ComputeArguments,
 }
 
 /// Whether a file is there that this program did not write as a page.
@@ -92,7 +92,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let compute = arguments.compute.settings(&cases[0].plan);
     let swept = (arguments.sweep && !was_interrupted()).then(|| {
         run_study(&arguments.compute, |control| {
-            sweep(&cases[0], &order, &INTERVALS, sampling.as_ref(), &compute, control)
+            sweep(&cases[0], &order, &DEFAULT_INTERVALS, sampling.as_ref(), &compute, control)
         })
     });
     let swept = match swept.transpose() {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::{Compute, FormatArg, LookArguments, SamplingArguments};
+use super::arguments::{ComputeArguments, FormatArg, LookArguments, SamplingArguments};
 use super::load_plans::open;
 use super::print_sharded::print_risks;
 use super::run_study::run_saved_study;
@@ -28,7 +28,7 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value = "text")]
     format: FormatArg,
     #[command(flatten)]
-    compute: Compute,
+    compute: ComputeArguments,
 }
 
 /// Samples of each option where the command line does not say.

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::arguments::Compute;
+use super::arguments::ComputeArguments;
 use super::deadline;
 use super::status::{note_interrupt, note_unsaved};
 use crate::study::{ComputeResult, Computed, Journal, NoResult, StudyControl, thread_pool};
@@ -27,7 +27,7 @@ const WATCHED: Duration = Duration::from_secs(1);
 
 /// Runs `work`. Progress and the estimate of its duration show only where standard error is a terminal.
 pub fn run_study<T: Send>(
-    compute: &Compute,
+    compute: &ComputeArguments,
     work: impl FnOnce(&StudyControl) -> ComputeResult<T> + Send,
 ) -> ComputeResult<T> {
     run_saved_study(compute, Journal::default(), work)
@@ -35,7 +35,7 @@ pub fn run_study<T: Send>(
 
 /// Like [`run_study`], with a journal that keeps the results.
 pub fn run_saved_study<T: Send>(
-    compute: &Compute,
+    compute: &ComputeArguments,
     journal: Journal,
     work: impl FnOnce(&StudyControl) -> ComputeResult<T> + Send,
 ) -> ComputeResult<T> {
@@ -150,6 +150,6 @@ fn close(journal: Journal, is_complete: bool) {
 }
 
 /// Runs `work` on the threads asked for.
-fn on_threads<T: Send>(compute: &Compute, work: impl FnOnce() -> T + Send) -> Result<T, NoResult> {
+fn on_threads<T: Send>(compute: &ComputeArguments, work: impl FnOnce() -> T + Send) -> Result<T, NoResult> {
     Ok(thread_pool(compute.threads.unwrap_or(0).into())?.install(work))
 }

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::Args;
 use itertools::Itertools;
 
-use super::arguments::{Compute, FormatArg, LookArguments, positive};
+use super::arguments::{ComputeArguments, FormatArg, LookArguments, positive};
 use super::deadline;
 use super::load_plans::open_option;
 use super::status::{self, Status, wrong};
@@ -38,7 +38,7 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value = "csv")]
     format: FormatArg,
     #[command(flatten)]
-    compute: Compute,
+    compute: ComputeArguments,
 }
 
 pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {

@@ -14,7 +14,7 @@ use crate::study::remedies::{Remedies, find_remedies};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::search::{Search, search};
 use crate::study::size::{Demand, Sizing, size};
-use crate::study::sweep::{INTERVALS, Sweep, sweep};
+use crate::study::sweep::{DEFAULT_INTERVALS, Sweep, sweep};
 use crate::study::{NoResult, accuracy};
 
 /// Declares the kinds of studies and the list of all of them, in one order.
@@ -110,8 +110,15 @@ impl Job {
             StudyKind::Sweep => {
                 let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
                 Ok(StudyResult::Sweep(
-                    sweep(&with_holes(), &order, &INTERVALS, Some(&Sampling::OF_VERDICT), compute, control)?
-                        .value,
+                    sweep(
+                        &with_holes(),
+                        &order,
+                        &DEFAULT_INTERVALS,
+                        Some(&Sampling::OF_VERDICT),
+                        compute,
+                        control,
+                    )?
+                    .value,
                 ))
             }
             StudyKind::Orders => {

@@ -3,7 +3,7 @@
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Report, Table};
 use super::report_head;
 use crate::study::Case;
-use crate::study::effects::{Effect, EffectOnOption, EffectsOnOptions, REQUIRED};
+use crate::study::effects::{Effect, EffectOnOption, EffectsOnOptions, LEAST_RELATIVE_CHANGE};
 use crate::units;
 use crate::verdict::{Quantity, Verdict};
 
@@ -133,7 +133,7 @@ fn sentences(tried: &[Vec<&EffectOnOption>]) -> Vec<String> {
     let others = names(&|all| !is_required(all));
     let mut lines = Vec::new();
     if !others.is_empty() {
-        let most = units::percent(REQUIRED, 0);
+        let most = units::percent(LEAST_RELATIVE_CHANGE, 0);
         lines.push(format!(
             "not, at the values tried: {} (no verdict changes; of what has a limit the median changes and the 95th percentile rises by less than {most}, or hardly against its limit)",
             listed(&others)

@@ -112,18 +112,18 @@ pub fn report(case: &Case, search: &Search, partial: bool) -> Report {
 
 /// How many schedules there are, how many were judged, and how sure it is that none better was missed.
 fn coverage_lines(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
-    let Search { possible, keeping, refused, judged, complete, without_failure, .. } = search;
+    let Search { possible, within_limits, refused, judged, complete, without_failure, .. } = search;
     let possible = match *possible {
         usize::MAX => "more schedules than can be counted are possible".to_owned(),
         1 => "1 schedule is possible".to_owned(),
         count => format!("{count} schedules are possible"),
     };
-    let keeping = keeping.map_or(String::new(), |count| format!(", {count} keep the limits"));
+    let within_limits = within_limits.map_or(String::new(), |count| format!(", {count} keep the limits"));
     let how = match complete {
         true => "all of them; shots that fire alike or are mirror images count once",
         false => "a search: a better one may have been missed",
     };
-    let mut lines = vec![format!("{possible}{keeping}; {judged} were judged, {how}")];
+    let mut lines = vec![format!("{possible}{within_limits}; {judged} were judged, {how}")];
     let limits = &case.limits;
     let most_holes = case.plan.search.most_holes_in_8_ms.into_iter().chain(limits.holes_in_8_ms).min();
     let refused = [

@@ -176,16 +176,16 @@ fn recommended(sweep: &Sweep, has_risk: bool) -> Vec<String> {
                 sampled(risk)
             ));
         }
-    } else if has_risk && sweep.refuted == 0 {
+    } else if has_risk && sweep.failed_full_verdict == 0 {
         lines.push("no interval is recommended: no window worth a check is wider than a point".to_owned());
     }
-    if sweep.refuted > 0 {
+    if sweep.failed_full_verdict > 0 {
         let none = if sweep.recommended.is_some() {
             "deeper intervals that do not"
         } else {
             "no interval is recommended: the deepest intervals do not"
         };
-        lines.push(format!("{none} pass their full verdict: {}", sweep.refuted));
+        lines.push(format!("{none} pass their full verdict: {}", sweep.failed_full_verdict));
     }
     lines
 }
@@ -280,7 +280,7 @@ mod tests {
                     windows_as_planned: Vec::new(),
                     windows: Vec::new(),
                     recommended: None,
-                    refuted: 0,
+                    failed_full_verdict: 0,
                 },
                 partial,
             );

@@ -127,9 +127,9 @@ pub struct App {
     /// A message in place of the header's second line.
     pub notice: Option<String>,
     /// Whether the file has changed but was not read again, because the plan here has unsaved changes.
-    pub behind: bool,
+    pub file_is_newer: bool,
     /// Whether the user was warned once that quitting drops unsaved changes.
-    pub warned: bool,
+    pub quit_warned: bool,
 }
 
 /// Time from the last firing to rest that a run is expected to take [s].
@@ -159,8 +159,8 @@ impl App {
             prompt: None,
             areas: Areas::new(),
             notice: None,
-            behind: false,
-            warned: false,
+            file_is_newer: false,
+            quit_warned: false,
         }
     }
 
@@ -281,7 +281,7 @@ impl App {
                 Request::None
             }
             Ok(_) if self.is_changing() => {
-                self.behind = true;
+                self.file_is_newer = true;
                 self.notice = Some("the file has changed; your changes here are not saved".to_owned());
                 Request::None
             }
@@ -307,7 +307,7 @@ impl App {
         self.notice = Some(match result {
             Ok(path) => {
                 self.editor.set_saved(&self.editor.text.clone());
-                self.behind = false;
+                self.file_is_newer = false;
                 format!("saved {path}")
             }
             Err(reason) => format!("not saved: {reason}"),

@@ -180,8 +180,8 @@ impl Session {
             self.app.take_news(news);
             heard = true;
         }
-        if self.app.behind && !self.app.is_changing() {
-            self.app.behind = false;
+        if self.app.file_is_newer && !self.app.is_changing() {
+            self.app.file_is_newer = false;
             self.file.iter_mut().for_each(PlanFile::expect_change);
         }
         if let Some(read) = self.file.as_mut().and_then(PlanFile::changed) {

@@ -22,7 +22,7 @@ use crate::ropes::catalogue;
 
 /// A line of the list.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Choice {
+pub enum StartLine {
     /// A new plan of the last session that was never saved: its text.
     Unsaved(String),
     /// A new plan, made from the answers to questions.
@@ -63,7 +63,7 @@ const LARGE: u64 = 1 << 20;
 #[derive(Clone, Debug)]
 pub struct Start {
     /// The lines of the list.
-    pub choices: Vec<Choice>,
+    pub choices: Vec<StartLine>,
     /// Index of the selected line.
     pub selected: usize,
     /// The questions, while they are asked.
@@ -107,13 +107,13 @@ impl Start {
             .map(|path| path.strip_prefix(".").map(Path::to_owned).unwrap_or(path))
             .collect();
         files.sort();
-        let examples = EXAMPLES.iter().map(|(name, text)| Choice::Example(name, text));
-        let files = recent.into_iter().chain(files).map(Choice::File);
-        let first = unsaved.map(Choice::Unsaved).into_iter().chain([Choice::New]);
-        let choices: Vec<Choice> = first.chain(files).chain(examples).collect();
+        let examples = EXAMPLES.iter().map(|(name, text)| StartLine::Example(name, text));
+        let files = recent.into_iter().chain(files).map(StartLine::File);
+        let first = unsaved.map(StartLine::Unsaved).into_iter().chain([StartLine::New]);
+        let choices: Vec<StartLine> = first.chain(files).chain(examples).collect();
         // A user who has plans opens one of them more often than makes a new one.
-        let is_new_first = matches!(choices.first(), Some(Choice::New));
-        let selected = usize::from(is_new_first && matches!(choices.get(1), Some(Choice::File(_))));
+        let is_new_first = matches!(choices.first(), Some(StartLine::New));
+        let selected = usize::from(is_new_first && matches!(choices.get(1), Some(StartLine::File(_))));
         Self { choices, selected, questions: None, areas: Vec::new() }
     }
 
@@ -176,10 +176,10 @@ impl Start {
 
     fn open(&mut self) -> Next {
         match self.choices.get(self.selected).cloned() {
-            Some(Choice::File(path)) => Next::Open(Opened::File(path)),
-            Some(Choice::Example(name, text)) => Next::Open(Opened::Example(name, text)),
-            Some(Choice::Unsaved(text)) => Next::Open(Opened::New(text)),
-            Some(Choice::New) => {
+            Some(StartLine::File(path)) => Next::Open(Opened::File(path)),
+            Some(StartLine::Example(name, text)) => Next::Open(Opened::Example(name, text)),
+            Some(StartLine::Unsaved(text)) => Next::Open(Opened::New(text)),
+            Some(StartLine::New) => {
                 let answers = QUESTIONS.map(|(_, answer)| Input::new(answer.to_owned()));
                 self.questions = Some(Questions { answers, selected: 0, offered: true, problem: None });
                 Next::Wait
@@ -223,13 +223,13 @@ impl Start {
     }
 
     fn draw_choices(&mut self, theme: Theme, frame: &mut Frame, area: Rect) {
-        let row = |(n, choice): (usize, &Choice)| {
+        let row = |(n, choice): (usize, &StartLine)| {
             let style = if n == self.selected { theme.selected() } else { theme.base() };
             let (name, kind) = match choice {
-                Choice::New => ("A new plan by a few questions".to_owned(), ""),
-                Choice::Unsaved(_) => ("The new plan of the last session, not saved".to_owned(), ""),
-                Choice::File(path) => (crate::plan::visible(&path.display().to_string()).into_owned(), ""),
-                Choice::Example(name, _) => ((*name).to_owned(), "  example"),
+                StartLine::New => ("A new plan by a few questions".to_owned(), ""),
+                StartLine::Unsaved(_) => ("The new plan of the last session, not saved".to_owned(), ""),
+                StartLine::File(path) => (crate::plan::visible(&path.display().to_string()).into_owned(), ""),
+                StartLine::Example(name, _) => ((*name).to_owned(), "  example"),
             };
             Line::from(vec![Span::styled(format!(" {name} "), style), Span::styled(kind, theme.muted())])
         };

@@ -11,7 +11,7 @@ use crate::support::scenes::{GRAVITY, METHODS, close, fire, quincunx, run, setti
 const LAUNCH: f64 = 6.0;
 
 #[test]
-fn validates_free_flight_reaches_v2_over_2g_and_lands_after_2v_over_g() {
+fn free_flight_reaches_v2_over_2g_and_lands_after_2v_over_g() {
     let scene = tires(&[(0.0, 0.0)], 280.0);
     for method in METHODS {
         for h in [1e-2, 1e-3, 7e-4] {
@@ -29,7 +29,7 @@ fn validates_free_flight_reaches_v2_over_2g_and_lands_after_2v_over_g() {
 /// Launched at the angle θ from the vertical, a tire rises (V₀ cos θ)²/2g, lands V₀² sin 2θ/g away, loses μ V₀ cos θ of its
 /// sideways speed by landing, and slides on until friction has used up the rest.
 #[test]
-fn validates_a_tilted_launch_flies_a_parabola_and_slides_on() {
+fn a_tilted_launch_flies_a_parabola_and_slides_on() {
     let scene = tires(&[(0.0, 0.0)], 280.0);
     for (tilt, toward) in [(10.0_f64, 0.0_f64), (20.0, 215.0), (40.0, 90.0)] {
         let (tilt, toward) = (tilt.to_radians(), toward.to_radians());
@@ -55,7 +55,7 @@ fn validates_a_tilted_launch_flies_a_parabola_and_slides_on() {
 
 /// A tire is pulled by a cable stretched by s beforehand, leaves it at L₀ and slides on: work k s²/2 = μ m g × way.
 #[test]
-fn validates_sliding_tire_stops_where_friction_has_used_up_its_energy() {
+fn sliding_tire_stops_where_friction_has_used_up_its_energy() {
     for method in METHODS {
         for h in [1e-3, 1e-4] {
             let mut scene = tires(&[(0.0, 0.0), (1.0, 0.0)], 280.0);
@@ -80,7 +80,7 @@ fn validates_sliding_tire_stops_where_friction_has_used_up_its_energy() {
 }
 
 #[test]
-fn validates_two_free_masses_exchange_velocity_at_v_sqrt_k_mu() {
+fn two_free_masses_exchange_velocity_at_v_sqrt_k_mu() {
     let (speed, stiffness, length) = (LAUNCH, 1.4e6, 1.5);
     for (method, factor) in [(Method::Verlet, 0.0125), (Method::Newmark, 1.0)] {
         for h in [1e-3, 2e-4] {
@@ -124,7 +124,7 @@ fn a_cable_pulls_alike_wherever_in_a_step_it_becomes_taut() {
 
 /// Launched at v with the cable just taut, tied to a mass so heavy that it does not move.
 #[test]
-fn validates_vertical_cable_to_the_ground_pulls_with_sqrt_mg2_kmv2_minus_mg() {
+fn vertical_cable_to_the_ground_pulls_with_sqrt_mg2_kmv2_minus_mg() {
     let (mass, stiffness) = (280.0_f64, 1.41e6_f64);
     for method in METHODS {
         for h in [5e-4, 1e-4] {
@@ -143,7 +143,7 @@ fn validates_vertical_cable_to_the_ground_pulls_with_sqrt_mg2_kmv2_minus_mg() {
 
 /// The source paper's cross with corners held by weight and friction.
 #[test]
-fn validates_pinned_cross() {
+fn a_pinned_cross_rises_and_pulls_as_its_cables_allow() {
     for (diagonal, slack, height, force) in [
         (2.65, 1.0, 0.554_923_923, 30_582.972),
         (1.65, 1.0, 0.400_906_031, 41_023.629),
@@ -170,7 +170,7 @@ fn validates_pinned_cross() {
 /// A resting tire does not move while the pull stays inside the cone, and moves when it does not. The pull comes from a
 /// weight hung over it: a cable stretched beforehand between a pinned tire and the one that is tested.
 #[test]
-fn validates_static_pull_sticks_below_mu_r_and_slips_above() {
+fn static_pull_sticks_below_mu_r_and_slips_above() {
     for method in METHODS {
         for (part, moves) in [(1.0 - 1e-6, false), (1.0 + 1e-3, true)] {
             let mut scene = tires(&[(0.0, 0.0), (1.0, 0.0), (50.0, 0.0)], 280.0);
@@ -194,7 +194,7 @@ fn validates_static_pull_sticks_below_mu_r_and_slips_above() {
 }
 
 #[test]
-fn validates_flight_without_cables_changes_momentum_by_gravity_only() {
+fn flight_without_cables_changes_momentum_by_gravity_only() {
     let scene = tires(&[(0.0, 0.0)], 280.0);
     for method in METHODS {
         let mut heights: Vec<(f64, Vector3<f64>)> = Vec::new();
@@ -210,7 +210,7 @@ fn validates_flight_without_cables_changes_momentum_by_gravity_only() {
 
 /// Pulled by a cable at an angle, a tire slips at T = μ m g / (cos θ + μ sin θ) and is lifted at T = m g / sin θ.
 #[test]
-fn validates_inclined_pull_slips_and_lifts_at_its_thresholds() {
+fn inclined_pull_slips_and_lifts_at_its_thresholds() {
     let weight = 280.0 * GRAVITY;
     // The far end stands on ground of its own, higher up.
     let pulled = |angle: f64, pull: f64, friction: f64, method: Method| {
@@ -264,7 +264,7 @@ fn both_methods_name_the_same_end_around_rest() {
 /// on it slides along a curve: with φ the angle between velocity and pull, v sin φ / tan(φ/2)^(μg/a) stays the same. The
 /// velocity comes from displacements one step apart, so that the ratio at two times differs from 1 by O(h²).
 #[test]
-fn validates_curved_slide_and_its_second_order() {
+fn a_curved_slide_is_of_second_order() {
     let (mass, friction, far) = (280.0, 0.5, 1e7);
     let pull = friction * GRAVITY;
     for method in METHODS {

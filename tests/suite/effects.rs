@@ -8,7 +8,7 @@ use shelter::plan::Plan;
 use shelter::scene::{Firing, Scene, Shot};
 use shelter::simulation::RunError;
 use shelter::study::as_planned::check::check_as_planned;
-use shelter::study::effects::{Effect, FIRST_SAMPLES, REQUIRED, SAMPLES, effects};
+use shelter::study::effects::{Effect, FIRST_SAMPLES, LEAST_RELATIVE_CHANGE, SAMPLES, effects};
 use shelter::study::samples::draw_until_sure::{ShotToSample, draw_shard};
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::{Case, ComputeSettings, Shard, StudyControl};
@@ -31,7 +31,7 @@ fn on_slope(mut scene: Scene, fall: f64, toward: f64) -> Scene {
 /// A lone tire launched normal to the slope rises V₀²/(2 g cos α), drifts ½ g sin α T² downhill in its flight of
 /// T = 2 V₀/(g cos α), loses μ V₀ in its landing, and slides on against friction.
 #[test]
-fn validates_a_launch_from_a_slope() {
+fn a_launch_from_a_slope_flies_its_parabola() {
     for (fall, toward) in [(0.1_f64, 0.0), (0.3, 250.0), (0.35, 90.0)] {
         let scene = on_slope(tires(&[(0.0, 0.0)], 280.0), fall, toward);
         let (normal, along) = (scene.gravity, scene.downhill.norm());
@@ -55,7 +55,7 @@ fn validates_a_launch_from_a_slope() {
 /// A tire at rest on a slope stays there as long as tan α ≤ μ. On a steeper slope it slides from the start, before any hole
 /// fires, with g (sin α − μ cos α).
 #[test]
-fn validates_a_tire_rests_where_friction_holds_it() {
+fn a_tire_rests_where_friction_holds_it() {
     let mut scene = on_slope(tires(&[(0.0, 0.0), (9.0, 0.0)], 280.0), 0.3, 30.0);
     let shot = Shot::from_firings(vec![Firing::up(0.9, 1, 0.0)]);
     for method in METHODS {
@@ -73,7 +73,7 @@ fn validates_a_tire_rests_where_friction_holds_it() {
 
 /// A tire sliding uphill at v₀ stops after v₀²/(2 g (sin α + μ cos α)), and friction holds it there.
 #[test]
-fn validates_a_slide_uphill() {
+fn a_slide_uphill_ends_where_its_energy_is_used_up() {
     let scene = on_slope(tires(&[(0.0, 0.0)], 280.0), 0.3, 180.0);
     let shot = Shot::from_firings(vec![Firing::at_once(0.0, 0, Vector3::x() * 4.0)]);
     let way = 16.0 / (2.0 * (scene.downhill.norm() + 0.5 * scene.gravity));
@@ -89,7 +89,7 @@ fn validates_a_slide_uphill() {
 
 /// Bounces of a lone tire last 2 V₀/(g (1 − e)) in all, less those that would take a step; the n-th rises e²ⁿ V₀²/2g.
 #[test]
-fn validates_bounces_are_a_geometric_series() {
+fn bounces_are_a_geometric_series() {
     for (e, h) in [(0.3, 1e-3), (0.6, 5e-3), (0.9, 2e-2)] {
         let mut scene = tires(&[(0.0, 0.0)], 280.0);
         scene.restitution = e;
@@ -163,7 +163,7 @@ fn pushes(times: &[(f64, f64)]) -> Shot {
 /// Pushed over τ with V₀/τ > g, a lone tire rises V₀²/2g − V₀ τ/2, whatever part of a step the push begins and ends in. The
 /// push does the work m (V₀/τ) s over the way s = (V₀/τ − g) τ²/2, which the ledger holds exactly.
 #[test]
-fn validates_a_push_over_a_time() {
+fn a_push_over_a_time_lifts_as_its_integral() {
     let scene = tires(&[(0.0, 0.0)], 280.0);
     for push in [0.5e-3, 0.02, 0.0317, 0.1] {
         for at in [0.0, 0.000_73] {
@@ -181,7 +181,7 @@ fn validates_a_push_over_a_time() {
 
 /// Two pushes that overlap add up: from the start of the second the acceleration is twice V₀/τ − g, and so on.
 #[test]
-fn validates_pushes_that_overlap() {
+fn pushes_that_overlap_add_up() {
     let (push, later) = (0.05, 0.02);
     let scene = tires(&[(0.0, 0.0)], 280.0);
     let (mut speed, mut height) = (0.0, 0.0);
@@ -203,7 +203,7 @@ fn validates_pushes_that_overlap() {
 /// t) until N is 0; A = c, B = (k − c ζ ω₀)/ω_d. The greatest force, and the speed at which they then meet, are within the
 /// (ωh)²/8 = 0.02 % of undamped swings, and a little more.
 #[test]
-fn validates_two_masses_on_a_damped_cable() {
+fn two_masses_on_a_damped_cable_swing_as_damped() {
     let (mass, speed) = (280.0, 2.0);
     for damping in [0.02, 0.05, 0.2, 0.7_f64] {
         let mut scene = tires(&[(0.0, 0.0), (2.0, 0.0)], mass);
@@ -375,7 +375,7 @@ fn every_effect_keeps_the_order_of_its_method() {
 /// A push weaker than gravity lifts nothing. Sideways it slides a tire only against the friction that is left, and what it
 /// puts in is what friction takes.
 #[test]
-fn validates_a_push_along_the_ground() {
+fn a_push_along_the_ground_slides_as_its_integral() {
     let (push, launch) = (0.5, Vector3::new(4.0, 0.0, 2.0));
     let shot = Shot::from_firings(vec![Firing { push_time: push, ..Firing::at_once(0.0, 0, launch) }]);
     let out = run(&tires(&[(0.0, 0.0)], 280.0), &shot, settings(Method::Verlet, 1e-3, None));
@@ -571,7 +571,7 @@ fn effects_without_doubt_need_few_samples() {
         for quantity in [Quantity::Height, Quantity::Force] {
             let [with, without] = [&plan, &case].map(|case| median(case, compute, quantity, SAMPLES));
             let of_all = with / without - 1.0;
-            let is_large = |change: f64| change.abs() > REQUIRED;
+            let is_large = |change: f64| change.abs() > LEAST_RELATIVE_CHANGE;
             let change = of.change(quantity);
             assert_eq!(
                 is_large(change),

@@ -15,7 +15,7 @@ use shelter::tui::config::Config;
 use shelter::tui::dispatch;
 use shelter::tui::prompt::Purpose;
 use shelter::tui::screen::Screen;
-use shelter::tui::start::{Choice, EXAMPLES, Next, Opened, Start};
+use shelter::tui::start::{EXAMPLES, Next, Opened, Start, StartLine};
 use shelter::tui::studies::StudyState;
 
 use shelter::verdict::Verdict;
@@ -292,8 +292,8 @@ fn a_plan_opened_lately_is_listed_once_and_as_people_write_its_path() {
     let plan = folder.path().join("mine.toml");
     std::fs::write(&plan, include_str!("../../plans/paper-5-tire.toml")).expect("written");
     let start = Start::new(folder.path(), vec![canonical(&plan).expect("a path")], None);
-    let path = |choice: &Choice| match choice {
-        Choice::File(path) => Some(path.display().to_string()),
+    let path = |choice: &StartLine| match choice {
+        StartLine::File(path) => Some(path.display().to_string()),
         _ => None,
     };
     let listed: Vec<_> = start.choices.iter().filter_map(path).collect();

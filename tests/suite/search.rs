@@ -299,18 +299,22 @@ fn tight_limits_leave_what_keeps_them() {
         .replace("accepted_risk_percent = 5", "accepted_risk_percent = 5, charge_in_8_ms_kg = 25");
     let tight = case(&charged.replace("equal_intervals", "longest_ms = 70, equal_intervals"));
     let found = searched(&tight, None);
-    let keeping = found.keeping.expect("all were looked at");
-    assert!(keeping > 0 && keeping < found.possible / 30, "{keeping} of {}", found.possible);
-    assert!(found.complete && found.judged == keeping, "{} of {keeping}", found.judged);
+    let within_limits = found.within_limits.expect("all were looked at");
+    assert!(
+        within_limits > 0 && within_limits < found.possible / 30,
+        "{within_limits} of {}",
+        found.possible
+    );
+    assert!(found.complete && found.judged == within_limits, "{} of {within_limits}", found.judged);
     let refused = found.refused;
-    assert_eq!(refused.too_long + refused.too_many_holes + refused.too_heavy + keeping, found.possible);
+    assert_eq!(refused.too_long + refused.too_many_holes + refused.too_heavy + within_limits, found.possible);
     let none = searched(&case(&charged.replace("[0, 9, 17, 25]", "[0]")), None);
     assert_eq!((none.judged, none.refused.too_heavy), (0, none.possible));
     assert_eq!(none.verdict(false), Verdict::Fail);
     // More than can be listed, and few of them short enough.
     let many = "intervals_ms = { from = 9, to = 999, step = 1 }, equal_intervals = false, longest_ms = 100";
     let found = searched(&case(&plan(many)), None);
-    assert!(found.keeping.is_none() && !found.complete && found.judged > 100, "{}", found.judged);
+    assert!(found.within_limits.is_none() && !found.complete && found.judged > 100, "{}", found.judged);
 }
 
 /// A schedule that an option fires already has the name of that option; a name that another has is not taken.

@@ -180,7 +180,7 @@ fn the_recommended_interval_has_a_full_verdict() {
     let full = risk_at(
         &case,
         best.interval,
-        &sampling.with_fresh_draws(ErrorShare::Nth(1 + swept.refuted)),
+        &sampling.with_fresh_draws(ErrorShare::Nth(1 + swept.failed_full_verdict)),
         compute,
     );
     assert_eq!((full.verdict(), best.risk.known().expect("sampled").bounds), (Verdict::Pass, full.bounds));
@@ -191,7 +191,7 @@ fn the_recommended_interval_has_a_full_verdict() {
 fn an_interval_whose_full_verdict_does_not_pass_is_not_recommended() {
     let (swept, ..) = risky_sweep(&risky_case(1.065));
     let wide = swept.windows.iter().filter(|[from, to]| to - from > 0.5e-3).count();
-    assert!(wide > 0 && swept.refuted > 1, "a test that can fail: {:?}", swept.windows);
+    assert!(wide > 0 && swept.failed_full_verdict > 1, "a test that can fail: {:?}", swept.windows);
     assert_eq!(swept.recommended, None);
 }
 

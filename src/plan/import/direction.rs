@@ -37,7 +37,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn validates_launches_oppose_the_way_down_of_their_holes() {
+    fn launches_oppose_the_way_down_of_their_holes() {
         let launch = |angle: f64, bearing: f64| {
             Tilt::against_hole(angle, bearing).map(|tilt| (tilt.deg, tilt.toward_deg))
         };
@@ -54,7 +54,7 @@ mod tests {
     }
 
     #[test]
-    fn validates_hole_and_launch_lie_on_one_line() {
+    fn hole_and_launch_lie_on_one_line() {
         for (angle, bearing) in [(5.0_f64, 12.0_f64), (15.0, 175.94), (30.0, 237.975), (60.0, 359.0)] {
             let tilt = Tilt::against_hole(angle, bearing).expect("an inclined hole");
             let ((sideways, down), (east, north)) =

@@ -213,12 +213,12 @@ impl CableEvaluator<'_, '_> {
         let forces = [&mut x[elements.clone()], &mut y[elements.clone()], &mut z[elements.clone()]];
         let states = &mut self.state[elements.clone()];
         let damped_elements = if DAMPED { elements } else { 0..0 };
-        let Damped { viscosity, length2_change: old_changes, force: [samples, samples_before] } =
+        let Damped { viscosity, length2_change: old_changes, force: [forces_at_step, forces_at_step_before] } =
             &mut *self.damped;
         let viscosities = &viscosity[damped_elements.clone()];
         let old_changes = &mut old_changes[damped_elements.clone()];
-        let samples = &mut samples[damped_elements.clone()];
-        let samples_before = &mut samples_before[damped_elements];
+        let forces_at_step = &mut forces_at_step[damped_elements.clone()];
+        let forces_at_step_before = &mut forces_at_step_before[damped_elements];
         let (mut energy, mut greatest, mut dissipated) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
         let per_step = Wide::splat(simd, 1.0 / step);
         for at in (0..room).step_by(Wide::<S>::LEN) {
@@ -229,9 +229,9 @@ impl CableEvaluator<'_, '_> {
             let length2 = norm_squared(d);
             let weight = Wide::load(simd, weights, at);
             let exists = zero.less(weight);
-            let (change, excess) = (length2 - span2, length2 - slack2);
-            let before = Wide::load(simd, changes, at) + excess_at_rest;
-            change.store(changes, at);
+            let (length2_change, excess) = (length2 - span2, length2 - slack2);
+            let excess_before = Wide::load(simd, changes, at) + excess_at_rest;
+            length2_change.store(changes, at);
             let was = states[at];
             let taut = zero.less(excess).and(exists);
             if taut.any() {
@@ -254,35 +254,36 @@ impl CableEvaluator<'_, '_> {
             let stretch = exists.select(length - rest_length, zero).max(zero);
             let elastic = stiffness * stretch;
             (half * weight * elastic * stretch).add_to(&mut energy, at % LANES);
-            let mut switches = taut.differs(zero.less(before).and(exists));
-            let (mut force, mut sample) = (elastic, elastic);
+            let mut switches = taut.differs(zero.less(excess_before).and(exists));
+            let (mut force, mut force_at_step) = (elastic, elastic);
             if DAMPED {
                 // The end of a pull is where N is 0, while the cable is still longer than at rest: no switch.
                 switches = switches.and(taut);
-                let change = excess - before;
+                let excess_change = excess - excess_before;
                 let old = Wide::load(simd, old_changes, at);
-                change.store(old_changes, at);
-                let extrapolated = change + half * (change - old);
-                let rate = switches.select(change, extrapolated);
+                excess_change.store(old_changes, at);
+                let extrapolated = excess_change + half * (excess_change - old);
+                let rate = switches.select(excess_change, extrapolated);
                 // Where nothing moves, nothing that moved before counts.
-                let rate = zero.less(change.abs()).select(rate, zero);
+                let rate = zero.less(excess_change.abs()).select(rate, zero);
                 let lengthening = half * rate / length.max(tiny);
                 let viscous = Wide::load(simd, viscosities, at) * lengthening * per_step;
                 let whole = taut.select((elastic + viscous).max(zero), zero);
-                let after = half + before / change;
+                let after = half + excess_before / excess_change;
                 let counted = switches.select((whole - elastic) * (one + after), whole - elastic);
                 force = (elastic + counted).max(zero);
-                sample = switches.select(viscous.max(zero), whole);
+                force_at_step = switches.select(viscous.max(zero), whole);
                 (weight * taut.select(force - elastic, zero) * lengthening)
                     .add_to(&mut dissipated, at % LANES);
-                let before = Wide::load(simd, samples, at);
-                let jumps = switches.select(infinite, zero.at_most(before).select(before, infinite));
-                jumps.store(samples_before, at);
-                sample.store(samples, at);
+                let force_before = Wide::load(simd, forces_at_step, at);
+                let jumps =
+                    switches.select(infinite, zero.at_most(force_before).select(force_before, infinite));
+                jumps.store(forces_at_step_before, at);
+                force_at_step.store(forces_at_step, at);
             }
-            sample.max(Wide::load(simd, &greatest, at % LANES)).store(&mut greatest, at % LANES);
-            let apart = (excess - before).abs() * (length + rest_length);
-            let sum = excess + before;
+            force_at_step.max(Wide::load(simd, &greatest, at % LANES)).store(&mut greatest, at % LANES);
+            let apart = (excess - excess_before).abs() * (length + rest_length);
+            let sum = excess + excess_before;
             let above = switches.select(force.times_plus(apart, eighth * sum * sum), force);
             let below = switches.select(apart * length, length).max(tiny);
             let per_length = above / below;

@@ -5,7 +5,7 @@
 //! 2. Nominal differences alone are noise where a motion has several branches. So medians are compared, over the first samples of
 //!    `[uncertainty]`, with the same draws on both sides. Where the first [`FIRST_SAMPLES`] leave no doubt, no more are drawn.
 //! 3. An effect is required where it changes on which side of the limits the shot as planned lies; where, of a quantity that has a
-//!    limit, it changes the median or raises the 95th percentile by more than [`REQUIRED`], and by more than [`FLOOR`] of the
+//!    limit, it changes the median or raises the 95th percentile by more than [`LEAST_RELATIVE_CHANGE`], and by more than [`LEAST_SHARE_OF_LIMIT`] of the
 //!    limit; or where one of these is not known.
 
 mod effect;
@@ -27,9 +27,9 @@ pub const SAMPLES: usize = 49;
 /// Number of samples after which it shows which effects are in doubt.
 pub const FIRST_SAMPLES: usize = 17;
 /// Change of a median from which an effect is required.
-pub const REQUIRED: f64 = 0.05;
+pub const LEAST_RELATIVE_CHANGE: f64 = 0.05;
 /// Change of a median over the limit below which the effect is not required: a few newtons more or less.
-pub const FLOOR: f64 = 0.01;
+pub const LEAST_SHARE_OF_LIMIT: f64 = 0.01;
 
 /// What an effect does to one delay option.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -136,7 +136,9 @@ impl QuantityChange {
         let Some(limit) = self.limit else { return false };
         let matters = |without: f64, with: f64| {
             let relative = relative(without, with);
-            relative.is_nan() || relative.abs() > REQUIRED && (with - without).abs() > FLOOR * limit
+            relative.is_nan()
+                || relative.abs() > LEAST_RELATIVE_CHANGE
+                    && (with - without).abs() > LEAST_SHARE_OF_LIMIT * limit
         };
         let rises = self.with.p95 > self.without.p95;
         matters(self.without.median, self.with.median) || rises && matters(self.without.p95, self.with.p95)

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::time::Instant;
 
-use super::{FIRST_SAMPLES, REQUIRED, Spread, relative};
+use super::{FIRST_SAMPLES, LEAST_RELATIVE_CHANGE, Spread, relative};
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::or_unknown;
 use crate::study::as_planned::quick_check::quick_check;
@@ -48,25 +48,25 @@ const CLEAR_MAJORITY: usize = 14;
 
 /// Whether more samples may tell something else of an effect on a quantity that has a limit.
 ///
-/// - Where a clear majority of the changes is above [`REQUIRED`], the median is.
-/// - Where a clear majority is below −[`REQUIRED`], the median is; that the effect only lowers the quantity is sure if none rises.
+/// - Where a clear majority of the changes is above [`LEAST_RELATIVE_CHANGE`], the median is.
+/// - Where a clear majority is below −[`LEAST_RELATIVE_CHANGE`], the median is; that the effect only lowers the quantity is sure if none rises.
 /// - Else neither the median nor the 95th percentile is beyond, if no clear minority is below, and if all changes are farther from
-///   [`REQUIRED`] than they are from one another.
+///   [`LEAST_RELATIVE_CHANGE`] than they are from one another.
 pub(super) fn is_in_doubt(without: &OptionRuns, with: &OptionRuns, limits: &Limits) -> bool {
     let is_unclear = |quantity: Quantity| {
         let pairs = without.runs.iter().zip(&with.runs);
         let changes: Vec<f64> =
             pairs.map(|(a, b)| relative(*a.values.get(quantity), *b.values.get(quantity))).collect();
         let count = |is: &dyn Fn(f64) -> bool| changes.iter().filter(|change| is(**change)).count();
-        let above = count(&|change| change > REQUIRED);
-        let below = count(&|change| change < -REQUIRED);
+        let above = count(&|change| change > LEAST_RELATIVE_CHANGE);
+        let below = count(&|change| change < -LEAST_RELATIVE_CHANGE);
         let least = changes.iter().copied().fold(f64::INFINITY, f64::min);
         let most = changes.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         match () {
             () if changes.iter().any(|change| change.is_nan()) => true,
             () if above >= CLEAR_MAJORITY => false,
             () if below >= CLEAR_MAJORITY => most > 0.0,
-            () => below + CLEAR_MAJORITY > changes.len() || most + (most - least) >= REQUIRED,
+            () => below + CLEAR_MAJORITY > changes.len() || most + (most - least) >= LEAST_RELATIVE_CHANGE,
         }
     };
     Quantity::ALL.into_iter().filter(|&quantity| limits.get(quantity).is_some()).any(is_unclear)

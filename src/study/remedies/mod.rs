@@ -113,7 +113,7 @@ struct ChangeToJudge {
 
 /// What is asked of every change.
 #[derive(Clone, Copy)]
-struct Task<'t> {
+struct RemediesTask<'t> {
     case: &'t Case,
     sampling: Option<&'t Sampling>,
     compute: &'t ComputeSettings,
@@ -140,7 +140,7 @@ pub fn find_all_remedies(
     compute: &ComputeSettings,
     control: &StudyControl,
 ) -> ComputeResult<Vec<Remedies>> {
-    let task = Task { case, sampling, compute, control };
+    let task = RemediesTask { case, sampling, compute, control };
     let mut hard = HardSamples::new(case.limits.accepted_risk, sampling.map_or(0, |sampling| sampling.most));
     let enough_samples = sampling.is_none() || hard.enough_samples();
     let mut kinds = if enough_samples { screen_candidates(&task, options)? } else { Vec::new() };
@@ -166,8 +166,8 @@ fn changed(case: &Case, change: &Change) -> Option<Case> {
 
 /// The kinds of all options, each with the candidates that a coarse run as planned does not surely fail. Candidates that make no
 /// valid plan count as not tried; a kind without a candidate is left out.
-fn screen_candidates(task: &Task<'_>, options: &[usize]) -> Result<Vec<ChangesOfOneKind>, NoResult> {
-    let Task { case, compute, control, .. } = *task;
+fn screen_candidates(task: &RemediesTask<'_>, options: &[usize]) -> Result<Vec<ChangesOfOneKind>, NoResult> {
+    let RemediesTask { case, compute, control, .. } = *task;
     let kinds = |&option: &usize| {
         let crowded = exceeds_together(case, &case.shots[option]);
         candidates(&case.plan, option, crowded).into_iter().map(move |changes| (option, changes))
@@ -211,7 +211,7 @@ fn screen_candidates(task: &Task<'_>, options: &[usize]) -> Result<Vec<ChangesOf
 
 /// Judges the next change of every open kind in full.
 fn judge_next(
-    task: &Task<'_>,
+    task: &RemediesTask<'_>,
     kinds: &mut [ChangesOfOneKind],
     hard: &mut HardSamples,
 ) -> Result<(), NoResult> {
@@ -265,7 +265,7 @@ fn judge_next(
 
 /// Judges changes as planned; `None` for those that do not pass, which their kinds note.
 fn check_changes(
-    task: &Task<'_>,
+    task: &RemediesTask<'_>,
     kinds: &mut [ChangesOfOneKind],
     to_judge: &[ChangeToJudge],
 ) -> Result<Vec<Option<CheckedShot>>, NoResult> {

@@ -15,8 +15,8 @@ use std::cmp::Ordering;
 
 use itertools::Itertools;
 
-use self::schedule::Choices;
-pub use self::schedule::{BrokenLimit, RefusedCounts};
+use self::schedule::ScheduleSpace;
+pub use self::schedule::{RefusedCounts, SearchLimit};
 pub use self::schedule::{Schedule, duration};
 pub use self::schedules_to_try::MOST_TRIED;
 use self::schedules_to_try::{AllowedSchedules, FIRST_OF_SEARCH, SchedulesToTry};
@@ -54,7 +54,7 @@ pub struct Search {
     /// Schedules that `[search]` describes, mirror images and all.
     pub possible: usize,
     /// Schedules that keep the limits of the search; `None` where there are too many to look at all.
-    pub keeping: Option<usize>,
+    pub within_limits: Option<usize>,
     /// Schedules left out, by the limit that they break.
     pub refused: RefusedCounts,
     /// Schedules judged.
@@ -96,11 +96,11 @@ pub fn search(
     compute: &ComputeSettings,
     control: &StudyControl,
 ) -> ComputeResult<Search> {
-    let choices = Choices::new(case)?;
+    let space = ScheduleSpace::new(case)?;
     let halving = start_halving(case, sampling, compute);
-    let listed = AllowedSchedules::new(case, &choices);
-    let (complete, keeping) = (listed.are_all_tried(), listed.allowed.as_ref().map(Vec::len));
-    let mut to_try = SchedulesToTry::new(case, &choices);
+    let listed = AllowedSchedules::new(case, &space);
+    let (complete, within_limits) = (listed.are_all_tried(), listed.allowed.as_ref().map(Vec::len));
+    let mut to_try = SchedulesToTry::new(case, &space);
     let mut out_of_time = false;
     match listed.allowed {
         Some(allowed) if complete => to_try.add(allowed),
@@ -109,12 +109,12 @@ pub fn search(
     let mut tried = to_try.tried;
     let first = if complete { FIRST_OF_ALL } else { FIRST_OF_SEARCH };
     out_of_time |= halving.run(&mut tried, first, control)?;
-    let finalists = choose_finalists(&choices, &tried);
+    let finalists = choose_finalists(&space, &tried);
     let not_chosen =
         tried.iter().filter(|trial| !finalists.iter().any(|(_, other)| other.shot == trial.shot));
     let without_failure =
         not_chosen.filter(|trial| trial.tally.samples > 0 && trial.tally.failures == 0).count();
-    let front = front(&choices, &tried);
+    let front = front(&space, &tried);
     let schedules: Vec<Schedule> = finalists.iter().map(|(schedule, _)| schedule.clone()).collect();
     let rough = finalists.iter().map(|(_, trial)| RoughShare::of(trial)).collect();
     let (case, Computed { value: results, partial }) = judge(case, &schedules, sampling, compute, control)?;
@@ -124,8 +124,8 @@ pub fn search(
         schedules,
         results,
         rough,
-        possible: choices.count(),
-        keeping,
+        possible: space.count(),
+        within_limits,
         refused: listed.refused,
         judged,
         complete: complete && judged == tried.len(),
@@ -146,12 +146,12 @@ pub fn try_schedules(
     shard: Shard,
     control: &StudyControl,
 ) -> ComputeResult<bool> {
-    let choices = Choices::new(case)?;
-    let listed = AllowedSchedules::new(case, &choices);
+    let space = ScheduleSpace::new(case)?;
+    let listed = AllowedSchedules::new(case, &space);
     if !listed.are_all_tried() {
         return Ok(Computed { value: false, partial: false });
     }
-    let mut to_try = SchedulesToTry::new(case, &choices);
+    let mut to_try = SchedulesToTry::new(case, &space);
     to_try.add(listed.allowed.unwrap_or_default());
     let ours = to_try.tried.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
     let mut ours: Vec<TriedSchedule> = ours.map(|(_, trial)| trial).collect();
@@ -184,12 +184,12 @@ impl RoughShare {
 
 /// The best of the sorted schedules that differ from one another, to be judged in full.
 fn choose_finalists<'r>(
-    choices: &Choices<'_>,
+    space: &ScheduleSpace<'_>,
     tried: &'r [TriedSchedule],
 ) -> Vec<(Schedule, &'r TriedSchedule)> {
     let mut chosen: Vec<(Schedule, &TriedSchedule)> = Vec::new();
     for trial in tried.iter().filter(|trial| trial.tally.samples > 0) {
-        let schedule = choices.schedule(&trial.candidate);
+        let schedule = space.schedule(&trial.candidate);
         if chosen.len() < JUDGED_IN_FULL && !chosen.iter().any(|(other, _)| other.is_nearly_same(&schedule)) {
             chosen.push((schedule, trial));
         }
@@ -198,10 +198,10 @@ fn choose_finalists<'r>(
 }
 
 /// The schedules of which no shorter one fails less.
-fn front(choices: &Choices<'_>, tried: &[TriedSchedule]) -> Vec<FrontPoint> {
+fn front(space: &ScheduleSpace<'_>, tried: &[TriedSchedule]) -> Vec<FrontPoint> {
     let sampled_enough = tried.iter().filter(|trial| trial.tally.samples >= SAMPLES_OF_FRONT);
     let point = |trial: &TriedSchedule| FrontPoint {
-        schedule: choices.schedule(&trial.candidate),
+        schedule: space.schedule(&trial.candidate),
         duration: duration(&trial.shot),
         share: RoughShare::of(trial),
     };

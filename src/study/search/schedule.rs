@@ -108,7 +108,7 @@ pub fn duration(shot: &Shot) -> f64 {
     ends.map_or(0.0, |(first, last)| last.time - first.time)
 }
 
-/// A schedule by the positions of its parts in the lists of [`Choices`].
+/// A schedule by the positions of its parts in the lists of [`ScheduleSpace`].
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Candidate {
     order: Vec<usize>,
@@ -116,9 +116,9 @@ pub struct Candidate {
     holes: usize,
 }
 
-/// A limit that a schedule of a search breaks.
+/// A limit that a schedule of a search may exceed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BrokenLimit {
+pub enum SearchLimit {
     /// The longest duration of `[search]`.
     Longest,
     /// The most holes within 8 ms of `[search]` or `[limits]`.
@@ -127,7 +127,7 @@ pub enum BrokenLimit {
     Charge,
 }
 
-/// Numbers of schedules that break a limit; each is counted once.
+/// Numbers of schedules over a limit; each is counted once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RefusedCounts {
     /// Longer than the longest duration.
@@ -140,17 +140,17 @@ pub struct RefusedCounts {
 
 impl RefusedCounts {
     /// Counts one more.
-    pub fn count(&mut self, broken: BrokenLimit) {
-        *match broken {
-            BrokenLimit::Longest => &mut self.too_long,
-            BrokenLimit::Holes => &mut self.too_many_holes,
-            BrokenLimit::Charge => &mut self.too_heavy,
+    pub fn count(&mut self, exceeded: SearchLimit) {
+        *match exceeded {
+            SearchLimit::Longest => &mut self.too_long,
+            SearchLimit::Holes => &mut self.too_many_holes,
+            SearchLimit::Charge => &mut self.too_heavy,
         } += 1;
     }
 }
 
 /// What schedules are made of.
-pub struct Choices<'c> {
+pub struct ScheduleSpace<'c> {
     case: &'c Case,
     intervals_ms: Vec<f64>,
     /// Number of gaps chosen by themselves.
@@ -159,8 +159,8 @@ pub struct Choices<'c> {
     rank_across: Vec<usize>,
 }
 
-impl<'c> Choices<'c> {
-    /// The choices of a plan.
+impl<'c> ScheduleSpace<'c> {
+    /// The space of a plan.
     pub fn new(case: &'c Case) -> Result<Self, NoResult> {
         let (spec, rows) = (&case.plan.search, case.plan.blast_rows.len());
         let any_holes = || Case { hole_timing: None, ..case.clone() };
@@ -299,20 +299,20 @@ impl<'c> Choices<'c> {
         }
     }
 
-    /// The limit that a shot breaks, if any: the longest duration, the most holes, or the heaviest charge within 8 ms.
-    pub fn broken(&self, shot: &Shot) -> Option<BrokenLimit> {
+    /// The limit that a shot exceeds, if any: the longest duration, the most holes, or the heaviest charge within 8 ms.
+    pub fn exceeded_limit(&self, shot: &Shot) -> Option<SearchLimit> {
         let (spec, limits) = (&self.case.plan.search, &self.case.limits);
         if spec.longest_ms.is_some_and(|longest| duration(shot) > seconds(longest) + 1e-9) {
-            return Some(BrokenLimit::Longest);
+            return Some(SearchLimit::Longest);
         }
         // The stricter of both.
         let most_holes = spec.most_holes_in_8_ms.into_iter().chain(limits.holes_in_8_ms).min();
         let WithinEightMs { holes, charge } = WithinEightMs::of(self.case, shot);
         if most_holes.is_some_and(|most| holes > most) {
-            return Some(BrokenLimit::Holes);
+            return Some(SearchLimit::Holes);
         }
         let too_heavy = charge.zip(limits.charge_in_8_ms).is_some_and(|(charge, most)| charge > most);
-        too_heavy.then_some(BrokenLimit::Charge)
+        too_heavy.then_some(SearchLimit::Charge)
     }
 
     fn may_fire_in(&self, order: &[usize]) -> bool {
@@ -402,12 +402,12 @@ mod tests {
     fn adjacent_orders_grow_from_their_first_row() {
         for count in 1..=6 {
             let case = rows(count);
-            let choices = Choices::new(&case).expect("choices");
-            let all = (0..count).permutations(count).filter(|order| choices.may_fire_in(order));
-            assert_eq!(choices.adjacent_orders(), all.collect_vec(), "{count} rows");
+            let space = ScheduleSpace::new(&case).expect("space");
+            let all = (0..count).permutations(count).filter(|order| space.may_fire_in(order));
+            assert_eq!(space.adjacent_orders(), all.collect_vec(), "{count} rows");
         }
         let case = rows(16);
-        let choices = Choices::new(&case).expect("choices");
-        assert_eq!((choices.all().len(), choices.count()), (32_768, 32_768));
+        let space = ScheduleSpace::new(&case).expect("space");
+        assert_eq!((space.all().len(), space.count()), (32_768, 32_768));
     }
 }

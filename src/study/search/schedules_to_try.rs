@@ -7,7 +7,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::schedule::{BrokenLimit, Candidate, Choices, KnownShots, RefusedCounts};
+use super::schedule::{Candidate, KnownShots, RefusedCounts, ScheduleSpace, SearchLimit};
 use super::successive_halving::{SuccessiveHalving, TriedSchedule};
 use crate::study::{Case, NoResult, StudyControl};
 
@@ -33,13 +33,13 @@ pub struct AllowedSchedules {
 
 impl AllowedSchedules {
     /// Looks at all schedules of a plan, unless there are too many.
-    pub fn new(case: &Case, choices: &Choices<'_>) -> Self {
+    pub fn new(case: &Case, space: &ScheduleSpace<'_>) -> Self {
         let mut refused = RefusedCounts::default();
-        let listed = (choices.count() <= MOST_LISTED).then(|| choices.all());
+        let listed = (space.count() <= MOST_LISTED).then(|| space.all());
         let allowed = listed.map(|listed| {
-            let limits: Vec<Option<BrokenLimit>> = listed
+            let limits: Vec<Option<SearchLimit>> = listed
                 .par_iter()
-                .map(|candidate| choices.broken(&choices.schedule(candidate).shot(case)))
+                .map(|candidate| space.exceeded_limit(&space.schedule(candidate).shot(case)))
                 .collect();
             limits.iter().flatten().for_each(|limit| refused.count(*limit));
             let without_limit = listed.into_iter().zip(limits).filter(|(_, limit)| limit.is_none());
@@ -57,7 +57,7 @@ impl AllowedSchedules {
 /// The schedules that are judged.
 pub struct SchedulesToTry<'c> {
     case: &'c Case,
-    choices: &'c Choices<'c>,
+    space: &'c ScheduleSpace<'c>,
     known: KnownShots,
     /// In the order in which they were added.
     pub tried: Vec<TriedSchedule>,
@@ -65,15 +65,15 @@ pub struct SchedulesToTry<'c> {
 
 impl<'c> SchedulesToTry<'c> {
     /// No schedule.
-    pub fn new(case: &'c Case, choices: &'c Choices<'c>) -> Self {
-        Self { case, choices, known: KnownShots::default(), tried: Vec::new() }
+    pub fn new(case: &'c Case, space: &'c ScheduleSpace<'c>) -> Self {
+        Self { case, space, known: KnownShots::default(), tried: Vec::new() }
     }
 
     /// Adds the candidates that are allowed, and not known yet.
     pub fn add(&mut self, candidates: impl IntoIterator<Item = Candidate>) {
         for candidate in candidates {
-            let shot = self.choices.schedule(&candidate).shot(self.case);
-            if self.choices.broken(&shot).is_none() && self.known.insert(self.case, &shot) {
+            let shot = self.space.schedule(&candidate).shot(self.case);
+            if self.space.exceeded_limit(&shot).is_none() && self.known.insert(self.case, &shot) {
                 self.tried.push(TriedSchedule::new(candidate, shot));
             }
         }
@@ -92,7 +92,7 @@ impl<'c> SchedulesToTry<'c> {
         for _ in 0..MOST_DRAWS {
             self.add([match allowed {
                 Some(allowed) => allowed[random.random_range(0..allowed.len())].clone(),
-                None => self.choices.random(&mut random),
+                None => self.space.random(&mut random),
             }]);
             if self.tried.len() == START {
                 break;
@@ -114,8 +114,7 @@ impl<'c> SchedulesToTry<'c> {
             if best.is_empty() || room == 0 {
                 return Ok(false);
             }
-            let near =
-                best.iter().flat_map(|candidate| self.choices.neighbours(candidate)).unique().take(room);
+            let near = best.iter().flat_map(|candidate| self.space.neighbours(candidate)).unique().take(room);
             self.add(near.collect::<Vec<_>>());
             seen.extend(best);
         }

@@ -76,7 +76,7 @@ pub struct Trial {
     pub risk: Option<WorstShotRisk>,
     /// Whether it is a choice: it holds, the risk of its shots passes, and its utilization is smaller than that of every
     /// lighter choice.
-    pub is_choice: bool,
+    pub is_acceptable: bool,
 }
 
 /// Samples of the worst shot of a combination: that with the worst verdict, then that of which the greatest share fails.
@@ -131,7 +131,7 @@ impl Sizing {
 
     /// All choices, the lightest first.
     pub fn choices(&self) -> impl Iterator<Item = &Combination> {
-        self.combinations.iter().filter(|c| c.trial.is_ok_and(|trial| trial.is_choice))
+        self.combinations.iter().filter(|c| c.trial.is_ok_and(|trial| trial.is_acceptable))
     }
 
     /// Number of combinations that were tried.
@@ -260,8 +260,9 @@ fn choose(
             sampled = Evidence::Known(risk);
         }
         trial.risk = sampled.known().copied();
-        trial.is_choice = verdict_of_both(Verdict::Pass, sampled.map(|risk| risk.verdict)) == Verdict::Pass;
-        least = if trial.is_choice { trial.utilization } else { least };
+        trial.is_acceptable =
+            verdict_of_both(Verdict::Pass, sampled.map(|risk| risk.verdict)) == Verdict::Pass;
+        least = if trial.is_acceptable { trial.utilization } else { least };
         combination.trial = Ok(trial);
     }
     Ok(())

@@ -112,7 +112,7 @@ impl<'q> SizeCandidate<'q> {
             utilization: utilization(&worst),
             shots: judged.len(),
             risk: None,
-            is_choice: false,
+            is_acceptable: false,
         };
         let most = if matches!(demand, Demand::Options(_)) { order.len() } else { HARDEST };
         Ok(Some((trial, hardest.into_iter().take(most).map(|n| (order[n], judged[n])).collect())))

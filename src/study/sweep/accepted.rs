@@ -70,7 +70,7 @@ pub fn add_risk(
                     swept.recommended = Some(candidate);
                     break;
                 }
-                swept.refuted += 1;
+                swept.failed_full_verdict += 1;
             }
         }
     }

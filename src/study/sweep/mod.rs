@@ -73,7 +73,7 @@ pub struct Sweep {
     /// The recommended interval; `None` where no window is wider than a point, or no full verdict passes.
     pub recommended: Option<Recommended>,
     /// Number of intervals whose full verdict does not pass.
-    pub refuted: usize,
+    pub failed_full_verdict: usize,
 }
 
 impl Sweep {
@@ -102,7 +102,7 @@ pub const GAP: f64 = 0.25e-3;
 /// Greatest distance between neighbouring sampled points inside a window [s].
 const MOST_SAMPLED_GAP: f64 = 1e-3;
 /// What is swept where nobody asks for other intervals; between them more are tried where the answer changes.
-pub const INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: GAP };
+pub const DEFAULT_INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: GAP };
 
 /// Sweeps the interval between the rows of `order`. Without a `sampling` only the shots as planned count.
 pub fn sweep(
@@ -172,7 +172,8 @@ fn sweep_as_planned(
         if partial || next.is_empty() {
             let windows_as_planned = windows.clone();
             let order = order.to_vec();
-            let value = Sweep { order, points, windows_as_planned, windows, recommended, refuted: 0 };
+            let value =
+                Sweep { order, points, windows_as_planned, windows, recommended, failed_full_verdict: 0 };
             return Ok(Computed { value, partial });
         }
         exact.extend(&next);

@@ -34,7 +34,7 @@ impl App {
     pub fn act(&mut self, action: Action) -> Request {
         self.notice = None;
         if action != Action::Quit {
-            self.warned = false;
+            self.quit_warned = false;
         }
         if self.help && self.scroll_help(action) {
             return Request::None;
@@ -165,7 +165,7 @@ impl App {
 
     /// Closes the uppermost open thing; never leaves the program.
     pub fn escape(&mut self) -> Request {
-        self.warned = false;
+        self.quit_warned = false;
         if self.notice.take().is_some() {
             return Request::None;
         }
@@ -203,7 +203,7 @@ impl App {
     fn quit(&mut self) -> Request {
         let [save, quit] = [Action::Save, Action::Quit].map(|action| self.keymap.hint(action));
         let warning = match (self.editor.unsaved(), self.observed.has_typed()) {
-            _ if self.warned => return Request::Quit,
+            _ if self.quit_warned => return Request::Quit,
             (false, false) => return Request::Quit,
             (true, false) => format!("changes are not saved: {save} saves, {quit} again leaves without"),
             (false, true) => format!("what was typed as seen is in no file: {quit} again forgets it"),
@@ -211,7 +211,7 @@ impl App {
                 format!("{save} saves the changes; what was typed as seen is in no file: {quit} again leaves")
             }
         };
-        self.warned = true;
+        self.quit_warned = true;
         self.notice = Some(warning);
         Request::None
     }

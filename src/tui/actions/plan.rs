@@ -1,6 +1,7 @@
 //! Keys of the plan: its values, its options.
 
 use super::PAGE_LINES;
+use crate::plan::keys::plan;
 use crate::tui::app::{App, Request};
 use crate::tui::editor::EditOutcome;
 use crate::tui::keymap::Action;
@@ -43,7 +44,7 @@ impl App {
 
     /// Selects the option of the selected field.
     pub(super) fn follow_field(&mut self) {
-        if let Some(field) = self.editor.field().filter(|field| field.path.section == "delay") {
+        if let Some(field) = self.editor.field().filter(|field| field.path.section == plan::DELAY.name) {
             self.selected = field.path.index.unwrap_or(0).min(self.options.len().saturating_sub(1));
         }
     }

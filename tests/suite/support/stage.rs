@@ -182,7 +182,7 @@ pub fn swept() -> StudyResult {
         windows_as_planned: windows.clone(),
         windows,
         recommended,
-        refuted: 0,
+        failed_full_verdict: 0,
     })
 }
 
@@ -252,7 +252,7 @@ pub fn spreads(app: &App) -> [(StudyKind, StudyResult); 3] {
         });
         let holds = share < 1.0;
         let worst = shot_summary(share);
-        let trial = Trial { holds, worst, utilization: share, shots: 7, risk, is_choice: holds };
+        let trial = Trial { holds, worst, utilization: share, shots: 7, risk, is_acceptable: holds };
         let (total_mass, trial) = (14_000.0 + 100.0 * n as f64, Ok(trial));
         Combination { rope, tire_mass: 280.0, border_rows: 0, tires: 50, total_mass, trial }
     });

@@ -38,8 +38,8 @@ impl Stepper<'_> {
             pushes: &mut self.pushes,
             jumped: &mut self.jumped,
         };
-        let Self { part, wake, tension, u, v, due, .. } = self;
-        let (u, v, forces) = (u.slices_mut(), v.slices_mut(), tension.forces());
+        let Self { part, wake, cable_forces, u, v, due, .. } = self;
+        let (u, v, forces) = (u.slices_mut(), v.slices_mut(), cable_forces.forces());
         let masses = [&part.mass[..u[0].len()], &part.inverse_mass[..u[0].len()]];
         let (mut energy, mut dissipated) = ([0.0; LANES], [0.0; LANES]);
         let (mut height, mut motion) = ([0.0; LANES], [0.0; LANES]);
@@ -106,17 +106,17 @@ impl Stepper<'_> {
             let of_jump = images.filter(|image| image.read == jump.tire && image.written != jump.tire);
             self.jumped.extend(of_jump.map(|image| Jump { tire: image.written, ..jump }));
         }
-        let Self { part, tension, u, v, jumped, step, clock, record, scene, peak_to_refine, .. } = self;
+        let Self { part, cable_forces, u, v, jumped, step, clock, record, scene, peak_to_refine, .. } = self;
         let end = clock.now() + *step;
         for Jump { tire, since_launch } in jumped.drain(..) {
             for &element in part.blocks.ends.of(tire / LANES).into_iter().flatten() {
                 let element = element as usize + tire % LANES;
-                let (Some(cable), true) = (part.cables.get(element), tension.exists(element)) else {
+                let (Some(cable), true) = (part.cables.get(element), cable_forces.exists(element)) else {
                     continue;
                 };
                 let [first, second] = cable.ends;
                 let [between, apart] = [&*u, &*v].map(|of| of.vector(second) - of.vector(first));
-                tension.forget_motion(element, cable.span, between, apart * *step);
+                cable_forces.forget_motion(element, cable.span, between, apart * *step);
                 let Some(since) = since_launch else { continue };
                 let span_then = cable.span + between - apart * since;
                 let (length, viscosity) = (span_then.norm(), part.viscosity[element]);

@@ -26,14 +26,14 @@ impl Stepper<'_> {
         if !DAMPED {
             self.interpolate_peak();
         }
-        let Self { part, wake, tension, u, stored, peak_blocks, strengths, step, .. } = self;
+        let Self { part, wake, cable_forces, u, stored, peak_blocks, strengths, step, .. } = self;
         let [weakest, strongest] = *strengths;
         let (blocks, stored) = (&part.blocks.blocks[..], &mut stored[..part.blocks.blocks.len()]);
-        let (u, mut tension) = (u.slices(), tension.slices());
+        let (u, mut cable_forces) = (u.slices(), cable_forces.slices());
         let (mut energy, mut force, mut dissipated) = (self.asleep, [0.0; LANES], [0.0; LANES]);
         let mut greatest = Wide::splat(simd, weakest * self.record.force.value);
         for &n in &wake.awake_blocks {
-            let of_block = tension.evaluate::<S, DAMPED>(simd, &blocks[n], u, *step);
+            let of_block = cable_forces.evaluate::<S, DAMPED>(simd, &blocks[n], u, *step);
             stored[n] = of_block.energy;
             if DAMPED {
                 (0..LANES).for_each(|j| dissipated[j] += of_block.dissipated[j]);
@@ -75,7 +75,7 @@ impl Stepper<'_> {
             if force > self.record.force.value {
                 let index = self.part.reduction.cable(self.part.blocks.cable(n, slot));
                 self.record.force = Peak { value: force, time: self.clock.now(), index };
-                let force_before = match self.tension.slot_force_before(block, slot) {
+                let force_before = match self.cable_forces.slot_force_before(block, slot) {
                     Some(force) => force / self.strength(n, slot),
                     None => self.stretch_over_strength(n, slot, -self.step),
                 };
@@ -107,7 +107,7 @@ impl Stepper<'_> {
                     if force > hardest.0 {
                         hardest = (force, self.part.reduction.cable(cable));
                     }
-                    let lost = self.tension.remove(block, slot);
+                    let lost = self.cable_forces.remove(block, slot);
                     self.record.ledger.dissipated += lost;
                     totals.energy[slot % LANES] -= lost;
                     self.stored[n][slot % LANES] -= lost;
@@ -127,7 +127,7 @@ impl Stepper<'_> {
     /// Moves the greatest force to the top of the parabola through the forces of the steps around it, one step after it was seen.
     fn interpolate_peak(&mut self) {
         if let Some(PeakCable { block, slot, force_before }) = self.peak_to_refine.take() {
-            let damped = self.tension.slot_force_before(&self.part.blocks.blocks[block], slot).is_some();
+            let damped = self.cable_forces.slot_force_before(&self.part.blocks.blocks[block], slot).is_some();
             let after = match damped {
                 true => self.force_over_strength(block, slot),
                 false => self.stretch_over_strength(block, slot, 0.0),
@@ -138,7 +138,7 @@ impl Stepper<'_> {
 
     /// Force of the cable in a slot of a block over its strength [N]; 0 for an empty slot.
     fn force_over_strength(&self, block: usize, slot: usize) -> f64 {
-        let force = self.tension.slot_force(&self.part.blocks.blocks[block], slot);
+        let force = self.cable_forces.slot_force(&self.part.blocks.blocks[block], slot);
         if force > 0.0 { force / self.strength(block, slot) } else { 0.0 }
     }
 

@@ -87,7 +87,7 @@ pub(super) struct Stepper<'a> {
     /// Tires of the present register that were integrated by themselves.
     integrated: Vec<Integrated>,
     wake: Wake<'a>,
-    tension: CableForceMemory<'a>,
+    cable_forces: CableForceMemory<'a>,
     /// Displacement [m] (`n_tires` + [`LANES`]).
     u: VectorArrays,
     /// Velocity at mid-step [m/s] (`n_tires` + [`LANES`]).
@@ -136,7 +136,7 @@ impl<'a> Stepper<'a> {
             firings,
             integrated: Vec::with_capacity(LANES),
             wake,
-            tension: CableForceMemory::new(&part.blocks, &part.viscosity),
+            cable_forces: CableForceMemory::new(&part.blocks, &part.viscosity),
             u,
             v,
             stored: vec![[0.0; LANES]; part.blocks.blocks.len()],
@@ -266,10 +266,10 @@ impl Motion for Snapshot<'_, '_> {
         if self.displacement(tire).z > 0.0 {
             return (0.0, 0.0);
         }
-        let Stepper { part, tension, step, due, .. } = self.stepper;
+        let Stepper { part, cable_forces, step, due, .. } = self.stepper;
         let (tire, _) = part.reduction.image_of(tire);
         let ends = part.blocks.ends.of(tire / LANES);
-        let forces = tension.forces().sum_at(pulp::Scalar::new(), ends, tire % LANES);
+        let forces = cable_forces.forces().sum_at(pulp::Scalar::new(), ends, tire % LANES);
         let force = Vector3::from(forces.map(|force| force.pack()[0]));
         let (inverse_mass, impulse_to_force) =
             (part.inverse_mass[tire], 1.0 / (part.inverse_mass[tire] * step));
