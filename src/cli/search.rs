@@ -14,7 +14,7 @@ use super::status::{Status, failed, saved, was_interrupted, wrong};
 use crate::file;
 use crate::plan::{DelayOption, edit};
 use crate::study::results_file::Question;
-use crate::study::search::{MOST_TRIED, Search, search, try_schedules};
+use crate::study::search::{MOST_TRIED, Search, can_be_shared, search, try_schedules};
 use crate::study::{Case, Computed};
 
 #[derive(Args)]
@@ -42,15 +42,18 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(message) => return wrong(&message),
     };
     if let Some(shard) = arguments.saved.shard {
-        let tried = run_saved_study(&arguments.study.compute, journal, |control| {
+        match can_be_shared(&case) {
+            Err(reason) => return failed(&reason),
+            Ok(false) => {
+                return wrong(&format!(
+                    "of more than {MOST_TRIED} schedules the best are searched, not shared: leave out --shard"
+                ));
+            }
+            Ok(true) => {}
+        }
+        return saved(run_saved_study(&arguments.study.compute, journal, |control| {
             try_schedules(&case, sampling.as_ref(), &compute, shard, control)
-        });
-        return match tried {
-            Ok(Computed { value: false, .. }) => wrong(&format!(
-                "of more than {MOST_TRIED} schedules the best are searched, not shared: leave out --shard"
-            )),
-            tried => saved(tried.map(|Computed { partial, .. }| Computed { value: (), partial })),
-        };
+        }));
     }
     let searched = run_saved_study(&arguments.study.compute, journal, |control| {
         search(&case, sampling.as_ref(), &compute, control)

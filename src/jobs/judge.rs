@@ -30,23 +30,20 @@ impl Job {
             let option = at.option;
             let Ok(mut last) = last_told[option].lock() else { return };
             match event {
-                JudgeEvent::Running(step) => {
+                JudgeEvent::Checking(step) => {
                     if last.checking.elapsed() > CHECKING_EVERY {
                         last.checking = Instant::now();
                         self.send(News::Checking { option, runs: step.runs, time: step.time });
                     }
                 }
-                JudgeEvent::AsPlanned(result) => {
+                JudgeEvent::Checked(result) => {
                     self.send(News::Checked { option, result: result.clone().map(Box::new) });
                 }
-                JudgeEvent::SampledSoFar(sampled) => {
-                    if last.sampled.is_none_or(|told| told.elapsed() >= SAMPLED_EVERY) {
+                JudgeEvent::Sampled { sampled, more } => {
+                    if !more || last.sampled.is_none_or(|told| told.elapsed() >= SAMPLED_EVERY) {
                         last.sampled = Some(Instant::now());
-                        self.send(News::Sampled { option, sampled: Box::new(sampled.clone()), more: true });
+                        self.send(News::Sampled { option, sampled: Box::new(sampled.clone()), more });
                     }
-                }
-                JudgeEvent::SampledFully(sampled) => {
-                    self.send(News::Sampled { option, sampled: Box::new(sampled.clone()), more: false });
                 }
                 JudgeEvent::Margin(margin) => self.send(News::Margin { option, margin }),
             }

@@ -110,9 +110,9 @@ pub fn report(case: &Case, search: &Search, partial: bool) -> Report {
     report
 }
 
-/// How many schedules there are, how many were judged, and how sure it is that none better was missed.
+/// How many schedules there are, how many were tried, and how sure it is that none better was missed.
 fn coverage_lines(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
-    let Search { possible, within_limits, refused, judged, complete, without_failure, .. } = search;
+    let Search { possible, within_limits, refused, screened, complete, without_failure, .. } = search;
     let possible = match *possible {
         usize::MAX => "more schedules than can be counted are possible".to_owned(),
         1 => "1 schedule is possible".to_owned(),
@@ -123,7 +123,7 @@ fn coverage_lines(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
         true => "all of them; shots that fire alike or are mirror images count once",
         false => "a search: a better one may have been missed",
     };
-    let mut lines = vec![format!("{possible}{within_limits}; {judged} were judged, {how}")];
+    let mut lines = vec![format!("{possible}{within_limits}; {screened} were tried, {how}")];
     let limits = &case.limits;
     let most_holes = case.plan.search.most_holes_in_8_ms.into_iter().chain(limits.holes_in_8_ms).min();
     let refused = [
@@ -143,7 +143,7 @@ fn coverage_lines(case: &Case, search: &Search, sampled: bool) -> Vec<String> {
     if !refused.is_empty() {
         lines.push(format!("left out: {}", refused.join(", ")));
     }
-    if sampled && *judged > 0 {
+    if sampled && *screened > 0 {
         lines.extend((*without_failure > 0).then(|| match without_failure {
             1 => "1 more had no failing sample among the few drawn of it: it may be as good".to_owned(),
             more => {

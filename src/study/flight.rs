@@ -60,7 +60,7 @@ pub fn record(
             times.push(now);
             displacements.extend_from_slice(&latest);
         }
-        control.flow()
+        control.keep_going()
     });
     let outcome = outcome.map_err(|failure| control.no_result(failure))?;
     if times.last().is_some_and(|&last| last < now) {

@@ -31,13 +31,16 @@ pub struct CaseOption {
 #[derive(Clone, Copy, Debug)]
 pub enum JudgeEvent<'r> {
     /// A run of the shot as planned has gone on by [`STEPS_PER_EVENT`] steps.
-    Running(CheckProgress),
-    /// The shot as planned is judged, or has no result.
-    AsPlanned(&'r Result<CheckedShot, NoResult>),
+    Checking(CheckProgress),
+    /// The shot as planned is checked, or has no result.
+    Checked(&'r Result<CheckedShot, NoResult>),
     /// A round of samples was drawn.
-    SampledSoFar(&'r SampledShot),
-    /// All samples were drawn.
-    SampledFully(&'r SampledShot),
+    Sampled {
+        /// The shot with its samples so far.
+        sampled: &'r SampledShot,
+        /// Whether more samples come.
+        more: bool,
+    },
     /// The launch margin is known.
     Margin(LaunchMargin),
 }
@@ -74,20 +77,20 @@ pub fn judge_all(
 ) -> ComputeResult<Vec<OptionResults>> {
     let of_case = |case: usize| (0..cases[case].0.shots.len()).map(move |option| CaseOption { case, option });
     let options: Vec<CaseOption> = (0..cases.len()).flat_map(of_case).collect();
-    let checked = run_batch(&options, control, |&at| {
-        let as_planned = catch_panic(|| check_one_as_planned(cases, at, control, watch));
-        watch(at, JudgeEvent::AsPlanned(&as_planned));
-        match as_planned {
+    let all = run_batch(&options, control, |&at| {
+        let checked = catch_panic(|| check_one_as_planned(cases, at, control, watch));
+        watch(at, JudgeEvent::Checked(&checked));
+        match checked {
             Err(ended @ (NoResult::Stopped | NoResult::OutOfTime)) => Err(ended),
             // An option without a result is no reason for the others to have none.
             result => Ok(result),
         }
     })?;
-    let mut partial = checked.iter().any(Option::is_none);
+    let mut partial = all.iter().any(Option::is_none);
     let mut results: Vec<OptionResults> = vec![Vec::new(); cases.len()];
-    for (at, as_planned) in options.into_iter().zip(checked) {
-        let as_planned = as_planned.unwrap_or(Err(NoResult::OutOfTime));
-        results[at.case].push(as_planned.map(Judgement::of_planned_alone));
+    for (at, checked) in options.into_iter().zip(all) {
+        let checked = checked.unwrap_or(Err(NoResult::OutOfTime));
+        results[at.case].push(checked.map(Judgement::of_planned_alone));
     }
     if let Some(sampling) = sampling {
         partial |= add_risks(cases, &mut results, sampling, control, watch)?.partial;
@@ -118,9 +121,9 @@ fn check_one_as_planned(
     let checked = check_as_planned(case, at.option, compute, &mut |step| {
         steps += 1;
         if steps.is_multiple_of(STEPS_PER_EVENT) {
-            watch(at, JudgeEvent::Running(step));
+            watch(at, JudgeEvent::Checking(step));
         }
-        control.flow()
+        control.keep_going()
     });
     checked.map_err(|failure| control.no_result(failure))
 }
@@ -149,29 +152,29 @@ fn add_risks(
     };
     let targets: Vec<ShotToSample<'_>> = judged.iter().map(target).collect();
     let mut watch_round = |n: usize, sampled: &SampledShot| {
-        watch(judged[n].0, JudgeEvent::SampledSoFar(sampled));
+        watch(judged[n].0, JudgeEvent::Sampled { sampled, more: true });
         ControlFlow::Continue(())
     };
     let Computed { value: sampled_shots, partial } =
         sample_shots_watched(&targets, control, &mut watch_round)?;
     for ((at, judgement), sampled) in judged.iter_mut().zip(sampled_shots) {
-        watch(*at, JudgeEvent::SampledFully(&sampled));
-        judgement.sampled = Evidence::Known(sampled);
+        watch(*at, JudgeEvent::Sampled { sampled: &sampled, more: false });
+        judgement.sampled = Evidence::of(sampled);
     }
     Ok(Computed { value: (), partial })
 }
 
-/// An option to be sampled, checked `as_planned`; one that fails is sampled only to show by how much.
+/// An option to be sampled, checked as `planned`; one that fails is sampled only to show by how much.
 fn shot_to_sample<'c>(
     case: &'c Case,
     option: usize,
-    as_planned: &ShotSummary,
+    planned: &ShotSummary,
     sampling: &Sampling,
     compute: ComputeSettings,
 ) -> ShotToSample<'c> {
-    let fails = as_planned.verdict == Verdict::Fail;
+    let fails = planned.verdict == Verdict::Fail;
     let sampling = if fails { sampling.least_only() } else { *sampling };
-    ShotToSample::new(case, &case.shots[option], compute, sampling).with_planned(*as_planned)
+    ShotToSample::new(case, &case.shots[option], compute, sampling).with_planned(*planned)
 }
 
 /// Finds the launch margin of every option of every case that has a result.

@@ -11,7 +11,7 @@ use crate::verdict::Verdict;
 pub struct Judgement {
     /// The shot as planned.
     pub checked: CheckedShot,
-    /// The shots that `[uncertainty]` describes. Of a sampling that the time cut short there may be no sample.
+    /// The shots that `[uncertainty]` describes.
     pub sampled: Evidence<SampledShot>,
     /// How much faster than planned the tires may leave; `None` where it was not asked for, or the time was up.
     pub launch_margin: Option<LaunchMargin>,
@@ -34,8 +34,7 @@ impl Judgement {
         let as_planned = self.checked.reasons.iter().copied().map(Reason::AsPlanned);
         let of_samples = match &self.sampled {
             Evidence::NotAsked => None,
-            Evidence::Unknown => Some(Reason::NoSamples),
-            Evidence::Known(sampled) if sampled.samples.is_empty() => Some(Reason::NoSamples),
+            Evidence::NoneDrawn => Some(Reason::NoSamples),
             Evidence::Known(sampled) => sampled.reason().map(Reason::Samples),
         };
         as_planned.chain(of_samples).collect()
@@ -47,10 +46,17 @@ impl Judgement {
 pub enum Evidence<R> {
     /// Only the shot as planned was asked for.
     NotAsked,
-    /// Samples were asked for, and none was drawn.
-    Unknown,
+    /// Samples were asked for, and none was drawn yet, or before the time was up.
+    NoneDrawn,
     /// What the samples tell.
     Known(R),
+}
+
+impl Evidence<SampledShot> {
+    /// What a shot with its samples so far tells.
+    pub fn of(sampled: SampledShot) -> Self {
+        if sampled.samples.is_empty() { Evidence::NoneDrawn } else { Evidence::Known(sampled) }
+    }
 }
 
 impl<R> Evidence<R> {
@@ -58,7 +64,7 @@ impl<R> Evidence<R> {
     pub fn known(&self) -> Option<&R> {
         match self {
             Evidence::Known(told) => Some(told),
-            Evidence::NotAsked | Evidence::Unknown => None,
+            Evidence::NotAsked | Evidence::NoneDrawn => None,
         }
     }
 
@@ -71,7 +77,7 @@ impl<R> Evidence<R> {
     pub fn map<'r, T>(&'r self, change: impl FnOnce(&'r R) -> T) -> Evidence<T> {
         match self {
             Evidence::NotAsked => Evidence::NotAsked,
-            Evidence::Unknown => Evidence::Unknown,
+            Evidence::NoneDrawn => Evidence::NoneDrawn,
             Evidence::Known(told) => Evidence::Known(change(told)),
         }
     }
@@ -82,7 +88,7 @@ impl<R> Evidence<R> {
 pub fn verdict_of_both(as_planned: Verdict, samples: Evidence<Verdict>) -> Verdict {
     match samples {
         Evidence::NotAsked => as_planned,
-        Evidence::Unknown => as_planned.max(Verdict::Undecided),
+        Evidence::NoneDrawn => as_planned.max(Verdict::Undecided),
         Evidence::Known(sampled) => as_planned.max(sampled),
     }
 }
@@ -99,7 +105,7 @@ mod tests {
             assert_eq!(verdict_of_both(as_planned, Evidence::Known(Pass)), as_planned);
             assert_eq!(verdict_of_both(as_planned, Evidence::Known(Fail)), Fail);
         }
-        for samples in [Evidence::Unknown, Evidence::Known(Undecided)] {
+        for samples in [Evidence::NoneDrawn, Evidence::Known(Undecided)] {
             assert_eq!(
                 [Pass, Undecided, Fail].map(|planned| verdict_of_both(planned, samples)),
                 [Undecided, Undecided, Fail]

@@ -340,7 +340,7 @@ impl App {
             News::Checked { option, result } => {
                 let state = result.map_or_else(OptionState::Failed, |checked| {
                     // Until samples arrive the option stays OPEN: a shot that passes as planned shows no PASS.
-                    let sampled = Evidence::Unknown;
+                    let sampled = Evidence::NoneDrawn;
                     let judgement = Box::new(Judgement { sampled, ..Judgement::of_planned_alone(*checked) });
                     OptionState::Judged { judgement, more_samples: true }
                 });
@@ -348,7 +348,7 @@ impl App {
             }
             News::Sampled { option, sampled, more } => {
                 if let Some(OptionState::Judged { judgement, more_samples }) = self.options.get_mut(option) {
-                    judgement.sampled = Evidence::Known(*sampled);
+                    judgement.sampled = Evidence::of(*sampled);
                     *more_samples = more;
                 }
             }

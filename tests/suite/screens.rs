@@ -348,7 +348,7 @@ fn the_share_of_the_limit_is_that_of_95_percent_of_the_possible_shots() {
     }
     assert!(shares(&app).contains("H 117 %"), "one in ten is that high: {}", shares(&app));
     let OptionState::Judged { judgement, .. } = &mut app.options[0] else { panic!("judged") };
-    judgement.sampled = Evidence::Unknown;
+    judgement.sampled = Evidence::NoneDrawn;
     let alone = shares(&app);
     assert!(
         !alone.contains("H ") && !alone.contains("F "),

@@ -47,16 +47,16 @@ fn all_schedules_are_counted_and_judged() {
     assert_eq!((found.possible, found.complete), (6 * 9 * 3, true));
     // The shelter is its own image from left to right, but no two schedules are images of one another: a row from the left and one
     // from the right would be.
-    assert_eq!(found.judged, found.possible);
+    assert_eq!(found.screened, found.possible);
     let both = choices.replace("\"ends\"", "\"right\"");
     let found = searched(&case(&plan(&both)), None);
     assert_eq!(
-        (found.possible, found.judged),
+        (found.possible, found.screened),
         (6 * 9 * 3, 6 * 9 * 2),
         "from the right is the image of from the left"
     );
     let equal = searched(&case(&plan("intervals_ms = { from = 8, to = 10, step = 0.5 }")), None);
-    assert_eq!((equal.possible, equal.judged), (6 * 5, 6 * 5));
+    assert_eq!((equal.possible, equal.screened), (6 * 5, 6 * 5));
 }
 
 /// As planned, the best is the best of all schedules checked one by one.
@@ -131,25 +131,25 @@ fn what_is_found_keeps_the_limits_of_the_search() {
                    most_holes_in_8_ms = 2";
     let case = case(&plan(choices));
     let found = searched(&case, None);
-    assert!(found.judged > 0 && found.judged < found.possible);
+    assert!(found.screened > 0 && found.screened < found.possible);
     for shot in &found.case.shots {
         assert!(duration(shot) <= 0.08 + 1e-9);
         assert!(WithinEightMs::of(&case, shot).holes <= 2);
     }
     let none = searched(&self::case(&plan("intervals_ms = [67], longest_ms = 80")), None);
-    assert_eq!((none.judged, none.verdict(false), none.results.len()), (0, Verdict::Fail, 0));
+    assert_eq!((none.screened, none.verdict(false), none.results.len()), (0, Verdict::Fail, 0));
 }
 
 /// Rows 1, 2 and 3 lie in this order across the shelter: beside those that fired, 2³⁻¹ orders; one order where they are listed.
 #[test]
 fn rows_fire_beside_rows_that_have_fired() {
     let found = searched(&case(&plan("intervals_ms = [42], orders = \"adjacent\"")), None);
-    assert_eq!((found.possible, found.judged), (4, 4));
+    assert_eq!((found.possible, found.screened), (4, 4));
     for schedule in &found.schedules {
         assert!(schedule.order != [0, 2, 1] && schedule.order != [2, 0, 1], "{:?}", schedule.order);
     }
     let found = searched(&case(&plan("intervals_ms = [42], orders = \"listed\"")), None);
-    assert_eq!((found.possible, found.judged, &found.schedules[0].order[..]), (1, 1, &[0, 1, 2][..]));
+    assert_eq!((found.possible, found.screened, &found.schedules[0].order[..]), (1, 1, &[0, 1, 2][..]));
 }
 
 /// Where there are too many, a search finds no worse than the best of those that it begins with, and says that it is a search.
@@ -159,7 +159,7 @@ fn too_many_schedules_are_searched() {
     let case = case(&plan(choices));
     let found = searched(&case, None);
     assert_eq!((found.possible, found.complete), (6 * 143 * 143, false));
-    assert!(found.judged <= MOST_TRIED && found.judged > 2000, "{}", found.judged);
+    assert!(found.screened <= MOST_TRIED && found.screened > 2000, "{}", found.screened);
     let again = searched(&case, None);
     assert_eq!(found.schedules, again.schedules, "the same every time");
     for (n, schedule) in found.schedules.iter().enumerate() {
@@ -255,7 +255,7 @@ fn a_search_can_end_early() {
     let expired = StudyControl::default();
     expired.expire();
     let found = search(&case, Some(&FEW), &compute, &expired).expect("partial");
-    assert!(found.partial && found.value.judged == 0 && !found.value.complete);
+    assert!(found.partial && found.value.screened == 0 && !found.value.complete);
     assert_ne!(found.value.verdict(false), Verdict::Pass);
 }
 
@@ -269,10 +269,10 @@ fn a_slope_takes_mirror_images_away() {
             &format!("friction = 0.5, slope_percent = 25, slope_toward_deg = {toward}"),
         ))
     };
-    assert_eq!(searched(&case(&alike), None).judged, 2);
-    assert_eq!(searched(&on_slope(0.0), None).judged, 2, "it falls along the rows");
+    assert_eq!(searched(&case(&alike), None).screened, 2);
+    assert_eq!(searched(&on_slope(0.0), None).screened, 2, "it falls along the rows");
     let falling = on_slope(90.0);
-    assert_eq!(searched(&falling, None).judged, 4);
+    assert_eq!(searched(&falling, None).screened, 4);
     let compute = ComputeSettings::of(&falling.plan);
     let tried = try_orders(&falling, &[0.042], Shard::WHOLE, &compute, &StudyControl::default());
     let tried = tried.expect("a result").value;
@@ -305,16 +305,16 @@ fn tight_limits_leave_what_keeps_them() {
         "{within_limits} of {}",
         found.possible
     );
-    assert!(found.complete && found.judged == within_limits, "{} of {within_limits}", found.judged);
+    assert!(found.complete && found.screened == within_limits, "{} of {within_limits}", found.screened);
     let refused = found.refused;
     assert_eq!(refused.too_long + refused.too_many_holes + refused.too_heavy + within_limits, found.possible);
     let none = searched(&case(&charged.replace("[0, 9, 17, 25]", "[0]")), None);
-    assert_eq!((none.judged, none.refused.too_heavy), (0, none.possible));
+    assert_eq!((none.screened, none.refused.too_heavy), (0, none.possible));
     assert_eq!(none.verdict(false), Verdict::Fail);
     // More than can be listed, and few of them short enough.
     let many = "intervals_ms = { from = 9, to = 999, step = 1 }, equal_intervals = false, longest_ms = 100";
     let found = searched(&case(&plan(many)), None);
-    assert!(found.within_limits.is_none() && !found.complete && found.judged > 100, "{}", found.judged);
+    assert!(found.within_limits.is_none() && !found.complete && found.screened > 100, "{}", found.screened);
 }
 
 /// A schedule that an option fires already has the name of that option; a name that another has is not taken.

@@ -6,12 +6,14 @@ use std::ops::ControlFlow;
 use itertools::Itertools;
 use shelter::choice::Accuracy;
 use shelter::plan::{DelayScatter, LaunchTargets, Plan, Timing};
+use shelter::report::json::CheckDocument;
 use shelter::ropes::{Kind, catalogue};
 use shelter::study::as_planned::check::{check_as_planned, check_shot};
-use shelter::study::judge_options::{UNWATCHED, judge_all};
+use shelter::study::judge_options::{CaseOption, JudgeEvent, MustPass, UNWATCHED, judge_all};
 use shelter::study::judgement::Evidence;
 use shelter::study::judgement::Judgement;
 use shelter::study::orders::{Orders, TriedOrder, check_extremes, orders, try_orders};
+use shelter::study::reasons::Reason;
 use shelter::study::samples::draw_until_sure::{ShotToSample, sample_shots};
 use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::sample_count::Sampling;
@@ -520,6 +522,31 @@ fn a_study_without_time_is_partial() {
     out_of_time.expire();
     assert_eq!(partial(&out_of_time), [const { Ok(true) }; 5]);
     assert_eq!(partial(&StudyControl::default()), [const { Ok(false) }; 5]);
+}
+
+/// The time is up once a shot is checked as planned: of its samples nothing is known, in the document, too.
+#[test]
+fn where_no_sample_was_drawn_any_share_may_fail() {
+    let case = case(2, "uncertainty = { launch_cv_percent = 10 }");
+    let compute = ComputeSettings { step: Some(2e-3), ..ComputeSettings::of(&case.plan) };
+    let control = StudyControl::default();
+    let expire = |_: CaseOption, event: JudgeEvent<'_>| {
+        if matches!(event, JudgeEvent::Checked(_)) {
+            control.expire();
+        }
+    };
+    let found =
+        judge_all(&[(&case, compute)], Some(&Sampling::OF_VERDICT), &control, &expire).expect("a result");
+    let judged = found.value[0][0].as_ref().expect("checked before the time was up");
+    assert!(found.partial && judged.sampled.is_asked() && judged.sampled.known().is_none());
+    assert_ne!(judged.verdict(), Verdict::Pass);
+    assert!(judged.reasons().contains(&Reason::NoSamples));
+    let document = CheckDocument::new(&case, &found.value[0], None, MustPass::Every, true);
+    let document = serde_json::to_value(document).expect("JSON");
+    let option = &document["options"][0];
+    let nothing = serde_json::json!({ "low": 0.0, "high": 1.0, "samples": 0, "undecided": 0 });
+    assert_eq!(option["failure_probability"], nothing);
+    assert_eq!(option["any_cable_breaks"], serde_json::json!({ "low": 0.0, "high": 1.0 }));
 }
 
 #[test]

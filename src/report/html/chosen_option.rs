@@ -90,7 +90,7 @@ fn risk(case: &Case, judged: &Judgement) -> String {
     let accepted = format!("accepted {} %", units::short(case.plan.limits.accepted_risk_percent));
     match &judged.sampled {
         Evidence::NotAsked => "not judged: the plan's own numbers only, nothing varied".to_owned(),
-        Evidence::Known(sampled) if !sampled.samples.is_empty() => {
+        Evidence::Known(sampled) => {
             let bounds = &sampled.bounds;
             format!(
                 "{} % of the possible shots fail (95 % bounds; {} of {} samples fail); {accepted}",
@@ -99,7 +99,7 @@ fn risk(case: &Case, judged: &Judgement) -> String {
                 bounds.samples
             )
         }
-        Evidence::Known(_) | Evidence::Unknown => {
+        Evidence::NoneDrawn => {
             format!("not known: no sample was drawn, ended early; {accepted}")
         }
     }

@@ -5,7 +5,7 @@ use serde_json::Number;
 
 use super::remedies::{PassingChange, RefusedKind};
 use super::risk::{Share, input_shares};
-use super::{Bounds, Failures, LimitsObject};
+use super::{Bounds, Failures, LimitsObject, intervals};
 use crate::choice::HoleOrder;
 use crate::outcome::BrokenCable;
 use crate::report::check::judged_inputs;
@@ -172,8 +172,8 @@ impl OptionValues {
         let drift_is_judged = sampled.filter(|_| case.limits.drift.is_some());
         Self {
             nominal_verdict: checked.verdict.for_scripts(),
-            failure_probability: sampled.map(Failures::of),
-            any_cable_breaks: sampled.map(|sampled| sampled.breaks.interval.into()),
+            failure_probability: Failures::of(&judged.sampled),
+            any_cable_breaks: intervals(&judged.sampled).map(|[_, breaks]| breaks.into()),
             launch_margin: launch_margin_share(judged),
             inputs: sampled.and_then(|sampled| input_shares(sampled, &case.limits)),
             flight_height_m: TirePeakObject::new(

@@ -28,6 +28,7 @@ pub use self::search::SearchDocument;
 pub use self::size::SizeDocument;
 pub use self::sweep::SweepDocument;
 pub use self::trace::TraceDocument;
+use crate::study::judgement::Evidence;
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::{Case, ShotSummary};
@@ -112,10 +113,21 @@ struct Failures {
 }
 
 impl Failures {
-    /// What the samples tell.
-    fn of(sampled: &SampledShot) -> Self {
-        let bounds = &sampled.bounds;
-        Self { bounds: bounds.interval.into(), samples: bounds.samples, undecided: bounds.undecided }
+    /// What the samples tell: where none was drawn, a share from 0 to 1. `None` where none were asked for.
+    fn of(sampled: &Evidence<SampledShot>) -> Option<Self> {
+        let [interval, _] = intervals(sampled)?;
+        let counts = sampled.known().map(|SampledShot { bounds, .. }| (bounds.samples, bounds.undecided));
+        let (samples, undecided) = counts.unwrap_or_default();
+        Some(Self { bounds: interval.into(), samples, undecided })
+    }
+}
+
+/// Bounds of the share of possible shots that fail, and of those in which a cable breaks; `None` where none were asked for.
+fn intervals(sampled: &Evidence<SampledShot>) -> Option<[[f64; 2]; 2]> {
+    match sampled {
+        Evidence::NotAsked => None,
+        Evidence::NoneDrawn => Some([[0.0, 1.0]; 2]),
+        Evidence::Known(sampled) => Some([sampled.bounds.interval, sampled.breaks.interval]),
     }
 }
 

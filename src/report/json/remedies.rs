@@ -67,7 +67,7 @@ impl PassingChange {
             key: format!("{}.{}", section.name, key.name),
             value,
             verdict: judgement.verdict().for_scripts(),
-            failure_probability: judgement.sampled.known().map(Failures::of),
+            failure_probability: Failures::of(&judgement.sampled),
             flight_height_m: judgement.checked.height.value,
             cable_force_n: judgement.checked.force.value,
         }

@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use super::LimitsObject;
 use super::check::{CablePeakObject, Percentiles, TirePeakObject};
+use super::{LimitsObject, intervals};
 use crate::choice::HoleOrder;
 use crate::report::option_row::{OptionRow, option_rows};
 use crate::report::row_names;
@@ -128,7 +128,7 @@ impl SearchDocument {
                     Err(reason) => vec![no_result::message(reason)],
                 },
                 probability: sampled.and_then(|sampled| sampled.bounds.probability()),
-                interval_95: sampled.map(|sampled| sampled.bounds.interval),
+                interval_95: judged.and_then(|judged| Some(intervals(&judged.sampled)?[0])),
                 duration_s: duration(row.shot),
                 holes_in_8_ms: holes,
                 charge_in_8_ms_kg: charge,
@@ -148,7 +148,7 @@ impl SearchDocument {
             verdict: search.verdict(partial).for_scripts(),
             partial,
             limits: LimitsObject::of(case),
-            count: search.judged,
+            count: search.screened,
             possible: search.possible,
             complete: search.complete,
             found: option_rows(&search.case, &search.results).zip(&search.schedules).map(found).collect(),

@@ -205,7 +205,7 @@ fn run(
     let begun = Instant::now();
     for _ in 0..5 {
         let start = Instant::now();
-        let outcome = match case.model.run(shot, &settings, &mut |_| control.flow()) {
+        let outcome = match case.model.run(shot, &settings, &mut |_| control.keep_going()) {
             Ok(outcome) => outcome,
             Err(failure) if failure.needs_finer_step() => return Ok(None),
             Err(failure) => return Err(control.no_result(failure)),

@@ -27,7 +27,7 @@ pub fn check_summary(
     control.journal().recall_or(
         || Fingerprint::of(("check", case.fingerprint(), shot, compute)),
         || {
-            let checked = check_shot(case, shot, compute, &mut |_| control.flow());
+            let checked = check_shot(case, shot, compute, &mut |_| control.keep_going());
             checked.map(|checked| ShotSummary::of(&checked)).map_err(|failure| control.no_result(failure))
         },
     )

@@ -61,7 +61,7 @@ pub fn quick_check_until(
         let mut cover = CoverWatch::new(case, &shot.firings, step);
         let watch = &mut |motion: &dyn Motion| {
             cover.observe(motion);
-            control.flow()
+            control.keep_going()
         };
         match case.model.run(shot, &case.run_settings(compute.method, step), watch) {
             Ok(outcome) => runs.push(outcome),

@@ -71,7 +71,7 @@ pub fn observe_shot(
     let mut watch = ObservationWatch::new(&moved);
     let mut look = |motion: &dyn Motion| -> ControlFlow<()> {
         watch.observe(motion);
-        control.flow()
+        control.keep_going()
     };
     let done = match variant {
         Some(variant) => case.model.run_variant(variant, shot, settings, &mut look),

@@ -217,7 +217,7 @@ impl FitProblem<'_> {
         let settings =
             case.run_settings(self.predictor.compute.method, self.predictor.compute.first_step(&case));
         let run = |shot: &ObservedShot| {
-            let watch = &mut |_: &dyn crate::simulation::Motion| self.predictor.control.flow();
+            let watch = &mut |_: &dyn crate::simulation::Motion| self.predictor.control.keep_going();
             case.model.run(&case.shots[shot.option].with_times(&shot.times), &settings, watch).err()
         };
         let failure = self.predictor.shots.iter().find_map(run);

@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::check_extremes::check_extremes;
 use super::{OrderToTry, TriedOrder, quick_check_orders, utilization};
-use crate::study::{Case, ComputeResult, ComputeSettings, Computed, NoResult, StudyControl};
+use crate::study::{Case, ComputeResult, ComputeSettings, Computed, StudyControl};
 
 /// Number of orders of a search that are improved by exchanges towards the worst, and towards the best.
 const CLIMBERS: usize = 24;
@@ -35,19 +35,22 @@ pub(super) fn climb_orders(
             order
         }));
         let first = tried.len();
-        if quick_check_new_orders(case, &mut tried, first, starts, interval, compute, control)? {
+        if quick_check_new_orders(case, &mut tried, first, starts, interval, compute, control)?.partial {
             return Ok(Computed { value: tried, partial: true });
         }
+        // Climbers toward the worst order climb utilization, those toward the best its negative.
         let mut climbers: Vec<(f64, Vec<usize>)> = Vec::new();
         for sign in [1.0, -1.0] {
-            let hardness = |tried: &&TriedOrder| -sign * utilization(case, tried);
-            let hardest = tried[first..].iter().sorted_by(|a, b| hardness(a).total_cmp(&hardness(b)));
-            climbers.extend(hardest.take(CLIMBERS).map(|tried| (sign, tried.order.clone())));
+            let height = |tried: &&TriedOrder| sign * utilization(case, tried);
+            let highest = tried[first..].iter().sorted_by(|a, b| height(b).total_cmp(&height(a)));
+            climbers.extend(highest.take(CLIMBERS).map(|tried| (sign, tried.order.clone())));
         }
         // All climbers take a step at once; those that meet become one.
         while !climbers.is_empty() {
             let neighbours = climbers.iter().flat_map(|(_, order)| exchanges(order)).unique().collect();
-            if quick_check_new_orders(case, &mut tried, first, neighbours, interval, compute, control)? {
+            if quick_check_new_orders(case, &mut tried, first, neighbours, interval, compute, control)?
+                .partial
+            {
                 return Ok(Computed { value: tried, partial: true });
             }
             let utilizations: HashMap<&[usize], f64> =
@@ -76,7 +79,7 @@ fn exchanges(order: &[usize]) -> impl Iterator<Item = Vec<usize>> {
     })
 }
 
-/// Checks the orders that are not among `tried[first..]`, and adds them; returns whether the time was up.
+/// Checks the orders that are not among `tried[first..]`, and adds them.
 fn quick_check_new_orders(
     case: &Case,
     tried: &mut Vec<TriedOrder>,
@@ -85,11 +88,11 @@ fn quick_check_new_orders(
     interval: f64,
     compute: &ComputeSettings,
     control: &StudyControl,
-) -> Result<bool, NoResult> {
+) -> ComputeResult<()> {
     let tried_orders: HashSet<&[usize]> = tried[first..].iter().map(|t| t.order.as_slice()).collect();
     let new = orders.into_iter().unique().filter(|order| !tried_orders.contains(order.as_slice()));
     let new = new.enumerate().map(|(n, order)| OrderToTry { number: tried.len() + n, order, interval });
     let Computed { value, partial } = quick_check_orders(case, new.collect(), compute, control)?;
     tried.extend(value);
-    Ok(partial)
+    Ok(Computed { value: (), partial })
 }

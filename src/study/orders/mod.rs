@@ -114,7 +114,7 @@ impl Orders {
     pub fn risk(&self, n: usize) -> Evidence<&RiskSummary> {
         match &self.risks {
             None => Evidence::NotAsked,
-            Some(risks) => risks.get(&n).map_or(Evidence::Unknown, Evidence::Known),
+            Some(risks) => risks.get(&n).map_or(Evidence::NoneDrawn, Evidence::Known),
         }
     }
 

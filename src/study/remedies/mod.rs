@@ -252,7 +252,7 @@ fn judge_next(
             SampledChange::OutOfTime => kind.found.out_of_time = true,
             SampledChange::Sampled(sampled) => {
                 let judgement =
-                    Judgement { sampled: Evidence::Known(*sampled), ..Judgement::of_planned_alone(checked) };
+                    Judgement { sampled: Evidence::of(*sampled), ..Judgement::of_planned_alone(checked) };
                 kind.note(judgement.verdict());
                 if judgement.verdict() == Verdict::Pass {
                     kind.found.passing = Some(Remedy { change: next.change, judgement });
@@ -273,7 +273,7 @@ fn check_changes(
     let jobs: Vec<(&Case, usize)> = to_judge.iter().map(|next| &next.case).zip(options).collect();
     let all = run_batch(&jobs, task.control, |(case, option)| {
         let check = || {
-            let checked = check_as_planned(case, *option, task.compute, &mut |_| task.control.flow());
+            let checked = check_as_planned(case, *option, task.compute, &mut |_| task.control.keep_going());
             checked.map_err(|failure| task.control.no_result(failure))
         };
         match catch_panic(check) {

@@ -253,7 +253,7 @@ fn try_sample(
     let run = |step: f64| {
         let planned = case.run_settings(compute.method, step);
         let settings = RunSettings { duration: planned.duration.map(|duration| duration + later), ..planned };
-        match case.model.run_variant(&scene, &shot, &settings, &mut |_| control.flow()) {
+        match case.model.run_variant(&scene, &shot, &settings, &mut |_| control.keep_going()) {
             Ok(outcome) => {
                 Ok((SampleRun::new(case, &shot, &outcome), !energy_balance_closes(outcome.ledger.residual())))
             }

@@ -31,7 +31,7 @@ use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Shard, Stu
 use crate::plan::{DelayOption, Plan, edit};
 use crate::verdict::Verdict;
 
-/// First samples of each schedule, where all are judged.
+/// First samples of each schedule, where all are screened.
 const FIRST_OF_ALL: usize = 16;
 /// Most schedules in the report.
 const FOUND: usize = 10;
@@ -57,15 +57,15 @@ pub struct Search {
     pub within_limits: Option<usize>,
     /// Schedules left out, by the limit that they break.
     pub refused: RefusedCounts,
-    /// Schedules judged.
-    pub judged: usize,
-    /// Whether all that keep the limits of `[search]` were judged.
+    /// Schedules screened: given first samples, or checked where none were asked for.
+    pub screened: usize,
+    /// Whether all that keep the limits of `[search]` were screened.
     pub complete: bool,
     /// Whether samples were asked for.
     pub sampled: bool,
-    /// Schedules judged that were not judged in full, and of whose samples none failed.
+    /// Schedules screened that have no full verdict, and of whose samples none failed.
     pub without_failure: usize,
-    /// The schedules of which no shorter one judged fails less, the shortest first.
+    /// The schedules of which no shorter one screened fails less, the shortest first.
     pub front: Vec<FrontPoint>,
 }
 
@@ -104,11 +104,11 @@ pub fn search(
     let mut out_of_time = false;
     match listed.allowed {
         Some(allowed) if complete => to_try.add(allowed),
-        allowed => out_of_time = to_try.explore(allowed.as_deref(), &halving, control)?,
+        allowed => out_of_time = to_try.explore(allowed.as_deref(), &halving, control)?.partial,
     }
     let mut tried = to_try.tried;
     let first = if complete { FIRST_OF_ALL } else { FIRST_OF_SEARCH };
-    out_of_time |= halving.run(&mut tried, first, control)?;
+    out_of_time |= halving.run(&mut tried, first, control)?.partial;
     let finalists = choose_finalists(&space, &tried);
     let not_chosen =
         tried.iter().filter(|trial| !finalists.iter().any(|(_, other)| other.shot == trial.shot));
@@ -118,7 +118,7 @@ pub fn search(
     let schedules: Vec<Schedule> = finalists.iter().map(|(schedule, _)| schedule.clone()).collect();
     let rough = finalists.iter().map(|(_, trial)| RoughShare::of(trial)).collect();
     let (case, Computed { value: results, partial }) = judge(case, &schedules, sampling, compute, control)?;
-    let judged = tried.iter().filter(|trial| trial.tally.samples > 0).count();
+    let screened = tried.iter().filter(|trial| trial.tally.samples > 0).count();
     let mut found = Search {
         case,
         schedules,
@@ -127,8 +127,8 @@ pub fn search(
         possible: space.count(),
         within_limits,
         refused: listed.refused,
-        judged,
-        complete: complete && judged == tried.len(),
+        screened,
+        complete: complete && screened == tried.len(),
         sampled: sampling.is_some(),
         without_failure,
         front,
@@ -137,26 +137,26 @@ pub fn search(
     Ok(Computed { value: found, partial: partial || out_of_time })
 }
 
-/// Draws the first samples of the schedules of one shard, for the journal; returns whether it could: a search that does not judge
-/// all, of more than [`MOST_TRIED`], cannot be shared.
+/// Whether machines can share a search: not one that screens the best only, of more than [`MOST_TRIED`].
+pub fn can_be_shared(case: &Case) -> Result<bool, NoResult> {
+    Ok(AllowedSchedules::new(case, &ScheduleSpace::new(case)?).are_all_tried())
+}
+
+/// Draws the first samples of the schedules of one shard, for the journal, of a search that [can be shared](can_be_shared).
 pub fn try_schedules(
     case: &Case,
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
     shard: Shard,
     control: &StudyControl,
-) -> ComputeResult<bool> {
+) -> ComputeResult<()> {
     let space = ScheduleSpace::new(case)?;
     let listed = AllowedSchedules::new(case, &space);
-    if !listed.are_all_tried() {
-        return Ok(Computed { value: false, partial: false });
-    }
     let mut to_try = SchedulesToTry::new(case, &space);
     to_try.add(listed.allowed.unwrap_or_default());
     let ours = to_try.tried.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
     let mut ours: Vec<TriedSchedule> = ours.map(|(_, trial)| trial).collect();
-    let partial = start_halving(case, sampling, compute).draw(&mut ours, FIRST_OF_ALL, control)?;
-    Ok(Computed { value: true, partial })
+    start_halving(case, sampling, compute).draw(&mut ours, FIRST_OF_ALL, control)
 }
 
 fn start_halving<'c>(

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::schedule::{Candidate, KnownShots, RefusedCounts, ScheduleSpace, SearchLimit};
 use super::successive_halving::{SuccessiveHalving, TriedSchedule};
-use crate::study::{Case, NoResult, StudyControl};
+use crate::study::{Case, ComputeResult, Computed, StudyControl};
 
 /// Greatest number of schedules that are all tried.
 pub const MOST_TRIED: usize = 4000;
@@ -54,7 +54,7 @@ impl AllowedSchedules {
     }
 }
 
-/// The schedules that are judged.
+/// The schedules that are screened.
 pub struct SchedulesToTry<'c> {
     case: &'c Case,
     space: &'c ScheduleSpace<'c>,
@@ -79,14 +79,13 @@ impl<'c> SchedulesToTry<'c> {
         }
     }
 
-    /// Searches where not all schedules can be judged; returns whether the time was up.
-    /// `allowed` are those that keep the limits, where all were looked at.
+    /// Searches where not all schedules can be screened. `allowed` are those that keep the limits, where all were looked at.
     pub fn explore(
         &mut self,
         allowed: Option<&[Candidate]>,
         halving: &SuccessiveHalving<'_>,
         control: &StudyControl,
-    ) -> Result<bool, NoResult> {
+    ) -> ComputeResult<()> {
         let mut random = ChaCha8Rng::seed_from_u64(halving.sampling.map_or(0, |sampling| sampling.seed));
         // Where the limits of the search leave few, more are drawn.
         for _ in 0..MOST_DRAWS {
@@ -100,8 +99,8 @@ impl<'c> SchedulesToTry<'c> {
         }
         let mut seen: HashSet<Candidate> = HashSet::new();
         loop {
-            if halving.draw(&mut self.tried, FIRST_OF_SEARCH, control)? {
-                return Ok(true);
+            if halving.draw(&mut self.tried, FIRST_OF_SEARCH, control)?.partial {
+                return Ok(Computed::OUT_OF_TIME);
             }
             let unseen = self.tried.iter().filter(|trial| !seen.contains(&trial.candidate));
             let best = unseen
@@ -112,7 +111,7 @@ impl<'c> SchedulesToTry<'c> {
             let best: Vec<Candidate> = best.map(|trial| trial.candidate.clone()).collect();
             let room = MOST_TRIED.saturating_sub(self.tried.len());
             if best.is_empty() || room == 0 {
-                return Ok(false);
+                return Ok(Computed::WHOLE);
             }
             let near = best.iter().flat_map(|candidate| self.space.neighbours(candidate)).unique().take(room);
             self.add(near.collect::<Vec<_>>());

@@ -8,7 +8,7 @@ use crate::study::samples::draw_until_sure::{ShotToSample, run_sample_once};
 use crate::study::samples::sample::SampleRun;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::work::batch::run_batch;
-use crate::study::{Case, ComputeSettings, Fingerprint, NoResult, StudyControl};
+use crate::study::{Case, ComputeResult, ComputeSettings, Computed, Fingerprint, NoResult, StudyControl};
 use crate::verdict::Verdict;
 
 /// Schedules that stay to the end, at least.
@@ -77,7 +77,7 @@ impl Tally {
     }
 }
 
-/// How schedules are judged.
+/// How schedules are screened.
 pub struct SuccessiveHalving<'c> {
     /// The plan.
     pub case: &'c Case,
@@ -88,25 +88,25 @@ pub struct SuccessiveHalving<'c> {
 }
 
 impl SuccessiveHalving<'_> {
-    /// Draws samples of every schedule until it has `samples`; returns whether the time was up.
+    /// Draws samples of every schedule until it has `samples`.
     pub fn draw(
         &self,
         tried: &mut [TriedSchedule],
         samples: usize,
         control: &StudyControl,
-    ) -> Result<bool, NoResult> {
-        // A shot as planned is judged once.
+    ) -> ComputeResult<()> {
+        // A shot as planned is checked once.
         let samples = if self.sampling.is_some() { samples } else { 1 };
         let jobs: Vec<&TriedSchedule> = tried.iter().filter(|trial| trial.tally.samples < samples).collect();
         let drawn = run_batch(&jobs, control, |trial| self.runs(trial, samples, control))?;
-        let out_of_time = drawn.contains(&None);
+        let partial = drawn.contains(&None);
         let waiting = tried.iter_mut().filter(|trial| trial.tally.samples < samples);
         for (trial, runs) in waiting.zip(drawn) {
             for (verdict, utilization) in runs.into_iter().flatten() {
                 trial.tally.push(verdict, utilization);
             }
         }
-        Ok(out_of_time)
+        Ok(Computed { value: (), partial })
     }
 
     /// Verdict and utilization of the next samples of a schedule; without samples, of the shot as planned.
@@ -137,21 +137,21 @@ impl SuccessiveHalving<'_> {
     }
 
     /// Sorts the schedules, the best first, after twice as many samples of each better half as before, and so on; `first` samples
-    /// of each are drawn. Returns whether the time was up.
+    /// of each are drawn.
     pub fn run(
         &self,
         tried: &mut [TriedSchedule],
         first: usize,
         control: &StudyControl,
-    ) -> Result<bool, NoResult> {
+    ) -> ComputeResult<()> {
         let (mut samples, mut left) = (first, tried.len());
         loop {
-            let out_of_time = self.draw(&mut tried[..left], samples, control)?;
+            let drawn = self.draw(&mut tried[..left], samples, control)?;
             tried[..left].sort_by(|a, b| {
                 a.tally.estimated_failing_share().total_cmp(&b.tally.estimated_failing_share())
             });
-            if out_of_time || samples >= MOST_SAMPLES || self.sampling.is_none() {
-                return Ok(out_of_time);
+            if drawn.partial || samples >= MOST_SAMPLES || self.sampling.is_none() {
+                return Ok(drawn);
             }
             left = left.min((left / 2).max(LEAST));
             samples *= 2;

@@ -39,9 +39,9 @@ pub fn add_risk(
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
     let sampled = sample_shots_in_brief(case, &shots, &sampling.first_look(), compute, control)?;
     partial |= sampled.contains(&None);
-    swept.points.iter_mut().for_each(|point| point.risk = Evidence::Unknown);
+    swept.points.iter_mut().for_each(|point| point.risk = Evidence::NoneDrawn);
     for (&n, sampled) in chosen.iter().zip(sampled) {
-        swept.points[n].risk = sampled.map_or(Evidence::Unknown, Evidence::Known);
+        swept.points[n].risk = sampled.map_or(Evidence::NoneDrawn, Evidence::Known);
     }
     swept.recommended = None;
     let mut tried = BTreeSet::new();

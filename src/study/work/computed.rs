@@ -11,6 +11,13 @@ pub struct Computed<T> {
     pub partial: bool,
 }
 
+impl Computed<()> {
+    /// Work that was done wholly.
+    pub const WHOLE: Self = Self { value: (), partial: false };
+    /// Work that ended because the time was up.
+    pub const OUT_OF_TIME: Self = Self { value: (), partial: true };
+}
+
 impl<T> Computed<T> {
     /// The result of a study whose time has no end: nobody expires its [`StudyControl`](super::StudyControl).
     pub fn whole(self) -> T {

@@ -68,8 +68,8 @@ impl StudyControl {
         self.done.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// Tells a run whether to go on.
-    pub fn flow(&self) -> ControlFlow<()> {
+    /// Whether a run goes on: every run of a study asks at each step, and hands its failure to [`Self::no_result`].
+    pub fn keep_going(&self) -> ControlFlow<()> {
         if self.stopped() || self.expired() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 

@@ -10,7 +10,6 @@ use crate::report::words::no_result;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::judgement::Evidence;
 use crate::study::judgement::Judgement;
-use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::compare::OptionState;
 use crate::tui::compare::SortBy;
@@ -87,14 +86,9 @@ const COLUMNS: &[CompareColumn] = &[
     },
 ];
 
-/// The samples, once there are some.
-fn sampled(judged: &Judgement) -> Option<&SampledShot> {
-    judged.sampled.known().filter(|sampled| !sampled.samples.is_empty())
-}
-
 /// Bounds of the share of shots that fail.
 fn fails(judged: &Judgement) -> String {
-    sampled(judged).map_or_else(String::new, |sampled| units::probabilities(sampled.bounds.interval))
+    judged.sampled.known().map_or_else(String::new, |sampled| units::probabilities(sampled.bounds.interval))
 }
 
 /// Number of samples; dots as long as more come.
@@ -108,7 +102,7 @@ fn samples(app: &App, option: usize, judged: &Judgement) -> String {
 
 /// 5th and 95th percentile of a quantity.
 fn band(judged: &Judgement, quantity: Quantity, unit: Unit) -> String {
-    let band = sampled(judged).and_then(|sampled| sampled.band(quantity));
+    let band = judged.sampled.known().and_then(|sampled| sampled.band(quantity));
     band.map_or_else(String::new, |[low, _, high, _]| {
         format!("{} to {}", units::value(low, unit), units::value(high, unit))
     })
@@ -140,7 +134,7 @@ fn value_or_difference(
 fn use_of_limit(app: &App, _: usize, judged: &Judgement) -> String {
     let limits = &app.case.limits;
     let share = |(letter, quantity)| {
-        let value = sampled(judged)?.value_at_risk(quantity)?;
+        let value = judged.sampled.known()?.value_at_risk(quantity)?;
         let as_planned = judged.checked.share_of_limit(quantity, limits)?;
         Some((letter, as_planned.max(value / limits.get(quantity)?)))
     };

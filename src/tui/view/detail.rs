@@ -83,7 +83,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         mark_cut(app, frame, text);
     }
     let history = charts::history(&app.case, &judged.checked.history, &app.case.shots[app.selected]);
-    let sampled = judged.sampled.known().filter(|sampled| !sampled.samples.is_empty());
+    let sampled = judged.sampled.known();
     draw_charts(app, history, sampled, frame, rest);
 }
 
@@ -176,7 +176,7 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     );
     let warnings = warnings::of_option(case, app.selected, judged);
     lines.extend(warnings.into_iter().map(|warning| Line::styled(format!("! {warning}"), theme.firing())));
-    let sampled = judged.sampled.known().filter(|sampled| !sampled.samples.is_empty());
+    let sampled = judged.sampled.known();
     if open {
         let samples = sampled.map_or(0, |sampled| sampled.samples.len());
         lines.push(Line::styled(format!("? {samples} samples so far, more come"), theme.firing()));
