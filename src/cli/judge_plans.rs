@@ -29,11 +29,11 @@ pub struct JudgedPlan {
 pub fn judge_plans(
     cases: &[Case],
     sampling: Option<Sampling>,
-    compute: &ComputeArguments,
+    arguments: &ComputeArguments,
     why: bool,
 ) -> ComputeResult<Vec<JudgedPlan>> {
-    let cases: Vec<_> = cases.iter().map(|case| (case, compute.settings(&case.plan))).collect();
-    run_study(compute, |control| {
+    let cases: Vec<_> = cases.iter().map(|case| (case, arguments.settings(&case.plan))).collect();
+    run_study(arguments, |control| {
         let Computed { value: results, mut partial } = match &sampling {
             Some(sampling) => judge_all_with_margins(&cases, Some(sampling), control, UNWATCHED)?,
             // The plan's own numbers alone: nothing varies, the launches neither.

@@ -16,6 +16,7 @@ use crate::report::csv::Separators;
 use crate::report::json::TraceDocument;
 use crate::scene::{Scene, TireId, seconds};
 use crate::simulation::RunError;
+use crate::study::NoResult;
 use crate::study::trace::{TracedItems, trace};
 
 #[derive(Args)]
@@ -80,7 +81,7 @@ fn failed(failure: &RunError) -> io::Result<Status> {
         tell!("the time was up at {time:.3} s of the motion");
         return Ok(Status::Fail);
     }
-    status::failed(&failure.clone().into())
+    status::failed(&NoResult::Failed(failure.clone()))
 }
 
 /// Writes rows as they come.

@@ -8,6 +8,8 @@
 //! | what is right, but not usual | [`usual`] |
 //! | changes to the text of a plan | [`edit`] |
 //! | new plans: from a few answers, from a list of holes | [`starter`], [`import`] |
+//! | what was seen of earlier shots, and what a fit of it writes into a plan | [`observations`], [`write_fit`] |
+//! | the text of a plan and its path; a place on the ground and the tire nearest to it | `source`, `nearest_point` |
 //! | the keys for editors | [`schema`] |
 //!
 //! [`Plan::load`] reads TOML and reports every mistake at once, each with file, line, column and remedy

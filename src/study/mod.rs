@@ -15,7 +15,8 @@
 //!
 //! A study takes a case and returns plain data, which every face draws; `size` takes a plan and makes a case of each combination,
 //! `remedies` one of each change.
-//! Studies do not print and do not compute physics. Only `results_file` reads and writes a file format.
+//! Studies do not print and do not compute physics. Only `results_file` reads and writes files of a format, in the
+//! lines of `work::journal`.
 
 pub mod accuracy;
 pub mod as_planned;

@@ -10,7 +10,7 @@ use super::name_list::NameList;
 use super::order_editor::OrderEditor;
 use super::paste::paste;
 use crate::plan::edit::fields;
-use crate::plan::edit::fields::{Field, Path};
+use crate::plan::edit::fields::{EditField, Path};
 use crate::plan::keys::{Kind, delay, plan};
 use crate::plan::{Layout, Plan};
 
@@ -30,11 +30,11 @@ pub struct Editor {
     pub text: String,
     /// The text of the file.
     saved: String,
-    saved_fields: Vec<Field>,
+    saved_fields: Vec<EditField>,
     undone: Vec<String>,
     done: Vec<String>,
     /// Fields of the text.
-    pub fields: Vec<Field>,
+    pub fields: Vec<EditField>,
     /// Index of the selected field.
     pub selected: usize,
     /// The text being typed in place of the selected value.
@@ -80,7 +80,7 @@ impl Editor {
     /// Selects the times of a delay option; no other field of it that is selected already.
     pub fn select_option(&mut self, option: usize) {
         let is_of_option =
-            |field: &Field| field.path.section == plan::DELAY.name && field.path.index == Some(option);
+            |field: &EditField| field.path.section == plan::DELAY.name && field.path.index == Some(option);
         if !self.field().is_some_and(is_of_option) {
             let times = self.fields.iter().position(|field| is_of_option(field) && is_timing(field));
             self.selected = times.unwrap_or(self.selected);
@@ -88,7 +88,7 @@ impl Editor {
     }
 
     /// The selected field.
-    pub fn field(&self) -> Option<&Field> {
+    pub fn field(&self) -> Option<&EditField> {
         self.fields.get(self.selected)
     }
 
@@ -96,7 +96,7 @@ impl Editor {
     /// after it.
     pub fn find(&mut self, text: &str, next: bool) {
         let text = text.to_lowercase();
-        let has = |field: &Field| {
+        let has = |field: &EditField| {
             field.title().to_lowercase().contains(&text) || field.value.to_lowercase().contains(&text)
         };
         let first = self.selected + usize::from(next);
@@ -110,14 +110,14 @@ impl Editor {
     }
 
     /// Whether a field has another value than in the file.
-    pub fn is_changed(&self, field: &Field) -> bool {
+    pub fn is_changed(&self, field: &EditField) -> bool {
         // The name of an option may follow its interval; where options were added or removed, their indices tell nothing.
         let same_fields = self.saved_fields.len() == self.fields.len();
-        let same_place = |saved: &Field| match same_fields {
+        let same_place = |saved: &EditField| match same_fields {
             true => saved.path.section == field.path.section && saved.path.index == field.path.index,
             false => saved.group == field.group,
         };
-        let in_file = |saved: &&Field| same_place(saved) && saved.path.key.name == field.path.key.name;
+        let in_file = |saved: &&EditField| same_place(saved) && saved.path.key.name == field.path.key.name;
         self.unsaved()
             && self.saved_fields.iter().find(in_file).map(|saved| &saved.value) != Some(&field.value)
     }
@@ -330,7 +330,7 @@ impl Editor {
 
     /// Removes what is selected: a delay option, or a value that the plan may leave out.
     pub fn remove(&mut self) -> EditOutcome {
-        let Some(Field { path, .. }) = self.field().cloned() else { return EditOutcome::None };
+        let Some(EditField { path, .. }) = self.field().cloned() else { return EditOutcome::None };
         let removed = match path.index {
             Some(option) if path.section == plan::DELAY.name => fields::remove_delay(&self.text, option)
                 .ok_or_else(|| "the plan needs a delay option".to_owned()),
@@ -348,7 +348,7 @@ fn unquoted(value: &str) -> String {
 }
 
 /// Whether a field holds the times of a delay option.
-fn is_timing(field: &Field) -> bool {
+fn is_timing(field: &EditField) -> bool {
     let Path { key, .. } = field.path;
     [delay::INTERVAL_MS.name, delay::AT_MS.name].contains(&key.name) && !field.value.is_empty()
 }

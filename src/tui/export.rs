@@ -78,7 +78,8 @@ pub fn observed(app: &App) -> Vec<ObservedRow<'_>> {
     }
 }
 
-/// Why what was seen of earlier shots speaks against the verdicts on the screen: it contradicts them, or is not compared with this plan.
+/// Why what was seen of earlier shots speaks against the verdicts on the screen: it contradicts them, or is not compared with this
+/// plan.
 pub fn contradiction(app: &App) -> Vec<String> {
     let rows = observed(app);
     match rows.is_empty() && !app.observed.is_empty(&app.case.plan) {

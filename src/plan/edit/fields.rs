@@ -7,7 +7,7 @@ use crate::plan::keys::{DefaultValue, Key, Kind, Offered, delay, plan};
 
 /// One value of a plan's text.
 #[derive(Clone, Debug)]
-pub struct Field {
+pub struct EditField {
     /// Heading of the values around it: `option 20 ms`, `limits`.
     pub group: String,
     /// Label beside the value.
@@ -18,7 +18,7 @@ pub struct Field {
     pub value: String,
 }
 
-impl Field {
+impl EditField {
     /// Group and label: `option 20 ms: interval, ms`.
     pub fn title(&self) -> String {
         format!("{}: {}", self.group, self.label)
@@ -61,7 +61,7 @@ const SECTIONS: [(&Key, &str); 9] = [
 ];
 
 /// The fields of a plan's text, with those that the plan leaves out and the editor offers.
-pub fn fields(text: &str) -> Vec<Field> {
+pub fn fields(text: &str) -> Vec<EditField> {
     let Ok(document) = text.parse::<DocumentMut>() else { return Vec::new() };
     let mut fields = Vec::new();
     for (section, heading) in SECTIONS {
@@ -84,7 +84,7 @@ fn of_section(
     index: Option<usize>,
     table: Option<&dyn TableLike>,
     group: &str,
-) -> Vec<Field> {
+) -> Vec<EditField> {
     let written = |name: &str| table.and_then(|table| table.get(name));
     let field = |key: &&'static Key| {
         let edit = key.edit?;
@@ -96,7 +96,7 @@ fn of_section(
         };
         let path = Path { section: section.name, index, key };
         let (group, label) = (group.to_owned(), edit.label);
-        (offered || !value.is_empty()).then_some(Field { group, label, path, value })
+        (offered || !value.is_empty()).then_some(EditField { group, label, path, value })
     };
     let keys = section.kind.section().map_or(&[][..], |section| section.keys);
     keys.iter().filter_map(field).collect()
@@ -263,7 +263,7 @@ mod tests {
 
     const PLAN: &str = include_str!("../../../plans/amur-three-rows.toml");
 
-    fn find(text: &str, section: &str, index: Option<usize>, key: &str) -> Field {
+    fn find(text: &str, section: &str, index: Option<usize>, key: &str) -> EditField {
         let mut all = fields(text).into_iter();
         all.find(|f| f.path.section == section && f.path.index == index && f.path.key.name == key)
             .expect("a field")

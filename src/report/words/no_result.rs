@@ -30,13 +30,17 @@ mod tests {
 
     #[test]
     fn only_a_run_that_failed_by_itself_has_a_remedy() {
-        let diverged = message(&RunError::Diverged { time: 0.3 }.into());
+        let diverged = message(&NoResult::Failed(RunError::Diverged { time: 0.3 }));
         assert_eq!(
             diverged,
             "the motion is no longer finite at 0.3 s: choose a finer accuracy or a smaller step"
         );
-        let lacking = message(&RunError::Effect { effect: "push", method: Method::Newmark }.into());
+        let lacking =
+            message(&NoResult::Failed(RunError::Effect { effect: "push", method: Method::Newmark }));
         assert_eq!(lacking, "newmark has no push: choose method \"verlet\", or leave it out");
-        assert_eq!(message(&RunError::Stopped { time: 0.3 }.into()), "stopped at 0.3 s before the end");
+        assert_eq!(
+            message(&NoResult::Failed(RunError::Stopped { time: 0.3 })),
+            "stopped at 0.3 s before the end"
+        );
     }
 }

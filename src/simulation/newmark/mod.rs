@@ -18,7 +18,7 @@
 //! one step: a tire that starts to move wakes its neighbours before the step is repeated.
 
 mod ground;
-mod observe;
+mod note_state;
 mod region;
 mod settle;
 mod system;
@@ -162,7 +162,7 @@ impl<'a> Stepper<'a> {
                 return Ok(self.finish(reason));
             }
             self.refresh();
-            self.observe();
+            self.note_state();
             if watch(&Snapshot { stepper: &self }).is_break() {
                 return Err(RunError::Stopped { time: self.clock.now() });
             }

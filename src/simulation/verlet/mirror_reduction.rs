@@ -50,7 +50,7 @@ pub struct Image {
 }
 
 impl MirrorReduction {
-    /// MirrorReduction of `scene` by `planes`, and the part that is modelled: kept tires and images in the order of the whole
+    /// The reduction of `scene` by `planes`, and the part that is modelled: kept tires and images in the order of the whole
     /// scene, and the cables of kept tires.
     pub fn new<'s>(scene: &'s Scene, planes: &[&Mirror]) -> (Self, Cow<'s, Scene>) {
         let n = scene.mass.len();

@@ -5,8 +5,8 @@
 //! 2. Nominal differences alone are noise where a motion has several branches. So medians are compared, over the first samples of
 //!    `[uncertainty]`, with the same draws on both sides. Where the first [`FIRST_SAMPLES`] leave no doubt, no more are drawn.
 //! 3. An effect is required where it changes on which side of the limits the shot as planned lies; where, of a quantity that has a
-//!    limit, it changes the median or raises the 95th percentile by more than [`LEAST_RELATIVE_CHANGE`], and by more than [`LEAST_SHARE_OF_LIMIT`] of the
-//!    limit; or where one of these is not known.
+//!    limit, it changes the median or raises the 95th percentile by more than [`LEAST_RELATIVE_CHANGE`], and by more than
+//!    [`LEAST_SHARE_OF_LIMIT`] of the limit; or where one of these is not known.
 
 mod effect;
 mod runs;
@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
 pub use self::effect::Effect;
-use self::runs::{OptionRuns, is_in_doubt, measure_option, run_sample};
+use self::runs::{OptionRuns, is_in_doubt, measure_option, time_sample};
 use super::samples::sample_count::Sampling;
 use super::work::batch::run_batch;
 use super::{Case, ComputeResult, ComputeSettings, Computed, StudyControl, catch_panic};
@@ -202,7 +202,7 @@ pub fn effects(
             itertools::iproduct!(in_doubt, FIRST_SAMPLES..sampling.most.max(FIRST_SAMPLES)).collect();
         let drawn = run_batch(&more, control, |&(job, number)| {
             let (option, n) = jobs[job];
-            catch_panic(|| run_sample(&cases[n], option, number, sampling, compute, control))
+            catch_panic(|| time_sample(&cases[n], option, number, sampling, compute, control))
         })?;
         for ((job, _), drawn) in more.into_iter().zip(drawn) {
             measured[job] = measured[job].take().zip(drawn).map(|(mut option, drawn)| {

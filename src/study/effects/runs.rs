@@ -49,7 +49,8 @@ const CLEAR_MAJORITY: usize = 14;
 /// Whether more samples may tell something else of an effect on a quantity that has a limit.
 ///
 /// - Where a clear majority of the changes is above [`LEAST_RELATIVE_CHANGE`], the median is.
-/// - Where a clear majority is below −[`LEAST_RELATIVE_CHANGE`], the median is; that the effect only lowers the quantity is sure if none rises.
+/// - Where a clear majority is below −[`LEAST_RELATIVE_CHANGE`], the median is; that the effect only lowers the quantity is sure if
+///   none rises.
 /// - Else neither the median nor the 95th percentile is beyond, if no clear minority is below, and if all changes are farther from
 ///   [`LEAST_RELATIVE_CHANGE`] than they are from one another.
 pub(super) fn is_in_doubt(without: &OptionRuns, with: &OptionRuns, limits: &Limits) -> bool {
@@ -101,7 +102,7 @@ pub(super) fn measure_option(
         Some(sampling) => {
             let first = 0..FIRST_SAMPLES.min(sampling.most);
             first
-                .map(|number| run_sample(case, option, number, sampling, compute, control))
+                .map(|number| time_sample(case, option, number, sampling, compute, control))
                 .collect::<Result<_, _>>()?
         }
         None => {
@@ -113,7 +114,7 @@ pub(super) fn measure_option(
 }
 
 /// Takes the sample of this number of an option.
-pub(super) fn run_sample(
+pub(super) fn time_sample(
     case: &Case,
     option: usize,
     number: usize,
@@ -131,10 +132,10 @@ pub(super) fn run_sample(
 }
 
 /// On which side of the limits a shot lies. A run that ends early counts by its values: without friction none comes to rest.
-fn verdict_of_values(judged: &ShotSummary, case: &Case) -> Verdict {
-    let utilization = |errors: f64| judged.with_errors(errors).utilization(&case.limits);
+fn verdict_of_values(summary: &ShotSummary, case: &Case) -> Verdict {
+    let utilization = |errors: f64| summary.with_errors(errors).utilization(&case.limits);
     match (utilization(1.0) <= 1.0, utilization(-1.0) > 1.0) {
-        _ if judged.verdict == Verdict::Fail => Verdict::Fail,
+        _ if summary.verdict == Verdict::Fail => Verdict::Fail,
         (true, _) => Verdict::Pass,
         (_, true) => Verdict::Fail,
         _ => Verdict::Undecided,

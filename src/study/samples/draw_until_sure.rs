@@ -25,7 +25,7 @@ pub struct ShotToSample<'c> {
     pub case: &'c Case,
     /// The shot as planned.
     pub shot: &'c Shot,
-    /// The shot as planned, judged by finer runs; `None` where it is not known.
+    /// The shot as planned, checked by finer runs; `None` where it is not known.
     pub planned: Option<ShotSummary>,
     /// Method and accuracy.
     pub compute: ComputeSettings,

@@ -8,6 +8,18 @@
 //! | how sure a count of failures is | [`failure_bounds`] |
 //! | which input decides | [`influence`] |
 //! | rows that may fire the wrong way round | [`swaps`] |
+//!
+//! A verdict on samples is wrong with a probability of at most 5 % ([`failure_bounds`]), however often they are looked at. Who
+//! gives several verdicts and takes the best shares these 5 % between them, and who chose by samples draws fresh ones for the
+//! verdict:
+//!
+//! | who | share ([`ErrorShare`](failure_bounds::ErrorShare)) | fresh draws |
+//! |---|---|---|
+//! | `check`, `risk`: each option by itself | `Whole` | |
+//! | `remedies`: one change of a kind after the other, until one passes | `Nth` of the kind | |
+//! | `sweep`: one recommended interval after the other | `Nth` | yes |
+//! | `search`: the schedules of the report, all at once | `OneOf` | yes, for the choice |
+//! | `size`: one combination after the other | `Nth` | |
 
 pub mod draw_until_sure;
 pub mod failure_bounds;

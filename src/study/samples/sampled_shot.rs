@@ -166,7 +166,7 @@ impl SampledShot {
     }
 
     /// The value of a quantity that no more than the accepted share of the decided samples exceeds; `None` for fewer than
-    /// [`SAMPLES_FOR_BANDS`].
+    /// [`SAMPLES_FOR_BANDS`]. A sample that was audited counts by its finer run, as it does for the verdict.
     pub fn value_at_risk(&self, quantity: Quantity) -> Option<f64> {
         let values = self.decided().map(|sample| sample.finest().get(quantity));
         let [value] = percentiles(values, [1.0 - self.bounds.accepted])?;
@@ -185,7 +185,7 @@ impl SampledShot {
     }
 
     /// The 5th, 50th and 95th percentile and the greatest value of a quantity over the decided samples; `None` for fewer than
-    /// [`SAMPLES_FOR_BANDS`].
+    /// [`SAMPLES_FOR_BANDS`]. All are of runs at one step: an audit tells of the verdict, and makes no band wider.
     pub fn band(&self, quantity: Quantity) -> Option<[f64; 4]> {
         let values = self.decided().map(|sample| sample.run.get(quantity));
         (self.decided().count() >= SAMPLES_FOR_BANDS).then(|| percentiles(values, [0.05, 0.5, 0.95, 1.0]))?

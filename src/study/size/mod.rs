@@ -66,11 +66,11 @@ pub enum Untried {
 pub struct Trial {
     /// Whether every shot passes as planned.
     pub holds: bool,
-    /// The worst shot judged. Where the combination does not hold, shots that were not judged may be worse.
+    /// The worst shot checked. Where the combination does not hold, shots that were not checked may be worse.
     pub worst: ShotSummary,
     /// Utilization of the worst shot: the greatest value over its limit.
     pub utilization: f64,
-    /// Number of shots judged.
+    /// Number of shots checked.
     pub shots: usize,
     /// What the samples tell; `None` where none were drawn.
     pub risk: Option<WorstShotRisk>,

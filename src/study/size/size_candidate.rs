@@ -18,7 +18,7 @@ use crate::verdict::Verdict;
 
 /// Number of orders, the hardest ones, that are sampled.
 const HARDEST: usize = 8;
-/// Number of shots judged together before a failure ends the trial. A fixed number: the shots judged do not depend on the
+/// Number of shots checked together before a failure ends the trial. A fixed number: the shots checked do not depend on the
 /// number of threads.
 const AT_ONCE: usize = 32;
 
@@ -75,26 +75,26 @@ impl<'q> SizeCandidate<'q> {
         if *likeliest < order.len() {
             order.swap(0, *likeliest);
         }
-        let mut judged: Vec<ShotSummary> = Vec::new();
+        let mut checked: Vec<ShotSummary> = Vec::new();
         let mut holds = true;
         for chunk in order.chunks(AT_ONCE) {
             let part: Vec<Shot> = chunk.iter().map(|&n| self.shots[n].clone()).collect();
-            let chunk_judged = check_summaries(case, &part, compute, control)?;
-            let Some(chunk_judged) = chunk_judged.into_iter().collect::<Option<Vec<_>>>() else {
+            let checked_part = check_summaries(case, &part, compute, control)?;
+            let Some(checked_part) = checked_part.into_iter().collect::<Option<Vec<_>>>() else {
                 return Ok(None);
             };
-            let failed = chunk_judged.iter().position(|judged| judged.verdict != Verdict::Pass);
-            judged.extend(chunk_judged);
+            let failed = checked_part.iter().position(|checked| checked.verdict != Verdict::Pass);
+            checked.extend(checked_part);
             if let Some(failed) = failed {
                 *likeliest = chunk[failed];
                 holds = false;
                 break;
             }
         }
-        let utilization = |judged: &ShotSummary| judged.utilization(&case.limits);
+        let utilization = |checked: &ShotSummary| checked.utilization(&case.limits);
         let by_utilization =
-            |a: &usize, b: &usize| utilization(&judged[*b]).total_cmp(&utilization(&judged[*a]));
-        let hardest: Vec<usize> = (0..judged.len()).sorted_by(by_utilization).collect();
+            |a: &usize, b: &usize| utilization(&checked[*b]).total_cmp(&utilization(&checked[*a]));
+        let hardest: Vec<usize> = (0..checked.len()).sorted_by(by_utilization).collect();
         let zero = ValueWithError::default();
         let nothing = ShotSummary {
             verdict: Verdict::Pass,
@@ -103,19 +103,19 @@ impl<'q> SizeCandidate<'q> {
             drift: zero,
             cover: Cover::NONE,
         };
-        let mut worst = hardest.first().map_or(nothing, |&n| judged[n]);
-        let covers = judged.iter().map(|judged| judged.cover);
+        let mut worst = hardest.first().map_or(nothing, |&n| checked[n]);
+        let covers = checked.iter().map(|checked| checked.cover);
         worst.cover = covers.max_by_key(|cover| cover.uncovered).unwrap_or(Cover::NONE);
         let trial = Trial {
             holds,
             worst,
             utilization: utilization(&worst),
-            shots: judged.len(),
+            shots: checked.len(),
             risk: None,
             is_acceptable: false,
         };
         let most = if matches!(demand, Demand::Options(_)) { order.len() } else { HARDEST };
-        Ok(Some((trial, hardest.into_iter().take(most).map(|n| (order[n], judged[n])).collect())))
+        Ok(Some((trial, hardest.into_iter().take(most).map(|n| (order[n], checked[n])).collect())))
     }
 
     /// Samples shots until each risk is sure, or one surely fails; `None` where the time was up.

@@ -23,19 +23,19 @@ use crate::verdict::Verdict;
 /// Most intervals that get a full verdict.
 const TRIES: usize = 6;
 
-/// Adds risk to a sweep of the shots as planned; of the intervals `own` [ns] of the plan's options those that lie in a window as
+/// Adds risk to a sweep of the shots as planned; of the `plan_intervals` [ns], those of its options, those that lie in a window as
 /// planned are among the intervals sampled.
 pub fn add_risk(
     case: &Case,
     as_planned: Computed<Sweep>,
-    own: &BTreeSet<i64>,
+    plan_intervals: &BTreeSet<i64>,
     sampling: &Sampling,
     compute: &ComputeSettings,
     control: &StudyControl,
 ) -> ComputeResult<Sweep> {
     let Computed { value: mut swept, mut partial } = as_planned;
     let shot = |point: &Point| (case.shot(&swept.order, point.interval), point.planned);
-    let chosen = choose(&swept.points, &swept.windows_as_planned, own);
+    let chosen = choose(&swept.points, &swept.windows_as_planned, plan_intervals);
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
     let sampled = sample_shots_in_brief(case, &shots, &sampling.first_look(), compute, control)?;
     partial |= sampled.contains(&None);
@@ -99,13 +99,13 @@ fn judge(
 /// Indices of the points to sample: the plan's own intervals, both ends of each window, whole milliseconds between them, and points
 /// at most [`MOST_SAMPLED_GAP`] apart. A window narrower than that gives its first point only, and only if that is farther from the
 /// last point chosen.
-fn choose(points: &[Point], windows: &[[f64; 2]], own: &BTreeSet<i64>) -> Vec<usize> {
+fn choose(points: &[Point], windows: &[[f64; 2]], plan_intervals: &BTreeSet<i64>) -> Vec<usize> {
     let mut chosen: Vec<usize> = Vec::new();
     for &[from, to] in windows {
         let first = points.partition_point(|point| point.interval < from);
         let last = points.partition_point(|point| point.interval <= to) - 1;
         let is_wide = to - from >= MOST_SAMPLED_GAP;
-        let is_own = |n: usize| own.contains(&nanoseconds(points[n].interval));
+        let is_of_plan = |n: usize| plan_intervals.contains(&nanoseconds(points[n].interval));
         let beyond = |before: Option<&usize>, at: f64| {
             before.is_none_or(|&before| at - points[before].interval > 1.001 * MOST_SAMPLED_GAP)
         };
@@ -118,7 +118,7 @@ fn choose(points: &[Point], windows: &[[f64; 2]], own: &BTreeSet<i64>) -> Vec<us
                 }
                 false => n == first && beyond(chosen.last(), from),
             };
-            if due || is_own(n) {
+            if due || is_of_plan(n) {
                 chosen.push(n);
             }
         }

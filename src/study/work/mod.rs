@@ -8,6 +8,15 @@
 //! | a result, whole or partial; why there is none | `computed`, `no_result` |
 //! | intervals to be tried | `intervals` |
 //! | the part of a study that one machine computes | `shard` |
+//!
+//! When the time is up:
+//!
+//! | where | what it becomes |
+//! |---|---|
+//! | a run | `RunError::Stopped`, and by [`StudyControl::no_result`] `NoResult::OutOfTime` |
+//! | a job of a batch | `None` in the place of its result ([`batch::run_batch`]) |
+//! | an option, a combination, a change among others | a result that says so: `NoResult::OutOfTime`, `Untried::OutOfTime`, `TriedKind::out_of_time` |
+//! | a study | [`Computed::partial`], with what was found by then; `NoResult::OutOfTime` where nothing was |
 
 pub mod batch;
 mod computed;

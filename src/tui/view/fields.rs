@@ -5,7 +5,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Clear, List, ListState};
 
-use crate::plan::edit::fields::Field;
+use crate::plan::edit::fields::EditField;
 use crate::ropes::catalogue;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
@@ -59,7 +59,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     }
 }
 
-fn value_line<'l>(app: &'l App, n: usize, field: &'l Field, width: usize) -> Line<'l> {
+fn value_line<'l>(app: &'l App, n: usize, field: &'l EditField, width: usize) -> Line<'l> {
     let editor = &app.editor;
     let selected = n == editor.selected;
     let label: String = match field.label.chars().count() > width {

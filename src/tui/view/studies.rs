@@ -1,7 +1,7 @@
-//! The studies of the whole plan: sweep, orders, risk, search, size and effects, one shown at a time.
+//! The studies of the whole plan: sweep, orders, risk, search, size, effects and fit, one shown at a time.
 //!
 //! ```text
-//!  Sweep   Orders   Risk   Search   Size   Effects
+//!  Sweep   Orders   Risk   Search   Size   Effects   Fit
 //! ─ settings ────────────────────────
 //! conclusion, warnings, tables
 //! charts

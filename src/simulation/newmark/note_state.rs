@@ -7,7 +7,7 @@ use crate::outcome::{BrokenCable, EndReason, Outcome, Peak};
 
 impl Stepper<'_> {
     /// Notes peaks, history and ledger of the present state.
-    pub(super) fn observe(&mut self) {
+    pub(super) fn note_state(&mut self) {
         let now = self.clock.now();
         if let Some((cable, before)) = self.peak_to_refine.take() {
             let after = self.stretch_over_strength(cable, &self.u);
