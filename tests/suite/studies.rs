@@ -537,13 +537,15 @@ fn where_no_sample_was_drawn_any_share_may_fail() {
     };
     let found =
         judge_all(&[(&case, compute)], Some(&Sampling::OF_VERDICT), &control, &expire).expect("a result");
-    let judged = found.value[0][0].as_ref().expect("checked before the time was up");
+    // Which of the options is checked before the time is up is left to the threads.
+    let first = found.value[0].iter().position(Result::is_ok).expect("one was checked");
+    let judged = found.value[0][first].as_ref().expect("it was");
     assert!(found.partial && judged.sampled.is_asked() && judged.sampled.known().is_none());
     assert_ne!(judged.verdict(), Verdict::Pass);
     assert!(judged.reasons().contains(&Reason::NoSamples));
     let document = CheckDocument::new(&case, &found.value[0], None, MustPass::Every, true);
     let document = serde_json::to_value(document).expect("JSON");
-    let option = &document["options"][0];
+    let option = &document["options"][first];
     let nothing = serde_json::json!({ "low": 0.0, "high": 1.0, "samples": 0, "undecided": 0 });
     assert_eq!(option["failure_probability"], nothing);
     assert_eq!(option["any_cable_breaks"], serde_json::json!({ "low": 0.0, "high": 1.0 }));
