@@ -9,7 +9,7 @@ use shelter::scene::Shot;
 use shelter::study::samples::draw_until_sure::{ShotToSample, sample_shots};
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::search::{Schedule, search};
-use shelter::study::{Case, ComputeSettings, StudyControl};
+use shelter::study::{Case, ComputeSettings, Computed, StudyControl};
 
 /// Samples of each schedule by brute force, with draws of their own.
 const BRUTE: Sampling = Sampling::exactly(2000, 77);
@@ -47,7 +47,7 @@ pub fn compare(plans: std::ops::Range<u64>) {
             100.0 * least,
             100.0 * of_found.iter().copied().fold(1.0, f64::min),
             100.0 * of_found[0],
-            found.verdict(false).for_scripts(),
+            Computed::complete(found).verdict().for_scripts(),
             wall / brute,
         );
     }

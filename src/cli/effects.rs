@@ -12,7 +12,6 @@ use super::run_study::run_study;
 use super::status::{Status, failed, wrong};
 use crate::report::effects::report;
 use crate::report::json::EffectsDocument;
-use crate::study::Computed;
 use crate::study::effects::{SAMPLES, effects};
 
 #[derive(Args)]
@@ -37,9 +36,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     match run_study(&arguments.study.compute, |control| effects(&case, sampling.as_ref(), &compute, control))
     {
         Err(reason) => failed(&reason),
-        Ok(Computed { value: found, partial }) => {
-            let document = || EffectsDocument::new(&case, &found, partial);
-            print(&[report(&case, &found, partial)], document, arguments.study.format, look)
+        Ok(found) => {
+            let document = || EffectsDocument::new(&case, &found);
+            print(&[report(&case, &found)], document, arguments.study.format, look)
         }
     }
 }

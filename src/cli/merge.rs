@@ -35,10 +35,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(MergeFailure::NoResult(reason)) => return failed(&reason),
     };
     match answer {
-        MergedResult::Orders(orders) => print_orders(&case, &orders, false, arguments.format, look),
+        MergedResult::Orders(orders) => print_orders(&case, &orders, arguments.format, look),
         MergedResult::Risk(sampling, results) => {
-            print_risks(&case, &results, &sampling, false, arguments.format, look)
+            print_risks(&case, &results, &sampling, arguments.format, look)
         }
-        MergedResult::Search(found) => print_search(&case, &found, false, arguments.format, look),
+        MergedResult::Search(found) => print_search(&case, &found, arguments.format, look),
     }
 }

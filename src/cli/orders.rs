@@ -70,8 +70,6 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     });
     match ranked {
         Err(reason) => failed(&reason),
-        Ok(Computed { value: orders, partial }) => {
-            print_orders(&case, &orders, partial, arguments.study.format, look)
-        }
+        Ok(orders) => print_orders(&case, &orders, arguments.study.format, look),
     }
 }

@@ -7,45 +7,42 @@ use super::print::print;
 use super::status::Status;
 use crate::report::json::{OrdersDocument, RiskDocument, SearchDocument};
 use crate::report::{orders, risk, search};
-use crate::study::Case;
 use crate::study::judge_options::OptionResults;
 use crate::study::orders::Orders;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::search::Search;
+use crate::study::{Case, Computed};
 
-/// Prints the orders tried; `partial` where the time was up before all were.
+/// Prints the orders tried.
 pub fn print_orders(
     case: &Case,
-    orders: &Orders,
-    partial: bool,
+    orders: &Computed<Orders>,
     format: FormatArg,
     look: &LookArguments,
 ) -> io::Result<Status> {
-    let document = || OrdersDocument::new(case, orders, partial);
-    print(&[orders::report(case, orders, partial)], document, format, look)
+    let document = || OrdersDocument::new(case, orders);
+    print(&[orders::report(case, orders)], document, format, look)
 }
 
-/// Prints the risks of all options; `partial` where the time was up before all samples were drawn.
+/// Prints the risks of all options.
 pub fn print_risks(
     case: &Case,
-    results: &OptionResults,
+    results: &Computed<OptionResults>,
     sampling: &Sampling,
-    partial: bool,
     format: FormatArg,
     look: &LookArguments,
 ) -> io::Result<Status> {
-    let document = || RiskDocument::new(case, results, sampling, partial);
-    print(&[risk::report(case, results, sampling, partial)], document, format, look)
+    let document = || RiskDocument::new(case, results, sampling);
+    print(&[risk::report(case, results, sampling)], document, format, look)
 }
 
-/// Prints the schedules found; `partial` where the time was up before all were judged.
+/// Prints the schedules found.
 pub fn print_search(
     case: &Case,
-    found: &Search,
-    partial: bool,
+    found: &Computed<Search>,
     format: FormatArg,
     look: &LookArguments,
 ) -> io::Result<Status> {
-    let document = || SearchDocument::new(case, found, partial);
-    print(&[search::report(case, found, partial)], document, format, look)
+    let document = || SearchDocument::new(case, found);
+    print(&[search::report(case, found)], document, format, look)
 }

@@ -102,7 +102,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let seen = ObservedShots::new(&files);
     let predict = |control: &StudyControl| {
         let value = predict_observations(&cases[0], &seen, sampling.as_ref(), &compute, control)?;
-        Ok(Computed { value, partial: false })
+        Ok(Computed::complete(value))
     };
     let is_asked = !files.is_empty() && !was_interrupted();
     let predictions = match is_asked.then(|| run_study(&arguments.compute, predict)) {
@@ -127,7 +127,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         results: &checked.value[0].results,
         to_be_fired: asked.map(|_| option),
         sampling: sampling.as_ref(),
-        sweep: swept.as_ref().map(|swept| &swept.value),
+        sweep: swept.as_ref(),
         fitted_to_observed: files.iter().any(|file| cases[0].plan.fitted_from.contains(&file.checksum)),
         observed: &observed,
         contradiction: &contradiction,

@@ -55,9 +55,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     let judge = |control: &_| case.judge_options(&compute, Some(&sampling), control);
     match run_saved_study(&arguments.compute, journal, judge) {
         Err(reason) => failed(&reason),
-        Ok(Computed { value: results, partial }) => {
-            print_risks(&case, &results, &sampling, partial, arguments.format, look)
-        }
+        Ok(results) => print_risks(&case, &results, &sampling, arguments.format, look),
     }
 }
 

@@ -13,9 +13,9 @@ use super::save::SharedArguments;
 use super::status::{Status, failed, saved, was_interrupted, wrong};
 use crate::file;
 use crate::plan::{DelayOption, edit};
+use crate::study::Case;
 use crate::study::results_file::Question;
 use crate::study::search::{MOST_TRIED, Search, can_be_shared, search, try_schedules};
-use crate::study::{Case, Computed};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -60,10 +60,10 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     });
     match searched {
         Err(reason) => failed(&reason),
-        Ok(Computed { value: found, partial }) => {
-            let status = print_search(&case, &found, partial, arguments.study.format, look)?;
+        Ok(found) => {
+            let status = print_search(&case, &found, arguments.study.format, look)?;
             if let Some(count) = arguments.write.filter(|_| !was_interrupted()) {
-                write(arguments, &case, &found, count.into())?;
+                write(arguments, &case, &found.value, count.into())?;
             }
             Ok(status)
         }

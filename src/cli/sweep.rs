@@ -16,7 +16,7 @@ use crate::report::json::SweepDocument;
 use crate::report::sweep::report;
 use crate::study::results_file::Question;
 use crate::study::sweep::sweep;
-use crate::study::{Case, Computed, Intervals, Shard};
+use crate::study::{Case, Intervals, Shard};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -71,9 +71,9 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     });
     match swept {
         Err(reason) => failed(&reason),
-        Ok(Computed { value: swept, partial }) => {
-            let document = || SweepDocument::new(&case, &swept, partial);
-            print(&[report(&case, &swept, partial)], document, arguments.study.format, look)
+        Ok(swept) => {
+            let document = || SweepDocument::new(&case, &swept);
+            print(&[report(&case, &swept)], document, arguments.study.format, look)
         }
     }
 }

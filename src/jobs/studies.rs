@@ -15,7 +15,7 @@ use crate::study::samples::sample_count::Sampling;
 use crate::study::search::{Search, search};
 use crate::study::size::{Demand, Sizing, size};
 use crate::study::sweep::{DEFAULT_INTERVALS, Sweep, sweep};
-use crate::study::{NoResult, accuracy};
+use crate::study::{Computed, NoResult, accuracy};
 
 /// Declares the kinds of studies and the list of all of them, in one order.
 macro_rules! study_kinds {
@@ -73,17 +73,17 @@ impl StudyKind {
 #[derive(Clone, Debug)]
 pub enum StudyResult {
     /// Result of [`StudyKind::Sweep`].
-    Sweep(Sweep),
+    Sweep(Computed<Sweep>),
     /// Result of [`StudyKind::Orders`].
-    Orders(Orders),
+    Orders(Computed<Orders>),
     /// Result of [`StudyKind::Risk`].
-    Risk(Sampling, OptionResults),
+    Risk(Sampling, Computed<OptionResults>),
     /// Result of [`StudyKind::Search`].
-    Search(Box<Search>),
+    Search(Box<Computed<Search>>),
     /// Result of [`StudyKind::Size`].
     Size(Sizing),
     /// Result of [`StudyKind::Effects`].
-    Effects(EffectsOnOptions),
+    Effects(Computed<EffectsOnOptions>),
     /// Result of [`StudyKind::Fit`], with the observations.
     Fit(Box<FitResult>, Vec<Observations>),
     /// Result of [`StudyKind::Flight`].
@@ -109,52 +109,41 @@ impl Job {
         match kind {
             StudyKind::Sweep => {
                 let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
-                Ok(StudyResult::Sweep(
-                    sweep(
-                        &with_holes(),
-                        &order,
-                        &DEFAULT_INTERVALS,
-                        Some(&Sampling::OF_VERDICT),
-                        compute,
-                        control,
-                    )?
-                    .value,
-                ))
+                let (case, sampling) = (with_holes(), Some(&Sampling::OF_VERDICT));
+                Ok(StudyResult::Sweep(sweep(&case, &order, &DEFAULT_INTERVALS, sampling, compute, control)?))
             }
             StudyKind::Orders => {
                 let sampling = Some(&Sampling::OF_VERDICT);
                 let case = with_holes();
-                Ok(StudyResult::Orders(orders(&case, &case.intervals(), sampling, compute, control)?.whole()))
+                Ok(StudyResult::Orders(orders(&case, &case.intervals(), sampling, compute, control)?))
             }
             StudyKind::Risk => {
-                let results = case.judge_options(compute, Some(&SAMPLING), control)?.whole();
+                let results = case.judge_options(compute, Some(&SAMPLING), control)?;
                 Ok(StudyResult::Risk(SAMPLING, results))
             }
             StudyKind::Search => {
                 let sampling = Some(&Sampling::OF_VERDICT);
-                let found = search(case, sampling, compute, control)?.whole();
-                Ok(StudyResult::Search(Box::new(found)))
+                Ok(StudyResult::Search(Box::new(search(case, sampling, compute, control)?)))
             }
             StudyKind::Size => {
                 let demand = Demand::Options((0..case.shots.len()).collect());
                 Ok(StudyResult::Size(
-                    size(&case.plan, &demand, Some(&Sampling::OF_VERDICT), compute, control)?.whole(),
+                    size(&case.plan, &demand, Some(&Sampling::OF_VERDICT), compute, control)?
+                        .expect_complete(),
                 ))
             }
-            StudyKind::Effects => {
-                Ok(StudyResult::Effects(effects(case, Some(&EFFECTS), compute, control)?.whole()))
-            }
+            StudyKind::Effects => Ok(StudyResult::Effects(effects(case, Some(&EFFECTS), compute, control)?)),
             StudyKind::Fit => {
                 let unknowns = &[Unknown::Launch];
                 let request =
                     FitRequest { files: &self.observed, unknowns, sampling: Some(Sampling::OF_VERDICT) };
-                let found = fit(case, &request, compute, control)?.whole();
+                let found = fit(case, &request, compute, control)?.expect_complete();
                 Ok(StudyResult::Fit(Box::new(found), self.observed.clone()))
             }
             StudyKind::Flight => record(case, option, compute, control).map(StudyResult::Flight),
-            StudyKind::Accuracy => {
-                Ok(StudyResult::Accuracy(accuracy::measure(case, option, LONGEST_RUN, control)?.whole()))
-            }
+            StudyKind::Accuracy => Ok(StudyResult::Accuracy(
+                accuracy::measure(case, option, LONGEST_RUN, control)?.expect_complete(),
+            )),
             StudyKind::Remedies => {
                 let sampling = Some(&Sampling::OF_VERDICT);
                 let found = find_remedies(case, option, sampling, compute, control)?;

@@ -2,8 +2,8 @@
 
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Field, Report, Table};
 use super::report_head;
-use crate::study::Case;
 use crate::study::effects::{Effect, EffectOnOption, EffectsOnOptions, LEAST_RELATIVE_CHANGE};
+use crate::study::{Case, Computed};
 use crate::units;
 use crate::verdict::{Quantity, Verdict};
 
@@ -59,7 +59,7 @@ fn for_scripts<'a>() -> [Field<(&'a str, &'a EffectOnOption)>; 12] {
 }
 
 /// The report of all effects, which is partial where the time was up.
-pub fn report(case: &Case, effects: &EffectsOnOptions, partial: bool) -> Report {
+pub fn report(case: &Case, Computed { value: effects, partial }: &Computed<EffectsOnOptions>) -> Report {
     let rows_of = |effect: Effect| -> Vec<&EffectOnOption> {
         effects.iter().flatten().flatten().filter(|row| row.effect == effect).collect()
     };

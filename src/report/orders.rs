@@ -8,10 +8,10 @@ use super::shared_columns::{
 };
 use super::words::{plan_notes, warnings};
 use super::{report_head, row_names};
-use crate::study::Case;
 use crate::study::orders::{Orders, TriedOrder};
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::search::Schedule;
+use crate::study::{Case, Computed};
 use crate::units;
 
 /// An order and its place in the ranking.
@@ -60,7 +60,8 @@ const RANKING: &str =
     "ranked as planned; the worst and the best are sampled a little, the very best until its verdict is sure";
 
 /// The report of all orders tried, which is partial where the time was up.
-pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
+pub fn report(case: &Case, found: &Computed<Orders>) -> Report {
+    let Computed { value: orders, partial } = found;
     let count = orders.ranked.len();
     let head = match orders.complete {
         true => format!("{count} orders and intervals, all there are, worst first"),
@@ -87,7 +88,7 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
     for n in (0..count).filter(|&n| n < OFFERED || n + OFFERED >= count) {
         table.rows[n].offer = Some(offer(&orders.ranked[n]));
     }
-    let so_far = if partial { " so far" } else { "" };
+    let so_far = if *partial { " so far" } else { "" };
     let planned = if orders.has_risk() { " as planned" } else { " (the plan's own numbers only)" };
     let mut text = format!("{} of {count} orders pass{planned}{so_far}", orders.passing_as_planned());
     if let Some((n, best)) = orders.ranked.iter().enumerate().next_back() {
@@ -103,6 +104,6 @@ pub fn report(case: &Case, orders: &Orders, partial: bool) -> Report {
     report.blocks = vec![Block::Text(heads), Block::Table(table), Block::Picture(picture)];
     report.warnings.extend(warnings::count_uncovered("orders and intervals", tried));
     report.warnings.extend(warnings::uncovered_shot("the best order", best));
-    report.conclusion = Some(Conclusion { verdict: orders.verdict(partial), text });
+    report.conclusion = Some(Conclusion { verdict: found.verdict(), text });
     report
 }

@@ -8,10 +8,10 @@ use super::report_head;
 use super::shared_columns::{FAILURES, VERDICT};
 use super::words::option_sentences::{compute_label, inputs};
 use super::words::warnings;
-use crate::study::Case;
 use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
 use crate::study::samples::influence::input_shares;
 use crate::study::samples::sample_count::Sampling;
+use crate::study::{Case, Computed};
 use crate::units::Unit;
 use crate::verdict::{Quantity, Verdict};
 
@@ -58,7 +58,8 @@ fn fields<'a>() -> [Field<OptionRow<'a>>; 10] {
 }
 
 /// The report of the samples of all options, which is partial where the time was up.
-pub fn report(case: &Case, results: &OptionResults, sampling: &Sampling, partial: bool) -> Report {
+pub fn report(case: &Case, found: &Computed<OptionResults>, sampling: &Sampling) -> Report {
+    let Computed { value: results, partial } = found;
     let mut table = Table::of(&fields(), option_rows(case, results));
     complete_rows(&mut table, case, results);
     let head = format!("up to {} samples of each option, seed {}", sampling.most, sampling.seed);
@@ -70,7 +71,7 @@ pub fn report(case: &Case, results: &OptionResults, sampling: &Sampling, partial
     blocks.extend(risks.map(|(name, risk)| Block::Picture(charts::risk(case, name, risk))));
     let passed = results.iter().flatten().filter(|judged| judged.verdict() == Verdict::Pass).count();
     let mut text =
-        format!("{passed} of {} options pass{}", results.len(), if partial { " so far" } else { "" });
+        format!("{passed} of {} options pass{}", results.len(), if *partial { " so far" } else { "" });
     if let Some(judged) = results.iter().flatten().next() {
         text += &format!(" · {}", compute_label(&judged.checked.compute));
     }

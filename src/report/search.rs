@@ -10,8 +10,8 @@ use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height, lau
 use super::words::option_sentences::{compute_label, launch_margin, together};
 use super::words::warnings;
 use super::{charts, report_head, row_names};
-use crate::study::Case;
 use crate::study::search::{FrontPoint, Schedule, Search, duration};
+use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
 use crate::verdict::Quantity;
 
@@ -76,7 +76,8 @@ fn fields<'a>() -> [Field<FoundRow<'a>>; 19] {
 const OF_SAMPLES: [Column; 3] = [FAILURES, HEIGHT_BAND, FORCE_BAND];
 
 /// The report of a search of the plan of `case`, which is partial where the time was up.
-pub fn report(case: &Case, search: &Search, partial: bool) -> Report {
+pub fn report(case: &Case, found: &Computed<Search>) -> Report {
+    let Computed { value: search, partial } = found;
     let sampled = search.sampled;
     let rows = option_rows(&search.case, &search.results).zip(&search.schedules);
     let mut table = Table::of(&fields(), rows.map(|(option, schedule)| FoundRow { option, schedule }));
@@ -93,7 +94,7 @@ pub fn report(case: &Case, search: &Search, partial: bool) -> Report {
         blocks.push(Block::Text(front(case, &search.front)));
         blocks.push(Block::Picture(charts::front(case, &search.front)));
     }
-    let so_far = if partial { " so far, ended early" } else { "" };
+    let so_far = if *partial { " so far, ended early" } else { "" };
     let mut text = match search.case.plan.delays.first() {
         None if search.complete => "no schedule keeps the limits of the search".to_owned(),
         None => format!("no schedule was judged{so_far}"),
@@ -106,7 +107,7 @@ pub fn report(case: &Case, search: &Search, partial: bool) -> Report {
     let mut report = report_head(case, sampled);
     report.blocks = blocks;
     report.warnings.extend(warnings::of_options(&search.case, &search.results, None));
-    report.conclusion = Some(Conclusion { verdict: search.verdict(partial), text });
+    report.conclusion = Some(Conclusion { verdict: found.verdict(), text });
     report
 }
 

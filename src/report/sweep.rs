@@ -10,7 +10,7 @@ use super::words::{plan_notes, warnings};
 use super::{report_head, row_names};
 use crate::study::search::Schedule;
 use crate::study::sweep::{Point, Recommended, Sweep};
-use crate::study::{Case, ShotSummary};
+use crate::study::{Case, Computed, ShotSummary};
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
@@ -40,7 +40,8 @@ fn highlights<'a>() -> [Field<(&'static str, &'a Point)>; 6] {
 }
 
 /// The report of a sweep, which is partial where the time was up.
-pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
+pub fn report(case: &Case, swept: &Computed<Sweep>) -> Report {
+    let Computed { value: sweep, partial } = swept;
     let names = row_names(case, &sweep.order).join(", ");
     let [from, to] = sweep.range().map(units::milliseconds);
     let head = format!("interval between rows {names}: {from} to {to}, {} tried", sweep.points.len());
@@ -49,7 +50,7 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
         blocks.push(Block::Text([head].into_iter().chain(plan_notes::hole_timing(case)).collect()));
         blocks.extend(charts::sweep(case, sweep).into_iter().map(Block::Chart));
         blocks.push(Block::Table(table_of_highlights(case, sweep)));
-        blocks.push(Block::Text(windows(case, sweep, partial)));
+        blocks.push(Block::Text(windows(case, sweep, *partial)));
         blocks.push(Block::Table(table_of_windows(sweep)));
     }
     blocks.push(Block::Table(Table::of(&points(), &sweep.points)));
@@ -63,7 +64,7 @@ pub fn report(case: &Case, sweep: &Sweep, partial: bool) -> Report {
     let not_the_best = if best_is_covered { "; the recommended one has none" } else { "" };
     report.warnings.extend(uncovered.map(|warning| warning + not_the_best));
     report.warnings.extend(warnings::uncovered_shot("the recommended interval", best));
-    report.conclusion = Some(conclusion(sweep, partial));
+    report.conclusion = Some(conclusion(swept));
     report
 }
 
@@ -226,10 +227,11 @@ fn listed(what: &str, windows: &[[f64; 2]]) -> Vec<String> {
     lines
 }
 
-fn conclusion(sweep: &Sweep, partial: bool) -> Conclusion {
+fn conclusion(swept: &Computed<Sweep>) -> Conclusion {
+    let Computed { value: sweep, partial } = swept;
     let tried = sweep.points.len();
     let not_passing = sweep.points.iter().filter(|point| point.verdict() != Verdict::Pass).count();
-    let so_far = if partial { " so far" } else { "" };
+    let so_far = if *partial { " so far" } else { "" };
     let has_risk = sweep.has_risk();
     let text = match not_passing {
         _ if has_risk => {
@@ -248,7 +250,7 @@ fn conclusion(sweep: &Sweep, partial: bool) -> Conclusion {
             "{not_passing} of {tried} intervals tried{so_far} do not pass (the plan's own numbers only)"
         ),
     };
-    Conclusion { verdict: sweep.verdict(partial), text }
+    Conclusion { verdict: swept.verdict(), text }
 }
 
 #[cfg(test)]
@@ -273,17 +275,15 @@ mod tests {
                 risk: Evidence::NotAsked,
             };
             let points = verdicts.iter().enumerate().map(point).collect();
-            let Conclusion { verdict, text } = conclusion(
-                &Sweep {
-                    order: vec![0, 1],
-                    points,
-                    windows_as_planned: Vec::new(),
-                    windows: Vec::new(),
-                    recommended: None,
-                    failed_full_verdict: 0,
-                },
-                partial,
-            );
+            let value = Sweep {
+                order: vec![0, 1],
+                points,
+                windows_as_planned: Vec::new(),
+                windows: Vec::new(),
+                recommended: None,
+                failed_full_verdict: 0,
+            };
+            let Conclusion { verdict, text } = conclusion(&Computed { value, partial });
             format!("{}: {text}", verdict.for_people())
         };
         use Verdict::{Fail, Pass, Undecided};

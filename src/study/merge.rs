@@ -7,7 +7,7 @@ use super::orders::{Orders, orders};
 use super::results_file::{self, Contents, Question};
 use super::samples::sample_count::Sampling;
 use super::search::{Search, search};
-use super::{Case, Journal, NoResult, StudyControl};
+use super::{Case, Computed, Journal, NoResult, StudyControl};
 use crate::plan::PlanSource;
 
 /// A study whose shards are joined.
@@ -23,11 +23,11 @@ pub struct Merged {
 #[derive(Clone, Debug)]
 pub enum MergedResult {
     /// Of `orders`.
-    Orders(Orders),
+    Orders(Computed<Orders>),
     /// Of `risk`, with its samples.
-    Risk(Sampling, OptionResults),
+    Risk(Sampling, Computed<OptionResults>),
     /// Of `search`.
-    Search(Box<Search>),
+    Search(Box<Computed<Search>>),
 }
 
 /// Why shards make no study.
@@ -55,13 +55,13 @@ pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
     let answer = match head.question {
         Question::Orders { intervals_s, option, sampling } => {
             case.set_hole_timing_of(option.as_deref());
-            MergedResult::Orders(orders(&case, &intervals_s, sampling.as_ref(), compute, control)?.whole())
+            MergedResult::Orders(orders(&case, &intervals_s, sampling.as_ref(), compute, control)?)
         }
         Question::Risk { sampling } => {
-            MergedResult::Risk(sampling, case.judge_options(compute, Some(&sampling), control)?.whole())
+            MergedResult::Risk(sampling, case.judge_options(compute, Some(&sampling), control)?)
         }
         Question::Search { sampling } => {
-            MergedResult::Search(Box::new(search(&case, sampling.as_ref(), compute, control)?.whole()))
+            MergedResult::Search(Box::new(search(&case, sampling.as_ref(), compute, control)?))
         }
         Question::Sweep { .. } | Question::Size { .. } => {
             let message =

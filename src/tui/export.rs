@@ -12,6 +12,7 @@ use crate::report::csv::Separators;
 use crate::report::html::{self, Page};
 use crate::report::observed::{self, ObservedRow, observed_rows};
 use crate::report::{self, charts};
+use crate::study::Computed;
 use crate::study::fit::FitResult;
 use crate::study::judge_options::{MustPass, OptionResults};
 use crate::study::samples::sample_count::Sampling;
@@ -55,7 +56,7 @@ fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
 }
 
 /// The sweep on the screen of studies, where it is one of this plan, computed as its options are.
-fn swept(app: &App) -> Option<&Sweep> {
+fn swept(app: &App) -> Option<&Computed<Sweep>> {
     let finished =
         app.studies.finished(StudyKind::Sweep).filter(|finished| finished.compute == app.compute)?;
     match &*finished.found {

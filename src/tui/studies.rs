@@ -46,11 +46,11 @@ impl ShownStudy {
     /// Makes the report of a result.
     pub fn new(case: &Case, compute: ComputeSettings, found: Box<StudyResult>) -> Self {
         let report = match &*found {
-            StudyResult::Sweep(sweep) => report::sweep::report(case, sweep, false),
-            StudyResult::Orders(orders) => report::orders::report(case, orders, false),
-            StudyResult::Risk(sampling, results) => report::risk::report(case, results, sampling, false),
-            StudyResult::Search(search) => report::search::report(case, search, false),
-            StudyResult::Effects(effects) => report::effects::report(case, effects, false),
+            StudyResult::Sweep(sweep) => report::sweep::report(case, sweep),
+            StudyResult::Orders(orders) => report::orders::report(case, orders),
+            StudyResult::Risk(sampling, results) => report::risk::report(case, results, sampling),
+            StudyResult::Search(search) => report::search::report(case, search),
+            StudyResult::Effects(effects) => report::effects::report(case, effects),
             StudyResult::Size(sizing) => report::size::report(case, sizing),
             StudyResult::Remedies(remedies) => {
                 let blocks = report::remedies::blocks(case, std::slice::from_ref(remedies));

@@ -8,7 +8,7 @@ use shelter::study::orders::try_orders;
 use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::search::{MOST_TRIED, Search, duration, search};
-use shelter::study::{Case, ComputeSettings, NoResult, Shard, StudyControl};
+use shelter::study::{Case, ComputeSettings, Computed, NoResult, Shard, StudyControl};
 use shelter::verdict::Verdict;
 
 use super::support::{json, shelter, text};
@@ -137,7 +137,8 @@ fn what_is_found_keeps_the_limits_of_the_search() {
         assert!(WithinEightMs::of(&case, shot).holes <= 2);
     }
     let none = searched(&self::case(&plan("intervals_ms = [67], longest_ms = 80")), None);
-    assert_eq!((none.screened, none.verdict(false), none.results.len()), (0, Verdict::Fail, 0));
+    assert_eq!((none.screened, none.results.len()), (0, 0));
+    assert_eq!(Computed::complete(none).verdict(), Verdict::Fail);
 }
 
 /// Rows 1, 2 and 3 lie in this order across the shelter: beside those that fired, 2³⁻¹ orders; one order where they are listed.
@@ -256,7 +257,7 @@ fn a_search_can_end_early() {
     expired.expire();
     let found = search(&case, Some(&FEW), &compute, &expired).expect("partial");
     assert!(found.partial && found.value.screened == 0 && !found.value.complete);
-    assert_ne!(found.value.verdict(false), Verdict::Pass);
+    assert_ne!(found.verdict(), Verdict::Pass);
 }
 
 /// On level ground two orders are images of one another; on a slope that falls from one row to the next they are not.
@@ -310,7 +311,7 @@ fn tight_limits_leave_what_keeps_them() {
     assert_eq!(refused.too_long + refused.too_many_holes + refused.too_heavy + within_limits, found.possible);
     let none = searched(&case(&charged.replace("[0, 9, 17, 25]", "[0]")), None);
     assert_eq!((none.screened, none.refused.too_heavy), (0, none.possible));
-    assert_eq!(none.verdict(false), Verdict::Fail);
+    assert_eq!(Computed::complete(none).verdict(), Verdict::Fail);
     // More than can be listed, and few of them short enough.
     let many = "intervals_ms = { from = 9, to = 999, step = 1 }, equal_intervals = false, longest_ms = 100";
     let found = searched(&case(&plan(many)), None);

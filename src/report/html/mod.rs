@@ -25,6 +25,7 @@ use super::words::warnings;
 use super::{charts, check, sweep};
 use crate::file;
 use crate::study::Case;
+use crate::study::Computed;
 use crate::study::judge_options::{MustPass, OptionResults};
 use crate::study::judgement::Judgement;
 use crate::study::samples::sample_count::Sampling;
@@ -42,7 +43,7 @@ pub struct Page<'a> {
     /// The samples behind the verdicts; `None` where only the shots as planned were judged.
     pub sampling: Option<&'a Sampling>,
     /// A sweep of the interval between rows, whose charts the page shows.
-    pub sweep: Option<&'a Sweep>,
+    pub sweep: Option<&'a Computed<Sweep>>,
     /// Whether the plan was fitted to some of what was seen.
     pub fitted_to_observed: bool,
     /// What was seen of earlier shots; empty where nobody told.
@@ -213,8 +214,8 @@ fn over_time(page: &Page<'_>, option: usize) -> Markup {
 }
 
 /// What other intervals between rows would give.
-fn intervals(page: &Page<'_>, sweep: &Sweep) -> Markup {
-    let (report, of_plan) = (sweep::report(page.case, sweep, page.partial), warnings::of_plan(page.case));
+fn intervals(page: &Page<'_>, sweep: &Computed<Sweep>) -> Markup {
+    let (report, of_plan) = (sweep::report(page.case, sweep), warnings::of_plan(page.case));
     html! {
         section.whole {
             h2 { "Other intervals between rows" }

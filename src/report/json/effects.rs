@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use crate::study::Case;
 use crate::study::effects::{EffectOnOption, EffectsOnOptions};
+use crate::study::{Case, Computed};
 use crate::verdict::{Quantity, Verdict};
 
 /// The document of all effects.
@@ -64,7 +64,7 @@ impl EffectResult {
 
 impl EffectsDocument {
     /// The document of all effects, which is partial where the time was up.
-    pub fn new(case: &Case, effects: &EffectsOnOptions, partial: bool) -> Self {
+    pub fn new(case: &Case, Computed { value: effects, partial }: &Computed<EffectsOnOptions>) -> Self {
         let options = case.plan.delays.iter().zip(effects).map(|(delay, all)| OptionEffects {
             name: delay.name.clone(),
             effects: all.as_ref().map(|all| all.iter().map(EffectResult::of).collect()),
@@ -74,7 +74,7 @@ impl EffectsDocument {
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
             judged: "nominal",
-            partial,
+            partial: *partial,
             options: options.collect(),
         }
     }

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::{LimitsObject, SampledValues, Values};
 use crate::report::row_names;
-use crate::study::Case;
 use crate::study::orders::Orders;
+use crate::study::{Case, Computed};
 
 /// The document of all orders tried.
 #[derive(Serialize)]
@@ -37,7 +37,8 @@ struct OrderResult {
 
 impl OrdersDocument {
     /// The document of all orders tried, which is partial where the time was up.
-    pub fn new(case: &Case, orders: &Orders, partial: bool) -> Self {
+    pub fn new(case: &Case, found: &Computed<Orders>) -> Self {
+        let Computed { value: orders, partial } = found;
         let result = |n: usize| {
             let tried = &orders.ranked[n];
             OrderResult {
@@ -52,8 +53,8 @@ impl OrdersDocument {
             schema: "shelter.orders/1",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
-            verdict: orders.verdict(partial).for_scripts(),
-            partial,
+            verdict: found.verdict().for_scripts(),
+            partial: *partial,
             limits: LimitsObject::of(case),
             count,
             complete: orders.complete,

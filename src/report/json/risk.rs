@@ -9,7 +9,7 @@ use crate::study::judgement::Judgement;
 use crate::study::samples::influence;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sampled_shot::SampledShot;
-use crate::study::{Case, NoResult};
+use crate::study::{Case, Computed, NoResult};
 use crate::verdict::{Limits, Quantity, Verdict};
 
 /// The document of the samples of all options.
@@ -91,14 +91,15 @@ impl SampledOption {
 
 impl RiskDocument {
     /// The document of the samples of all options, which is partial where the time was up.
-    pub fn new(case: &Case, results: &OptionResults, sampling: &Sampling, partial: bool) -> Self {
+    pub fn new(case: &Case, found: &Computed<OptionResults>, sampling: &Sampling) -> Self {
+        let Computed { value: results, partial } = found;
         let options = case.plan.delays.iter().zip(results);
         Self {
             schema: "shelter.risk/1",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
             verdict: verdict_on_plan(results, MustPass::Every).for_scripts(),
-            partial,
+            partial: *partial,
             limits: LimitsObject::of(case),
             samples: sampling.most,
             seed: sampling.seed,

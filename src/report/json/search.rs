@@ -11,10 +11,10 @@ use crate::report::shared_columns::launch_margin_share;
 use crate::report::words::no_result;
 use crate::report::words::reasons;
 use crate::scene::{fire_at_s, seconds};
-use crate::study::Case;
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::judgement::Judgement;
 use crate::study::search::{FrontPoint, Schedule, Search, duration};
+use crate::study::{Case, Computed};
 use crate::verdict::Quantity;
 
 /// The document of a search.
@@ -113,7 +113,8 @@ impl FoundValues {
 
 impl SearchDocument {
     /// The document of a search, which is partial where the time was up.
-    pub fn new(case: &Case, search: &Search, partial: bool) -> Self {
+    pub fn new(case: &Case, searched: &Computed<Search>) -> Self {
+        let Computed { value: search, partial } = searched;
         let found = |(row, schedule): (OptionRow<'_>, &Schedule)| {
             let WithinEightMs { holes, charge } = row.together();
             let judged = row.result.as_ref().ok();
@@ -145,8 +146,8 @@ impl SearchDocument {
             schema: "shelter.search/1",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
-            verdict: search.verdict(partial).for_scripts(),
-            partial,
+            verdict: searched.verdict().for_scripts(),
+            partial: *partial,
             limits: LimitsObject::of(case),
             count: search.screened,
             possible: search.possible,

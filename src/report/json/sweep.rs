@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::{LimitsObject, SampledValues, Values};
 use crate::report::row_names;
-use crate::study::Case;
 use crate::study::sweep::{Point, Sweep};
+use crate::study::{Case, Computed};
 
 /// The document of one sweep.
 #[derive(Serialize)]
@@ -44,13 +44,14 @@ impl IntervalResult {
 
 impl SweepDocument {
     /// The document of a sweep, which is partial where the time was up.
-    pub fn new(case: &Case, sweep: &Sweep, partial: bool) -> Self {
+    pub fn new(case: &Case, swept: &Computed<Sweep>) -> Self {
+        let Computed { value: sweep, partial } = swept;
         Self {
             schema: "shelter.sweep/1",
             plan: case.source.path.clone(),
             title: case.title().to_owned(),
-            verdict: sweep.verdict(partial).for_scripts(),
-            partial,
+            verdict: swept.verdict().for_scripts(),
+            partial: *partial,
             order: row_names(case, &sweep.order),
             limits: LimitsObject::of(case),
             points: sweep.points.iter().map(IntervalResult::of).collect(),

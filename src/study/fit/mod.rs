@@ -82,10 +82,10 @@ pub fn fit(
     let parameters = Parameter::all(request.unknowns, &case.plan);
     let priors = match stated_priors(case, request, &parameters) {
         Ok(priors) => priors,
-        Err(unknown) => return Ok(whole(FitResult::KnownExactly(unknown))),
+        Err(unknown) => return Ok(Computed::complete(FitResult::KnownExactly(unknown))),
     };
     if compute.method == Method::Newmark && request.unknowns.contains(&Unknown::Damping) {
-        return Ok(whole(FitResult::NotInMethod(Unknown::Damping)));
+        return Ok(Computed::complete(FitResult::NotInMethod(Unknown::Damping)));
     }
     let seen = ObservedShots::new(request.files);
     let problem = FitProblem {
@@ -110,13 +110,13 @@ pub fn fit(
     let predictions = predict_observations(case, &problem.seen, request.sampling.as_ref(), compute, control)?;
     if let Some(refused) = refused {
         let observed = problem.seen.list;
-        return Ok(whole(FitResult::NotDetermined { refused, observed, predictions }));
+        return Ok(Computed::complete(FitResult::NotDetermined { refused, observed, predictions }));
     }
     let answers = settled.iter().map(|settled| problem.answer(case, settled)).collect();
     let ObservedShots { list: observed, file, .. } = problem.seen;
     let mut fit = Fit { answers, observed, file, predictions, next: None };
     fit.next = what_to_observe_next(case, &fit, request, compute, control)?;
-    Ok(whole(FitResult::Fitted(fit)))
+    Ok(Computed::complete(FitResult::Fitted(fit)))
 }
 
 /// The case without a `duration_s`, where friction brings the tires to rest: what was seen later than that is computed, too.
@@ -126,10 +126,6 @@ fn until_rest(case: &Case) -> Case {
         true => case.with_duration(None),
         false => case.clone(),
     }
-}
-
-fn whole(value: FitResult) -> Computed<FitResult> {
-    Computed { value, partial: false }
 }
 
 /// What `[uncertainty]` states of each parameter; an unknown of which it says that it is exact is an error.

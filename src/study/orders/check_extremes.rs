@@ -70,5 +70,5 @@ pub fn check_extremes(
             }
         }
     }
-    Ok(Computed { value: tried, partial: false })
+    Ok(Computed::complete(tried))
 }

@@ -123,16 +123,19 @@ impl Orders {
         judgement::verdict_of_both(self.ranked[n].planned.verdict, self.risk(n).map(|risk| risk.verdict))
     }
 
-    /// The verdict on all orders: pass only where every order was tried and passes. It is `partial` where the time was up.
-    pub fn verdict(&self, partial: bool) -> Verdict {
-        let worst = Verdict::worst((0..self.ranked.len()).map(|n| self.verdict_on(n)));
-        let is_open = worst == Verdict::Pass && (partial || self.ranked.is_empty());
-        if is_open { Verdict::Undecided } else { worst }
-    }
-
     /// Number of orders that pass as planned.
     pub fn passing_as_planned(&self) -> usize {
         self.ranked.iter().filter(|tried| tried.planned.verdict == Verdict::Pass).count()
+    }
+}
+
+impl Computed<Orders> {
+    /// The verdict on all orders: pass only where every order was tried and passes.
+    pub fn verdict(&self) -> Verdict {
+        let Computed { value: orders, partial } = self;
+        let worst = Verdict::worst((0..orders.ranked.len()).map(|n| orders.verdict_on(n)));
+        let is_open = worst == Verdict::Pass && (*partial || orders.ranked.is_empty());
+        if is_open { Verdict::Undecided } else { worst }
     }
 }
 

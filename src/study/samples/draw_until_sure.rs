@@ -125,7 +125,7 @@ pub fn sample_shots_watched(
         };
         let jobs: Vec<(usize, usize, u32)> = sampled_shots.iter().enumerate().flat_map(round).collect();
         if jobs.is_empty() {
-            return Ok(Computed { value: sampled_shots, partial: false });
+            return Ok(Computed::complete(sampled_shots));
         }
         control.announce(jobs.len().saturating_sub(expected));
         expected = expected.saturating_sub(jobs.len());
@@ -154,7 +154,7 @@ pub fn sample_shots_watched(
                 sampled.step_halvings = step_halvings;
             }
             if watch(n, sampled).is_break() {
-                return Ok(Computed { value: sampled_shots, partial: false });
+                return Ok(Computed::complete(sampled_shots));
             }
         }
         if out_of_time {

@@ -305,15 +305,18 @@ impl Search {
         let all = self.case.plan.delays.iter().zip(&self.results);
         all.filter(move |(_, result)| passes(result)).map(|(delay, _)| delay)
     }
+}
 
-    /// The verdict on the best schedule. A search that the time cut short (`partial`) is no pass; one that looked at all schedules,
-    /// of which none keeps its limits, is a fail.
-    pub fn verdict(&self, partial: bool) -> Verdict {
-        let verdict = match self.results.first() {
-            None if self.complete => Verdict::Fail,
+impl Computed<Search> {
+    /// The verdict on the best schedule. A search that the time cut short is no pass; one that looked at all schedules, of which
+    /// none keeps its limits, is a fail.
+    pub fn verdict(&self) -> Verdict {
+        let Computed { value: search, partial } = self;
+        let verdict = match search.results.first() {
+            None if search.complete => Verdict::Fail,
             None => Verdict::Undecided,
             Some(best) => best.as_ref().map_or(Verdict::Undecided, Judgement::verdict),
         };
-        if partial && verdict == Verdict::Pass { Verdict::Undecided } else { verdict }
+        if *partial && verdict == Verdict::Pass { Verdict::Undecided } else { verdict }
     }
 }

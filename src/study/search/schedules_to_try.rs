@@ -99,8 +99,9 @@ impl<'c> SchedulesToTry<'c> {
         }
         let mut seen: HashSet<Candidate> = HashSet::new();
         loop {
-            if halving.draw(&mut self.tried, FIRST_OF_SEARCH, control)?.partial {
-                return Ok(Computed::OUT_OF_TIME);
+            let drawn = halving.draw(&mut self.tried, FIRST_OF_SEARCH, control)?;
+            if drawn.partial {
+                return Ok(drawn);
             }
             let unseen = self.tried.iter().filter(|trial| !seen.contains(&trial.candidate));
             let best = unseen
@@ -111,7 +112,7 @@ impl<'c> SchedulesToTry<'c> {
             let best: Vec<Candidate> = best.map(|trial| trial.candidate.clone()).collect();
             let room = MOST_TRIED.saturating_sub(self.tried.len());
             if best.is_empty() || room == 0 {
-                return Ok(Computed::WHOLE);
+                return Ok(Computed::complete(()));
             }
             let near = best.iter().flat_map(|candidate| self.space.neighbours(candidate)).unique().take(room);
             self.add(near.collect::<Vec<_>>());

@@ -76,11 +76,12 @@ pub struct Sweep {
     pub failed_full_verdict: usize,
 }
 
-impl Sweep {
-    /// The verdict: pass only where every interval of the range was tried and passes. It is `partial` where the time was up.
-    pub fn verdict(&self, partial: bool) -> Verdict {
-        let worst = Verdict::worst(self.points.iter().map(Point::verdict));
-        let is_open = worst == Verdict::Pass && (partial || self.points.is_empty());
+impl Computed<Sweep> {
+    /// The verdict: pass only where every interval of the range was tried and passes.
+    pub fn verdict(&self) -> Verdict {
+        let Computed { value: Sweep { points, .. }, partial } = self;
+        let worst = Verdict::worst(points.iter().map(Point::verdict));
+        let is_open = worst == Verdict::Pass && (*partial || points.is_empty());
         if is_open { Verdict::Undecided } else { worst }
     }
 }

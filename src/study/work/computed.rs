@@ -11,16 +11,14 @@ pub struct Computed<T> {
     pub partial: bool,
 }
 
-impl Computed<()> {
-    /// Work that was done wholly.
-    pub const WHOLE: Self = Self { value: (), partial: false };
-    /// Work that ended because the time was up.
-    pub const OUT_OF_TIME: Self = Self { value: (), partial: true };
-}
-
 impl<T> Computed<T> {
+    /// A result for which the time sufficed.
+    pub fn complete(value: T) -> Self {
+        Self { value, partial: false }
+    }
+
     /// The result of a study whose time has no end: nobody expires its [`StudyControl`](super::StudyControl).
-    pub fn whole(self) -> T {
+    pub fn expect_complete(self) -> T {
         debug_assert!(!self.partial, "a partial result has to be told as one");
         self.value
     }

@@ -93,7 +93,7 @@ fn levels<'l>(app: &App, study: &AccuracyTable) -> Vec<Line<'l>> {
 /// What the scene requires of the model, as the study of effects found it.
 fn required(app: &App) -> String {
     match app.studies.finished(StudyKind::Effects).map(|finished| &*finished.found) {
-        Some(StudyResult::Effects(found)) => format!("effects: {}", effects::requirement(found)),
+        Some(StudyResult::Effects(found)) => format!("effects: {}", effects::requirement(&found.value)),
         _ => "effects: which ones this scene requires, Studies → Effects computes".to_owned(),
     }
 }

@@ -24,7 +24,7 @@ use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sampled_shot::SampledShot;
 use shelter::study::size::{Combination, Sizing, Trial, WorstShotRisk};
 use shelter::study::sweep::{Point, Recommended, Sweep};
-use shelter::study::{Case, ComputeSettings, NoResult, flight};
+use shelter::study::{Case, ComputeSettings, Computed, NoResult, flight};
 use shelter::study::{ShotSummary, ValueWithError};
 use shelter::tui::app::{App, Areas, Request};
 use shelter::tui::compare::OptionState;
@@ -176,14 +176,14 @@ pub fn swept() -> StudyResult {
     };
     let windows = vec![[0.0, 0.03], [0.08, 0.13], [0.18, 0.24], [0.29, 0.34], [0.39, 0.44], [0.5, 0.5]];
     let recommended = Some(Recommended { interval: 0.21, room: 0.01, utilization: 0.2 });
-    StudyResult::Sweep(Sweep {
+    StudyResult::Sweep(Computed::complete(Sweep {
         order: vec![0, 1, 2],
         points: (0..51).map(point).collect(),
         windows_as_planned: windows.clone(),
         windows,
         recommended,
         failed_full_verdict: 0,
-    })
+    }))
 }
 
 /// What accuracy costs, with round numbers.
@@ -258,8 +258,11 @@ pub fn spreads(app: &App) -> [(StudyKind, StudyResult); 3] {
     });
     let sampling = Sampling::exactly(200, 1);
     [
-        (StudyKind::Orders, StudyResult::Orders(Orders::new(&app.case, tried.collect(), 1))),
-        (StudyKind::Risk, StudyResult::Risk(sampling, judged.collect())),
+        (
+            StudyKind::Orders,
+            StudyResult::Orders(Computed::complete(Orders::new(&app.case, tried.collect(), 1))),
+        ),
+        (StudyKind::Risk, StudyResult::Risk(sampling, Computed::complete(judged.collect()))),
         (StudyKind::Size, StudyResult::Size(Sizing { combinations: combinations.collect() })),
     ]
 }
