@@ -5,7 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Whether a value, a shot or a delay option keeps its limits.
+/// Whether a value, a shot or a delay option keeps its limits. Ordered from the best to the worst: several verdicts together are
+/// their greatest, and where one of several must pass, their least.
 ///
 /// The undecided verdict has two words: people read OPEN, scripts read `undecided`. Both are fixed by the interface that scripts
 /// and readers know.
@@ -22,7 +23,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// The verdict of several together: the worst.
+    /// The verdict of several together: the worst. Of none it is a pass: who asks must know that there is something to judge.
     pub fn worst(verdicts: impl IntoIterator<Item = Verdict>) -> Verdict {
         verdicts.into_iter().max().unwrap_or(Verdict::Pass)
     }
@@ -51,7 +52,7 @@ impl Verdict {
 pub struct Estimate {
     /// The value [SI unit of the quantity].
     pub value: f64,
-    /// Estimated error, one-sided [same unit].
+    /// FittedParameter error, one-sided [same unit].
     pub error: f64,
     /// Time at which the value is reached [s].
     pub time: f64,
@@ -60,8 +61,8 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// The verdict on this estimate for an upper limit.
-    pub fn judge_against(&self, limit: f64) -> Verdict {
+    /// The verdict on this value alone for an upper limit.
+    pub fn compare_with(&self, limit: f64) -> Verdict {
         if self.value + self.error <= limit {
             Verdict::Pass
         } else if self.value - self.error > limit {
@@ -164,7 +165,7 @@ mod tests {
 
     #[test]
     fn an_error_that_reaches_over_the_limit_leaves_the_verdict_open() {
-        let verdict_of = |value, error| Estimate { value, error, ..Estimate::default() }.judge_against(1.0);
+        let verdict_of = |value, error| Estimate { value, error, ..Estimate::default() }.compare_with(1.0);
         assert_eq!(verdict_of(0.9, 0.1), Verdict::Pass);
         assert_eq!(verdict_of(0.95, 0.1), Verdict::Undecided);
         assert_eq!(verdict_of(1.05, 0.1), Verdict::Undecided);

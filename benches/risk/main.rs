@@ -8,9 +8,9 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use shelter::choice::Accuracy;
 use shelter::plan::Plan;
-use shelter::study::samples::draw_until_sure::{ShotToSample, draw_shard, sample_shots};
 use shelter::study::samples::sample::Sample;
 use shelter::study::samples::sample_count::Sampling;
+use shelter::study::samples::sample_until_sure::{ShotToSample, run_shard, sample_shots};
 use shelter::study::{Case, ComputeSettings, Shard, StudyControl};
 use shelter::verdict::Verdict;
 
@@ -35,7 +35,7 @@ fn brute_force(case: &Case, option: usize, samples: usize, accuracy: Accuracy) -
     let compute = ComputeSettings { accuracy, ..ComputeSettings::of(&case.plan) };
     let sampling = Sampling::exactly(samples, SEED);
     let target = ShotToSample::new(case, &case.shots[option], compute, sampling);
-    let drawn = draw_shard(&[target], Shard::WHOLE, &StudyControl::default()).expect("samples");
+    let drawn = run_shard(&[target], Shard::WHOLE, &StudyControl::default()).expect("samples");
     drawn.into_iter().filter_map(|(_, sample)| sample).collect()
 }
 

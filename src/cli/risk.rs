@@ -12,8 +12,8 @@ use super::run_study::run_saved_study;
 use super::save::SharedArguments;
 use super::status::{Status, failed, saved, wrong};
 use crate::study::results_file::Question;
-use crate::study::samples::draw_until_sure::{ShotToSample, draw_shard};
 use crate::study::samples::sample_count::Sampling;
+use crate::study::samples::sample_until_sure::{ShotToSample, run_shard};
 use crate::study::{Case, Computed, Journal, Shard};
 
 #[derive(Args)]
@@ -71,7 +71,7 @@ fn draw(
     let target = |shot| ShotToSample::new(case, shot, compute, *sampling);
     let targets: Vec<_> = case.shots.iter().map(target).collect();
     let drawn = run_saved_study(&arguments.compute, journal, |control| {
-        let drawn = draw_shard(&targets, shard, control)?;
+        let drawn = run_shard(&targets, shard, control)?;
         Ok(Computed { value: (), partial: drawn.iter().any(|(_, sample)| sample.is_none()) })
     });
     saved(drawn)

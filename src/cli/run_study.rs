@@ -44,7 +44,7 @@ pub fn run_saved_study<T: Send>(
     // Once it is set, a signal ends the program by itself: a second interrupt, and whatever follows the study.
     let may_end = Arc::new(AtomicBool::new(false));
     watch_signals(&signal, &may_end);
-    let template = "{bar:30} {pos} of {len} shots, {msg}";
+    let template = "{bar:30} {pos} of {len} done, {msg}";
     let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
     let bar = ProgressBar::new(0).with_style(style);
     let (begun, mut told, mut interrupted) = (Instant::now(), !io::stderr().is_terminal(), false);
@@ -99,7 +99,7 @@ pub fn run_saved_study<T: Send>(
     match &found {
         Ok(Computed { partial: true, .. }) => {
             let why = if interrupted { "interrupted" } else { "the time was up" };
-            tell!("{why} after {done} of {total} shots; what follows is partial");
+            tell!("{why} with {done} of {total} parts done; what follows is partial");
         }
         Err(NoResult::OutOfTime) if interrupted => return Err(NoResult::Stopped),
         _ => {}

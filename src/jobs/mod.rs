@@ -58,9 +58,9 @@ pub enum News {
     Studying {
         /// Which study.
         kind: StudyKind,
-        /// Shots judged.
+        /// Pieces of work done.
         done: usize,
-        /// Shots expected, as far as is known.
+        /// Pieces of work expected, as far as is known.
         total: usize,
     },
     /// A study has ended by itself.
@@ -79,7 +79,7 @@ pub struct Jobs {
     threads: usize,
     judging: Option<Arc<StudyControl>>,
     studies: [Option<Arc<StudyControl>>; StudyKind::ALL.len()],
-    /// Shots judged and expected of each study, as told last.
+    /// Pieces of work done and expected of each study, as told last.
     told: [(usize, usize); StudyKind::ALL.len()],
     sender: Sender<(Arc<StudyControl>, News)>,
     receiver: Receiver<(Arc<StudyControl>, News)>,

@@ -7,7 +7,7 @@ use crate::choice::Unknown;
 use crate::plan::observations::{Observations, unit};
 use crate::study::Case;
 use crate::study::fit::parameter::Parameter;
-use crate::study::fit::{Answer, Estimated, Fit, FitResult, NotDetermined, Observable, Residual};
+use crate::study::fit::{Answer, Fit, FitResult, FittedParameter, NotDetermined, Observable, Residual};
 use crate::units;
 use crate::verdict::Verdict;
 
@@ -19,7 +19,7 @@ struct EstimateRow<'a> {
     case: &'a Case,
     /// Number of the answer, from 1.
     answer: usize,
-    estimate: &'a Estimated,
+    estimate: &'a FittedParameter,
 }
 
 fn estimate_fields<'a>() -> [Field<EstimateRow<'a>>; 6] {
@@ -107,7 +107,7 @@ fn counted(count: usize, what: &str) -> String {
 }
 
 /// `1.163 ± 0.014`.
-fn estimate(estimate: &Estimated) -> String {
+fn estimate(estimate: &FittedParameter) -> String {
     units::value_and_sd(estimate.value, estimate.sd)
 }
 

@@ -89,7 +89,7 @@ impl Shot {
     /// Friction, and for each firing time the time itself and all launch velocities, change by factors of their own, drawn
     /// between `relative`/2 and `relative` from 1. A shot that is its own image under a reflection stays so. `friction` is that
     /// of the scene. The same `number` gives the same two shots.
-    pub fn both_sides(&self, friction: f64, relative: f64, number: u64) -> [Self; 2] {
+    pub fn nearby_pair(&self, friction: f64, relative: f64, number: u64) -> [Self; 2] {
         [1.0, -1.0].map(|side| {
             let mut random = ChaCha8Rng::seed_from_u64(number);
             let mut factor = || {
@@ -165,7 +165,7 @@ mod tests {
             Shot::from_firings(firings.map(|(at, tire, launch)| Firing::up(at, tire, launch)).to_vec());
         let mut sides = Vec::new();
         for number in 0..20 {
-            let [more, less] = shot.both_sides(0.5, 1e-3, number);
+            let [more, less] = shot.nearby_pair(0.5, 1e-3, number);
             let friction = [more.friction, less.friction].map(|friction| friction.expect("its own friction"));
             assert!((friction[0] + friction[1] - 1.0).abs() < 1e-15);
             assert!((friction[0] - 0.5).abs() >= 0.5 * 0.5e-3);

@@ -27,7 +27,7 @@ pub struct Block {
     /// Number of slots.
     pub len: usize,
     /// Element of slot 0 in arrays over all cables; a multiple of [`LANES`].
-    pub memory: usize,
+    pub first_element: usize,
 }
 
 /// All cables of a scene. An *element* is a slot's index in arrays over all cables.
@@ -66,7 +66,7 @@ impl Blocks {
             for from in (0..head + slots.len()).step_by(BLOCK_SLOTS) {
                 let first = Cable { ends: first.ends.map(|tire| tire + from - head), ..first };
                 let len = (head + slots.len() - from).min(BLOCK_SLOTS);
-                blocks.push(Block { first, len, memory: begin + from });
+                blocks.push(Block { first, len, first_element: begin + from });
             }
         }
         cable.resize(cable.len().next_multiple_of(LANES) + LANES, NONE);
@@ -80,7 +80,7 @@ impl Blocks {
     pub fn with_numbers<'c>(&self, numbers: impl Fn(usize) -> &'c Cable) -> Self {
         let mut layout = self.clone();
         for (n, block) in layout.blocks.iter_mut().enumerate() {
-            let slots = &self.cable[block.memory..block.memory + block.len];
+            let slots = &self.cable[block.first_element..block.first_element + block.len];
             if let Some(slot) = slots.iter().position(|&cable| cable != NONE) {
                 let &Cable { rest_length, stiffness, .. } = numbers(self.cable(n, slot));
                 block.first = Cable { rest_length, stiffness, ..block.first };
@@ -101,7 +101,7 @@ impl Blocks {
 
     /// Index in the scene of the cable in a slot of a block.
     pub fn cable(&self, block: usize, slot: usize) -> usize {
-        self.cable[self.blocks[block].memory + slot] as usize
+        self.cable[self.blocks[block].first_element + slot] as usize
     }
 }
 

@@ -170,8 +170,8 @@ impl TireStep {
         self.velocity += self.free_acceleration * time;
     }
 
-    /// Normal speed after the landing of a tire that is falling [m/s]: 0 where all bounces still to come, a geometric series,
-    /// would last less than a step of length `h` [s].
+    /// Normal speed after the landing of a tire that is falling [m/s]. The bounces still to come are a geometric series; where all
+    /// of them would last less than a step of length `h` [s], the tire stays down, and the speed is 0.
     fn rebound(&self, h: f64) -> f64 {
         let speed = -self.restitution * self.velocity.z;
         let bounces = 2.0 * speed / (-self.free_acceleration.z * (1.0 - self.restitution));

@@ -31,7 +31,7 @@ pub enum RunError {
     },
     /// An iteration did not settle within its bound.
     #[error("the {what} does not settle at {time} s")]
-    Unsettled {
+    NotConverged {
         /// The iteration.
         what: Iteration,
         /// Time of the step [s].
@@ -48,7 +48,7 @@ pub enum RunError {
 impl RunError {
     /// Whether a finer step may help.
     pub fn needs_finer_step(&self) -> bool {
-        matches!(self, Self::Step { .. } | Self::Diverged { .. } | Self::Unsettled { .. })
+        matches!(self, Self::Step { .. } | Self::Diverged { .. } | Self::NotConverged { .. })
     }
 }
 

@@ -6,8 +6,8 @@ use super::as_planned::check::{CheckProgress, CheckedShot, check_as_planned};
 use super::as_planned::margin::{LaunchMargin, launch_margin};
 use super::judgement::Evidence;
 use super::judgement::Judgement;
-use super::samples::draw_until_sure::{ShotToSample, sample_shots_watched};
 use super::samples::sample_count::Sampling;
+use super::samples::sample_until_sure::{ShotToSample, sample_shots_watched};
 use super::samples::sampled_shot::SampledShot;
 use super::work::batch::run_batch;
 use super::{
@@ -49,10 +49,10 @@ pub enum JudgeEvent<'r> {
 const STEPS_PER_EVENT: usize = 64;
 
 /// Sees events, on the threads that compute.
-pub type Watch<'w> = &'w (dyn Fn(CaseOption, JudgeEvent<'_>) + Sync);
+pub type OnEvent<'w> = &'w (dyn Fn(CaseOption, JudgeEvent<'_>) + Sync);
 
 /// Sees nothing.
-pub const UNWATCHED: Watch<'static> = &|_, _| {};
+pub const UNWATCHED: OnEvent<'static> = &|_, _| {};
 
 impl Case {
     /// Judges every delay option: as planned, then, where a `sampling` is given, how likely it fails.
@@ -73,7 +73,7 @@ pub fn judge_all(
     cases: &[(&Case, ComputeSettings)],
     sampling: Option<&Sampling>,
     control: &StudyControl,
-    watch: Watch<'_>,
+    watch: OnEvent<'_>,
 ) -> ComputeResult<Vec<OptionResults>> {
     let of_case = |case: usize| (0..cases[case].0.shots.len()).map(move |option| CaseOption { case, option });
     let options: Vec<CaseOption> = (0..cases.len()).flat_map(of_case).collect();
@@ -103,7 +103,7 @@ pub fn judge_all_with_margins(
     cases: &[(&Case, ComputeSettings)],
     sampling: Option<&Sampling>,
     control: &StudyControl,
-    watch: Watch<'_>,
+    watch: OnEvent<'_>,
 ) -> ComputeResult<Vec<OptionResults>> {
     let Computed { value: mut results, partial } = judge_all(cases, sampling, control, watch)?;
     let margins = find_launch_margins(cases, &mut results, control, watch)?;
@@ -114,7 +114,7 @@ fn check_one_as_planned(
     cases: &[(&Case, ComputeSettings)],
     at: CaseOption,
     control: &StudyControl,
-    watch: Watch<'_>,
+    watch: OnEvent<'_>,
 ) -> Result<CheckedShot, NoResult> {
     let (case, compute) = &cases[at.case];
     let mut steps = 0_usize;
@@ -143,7 +143,7 @@ fn add_risks(
     results: &mut [OptionResults],
     sampling: &Sampling,
     control: &StudyControl,
-    watch: Watch<'_>,
+    watch: OnEvent<'_>,
 ) -> ComputeResult<()> {
     let mut judged = checked_options(results);
     let target = |(at, judgement): &(CaseOption, &mut Judgement)| {
@@ -182,7 +182,7 @@ pub fn find_launch_margins(
     cases: &[(&Case, ComputeSettings)],
     results: &mut [OptionResults],
     control: &StudyControl,
-    watch: Watch<'_>,
+    watch: OnEvent<'_>,
 ) -> ComputeResult<()> {
     let judged = checked_options(results);
     let jobs: Vec<_> = judged.iter().map(|(at, judgement)| (*at, judgement.checked.verdict)).collect();

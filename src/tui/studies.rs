@@ -20,9 +20,9 @@ pub enum StudyState {
     Idle,
     /// Computing.
     Running {
-        /// Shots judged.
+        /// Pieces of work done.
         done: usize,
-        /// Shots expected, as far as is known.
+        /// Pieces of work expected, as far as is known.
         total: usize,
     },
     /// Has a result; the result stays while other screens are shown.

@@ -9,8 +9,8 @@ use shelter::scene::{Firing, Scene, Shot};
 use shelter::simulation::RunError;
 use shelter::study::as_planned::check::check_as_planned;
 use shelter::study::effects::{Effect, FIRST_SAMPLES, LEAST_RELATIVE_CHANGE, SAMPLES, effects};
-use shelter::study::samples::draw_until_sure::{ShotToSample, draw_shard};
 use shelter::study::samples::sample_count::Sampling;
+use shelter::study::samples::sample_until_sure::{ShotToSample, run_shard};
 use shelter::study::{Case, ComputeSettings, Shard, StudyControl};
 use shelter::verdict::{Quantity, Verdict};
 
@@ -495,7 +495,7 @@ const FEW: Sampling = Sampling::exactly(SAMPLES, Sampling::OF_VERDICT.seed);
 fn median(case: &Case, compute: ComputeSettings, quantity: Quantity, samples: usize) -> f64 {
     let sampling = Sampling::exactly(samples, FEW.seed);
     let target = ShotToSample::new(case, &case.shots[0], compute, sampling);
-    let drawn = draw_shard(&[target], Shard::WHOLE, &StudyControl::default()).expect("samples");
+    let drawn = run_shard(&[target], Shard::WHOLE, &StudyControl::default()).expect("samples");
     let mut values: Vec<f64> =
         drawn.into_iter().map(|(_, sample)| sample.expect("time for all").run.get(quantity)).collect();
     values.sort_by(f64::total_cmp);

@@ -12,11 +12,11 @@ use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::judge_options::{UNWATCHED, find_launch_margins, judge_all};
 use shelter::study::judgement::Judgement;
 use shelter::study::results_file::{self, Head, Question};
-use shelter::study::samples::draw_until_sure::{ShotToSample, draw_shard, sample_shots};
 use shelter::study::samples::influence::input_shares;
 use shelter::study::samples::random_shot::{DrawnShot, draw_shot};
 use shelter::study::samples::risk_summary::sample_shots_in_brief;
 use shelter::study::samples::sample_count::Sampling;
+use shelter::study::samples::sample_until_sure::{ShotToSample, run_shard, sample_shots};
 use shelter::study::samples::sampled_shot::SampledShot;
 use shelter::study::{Case, ComputeSettings, Journal, Shard, ShotSummary, StudyControl, thread_pool};
 use shelter::verdict::{Quantity, Verdict};
@@ -289,7 +289,7 @@ fn shards_that_the_audit_contradicts_are_sampled_anew() {
         let (file, shard) = (folder.path().join(index.to_string()), Shard { index, count: 2 });
         let head = Head::new(&case, Question::Risk { sampling }, compute, shard);
         let saved = StudyControl::with_journal(results_file::open(&file, &head).expect("a new file"));
-        draw_shard(&[target], shard, &saved).expect("samples");
+        run_shard(&[target], shard, &saved).expect("samples");
         let text = std::fs::read_to_string(&file).expect("a shard");
         known.extend(results_file::read("a shard", &text).expect("results").known);
     }

@@ -134,9 +134,9 @@ fn read_targets(
             let last = if count == usize::MAX { String::new() } else { format!(" to {count}") };
             mistakes.add(tire.span.clone(), message, format!("tires are numbered from 1{last}"));
         }
-        let mut holes_seen = HashSet::new();
+        let mut tires_seen = HashSet::new();
         for tire in &tires.value {
-            if !holes_seen.insert(tire.value) {
+            if !tires_seen.insert(tire.value) {
                 let message = format!("tire {} is launched twice", tire.value);
                 mistakes.add(tire.span.clone(), message, "name each tire once");
             }

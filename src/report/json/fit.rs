@@ -7,7 +7,7 @@ use crate::plan::observations::Observations;
 use crate::report::fit::launch_speeds;
 use crate::report::observed::{ObservedRow, fitted_rows, place};
 use crate::study::Case;
-use crate::study::fit::{Answer, Estimated, Fit, Residual};
+use crate::study::fit::{Answer, Fit, FittedParameter, Residual};
 
 /// The document of a fit. `unknowns`, `residuals` and `correlation` are those of the best answer.
 #[derive(Serialize)]
@@ -94,8 +94,8 @@ struct NextObservationObject {
 }
 
 impl UnknownObject {
-    fn of(case: &Case, estimate: &Estimated) -> Self {
-        let Estimated { parameter, value, sd, was, is_at_end, .. } = *estimate;
+    fn of(case: &Case, estimate: &FittedParameter) -> Self {
+        let FittedParameter { parameter, value, sd, was, is_at_end, .. } = *estimate;
         let launch_m_s = launch_speeds(case, parameter).into_iter().map(|speed| speed * value).collect();
         let name = parameter.name(&case.plan);
         Self { name, value, sd, unit: parameter.unit(), was, launch_m_s, at_end: is_at_end }

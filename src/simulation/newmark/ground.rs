@@ -10,7 +10,7 @@ use crate::simulation::contact::{apex, stop_at_ground};
 impl Stepper<'_> {
     /// Friction force per mass of a sliding tire [m/s²]: μ times the reaction, against the velocity, or against the cable force
     /// if there is no velocity.
-    pub(super) fn friction(&self, free: Vector3<f64>, velocity: Vector2<f64>) -> Vector2<f64> {
+    pub(super) fn sliding_friction(&self, free: Vector3<f64>, velocity: Vector2<f64>) -> Vector2<f64> {
         let limit = self.friction * (-free.z).max(0.0);
         let direction = velocity.try_normalize(0.0).or_else(|| free.xy().try_normalize(0.0));
         direction.map_or_else(Vector2::zeros, |direction| direction * -limit)
@@ -20,7 +20,7 @@ impl Stepper<'_> {
     /// that has just landed may be slow.
     pub(super) fn end_friction(&self, tire: usize, free: Vector3<f64>, h: f64) -> Vector2<f64> {
         let sliding = self.sliding(tire, h);
-        self.friction(free, sliding).cap_magnitude(2.0 * sliding.norm() / h)
+        self.sliding_friction(free, sliding).cap_magnitude(2.0 * sliding.norm() / h)
     }
 
     /// Sideways velocity at the end of the step without the friction at the end [m/s]; that friction acts against this velocity.

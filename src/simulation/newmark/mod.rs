@@ -17,10 +17,10 @@
 //! Only tires that move, and tires tied to these, are computed ([`super::wake`]). Motion can spread over several tires within
 //! one step: a tire that starts to move wakes its neighbours before the step is repeated.
 
+mod converge;
 mod ground;
 mod note_state;
 mod region;
-mod settle;
 mod system;
 
 use std::borrow::Cow;
@@ -158,7 +158,7 @@ impl<'a> Stepper<'a> {
     /// Makes all steps; returns the outcome.
     fn run(mut self, watch: &mut Watcher<'_>) -> Result<Outcome, RunError> {
         loop {
-            if let Some(reason) = self.clock.end_reason(self.moving, &self.shot.firings) {
+            if let Some(reason) = self.clock.skip_rest_or_end(self.moving, &self.shot.firings) {
                 return Ok(self.finish(reason));
             }
             self.refresh();

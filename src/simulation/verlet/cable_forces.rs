@@ -86,7 +86,7 @@ impl<'a> CableForceMemory<'a> {
 
     /// Length of the cable in a slot of a block at the last evaluation [m]; `None` for an empty slot.
     fn length(&self, block: &Block, slot: usize) -> Option<f64> {
-        let element = block.memory + slot;
+        let element = block.first_element + slot;
         let length2 = self.length2_change[element] + block.first.span.norm_squared();
         (self.weight[element] != 0.0).then(|| length2.sqrt())
     }
@@ -95,7 +95,7 @@ impl<'a> CableForceMemory<'a> {
     pub fn slot_force(&self, block: &Block, slot: usize) -> f64 {
         match self.damped.viscosity {
             [] => self.length(block, slot).map_or(0.0, |length| block.first.force(length)),
-            _ => self.damped.force[0][block.memory + slot],
+            _ => self.damped.force[0][block.first_element + slot],
         }
     }
 
@@ -122,12 +122,12 @@ impl<'a> CableForceMemory<'a> {
 
     /// Force of a damped cable at the evaluation before the last [N]; `None` without damping.
     pub fn slot_force_before(&self, block: &Block, slot: usize) -> Option<f64> {
-        (!self.damped.viscosity.is_empty()).then(|| self.damped.force[1][block.memory + slot])
+        (!self.damped.viscosity.is_empty()).then(|| self.damped.force[1][block.first_element + slot])
     }
 
     /// Removes the cable in a slot of a block; returns the elastic energy lost with the cable [J].
     pub fn remove(&mut self, block: &Block, slot: usize) -> f64 {
-        let element = block.memory + slot;
+        let element = block.first_element + slot;
         let stored = self.length(block, slot).map_or(0.0, |length| block.first.energy(length));
         let lost = self.weight[element] * stored;
         self.weight.to_mut()[element] = 0.0;
@@ -194,7 +194,7 @@ impl CableEvaluator<'_, '_> {
     ) -> BlockTotals {
         let (zero, half, one) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5), Wide::splat(simd, 1.0));
         let (tiny, infinite) = (Wide::splat(simd, f64::MIN_POSITIVE), Wide::splat(simd, f64::INFINITY));
-        let Block { first: cable, len, memory } = block;
+        let Block { first: cable, len, first_element } = block;
         let rest_length = Wide::splat(simd, cable.rest_length);
         let stiffness = Wide::splat(simd, cable.stiffness);
         let span: [Wide<S>; 3] = std::array::from_fn(|c| Wide::splat(simd, cable.span[c]));
@@ -204,7 +204,7 @@ impl CableEvaluator<'_, '_> {
         let excess_at_rest = span2 - slack2;
         // All slices have one length, so that one check of bounds serves them all.
         let room = len.next_multiple_of(LANES);
-        let elements = *memory..memory + room;
+        let elements = *first_element..first_element + room;
         let end = |from: usize| -> [&[f64]; 3] { std::array::from_fn(|c| &u[c][from..from + room]) };
         let at_ends = [end(cable.ends[0]), end(cable.ends[1])];
         let weights = &self.weight[elements.clone()];

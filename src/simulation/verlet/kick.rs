@@ -6,7 +6,7 @@ use crate::simulation::pack::Wide;
 
 /// Tires at the start of a step.
 #[derive(Clone, Copy)]
-pub struct TirePack<S: Simd> {
+pub struct TireRegister<S: Simd> {
     /// Displacement uₙ [m].
     pub u: [Wide<S>; 3],
     /// Velocity at mid-step n − ½ [m/s].
@@ -29,7 +29,7 @@ pub struct TirePack<S: Simd> {
 
 /// Tires at the end of a step without landing and without firing, and their energies at tₙ.
 #[derive(Clone, Copy)]
-pub struct MovedPack<S: Simd> {
+pub struct MovedRegister<S: Simd> {
     /// Displacement uₙ₊₁ [m].
     pub u: [Wide<S>; 3],
     /// Velocity at mid-step n + ½ [m/s].
@@ -42,11 +42,11 @@ pub struct MovedPack<S: Simd> {
     pub motion: Wide<S>,
 }
 
-impl<S: Simd> TirePack<S> {
+impl<S: Simd> TireRegister<S> {
     /// Kicks and moves the tires: free velocity v* = v + h (f/m + g), then support and friction of the ground, then
     /// u + h v. Roots and quotients are computed only where a tire slips; `SLOPED`: the ground slopes.
     #[inline(always)]
-    pub fn kick_and_move<const SLOPED: bool>(&self, simd: S) -> MovedPack<S> {
+    pub fn kick_and_move<const SLOPED: bool>(&self, simd: S) -> MovedRegister<S> {
         let Self { u, v, f, mass, inverse_mass, step, friction, gravity, downhill } = *self;
         let (zero, half) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5));
         let tiny = Wide::splat(simd, f64::MIN_POSITIVE);
@@ -93,7 +93,7 @@ impl<S: Simd> TirePack<S> {
         if SLOPED {
             height = height - (downhill[0] * u[0] + downhill[1] * u[1]);
         }
-        MovedPack {
+        MovedRegister {
             u: moved,
             v: after,
             energy: mass * (half * speed2 + height),

@@ -164,7 +164,7 @@ fn cables(blocks: &Blocks) -> Vec<Cable> {
     for block in &blocks.blocks {
         for slot in 0..block.len {
             let ends = block.first.ends.map(|end| end + slot);
-            all[block.memory + slot] = Cable { ends, ..block.first };
+            all[block.first_element + slot] = Cable { ends, ..block.first };
         }
     }
     all

@@ -6,7 +6,7 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use super::cover::{Cover, CoverWatch};
+use super::cover::{Cover, CoverRecorder};
 use super::ladder::{Finding, run_ladder};
 use super::peaks::{error_runs, peaks_with_rivals};
 use super::step_error;
@@ -99,7 +99,7 @@ impl CheckedShot {
         let verdict = |times: f64| {
             let larger = |estimate: Estimate| Estimate { error: times * estimate.error, ..estimate };
             let each = with_limits(&estimates, limits)
-                .map(|(_, estimate, limit)| larger(estimate).judge_against(limit));
+                .map(|(_, estimate, limit)| larger(estimate).compare_with(limit));
             Verdict::worst(each)
         };
         let stands = verdict(1.0) == verdict(SURE_ERROR_FACTOR);
@@ -196,7 +196,7 @@ impl Runner<'_> {
     fn run(&mut self, shot: &Shot, step: f64) -> Result<Run, RunError> {
         let settings = self.case.run_settings(self.compute.method, step);
         let begun = Instant::now();
-        let mut cover = CoverWatch::new(self.case, &shot.firings, step);
+        let mut cover = CoverRecorder::new(self.case, &shot.firings, step);
         let mut look = |motion: &dyn Motion| {
             cover.observe(motion);
             (self.watch)(CheckProgress { runs: self.runs, time: motion.time() })
@@ -215,7 +215,7 @@ impl Runner<'_> {
         let relative = PAIR_CHANGE * finer.powi(2).min(1.0);
         let mut pairs = Vec::new();
         for number in 0..step_error::PAIRS {
-            let [more, less] = shot.both_sides(self.case.scene().friction, relative, number);
+            let [more, less] = shot.nearby_pair(self.case.scene().friction, relative, number);
             match self.run(&more, step).and_then(|more| Ok([more, self.run(&less, step)?])) {
                 Ok(pair) => pairs.push(pair),
                 Err(stopped @ RunError::Stopped { .. }) => return Err(stopped),

@@ -49,8 +49,8 @@ pub fn run_checks<J: Sync>(
     {
         return Err(NoResult::Failed(failure.clone()));
     }
-    let or_unknown = |result: Result<ShotSummary, RunError>| result.unwrap_or(ShotSummary::UNKNOWN);
-    Ok(done.into_iter().map(|result| result.map(or_unknown)).collect())
+    let unknown_if_failed = |result: Result<ShotSummary, RunError>| result.unwrap_or(ShotSummary::UNKNOWN);
+    Ok(done.into_iter().map(|result| result.map(unknown_if_failed)).collect())
 }
 
 /// Like [`run_checks`], for a part of the jobs of a study: all of them may fail.

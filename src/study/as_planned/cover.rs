@@ -31,14 +31,14 @@ impl Cover {
 }
 
 /// Sees a run, and notes the cover over its holes.
-pub struct CoverWatch<'s> {
+pub struct CoverRecorder<'s> {
     firings: &'s [Firing],
     step: f64,
     aside: f64,
     cover: Cover,
 }
 
-impl<'s> CoverWatch<'s> {
+impl<'s> CoverRecorder<'s> {
     /// Watch of a run of `firings` at a `step` [s].
     pub fn new(case: &Case, firings: &'s [Firing], step: f64) -> Self {
         let aside = ASIDE * case.plan.layout.widest_tie();

@@ -14,10 +14,10 @@ pub struct Finding<T> {
     pub is_sure: bool,
 }
 
-/// Runs a ladder of steps, from the coarsest to the finest, and returns the last judgement; no step is run twice.
+/// Runs a ladder of steps, from the coarsest to the finest, and returns the last finding; no step is run twice.
 ///
 /// 1. The coarser neighbours of the step `first` [s] are run, then `first`, then finer steps.
-/// 2. Once there are two runs, `judge` is called after each. It gets all runs so far, and whether no finer run can follow; the last
+/// 2. Once there are two runs, `examine` is called after each. It gets all runs so far, and whether no finer run can follow; the last
 ///    run gives the values, the others give the errors.
 /// 3. Where `fixed`, the ladder ends at `first`. If every coarser neighbour failed, one finer run gives the error; it then stands
 ///    before `first` among the runs, so that the values stay at `first`.
@@ -28,7 +28,7 @@ pub fn run_ladder<C, R, T>(
     first: f64,
     fixed: bool,
     mut run: impl FnMut(&mut C, f64) -> Result<R, RunError>,
-    mut judge: impl FnMut(&mut C, &[R], bool) -> Result<Finding<T>, RunError>,
+    mut examine: impl FnMut(&mut C, &[R], bool) -> Result<Finding<T>, RunError>,
 ) -> Result<T, RunError> {
     let rung = |n: i32| first * step_error::RATIO.powi(n);
     let mut runs = Vec::new();
@@ -49,7 +49,7 @@ pub fn run_ladder<C, R, T>(
         // A single run has no error: its neighbour is the next finer run.
         if runs.len() >= 2 {
             let is_last = fixed || finer == MOST_REFINEMENTS;
-            let Finding { found, is_sure } = judge(runner, &runs, is_last)?;
+            let Finding { found, is_sure } = examine(runner, &runs, is_last)?;
             if is_sure || is_last {
                 return Ok(found);
             }
@@ -68,14 +68,14 @@ mod tests {
         let mut asked = Vec::new();
         let run = |asked: &mut Vec<f64>, step: f64| {
             asked.push(step);
-            let failure = RunError::Unsettled { what: Iteration::ContactRegion, time: 0.0 };
+            let failure = RunError::NotConverged { what: Iteration::ContactRegion, time: 0.0 };
             if step > coarsest { Err(failure) } else { Ok(step) }
         };
-        let judge = |_: &mut Vec<f64>, runs: &[f64], _: bool| {
+        let examine = |_: &mut Vec<f64>, runs: &[f64], _: bool| {
             let found = runs[runs.len() - 1];
             Ok(Finding { found, is_sure: found <= sure_at })
         };
-        let values = run_ladder(&mut asked, 1.0, fixed, run, judge).expect("fine steps work");
+        let values = run_ladder(&mut asked, 1.0, fixed, run, examine).expect("fine steps work");
         (asked, values)
     }
 

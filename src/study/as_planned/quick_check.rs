@@ -6,7 +6,7 @@
 //! of the coarse runs succeed, the shot is checked instead.
 
 use super::check_many::check_summary;
-use super::cover::{Cover, CoverWatch};
+use super::cover::{Cover, CoverRecorder};
 use super::peaks::peaks;
 use super::step_error;
 use crate::choice::Accuracy;
@@ -58,7 +58,7 @@ pub fn quick_check_until(
     let mut runs: Vec<Outcome> = Vec::new();
     loop {
         let is_last = step < 1.01 * last;
-        let mut cover = CoverWatch::new(case, &shot.firings, step);
+        let mut cover = CoverRecorder::new(case, &shot.firings, step);
         let watch = &mut |motion: &dyn Motion| {
             cover.observe(motion);
             control.keep_going()

@@ -10,7 +10,7 @@
 //! agree by luck are not believed.
 //!
 //! All steps of a ladder may miss the same event, and agree on a wrong value. Nearby shots show this: pairs of shots whose inputs
-//! are changed a little to both sides ([`Shot::both_sides`](crate::scene::Shot::both_sides)), run at the step of the coarsest
+//! are changed a little to both sides ([`Shot::nearby_pair`](crate::scene::Shot::nearby_pair)), run at the step of the coarsest
 //! neighbour. A value that depends smoothly on the inputs lies in the middle of each pair: |v₊ + v₋ − 2v| is of second order in
 //! the change. Where it is more than [`FAR_ERROR_FACTOR`] times the error, an event is near, and the disagreement is the error.
 //!
@@ -41,7 +41,7 @@ pub fn widened(error: f64, between: f64, pairs: impl IntoIterator<Item = [f64; 2
     if greatest > FAR_ERROR_FACTOR * error { greatest } else { error }
 }
 
-/// Estimated error of `value`, computed at `step`, from `(step, value)` of its neighbours; 0 without neighbours.
+/// FittedParameter error of `value`, computed at `step`, from `(step, value)` of its neighbours; 0 without neighbours.
 pub fn estimate(step: f64, value: f64, neighbours: impl IntoIterator<Item = (f64, f64)>) -> f64 {
     let estimates = neighbours.into_iter().map(|(other, near)| {
         let ratio = other / step;

@@ -46,7 +46,7 @@ pub struct Fit {
 #[derive(Clone, Debug)]
 pub struct Answer {
     /// One for each parameter.
-    pub estimates: Vec<Estimated>,
+    pub estimates: Vec<FittedParameter>,
     /// Correlation of the estimates (`n_parameters` × `n_parameters`).
     pub correlation: Vec<Vec<f64>>,
     /// One for each observation.
@@ -61,7 +61,7 @@ pub struct Answer {
 
 /// The estimate of one parameter, in its unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Estimated {
+pub struct FittedParameter {
     /// The parameter.
     pub parameter: Parameter,
     /// The estimate.
@@ -115,7 +115,7 @@ impl Answer {
 
     /// The estimates as a plan writes them.
     pub fn to_write(&self) -> Vec<EstimateToWrite> {
-        let to_write = |estimate: &Estimated| EstimateToWrite {
+        let to_write = |estimate: &FittedParameter| EstimateToWrite {
             unknown: estimate.parameter.unknown,
             row: estimate.parameter.row,
             value: estimate.value,

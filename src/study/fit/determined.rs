@@ -14,7 +14,7 @@ use super::parameter::Parameter;
 use super::predictor::Predictor;
 use super::search::SearchBox;
 use crate::choice::ObservedQuantity;
-use crate::plan::observations::Watched;
+use crate::plan::observations::ObservedValue;
 use crate::scene::Scene;
 use crate::study::NoResult;
 
@@ -42,7 +42,7 @@ pub struct Observable {
     /// Index of the delay option.
     pub option: usize,
     /// What to watch.
-    pub watched: Watched,
+    pub watched: ObservedValue,
 }
 
 /// Standard deviation with which somebody observes a quantity of this value, where nobody says: 5 cm, 20 ms, 5 %.
@@ -55,11 +55,11 @@ pub fn assumed_sd(quantity: ObservedQuantity, value: f64) -> f64 {
 }
 
 /// Everything that could be observed of a shot under a shelter.
-pub fn observables(scene: &Scene) -> Vec<Watched> {
+pub fn observables(scene: &Scene) -> Vec<ObservedValue> {
     let of_tires = [ObservedQuantity::FlightHeight, ObservedQuantity::Landing, ObservedQuantity::Drift];
     let tires = itertools::iproduct!(of_tires, 0..scene.mass.len());
     let cables = (0..scene.cables.len()).map(|cable| (ObservedQuantity::Force, cable));
-    tires.chain(cables).map(|(quantity, index)| Watched { quantity, index, time: 0.0 }).collect()
+    tires.chain(cables).map(|(quantity, index)| ObservedValue { quantity, index, time: 0.0 }).collect()
 }
 
 /// A combination of parameters [standard deviations of their ranges] that is not determined; `None` where all are. `slopes` are J.

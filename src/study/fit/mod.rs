@@ -28,7 +28,7 @@ mod problem;
 pub mod search;
 mod watch;
 
-pub use self::answer::{Answer, Estimated, Fit, FitResult, Residual};
+pub use self::answer::{Answer, Fit, FitResult, FittedParameter, Residual};
 pub use self::determined::{NotDetermined, Observable};
 use self::observation_bands::{NextObservation, next_observation, predict_observations};
 use self::observed_shots::ObservedShots;

@@ -10,10 +10,10 @@ use super::observed_shots::{ObservedShot, ObservedShots};
 use super::predictor::observe_shot;
 use super::until_rest;
 use crate::choice::ObservedQuantity;
-use crate::plan::observations::Watched;
-use crate::study::samples::draw_until_sure::sample_step;
+use crate::plan::observations::ObservedValue;
 use crate::study::samples::random_shot::{Input, draw_shot};
 use crate::study::samples::sample_count::Sampling;
+use crate::study::samples::sample_until_sure::sample_step;
 use crate::study::samples::sampled_shot::percentiles;
 use crate::study::work::batch::run_batch;
 use crate::study::{Case, ComputeSettings, NoResult, StudyControl};
@@ -173,7 +173,7 @@ pub fn next_observation(
 }
 
 /// Greatest share of a limit among the values of everything that could be watched.
-fn utilization(case: &Case, watched: &[Watched], values: &[f64]) -> f64 {
+fn utilization(case: &Case, watched: &[ObservedValue], values: &[f64]) -> f64 {
     case.limits.utilization(|quantity| {
         let wanted = match quantity {
             Quantity::Height => ObservedQuantity::FlightHeight,

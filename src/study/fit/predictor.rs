@@ -4,11 +4,11 @@ use std::ops::ControlFlow;
 
 use super::observed_shots::ObservedShot;
 use super::parameter::Parameter;
-use super::watch::ObservationWatch;
+use super::watch::ObservationRecorder;
 use crate::choice::ObservedQuantity;
 use crate::outcome::EndReason;
 use crate::plan::Plan;
-use crate::plan::observations::Watched;
+use crate::plan::observations::ObservedValue;
 use crate::scene::{Scene, Shot};
 use crate::simulation::{Motion, RunSettings};
 use crate::study::{Case, ComputeSettings, NoResult, StudyControl};
@@ -59,16 +59,16 @@ pub fn observe_shot(
     case: &Case,
     variant: Option<&Scene>,
     shot: &Shot,
-    watched: &[Watched],
+    watched: &[ObservedValue],
     settings: &RunSettings,
     control: &StudyControl,
 ) -> Result<Option<Vec<f64>>, NoResult> {
     // A run begins at time 0: where a hole fires before, all is moved, and moved back in what is seen.
     let early = shot.firings.first().map_or(0.0, |firing| -firing.time.min(0.0));
     let shot = &shot.later_by(early);
-    let later = |watched: &Watched| Watched { time: watched.time + early, ..*watched };
-    let moved: Vec<Watched> = watched.iter().map(later).collect();
-    let mut watch = ObservationWatch::new(&moved);
+    let later = |watched: &ObservedValue| ObservedValue { time: watched.time + early, ..*watched };
+    let moved: Vec<ObservedValue> = watched.iter().map(later).collect();
+    let mut watch = ObservationRecorder::new(&moved);
     let mut look = |motion: &dyn Motion| -> ControlFlow<()> {
         watch.observe(motion);
         control.keep_going()

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::answer::{Answer, Estimated, Residual};
+use super::answer::{Answer, FittedParameter, Residual};
 use super::covariance::{CovarianceModel, ObservationCovariance, SampledPrediction};
 use super::observed_shots::{ObservedShot, ObservedShots};
 use super::parameter::{Parameter, Prior};
@@ -32,7 +32,7 @@ pub(super) struct FitProblem<'p> {
 }
 
 /// An answer with what is known of its neighbourhood.
-pub(super) struct SettledAnswer {
+pub(super) struct RefinedAnswer {
     pub minimum: Minimum,
     /// The predictions there.
     pub predicted: Vec<f64>,
@@ -43,7 +43,7 @@ pub(super) struct SettledAnswer {
     pub is_settled: bool,
 }
 
-impl SettledAnswer {
+impl RefinedAnswer {
     /// −2 × the logarithm of the likelihood, but for a constant.
     fn unlikelihood(&self) -> f64 {
         self.minimum.misfit + self.covariance.log_determinant
@@ -90,7 +90,7 @@ impl FitProblem<'_> {
     }
 
     /// Answers of nearly equal misfit, the best first.
-    pub fn answers(&self, case: &Case) -> Result<Vec<SettledAnswer>, NoResult> {
+    pub fn answers(&self, case: &Case) -> Result<Vec<RefinedAnswer>, NoResult> {
         let start = self.start_coordinates(&case.plan);
         let model = CovarianceModel {
             predictor: &self.predictor,
@@ -114,13 +114,13 @@ impl FitProblem<'_> {
             Some(seed) => self.settle_among_samples(&model, minimum, seed),
             None => self.settle(&model, minimum),
         })?;
-        let settled: Option<Vec<Option<SettledAnswer>>> = settled.into_iter().collect();
-        let mut settled: Vec<SettledAnswer> =
+        let settled: Option<Vec<Option<RefinedAnswer>>> = settled.into_iter().collect();
+        let mut settled: Vec<RefinedAnswer> =
             settled.ok_or(NoResult::OutOfTime)?.into_iter().flatten().collect();
         settled.sort_by(|a, b| a.unlikelihood().total_cmp(&b.unlikelihood()));
-        let least = settled.first().map(SettledAnswer::unlikelihood).ok_or_else(|| self.failure(&start))?;
+        let least = settled.first().map(RefinedAnswer::unlikelihood).ok_or_else(|| self.failure(&start))?;
         settled.retain(|answer| answer.unlikelihood() <= least + NEARLY_EQUAL);
-        Ok(settled.into_iter().fold(Vec::new(), |mut all: Vec<SettledAnswer>, settled| {
+        Ok(settled.into_iter().fold(Vec::new(), |mut all: Vec<RefinedAnswer>, settled| {
             if !all.iter().any(|known| known.minimum.is_same(&settled.minimum)) {
                 all.push(settled);
             }
@@ -142,14 +142,14 @@ impl FitProblem<'_> {
         &self,
         model: &CovarianceModel<'_>,
         minimum: &Minimum,
-    ) -> Result<Option<SettledAnswer>, NoResult> {
+    ) -> Result<Option<RefinedAnswer>, NoResult> {
         let Some(covariance) = model.without_scatter(&minimum.point)? else { return Ok(None) };
         let Some(minimum) = self.space.refine(&minimum.point, &|at| self.residuals(at, &covariance))? else {
             return Ok(None);
         };
         let Some(predicted) = self.predictor.values(&minimum.point, 1.0)? else { return Ok(None) };
         let slopes = self.slopes(&minimum, &predicted)?;
-        Ok(Some(SettledAnswer { minimum, predicted, slopes, covariance, is_settled: true }))
+        Ok(Some(RefinedAnswer { minimum, predicted, slopes, covariance, is_settled: true }))
     }
 
     /// The answer near a minimum, for the mean of what scatter makes of the predictions: samples about the answer give the mean,
@@ -159,7 +159,7 @@ impl FitProblem<'_> {
         model: &CovarianceModel<'_>,
         minimum: &Minimum,
         seed: u64,
-    ) -> Result<Option<SettledAnswer>, NoResult> {
+    ) -> Result<Option<RefinedAnswer>, NoResult> {
         let count = minimum.point.len();
         let (mut at, mut spread) = (minimum.point.clone(), self.sample_spread(|n| minimum.sd(n)));
         let mut settled = None;
@@ -203,7 +203,7 @@ impl FitProblem<'_> {
                 |n: usize| moved[n].abs() <= 0.3 * spread[n] && (wanted[n] / spread[n]).ln().abs() < 0.4;
             let is_settled = (0..count).all(is_near);
             (at, spread) = (minimum.point.clone(), wanted);
-            settled = Some(SettledAnswer { minimum, predicted, slopes, covariance, is_settled });
+            settled = Some(RefinedAnswer { minimum, predicted, slopes, covariance, is_settled });
             if is_settled {
                 break;
             }
@@ -237,14 +237,14 @@ impl FitProblem<'_> {
         Ok(slopes.map(|slope| if slope.is_finite() { slope } else { 0.0 }))
     }
 
-    pub fn answer(&self, case: &Case, settled: &SettledAnswer) -> Answer {
-        let SettledAnswer { minimum, predicted, covariance, .. } = settled;
+    pub fn answer(&self, case: &Case, settled: &RefinedAnswer) -> Answer {
+        let RefinedAnswer { minimum, predicted, covariance, .. } = settled;
         let parameters = &self.predictor.parameters;
         let count = parameters.len();
         let estimate = |n: usize| {
             let (parameter, at, [low, high]) = (parameters[n], minimum.point[n], self.space.ranges[n]);
             let near_end = 1e-6 * (high - low);
-            Estimated {
+            FittedParameter {
                 parameter,
                 value: parameter.value(at),
                 sd: parameter.sd_of_value(at, minimum.sd(n)),

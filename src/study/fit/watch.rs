@@ -1,15 +1,15 @@
 //! Values of observed quantities in one run: what somebody would have seen of it.
 
 use crate::choice::ObservedQuantity;
-use crate::plan::observations::Watched;
+use crate::plan::observations::ObservedValue;
 use crate::simulation::Motion;
 
 /// Height above which a tire has visibly left the ground [m].
 const OFF_THE_GROUND: f64 = 1e-3;
 
 /// Watches quantities through one run.
-pub struct ObservationWatch<'w> {
-    watched: &'w [Watched],
+pub struct ObservationRecorder<'w> {
+    watched: &'w [ObservedValue],
     tracks: Vec<Track>,
     time: f64,
 }
@@ -31,9 +31,9 @@ struct Track {
     at_time: Option<f64>,
 }
 
-impl<'w> ObservationWatch<'w> {
+impl<'w> ObservationRecorder<'w> {
     /// Watches these quantities from time 0 on.
-    pub fn new(watched: &'w [Watched]) -> Self {
+    pub fn new(watched: &'w [ObservedValue]) -> Self {
         Self { watched, tracks: vec![Track::default(); watched.len()], time: 0.0 }
     }
 
@@ -57,7 +57,7 @@ impl<'w> ObservationWatch<'w> {
     /// The value of each quantity [its SI unit], in their order; not a number where the tire never lifts or never lands, nor of a
     /// height after a run that did not end `at_rest`.
     pub fn values(&self, at_rest: bool) -> Vec<f64> {
-        let value = |(watched, track): (&Watched, &Track)| match watched.quantity {
+        let value = |(watched, track): (&ObservedValue, &Track)| match watched.quantity {
             ObservedQuantity::FlightHeight | ObservedQuantity::Force => track.greatest,
             ObservedQuantity::Height => {
                 track.at_time.unwrap_or(if at_rest { track.last[1].1 } else { f64::NAN })
@@ -124,9 +124,12 @@ mod tests {
             let t = time - fired;
             (t * (5.0 - 0.5 * gravity * t)).max(0.0) * f64::from(u8::from(t > 0.0))
         };
-        let mut track =
-            ObservationWatch::new(&[Watched { quantity: ObservedQuantity::Height, index: 0, time: 0.4005 }])
-                .tracks[0];
+        let mut track = ObservationRecorder::new(&[ObservedValue {
+            quantity: ObservedQuantity::Height,
+            index: 0,
+            time: 0.4005,
+        }])
+        .tracks[0];
         (1..2000).map(|n| f64::from(n) * 1e-3).for_each(|time| track.note(time, height(time), 0.4005));
         // The parabola is exact but for rounding; a straight line errs by g h²/8 = 1.2 µm, the lift by up to g h²/v = 2 µs.
         assert!((track.greatest - 25.0 / 2.0 / gravity).abs() < 1e-9, "{}", track.greatest);

@@ -133,7 +133,7 @@ pub fn find_reasons(
 ) -> Vec<ShotReason> {
     let limits = with_limits(estimates, &case.limits).map(|(quantity, estimate, limit)| ShotReason::Limit {
         quantity,
-        verdict: estimate.judge_against(limit),
+        verdict: estimate.compare_with(limit),
         estimate,
         limit,
     });

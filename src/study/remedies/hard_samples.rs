@@ -6,9 +6,9 @@
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-use crate::study::samples::draw_until_sure::{ShotToSample, run_sample};
 use crate::study::samples::failure_bounds::{ErrorShare, FailureBounds};
 use crate::study::samples::sample::Sample;
+use crate::study::samples::sample_until_sure::{ShotToSample, run_sample};
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::work::batch::run_batch;
 use crate::study::{NoResult, StudyControl};
@@ -75,7 +75,7 @@ impl HardSamples {
     }
 
     /// Draws the hard samples of changes, each for an option; `None` for changes that the time did not suffice for.
-    pub(super) fn draw(
+    pub(super) fn run(
         &self,
         targets: &[(usize, ShotToSample<'_>)],
         control: &StudyControl,

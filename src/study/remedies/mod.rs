@@ -22,9 +22,9 @@ use super::judge_options::OptionResults;
 use super::judgement::Evidence;
 use super::judgement::Judgement;
 use super::reasons::shot::exceeds_together;
-use super::samples::draw_until_sure::{ShotToSample, sample_shots};
 use super::samples::failure_bounds::ErrorShare;
 use super::samples::sample_count::Sampling;
+use super::samples::sample_until_sure::{ShotToSample, sample_shots};
 use super::samples::sampled_shot::SampledShot;
 use super::work::batch::run_batch;
 use super::{
@@ -310,7 +310,7 @@ fn sample(
     hard: &mut HardSamples,
     control: &StudyControl,
 ) -> Result<Vec<SampledChange>, NoResult> {
-    let first = hard.draw(targets, control)?;
+    let first = hard.run(targets, control)?;
     let mut sampled_changes: Vec<SampledChange> = Vec::new();
     let (mut left, mut places) = (Vec::new(), Vec::new());
     for (n, ((_, target), first)) in targets.iter().zip(&first).enumerate() {

@@ -3,7 +3,7 @@
 //! | what | where |
 //! |---|---|
 //! | one drawn at random, and its run | [`random_shot`], [`sample`] |
-//! | how many; which are run when | [`sample_count`], [`draw_until_sure`] |
+//! | how many; which are run when | [`sample_count`], [`sample_until_sure`] |
 //! | what they tell: the risk and its verdict | [`sampled_shot`]; of thousands of shots: [`risk_summary`] |
 //! | how sure a count of failures is | [`failure_bounds`] |
 //! | which input decides | [`influence`] |
@@ -21,12 +21,12 @@
 //! | `search`: the schedules of the report, all at once | `OneOf` | yes, for the choice |
 //! | `size`: one combination after the other | `Nth` | |
 
-pub mod draw_until_sure;
 pub mod failure_bounds;
 pub mod influence;
 pub mod random_shot;
 pub mod risk_summary;
 pub mod sample;
 pub mod sample_count;
+pub mod sample_until_sure;
 pub mod sampled_shot;
 pub mod swaps;

@@ -1,8 +1,8 @@
 //! The risk of many shots of a study, of which only a summary is kept: few samples of each, or as many as a verdict needs.
 
-use super::draw_until_sure::{ShotToSample, sample_shots};
 use super::failure_bounds::FailureBounds;
 use super::sample_count::Sampling;
+use super::sample_until_sure::{ShotToSample, sample_shots};
 use super::sampled_shot::{SampledShot, percentiles};
 use crate::scene::Shot;
 use crate::study::{Case, ComputeSettings, NoResult, ShotSummary, StudyControl};

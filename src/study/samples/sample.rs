@@ -1,4 +1,4 @@
-//! One sample of a shot, and how its run is judged.
+//! One sample of a shot, and what its run comes to.
 
 use serde::{Deserialize, Serialize};
 

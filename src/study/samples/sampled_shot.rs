@@ -2,7 +2,7 @@
 //!
 //! A sample is run once, at a coarse step: its error falls to both sides of a limit, and the failure probability is far more exact
 //! than any one sample. The audit runs some of them again at a finer step. Where these runs, or the shot as planned, contradict the
-//! samples, the risk is open, and [`sample_shots`](super::draw_until_sure::sample_shots) samples the shot anew at half the step.
+//! samples, the risk is open, and [`sample_shots`](super::sample_until_sure::sample_shots) samples the shot anew at half the step.
 
 use std::collections::BTreeMap;
 
@@ -123,9 +123,10 @@ impl SampledShot {
         sign_test_rejects(count(true), count(false))
     }
 
-    /// The samples that are not undecided.
+    /// The samples of which no run is undecided.
     pub fn decided(&self) -> impl Iterator<Item = &Sample> {
-        self.samples.iter().filter(|sample| sample.run.verdict != Verdict::Undecided)
+        let is_decided = |run: &SampleRun| run.verdict != Verdict::Undecided;
+        self.samples.iter().filter(move |sample| is_decided(&sample.run) && is_decided(sample.finest()))
     }
 
     /// The runs of the samples of the audit, each at both steps.
@@ -133,9 +134,13 @@ impl SampledShot {
         self.samples.iter().filter_map(|sample| Some((&sample.run, sample.finer.as_ref()?)))
     }
 
-    /// Whether values at the finer step lie to one side, beyond chance, and so far that of the samples, moved by [`BIAS_ALLOWANCE`]
-    /// times the mean difference, a share fails that is outside the bounds or on the other side of the accepted risk. Where
-    /// little is unknown, all samples have the same error of the step, and none of them may change its verdict.
+    /// Whether the error of the step, if all samples have it alike, would change the verdict. This is so where little is unknown:
+    /// then no single sample changes its verdict between two steps, and all would together.
+    ///
+    /// 1. What differs: the values of the audit at the finer step lie to one side of those at the coarser one, beyond chance.
+    /// 2. The values of all samples are moved to that side by [`BIAS_ALLOWANCE`] times the mean difference.
+    /// 3. The samples are contradicted where the share that fails then lies outside the bounds, or on the other side of the accepted
+    ///    risk.
     fn is_biased(&self) -> bool {
         let factors = PerQuantity::from_fn(|quantity| self.bias_factor(quantity));
         let fails = |sample: &&Sample| {

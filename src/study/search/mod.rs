@@ -156,7 +156,7 @@ pub fn try_schedules(
     to_try.add(listed.allowed.unwrap_or_default());
     let ours = to_try.tried.into_iter().enumerate().filter(|(number, _)| shard.has(*number));
     let mut ours: Vec<TriedSchedule> = ours.map(|(_, trial)| trial).collect();
-    start_halving(case, sampling, compute).draw(&mut ours, FIRST_OF_ALL, control)
+    start_halving(case, sampling, compute).run_samples(&mut ours, FIRST_OF_ALL, control)
 }
 
 fn start_halving<'c>(

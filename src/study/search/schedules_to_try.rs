@@ -99,7 +99,7 @@ impl<'c> SchedulesToTry<'c> {
         }
         let mut seen: HashSet<Candidate> = HashSet::new();
         loop {
-            let drawn = halving.draw(&mut self.tried, FIRST_OF_SEARCH, control)?;
+            let drawn = halving.run_samples(&mut self.tried, FIRST_OF_SEARCH, control)?;
             if drawn.partial {
                 return Ok(drawn);
             }

@@ -4,9 +4,9 @@
 use super::schedule::Candidate;
 use crate::scene::Shot;
 use crate::study::as_planned::quick_check::quick_check;
-use crate::study::samples::draw_until_sure::{ShotToSample, run_sample_once};
 use crate::study::samples::sample::SampleRun;
 use crate::study::samples::sample_count::Sampling;
+use crate::study::samples::sample_until_sure::{ShotToSample, run_sample_once};
 use crate::study::work::batch::run_batch;
 use crate::study::{Case, ComputeResult, ComputeSettings, Computed, Fingerprint, NoResult, StudyControl};
 use crate::verdict::Verdict;
@@ -88,8 +88,8 @@ pub struct SuccessiveHalving<'c> {
 }
 
 impl SuccessiveHalving<'_> {
-    /// Draws samples of every schedule until it has `samples`.
-    pub fn draw(
+    /// Runs samples of every schedule until it has `samples`.
+    pub fn run_samples(
         &self,
         tried: &mut [TriedSchedule],
         samples: usize,
@@ -146,7 +146,7 @@ impl SuccessiveHalving<'_> {
     ) -> ComputeResult<()> {
         let (mut samples, mut left) = (first, tried.len());
         loop {
-            let drawn = self.draw(&mut tried[..left], samples, control)?;
+            let drawn = self.run_samples(&mut tried[..left], samples, control)?;
             tried[..left].sort_by(|a, b| {
                 a.tally.estimated_failing_share().total_cmp(&b.tally.estimated_failing_share())
             });

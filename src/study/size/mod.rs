@@ -191,7 +191,7 @@ fn try_all(task: &SizingTask<'_>) -> Result<Vec<(Combination, ShotsToSample)>, N
     let most_border = if matches!(plan.layout, Layout::List { .. }) { 0 } else { plan.size.most_border_rows };
     let mut tried = Vec::new();
     // Index of the shot at which the last combination failed: the next combination likely fails at it, too.
-    let mut likeliest = 0;
+    let mut last_failed = 0;
     for (ropes, &tire_mass, border_rows) in
         itertools::iproduct!(ropes_by_stiffness(plan), masses, 0..=most_border)
     {
@@ -202,7 +202,7 @@ fn try_all(task: &SizingTask<'_>) -> Result<Vec<(Combination, ShotsToSample)>, N
             if task.control.expired() {
                 trial = Err(Untried::OutOfTime);
             } else if stronger_holds {
-                match candidate.try_as_planned(&mut likeliest) {
+                match candidate.try_as_planned(&mut last_failed) {
                     Ok(Some((made, shots))) => (trial, hardest) = (Ok(made), shots),
                     Ok(None) => trial = Err(Untried::OutOfTime),
                     Err(NoResult::Failed(_)) => trial = Err(Untried::RunFailed),

@@ -9,9 +9,9 @@ use crate::ropes::Rope;
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::check_summaries;
 use crate::study::as_planned::cover::Cover;
-use crate::study::samples::draw_until_sure::{ShotToSample, sample_shots_watched};
 use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::sample_count::Sampling;
+use crate::study::samples::sample_until_sure::{ShotToSample, sample_shots_watched};
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::{Case, Computed, NoResult, ShotSummary, ValueWithError};
 use crate::verdict::Verdict;
@@ -64,16 +64,16 @@ impl<'q> SizeCandidate<'q> {
         }
     }
 
-    /// Judges the shots as planned in chunks of [`AT_ONCE`], beginning with index `likeliest`. Stops after the first chunk with a
-    /// shot that does not pass, and puts that shot's index into `likeliest`. `None` where the time was up.
+    /// Checks the shots as planned in chunks of [`AT_ONCE`], beginning with index `last_failed`. Stops after the first chunk with a
+    /// shot that does not pass, and puts that shot's index into `last_failed`. `None` where the time was up.
     pub(super) fn try_as_planned(
         &self,
-        likeliest: &mut usize,
+        last_failed: &mut usize,
     ) -> Result<Option<(Trial, ShotsToSample)>, NoResult> {
         let (case, SizingTask { compute, control, demand, .. }) = (&self.case, self.task);
         let mut order: Vec<usize> = (0..self.shots.len()).collect();
-        if *likeliest < order.len() {
-            order.swap(0, *likeliest);
+        if *last_failed < order.len() {
+            order.swap(0, *last_failed);
         }
         let mut checked: Vec<ShotSummary> = Vec::new();
         let mut holds = true;
@@ -86,7 +86,7 @@ impl<'q> SizeCandidate<'q> {
             let failed = checked_part.iter().position(|checked| checked.verdict != Verdict::Pass);
             checked.extend(checked_part);
             if let Some(failed) = failed {
-                *likeliest = chunk[failed];
+                *last_failed = chunk[failed];
                 holds = false;
                 break;
             }

@@ -7,7 +7,7 @@ use crate::study::NoResult;
 pub struct Computed<T> {
     /// The result.
     pub value: T,
-    /// Whether the time was up before all shots were judged; `value` then comes from the shots judged by then.
+    /// Whether the time was up before all was computed; `value` then comes from what was.
     pub partial: bool,
 }
 

@@ -43,7 +43,7 @@ impl StudyControl {
         self.stopped.load(Ordering::Relaxed)
     }
 
-    /// Ends the study within a step, with the shots checked so far as its result.
+    /// Ends the study within a step, with what was found so far as its result.
     pub fn expire(&self) {
         self.out_of_time.store(true, Ordering::Relaxed);
     }
@@ -53,17 +53,17 @@ impl StudyControl {
         self.out_of_time.load(Ordering::Relaxed)
     }
 
-    /// Shots checked, and shots expected as far as is known.
+    /// Pieces of work done, and those expected as far as is known: a check of a shot, a sample, a launch margin, a minimum of a fit.
     pub fn counts(&self) -> (usize, usize) {
         (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed))
     }
 
-    /// Announces `more` shots.
+    /// Announces `more` pieces of work.
     pub(in crate::study) fn announce(&self, more: usize) {
         self.total.fetch_add(more, Ordering::Relaxed);
     }
 
-    /// Counts one shot as checked.
+    /// Counts one piece of work as done.
     pub(in crate::study) fn advance(&self) {
         self.done.fetch_add(1, Ordering::Relaxed);
     }

@@ -29,7 +29,7 @@ pub fn draw_row<'l>(
     }
 }
 
-/// Draws the question of a study and how far the study is: shots judged and expected.
+/// Draws the question of a study and how far the study is: pieces of work done and expected.
 pub fn draw_progress(
     app: &App,
     frame: &mut Frame,
@@ -40,7 +40,7 @@ pub fn draw_progress(
     let [text, bar] = Layout::vertical([Constraint::Length(3), Constraint::Length(1)]).areas(area);
     frame.render_widget(Paragraph::new(question).wrap(Wrap { trim: true }), text);
     let share = if total > 0 { done as f64 / total as f64 } else { 0.0 };
-    let label = format!("{done} of {total} shots so far · {} cancels", app.keymap.hint(Action::Cancel));
+    let label = format!("{done} of {total} done so far · {} cancels", app.keymap.hint(Action::Cancel));
     // The text on the filled part has the colour of the paper; a terminal's own background has no colour that is known.
     let paper = app.theme.base().bg.filter(|color| *color != Color::Reset).unwrap_or(Color::Black);
     let style = app.theme.curve().bg(paper);

@@ -13,7 +13,7 @@ use crate::simulation::contact::{TireStep, stop_at_ground};
 use crate::simulation::pack::{LANES, Pack, Wide};
 use crate::simulation::record::Record;
 use crate::simulation::verlet::cable_forces::CableForces;
-use crate::simulation::verlet::kick::TirePack;
+use crate::simulation::verlet::kick::TireRegister;
 
 /// Result of a tire that was integrated through the step by itself.
 #[derive(Clone, Copy, Debug)]
@@ -79,9 +79,9 @@ pub struct EventContext<'e> {
 impl EventContext<'_> {
     /// Tires of the register that begins at tire `at`.
     #[inline(always)]
-    pub fn tires<S: Simd>(&self, simd: S, state: TiresBefore<'_>, at: usize) -> TirePack<S> {
+    pub fn tires<S: Simd>(&self, simd: S, state: TiresBefore<'_>, at: usize) -> TireRegister<S> {
         let TiresBefore { u, v, forces, masses: [mass, inverse_mass] } = state;
-        TirePack {
+        TireRegister {
             u: std::array::from_fn(|c| Wide::load(simd, u[c], at)),
             v: std::array::from_fn(|c| Wide::load(simd, v[c], at)),
             f: forces.sum_at(simd, self.part.blocks.ends.of(at / LANES), at % LANES),
@@ -125,7 +125,7 @@ impl EventContext<'_> {
             let unpushed = 0.5 * (vector(alone.v) + vector(moved.v));
             let free = vector(alone.f) * inverse_mass + self.scene.gravity();
             let pushed = push_at_start(here, tire);
-            let pushed_on_ground = self.pushes.on_ground(tire);
+            let pushed_on_ground = self.pushes.pushed_on_ground(tire);
             let velocity = pushed_on_ground.map_or(unpushed, |before| {
                 stop_at_ground(
                     before.velocity + (free + before.push_acceleration) * (0.5 * self.step),
@@ -185,7 +185,7 @@ impl EventContext<'_> {
         self.totals.motion[0] = self.totals.motion[0].max(velocity.amax()).max(motion.displacement.z);
         let next_half = if goes_on {
             if !in_air {
-                self.pushes.keep_on_ground(PushedTire {
+                self.pushes.remember_on_ground(PushedTire {
                     tire,
                     velocity,
                     push_acceleration: motion.push_acceleration,

@@ -30,7 +30,8 @@ impl Stepper<'_> {
         let [weakest, strongest] = *strengths;
         let (blocks, stored) = (&part.blocks.blocks[..], &mut stored[..part.blocks.blocks.len()]);
         let (u, mut cable_forces) = (u.slices(), cable_forces.slices());
-        let (mut energy, mut force, mut dissipated) = (self.asleep, [0.0; LANES], [0.0; LANES]);
+        let (mut energy, mut force, mut dissipated) =
+            (self.asleep_elastic_energy, [0.0; LANES], [0.0; LANES]);
         let mut greatest = Wide::splat(simd, weakest * self.record.force.value);
         for &n in &wake.awake_blocks {
             let of_block = cable_forces.evaluate::<S, DAMPED>(simd, &blocks[n], u, *step);

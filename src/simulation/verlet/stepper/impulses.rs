@@ -59,7 +59,7 @@ impl Pushes {
     }
 
     /// A tire on the ground that was under a push until the step began.
-    pub fn on_ground(&self, tire: usize) -> Option<PushedTire> {
+    pub fn pushed_on_ground(&self, tire: usize) -> Option<PushedTire> {
         self.began.iter().find(|pushed| pushed.tire == tire).copied()
     }
 
@@ -69,7 +69,7 @@ impl Pushes {
     }
 
     /// Keeps a tire on the ground under a push that goes on.
-    pub fn keep_on_ground(&mut self, pushed: PushedTire) {
+    pub fn remember_on_ground(&mut self, pushed: PushedTire) {
         self.next.push(pushed);
     }
 }

@@ -95,7 +95,7 @@ pub(super) struct Stepper<'a> {
     /// Elastic energy of each block at its last evaluation [J] (`n_blocks`).
     stored: Vec<Pack>,
     /// Elastic energy of all blocks asleep [J].
-    asleep: Pack,
+    asleep_elastic_energy: Pack,
     /// Potential energy on the slope of all tires asleep [J].
     asleep_on_slope: f64,
 }
@@ -140,7 +140,7 @@ impl<'a> Stepper<'a> {
             u,
             v,
             stored: vec![[0.0; LANES]; part.blocks.blocks.len()],
-            asleep: [0.0; LANES],
+            asleep_elastic_energy: [0.0; LANES],
             asleep_on_slope: 0.0,
         }
     }
@@ -149,7 +149,7 @@ impl<'a> Stepper<'a> {
     pub(super) fn run(mut self, watch: &mut Watcher<'_>) -> Result<Outcome, RunError> {
         let arch = pulp::Arch::new();
         loop {
-            if let Some(reason) = self.clock.end_reason(self.moving, &self.firings) {
+            if let Some(reason) = self.clock.skip_rest_or_end(self.moving, &self.firings) {
                 return Ok(self.finish(reason));
             }
             self.collect_due_impulses();
@@ -179,10 +179,10 @@ impl<'a> Stepper<'a> {
     /// Adds the energy of blocks that fell asleep to the energy asleep, and takes off the energy of blocks that woke.
     fn move_stored_energy(&mut self) {
         for &block in &self.wake.fell_asleep {
-            (0..LANES).for_each(|j| self.asleep[j] += self.stored[block][j]);
+            (0..LANES).for_each(|j| self.asleep_elastic_energy[j] += self.stored[block][j]);
         }
         for &block in &self.wake.woke {
-            (0..LANES).for_each(|j| self.asleep[j] -= self.stored[block][j]);
+            (0..LANES).for_each(|j| self.asleep_elastic_energy[j] -= self.stored[block][j]);
         }
     }
 

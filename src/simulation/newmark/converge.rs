@@ -21,7 +21,7 @@ impl Stepper<'_> {
     /// Integrates one cut of a step over `h` [s]; halves the cut while its contact region does not settle.
     pub(super) fn advance(&mut self, h: f64, halved: usize) -> Result<(), RunError> {
         match self.settle(h) {
-            Err(RunError::Unsettled { .. }) if halved < MOST_STEP_HALVINGS => {
+            Err(RunError::NotConverged { .. }) if halved < MOST_STEP_HALVINGS => {
                 self.advance(0.5 * h, halved + 1)?;
                 self.advance(0.5 * h, halved + 1)
             }
@@ -50,7 +50,7 @@ impl Stepper<'_> {
                 tolerance = FINE_TOLERANCE;
             }
         }
-        Err(RunError::Unsettled { what: Iteration::ContactRegion, time: self.clock.now() })
+        Err(RunError::NotConverged { what: Iteration::ContactRegion, time: self.clock.now() })
     }
 
     /// Takes tires for in the air that are above the ground or leave it: what was assumed of the end of a longer cut may have them
@@ -94,7 +94,7 @@ impl Stepper<'_> {
             self.a[tire] = match self.region.ground[tire] {
                 TireContact::InAir => free,
                 TireContact::Stick => Vector3::zeros(),
-                TireContact::Slip => (free.xy() + self.friction(free, self.v[tire].xy())).push(0.0),
+                TireContact::Slip => (free.xy() + self.sliding_friction(free, self.v[tire].xy())).push(0.0),
             };
         }
     }
@@ -137,7 +137,7 @@ impl Stepper<'_> {
                 return Ok(());
             }
         }
-        Err(RunError::Unsettled { what: Iteration::Newton, time: self.clock.now() })
+        Err(RunError::NotConverged { what: Iteration::Newton, time: self.clock.now() })
     }
 
     /// Sets the forces and the residual of equilibrium at the end of the cut.

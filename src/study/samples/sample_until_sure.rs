@@ -99,7 +99,7 @@ const AUDIT_STEP_DIVISOR: f64 = 4.0;
 /// Most times that a shot is sampled anew at half the step.
 const MOST_STEP_HALVINGS: u32 = 3;
 
-/// Draws and judges samples of every shot, until its risk is sure.
+/// Draws and runs samples of every shot, until its risk is sure.
 ///
 /// The result is partial where a shot has no more samples than the time sufficed for.
 pub fn sample_shots(targets: &[ShotToSample<'_>], control: &StudyControl) -> ComputeResult<Vec<SampledShot>> {
@@ -211,8 +211,8 @@ fn undecided_if_panicked(sample: Result<Sample, NoResult>, number: usize) -> Res
     }
 }
 
-/// Draws and judges the samples of every shot that belong to `shard`; `None` for those that the time did not suffice for.
-pub fn draw_shard(
+/// Draws and runs the samples of every shot that belong to `shard`; `None` for those that the time did not suffice for.
+pub fn run_shard(
     targets: &[ShotToSample<'_>],
     shard: Shard,
     control: &StudyControl,
