@@ -19,9 +19,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         if motion.time() >= next {
             next += 0.1;
             let height = |tire: usize| motion.displacement(tire).z;
-            let highest = (0..scene.mass.len()).max_by(|&a, &b| height(a).total_cmp(&height(b)));
+            let highest = (0..scene.tire_count()).max_by(|&a, &b| height(a).total_cmp(&height(b)));
             if let Some(tire) = highest {
-                println!("{:.1} s: tire {} is {:.3} m high", motion.time(), scene.tire[tire], height(tire));
+                println!(
+                    "{:.1} s: tire {} is {:.3} m high",
+                    motion.time(),
+                    scene.tire_ids[tire],
+                    height(tire)
+                );
             }
         }
         ControlFlow::Continue(())

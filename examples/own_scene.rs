@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut scene = Scene {
         position: places.map(|(x, y)| Vector3::new(x, y, 0.0)).to_vec(),
         mass: vec![280.0; places.len()],
-        tire: (1..=places.len()).map(TireId::Listed).collect(),
+        tire_ids: (1..=places.len()).map(TireId::Listed).collect(),
         cables: Vec::new(),
         friction: 0.5,
         gravity: 9.81,

@@ -85,7 +85,7 @@ impl Regime {
         });
         let mut scene = Scene {
             mass: masses.collect(),
-            tire: (1..=layout.places.len()).map(TireId::Listed).collect(),
+            tire_ids: (1..=layout.places.len()).map(TireId::Listed).collect(),
             cables: Vec::new(),
             friction: if self == Self::Friction { random.scale(0.05, 2.0) } else { random.between(0.2, 0.7) },
             downhill: nalgebra::Vector2::zeros(),
@@ -109,7 +109,7 @@ impl Regime {
     }
 
     fn shot(self, random: &mut Random, scene: &Scene, rows: usize, columns: usize) -> Shot {
-        let tires = scene.mass.len();
+        let tires = scene.tire_count();
         let by_rows = match self {
             Self::Volley | Self::FiredTwice => true,
             Self::ManyHoles | Self::Tree | Self::Irregular => false,

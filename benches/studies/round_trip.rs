@@ -129,7 +129,7 @@ fn watched(case: &Case, random: &mut StdRng) -> Vec<(String, f64)> {
     let fired: Vec<usize> = case.shots[0].firings.iter().map(|firing| firing.tire).collect();
     let cables: Vec<usize> = (0..scene.cables.len()).collect();
     let tires = |random: &mut StdRng, count| {
-        fired.choose_multiple(random, count).map(|&tire| scene.tire[tire]).collect::<Vec<_>>()
+        fired.choose_multiple(random, count).map(|&tire| scene.tire_ids[tire]).collect::<Vec<_>>()
     };
     let mut lines: Vec<(String, f64)> = Vec::new();
     lines.extend(tires(random, 3).iter().map(|tire| (format!("{tire},,flight_height_m"), 0.05)));

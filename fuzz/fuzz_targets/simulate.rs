@@ -26,7 +26,7 @@ fuzz_target!(|text: &str| {
         return;
     }
     let case = Case::new(plan);
-    let tires = case.scene().mass.len();
+    let tires = case.scene().tire_count();
     let step = (0.2 * case.scene().critical_step()).min(1e-3);
     for method in [Method::Verlet, Method::Newmark] {
         for shot in case.shots.iter().take(2) {

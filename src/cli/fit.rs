@@ -117,7 +117,7 @@ fn template_of(case: &Case) -> String {
     let tire = case.shots[0].firings.first().map_or(0, |firing| firing.tire);
     let cable =
         scene.cables.iter().position(|cable| cable.ends.contains(&tire)).map(|cable| scene.cable_name(cable));
-    template(&case.plan.delays[0].name, &scene.tire[tire].to_string(), cable.as_deref())
+    template(&case.plan.delays[0].name, &scene.tire_ids[tire].to_string(), cable.as_deref())
 }
 
 /// Writes the estimates into the plan.

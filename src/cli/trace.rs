@@ -137,8 +137,8 @@ fn choose(scene: &Scene, arguments: &Arguments) -> Result<TracedItems, String> {
 fn find_tire(scene: &Scene, text: &str) -> Result<usize, String> {
     let numbers: Result<Vec<f64>, _> = text.split([',', ':']).map(|part| part.trim().parse()).collect();
     let numbers = numbers.map_err(|_| format!("'{text}' is no tire: write ROW,COLUMN such as 2,3"))?;
-    let found = scene.tire.iter().position(|id: &TireId| id.numbers() == numbers);
-    let last = scene.tire.last().map_or_else(String::new, TireId::to_string);
+    let found = scene.tire_ids.iter().position(|id: &TireId| id.numbers() == numbers);
+    let last = scene.tire_ids.last().map_or_else(String::new, TireId::to_string);
     found.ok_or_else(|| format!("no tire {text} in this shelter, whose last is {last}"))
 }
 

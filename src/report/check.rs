@@ -64,7 +64,7 @@ fn fields<'a>(sampled: bool, drift_has_limit: bool) -> Vec<Field<OptionRow<'a>>>
             row.as_planned(|checked| Cell::Number(checked.height.time))
         }),
         Field::new(Column::scripts(&["flight_height_tire"]), |row| {
-            row.as_planned(|checked| Cell::Text(row.case.scene().tire[checked.height.index].to_string()))
+            row.as_planned(|checked| Cell::Text(row.case.scene().tire_ids[checked.height.index].to_string()))
         }),
         Field::new(if_planned_alone(FORCE), |row| row.as_planned(|checked| force(checked.force.into()))),
         Field::new(if_sampled(PLANNED_FORCE), |row| {

@@ -71,7 +71,7 @@ fn report_head(case: &Case, sampled: bool) -> Report {
     let (plan, scene) = (&case.plan, case.scene());
     let mut facts = format!(
         "{} tires, {} cables · limits: {}",
-        scene.mass.len(),
+        scene.tire_count(),
         scene.cables.len(),
         limits::limits(case)
     );

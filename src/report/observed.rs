@@ -90,7 +90,7 @@ pub fn place(case: &Case, option: usize, watched: &ObservedValue) -> String {
     let scene = case.scene();
     let address = match watched.quantity {
         ObservedQuantity::Force => scene.cable_name(watched.index),
-        _ => scene.tire[watched.index].to_string(),
+        _ => scene.tire_ids[watched.index].to_string(),
     };
     let when = if watched.quantity == ObservedQuantity::Height {
         format!(" at {} s", watched.time)

@@ -10,7 +10,7 @@ use crate::units::Unit;
 pub fn header(scene: &Scene, chosen: &TracedItems) -> Vec<String> {
     let mut names = vec!["t_s".to_owned()];
     for &tire in &chosen.tires {
-        let id = scene.tire[tire];
+        let id = scene.tire_ids[tire];
         let quantities = ["x_m", "y_m", "height_m", "friction_n", "friction_limit_n"];
         names.extend(quantities.map(|quantity| format!("{quantity}[{id}]")));
     }

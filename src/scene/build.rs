@@ -150,7 +150,7 @@ impl Scene {
         let mut scene = Scene {
             position: Vec::new(),
             mass: Vec::new(),
-            tire: Vec::new(),
+            tire_ids: Vec::new(),
             cables: Vec::new(),
             friction: plan.ground.friction,
             gravity: plan.simulation.gravity_m_s2 * level,
@@ -198,7 +198,7 @@ impl Scene {
 
     fn add_tire(&mut self, id: TireId, x: f64, y: f64) {
         self.position.push(Vector3::new(x, y, 0.0));
-        self.tire.push(id);
+        self.tire_ids.push(id);
     }
 
     /// Adds tires row by row; the first tire is `first` rows and columns from the first corner of the border.
@@ -282,8 +282,9 @@ impl Scene {
     pub fn firings(&self, targets: &LaunchTargets) -> Vec<Firing> {
         match targets {
             LaunchTargets::UnderRow { row, launch } => {
-                let in_row = |&n: &usize| matches!(self.tire[n], TireId::Cell { row: r, .. } if r == *row);
-                let tires = (0..self.tire.len()).filter(in_row);
+                let in_row =
+                    |&n: &usize| matches!(self.tire_ids[n], TireId::Cell { row: r, .. } if r == *row);
+                let tires = (0..self.tire_ids.len()).filter(in_row);
                 tires.map(|tire| firing(tire, launch)).collect()
             }
             LaunchTargets::UnderTires { tires, launch } => {

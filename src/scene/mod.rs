@@ -23,7 +23,7 @@ pub struct Scene {
     /// Masses [kg] (`n_tires`).
     pub mass: Vec<f64>,
     /// Address of each tire in the plan (`n_tires`).
-    pub tire: Vec<TireId>,
+    pub tire_ids: Vec<TireId>,
     /// Cables (`n_cables`).
     pub cables: Vec<Cable>,
     /// Coefficient of friction, where the shot names none.
@@ -132,6 +132,11 @@ pub fn with_ends(rope: f64, end: Option<f64>) -> f64 {
 }
 
 impl Scene {
+    /// Number of tires.
+    pub fn tire_count(&self) -> usize {
+        self.mass.len()
+    }
+
     /// Gravity as a vector [m/s²]; the third axis is the ground's normal.
     pub fn gravity(&self) -> Vector3<f64> {
         self.downhill.push(-self.gravity)
@@ -145,7 +150,7 @@ impl Scene {
     /// Address of a cable: its two tires; empty for a scene without cables.
     pub fn cable_name(&self, cable: usize) -> String {
         self.cables.get(cable).map_or_else(String::new, |cable| {
-            let [a, b] = cable.ends.map(|end| self.tire[end]);
+            let [a, b] = cable.ends.map(|end| self.tire_ids[end]);
             format!("{a}-{b}")
         })
     }
@@ -189,7 +194,7 @@ impl Scene {
     /// Numbers of the rows of a mesh with their y [m], and of its columns with their x [m]; both empty for a list of tires.
     pub fn rows_and_columns(&self) -> [BTreeMap<i64, f64>; 2] {
         let (mut rows, mut columns, mut first) = (BTreeMap::new(), BTreeMap::new(), None);
-        for (tire, position) in self.tire.iter().zip(&self.position) {
+        for (tire, position) in self.tire_ids.iter().zip(&self.position) {
             let (TireId::Cell { row, column } | TireId::Border { row, column }) = *tire else { continue };
             // Tires of the first row have all columns, those of the first column all rows; the centre tires of a quincunx, between
             // rows and columns, are in neither.

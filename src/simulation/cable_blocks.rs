@@ -71,7 +71,7 @@ impl Blocks {
         }
         cable.resize(cable.len().next_multiple_of(LANES) + LANES, NONE);
         let weight = cable.iter().map(|&c| if c == NONE { 0.0 } else { weight[c as usize] }).collect();
-        let packs = scene.mass.len().div_ceil(LANES);
+        let packs = scene.tire_count().div_ceil(LANES);
         let ends = Ends(CompressedRows::new(2 * packs, &acting));
         Self { blocks, weight, ends: ends.into(), cable: cable.into() }
     }

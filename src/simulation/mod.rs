@@ -128,7 +128,7 @@ impl Model {
     pub fn modelled_tires(&self, method: Method, shot: &Shot) -> usize {
         match method {
             Method::Verlet => self.verlet.modelled_tires(&self.scene, shot),
-            Method::Newmark => self.scene.mass.len(),
+            Method::Newmark => self.scene.tire_count(),
         }
     }
 }

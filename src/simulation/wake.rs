@@ -210,7 +210,7 @@ pub mod tests {
         let cables = pairs.filter(near).map(tie).collect();
         let scene = Scene {
             mass: vec![280.0; rows * columns],
-            tire: (1..=rows * columns).map(TireId::Listed).collect(),
+            tire_ids: (1..=rows * columns).map(TireId::Listed).collect(),
             cables,
             friction: 0.5,
             gravity: 9.81,

@@ -40,7 +40,7 @@ pub fn record(
     control: &StudyControl,
 ) -> Result<Flight, NoResult> {
     let settings = case.run_settings(compute.method, compute.first_step(case));
-    let tires = case.scene().mass.len();
+    let tires = case.scene().tire_count();
     let most = (MOST_KEPT / tires.max(1)).clamp(FRAMES[0], FRAMES[1]) / 2 * 2;
     let (mut times, mut displacements) = (Vec::new(), Vec::new());
     // The shelter at rest, before the first hole.

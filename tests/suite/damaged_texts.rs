@@ -84,7 +84,7 @@ proptest! {
             let mut left = 20;
             let outcome = case.model.run(&case.shots[0], &RunSettings { method, step, duration: None }, &mut |motion| {
                 left -= 1;
-                let finite = (0..case.scene().mass.len()).all(|tire| motion.displacement(tire).norm().is_finite());
+                let finite = (0..case.scene().tire_count()).all(|tire| motion.displacement(tire).norm().is_finite());
                 if left > 0 && finite { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             });
             let stopped_early = matches!(outcome, Err(RunError::Stopped { .. })) && left > 0;

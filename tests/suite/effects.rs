@@ -308,7 +308,7 @@ fn a_launch_beside_a_mirror_plane_is_that_of_the_whole_shelter() {
     let half = Case::new(Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
     let mut whole = half.scene().clone();
     whole.mirrors.clear();
-    assert!(half.model.modelled_tires(Method::Verlet, &half.shots[0]) < whole.mass.len());
+    assert!(half.model.modelled_tires(Method::Verlet, &half.shots[0]) < whole.tire_count());
     let [half, whole] =
         [half.scene(), &whole].map(|scene| run(scene, &half.shots[0], settings(Method::Verlet, 5e-4, None)));
     close(half.height.value, whole.height.value, 1e-9, "height");

@@ -100,7 +100,7 @@ proptest! {
             (0..columns).map(move |column| Firing::up(at, (row % rows) * columns + column, launch))
         };
         let shot = Shot::from_firings(fired.iter().flat_map(row).collect());
-        prop_assert!(modelled_tires(&scene, &shot) < scene.mass.len());
+        prop_assert!(modelled_tires(&scene, &shot) < scene.tire_count());
         let settings = settings(Method::Verlet, 1e-3, Some(0.5));
         let (part, full) = (run(&scene, &shot, settings), run(&whole, &shot, settings));
         let close = |a: f64, b: f64| (a - b).abs() <= 1e-12 + 1e-9 * b.abs();
@@ -113,7 +113,7 @@ proptest! {
         let places = |scene: &Scene| {
             let mut all = Vec::new();
             watch(scene, &shot, settings, |motion| {
-                all.extend((0..scene.mass.len()).map(|tire| motion.displacement(tire)));
+                all.extend((0..scene.tire_count()).map(|tire| motion.displacement(tire)));
             });
             all
         };

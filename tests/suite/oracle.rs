@@ -25,7 +25,7 @@ const STEPS: usize = 10_000;
 type Tie = Option<(f64, f64, Vector3<f64>)>;
 
 fn simple(scene: &Scene, shot: &Shot, steps: usize) -> Extremes {
-    let count = scene.mass.len();
+    let count = scene.tire_count();
     let mut cables: Vec<Vec<Tie>> = vec![vec![None; count]; count];
     for cable in &scene.cables {
         let [a, b] = cable.ends;
@@ -88,7 +88,7 @@ fn shelter(rng: &mut ChaCha8Rng) -> (Scene, Shot) {
     for mass in &mut scene.mass {
         *mass = rng.random_range(50.0..600.0);
     }
-    let count = scene.mass.len();
+    let count = scene.tire_count();
     for a in 0..count {
         for b in a + 1..count {
             if rng.random_bool(0.6) {

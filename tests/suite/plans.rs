@@ -32,10 +32,10 @@ fn every_shipped_plan_loads() {
 #[test]
 fn the_paper_plan_is_five_tires_with_a_metre_of_diagonal() {
     let case = Case::new(shipped("paper-5-tire.toml"));
-    assert_eq!((case.scene().mass.len(), case.scene().cables.len()), (5, 8));
+    assert_eq!((case.scene().tire_count(), case.scene().cables.len()), (5, 8));
     let diagonals = case.scene().cables.iter().filter(|cable| (cable.rest_length - 1.0).abs() < 1e-12);
     assert_eq!(diagonals.count(), 4);
-    assert_eq!(case.scene().tire[case.shots[0].firings[0].tire], TireId::Cell { row: 1.5, column: 1.5 });
+    assert_eq!(case.scene().tire_ids[case.shots[0].firings[0].tire], TireId::Cell { row: 1.5, column: 1.5 });
     assert!((case.limits.force - 20_400.0).abs() < 1e-9);
 }
 

@@ -124,7 +124,7 @@ proptest! {
         for &method in methods(&scene, &shot) {
             let (mut lowest, mut outside_cone, mut early, mut finite) = (0.0_f64, 0.0_f64, 0.0_f64, true);
             let out = watch(&scene, &shot, settings(method, step(&scene), Some(later + 1.0)), |motion| {
-                for tire in 0..scene.mass.len() {
+                for tire in 0..scene.tire_count() {
                     let (friction, limit) = motion.friction(tire);
                     let displacement = motion.displacement(tire);
                     finite &= displacement.norm().is_finite() && friction.is_finite() && limit.is_finite();
@@ -151,7 +151,7 @@ proptest! {
     #[test]
     fn without_friction_momentum_stays_zero((mut scene, shot) in shelter()) {
         (scene.friction, scene.downhill) = (0.0, Vector2::zeros());
-        let count = scene.mass.len();
+        let count = scene.tire_count();
         let centre = scene.position.iter().sum::<Vector3<f64>>() / count as f64;
         let whole: f64 = scene.mass.iter().sum();
         let mut before: Vec<_> = scene.position.iter().map(|p| p - centre).collect();
@@ -186,7 +186,7 @@ proptest! {
     /// Mirrored and renumbered shelters give mirrored and renumbered results, up to the order of summation.
     #[test]
     fn mirror_and_renumbering_change_nothing((scene, shot) in shelter(), seed in any::<u64>()) {
-        let n = scene.mass.len();
+        let n = scene.tire_count();
         let mut order: Vec<usize> = (0..n).collect();
         let mut state = seed | 1;
         for i in (1..n).rev() {
@@ -248,7 +248,7 @@ proptest! {
         let mut lone = scene.clone();
         lone.position.push(Vector3::new(1e3, 0.0, 0.0));
         lone.mass.push(77.0);
-        lone.tire.push(TireId::Listed(99));
+        lone.tire_ids.push(TireId::Listed(99));
         let mut slack = scene.clone();
         let span = scene.position[1] - scene.position[0];
         slack.cables.push(Cable { ends: [0, 1], rest_length: 1e6, stiffness: 1.0, span });

@@ -425,7 +425,7 @@ fn the_lightest_shelter_is_that_of_brute_force() {
     let combinations = itertools::iproduct!(ropes, [150.0, 400.0], 0..=1).map(|(rope, mass, border)| {
         let case = Case::new(plan.with_sizes(rope, mass, border));
         let length: f64 = case.scene().cables.iter().map(|cable| cable.rest_length).sum();
-        (case.scene().mass.len() as f64 * mass + length * rope.mass_kg_per_m, case)
+        (case.scene().tire_count() as f64 * mass + length * rope.mass_kg_per_m, case)
     });
     let (mut lightest, mut fragile) = (f64::INFINITY, 0);
     for (total, case) in combinations.sorted_by(|a, b| a.0.total_cmp(&b.0)) {

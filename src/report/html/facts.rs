@@ -22,7 +22,7 @@ pub fn shelter(case: &Case, to_be_fired: Option<usize>) -> Markup {
     };
     html! {
         table.facts {
-            tr { th { "Tires" } td { (scene.mass.len()) " of " (plan.tire.mass_kg) " kg, " (layout(plan)) ", " (rims(plan.tire.outer_diameter_m)) } }
+            tr { th { "Tires" } td { (scene.tire_count()) " of " (plan.tire.mass_kg) " kg, " (layout(plan)) ", " (rims(plan.tire.outer_diameter_m)) } }
             tr { th { "Cables" } td { (scene.cables.len()) ", slack " (plan.cable.slack_percent) " %" (gone) } }
             @for (name, text) in rope(&plan.cable) { tr { th { (name) } td { (text) } } }
             tr { th { "Ground" } td { (ground(&plan.ground)) } }

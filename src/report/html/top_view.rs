@@ -62,7 +62,7 @@ fn peaks(case: &Case, checked: Option<&CheckedShot>) -> Vec<Peak> {
     };
     let lifted = || {
         let value = units::value_by_error(height.value, height.error, Unit::Metre);
-        format!("highest: tire {}, {value} m", scene.tire[height.index])
+        format!("highest: tire {}, {value} m", scene.tire_ids[height.index])
     };
     let cable = (force.value > 0.0).then(|| Peak::Cable(force.index, pulled()));
     let tire = (height.value > 0.0).then(|| Peak::Tire(height.index, lifted()));
@@ -144,7 +144,7 @@ fn draw(case: &Case, labels: &Labels, peaks: &[Peak]) -> Result<String, Box<dyn 
                 area.draw(&PathElement::new(scene.cables[*cable].ends.map(place), BLACK.stroke_width(5)))?;
             }
         }
-        for tire in 0..scene.mass.len() {
+        for tire in 0..scene.tire_count() {
             area.draw(&Circle::new(place(tire), radius, TIRE.stroke_width(1)))?;
         }
         for (tire, _) in &labels.texts {
@@ -219,12 +219,12 @@ fn draw_labels(
 /// Numbers of the tires of a list, which has no rows and columns.
 fn draw_tire_numbers(case: &Case, area: &Area<'_>, at: impl Fn(usize) -> (i32, i32), radius: i32) -> Drawn {
     let scene = case.scene();
-    if !matches!(case.plan.layout, Layout::List { .. }) || scene.tire.len() > MOST_LABELS {
+    if !matches!(case.plan.layout, Layout::List { .. }) || scene.tire_ids.len() > MOST_LABELS {
         return Ok(());
     }
     let place = Pos::new(HPos::Center, VPos::Top);
     let style = ("sans-serif", 12).into_font().color(&TIRE).pos(place);
-    for (tire, id) in scene.tire.iter().enumerate() {
+    for (tire, id) in scene.tire_ids.iter().enumerate() {
         let (x, y) = at(tire);
         area.draw(&Text::new(id.to_string(), (x, y + radius + 4), style.clone()))?;
     }

@@ -141,7 +141,7 @@ struct BrokenAt {
 impl BrokenAt {
     fn new(scene: &Scene, broken: &BrokenCable) -> Self {
         let ends = scene.cables[broken.cable].ends;
-        Self { cable: ends.map(|end| tire_address(&scene.tire[end])), at_s: broken.time }
+        Self { cable: ends.map(|end| tire_address(&scene.tire_ids[end])), at_s: broken.time }
     }
 }
 
@@ -153,7 +153,7 @@ impl TirePeakObject {
             error,
             band,
             at_s: time,
-            tire: scene.tire.get(index).map(tire_address).unwrap_or_default(),
+            tire: scene.tire_ids.get(index).map(tire_address).unwrap_or_default(),
         }
     }
 }
@@ -161,7 +161,7 @@ impl TirePeakObject {
 impl CablePeakObject {
     pub(super) fn new(scene: &Scene, estimate: &Estimate, band: Percentiles) -> Self {
         let Estimate { value, error, time, index } = *estimate;
-        let ends = |cable: &crate::scene::Cable| cable.ends.map(|end| tire_address(&scene.tire[end]));
+        let ends = |cable: &crate::scene::Cable| cable.ends.map(|end| tire_address(&scene.tire_ids[end]));
         Self { value, error, band, at_s: time, cable: scene.cables.get(index).map(ends) }
     }
 }
@@ -255,7 +255,7 @@ impl CheckDocument {
             verdict: verdict_on_plan(results, must_pass).for_scripts(),
             partial,
             scene: SceneSize {
-                tires: scene.mass.len(),
+                tires: scene.tire_count(),
                 cables: scene.cables.len(),
                 modelled_tires: case.modelled_tires(method),
             },

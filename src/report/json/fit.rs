@@ -114,7 +114,7 @@ impl ResidualObject {
         let finite = |value: f64| Some(value).filter(|value| value.is_finite());
         Self {
             option: case.plan.delays[observed.option].name.clone(),
-            tire: (!is_force).then(|| scene.tire[watched.index].to_string()),
+            tire: (!is_force).then(|| scene.tire_ids[watched.index].to_string()),
             cable: is_force.then(|| scene.cable_name(watched.index)),
             quantity: watched.quantity,
             at_s: (watched.quantity == ObservedQuantity::Height).then_some(watched.time),

@@ -163,7 +163,7 @@ pub fn compute_label(compute: &ComputeSettings) -> String {
 /// Where and when height and force were greatest.
 fn peak(scene: &Scene, checked: &CheckedShot) -> [String; 2] {
     let CheckedShot { height, force, .. } = checked;
-    let lifted = format!("tire {}, {}", scene.tire[height.index], units::seconds(height.time));
+    let lifted = format!("tire {}, {}", scene.tire_ids[height.index], units::seconds(height.time));
     let pulled = format!("cable {}, {}", scene.cable_name(force.index), units::seconds(force.time));
     [
         if height.value > 0.0 { lifted } else { "no tire lifts".to_owned() },

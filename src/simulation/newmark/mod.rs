@@ -65,7 +65,7 @@ impl NewmarkModel {
         if shot.firings.iter().any(|firing| firing.push_time > 0.0) {
             return Err(RunError::Effect { effect: "push", method: Method::Newmark });
         }
-        let ties = self.ties.get_or_init(|| Ties::of_cables(&scene.cables, scene.mass.len()));
+        let ties = self.ties.get_or_init(|| Ties::of_cables(&scene.cables, scene.tire_count()));
         Stepper::new(scene, ties, shot, settings).run(watch)
     }
 }
@@ -119,14 +119,14 @@ struct Stepper<'a> {
 impl<'a> Stepper<'a> {
     /// Run of `shot` under `scene`, before the first step.
     fn new(scene: &'a Scene, ties: &'a Ties, shot: &'a Shot, settings: &RunSettings) -> Self {
-        let zeros = || vec![Vector3::zeros(); scene.mass.len()];
+        let zeros = || vec![Vector3::zeros(); scene.tire_count()];
         let friction = shot.friction.unwrap_or(scene.friction);
         let slides = scene.slides(friction);
         let mut wake = Wake::new(ties);
         if slides {
             wake.set_all_moving();
         }
-        let ground = vec![if slides { TireContact::Slip } else { TireContact::Stick }; scene.mass.len()];
+        let ground = vec![if slides { TireContact::Slip } else { TireContact::Stick }; scene.tire_count()];
         let region = Region { taut: vec![false; scene.cables.len()], ground };
         Self {
             scene: Cow::Borrowed(scene),
@@ -277,7 +277,7 @@ mod tests {
     /// A free tire 1 m above the ground, at rest, that is assumed to be on the ground, as where a longer step was given up.
     fn tire_aloft(check: impl FnOnce(Stepper<'_>)) {
         let scene = &Scene { cables: Vec::new(), ..scenes().0 };
-        let ties = Ties::of_cables(&scene.cables, scene.mass.len());
+        let ties = Ties::of_cables(&scene.cables, scene.tire_count());
         let shot = Shot::from_firings(Vec::new());
         let settings = RunSettings { method: Method::Newmark, step: 1e-3, duration: None };
         let mut stepper = Stepper::new(scene, &ties, &shot, &settings);
@@ -317,7 +317,7 @@ mod tests {
     #[test]
     fn tires_asleep_would_not_have_moved() {
         let (scene, shots) = scenes();
-        let ties = || Ties::of_cables(&scene.cables, scene.mass.len());
+        let ties = || Ties::of_cables(&scene.cables, scene.tire_count());
         let (some, all) = (NewmarkModel::default(), NewmarkModel { ties: ties().with_everything().into() });
         // With the longer step, motion spreads over several tires within one step.
         for (shot, step) in shots.iter().flat_map(|shot| [(shot, 2e-3), (shot, 2e-2)]) {

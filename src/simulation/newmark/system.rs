@@ -61,9 +61,9 @@ impl System {
     /// Empty system with room for every tire and cable of `scene`.
     pub fn new(scene: &Scene) -> Self {
         Self {
-            rows: Vec::with_capacity(scene.mass.len() + 1),
+            rows: Vec::with_capacity(scene.tire_count() + 1),
             links: Vec::with_capacity(scene.cables.len()),
-            row: vec![HELD; scene.mass.len()],
+            row: vec![HELD; scene.tire_count()],
         }
     }
 

@@ -53,7 +53,7 @@ impl MirrorReduction {
     /// The reduction of `scene` by `planes`, and the part that is modelled: kept tires and images in the order of the whole
     /// scene, and the cables of kept tires.
     pub fn new<'s>(scene: &'s Scene, planes: &[&Mirror]) -> (Self, Cow<'s, Scene>) {
-        let n = scene.mass.len();
+        let n = scene.tire_count();
         if planes.is_empty() {
             let (weight, cable_weight) = (vec![1.0; n], vec![1.0; scene.cables.len()]);
             return (Self { images: Vec::new(), weight, cable_weight, to_whole: None }, Cow::Borrowed(scene));
@@ -108,7 +108,7 @@ impl MirrorReduction {
         let mut part = Scene {
             position: tire.iter().map(|&t| scene.position[t]).collect(),
             mass: tire.iter().map(|&t| scene.mass[t]).collect(),
-            tire: tire.iter().map(|&t| scene.tire[t]).collect(),
+            tire_ids: tire.iter().map(|&t| scene.tire_ids[t]).collect(),
             cables: cables.iter().map(|&c| scene.cables[c]).collect(),
             friction: scene.friction,
             gravity: scene.gravity,

@@ -186,7 +186,7 @@ mod tests {
 
     fn asleep_like_awake(scene: &Scene, shots: &[Shot]) {
         let mut part = Part::new(scene, &[]);
-        part.ties = Arc::new(Ties::of_blocks(&part.blocks, scene.mass.len()).with_everything());
+        part.ties = Arc::new(Ties::of_blocks(&part.blocks, scene.tire_count()).with_everything());
         let (some, mut all) = (VerletModel::default(), VerletModel::default());
         all.parts[0] = part.into();
         for shot in shots {

@@ -40,7 +40,7 @@ pub fn paper_table(case: &Case, method: Method) -> Option<Vec<PaperRow>> {
     let single =
         matches!(case.plan.delays.as_slice(), [delay] if matches!(delay.timing, Timing::Interval { .. }));
     let centre = case.shots.first()?.firings.first()?.tire;
-    let [5, 8] = [scene.mass.len(), scene.cables.len()] else { return None };
+    let [5, 8] = [scene.tire_count(), scene.cables.len()] else { return None };
     if !single || case.shots[0].firings.len() != 1 || scene.mass[0] != 280.0 || scene.friction != 0.5 {
         return None;
     }

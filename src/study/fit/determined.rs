@@ -57,7 +57,7 @@ pub fn assumed_sd(quantity: ObservedQuantity, value: f64) -> f64 {
 /// Everything that could be observed of a shot under a shelter.
 pub fn observables(scene: &Scene) -> Vec<ObservedValue> {
     let of_tires = [ObservedQuantity::FlightHeight, ObservedQuantity::Landing, ObservedQuantity::Drift];
-    let tires = itertools::iproduct!(of_tires, 0..scene.mass.len());
+    let tires = itertools::iproduct!(of_tires, 0..scene.tire_count());
     let cables = (0..scene.cables.len()).map(|cable| (ObservedQuantity::Force, cable));
     tires.chain(cables).map(|(quantity, index)| ObservedValue { quantity, index, time: 0.0 }).collect()
 }

@@ -49,7 +49,7 @@ pub fn observable_names(case: &Case) -> ObservableNames {
     let scene = case.scene();
     ObservableNames {
         options: case.plan.delays.iter().map(|delay| delay.name.clone()).collect(),
-        tires: scene.tire.iter().map(TireId::numbers).collect(),
+        tires: scene.tire_ids.iter().map(TireId::numbers).collect(),
         cables: scene.cables.iter().map(|cable| cable.ends).collect(),
         holes: case
             .shots

@@ -207,7 +207,7 @@ fn scatter_tires(
     launch_common: f64,
     random: &mut Random,
 ) {
-    let mut above: Vec<Vec<usize>> = vec![Vec::new(); scene.mass.len()];
+    let mut above: Vec<Vec<usize>> = vec![Vec::new(); scene.tire_count()];
     firings.iter().enumerate().for_each(|(n, firing)| above[firing.tire].push(n));
     let in_hole = unknown.in_hole_deviation();
     let tilt = unknown.launch_tilt_deg.to_radians();

@@ -58,7 +58,7 @@ impl<'q> SizeCandidate<'q> {
             rope: self.rope,
             tire_mass: self.tire_mass,
             border_rows: self.border_rows,
-            tires: scene.mass.len(),
+            tires: scene.tire_count(),
             total_mass: scene.mass.iter().sum::<f64>() + length * self.rope.mass_kg_per_m,
             trial,
         }

@@ -131,7 +131,7 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
             }
         });
     frame.render_widget(canvas, inside);
-    let mut firing = vec![None; scene.mass.len()];
+    let mut firing = vec![None; scene.tire_count()];
     for fire in app.case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings) {
         if (fire.time..fire.time + FLASH).contains(&time) {
             firing[fire.tire] = Some(arrow(fire.launch.xy()));
@@ -252,7 +252,7 @@ fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area
         (scene.position[tire][axis] + f64::from(u[axis]), f64::from(u[2]))
     };
     let aloft = |tire: usize| frame_of[tire][2] > GROUND;
-    let tires: Vec<(f64, f64)> = (0..scene.mass.len()).map(position).collect();
+    let tires: Vec<(f64, f64)> = (0..scene.tire_count()).map(position).collect();
     let seen = if axis == 0 { "across rows" } else { "along rows" };
     // A cell of a terminal is about twice as high as wide.
     let cells = [f64::from(area.width.max(1)), 2.0 * f64::from(area.height.saturating_sub(1).max(1))];
@@ -321,7 +321,7 @@ fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<
         "no tire in the air".to_owned(),
         |(tire, height)| {
             let value = units::value(height, Unit::Metre);
-            format!("tire {} {value} m, {}", scene.tire[tire], share(height, limits.height))
+            format!("tire {} {value} m, {}", scene.tire_ids[tire], share(height, limits.height))
         },
     );
     let cable =

@@ -15,7 +15,7 @@ const LEAST: (u16, u16) = (24, 6);
 
 /// The part of an area that is left for the map; all of it where numbers have no room, or tires have none.
 pub fn map_area(scene: &Scene, area: Rect) -> Rect {
-    let is_listed = matches!(scene.tire.first(), Some(TireId::Listed(_)));
+    let is_listed = matches!(scene.tire_ids.first(), Some(TireId::Listed(_)));
     if is_listed || area.width < LEAST.0 + LEFT || area.height < LEAST.1 + 1 {
         return area;
     }

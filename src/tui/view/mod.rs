@@ -117,7 +117,7 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
         about += " · inputs assumed known to 1 %";
     }
     about += &format!(" · {}", compute_label(&app.compute));
-    let size = format!(" · {} tires, {} cables", case.scene().mass.len(), case.scene().cables.len());
+    let size = format!(" · {} tires, {} cables", case.scene().tire_count(), case.scene().cables.len());
     if Span::raw(&about).width() + Span::raw(&size).width() <= usize::from(area.width) {
         about += &size;
     }

@@ -71,7 +71,7 @@ fn ten_hours_between_two_firings_are_two_runs() {
     let mut two = cross();
     two.position.extend(one.position.iter().map(|p| p + Vector3::x() * 100.0));
     two.mass.extend(&one.mass);
-    two.tire.extend(&one.tire);
+    two.tire_ids.extend(&one.tire_ids);
     let moved = |cable: &shelter::scene::Cable| {
         let mut cable = *cable;
         cable.ends = cable.ends.map(|end| end + 5);

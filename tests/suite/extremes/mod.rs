@@ -59,7 +59,7 @@ fn steps(method: Method) -> usize {
 fn stable(case: &str, scene: &Scene, shot: &Shot, method: Method, h: f64, steps: usize) -> Outcome {
     let case = format!("{case}, {method:?}, h = {h:e} s");
     let first = shot.firings.first().map_or(0.0, |firing| firing.time);
-    let mut before = vec![Vector3::zeros(); scene.mass.len()];
+    let mut before = vec![Vector3::zeros(); scene.tire_count()];
     let (mut speed, mut highest, mut lowest) = (0.0_f64, 0.0_f64, 0.0_f64);
     let (mut outside, mut finite) = (0.0_f64, true);
     let until = settings(method, h, Some(first + steps as f64 * h));

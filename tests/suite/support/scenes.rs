@@ -16,7 +16,7 @@ pub fn tires(places: &[(f64, f64)], mass: f64) -> Scene {
     Scene {
         position: places.iter().map(|&(x, y)| Vector3::new(x, y, 0.0)).collect(),
         mass: vec![mass; places.len()],
-        tire: (1..=places.len()).map(TireId::Listed).collect(),
+        tire_ids: (1..=places.len()).map(TireId::Listed).collect(),
         cables: Vec::new(),
         friction: 0.5,
         gravity: GRAVITY,
