@@ -105,11 +105,8 @@ fn table_lines(table: &Table, style: Style) -> Vec<String> {
         return Vec::new();
     }
     let columns: Vec<&Column> = seen.iter().map(|&n| &table.columns[n]).collect();
-    let words = |text: fn(&Column) -> String| -> Vec<Label> {
-        columns.iter().map(|column| Label::new(text(column), style)).collect()
-    };
-    let mut heading = vec![words(Column::label), words(|column| column.subheading.to_owned())];
-    heading.retain(|line| line.iter().any(|label| !label.text.is_empty()));
+    let labels = |line: Vec<String>| line.into_iter().map(|text| Label::new(text, style)).collect();
+    let heading: Vec<Vec<Label>> = table.heading(&seen).into_iter().map(labels).collect();
     let cells = |row: &Row| seen.iter().map(|&n| Label::of(&row.cells[n], style)).collect();
     let rows: Vec<Vec<Label>> = table.rows.iter().map(cells).collect();
     let width = |n: usize| heading.iter().chain(&rows).map(|line| line[n].text.width()).max().unwrap_or(0);

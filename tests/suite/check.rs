@@ -3,7 +3,7 @@
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Output, Stdio};
 
-use super::support::{PROGRAM, json, shelter, shipped, small_plan, text};
+use super::support::{Edited, PROGRAM, json, shelter, shipped, small_plan, text};
 
 fn on(name: &str, arguments: &[&str]) -> Output {
     let path = shipped(name);
@@ -57,9 +57,9 @@ fn tires_that_still_move_are_no_pass() {
     let path = folder.path().join("plan.toml");
     let text = std::fs::read_to_string(shipped("paper-5-tire.toml")).expect("a plan");
     for (friction, duration, open) in [("0", "", true), ("0.5", "", false), ("0", "duration_s = 2.0", true)] {
-        let text = text.replace("friction = 0.5", &format!("friction = {friction}"));
-        let text = text.replace("breaking_force_kn = 20.4", "breaking_force_kn = 1e6");
-        std::fs::write(&path, text.replace("duration_s = 1.0", duration)).expect("written");
+        let text = text.edited("friction = 0.5", &format!("friction = {friction}"));
+        let text = text.edited("breaking_force_kn = 20.4", "breaking_force_kn = 1e6");
+        std::fs::write(&path, text.edited("duration_s = 1.0", duration)).expect("written");
         let output = shelter(&["check", "--nominal", path.to_str().expect("UTF-8"), "--format", "json"]);
         for option in json(&output)["options"].as_array().expect("options") {
             let reasons = option["reasons"].to_string();
@@ -76,8 +76,8 @@ fn a_run_that_loses_energy_is_no_pass() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("plan.toml");
     let text = std::fs::read_to_string(shipped("paper-5-tire.toml")).expect("a plan");
-    let text = text.replace("breaking_force_kn = 20.4", "breaking_force_kn = 1e6");
-    std::fs::write(&path, text.replace("mass_kg = 280", "mass_kg = 280\nouter_diameter_m = 0.9999"))
+    let text = text.edited("breaking_force_kn = 20.4", "breaking_force_kn = 1e6");
+    std::fs::write(&path, text.edited("mass_kg = 280", "mass_kg = 280\nouter_diameter_m = 0.9999"))
         .expect("written");
     let mut gated = 0;
     for step in ["1e-4", "5e-5", "2e-5", "1e-5", "5e-6", "2e-6"] {
@@ -179,9 +179,9 @@ fn broken_cables_fail_at_their_breaking_force() {
     let text = std::fs::read_to_string(shipped("paper-5-tire.toml")).expect("a plan");
     for factor in ["0.5", "1.0", "2.0"] {
         let text = text
-            .replace("[cable]\n", "[cable]\non_overload = \"break\"\n")
-            .replace("breaking_force_kn = 20.4", "breaking_force_kn = 15")
-            .replace("cable_safety_factor = 1.1", &format!("cable_safety_factor = {factor}"));
+            .edited("[cable]\n", "[cable]\non_overload = \"break\"\n")
+            .edited("breaking_force_kn = 20.4", "breaking_force_kn = 15")
+            .edited("cable_safety_factor = 1.1", &format!("cable_safety_factor = {factor}"));
         std::fs::write(&path, &text).expect("written");
         for method in ["verlet", "newmark"] {
             let output = shelter(&[
@@ -407,7 +407,7 @@ fn names_that_mislead_are_told_or_refused() {
     let path = folder.path().join("plan.toml");
     let run = |name: &str| {
         let plan = include_str!("../../plans/amur-three-rows.toml");
-        let text = plan.replace("name = \"42 ms\"", &format!("name = \"{name}\""));
+        let text = plan.edited("name = \"42 ms\"", &format!("name = \"{name}\""));
         std::fs::write(&path, text).expect("written");
         shelter(&[
             "check",

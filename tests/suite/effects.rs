@@ -14,6 +14,7 @@ use shelter::study::samples::sample_until_sure::{ShotToSample, run_shard};
 use shelter::study::{Case, ComputeSettings, Shard, StudyControl};
 use shelter::verdict::{Quantity, Verdict};
 
+use super::support::Edited;
 use super::support::scenes::{
     GRAVITY, METHODS, close, fire, fire_rows, grid, quincunx, run, settings, tie, tires, try_run, watch,
 };
@@ -594,7 +595,7 @@ fn cables_that_break_fail_with_an_effect_and_without() {
                 blast_row = [{ name = \"1\", under_row = 1, launch_m_s = 6, tilt_deg = 20 }]\n\
                 limits = { flight_height_m = 3, cable_safety_factor = 1 }\n\
                 delay = [{ name = \"a\", interval_ms = 42 }]\n";
-    let text = text.replace("rows = 1, columns = 2", "rows = 2, columns = 1");
+    let text = text.edited("rows = 1, columns = 2", "rows = 2, columns = 1");
     let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
     let compute = ComputeSettings::of(&case.plan);
     assert_eq!(case.check_as_planned(0, &compute).expect("a result").verdict, Verdict::Fail);

@@ -13,7 +13,7 @@ use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::{Answer, Fit, FitRequest, FitResult, NotDetermined, fit, observable_names};
 use shelter::study::{Case, ComputeSettings, StudyControl};
 
-use crate::support::{json, shelter, shipped, small_plan, text};
+use crate::support::{Edited, json, shelter, shipped, small_plan, text};
 
 fn case_of(text: &str) -> Case {
     let source = PlanSource { path: "plan.toml".to_owned(), text: text.to_owned() };
@@ -82,7 +82,7 @@ fn a_free_flight_gives_its_launch() {
 /// that its variance is known to 15 %, the weights to 11 %, and the estimate to 4 %; the tolerances are three times that.
 #[test]
 fn prior_scatter_and_observation_weigh_as_they_should() {
-    let section = EXACT.replace("launch_cv_percent = 0", "launch_cv_percent = 3\nlaunch_common_percent = 5");
+    let section = EXACT.edited("launch_cv_percent = 0", "launch_cv_percent = 3\nlaunch_common_percent = 5");
     let lines = "tire,quantity,value,sd\n1,flight_height_m,2.2,0.04\n";
     let fit = fitted(&lone_tire(&section), lines, &[Unknown::Launch], Some(Sampling::exactly(50, 1)));
     let [(factor, sd)] = estimates(&fit.answers[0])[..] else { panic!("one estimate") };
@@ -244,7 +244,7 @@ fn fitted_as_planned(case: &Case, lines: &str) -> Vec<(f64, f64, f64)> {
 /// percentiles of 2,000 samples are known to 4 % of that.
 #[test]
 fn bands_are_those_of_what_could_be_seen() {
-    let section = EXACT.replace("launch_cv_percent = 0", "launch_cv_percent = 3\nlaunch_common_percent = 5");
+    let section = EXACT.edited("launch_cv_percent = 0", "launch_cv_percent = 3\nlaunch_common_percent = 5");
     let case = lone_tire(&section);
     let compute = ComputeSettings::of(&case.plan);
     for sd in [0.001, 0.3] {
@@ -271,7 +271,7 @@ fn bands_are_those_of_what_could_be_seen() {
 /// 5 %.
 #[test]
 fn what_to_observe_next_takes_most_from_the_variance() {
-    let section = EXACT.replace("launch_cv_percent = 0", "launch_cv_percent = 3\nlaunch_common_percent = 5");
+    let section = EXACT.edited("launch_cv_percent = 0", "launch_cv_percent = 3\nlaunch_common_percent = 5");
     let case = lone_tire(&section);
     let compute = ComputeSettings::of(&case.plan);
     let next = next_observation(&case, 0, &Sampling::exactly(1000, 3), &compute, &StudyControl::default());
@@ -281,7 +281,7 @@ fn what_to_observe_next_takes_most_from_the_variance() {
     let exact = common * common / ((common + hole) * (common + hole + 0.05 * 0.05));
     assert!((next.share / exact - 1.0).abs() < 0.1, "{next:?} {exact}");
     let exact =
-        lone_tire(EXACT.replace("delay_sd_ms = 0", "delay_sd_ms = 0\nlaunch_common_percent = 0").as_str());
+        lone_tire(EXACT.edited("delay_sd_ms = 0", "delay_sd_ms = 0\nlaunch_common_percent = 0").as_str());
     let none = next_observation(&exact, 0, &Sampling::exactly(100, 3), &compute, &StudyControl::default());
     assert_eq!(none.expect("runs"), None);
 }
@@ -289,7 +289,7 @@ fn what_to_observe_next_takes_most_from_the_variance() {
 /// What was seen of two shots of one option counts twice where each scatters by itself: the variance by holes halves.
 #[test]
 fn two_files_are_two_shots() {
-    let section = EXACT.replace("launch_cv_percent = 0", "launch_cv_percent = 3");
+    let section = EXACT.edited("launch_cv_percent = 0", "launch_cv_percent = 3");
     let case = lone_tire(&section);
     let file = |value: f64| {
         observations(&case, &format!("tire,quantity,value,sd\n1,flight_height_m,{value},0.01\n"))
@@ -313,7 +313,7 @@ fn two_files_are_two_shots() {
 /// planned.
 #[test]
 fn measured_firing_times_take_the_place_of_planned_ones() {
-    let case = lone_tire(&EXACT.replace("delay_sd_ms = 0", "delay_sd_ms = 0\nlaunch_common_percent = 0"));
+    let case = lone_tire(&EXACT.edited("delay_sd_ms = 0", "delay_sd_ms = 0\nlaunch_common_percent = 0"));
     let compute = ComputeSettings::of(&case.plan);
     let flight = 2.0 * 6.0 / 9.81;
     let seen = |firing: &str, landing: f64| {
@@ -341,14 +341,11 @@ fn measured_firing_times_take_the_place_of_planned_ones() {
 #[test]
 fn what_was_not_logged_scatters_about_the_plan() {
     let plan =
-        lone_plan(EXACT.replace("delay_sd_ms = 0", "delay_sd_ms = 4\nlaunch_common_percent = 0").as_str());
+        lone_plan(EXACT.edited("delay_sd_ms = 0", "delay_sd_ms = 4\nlaunch_common_percent = 0").as_str());
     let plan = plan
-        .replace("[{ x_m = 0, y_m = 0 }]", "[{ x_m = 0, y_m = 0 }, { x_m = 5, y_m = 0 }]")
-        .replace(
-            "launch_m_s = 6 }]",
-            "launch_m_s = 6 }, { name = \"2\", under_tires = [2], launch_m_s = 6 }]",
-        )
-        .replace("interval_ms = 0", "at_ms = [0, 100]");
+        .edited("[{ x_m = 0, y_m = 0 }]", "[{ x_m = 0, y_m = 0 }, { x_m = 5, y_m = 0 }]")
+        .edited("launch_m_s = 6 }]", "launch_m_s = 6 }, { name = \"2\", under_tires = [2], launch_m_s = 6 }]")
+        .edited("interval_ms = 0", "at_ms = [0, 100]");
     let case = case_of(&plan);
     let compute = ComputeSettings::of(&case.plan);
     let sampling = Sampling::exactly(400, 5);
@@ -367,7 +364,7 @@ fn what_was_not_logged_scatters_about_the_plan() {
 /// before time 0 moves what is seen with it.
 #[test]
 fn what_was_seen_after_the_end_or_before_the_start_is_computed() {
-    let exact = EXACT.replace("delay_sd_ms = 0", "delay_sd_ms = 0\nlaunch_common_percent = 0");
+    let exact = EXACT.edited("delay_sd_ms = 0", "delay_sd_ms = 0\nlaunch_common_percent = 0");
     let short = format!("{}[simulation]\nduration_s = 0.4\n", lone_plan(&exact));
     let case = case_of(&short);
     let height = 6.0 * 1.0 - 9.81 / 2.0;
@@ -390,7 +387,7 @@ fn what_was_seen_after_the_end_or_before_the_start_is_computed() {
 #[test]
 fn what_no_sample_shows_lies_outside() {
     let plan =
-        lone_plan(EXACT).replace("[{ x_m = 0, y_m = 0 }]", "[{ x_m = 0, y_m = 0 }, { x_m = 5, y_m = 0 }]");
+        lone_plan(EXACT).edited("[{ x_m = 0, y_m = 0 }]", "[{ x_m = 0, y_m = 0 }, { x_m = 5, y_m = 0 }]");
     let case = case_of(&plan);
     let shots = ObservedShots::new(&[observations(&case, "tire,quantity,value,sd\n2,landing_s,0.5,0.1\n")]);
     let (compute, sampling) = (ComputeSettings::of(&case.plan), Sampling::exactly(50, 1));
@@ -657,8 +654,8 @@ fn samples_have_the_error_of_the_motion_that_they_are_of() {
     let (before, after) = text.split_once("\n[uncertainty]").expect("the section");
     let (_, after) = after.split_once("\n[size]").expect("the next section");
     let exact = EXACT
-        .replace("friction = 0", "friction = [0.5, 0.5]")
-        .replace("slack_percent = 0", "slack_percent = [2, 2]");
+        .edited("friction = 0", "friction = [0.5, 0.5]")
+        .edited("slack_percent = 0", "slack_percent = [2, 2]");
     let case = case_of(&format!("{before}\n{exact}[size]{after}"));
     let lines = "option,tire,quantity,value,sd\n42 ms,2:2,flight_height_m,1.8,0.0001\n42 ms,1:1,flight_height_m,1.8,0.0001\n";
     let errors = |sampling: Option<Sampling>| -> Vec<f64> {

@@ -6,12 +6,13 @@ use shelter::study::flight::record;
 use shelter::study::{Case, ComputeSettings};
 
 use super::bad_plans::GOOD;
+use super::support::Edited;
 use super::support::scenes::{GRAVITY, close};
 
 /// Tires that nothing ties fly as v t − g t²/2; the recording keeps single precision, 1e-7 of a few metres.
 #[test]
 fn loose_tires_fly_in_parabolas_and_lie_still_at_the_end() {
-    let text = GOOD.replace("spacing_m = 1.5", "spacing_m = 1.5\nlinks = []");
+    let text = GOOD.edited("spacing_m = 1.5", "spacing_m = 1.5\nlinks = []");
     let plan = Plan::parse("plan.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
     let case = Case::new(plan);
     for step in [1e-5, 1e-3] {

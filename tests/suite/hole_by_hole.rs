@@ -11,6 +11,8 @@ use shelter::study::sweep::sweep;
 use shelter::study::{Case, ComputeSettings, Intervals, NoResult, Shard, StudyControl};
 use shelter::verdict::Verdict;
 
+use super::support::Edited;
+
 /// A shelter of 3 × `columns` tires over two rows; `row` is added to each row, `limits` to the limits, and `option` is the delay
 /// option.
 fn plan(columns: usize, row: &str, limits: &str, option: &str) -> String {
@@ -62,7 +64,7 @@ fn holes_fire_from_the_left_the_right_the_centre_or_the_ends() {
 fn a_row_along_y_fires_along_y() {
     let holes = "holes = [{ x_m = 1.5, y_m = 3, launch_m_s = 5 }, { x_m = 1.5, y_m = 0, launch_m_s = 5 }]";
     let text = plan(4, "", "", "interval_ms = 42, hole_interval_ms = 17")
-        .replace("under_row = 1, launch_m_s = 5", holes);
+        .edited("under_row = 1, launch_m_s = 5", holes);
     let firings = case(&text).shots[0].firings.clone();
     let at: Vec<(usize, f64)> =
         firings.iter().filter(|f| f.row == 0).map(|firing| (firing.tire, firing.time)).collect();
@@ -82,9 +84,9 @@ fn parallel_rows_begin_at_the_same_side() {
             format!("holes = [{}]", holes.collect::<Vec<_>>().join(", "))
         };
         let text = plan(6, "", "", "interval_ms = 42, hole_interval_ms = 17")
-            .replace("rows = 3", "rows = 6")
-            .replace("under_row = 1, launch_m_s = 5", &row(0.0, off))
-            .replace("under_row = 2, launch_m_s = 6", &row(1.5, -off));
+            .edited("rows = 3", "rows = 6")
+            .edited("under_row = 1, launch_m_s = 5", &row(0.0, off))
+            .edited("under_row = 2, launch_m_s = 6", &row(1.5, -off));
         let case = case(&text);
         for row in 0..2 {
             let first = case.shots[0].firings.iter().find(|firing| firing.row == row).expect("a hole");
@@ -100,7 +102,7 @@ fn both_sides_fire_together_whatever_the_survey() {
         let holes = [0.0, 1.51, 3.0, 4.48, 6.0].map(|x| format!("{{ x_m = {x}, y_m = 0, launch_m_s = 5 }}"));
         let option = format!("interval_ms = 500, hole_interval_ms = 17, hole_order = \"{order}\"");
         let text = plan(5, "", "", &option)
-            .replace("under_row = 1, launch_m_s = 5", &format!("holes = [{}]", holes.join(", ")));
+            .edited("under_row = 1, launch_m_s = 5", &format!("holes = [{}]", holes.join(", ")));
         assert_eq!(times_ms(&case(&text), 0), expected.map(|turn| 17.0 * f64::from(turn)), "{order}");
     }
 }
@@ -183,8 +185,8 @@ fn most_holes_and_the_heaviest_charge_within_8_ms() {
         assert_eq!(together(hole_ms, ", charge_kg = 12.5"), WithinEightMs { holes, charge }, "{hole_ms} ms");
     }
     let text = plan(4, "", "", "interval_ms = 3")
-        .replace("under_row = 1, launch_m_s = 5", "under_row = 1, launch_m_s = 5, charge_kg = 20")
-        .replace("under_row = 2, launch_m_s = 6", "under_row = 2, launch_m_s = 6, charge_kg = 7");
+        .edited("under_row = 1, launch_m_s = 5", "under_row = 1, launch_m_s = 5, charge_kg = 20")
+        .edited("under_row = 2, launch_m_s = 6", "under_row = 2, launch_m_s = 6, charge_kg = 7");
     let case = case(&text);
     let together = WithinEightMs::of(&case, &case.shots[0]);
     assert_eq!(together, WithinEightMs { holes: 8, charge: Some(108.0) }, "both rows within 3 ms");
@@ -211,7 +213,7 @@ fn what_cannot_be_meant_is_a_mistake() {
     assert!(said.contains("hole_order"), "{said}");
     let said = mistake(&plan(5, "", ", charge_in_8_ms_kg = 20", "interval_ms = 25"));
     assert!(said.contains("has no charge to judge"), "{said}");
-    let some = plan(5, "", "", "interval_ms = 25").replace("launch_m_s = 5", "launch_m_s = 5, charge_kg = 9");
+    let some = plan(5, "", "", "interval_ms = 25").edited("launch_m_s = 5", "launch_m_s = 5, charge_kg = 9");
     assert!(mistake(&some).contains("some holes have `charge_kg`, others have none"));
     let said = mistake(&plan(5, "", ", holes_in_8_ms = 0", "interval_ms = 25"));
     assert!(said.contains("holes_in_8_ms"), "{said}");
@@ -258,7 +260,7 @@ fn studies_keep_the_holes_of_the_options() {
     let alike = case(&text);
     assert_eq!(alike.shot(&[0, 1], 0.042), alike.shots[0]);
     assert_eq!(alike.intervals(), [0.042]);
-    let both = text.replace("delay = [", "delay = [{ name = \"b\", interval_ms = 9 }, ");
+    let both = text.edited("delay = [", "delay = [{ name = \"b\", interval_ms = 9 }, ");
     let differing = case(&both);
     assert_eq!(differing.hole_timing, None);
     assert_eq!(differing.intervals(), [0.009, 0.042]);

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use super::support::pseudo_terminal::ObservedValue;
-use super::support::{PROGRAM, text};
+use super::support::{Edited, PROGRAM, text};
 
 const SIZES: [(u16, u16); 2] = [(80, 24), (120, 36)];
 const ENTER: &str = "\r";
@@ -90,7 +90,7 @@ fn a_newcomer_has_a_passing_plan_in_forty_keys() {
 fn a_failing_option_passes_by_the_programs_own_proposal_in_six_keys() {
     for size in SIZES {
         let folder = tempfile::tempdir().expect("a folder");
-        written(folder.path(), &PLAN.replace("cable_safety_factor = 3", "cable_safety_factor = 4.5"));
+        written(folder.path(), &PLAN.edited("cable_safety_factor = 3", "cable_safety_factor = 4.5"));
         let mut walk = Walk::begin(&["plan.toml"], folder.path(), size);
         walk.press(&[], "0 of 1 pass");
         walk.press(&["w"], "rope GOST 2688-80 8.3 instead of");
@@ -106,7 +106,7 @@ fn a_failing_option_passes_by_the_programs_own_proposal_in_six_keys() {
 fn a_found_schedule_becomes_a_page_to_sign_in_eight_keys() {
     for size in SIZES {
         let folder = tempfile::tempdir().expect("a folder");
-        written(folder.path(), &PLAN.replace("cable_safety_factor = 3", "cable_safety_factor = 1.5"));
+        written(folder.path(), &PLAN.edited("cable_safety_factor = 3", "cable_safety_factor = 1.5"));
         let mut walk = Walk::begin(&["plan.toml"], folder.path(), size);
         walk.press(&[], "1 of 1 pass");
         walk.press(&["4", RIGHT, RIGHT, RIGHT, ENTER], "the best schedule found");

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Output;
 
-use super::support::{self, shelter, shipped};
+use super::support::{self, Edited, shelter, shipped};
 use serde_json::Value;
 
 /// The document that a command prints, with nothing but warnings on standard error.
@@ -155,8 +155,8 @@ fn size_writes_its_choice() {
     let text = std::fs::read_to_string(shipped("amur-three-rows.toml")).expect("the plan");
     // Few combinations: each that holds as planned is sampled.
     let text = text
-        .replace("ropes = \"GOST 2688-80\"", "ropes = \"EN 12385-4 6x36 FC\"")
-        .replace("tire_mass_kg = [280, 350]", "tire_mass_kg = [280]");
+        .edited("ropes = \"GOST 2688-80\"", "ropes = \"EN 12385-4 6x36 FC\"")
+        .edited("tire_mass_kg = [280, 350]", "tire_mass_kg = [280]");
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("plan.toml");
     std::fs::write(&file, &text).expect("written");
@@ -230,7 +230,7 @@ fn a_timeout_ends_with_what_is_there() {
 fn studies_that_do_not_fit_into_memory_are_refused_beforehand() {
     let folder = tempfile::tempdir().expect("a folder");
     let plan = folder.path().join("plan.toml");
-    let text = include_str!("../../plans/amur-three-rows.toml").replace("rows = 5 ", "rows = 7 ");
+    let text = include_str!("../../plans/amur-three-rows.toml").edited("rows = 5 ", "rows = 7 ");
     let more: String = (4..=7)
         .map(|row| format!("[[blast_row]]\nname = \"{row}\"\nunder_row = {row}\nlaunch_m_s = 6.0\n"))
         .collect();

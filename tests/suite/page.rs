@@ -9,7 +9,7 @@ use serde_json::Value;
 use shelter::tui::export;
 
 use super::support::stage::finished;
-use super::support::{json, shelter, shipped, text};
+use super::support::{Edited, json, shelter, shipped, text};
 
 /// Its first line is empty, and it holds a carriage return: both are kept.
 const PLAN: &str = "
@@ -179,7 +179,7 @@ fn the_option_to_be_fired_heads_the_page_with_all_its_verdict_rests_on() {
 #[test]
 fn an_option_that_has_not_passed_says_why_at_the_head() {
     let (_, page) =
-        report(&PLAN.replace("flight_height_m = 1.8", "flight_height_m = 0.5"), &["--option", "<b>"]);
+        report(&PLAN.edited("flight_height_m = 1.8", "flight_height_m = 0.5"), &["--option", "<b>"]);
     let xml = xml(&page.expect("a page"));
     let page = parse(&xml);
     let head = words(of_class(&page, "fired").expect("the box"));
@@ -227,8 +227,8 @@ fn a_page_without_samples_says_so_wherever_it_says_pass() {
 
 #[test]
 fn warnings_of_the_option_to_be_fired_stand_at_its_head() {
-    let plan = PLAN.replace("at_ms = [0, 42]", "at_ms = [0, 400]");
-    let plan = plan.replace("under_row = 3", "under_row = 2");
+    let plan = PLAN.edited("at_ms = [0, 42]", "at_ms = [0, 400]");
+    let plan = plan.edited("under_row = 3", "under_row = 2");
     let [own, other] =
         ["<b>", "20 & 0"].map(|option| xml(&report(&plan, &["--option", option]).1.expect("a page")));
     let warning = |page: &Document<'_>| {
@@ -317,7 +317,7 @@ fn rope_and_termination_stand_there_with_their_figures() {
     }
     let own = "cable = { axial_stiffness_kn = 1400, breaking_force_kn = 60, termination_percent = 90,";
     let plan =
-        PLAN.replace("cable = { rope = \"GOST 2688-80 14\",", own).replace(", termination = \"clips\"", "");
+        PLAN.edited("cable = { rope = \"GOST 2688-80 14\",", own).edited(", termination = \"clips\"", "");
     let xml = xml(&report(&plan, &["--nominal"]).1.expect("a page"));
     let facts = words(section(&parse(&xml), "Shelter"));
     for figure in ["EA 1400 kN, breaking force 60 kN, as the plan says", "efficiency 90 %", "54 kN, of rope"]

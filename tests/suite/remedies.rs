@@ -15,7 +15,7 @@ use shelter::tui::compare::OptionState;
 use shelter::verdict::Verdict;
 
 use super::support::stage::{draw, finished, key, study_ends, text};
-use super::support::{self, json, shelter, shipped, shipped_plans};
+use super::support::{self, Edited, json, shelter, shipped, shipped_plans};
 
 /// Three options under a small shelter: the first fails as planned, the second by its samples, and the third passes.
 const SMALL: &str = r#"
@@ -277,9 +277,9 @@ fn terminations_offered_fit_and_plans_without_a_rope_have_none() {
     use ChangeKind::{BorderRows, Interval, Launch, Rope, Slack, Termination};
     assert_eq!(kinds(SMALL), [Interval, Rope, Termination, BorderRows, Slack, Launch]);
     let numbers = "axial_stiffness_kn = 3400\nbreaking_force_kn = 48.85";
-    let without = SMALL.replace("rope = \"GOST 2688-80 9.6\" # at hand", numbers);
+    let without = SMALL.edited("rope = \"GOST 2688-80 9.6\" # at hand", numbers);
     assert_eq!(kinds(&without), [Interval, Termination, BorderRows, Slack, Launch]);
-    let percent = without.replace("termination = \"clips\"", "termination_percent = 80");
+    let percent = without.edited("termination = \"clips\"", "termination_percent = 80");
     assert_eq!(kinds(&percent), [Interval, BorderRows, Slack, Launch], "nobody knows what fits");
     let found = changes(&parse(SMALL), 0, None);
     for tried in found.kinds.iter().flat_map(|tried| &tried.tried) {

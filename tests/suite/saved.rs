@@ -7,7 +7,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::support::{self, PROGRAM, shelter};
+use super::support::{self, Edited, PROGRAM, shelter};
 
 /// A small plan in a folder, and the path of a file of results there.
 fn plan_and_file(folder: &Path) -> [String; 2] {
@@ -197,7 +197,7 @@ fn shards_of_one_plan_under_two_paths_are_merged() {
     assert!(risk(&other, &["--shard", "2/2", "-o", &second]).status.success());
     let merged = shelter(&["merge", &file, &second]);
     assert_eq!(merged.stdout, whole.stdout, "{}", support::text(&merged.stderr));
-    let changed = support::small_plan().replace("friction = 0.5", "friction = 0.4");
+    let changed = support::small_plan().edited("friction = 0.5", "friction = 0.4");
     fs::write(&other, changed).expect("written");
     fs::remove_file(&second).expect("removed");
     assert!(risk(&other, &["--shard", "2/2", "-o", &second]).status.success());
@@ -249,7 +249,7 @@ fn results_of_another_study_are_refused() {
         refused(&[arguments, &["--save", &file]].concat(), message);
     }
     let text = support::small_plan();
-    fs::write(&plan, text.replace("friction = 0.5", "friction = 0.4")).expect("written");
+    fs::write(&plan, text.edited("friction = 0.5", "friction = 0.4")).expect("written");
     refused(&command, "another plan");
     fs::write(&plan, text).expect("written");
     assert_eq!(fs::read_to_string(&file).expect("results"), saved);

@@ -21,6 +21,7 @@ use shelter::tui::studies::StudyState;
 use shelter::tui::theme::{self, Theme};
 use shelter::verdict::Verdict;
 
+use super::support::Edited;
 use super::support::stage::{
     app, checked, done, draw, finished, judgement, key, measured, recorded, samples, spreads, study_ends,
     swept, text,
@@ -144,7 +145,7 @@ fn the_plan_is_shown_with_its_values() {
 #[test]
 fn firing_times_on_the_map_never_run_together() {
     let shipped = app();
-    let slow = shipped.editor.text.replace("interval_ms = 9\n", "interval_ms = 500\n");
+    let slow = shipped.editor.text.edited("interval_ms = 9\n", "interval_ms = 500\n");
     let case = Case::parse(PlanSource { path: String::new(), text: slow }).expect("a plan");
     let mut app = App::new(Arc::new(case), shipped.compute, &Config::default());
     app.screen = Screen::Plan;

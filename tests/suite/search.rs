@@ -11,7 +11,7 @@ use shelter::study::search::{MOST_TRIED, Search, duration, search};
 use shelter::study::{Case, ComputeSettings, Computed, NoResult, Shard, StudyControl};
 use shelter::verdict::Verdict;
 
-use super::support::{json, shelter, text};
+use super::support::{Edited, json, shelter, text};
 
 /// A shelter of 5 × 3 tires over three rows; `choices` are the keys of `[search]`.
 fn plan(choices: &str) -> String {
@@ -177,7 +177,7 @@ fn schedules_are_written_as_options_that_check_judges_alike() {
     let found = searched(&case, Some(&FEW));
     let delays: Vec<_> = found.case.plan.delays.iter().collect();
     let inline = text
-        .replace("[[delay]]\nname = \"20 ms\" # ours\ninterval_ms = 20\n", "")
+        .edited("[[delay]]\nname = \"20 ms\" # ours\ninterval_ms = 20\n", "")
         .replace("# by hand\n", "# by hand\ndelay = [{ name = \"20 ms\", interval_ms = 20 }]\n");
     for text in [text.clone(), text.replace('\n', "\r\n"), inline] {
         let written = edit::add_delays(&text, &case.plan, &delays).expect("TOML");
@@ -265,7 +265,7 @@ fn a_search_can_end_early() {
 fn a_slope_takes_mirror_images_away() {
     let alike = plan("intervals_ms = [42], orders = \"adjacent\"").replace("6.2", "6").replace("6.1", "6");
     let on_slope = |toward: f64| {
-        case(&alike.replace(
+        case(&alike.edited(
             "friction = 0.5",
             &format!("friction = 0.5, slope_percent = 25, slope_toward_deg = {toward}"),
         ))
@@ -297,7 +297,7 @@ fn tight_limits_leave_what_keeps_them() {
     let choices = "intervals_ms = { from = 9, to = 60, step = 1 }, equal_intervals = false, hole_intervals_ms = [0, 9, 17, 25]";
     let charged = plan(choices)
         .replace("launch_m_s", "charge_kg = 25\nlaunch_m_s")
-        .replace("accepted_risk_percent = 5", "accepted_risk_percent = 5, charge_in_8_ms_kg = 25");
+        .edited("accepted_risk_percent = 5", "accepted_risk_percent = 5, charge_in_8_ms_kg = 25");
     let tight = case(&charged.replace("equal_intervals", "longest_ms = 70, equal_intervals"));
     let found = searched(&tight, None);
     let within_limits = found.within_limits.expect("all were looked at");
@@ -309,7 +309,7 @@ fn tight_limits_leave_what_keeps_them() {
     assert!(found.complete && found.screened == within_limits, "{} of {within_limits}", found.screened);
     let refused = found.refused;
     assert_eq!(refused.too_long + refused.too_many_holes + refused.too_heavy + within_limits, found.possible);
-    let none = searched(&case(&charged.replace("[0, 9, 17, 25]", "[0]")), None);
+    let none = searched(&case(&charged.edited("[0, 9, 17, 25]", "[0]")), None);
     assert_eq!((none.screened, none.refused.too_heavy), (0, none.possible));
     assert_eq!(Computed::complete(none).verdict(), Verdict::Fail);
     // More than can be listed, and few of them short enough.
@@ -323,7 +323,7 @@ fn tight_limits_leave_what_keeps_them() {
 fn names_tell_options_apart() {
     let text = plan("intervals_ms = [42, 67], orders = \"listed\"");
     let named = |own: &str| {
-        let case = case(&text.replace("name = \"20 ms\" # ours\ninterval_ms = 20", own));
+        let case = case(&text.edited("name = \"20 ms\" # ours\ninterval_ms = 20", own));
         let found = searched(&case, None);
         let mut names: Vec<String> = found.case.plan.delays.iter().map(|delay| delay.name.clone()).collect();
         names.sort();

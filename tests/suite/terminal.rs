@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use portable_pty::{CommandBuilder, PtySize, native_pty_system};
 
 use super::support::pseudo_terminal::{ObservedValue, PATIENCE};
-use super::support::{PROGRAM, shipped, small_plan};
+use super::support::{Edited, PROGRAM, shipped, small_plan};
 
 #[test]
 fn the_table_appears_keys_and_resizing_work_and_q_restores() {
@@ -66,7 +66,7 @@ fn studies_run_are_cancelled_and_keep_their_result() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("plan.toml");
     // With the plan's other mass many more combinations are sampled.
-    std::fs::write(&file, small_plan().replace("tire_mass_kg = [280, 350]", "tire_mass_kg = [280]"))
+    std::fs::write(&file, small_plan().edited("tire_mass_kg = [280, 350]", "tire_mass_kg = [280]"))
         .expect("written");
     let mut watched = ObservedValue::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 120, 36);
     watched.until(" of 7 pass");
@@ -220,17 +220,16 @@ fn a_plan_is_edited_saved_and_reloaded() {
     watched.until("not saved: s saves");
     watched.press("s");
     watched.until("saved /");
-    assert_eq!(read(), text.replace("flight_height_m = 2.35", "flight_height_m = 2.5"));
-    std::fs::write(&file, text.replace("flight_height_m = 2.35", "flight_height_m = -3")).expect("written");
+    assert_eq!(read(), text.edited("flight_height_m = 2.35", "flight_height_m = 2.5"));
+    std::fs::write(&file, text.edited("flight_height_m = 2.35", "flight_height_m = -3")).expect("written");
     watched.until("the last good plan is shown");
-    std::fs::write(&file, text.replace("flight_height_m = 2.35", "flight_height_m = 2.125"))
-        .expect("written");
+    std::fs::write(&file, text.edited("flight_height_m = 2.35", "flight_height_m = 2.125")).expect("written");
     watched.until("was read again");
     watched.until("2.125");
     // A change here that is taken back stands in the way no more.
     watched.press("\r\x157\r");
     watched.until("height 7.000 m");
-    std::fs::write(&file, text.replace("flight_height_m = 2.35", "flight_height_m = 2.25")).expect("written");
+    std::fs::write(&file, text.edited("flight_height_m = 2.35", "flight_height_m = 2.25")).expect("written");
     watched.until("your changes here are not saved");
     watched.press("u");
     watched.until("was read again");
@@ -247,7 +246,7 @@ fn a_plan_is_edited_saved_and_reloaded() {
     watched.until("saved /");
     assert_eq!(read(), text);
     let other = std::fs::read_to_string(folder.path().join("plan-2.toml")).expect("the other plan");
-    assert_eq!(other, text.replace("flight_height_m = 2.35", "flight_height_m = 3"));
+    assert_eq!(other, text.edited("flight_height_m = 2.35", "flight_height_m = 3"));
     watched.press("q");
     assert_eq!(watched.ends(), 0);
     assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 2);
@@ -303,7 +302,7 @@ fn a_walk_through_everything() {
     watched.until("saved /");
     let saved = std::fs::read_to_string(&file).expect("the plan");
     assert_eq!(saved, text.replace("GOST 2688-80 14 1960", "GOST 2688-80 15"));
-    std::fs::write(&file, text.replace("title = \"Three", "title = \"Seven")).expect("written");
+    std::fs::write(&file, text.edited("title = \"Three", "title = \"Seven")).expect("written");
     watched.until("Seven rows");
     // Rows that are computed move in a list that is sorted.
     watched.until(" of 7 pass");

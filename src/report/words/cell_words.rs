@@ -1,6 +1,6 @@
 //! Words of cells, headings and axes, the same in text, page and terminal.
 
-use crate::report::parts::{Axis, Block, Cell, Column, Offer, Report, Row, Scale};
+use crate::report::parts::{Axis, Block, Cell, Column, Offer, Report, Row, Scale, Table};
 use crate::report::spark::sparkline;
 use crate::units;
 
@@ -51,6 +51,18 @@ impl Report {
         let rows = tables.flat_map(|table| table.rows.iter().map(move |row| (table, row)));
         let kept = rows.filter(|(table, row)| row.contains(&table.columns, &filter));
         kept.filter_map(|(_, row)| row.offer.as_ref()).collect()
+    }
+}
+
+impl Table {
+    /// The lines above the rows, each a text for each of these `columns`: what stands in them, and below it a part of the samples,
+    /// where any column has such words.
+    pub fn heading(&self, columns: &[usize]) -> Vec<Vec<String>> {
+        let line = |text: fn(&Column) -> String| columns.iter().map(|&n| text(&self.columns[n])).collect();
+        let mut lines: Vec<Vec<String>> =
+            vec![line(Column::label), line(|column| column.subheading.to_owned())];
+        lines.retain(|line| line.iter().any(|text| !text.is_empty()));
+        lines
     }
 }
 

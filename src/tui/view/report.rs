@@ -3,7 +3,7 @@
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
-use crate::report::parts::{Align, Audience, Block, Cell, Column, Offer, Report, Row, Table};
+use crate::report::parts::{Align, Audience, Block, Cell, Offer, Report, Row, Table};
 use crate::tui::theme::Theme;
 
 /// Bars of a sparkline.
@@ -68,12 +68,7 @@ fn table_lines<'r>(table: &'r Table, filter: &str, theme: Theme, width: usize) -
         return ReportLines { lines, offers };
     }
     let label = |row: &Row, n: usize| row.cells[n].label(BARS);
-    let headings = [|column: &Column| column.label(), |column: &Column| column.subheading.to_owned()];
-    let headings: Vec<Vec<String>> = headings
-        .iter()
-        .map(|heading| columns.iter().map(|&n| heading(&table.columns[n])).collect())
-        .filter(|heading: &Vec<String>| heading.iter().any(|label| !label.is_empty()))
-        .collect();
+    let headings = table.heading(&columns);
     let mut widths = vec![0; columns.len()];
     let labels = rows.iter().flat_map(|part| part.iter());
     let labels = labels.map(|row| columns.iter().map(|&n| label(row, n)).collect::<Vec<_>>());

@@ -41,8 +41,21 @@ pub fn json(output: &Output) -> Value {
     serde_json::from_slice(&output.stdout).expect("one JSON document")
 }
 
+/// Text in which a test changes something, such as a plan.
+pub trait Edited {
+    /// The text with `new` for `old`, which must be there: an edit that changes nothing would test nothing.
+    fn edited(&self, old: &str, new: &str) -> String;
+}
+
+impl Edited for str {
+    fn edited(&self, old: &str, new: &str) -> String {
+        assert!(self.contains(old), "nothing to edit: '{old}' is not in the text");
+        self.replace(old, new)
+    }
+}
+
 /// The plan of three blast rows over a shelter of 3 × 3 tires instead of 5 × 10: its options, a fifth of its computing time.
 pub fn small_plan() -> String {
     let text = include_str!("../../../plans/amur-three-rows.toml");
-    text.replace("rows = 5 ", "rows = 3 ").replace("columns = 10 ", "columns = 3 ")
+    text.edited("rows = 5 ", "rows = 3 ").edited("columns = 10 ", "columns = 3 ")
 }
