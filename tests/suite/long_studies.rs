@@ -64,7 +64,7 @@ fn the_estimated_duration_is_for_terminals() {
     let output = shelter(&long);
     let told = String::from_utf8_lossy(&output.stderr);
     assert_eq!(told.lines().count(), 1, "{told}");
-    assert!(told.starts_with("the time was up after "), "{told}");
+    assert!(told.starts_with("the time was up with "), "{told}");
 }
 
 #[test]
