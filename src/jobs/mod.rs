@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 
-pub use studies::{StudyKind, StudyResult};
+pub use studies::{ComparedWithSeen, StudyKind, StudyResult};
 
 use crate::plan::observations::Observations;
 use crate::study::as_planned::check::CheckedShot;

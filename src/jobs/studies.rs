@@ -6,6 +6,8 @@ use super::Job;
 use crate::choice::Unknown;
 use crate::plan::observations::Observations;
 use crate::study::effects::{EffectsOnOptions, SAMPLES, effects};
+use crate::study::fit::observation_bands::{Prediction, predict_observations};
+use crate::study::fit::observed_shots::ObservedShots;
 use crate::study::fit::{FitRequest, FitResult, fit};
 use crate::study::flight::{Flight, record};
 use crate::study::judge_options::OptionResults;
@@ -84,14 +86,27 @@ pub enum StudyResult {
     Size(Sizing),
     /// Result of [`StudyKind::Effects`].
     Effects(Computed<EffectsOnOptions>),
-    /// Result of [`StudyKind::Fit`], with the observations.
-    Fit(Box<FitResult>, Vec<Observations>),
+    /// Result of [`StudyKind::Fit`].
+    Fit(Box<ComparedWithSeen>),
     /// Result of [`StudyKind::Flight`].
     Flight(Flight),
     /// Result of [`StudyKind::Accuracy`].
     Accuracy(accuracy::AccuracyTable),
     /// Result of [`StudyKind::Remedies`].
     Remedies(Remedies),
+}
+
+/// What was seen of earlier shots, beside what the plan says of it.
+#[derive(Clone, Debug)]
+pub struct ComparedWithSeen {
+    /// The fit of what the plan was not fitted to yet; `None` where it was fitted to all.
+    pub fitted: Option<FitResult>,
+    /// The observations that it is of.
+    pub new: Vec<Observations>,
+    /// The shots that the plan was fitted to: what was seen of them.
+    pub in_plan: ObservedShots,
+    /// What the plan says now of each of these observations.
+    pub predictions: Vec<Prediction>,
 }
 
 /// Samples of every option.
@@ -134,11 +149,17 @@ impl Job {
             }
             StudyKind::Effects => Ok(StudyResult::Effects(effects(case, Some(&EFFECTS), compute, control)?)),
             StudyKind::Fit => {
-                let unknowns = &[Unknown::Launch];
-                let request =
-                    FitRequest { files: &self.observed, unknowns, sampling: Some(Sampling::OF_VERDICT) };
-                let found = fit(case, &request, compute, control)?.expect_complete();
-                Ok(StudyResult::Fit(Box::new(found), self.observed.clone()))
+                let is_in_plan = |file: &Observations| case.plan.fitted_from.contains(&file.checksum);
+                let (in_plan, new): (Vec<_>, Vec<_>) = self.observed.iter().cloned().partition(is_in_plan);
+                let sampling = Some(Sampling::OF_VERDICT);
+                let request = FitRequest { files: &new, unknowns: &[Unknown::Launch], sampling };
+                let fitted = match new.is_empty() {
+                    true => None,
+                    false => Some(fit(case, &request, compute, control)?.expect_complete()),
+                };
+                let in_plan = ObservedShots::new(&in_plan);
+                let predictions = predict_observations(case, &in_plan, sampling.as_ref(), compute, control)?;
+                Ok(StudyResult::Fit(Box::new(ComparedWithSeen { fitted, new, in_plan, predictions })))
             }
             StudyKind::Flight => record(case, option, compute, control).map(StudyResult::Flight),
             StudyKind::Accuracy => Ok(StudyResult::Accuracy(

@@ -1,7 +1,8 @@
 use std::time::{Duration, Instant};
 
 use super::*;
-use crate::plan::PlanSource;
+use crate::plan::{Plan, PlanSource};
+use crate::study::fit::observable_names;
 
 const STUDY: StudyKind = StudyKind::Orders;
 
@@ -158,4 +159,32 @@ fn dropping_the_jobs_ends_each_of_them() {
     assert_eq!(all.len(), 1 + StudyKind::ALL.len());
     drop(jobs);
     wait(|| all.iter().all(|control| Arc::strong_count(control) == 1).then_some(()));
+}
+
+/// What a plan was fitted to is compared with it, and never fitted twice.
+#[test]
+fn what_the_plan_was_fitted_to_is_compared_and_not_fitted_again() {
+    let plain = case();
+    let read = |case: &Case, text: &str| {
+        let text = format!("option,tire,quantity,value,sd\n{text}");
+        Observations::parse("seen.csv", &text, &observable_names(case)).expect("observations")
+    };
+    let (old, new) = ("20 ms,3:1,flight_height_m,1.95,0.05\n", "42 ms,3:1,flight_height_m,1.2,0.05\n");
+    let plan = Plan { fitted_from: vec![read(&plain, old).checksum], ..plain.plan.clone() };
+    let case = Arc::new(Case::new(plan));
+    let mut jobs = Jobs::new(2);
+    for (files, fits) in [(vec![old], false), (vec![old, new], true)] {
+        let files = files.into_iter().map(|text| read(&case, text)).collect();
+        jobs.fit(&case, files, coarse(&case));
+        let found = wait(|| {
+            jobs.news().into_iter().find_map(|news| match news {
+                News::Studied { result, .. } => Some(result.expect("a result")),
+                _ => None,
+            })
+        });
+        let StudyResult::Fit(compared) = *found else { panic!("a fit") };
+        assert_eq!((compared.fitted.is_some(), compared.new.len()), (fits, usize::from(fits)));
+        assert_eq!((compared.in_plan.list.len(), compared.predictions.len()), (1, 1));
+        assert!(compared.predictions[0].band.is_some(), "as wide as the samples are");
+    }
 }

@@ -258,6 +258,18 @@ pub fn report_of_refusal(case: &Case, found: &FitResult) -> Report {
     Report { blocks, warnings, ..Report::default() }
 }
 
+/// Adds what was seen of the shots that the plan was fitted to, beside what it says of them now.
+pub fn add_fitted_before(report: &mut Report, rows: &[ObservedRow<'_>]) {
+    let Some(ObservedRow { case, .. }) = rows.first() else { return };
+    report.warnings.extend(contradiction(rows));
+    let head = "the plan was fitted to this, and says of it now:".to_owned();
+    report.blocks.extend([
+        Block::Text(vec![head]),
+        Block::Table(observed_table(rows)),
+        Block::Text(bands(case, rows)),
+    ]);
+}
+
 /// Why there are no estimates, with the remedy; `None` where there are.
 pub fn refusal(case: &Case, found: &FitResult) -> Option<String> {
     match found {

@@ -142,7 +142,7 @@ fn unpredicted(rows: &[ObservedRow<'_>]) -> Option<String> {
     let is_odd = outside > expected || outside == within.len() && outside > 0;
     let text = || {
         format!(
-            "{outside} of {} observations of earlier shots lie outside what this plan predicts: its verdicts are those of other shots",
+            "outside what this plan predicts: {outside} of {} observations of earlier shots; do not fire by its verdicts before it agrees with them",
             within.len()
         )
     };

@@ -7,7 +7,7 @@ use super::compare::OptionState;
 use super::screen::Screen;
 use super::studies::ShownStudy;
 use crate::file;
-use crate::jobs::{StudyKind, StudyResult};
+use crate::jobs::{ComparedWithSeen, StudyKind, StudyResult};
 use crate::report::csv::Separators;
 use crate::report::html::{self, Page};
 use crate::report::observed::{self, ObservedRow, observed_rows};
@@ -46,7 +46,7 @@ fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
         to_be_fired,
         sampling: Some(&Sampling::OF_VERDICT),
         sweep: swept(app),
-        fitted_to_observed: false,
+        fitted_to_observed: compared(app).is_some_and(|compared| !compared.in_plan.list.is_empty()),
         observed: &observed(app),
         contradiction: &contradiction(app),
         partial: false,
@@ -67,15 +67,27 @@ fn swept(app: &App) -> Option<&Computed<Sweep>> {
 
 /// What was seen of earlier shots, where a fit on the screen is one of this plan.
 pub fn observed(app: &App) -> Vec<ObservedRow<'_>> {
-    match app.studies.finished(StudyKind::Fit).map(|finished| &*finished.found) {
-        Some(StudyResult::Fit(fit, _)) => match &**fit {
-            FitResult::Fitted(fit) => observed_rows(&app.case, &fit.observed, &fit.predictions),
-            FitResult::NotDetermined { observed, predictions, .. } => {
-                observed_rows(&app.case, observed, predictions)
-            }
-            FitResult::KnownExactly(_) | FitResult::NotInMethod(_) => Vec::new(),
-        },
-        _ => Vec::new(),
+    match compared(app) {
+        Some(compared) => {
+            let new = match &compared.fitted {
+                Some(FitResult::Fitted(fit)) => observed_rows(&app.case, &fit.observed, &fit.predictions),
+                Some(FitResult::NotDetermined { observed, predictions, .. }) => {
+                    observed_rows(&app.case, observed, predictions)
+                }
+                Some(FitResult::KnownExactly(_) | FitResult::NotInMethod(_)) | None => Vec::new(),
+            };
+            let in_plan = observed_rows(&app.case, &compared.in_plan.list, &compared.predictions);
+            new.into_iter().chain(in_plan).collect()
+        }
+        None => Vec::new(),
+    }
+}
+
+/// The comparison on the screen, where it is one with this plan.
+fn compared(app: &App) -> Option<&ComparedWithSeen> {
+    match &*app.studies.finished(StudyKind::Fit)?.found {
+        StudyResult::Fit(compared) => Some(compared),
+        _ => None,
     }
 }
 
@@ -83,7 +95,7 @@ pub fn observed(app: &App) -> Vec<ObservedRow<'_>> {
 /// plan.
 pub fn contradiction(app: &App) -> Vec<String> {
     let rows = observed(app);
-    match rows.is_empty() && !app.observed.is_empty(&app.case.plan) {
+    match rows.is_empty() && !app.observed.is_empty() {
         true => vec![NOT_COMPARED.to_owned()],
         false => observed::contradiction(&rows),
     }

@@ -201,7 +201,7 @@ impl Session {
                 StudyKind::ALL.into_iter().for_each(|kind| self.jobs.cancel(kind));
                 self.jobs.judge(&self.app.case, self.app.compute);
                 // What was seen is compared with every plan.
-                if !self.app.observed.is_empty(&self.app.case.plan) {
+                if !self.app.observed.is_empty() {
                     let request = self.app.begin_study(StudyKind::Fit);
                     self.carry_out(request);
                 }

@@ -1,7 +1,7 @@
 //! What the user says was seen of earlier shots: lines typed on the screen, and files.
 
 use crate::plan::Plan;
-use crate::plan::observations::{COLUMNS, Observations, used_twice};
+use crate::plan::observations::{COLUMNS, Observations, named_twice};
 use crate::study::Case;
 use crate::study::fit::observable_names;
 
@@ -25,19 +25,14 @@ struct SeenFile {
 const TYPED: &str = "what was typed";
 
 impl Observed {
-    /// Whether nothing was told that the plan does not hold already.
-    pub fn is_empty(&self, plan: &Plan) -> bool {
-        self.typed.is_empty() && self.not_in(plan).next().is_none()
+    /// Whether nothing was told.
+    pub fn is_empty(&self) -> bool {
+        self.typed.is_empty() && self.files.is_empty()
     }
 
     /// Whether lines were typed: no file holds them.
     pub fn has_typed(&self) -> bool {
         !self.typed.is_empty()
-    }
-
-    /// The files that were not fitted into a plan.
-    fn not_in(&self, plan: &Plan) -> impl Iterator<Item = &SeenFile> {
-        self.files.iter().filter(|file| !plan.fitted_from.contains(&file.checksum))
     }
 
     /// Takes a typed line, of a shot of `option`; the mistake in it where it is none.
@@ -58,8 +53,6 @@ impl Observed {
     /// Takes a file; the mistake in it where it holds no observations of this plan.
     pub fn add_file(&mut self, case: &Case, path: &str, text: &str) -> Result<(), String> {
         let file = parse(case, path, text)?;
-        let plan = (&case.plan.fitted_from, &case.source.path);
-        used_twice(std::slice::from_ref(&file), plan.0, plan.1).map_or(Ok(()), Err)?;
         let mut changed = self.clone();
         changed.files.retain(|known| known.path != path);
         changed.files.push(SeenFile {
@@ -73,15 +66,21 @@ impl Observed {
     }
 
     /// Forgets the line typed last, or the file taken last where no line was typed; what was forgotten, in words.
-    pub fn forget_last(&mut self, plan: &Plan) -> Option<String> {
-        if let Some(row) = self.typed.pop() {
-            return Some(in_words(&row));
+    pub fn forget_last(&mut self) -> Option<String> {
+        let last = self.last();
+        if self.typed.pop().is_none() {
+            self.files.pop();
         }
-        let last = self.files.iter().rposition(|file| !plan.fitted_from.contains(&file.checksum))?;
-        Some(self.files.remove(last).path)
+        last
     }
 
-    /// Takes the typed lines, read as one of these files, for a file: the next lines are those of another.
+    /// The line typed last, or the file taken last where no line was typed, in words.
+    pub fn last(&self) -> Option<String> {
+        let typed = self.typed.last().map(|row| in_words(row));
+        typed.or_else(|| Some(self.files.last()?.path.clone()))
+    }
+
+    /// Takes the typed lines, read as one of these files, for a file that the plan was fitted to: the next lines are of another.
     pub fn close_typed(&mut self, files: &[Observations]) {
         let typed = files.iter().find(|file| file.path == TYPED && self.has_typed());
         if let Some(Observations { checksum, .. }) = typed {
@@ -95,21 +94,23 @@ impl Observed {
         [COLUMNS.join(";"), self.typed.join("\n")].join("\n")
     }
 
-    /// The observations that the plan on the screen does not hold already, a list for the typed lines and for each file; the first
-    /// mistake.
+    /// The observations of the plan on the screen, a list for the typed lines and for each file; the first mistake.
     pub fn read(&self, case: &Case) -> Result<Vec<Observations>, String> {
         let typed = self.typed_text();
         let typed = self.has_typed().then_some((TYPED, typed.as_str()));
-        let files = self.not_in(&case.plan).map(|file| (file.path.as_str(), file.text.as_str()));
+        let files = self.files.iter().map(|file| (file.path.as_str(), file.text.as_str()));
         let read = typed.into_iter().chain(files).map(|(path, text)| parse(case, path, text));
         let all = read.collect::<Result<Vec<_>, _>>()?;
-        used_twice(&all, &case.plan.fitted_from, &case.source.path).map_or(Ok(all), Err)
+        named_twice(&all).map_or(Ok(all), Err)
     }
 
     /// What was told, line by line: the typed ones as they count, and the names of the files.
     pub fn lines(&self, plan: &Plan) -> Vec<String> {
-        let typed = self.typed.iter().map(|row| in_words(row));
-        typed.chain(self.not_in(plan).map(|file| file.path.clone())).collect()
+        let file = |file: &SeenFile| match plan.fitted_from.contains(&file.checksum) {
+            true => format!("{} (the plan was fitted to it)", file.path),
+            false => file.path.clone(),
+        };
+        self.typed.iter().map(|row| in_words(row)).chain(self.files.iter().map(file)).collect()
     }
 }
 

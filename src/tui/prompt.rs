@@ -23,6 +23,8 @@ pub enum Purpose {
     SaveAs,
     /// What was seen of an earlier shot, or a file of that.
     Observe,
+    /// Whether what was told last is to be taken back.
+    Forget,
 }
 
 /// A line being typed.

@@ -3,8 +3,9 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::jobs::{StudyKind, StudyResult};
+use crate::jobs::{ComparedWithSeen, StudyKind, StudyResult};
 use crate::plan::observations::Observations;
+use crate::report::observed::observed_rows;
 use crate::report::parts::{Block, Report};
 use crate::report::{self, charts};
 use crate::study::fit::{Fit, FitResult};
@@ -56,10 +57,16 @@ impl ShownStudy {
                 let blocks = report::remedies::blocks(case, std::slice::from_ref(remedies));
                 Report { blocks, ..Report::default() }
             }
-            StudyResult::Fit(fit, files) => match &**fit {
-                FitResult::Fitted(fit) => report::fit::report(case, files, fit, true),
-                refused => report::fit::report_of_refusal(case, refused),
-            },
+            StudyResult::Fit(compared) => {
+                let mut report = match &compared.fitted {
+                    Some(FitResult::Fitted(fit)) => report::fit::report(case, &compared.new, fit, true),
+                    Some(refused) => report::fit::report_of_refusal(case, refused),
+                    None => Report::default(),
+                };
+                let ComparedWithSeen { in_plan, predictions, .. } = &**compared;
+                report::fit::add_fitted_before(&mut report, &observed_rows(case, &in_plan.list, predictions));
+                report
+            }
             StudyResult::Accuracy(study) => report::accuracy::report(case, study, &[]),
             StudyResult::Flight(flight) => {
                 let history = &flight.outcome.history;
@@ -76,10 +83,11 @@ impl ShownStudy {
     /// The fit behind estimates that may go into the plan, and the observations that it is from; or why there are none.
     pub fn estimates(&self) -> Result<(&Fit, &[Observations]), &str> {
         match (&*self.found, &self.report.conclusion) {
-            (StudyResult::Fit(..), Some(conclusion)) => Err(&conclusion.text),
-            (StudyResult::Fit(found, files), None) => match &**found {
-                FitResult::Fitted(fit) => Ok((fit, files)),
-                _ => Err("what was seen determines none"),
+            (StudyResult::Fit(_), Some(conclusion)) => Err(&conclusion.text),
+            (StudyResult::Fit(compared), None) => match &compared.fitted {
+                Some(FitResult::Fitted(fit)) => Ok((fit, &compared.new)),
+                Some(_) => Err("what was seen determines none"),
+                None => Err("the plan was fitted to all that was seen"),
             },
             _ => Err("this is no fit"),
         }

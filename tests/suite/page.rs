@@ -214,11 +214,15 @@ fn a_page_without_samples_says_so_wherever_it_says_pass() {
     ]);
     let page = text(&output.stdout);
     let caveat = " as planned only; the possible shots were NOT judged";
+    assert!(
+        page.contains("NOT to be fired: 109 ms") && !page.contains("To be fired"),
+        "nobody fires by this alone"
+    );
     for place in [
         // The head, the signature, the heading of its charts, and the foot of every printed page.
         format!("<p class=\"large\"><span class=\"pass\">PASS</span>{caveat}"),
         format!("“109 ms”, <span class=\"pass\">PASS</span>{caveat}"),
-        format!("109 ms <span class=\"pass\">PASS</span>{caveat} · To be fired"),
+        format!("109 ms <span class=\"pass\">PASS</span>{caveat} · NOT to be fired"),
         in_style_sheet(&format!("“109 ms”: PASS{caveat}")),
     ] {
         assert!(page.contains(&place), "{place}\n{page}");

@@ -99,7 +99,7 @@ fn an_interrupt_prints_what_there_is() {
     interrupt(&child);
     let output = child.wait_with_output().expect("it ends");
     let told = support::text(&output.stderr);
-    assert!(told.contains("interrupted after ") && told.contains("what follows is partial"), "{told}");
+    assert!(told.contains("interrupted with ") && told.contains("what follows is partial"), "{told}");
     assert_eq!(output.status.code(), Some(130));
     let document = support::json(&output);
     assert_eq!(document["partial"], true);

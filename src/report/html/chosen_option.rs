@@ -38,7 +38,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
                 p { strong { "What was seen of earlier shots speaks against this plan and its verdicts." } }
             }
             @for sentence in page.contradiction { p { strong { (sentence) } } }
-            @if must_not_fire(page, option) || verdict != Verdict::Pass {
+            @if must_not_fire(page, option) {
                 p { strong { "Do not fire this option as it stands." } }
             }
             @if !caveat.is_empty() { p { "Judged:" (caveat.replace(['(', ')'], "")) "." } }
@@ -48,16 +48,19 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
                     tr { th { (name) } td { (text) } }
                 }
                 tr { th { "Within any 8 ms" } td { (together) " fire, as planned" } }
+                @if !case.plan.fitted_from.is_empty() && page.observed.is_empty() {
+                    tr { th { "Fitted" } td { "to what was seen of earlier shots; it is not compared with the plan on this page" } }
+                }
             }
             @for warning in warnings { p { strong { "Warning: " } (warning) } }
         }
     }
 }
 
-/// Whether an option fails, or what was seen speaks against its verdict.
+/// Whether an option has no full PASS, or what was seen speaks against it.
 fn must_not_fire(page: &Page<'_>, option: usize) -> bool {
     let verdict = page.results[option].as_ref().map_or(Verdict::Undecided, Judgement::verdict);
-    verdict == Verdict::Fail || !page.contradiction.is_empty()
+    verdict != Verdict::Pass || page.sampling.is_none() || !page.contradiction.is_empty()
 }
 
 /// What the page says of the option that it is about: wherever one of its sheets lies alone, nobody takes it for another order.

@@ -7,6 +7,7 @@ use crate::study::judgement::Judgement;
 use crate::study::reasons::Reason;
 use crate::study::reasons::risk::RiskReason;
 use crate::study::reasons::shot::{EarlyEnd, ShotReason};
+use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::sample::SampleRun;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::{Case, ComputeSettings};
@@ -60,6 +61,13 @@ fn of_shot(reason: &ShotReason) -> String {
         Verdict::Fail => format!("{name} {value} {symbol} is over the limit of {limit} {symbol}"),
         _ => format!("{name} {value} {symbol} is too near the limit of {limit} {symbol} to tell"),
     }
+}
+
+/// Why the possible shots pass: `0 of 500 possible shots fail, surely fewer than the 1 % accepted`.
+pub fn pass(sampled: &SampledShot) -> String {
+    let FailureBounds { failures, samples, accepted, .. } = sampled.bounds;
+    let accepted = units::short(1e2 * accepted);
+    format!("{failures} of {samples} possible shots fail, surely fewer than the {accepted} % accepted")
 }
 
 /// Why the possible shots do not pass.

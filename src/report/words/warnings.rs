@@ -58,7 +58,8 @@ fn false_interval(delay: &DelayOption) -> Option<[String; 2]> {
 /// Warnings of one option, without its name: blast rows that may fire in the wrong order, holes that fire under no cover, a far
 /// drift that no limit judges.
 pub fn of_option(case: &Case, option: usize, judged: &Judgement) -> Vec<String> {
-    let drift = far_drift(case, judged).map(|drift| format!("{FAR_DRIFT}: {} m", units::rounded(drift, 2)));
+    let drift = far_drift(case, judged);
+    let drift = drift.map(|drift| format!("tires may end {} m away: {NOT_JUDGED}", units::rounded(drift, 2)));
     swaps_and_cover(case, option, judged).chain(drift).collect()
 }
 
@@ -77,7 +78,7 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
         drifts.extend(drift.map(|drift| format!("{} {} m", name(option), units::rounded(drift, 2))));
     }
     if !drifts.is_empty() {
-        warnings.push(format!("{FAR_DRIFT}: {}", drifts.join(", ")));
+        warnings.push(format!("tires may end far away ({}): {NOT_JUDGED}", drifts.join(", ")));
     }
     warnings
 }
@@ -89,8 +90,8 @@ fn swaps_and_cover(case: &Case, option: usize, judged: &Judgement) -> impl Itera
     swaps.chain(uncovered(&judged.checked.cover))
 }
 
-/// What is wrong where tires drift far.
-const FAR_DRIFT: &str = "a PASS says nothing of where tires end: the plan has no limit `drift_m`, and as planned or in 1 of 20 possible shots a tire ends this far from where it lay";
+/// What a pass leaves open where tires drift far.
+const NOT_JUDGED: &str = "the plan has no limit `drift_m`, so that a PASS says nothing of it";
 
 /// The drift of an option where no limit judges it and it is far [m]: of the shot as planned, or of 1 in 20 of the possible shots.
 fn far_drift(case: &Case, judged: &Judgement) -> Option<f64> {

@@ -5,6 +5,7 @@ use std::ops::Range;
 use crate::plan::observations::{MeasuredFiring, Observation, Observations, ObservedValue};
 
 /// Observations, each with the number of its file, in the order of their options, then files.
+#[derive(Clone, Debug)]
 pub struct ObservedShots {
     /// The observations.
     pub list: Vec<Observation>,

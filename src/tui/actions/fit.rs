@@ -16,21 +16,13 @@ impl App {
     pub(super) fn act_on_fit(&mut self, action: Action) -> Option<Request> {
         match action {
             Action::Open => self.prompt = Some(Prompt::new(Purpose::Observe, "")),
-            Action::Rerun if self.observed.is_empty(&self.case.plan) => {
+            Action::Rerun if self.observed.is_empty() => {
                 self.notice = Some("nothing was observed yet".to_owned());
             }
-            Action::Cancel if !self.studies.is_running(StudyKind::Fit) => {
-                let Some(forgotten) = self.observed.forget_last(&self.case.plan) else {
-                    self.notice = Some("nothing was observed yet".to_owned());
-                    return Some(Request::None);
-                };
-                self.notice = Some(format!("no longer counted as seen: {forgotten}"));
-                if self.observed.is_empty(&self.case.plan) {
-                    self.studies.set(StudyKind::Fit, StudyState::Idle);
-                } else {
-                    return Some(self.begin_study(StudyKind::Fit));
-                }
-            }
+            Action::Cancel if !self.studies.is_running(StudyKind::Fit) => match self.observed.last() {
+                Some(_) => self.prompt = Some(Prompt::new(Purpose::Forget, "")),
+                None => self.notice = Some("nothing was observed yet".to_owned()),
+            },
             Action::UseEstimates => return Some(self.use_estimates()),
             _ => return None,
         }
@@ -61,9 +53,20 @@ impl App {
         let request = self.edited(edit);
         self.screen = Screen::Compare;
         let undo = self.keymap.hint(Action::Undo);
-        self.notice =
-            Some(format!("the plan has the launches of the fit: judged anew · {undo} takes it back"));
+        self.notice = Some(format!(
+            "the plan has the launches of the fit: judged anew, and compared with what was seen · {undo} takes it back"
+        ));
         request
+    }
+
+    /// Takes back what was told last, and compares the rest.
+    pub(super) fn forget_last(&mut self) -> Request {
+        self.notice = self.observed.forget_last().map(|last| format!("no longer counted as seen: {last}"));
+        if self.observed.is_empty() {
+            self.studies.set(StudyKind::Fit, StudyState::Idle);
+            return Request::None;
+        }
+        self.begin_study(StudyKind::Fit)
     }
 
     /// Takes a typed observation of a shot of the selected option, or the name of a file of observations, and fits.

@@ -28,6 +28,7 @@ impl App {
             (Purpose::Export, Typed::Done) if !text.is_empty() => return Request::Export(text.into()),
             (Purpose::Page, Typed::Done) if !text.is_empty() => return Request::Page(text.into()),
             (Purpose::Observe, Typed::Done) if !text.trim().is_empty() => return self.observe(text.trim()),
+            (Purpose::Forget, Typed::Done) => return self.forget_last(),
             (Purpose::SaveAs, Typed::Done) if !text.is_empty() => return Request::SaveAs(text.into()),
             _ => {}
         }

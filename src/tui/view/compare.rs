@@ -2,7 +2,8 @@
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Rect};
-use ratatui::text::{Line, Span};
+use ratatui::style::Style;
+use ratatui::text::Line;
 use ratatui::widgets::{Row as Cells, Table, TableState};
 
 use crate::report::spark::sparkline;
@@ -13,6 +14,7 @@ use crate::study::judgement::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::compare::OptionState;
 use crate::tui::compare::SortBy;
+use crate::tui::export;
 use crate::tui::theme;
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Quantity, Verdict};
@@ -237,7 +239,16 @@ pub(super) fn cut(name: &str, width: usize) -> String {
 }
 
 fn verdict(app: &App, verdict: Verdict) -> Line<'static> {
-    Line::from(Span::styled(theme::label(verdict), app.theme.verdict(verdict)))
+    let (words, style) = verdict_words(app, verdict);
+    Line::styled(words, style)
+}
+
+/// A verdict with its sign; a pass that was seen otherwise has the sign of a warning.
+pub(super) fn verdict_words(app: &App, verdict: Verdict) -> (String, Style) {
+    match verdict == Verdict::Pass && !export::contradiction(app).is_empty() {
+        true => (format!("! {}", verdict.for_people()), app.theme.limit()),
+        false => (theme::label(verdict).to_owned(), app.theme.verdict(verdict)),
+    }
 }
 
 fn bar(done: f64, width: usize) -> String {

@@ -162,6 +162,14 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
             Line::styled(text, theme.verdict(why.verdict()))
         })
         .collect();
+    if let (Verdict::Pass, Some(sampled)) = (judged.verdict(), judged.sampled.known()) {
+        let text = format!(
+            "{} {}",
+            theme::label(Verdict::Pass).chars().next().unwrap_or(' '),
+            reasons::pass(sampled)
+        );
+        lines.push(Line::styled(text, theme.verdict(Verdict::Pass)));
+    }
     if !checked.broken.is_empty() {
         lines.push(Line::styled(broken(case.scene(), checked), theme.limit()));
     }

@@ -19,6 +19,7 @@ use ratatui::widgets::canvas::{Canvas, Context, Line as Stroke, Points};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::chart::{self, Mark};
+use super::compare::verdict_words;
 use super::map_numbers;
 use super::widgets::color;
 use crate::jobs::StudyKind;
@@ -29,7 +30,6 @@ use crate::study::flight::Flight;
 use crate::study::judgement::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::studies::StudyState;
-use crate::tui::theme;
 use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
@@ -95,7 +95,7 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
         false => String::new(),
     };
     let verdict = app.judgement(app.selected).map_or(Verdict::Undecided, Judgement::verdict);
-    let title = format!("{name} {}", theme::label(verdict));
+    let title = format!("{name} {}", verdict_words(app, verdict).0);
     // The longest that has room: at least the verdict is never cut.
     let title = [&format!(", shown as planned, from above{slope}"), ", shown as planned", ", as planned"]
         .into_iter()
@@ -169,7 +169,14 @@ fn draw_legend(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     if area.height < LEGEND_FROM {
         return area;
     }
-    let entries = ["o ground", "▁ to █ limit", "^ highest", "arrow or * fires", "lines: taut cables"];
+    let entries = [
+        "o ground",
+        "▁ to █ limit",
+        "^ highest",
+        "lines: taut cables",
+        "double: over limit",
+        "arrow or * fires",
+    ];
     let mut legend = String::new();
     for entry in entries {
         let longer = format!("{legend}{}{entry}", if legend.is_empty() { " " } else { " · " });

@@ -33,7 +33,7 @@ use self::widgets::draw_row;
 use super::app::{App, Areas, ClickTarget};
 use super::compare::OptionState;
 use super::export;
-use super::keymap::{Action, BINDINGS};
+use super::keymap::{Action, BINDINGS, Binding};
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
 use crate::report::words::limits::limits_in_short;
@@ -192,7 +192,8 @@ fn summary(app: &App) -> String {
     } else if app.sampling() {
         format!("sampling: {} of {all} open", count(|state| state.verdict() == Verdict::Undecided))
     } else {
-        format!("{} of {all} pass", count(|state| state.verdict() == Verdict::Pass))
+        let against = if export::contradiction(app).is_empty() { "" } else { ", contradicted" };
+        format!("{} of {all} pass{against}", count(|state| state.verdict() == Verdict::Pass))
     }
 }
 
@@ -208,10 +209,19 @@ fn draw_footer(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     let [keys, last] = Layout::horizontal([Constraint::Min(0), Constraint::Length(width as u16)]).areas(area);
     let shown = BINDINGS.iter().filter(|binding| !binding.short.is_empty() && binding.is_on(app.screen));
     let (special, general): (Vec<_>, Vec<_>) = shown.partition(|binding| !binding.on.is_empty());
-    let labels =
-        special.into_iter().chain(general).map(|binding| label(binding.action, binding.short_on(app.screen)));
+    let labels = special.into_iter().chain(general).map(|binding| label(binding.action, short(app, binding)));
     draw_row(labels, frame, keys, areas);
     draw_row(end, frame, last, areas);
+}
+
+/// Label of a key in the footer: Enter on the list of changes makes one.
+fn short(app: &App, binding: &Binding) -> &'static str {
+    let is_on_list = app.screen == Screen::Compare && app.studies.remedy_list.is_some();
+    if binding.action == Action::Open && is_on_list {
+        "change the plan"
+    } else {
+        binding.short_on(app.screen)
+    }
 }
 
 /// Most characters of an option's name before a file that is typed.
@@ -225,6 +235,8 @@ fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
     let verdict = verdict.for_people();
     let page = format!(" page of “{}” ({verdict}{against}): ", compare::cut(option, LONGEST_NAME));
     let seen = format!(" seen of “{}” (TIRE VALUE SD, or a .csv file): ", compare::cut(option, LONGEST_NAME));
+    let last = app.observed.last().unwrap_or_default();
+    let forgotten = format!(" Enter takes back “{}”, Esc keeps it ", compare::cut(&last, LONGEST_NAME));
     let head = match prompt.purpose {
         Purpose::Find if app.screen == Screen::Plan => " find (Down: next): ",
         Purpose::Find => " find: ",
@@ -233,6 +245,7 @@ fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
         Purpose::Page => &page,
         Purpose::SaveAs => " save the plan as: ",
         Purpose::Observe => &seen,
+        Purpose::Forget => &forgotten,
     };
     if prompt.purpose == Purpose::Palette {
         command_palette::draw(app, prompt, frame, area);

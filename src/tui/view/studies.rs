@@ -110,7 +110,7 @@ fn how_to_observe(app: &App) -> String {
     let typed = app.observed.lines(&app.case.plan).join("\n");
     format!(
         "{open} takes what was seen of a shot of “{option}” (selected on Compare):\n\
-         3:1 1.95 0.05             greatest height of tire 3:1 and its sd, m\n\
+         3:1 1.95 0.05             greatest height of the tire in row 3, column 1, and its sd, m\n\
          3:1-4:1 52000 2000        greatest force of a cable and its sd, N\n\
          3:1 landing_s 1.12 0.02   or lift_s, drift_m; firing_s as logged, alone\n\
          seen.csv                  a file as of `shelter fit`\n\
