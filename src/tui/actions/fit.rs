@@ -53,9 +53,7 @@ impl App {
         let request = self.edited(edit);
         self.screen = Screen::Compare;
         let undo = self.keymap.hint(Action::Undo);
-        self.notice = Some(format!(
-            "the plan has the launches of the fit: judged anew, and compared with what was seen · {undo} takes it back"
-        ));
+        self.notice = Some(format!("the launches of the fit are in the plan · {undo} takes it back"));
         request
     }
 

@@ -162,14 +162,6 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
             Line::styled(text, theme.verdict(why.verdict()))
         })
         .collect();
-    if let (Verdict::Pass, Some(sampled)) = (judged.verdict(), judged.sampled.known()) {
-        let text = format!(
-            "{} {}",
-            theme::label(Verdict::Pass).chars().next().unwrap_or(' '),
-            reasons::pass(sampled)
-        );
-        lines.push(Line::styled(text, theme.verdict(Verdict::Pass)));
-    }
     if !checked.broken.is_empty() {
         lines.push(Line::styled(broken(case.scene(), checked), theme.limit()));
     }
@@ -178,6 +170,11 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
     }
     // What was seen of earlier shots speaks against every verdict of the plan.
     let contradiction = export::contradiction(app);
+    let passes = judged.verdict() == Verdict::Pass && contradiction.is_empty();
+    if let Some(sampled) = judged.sampled.known().filter(|_| passes) {
+        let text = format!("✓ {}", reasons::pass(sampled));
+        lines.push(Line::styled(text, theme.verdict(Verdict::Pass)));
+    }
     lines.splice(
         0..0,
         contradiction.into_iter().map(|sentence| Line::styled(format!("! {sentence}"), theme.limit())),
