@@ -133,6 +133,9 @@ fn conclusion(sizing: &Sizing) -> Conclusion {
         None if sizing.count_with_risk(Verdict::Undecided) > 0 => {
             "no combination surely holds: give more samples".to_owned()
         }
+        None if sizing.is_open_as_planned() => {
+            "no combination surely holds as planned: too near a limit, or a run that ends early".to_owned()
+        }
         None if sizing.count_with_risk(Verdict::Fail) > 0 => {
             "no combination holds for more than the shots as planned".to_owned()
         }

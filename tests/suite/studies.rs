@@ -224,6 +224,22 @@ fn the_ends_of_the_ranking_are_sampled() {
     }
 }
 
+/// Runs that end in the air tell neither that a rope holds nor that it does not.
+#[test]
+fn size_is_open_where_every_combination_is_as_planned() {
+    let of = |duration: &str| {
+        let case =
+            case(2, &format!("simulation = {{ {duration} }}\ncable = {{ rope = \"GOST 2688-80 14 1960\" }}"));
+        let compute = ComputeSettings { step: Some(1e-3), ..ComputeSettings::of(&case.plan) };
+        let demand = Demand::Options(vec![0]);
+        size(&case.plan, &demand, None, &compute, &StudyControl::default()).expect("a result").value
+    };
+    let [whole, cut] = ["", "duration_s = 0.1"].map(of);
+    assert_eq!(whole.verdict(), Verdict::Pass);
+    assert!(cut.lightest_choice().is_none() && cut.is_open_as_planned());
+    assert_eq!(cut.verdict(), Verdict::Undecided);
+}
+
 /// With a swaged socket, which is for wire rope with a core of steel, no other rope is tried.
 #[test]
 fn size_offers_only_ropes_that_the_termination_fits() {

@@ -110,8 +110,8 @@ impl Sizing {
     /// The verdict: pass where the lightest choice is known, fail where no combination is one. While combinations are untried for
     /// want of time or of a run, a lighter one may be a choice.
     pub fn verdict(&self) -> Verdict {
-        let is_open = self.is_incomplete()
-            || self.lightest_choice().is_none() && self.count_with_risk(Verdict::Undecided) > 0;
+        let may_be_one = self.count_with_risk(Verdict::Undecided) > 0 || self.is_open_as_planned();
+        let is_open = self.is_incomplete() || self.lightest_choice().is_none() && may_be_one;
         match self.lightest_choice() {
             _ if is_open => Verdict::Undecided,
             Some(_) => Verdict::Pass,
@@ -145,6 +145,12 @@ impl Sizing {
             c.trial.is_ok_and(|trial| trial.risk.is_some_and(|risk| risk.verdict == verdict))
         };
         self.combinations.iter().filter(has).count()
+    }
+
+    /// Whether a combination stays undecided as planned.
+    pub fn is_open_as_planned(&self) -> bool {
+        let is_open = |c: &Combination| c.trial.is_ok_and(|trial| trial.worst.verdict == Verdict::Undecided);
+        self.combinations.iter().any(is_open)
     }
 
     /// Number of combinations that were not tried for reason `why`.
