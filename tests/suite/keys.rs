@@ -191,7 +191,8 @@ fn what_was_seen_of_a_shot_is_typed_and_fitted() {
     assert!(matches!(key(&mut app, KeyCode::Enter), Request::Study(StudyKind::Fit)));
     assert_eq!(app.observed.lines(&app.case.plan), ["seen.csv"], "one at a time, and fitted anew");
     app.studies.set(StudyKind::Fit, StudyState::Idle);
-    assert_eq!(key(&mut app, KeyCode::Char('x')), Request::None);
+    key(&mut app, KeyCode::Char('x'));
+    assert_eq!(key(&mut app, KeyCode::Enter), Request::None);
     assert!(app.observed.is_empty() && matches!(app.studies.state(StudyKind::Fit), StudyState::Idle));
 }
 
@@ -251,10 +252,7 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     assert!(again.is_err_and(|why| why.contains("name each shot once")), "this one is known");
 
     assert_eq!(press(&mut app, "u"), Request::JudgeNewPlan);
-    assert!(
-        app.editor.text == before && app.studies.finished(StudyKind::Fit).is_some(),
-        "with the fit of it"
-    );
+    assert_eq!(app.editor.text, before);
     press(&mut app, "4x");
     assert!(says(&app, "takes back “what was typed”") && !app.observed.is_empty(), "not by one key alone");
     key(&mut app, KeyCode::Enter);
