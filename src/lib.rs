@@ -63,8 +63,8 @@
 //!
 //! # Rules
 //!
-//! - The [`Scene`](scene::Scene) of a case is never changed, and what moves lives in a stepper. A sample, and a `newmark` run in which
-//!   cables break, change a copy.
+//! - The [`Scene`](scene::Scene) of a case is never changed, and what moves lives in a stepper. A sample, and a `newmark` run in
+//!   which cables break, change a copy.
 //! - Plan units become SI where a plan becomes a [`Case`]: scene, shots and limits. What a study changes in the plan itself keeps
 //!   the units of its keys: `[uncertainty]` until samples are drawn, the intervals of a search, the changes of `remedies`.
 //!   Screens that quote the plan show its own numbers; SI becomes words in `units`.

@@ -52,7 +52,7 @@ impl Verdict {
 pub struct Estimate {
     /// The value [SI unit of the quantity].
     pub value: f64,
-    /// FittedParameter error, one-sided [same unit].
+    /// Estimated error, one-sided [same unit].
     pub error: f64,
     /// Time at which the value is reached [s].
     pub time: f64,

@@ -83,7 +83,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         return wrong(&message);
     }
     // A sweep needs one way to fire the holes of a row; without an option named, options that differ have none.
-    let cases = [if asked.is_some() { case.with_hole_timing_or_of(option) } else { case }];
+    let cases = [if asked.is_some() { case.with_hole_timing_defaulting_to(option) } else { case }];
     let sampling = arguments.verdict.sampling();
     let checked = match judge_plans(&cases, sampling, &arguments.compute, false) {
         Ok(checked) => checked,

@@ -22,7 +22,7 @@ struct LastTold {
 
 impl Job {
     /// Judges all options: as planned, then by samples, then for their launch margins.
-    pub(super) fn judge_all(&self) {
+    pub(super) fn judge_with_margins(&self) {
         let cases = [(&*self.case, self.compute)];
         let new = LastTold { checking: Instant::now(), sampled: None };
         let last_told: Vec<Mutex<LastTold>> = self.case.shots.iter().map(|_| Mutex::new(new)).collect();
@@ -30,10 +30,10 @@ impl Job {
             let option = at.option;
             let Ok(mut last) = last_told[option].lock() else { return };
             match event {
-                JudgeEvent::Checking(step) => {
+                JudgeEvent::Checking(progress) => {
                     if last.checking.elapsed() > CHECKING_EVERY {
                         last.checking = Instant::now();
-                        self.send(News::Checking { option, runs: step.runs, time: step.time });
+                        self.send(News::Checking { option, runs: progress.runs, time: progress.time });
                     }
                 }
                 JudgeEvent::Checked(result) => {

@@ -111,7 +111,7 @@ impl Jobs {
         let job = self.job(case, compute);
         stop(self.judging.replace(Arc::clone(&job.control)));
         match thread_pool(self.threads) {
-            Ok(pool) => pool.spawn(move || job.judge_all()),
+            Ok(pool) => pool.spawn(move || job.judge_with_margins()),
             Err(none) => job.tell_no_result(&none),
         }
     }

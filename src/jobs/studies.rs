@@ -110,9 +110,9 @@ pub struct ComparedWithSeen {
 }
 
 /// Samples of every option.
-const SAMPLING: Sampling = Sampling::OF_RISK;
+const RISK_SAMPLING: Sampling = Sampling::OF_RISK;
 /// Samples of a study of effects.
-const EFFECTS: Sampling = Sampling::exactly(SAMPLES, Sampling::OF_RISK.seed);
+const EFFECTS_SAMPLING: Sampling = Sampling::exactly(SAMPLES, Sampling::OF_RISK.seed);
 /// Longest run that [`StudyKind::Accuracy`] makes.
 const LONGEST_RUN: Duration = Duration::from_secs(1);
 
@@ -120,7 +120,7 @@ impl Job {
     pub(super) fn study(&self, kind: StudyKind, option: usize) -> Result<StudyResult, NoResult> {
         let Self { case, compute, control, .. } = self;
         // Where the options differ in how the holes of a row fire, the selected one is meant.
-        let with_holes = || case.with_hole_timing_or_of(option);
+        let with_holes = || case.with_hole_timing_defaulting_to(option);
         match kind {
             StudyKind::Sweep => {
                 let order: Vec<usize> = (0..case.plan.blast_rows.len()).collect();
@@ -133,8 +133,8 @@ impl Job {
                 Ok(StudyResult::Orders(orders(&case, &case.intervals(), sampling, compute, control)?))
             }
             StudyKind::Risk => {
-                let results = case.judge_options(compute, Some(&SAMPLING), control)?;
-                Ok(StudyResult::Risk(SAMPLING, results))
+                let results = case.judge_options(compute, Some(&RISK_SAMPLING), control)?;
+                Ok(StudyResult::Risk(RISK_SAMPLING, results))
             }
             StudyKind::Search => {
                 let sampling = Some(&Sampling::OF_VERDICT);
@@ -147,7 +147,9 @@ impl Job {
                         .expect_complete(),
                 ))
             }
-            StudyKind::Effects => Ok(StudyResult::Effects(effects(case, Some(&EFFECTS), compute, control)?)),
+            StudyKind::Effects => {
+                Ok(StudyResult::Effects(effects(case, Some(&EFFECTS_SAMPLING), compute, control)?))
+            }
             StudyKind::Fit => {
                 let is_in_plan = |file: &Observations| case.plan.fitted_from.contains(&file.checksum);
                 let (in_plan, new): (Vec<_>, Vec<_>) = self.observed.iter().cloned().partition(is_in_plan);
@@ -168,7 +170,7 @@ impl Job {
             StudyKind::Remedies => {
                 let sampling = Some(&Sampling::OF_VERDICT);
                 let found = find_remedies(case, option, sampling, compute, control)?;
-                Ok(StudyResult::Remedies(found.value))
+                Ok(StudyResult::Remedies(found.expect_complete()))
             }
         }
     }

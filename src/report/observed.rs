@@ -2,7 +2,7 @@
 
 use super::parts::{Align, Cell, Column, Field, Table};
 use crate::choice::ObservedQuantity;
-use crate::plan::observations::{Observation, ObservedValue};
+use crate::plan::observations::{Observation, ObservedPoint};
 use crate::study::Case;
 use crate::study::fit::observation_bands::Prediction;
 use crate::study::fit::{Fit, Residual};
@@ -86,7 +86,7 @@ pub fn observed_table(rows: &[ObservedRow<'_>]) -> Table {
 }
 
 /// `20 ms · 3:1 height_m at 0.3 s`.
-pub fn place(case: &Case, option: usize, watched: &ObservedValue) -> String {
+pub fn place(case: &Case, option: usize, watched: &ObservedPoint) -> String {
     let scene = case.scene();
     let address = match watched.quantity {
         ObservedQuantity::Force => scene.cable_name(watched.index),

@@ -167,7 +167,7 @@ fn refusal(tried: &TriedKind) -> Option<String> {
         Change::Slack(_) => format!("no slack tried from {} % passes", range(tried)),
         Change::Launch(factor) => format!("not even launches {} lower pass", units::percent(1.0 - factor, 0)),
         // Another option may have one of these intervals, and pass.
-        Change::Interval { .. } if tried.open > 0 => format!(
+        Change::Interval { .. } if tried.undecided > 0 => format!(
             "no interval tried from {} ms surely passes: the more are tried, the more each has to prove; one chosen alone has less to prove",
             range(tried)
         ),

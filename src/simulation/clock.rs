@@ -51,8 +51,8 @@ impl Clock {
         self.steps += 1;
     }
 
-    /// Takes a shelter at rest straight on to the next firing. Returns the reason why the run ends now, if it ends; otherwise a step
-    /// follows. Rest counts even when the last step reached past the limit.
+    /// Takes a shelter at rest straight on to the next firing. Returns the reason why the run ends now, if it ends; otherwise a
+    /// step follows. Rest counts even when the last step reached past the limit.
     pub fn skip_rest_or_end(&mut self, moving: bool, firings: &[Firing]) -> Option<EndReason> {
         if !moving {
             match firings.get(self.fired) {

@@ -113,7 +113,7 @@ impl Case {
     }
 
     /// The case with the holes of each row fired as in a delay option, where the options differ.
-    pub fn with_hole_timing_or_of(&self, option: usize) -> Self {
+    pub fn with_hole_timing_defaulting_to(&self, option: usize) -> Self {
         Self { hole_timing: self.hole_timing.or(Some(self.plan.delays[option].hole_timing)), ..self.clone() }
     }
 

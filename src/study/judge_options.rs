@@ -118,10 +118,10 @@ fn check_one_as_planned(
 ) -> Result<CheckedShot, NoResult> {
     let (case, compute) = &cases[at.case];
     let mut steps = 0_usize;
-    let checked = check_as_planned(case, at.option, compute, &mut |step| {
+    let checked = check_as_planned(case, at.option, compute, &mut |progress| {
         steps += 1;
         if steps.is_multiple_of(STEPS_PER_EVENT) {
-            watch(at, JudgeEvent::Checking(step));
+            watch(at, JudgeEvent::Checking(progress));
         }
         control.keep_going()
     });

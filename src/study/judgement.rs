@@ -6,8 +6,8 @@ use super::reasons::Reason;
 use super::samples::sampled_shot::SampledShot;
 use crate::verdict::Verdict;
 
-/// A delay option: the check of the shot as planned, and the risk of the possible shots. Its parts come one after the other, in this
-/// order, and [`judge_options`](super::judge_options) puts each in.
+/// A delay option: the check of the shot as planned, and the risk of the possible shots. Its parts come one after the other, in
+/// this order, and [`judge_options`](super::judge_options) puts each in.
 #[derive(Clone, Debug)]
 pub struct Judgement {
     /// The shot as planned.

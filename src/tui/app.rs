@@ -255,7 +255,7 @@ impl App {
     }
 
     /// Takes back edits that the last session could not save.
-    pub fn take_unsaved(&mut self, kept: RecoveredEdits) -> Request {
+    pub fn restore_unsaved(&mut self, kept: RecoveredEdits) -> Request {
         let changed = !kept.are_of(self.editor.saved());
         let edit = self.editor.adopt(Ok(kept.text));
         let undo = self.keymap.hint(Action::Undo);

@@ -7,13 +7,11 @@ use super::compare::OptionState;
 use super::screen::Screen;
 use super::studies::ShownStudy;
 use crate::file;
-use crate::jobs::{ComparedWithSeen, StudyKind, StudyResult};
+use crate::jobs::{StudyKind, StudyResult};
 use crate::report::csv::Separators;
 use crate::report::html::{self, Page};
-use crate::report::observed::{self, ObservedRow, observed_rows};
 use crate::report::{self, charts};
 use crate::study::Computed;
-use crate::study::fit::FitResult;
 use crate::study::judge_options::{MustPass, OptionResults};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::sweep::Sweep;
@@ -46,9 +44,11 @@ fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
         to_be_fired,
         sampling: Some(&Sampling::OF_VERDICT),
         sweep: swept(app),
-        fitted_to_observed: compared(app).is_some_and(|compared| !compared.in_plan.list.is_empty()),
-        observed: &observed(app),
-        contradiction: &contradiction(app),
+        fitted_to_observed: app
+            .compared_with_seen()
+            .is_some_and(|compared| !compared.in_plan.list.is_empty()),
+        observed: &app.seen_rows(),
+        contradiction: &app.contradiction(),
         partial: false,
         unsaved: !is_saved(app),
         date: &html::today(),
@@ -64,45 +64,6 @@ fn swept(app: &App) -> Option<&Computed<Sweep>> {
         _ => None,
     }
 }
-
-/// What was seen of earlier shots, where a fit on the screen is one of this plan.
-pub fn observed(app: &App) -> Vec<ObservedRow<'_>> {
-    match compared(app) {
-        Some(compared) => {
-            let new = match &compared.fitted {
-                Some(FitResult::Fitted(fit)) => observed_rows(&app.case, &fit.observed, &fit.predictions),
-                Some(FitResult::NotDetermined { observed, predictions, .. }) => {
-                    observed_rows(&app.case, observed, predictions)
-                }
-                Some(FitResult::KnownExactly(_) | FitResult::NotInMethod(_)) | None => Vec::new(),
-            };
-            let in_plan = observed_rows(&app.case, &compared.in_plan.list, &compared.predictions);
-            new.into_iter().chain(in_plan).collect()
-        }
-        None => Vec::new(),
-    }
-}
-
-/// The comparison on the screen, where it is one with this plan.
-fn compared(app: &App) -> Option<&ComparedWithSeen> {
-    match &*app.studies.finished(StudyKind::Fit)?.found {
-        StudyResult::Fit(compared) => Some(compared),
-        _ => None,
-    }
-}
-
-/// Why what was seen of earlier shots speaks against the verdicts on the screen: it contradicts them, or is not compared with this
-/// plan.
-pub fn contradiction(app: &App) -> Vec<String> {
-    let rows = observed(app);
-    match rows.is_empty() && !app.observed.is_empty() {
-        true => vec![NOT_COMPARED.to_owned()],
-        false => observed::contradiction(&rows),
-    }
-}
-
-/// What is said until a fit has compared what was seen with the plan on the screen.
-const NOT_COMPARED: &str = "what was seen of earlier shots is not compared with this plan: see Studies, Fit";
 
 /// Whether the file of the plan holds the very text that was computed.
 fn is_saved(app: &App) -> bool {

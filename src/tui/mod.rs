@@ -7,7 +7,7 @@
 //! | the plan being edited | [`editor`], [`order_editor`], [`name_list`], `arrow_keys`, `paste`; its file: `plan_file`, [`recovery`] |
 //! | the terminal, taken and given back; signals | `display` |
 //! | how it is drawn | [`view`], a file a screen; styles: [`theme`] |
-//! | what was seen of earlier shots | [`observed`] |
+//! | what was seen of earlier shots, and whether the plan says it | [`observed`], `compared_with_seen` |
 //! | the line being typed, the flight being played, what is written to a file | [`prompt`], [`player`], [`export`] |
 //! | the start screen; the user's configuration | [`start`], [`config`] |
 //!
@@ -18,6 +18,7 @@ mod actions;
 pub mod app;
 mod arrow_keys;
 pub mod compare;
+mod compared_with_seen;
 pub mod config;
 mod display;
 pub mod editor;
@@ -80,7 +81,7 @@ pub fn run(app: App, jobs: Jobs, look: ScreenStyle, plan: Option<&Path>) -> io::
     restore_on_panic();
     let mut display = Display::open()?;
     let mut session = Session { app, jobs, file: plan.map(PlanFile::new) };
-    session.take_unsaved();
+    session.restore_unsaved();
     session.carry_out(Request::Judge);
     let exit = session.serve_events(&mut display, &signals, look);
     // Messages printed on the alternate screen would vanish with it.
@@ -145,12 +146,12 @@ impl Session {
     }
 
     /// Takes back the edits that the last session could not save; they can be undone.
-    fn take_unsaved(&mut self) {
+    fn restore_unsaved(&mut self) {
         // A plan without a file is offered by the start screen.
         let Some(kept) = self.file.as_ref().and_then(|file| recovery::find(Some(file.path()))) else {
             return;
         };
-        let request = self.app.take_unsaved(kept);
+        let request = self.app.restore_unsaved(kept);
         self.carry_out(request);
     }
 

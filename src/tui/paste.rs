@@ -3,12 +3,12 @@
 use tui_input::Input;
 
 /// Most characters that a line takes.
-const MOST: usize = 500;
+const MOST_LETTERS: usize = 500;
 
 /// Puts the first line of a pasted text into a line being typed, at its cursor. Returns a note where not all was taken.
 pub fn paste(input: &mut Input, pasted: &str) -> Option<String> {
     let pasted = pasted.trim_matches(['\r', '\n']);
-    let room = MOST.saturating_sub(input.value().chars().count());
+    let room = MOST_LETTERS.saturating_sub(input.value().chars().count());
     let taken: String = pasted.chars().take_while(|letter| !letter.is_control()).take(room).collect();
     let count = taken.chars().count();
     let note = (taken.len() < pasted.len()).then(|| format!("pasted: the first {count} characters only"));
@@ -33,6 +33,6 @@ mod tests {
         assert!(paste(&mut input, "x\nq\x1b[A").is_some_and(|note| note.contains("first 1 characters")));
         assert_eq!(input.value(), "a12xb");
         assert!(paste(&mut input, &"é".repeat(1 << 20)).is_some());
-        assert_eq!(input.value().chars().count(), MOST);
+        assert_eq!(input.value().chars().count(), MOST_LETTERS);
     }
 }

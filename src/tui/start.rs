@@ -55,7 +55,7 @@ pub const EXAMPLES: &[(&str, &str)] = &[
 /// Lines that a page key moves.
 const PAGE_LINES: usize = 10;
 /// Most files listed.
-const MOST: usize = 50;
+const MOST_FILES: usize = 50;
 /// Largest file that is read to see whether it is a plan [bytes].
 const LARGE: u64 = 1 << 20;
 
@@ -103,7 +103,7 @@ impl Start {
             .flatten()
             .filter_map(|entry| Some(entry.ok()?.path()))
             .filter(|path| is_plan(path) && !canonical(path).is_ok_and(|path| recent.contains(&path)))
-            .take(MOST)
+            .take(MOST_FILES)
             .map(|path| path.strip_prefix(".").map(Path::to_owned).unwrap_or(path))
             .collect();
         files.sort();

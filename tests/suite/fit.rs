@@ -5,7 +5,7 @@ use std::fs;
 
 use shelter::Sampling;
 use shelter::choice::{ObservedQuantity, Unknown};
-use shelter::plan::observations::{Observation, Observations, ObservedValue, template};
+use shelter::plan::observations::{Observation, Observations, ObservedPoint, template};
 use shelter::plan::{Plan, PlanSource};
 use shelter::report::observed::{contradiction, observed_rows};
 use shelter::study::fit::observation_bands::{Prediction, next_observation, predict_observations};
@@ -489,7 +489,7 @@ fn observations_are_the_same_whatever_separates_the_columns() {
         other.iter_mut().zip(&list).for_each(|(other, own)| other.line = own.line);
         assert_eq!(other, list, "{lines}");
     }
-    let watched = ObservedValue { quantity: ObservedQuantity::FlightHeight, index: 0, time: 0.0 };
+    let watched = ObservedPoint { quantity: ObservedQuantity::FlightHeight, index: 0, time: 0.0 };
     assert_eq!((list[0].option, list[0].watched, list[0].value, list[0].sd), (2, watched, 1.6, 0.05));
 }
 
@@ -609,7 +609,7 @@ fn the_report_tells_estimates_and_what_was_seen() {
 fn what_was_seen_over_a_limit_is_told() {
     let case = Case::load(shipped("amur-three-rows.toml").as_ref()).expect("a shipped plan");
     let told = |value: f64, band: [f64; 2]| {
-        let watched = ObservedValue { quantity: ObservedQuantity::FlightHeight, index: 0, time: 0.0 };
+        let watched = ObservedPoint { quantity: ObservedQuantity::FlightHeight, index: 0, time: 0.0 };
         let seen = [Observation { option: 4, watched, value, sd: 0.05, line: 2 }];
         contradiction(&observed_rows(&case, &seen, &[Prediction { planned: 1.67, band: Some(band) }]))
     };

@@ -270,8 +270,8 @@ fn studies_keep_the_holes_of_the_options() {
     assert!(matches!(swept, Err(NoResult::HolesDiffer)), "which of them is meant?");
     let tried = try_orders(&differing, &[0.009], Shard::WHOLE, &compute, &StudyControl::default());
     assert!(matches!(tried, Err(NoResult::HolesDiffer)));
-    assert_eq!(differing.with_hole_timing_or_of(1).shot(&[0, 1], 0.042), differing.shots[1]);
-    let differing = differing.with_hole_timing_or_of(0);
+    assert_eq!(differing.with_hole_timing_defaulting_to(1).shot(&[0, 1], 0.042), differing.shots[1]);
+    let differing = differing.with_hole_timing_defaulting_to(0);
     assert_eq!(differing.intervals(), [0.009], "the option whose rows fire together");
     let compute = ComputeSettings::of(&differing.plan);
     let flow = &mut |_: shelter::study::as_planned::check::CheckProgress| ControlFlow::Continue(());

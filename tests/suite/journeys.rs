@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::support::pseudo_terminal::ObservedValue;
+use super::support::pseudo_terminal::RunningShelter;
 use super::support::{Edited, PROGRAM, text};
 
 const SIZES: [(u16, u16); 2] = [(80, 24), (120, 36)];
@@ -30,13 +30,13 @@ interval_ms = 42
 
 /// A program that is used key by key.
 struct Walk {
-    watched: ObservedValue,
+    watched: RunningShelter,
     keys: usize,
 }
 
 impl Walk {
     fn begin(arguments: &[&str], folder: &Path, (columns, rows): (u16, u16)) -> Self {
-        Self { watched: ObservedValue::start(arguments, folder, columns, rows), keys: 0 }
+        Self { watched: RunningShelter::start(arguments, folder, columns, rows), keys: 0 }
     }
 
     /// Presses keys one by one, then waits for a text on the screen.

@@ -18,7 +18,7 @@ use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
 use shelter::study::samples::sampled_shot::SampledShot;
-use shelter::study::samples::swaps::swaps;
+use shelter::study::samples::swaps::find_swaps;
 use shelter::study::size::{Demand, size};
 use shelter::study::sweep::{GAP, Point, Sweep, sweep};
 use shelter::study::{Case, ComputeSettings, Intervals, Shard};
@@ -512,7 +512,7 @@ fn rows_that_may_swap_are_named() {
     let mut case = case(2, "");
     case.plan.uncertainty.delay = DelayScatter { sd_ms: 10.0, cv_percent: 0.0 };
     case.plan.uncertainty.in_hole_delay_ms = 500.0;
-    let [swaps, of_45_ms] = [0, 1].map(|option| swaps(&case, option, 1e-2));
+    let [swaps, of_45_ms] = [0, 1].map(|option| find_swaps(&case, option, 1e-2));
     assert_eq!((swaps.len(), of_45_ms.len()), (1, 0));
     assert_eq!(swaps[0].rows, [0, 1]);
     assert!((swaps[0].probability - 0.124_1).abs() < 1e-4, "{}", swaps[0].probability);

@@ -7,12 +7,12 @@ use std::time::{Duration, Instant};
 
 use portable_pty::{CommandBuilder, PtySize, native_pty_system};
 
-use super::support::pseudo_terminal::{ObservedValue, PATIENCE};
+use super::support::pseudo_terminal::{PATIENCE, RunningShelter};
 use super::support::{Edited, PROGRAM, shipped, small_plan};
 
 #[test]
 fn the_table_appears_keys_and_resizing_work_and_q_restores() {
-    let mut watched = ObservedValue::open("amur-three-rows.toml", &[], 120, 36);
+    let mut watched = RunningShelter::open("amur-three-rows.toml", &[], 120, 36);
     watched.until(" of 7 pass");
     watched.press("jjjj");
     watched.until("42 ms ─");
@@ -33,7 +33,7 @@ fn the_table_appears_keys_and_resizing_work_and_q_restores() {
 
 #[test]
 fn quitting_in_the_middle_of_a_run_is_immediate() {
-    let mut watched = ObservedValue::open("large-50x50.toml", &["--dt", "1e-6"], 100, 30);
+    let mut watched = RunningShelter::open("large-50x50.toml", &["--dt", "1e-6"], 100, 30);
     watched.until("computing 0/10");
     watched.press("q");
     // All options together would take minutes; nobody waits for them here.
@@ -42,7 +42,7 @@ fn quitting_in_the_middle_of_a_run_is_immediate() {
 
 #[test]
 fn a_timeout_is_for_commands_and_refused_by_the_terminal() {
-    let watched = ObservedValue::open("amur-three-rows.toml", &["--timeout", "5"], 100, 30);
+    let watched = RunningShelter::open("amur-three-rows.toml", &["--timeout", "5"], 100, 30);
     watched.until("--timeout ends commands");
     assert_eq!(watched.ends(), 2);
 }
@@ -50,12 +50,12 @@ fn a_timeout_is_for_commands_and_refused_by_the_terminal() {
 #[test]
 fn signals_and_control_c_restore_the_terminal() {
     for signal in ["TERM", "HUP", "INT", "QUIT"] {
-        let watched = ObservedValue::open("large-50x50.toml", &["--dt", "1e-5"], 100, 30);
+        let watched = RunningShelter::open("large-50x50.toml", &["--dt", "1e-5"], 100, 30);
         watched.until("computing");
         watched.signal(signal);
         assert_eq!(watched.ends(), 130, "{signal}");
     }
-    let mut watched = ObservedValue::open("paper-5-tire.toml", &[], 100, 30);
+    let mut watched = RunningShelter::open("paper-5-tire.toml", &[], 100, 30);
     watched.until(" of 1 pass");
     watched.press("\x03");
     assert_eq!(watched.ends(), 0);
@@ -68,7 +68,7 @@ fn studies_run_are_cancelled_and_keep_their_result() {
     // With the plan's other mass many more combinations are sampled.
     std::fs::write(&file, small_plan().edited("tire_mass_kg = [280, 350]", "tire_mass_kg = [280]"))
         .expect("written");
-    let mut watched = ObservedValue::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 120, 36);
+    let mut watched = RunningShelter::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 120, 36);
     watched.until(" of 7 pass");
     watched.press("4");
     watched.until("Enter starts it");
@@ -96,7 +96,7 @@ fn without_a_plan_there_is_a_choice() {
     std::fs::write(folder.path().join("mine.toml"), include_str!("../../plans/paper-5-tire.toml"))
         .expect("written");
     std::fs::write(folder.path().join("Cargo.toml"), "[package]").expect("written");
-    let mut watched = ObservedValue::start(&[], folder.path(), 100, 30);
+    let mut watched = RunningShelter::start(&[], folder.path(), 100, 30);
     watched.until("mine.toml");
     assert!(!watched.contents().contains("Cargo.toml"));
     watched.until("amur-three-rows   example");
@@ -104,7 +104,7 @@ fn without_a_plan_there_is_a_choice() {
     watched.until(" of 1 pass");
     watched.press("q");
     assert_eq!(watched.ends(), 0);
-    let mut watched = ObservedValue::start(&[], folder.path(), 100, 30);
+    let mut watched = RunningShelter::start(&[], folder.path(), 100, 30);
     watched.until("mine.toml");
     watched.press("j\r");
     watched.until(" of 7 pass");
@@ -124,11 +124,11 @@ fn unsaved_edits_survive_a_signal() {
     let arguments = [file.to_str().expect("UTF-8"), "--accuracy", "draft"];
     let mut home = Arc::new(tempfile::tempdir().expect("a folder"));
     let opened = |home: &Arc<tempfile::TempDir>| {
-        let watched = ObservedValue::start_at_home(&arguments, folder.path(), 120, 36, Arc::clone(home));
+        let watched = RunningShelter::start_at_home(&arguments, folder.path(), 120, 36, Arc::clone(home));
         watched.until(" of 1 pass");
         watched
     };
-    let edit = |watched: &mut ObservedValue| {
+    let edit = |watched: &mut RunningShelter| {
         watched.press("1/friction\r\r\x150.61\r");
         watched.until("*not saved*");
     };
@@ -162,14 +162,14 @@ fn unsaved_edits_of_a_file_that_has_changed_say_so() {
     std::fs::write(&file, text).expect("written");
     let arguments = [file.to_str().expect("UTF-8"), "--accuracy", "draft"];
     let home = Arc::new(tempfile::tempdir().expect("a folder"));
-    let mut watched = ObservedValue::start_at_home(&arguments, folder.path(), 120, 36, Arc::clone(&home));
+    let mut watched = RunningShelter::start_at_home(&arguments, folder.path(), 120, 36, Arc::clone(&home));
     watched.until(" of 1 pass");
     watched.press("1/friction\r\r\x150.61\r");
     watched.until("*not saved*");
     watched.signal("TERM");
     assert_eq!(watched.ends(), 130);
     std::fs::write(&file, format!("{text}# stricter now\n")).expect("written");
-    let mut watched = ObservedValue::start_at_home(&arguments, folder.path(), 120, 36, home);
+    let mut watched = RunningShelter::start_at_home(&arguments, folder.path(), 120, 36, home);
     watched.until("edits of an OLDER file are back");
     watched.press("qq");
     assert_eq!(watched.ends(), 0);
@@ -178,7 +178,7 @@ fn unsaved_edits_of_a_file_that_has_changed_say_so() {
 /// Pasted text is a value or nothing: never commands.
 #[test]
 fn pasted_text_is_no_command() {
-    let mut watched = ObservedValue::open("paper-5-tire.toml", &["--accuracy", "draft"], 120, 36);
+    let mut watched = RunningShelter::open("paper-5-tire.toml", &["--accuracy", "draft"], 120, 36);
     watched.until(" of 1 pass");
     watched.press("\x1b[200~dqq\x1b[201~");
     watched.until("nothing was pasted");
@@ -202,7 +202,7 @@ fn a_plan_is_edited_saved_and_reloaded() {
     let text = include_str!("../../plans/amur-three-rows.toml");
     std::fs::write(&file, text).expect("written");
     let read = || std::fs::read_to_string(&file).expect("the plan");
-    let mut watched = ObservedValue::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 120, 36);
+    let mut watched = RunningShelter::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 120, 36);
     watched.until(" of 7 pass");
     watched.press("1/flight height\r");
     watched.until("limit of flight height");
@@ -254,7 +254,7 @@ fn a_plan_is_edited_saved_and_reloaded() {
 
 #[test]
 fn ascii_screens_are_ascii() {
-    let mut watched = ObservedValue::open("paper-5-tire.toml", &["--ascii"], 100, 30);
+    let mut watched = RunningShelter::open("paper-5-tire.toml", &["--ascii"], 100, 30);
     watched.until(" of 1 pass");
     assert!(watched.contents().is_ascii(), "{}", watched.contents());
     watched.press("q");
@@ -268,7 +268,7 @@ fn a_walk_through_everything() {
     let file = folder.path().join("plan.toml");
     let text = small_plan();
     std::fs::write(&file, &text).expect("written");
-    let mut watched = ObservedValue::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 200, 60);
+    let mut watched = RunningShelter::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 200, 60);
     watched.until(" of 7 pass");
     watched.press("oooo");
     watched.until("plan H, m▲");
@@ -332,7 +332,7 @@ fn a_walk_through_everything() {
 /// Stopped and continued as a shell does it, the screen is drawn again.
 #[test]
 fn suspending_gives_the_terminal_back_and_continuing_takes_it_again() {
-    let mut watched = ObservedValue::open("paper-5-tire.toml", &[], 100, 30);
+    let mut watched = RunningShelter::open("paper-5-tire.toml", &[], 100, 30);
     watched.until(" of 1 pass");
     watched.press("\x1a");
     let start = Instant::now();
@@ -351,7 +351,7 @@ fn suspending_gives_the_terminal_back_and_continuing_takes_it_again() {
 #[test]
 fn a_new_plan_by_questions() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut watched = ObservedValue::start(&[], folder.path(), 100, 30);
+    let mut watched = RunningShelter::start(&[], folder.path(), 100, 30);
     watched.until("A new plan by a few questions");
     watched.press("\r");
     watched.until("title");
@@ -383,7 +383,7 @@ fn a_mistake_in_the_configuration_is_named() {
     assert!(text.contains("shelter/config.toml") && text.contains("# theme = \"dark\""), "{text}");
     let plan = shipped("paper-5-tire.toml");
     let opened = |notice: &str| {
-        let mut watched = ObservedValue::start_at_home(&[&plan], &folder, 160, 36, Arc::clone(&home));
+        let mut watched = RunningShelter::start_at_home(&[&plan], &folder, 160, 36, Arc::clone(&home));
         watched.until(notice);
         watched.until(" of 1 pass");
         watched.press("q");

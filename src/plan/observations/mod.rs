@@ -64,7 +64,7 @@ pub struct Observation {
     /// Index of the delay option that was fired.
     pub option: usize,
     /// What was watched.
-    pub watched: ObservedValue,
+    pub watched: ObservedPoint,
     /// The value [SI unit of the quantity].
     pub value: f64,
     /// Standard deviation of the value [the same unit].
@@ -74,7 +74,7 @@ pub struct Observation {
 }
 
 impl Observation {
-    fn what_was_seen(&self) -> (ObservedValue, f64, f64) {
+    fn what_was_seen(&self) -> (ObservedPoint, f64, f64) {
         (self.watched, self.value, self.sd)
     }
 
@@ -85,7 +85,7 @@ impl Observation {
 
 /// A quantity of a tire or a cable.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ObservedValue {
+pub struct ObservedPoint {
     /// The quantity.
     pub quantity: ObservedQuantity,
     /// Index of the tire, or of the cable where the quantity is a force.

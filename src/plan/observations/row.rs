@@ -3,7 +3,7 @@
 use itertools::Itertools;
 
 use super::{
-    AT, CABLE, COLUMNS, Columns, FIRING, MeasuredFiring, OPTION, ObservableNames, Observation, ObservedValue,
+    AT, CABLE, COLUMNS, Columns, FIRING, MeasuredFiring, OPTION, ObservableNames, Observation, ObservedPoint,
     QUANTITY, SD, TIRE, VALUE, mistake, unit,
 };
 use crate::choice::ObservedQuantity;
@@ -84,7 +84,7 @@ impl Row<'_> {
         let value = keep(self.number(VALUE, unit(quantity), 0.0));
         let sd = keep(self.number(SD, unit(quantity), f64::MIN_POSITIVE));
         let whole = is_known && [option, index, time, value, sd].iter().all(|number| number.is_finite());
-        let watched = ObservedValue { quantity, index: index as usize, time };
+        let watched = ObservedPoint { quantity, index: index as usize, time };
         let observation = || Observation { option: option as usize, watched, value, sd, line: line.number };
         whole.then(|| Seen::Value(observation()))
     }

@@ -81,7 +81,7 @@ impl RefusedKind {
         let object = |tried: &TriedKind| Self {
             kind: tried.kind.name(),
             tried: tried.tried.len(),
-            undecided: tried.open,
+            undecided: tried.undecided,
             complete: !tried.out_of_time,
         };
         refused.map(object).collect()

@@ -55,8 +55,8 @@ impl Report {
 }
 
 impl Table {
-    /// The lines above the rows, each a text for each of these `columns`: what stands in them, and below it a part of the samples,
-    /// where any column has such words.
+    /// The lines above the rows, each with a text for each of these `columns`: the headings, and below them the subheadings, where
+    /// there are any.
     pub fn heading(&self, columns: &[usize]) -> Vec<Vec<String>> {
         let line = |text: fn(&Column) -> String| columns.iter().map(|&n| text(&self.columns[n])).collect();
         let mut lines: Vec<Vec<String>> =

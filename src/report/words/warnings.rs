@@ -7,17 +7,17 @@ use crate::plan::usual::Unusual;
 use crate::study::as_planned::cover::Cover;
 use crate::study::judge_options::OptionResults;
 use crate::study::judgement::Judgement;
-use crate::study::samples::swaps::{Swap, swaps};
+use crate::study::samples::swaps::{Swap, find_swaps};
 use crate::study::{Case, ShotSummary};
 use crate::units;
 use crate::verdict::Quantity;
 
 /// Least probability of a swap of blast rows that deserves a warning.
-const SWAP: f64 = 1e-4;
+const LEAST_SWAP_PROBABILITY: f64 = 1e-4;
 /// Difference between two intervals that are the same but for rounding [ms].
 const SAME_INTERVAL_MS: f64 = 1e-6;
 /// Drift over the widest distance of tied tires from which it is told where no limit judges it.
-const FAR: f64 = 0.5;
+const FAR_DRIFT_SHARE: f64 = 0.5;
 
 /// Warnings of a plan, whatever is found: values that are not usual, and ranges of `[uncertainty]` that leave out what the plan
 /// itself says.
@@ -85,7 +85,8 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
 
 /// Warnings of an option that need no other option beside them.
 fn swaps_and_cover(case: &Case, option: usize, judged: &Judgement) -> impl Iterator<Item = String> {
-    let swaps = if judged.sampled.is_asked() { swaps(case, option, SWAP) } else { Vec::new() };
+    let swaps =
+        if judged.sampled.is_asked() { find_swaps(case, option, LEAST_SWAP_PROBABILITY) } else { Vec::new() };
     let swaps = swaps.into_iter().map(move |found| swap_warning(case, option, &found));
     swaps.chain(uncovered(&judged.checked.cover))
 }
@@ -98,7 +99,7 @@ fn far_drift(case: &Case, judged: &Judgement) -> Option<f64> {
     let of_samples = judged.sampled.known().and_then(|sampled| sampled.band(Quantity::Drift));
     let of_samples = of_samples.map_or(0.0, |[_, _, p95, _]| p95);
     let drift = judged.checked.drift.value.max(of_samples);
-    let far = FAR * case.plan.layout.widest_tie();
+    let far = FAR_DRIFT_SHARE * case.plan.layout.widest_tie();
     (case.limits.drift.is_none() && drift > far).then_some(drift)
 }
 

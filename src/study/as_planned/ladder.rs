@@ -17,8 +17,8 @@ pub struct Finding<T> {
 /// Runs a ladder of steps, from the coarsest to the finest, and returns the last finding; no step is run twice.
 ///
 /// 1. The coarser neighbours of the step `first` [s] are run, then `first`, then finer steps.
-/// 2. Once there are two runs, `examine` is called after each. It gets all runs so far, and whether no finer run can follow; the last
-///    run gives the values, the others give the errors.
+/// 2. Once there are two runs, `examine` is called after each. It gets all runs so far, and whether no finer run can follow; the
+///    last run gives the values, the others give the errors.
 /// 3. Where `fixed`, the ladder ends at `first`. If every coarser neighbour failed, one finer run gives the error; it then stands
 ///    before `first` among the runs, so that the values stay at `first`.
 ///

@@ -41,7 +41,7 @@ pub fn widened(error: f64, between: f64, pairs: impl IntoIterator<Item = [f64; 2
     if greatest > FAR_ERROR_FACTOR * error { greatest } else { error }
 }
 
-/// FittedParameter error of `value`, computed at `step`, from `(step, value)` of its neighbours; 0 without neighbours.
+/// Estimated error of `value`, computed at `step`, from `(step, value)` of its neighbours; 0 without neighbours.
 pub fn estimate(step: f64, value: f64, neighbours: impl IntoIterator<Item = (f64, f64)>) -> f64 {
     let estimates = neighbours.into_iter().map(|(other, near)| {
         let ratio = other / step;

@@ -34,7 +34,7 @@ const SAMPLES: usize = 96;
 /// Least number of samples for each observation: slopes by chance add the share 1/4 or less to what the observations tell.
 const SAMPLES_EACH: usize = 4;
 /// Least share of the samples that have a value, for the prediction to have one.
-const OFTEN: f64 = 0.5;
+const LEAST_KNOWN_SHARE: f64 = 0.5;
 
 /// The covariance of observations about their predictions, and its parts.
 pub struct ObservationCovariance {
@@ -48,13 +48,13 @@ pub struct ObservationCovariance {
 }
 
 /// Residual, in standard deviations, of a prediction that has no value: the tire never lifts, or never lands.
-const NEVER: f64 = 10.0;
+const UNKNOWN_VALUE_SDS: f64 = 10.0;
 
 impl ObservationCovariance {
     /// The residuals of predictions, made independent and of unit variance.
     pub fn whitened_residuals(&self, observed: &[Observation], predicted: &[f64]) -> Option<DVector<f64>> {
         let residual = |n: usize| match predicted[n].is_nan() {
-            true => NEVER * self.sds[n],
+            true => UNKNOWN_VALUE_SDS * self.sds[n],
             false => observed[n].value - predicted[n],
         };
         self.factor.l().solve_lower_triangular(&DVector::from_fn(observed.len(), |n, _| residual(n)))
@@ -240,7 +240,7 @@ fn fill_gaps(values: &mut DMatrix<f64>) -> Vec<bool> {
         let finite: Vec<f64> = column.iter().copied().filter(|value| value.is_finite()).collect();
         let mean = finite.iter().sum::<f64>() / finite.len().max(1) as f64;
         column.iter_mut().filter(|value| !value.is_finite()).for_each(|value| *value = mean);
-        has_often_values.push(finite.len() as f64 >= OFTEN * column.len() as f64);
+        has_often_values.push(finite.len() as f64 >= LEAST_KNOWN_SHARE * column.len() as f64);
     }
     has_often_values
 }

@@ -14,7 +14,7 @@ use super::parameter::Parameter;
 use super::predictor::Predictor;
 use super::search::SearchBox;
 use crate::choice::ObservedQuantity;
-use crate::plan::observations::ObservedValue;
+use crate::plan::observations::ObservedPoint;
 use crate::scene::Scene;
 use crate::study::NoResult;
 
@@ -23,7 +23,7 @@ const DETERMINED: f64 = 2.0;
 /// Least σ that makes something else worth observing.
 const WORTH_OBSERVING: f64 = 1.0;
 /// Least share of a parameter in a combination that is not determined, at which the parameter is named.
-const NAMED: f64 = 0.3;
+const LEAST_SHARE_NAMED: f64 = 0.3;
 /// Shift along a combination, to each side, in standard deviations of the plausible ranges.
 const SHIFT: f64 = 0.15;
 
@@ -42,7 +42,7 @@ pub struct Observable {
     /// Index of the delay option.
     pub option: usize,
     /// What to watch.
-    pub watched: ObservedValue,
+    pub watched: ObservedPoint,
 }
 
 /// Standard deviation with which somebody observes a quantity of this value, where nobody says: 5 cm, 20 ms, 5 %.
@@ -55,11 +55,11 @@ pub fn assumed_sd(quantity: ObservedQuantity, value: f64) -> f64 {
 }
 
 /// Everything that could be observed of a shot under a shelter.
-pub fn observables(scene: &Scene) -> Vec<ObservedValue> {
+pub fn observables(scene: &Scene) -> Vec<ObservedPoint> {
     let of_tires = [ObservedQuantity::FlightHeight, ObservedQuantity::Landing, ObservedQuantity::Drift];
     let tires = itertools::iproduct!(of_tires, 0..scene.tire_count());
     let cables = (0..scene.cables.len()).map(|cable| (ObservedQuantity::Force, cable));
-    tires.chain(cables).map(|(quantity, index)| ObservedValue { quantity, index, time: 0.0 }).collect()
+    tires.chain(cables).map(|(quantity, index)| ObservedPoint { quantity, index, time: 0.0 }).collect()
 }
 
 /// A combination of parameters [standard deviations of their ranges] that is not determined; `None` where all are. `slopes` are J.
@@ -96,7 +96,11 @@ pub fn refuse(
         space.ranges.iter().map(|[low, high]| (high - low) / 12.0_f64.sqrt()),
     );
     let Some(combination) = undetermined(slopes, &scales) else { return Ok(None) };
-    let named = predictor.parameters.iter().zip(combination.iter()).filter(|(_, share)| share.abs() > NAMED);
+    let named = predictor
+        .parameters
+        .iter()
+        .zip(combination.iter())
+        .filter(|(_, share)| share.abs() > LEAST_SHARE_NAMED);
     let parameters = named.map(|(&parameter, _)| parameter).collect();
     let all = observables(predictor.case(own).scene());
     let shots =
@@ -136,7 +140,7 @@ mod tests {
         let scales = DVector::from_element(2, 1.0);
         let combination =
             undetermined(&DMatrix::from_row_slice(1, 2, &[50.0, 50.0]), &scales).expect("a difference");
-        assert!((combination[0] + combination[1]).abs() < 1e-9 && combination[0].abs() > NAMED);
+        assert!((combination[0] + combination[1]).abs() < 1e-9 && combination[0].abs() > LEAST_SHARE_NAMED);
         assert_eq!(undetermined(&DMatrix::from_row_slice(2, 2, &[50.0, 50.0, 50.0, 10.0]), &scales), None);
         // Nothing is known of the second and the third, whatever the basis: the second stands for both.
         let both =
@@ -144,6 +148,6 @@ mod tests {
         assert!(both.is_some_and(|both| (both - DVector::from_vec(vec![0.0, 1.0, 0.0])).norm() < 1e-9));
         let alone = undetermined(&DMatrix::from_row_slice(2, 2, &[50.0, 0.1, 20.0, 0.0]), &scales)
             .expect("the second");
-        assert!(alone[0].abs() < NAMED && alone[1].abs() > 0.99);
+        assert!(alone[0].abs() < LEAST_SHARE_NAMED && alone[1].abs() > 0.99);
     }
 }

@@ -11,7 +11,7 @@
 //! | which numbers are estimated, and what the plan knows of them | [`parameter`] |
 //! | which answers the observations leave, and how sure they are | `problem` |
 //! | the observations by shot | [`observed_shots`] |
-//! | what a plan predicts | `predictor`, `watch` |
+//! | what a plan predicts | `predictor`, `observation_recorder` |
 //! | how far observations may lie from it | [`covariance`] |
 //! | which parameters fit best, in which separate answers | [`search`] |
 //! | whether observations determine them | [`determined`] |
@@ -21,12 +21,12 @@ mod answer;
 pub mod covariance;
 pub mod determined;
 pub mod observation_bands;
+mod observation_recorder;
 pub mod observed_shots;
 pub mod parameter;
 mod predictor;
 mod problem;
 pub mod search;
-mod watch;
 
 pub use self::answer::{Answer, Fit, FitResult, FittedParameter, Residual};
 pub use self::determined::{NotDetermined, Observable};

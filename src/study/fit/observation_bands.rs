@@ -10,7 +10,7 @@ use super::observed_shots::{ObservedShot, ObservedShots};
 use super::predictor::observe_shot;
 use super::until_rest;
 use crate::choice::ObservedQuantity;
-use crate::plan::observations::ObservedValue;
+use crate::plan::observations::ObservedPoint;
 use crate::study::samples::random_shot::{Input, draw_shot};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sample_until_sure::sample_step;
@@ -173,7 +173,7 @@ pub fn next_observation(
 }
 
 /// Greatest share of a limit among the values of everything that could be watched.
-fn utilization(case: &Case, watched: &[ObservedValue], values: &[f64]) -> f64 {
+fn utilization(case: &Case, watched: &[ObservedPoint], values: &[f64]) -> f64 {
     case.limits.utilization(|quantity| {
         let wanted = match quantity {
             Quantity::Height => ObservedQuantity::FlightHeight,

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::plan::observations::{MeasuredFiring, Observation, Observations, ObservedValue};
+use crate::plan::observations::{MeasuredFiring, Observation, Observations, ObservedPoint};
 
 /// Observations, each with the number of its file, in the order of their options, then files.
 #[derive(Clone, Debug)]
@@ -68,7 +68,7 @@ pub struct ObservedShot {
     /// Tires above holes whose firing times were measured, and these times [s].
     pub times: Vec<(usize, f64)>,
     /// What was watched, in the order of the observations.
-    pub watched: Vec<ObservedValue>,
+    pub watched: Vec<ObservedPoint>,
     /// Index of its first observation.
     pub first: usize,
 }

@@ -2,13 +2,13 @@
 
 use std::ops::ControlFlow;
 
+use super::observation_recorder::ObservationRecorder;
 use super::observed_shots::ObservedShot;
 use super::parameter::Parameter;
-use super::watch::ObservationRecorder;
 use crate::choice::ObservedQuantity;
 use crate::outcome::EndReason;
 use crate::plan::Plan;
-use crate::plan::observations::ObservedValue;
+use crate::plan::observations::ObservedPoint;
 use crate::scene::{Scene, Shot};
 use crate::simulation::{Motion, RunSettings};
 use crate::study::{Case, ComputeSettings, NoResult, StudyControl};
@@ -59,15 +59,15 @@ pub fn observe_shot(
     case: &Case,
     variant: Option<&Scene>,
     shot: &Shot,
-    watched: &[ObservedValue],
+    watched: &[ObservedPoint],
     settings: &RunSettings,
     control: &StudyControl,
 ) -> Result<Option<Vec<f64>>, NoResult> {
     // A run begins at time 0: where a hole fires before, all is moved, and moved back in what is seen.
     let early = shot.firings.first().map_or(0.0, |firing| -firing.time.min(0.0));
     let shot = &shot.later_by(early);
-    let later = |watched: &ObservedValue| ObservedValue { time: watched.time + early, ..*watched };
-    let moved: Vec<ObservedValue> = watched.iter().map(later).collect();
+    let later = |watched: &ObservedPoint| ObservedPoint { time: watched.time + early, ..*watched };
+    let moved: Vec<ObservedPoint> = watched.iter().map(later).collect();
     let mut watch = ObservationRecorder::new(&moved);
     let mut look = |motion: &dyn Motion| -> ControlFlow<()> {
         watch.observe(motion);

@@ -1,4 +1,4 @@
-//! The search among more orders than can be tried: from random orders by exchanges of two rows.
+//! The search among more orders than can be tried: hill climbing from random orders, by exchanges of two rows.
 
 use std::collections::{HashMap, HashSet};
 

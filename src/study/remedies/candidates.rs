@@ -15,7 +15,7 @@ const OTHER_INTERVALS_MS: [f64; 8] = [1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 17.0, 25.0]
 
 /// The changes of a plan that may make an option pass, by kind, each from the smallest up. `too_much_together`: more fires within
 /// 8 ms than the plan allows.
-pub(super) fn candidates(plan: &Plan, option: usize, too_much_together: bool) -> Vec<Vec<Change>> {
+pub(super) fn find_candidates(plan: &Plan, option: usize, too_much_together: bool) -> Vec<Vec<Change>> {
     let (slack, interval) = (plan.cable.slack_percent, interval_ms(plan, option));
     let slacks = around(slack, &OTHER_SLACK).map(Change::Slack);
     let intervals = interval.into_iter().flat_map(|interval| around(interval, &OTHER_INTERVALS_MS));

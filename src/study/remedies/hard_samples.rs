@@ -15,7 +15,7 @@ use crate::study::{NoResult, StudyControl};
 use crate::verdict::Verdict;
 
 /// Most samples that a change is tried on first.
-const MOST: usize = 40;
+const MOST_HARD_SAMPLES: usize = 40;
 
 /// Numbers of samples that failed, per option.
 pub(super) struct HardSamples {
@@ -69,7 +69,8 @@ impl HardSamples {
         let mut failures: Vec<(usize, usize)> =
             self.failed.get(&option).into_iter().flatten().map(|(&number, &times)| (number, times)).collect();
         failures.sort_by_key(|&(_, times)| Reverse(times));
-        let mut numbers: Vec<usize> = failures.into_iter().take(MOST).map(|(number, _)| number).collect();
+        let mut numbers: Vec<usize> =
+            failures.into_iter().take(MOST_HARD_SAMPLES).map(|(number, _)| number).collect();
         numbers.sort_unstable();
         numbers
     }

@@ -14,7 +14,7 @@ mod hard_samples;
 
 use std::collections::VecDeque;
 
-use self::candidates::candidates;
+use self::candidates::find_candidates;
 use self::hard_samples::{HardDrawn, HardSamples};
 use super::as_planned::check::{CheckedShot, check_as_planned};
 use super::as_planned::quick_check::quick_check;
@@ -60,7 +60,7 @@ pub struct TriedKind {
     /// The changes tried, from the smallest up.
     pub tried: Vec<Change>,
     /// Number of those that neither pass nor surely fail.
-    pub open: usize,
+    pub undecided: usize,
     /// Whether the time was up before a change passed or all were tried.
     pub out_of_time: bool,
     /// The smallest change that passes.
@@ -94,12 +94,12 @@ struct ChangesOfOneKind {
 
 impl ChangesOfOneKind {
     /// Whether the next change is to be judged.
-    fn is_open(&self) -> bool {
+    fn has_next(&self) -> bool {
         self.found.passing.is_none() && !self.found.out_of_time && !self.left.is_empty()
     }
 
     fn note(&mut self, verdict: Verdict) {
-        self.found.open += usize::from(verdict == Verdict::Undecided);
+        self.found.undecided += usize::from(verdict == Verdict::Undecided);
     }
 }
 
@@ -144,7 +144,7 @@ pub fn find_all_remedies(
     let mut hard = HardSamples::new(case.limits.accepted_risk, sampling.map_or(0, |sampling| sampling.most));
     let enough_samples = sampling.is_none() || hard.enough_samples();
     let mut kinds = if enough_samples { screen_candidates(&task, options)? } else { Vec::new() };
-    while kinds.iter().any(ChangesOfOneKind::is_open) {
+    while kinds.iter().any(ChangesOfOneKind::has_next) {
         judge_next(&task, &mut kinds, &mut hard)?;
     }
     let partial = kinds.iter().any(|kind| kind.found.out_of_time);
@@ -159,7 +159,7 @@ pub fn find_all_remedies(
 }
 
 /// The plan with a change; `None` where the change makes no valid plan.
-fn changed(case: &Case, change: &Change) -> Option<Case> {
+fn with_change(case: &Case, change: &Change) -> Option<Case> {
     let text = change.apply(&case.source.text).ok()?;
     Case::parse(PlanSource { path: case.source.path.clone(), text }).ok()
 }
@@ -170,7 +170,7 @@ fn screen_candidates(task: &RemediesTask<'_>, options: &[usize]) -> Result<Vec<C
     let RemediesTask { case, compute, control, .. } = *task;
     let kinds = |&option: &usize| {
         let crowded = exceeds_together(case, &case.shots[option]);
-        candidates(&case.plan, option, crowded).into_iter().map(move |changes| (option, changes))
+        find_candidates(&case.plan, option, crowded).into_iter().map(move |changes| (option, changes))
     };
     let changes_by_option: Vec<(usize, Vec<Change>)> = options.iter().flat_map(kinds).collect();
     let jobs: Vec<(usize, Change)> = changes_by_option
@@ -178,7 +178,7 @@ fn screen_candidates(task: &RemediesTask<'_>, options: &[usize]) -> Result<Vec<C
         .flat_map(|(option, changes)| changes.iter().map(|&change| (*option, change)))
         .collect();
     let mut verdicts = run_batch(&jobs, control, |(option, change)| {
-        let Some(changed) = changed(case, change) else { return Ok(None) };
+        let Some(changed) = with_change(case, change) else { return Ok(None) };
         match catch_panic(|| quick_check(&changed, &changed.shots[*option], compute, control)) {
             // The judgement in full tells.
             Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(Some(Verdict::Undecided)),
@@ -202,27 +202,25 @@ fn screen_candidates(task: &RemediesTask<'_>, options: &[usize]) -> Result<Vec<C
             }
         }
         if let Some(kind) = kind.filter(|_| out_of_time || !tried.is_empty()) {
-            let found = TriedKind { kind, tried, open: 0, out_of_time, passing: None };
+            let found = TriedKind { kind, tried, undecided: 0, out_of_time, passing: None };
             kinds.push(ChangesOfOneKind { option, left, sampled: 0, found });
         }
     }
     Ok(kinds)
 }
 
-/// Judges the next change of every open kind in full.
+/// Judges the next change of every kind that has one in full.
 fn judge_next(
     task: &RemediesTask<'_>,
     kinds: &mut [ChangesOfOneKind],
     hard: &mut HardSamples,
 ) -> Result<(), NoResult> {
     let mut to_judge = Vec::new();
-    for (n, kind) in kinds.iter_mut().enumerate().filter(|(_, kind)| kind.is_open()) {
+    for (n, kind) in kinds.iter_mut().enumerate().filter(|(_, kind)| kind.has_next()) {
         let change = kind.left.pop_front();
-        to_judge.extend(
-            change.and_then(|change| {
-                Some(ChangeToJudge { kind: n, change, case: changed(task.case, &change)? })
-            }),
-        );
+        to_judge.extend(change.and_then(|change| {
+            Some(ChangeToJudge { kind: n, change, case: with_change(task.case, &change)? })
+        }));
     }
     let as_planned = check_changes(task, kinds, &to_judge)?;
     let passing = to_judge.iter().zip(as_planned).filter_map(|(next, checked)| Some((next, checked?)));

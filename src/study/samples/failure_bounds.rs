@@ -1,4 +1,4 @@
-//! A failure probability between two bounds that hold at every look, while samples come.
+//! A failure probability between two bounds that hold at every look, while samples come: a confidence sequence.
 //!
 //! 1. Symbols: n samples, k of them failures, p the probability of a failure, π a distribution over [0, 1].
 //! 2. M(p) = ∫ qᵏ (1 − q)ⁿ⁻ᵏ dπ(q) / (pᵏ (1 − p)ⁿ⁻ᵏ) is a martingale with mean 1 as samples come, where they fail with

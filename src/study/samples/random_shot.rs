@@ -106,8 +106,8 @@ fn normal(random: &mut ChaCha8Rng) -> f64 {
     StandardNormal.sample(random)
 }
 
-/// Draws sample `number` of the shots that the plan describes beside `nominal`.
-pub fn draw_shot(case: &Case, nominal: &Shot, seed: u64, number: usize) -> DrawnShot {
+/// Draws sample `number` of the shots that the plan describes beside `planned`.
+pub fn draw_shot(case: &Case, planned: &Shot, seed: u64, number: usize) -> DrawnShot {
     let unknown = &case.plan.uncertainty;
     let mut random = Random::new(seed, number);
     let whole = random.at(Draws::WholeShot);
@@ -117,7 +117,7 @@ pub fn draw_shot(case: &Case, nominal: &Shot, seed: u64, number: usize) -> Drawn
     let slack_percent = between(unknown.slack_percent);
     let stiffness = 1.0 + 1e-2 * between(unknown.axial_stiffness_percent);
 
-    let mut firings = nominal.firings.clone();
+    let mut firings = planned.firings.clone();
     scatter_gaps(&mut firings, unknown, &mut random);
     let mut scene = case.scene().clone();
     scatter_tires(&mut scene, &mut firings, unknown, launch_common, &mut random);

@@ -37,8 +37,8 @@ impl RiskSummary {
     pub fn is_accepted(&self) -> bool {
         let FailureBounds { accepted, samples, failures, undecided, .. } = self.bounds;
         let failing = (failures + undecided) as f64;
-        let is_open = !self.is_contradicted && self.verdict != Verdict::Fail;
-        samples > 0 && is_open && failing <= accepted * samples as f64 + 1e-9
+        let is_not_refuted = !self.is_contradicted && self.verdict != Verdict::Fail;
+        samples > 0 && is_not_refuted && failing <= accepted * samples as f64 + 1e-9
     }
 }
 

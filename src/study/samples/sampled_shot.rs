@@ -139,8 +139,8 @@ impl SampledShot {
     ///
     /// 1. What differs: the values of the audit at the finer step lie to one side of those at the coarser one, beyond chance.
     /// 2. The values of all samples are moved to that side by [`BIAS_ALLOWANCE`] times the mean difference.
-    /// 3. The samples are contradicted where the share that fails then lies outside the bounds, or on the other side of the accepted
-    ///    risk.
+    /// 3. The samples are contradicted where the share that fails then lies outside the bounds, or on the other side of the
+    ///    accepted risk.
     fn is_biased(&self) -> bool {
         let factors = PerQuantity::from_fn(|quantity| self.bias_factor(quantity));
         let fails = |sample: &&Sample| {

@@ -17,7 +17,7 @@ pub struct Swap {
 
 /// Pairs of successive rows of an option of which the first hole of the second fires before that of the first with a probability
 /// of at least `least`.
-pub fn swaps(case: &Case, option: usize, least: f64) -> Vec<Swap> {
+pub fn find_swaps(case: &Case, option: usize, least: f64) -> Vec<Swap> {
     let unknown = &case.plan.uncertainty;
     let in_hole = unknown.in_hole_deviation();
     let times = fire_at_s(&case.plan.delays[option].timing);

@@ -34,7 +34,7 @@ use crate::verdict::Verdict;
 /// First samples of each schedule, where all are screened.
 const FIRST_OF_ALL: usize = 16;
 /// Most schedules in the report.
-const FOUND: usize = 10;
+const MOST_REPORTED: usize = 10;
 /// Schedules with a full verdict; these verdicts share the probability of an error.
 const JUDGED_IN_FULL: usize = 12;
 /// A schedule with fewer samples is left out of the front of risk against duration.
@@ -65,7 +65,7 @@ pub struct Search {
     pub sampled: bool,
     /// Schedules screened that have no full verdict, and of whose samples none failed.
     pub without_failure: usize,
-    /// The schedules of which no shorter one screened fails less, the shortest first.
+    /// The Pareto front of duration and failing share: schedules of which no shorter one screened fails less, the shortest first.
     pub front: Vec<FrontPoint>,
 }
 
@@ -114,7 +114,7 @@ pub fn search(
         tried.iter().filter(|trial| !finalists.iter().any(|(_, other)| other.shot == trial.shot));
     let without_failure =
         not_chosen.filter(|trial| trial.tally.samples > 0 && trial.tally.failures == 0).count();
-    let front = front(&space, &tried);
+    let front = pareto_front(&space, &tried);
     let schedules: Vec<Schedule> = finalists.iter().map(|(schedule, _)| schedule.clone()).collect();
     let rough = finalists.iter().map(|(_, trial)| RoughShare::of(trial)).collect();
     let (case, Computed { value: results, partial }) = judge(case, &schedules, sampling, compute, control)?;
@@ -197,8 +197,8 @@ fn choose_finalists<'r>(
     chosen
 }
 
-/// The schedules of which no shorter one fails less.
-fn front(space: &ScheduleSpace<'_>, tried: &[TriedSchedule]) -> Vec<FrontPoint> {
+/// The Pareto front: the schedules of which no shorter one fails less.
+fn pareto_front(space: &ScheduleSpace<'_>, tried: &[TriedSchedule]) -> Vec<FrontPoint> {
     let sampled_enough = tried.iter().filter(|trial| trial.tally.samples >= SAMPLES_OF_FRONT);
     let point = |trial: &TriedSchedule| FrontPoint {
         schedule: space.schedule(&trial.candidate),
@@ -247,9 +247,9 @@ fn judge(
 }
 
 impl Search {
-    /// Puts the schedules in order, the best first, and keeps [`FOUND`] of them: by verdict, then by the failing share. Schedules
-    /// that pass, and whose bounds overlap with those of the best of them, are ties: the one with the larger launch margin stands
-    /// first, then the shorter.
+    /// Puts the schedules in order, the best first, and keeps [`MOST_REPORTED`] of them: by verdict, then by the failing share.
+    /// Schedules that pass, and whose bounds overlap with those of the best of them, are ties: the one with the larger launch
+    /// margin stands first, then the shorter.
     fn rank(&mut self) {
         let rank_key = |n: &usize| {
             let judged = self.results[*n].as_ref().ok();
@@ -276,7 +276,7 @@ impl Search {
             ranked.extend(ties);
             waiting = others;
         }
-        ranked.truncate(FOUND);
+        ranked.truncate(MOST_REPORTED);
         self.case = self.case.with_options(&ranked);
         self.schedules = ranked.iter().map(|&n| self.schedules[n].clone()).collect();
         self.results = ranked.iter().map(|&n| self.results[n].clone()).collect();

@@ -25,8 +25,8 @@ pub struct Schedule {
 }
 
 /// Gaps that differ by less than this share of the greater, or by less than [`NEAR_MS`], make no other schedule.
-const NEAR: f64 = 0.1;
-/// See [`NEAR`] [ms].
+const NEAR_SHARE: f64 = 0.1;
+/// See [`NEAR_SHARE`] [ms].
 const NEAR_MS: f64 = 2.5;
 
 impl Schedule {
@@ -95,7 +95,7 @@ impl Schedule {
 
     /// Whether two schedules differ so little that nobody needs both.
     pub fn is_nearly_same(&self, other: &Self) -> bool {
-        let near = |(a, b): (&f64, &f64)| (a - b).abs() < NEAR_MS.max(NEAR * a.max(*b));
+        let near = |(a, b): (&f64, &f64)| (a - b).abs() < NEAR_MS.max(NEAR_SHARE * a.max(*b));
         self.order == other.order
             && self.hole_timing == other.hole_timing
             && self.gaps_ms.iter().zip(&other.gaps_ms).all(near)

@@ -16,8 +16,8 @@ pub const MOST_TRIED: usize = 4000;
 /// Greatest number of schedules of which all are looked at, whether they keep the limits of the search.
 const MOST_LISTED: usize = 500_000;
 /// Schedules that a search begins with, and most random draws for them.
-const START: usize = 2000;
-const MOST_DRAWS: usize = 50 * START;
+const RANDOM_STARTS: usize = 2000;
+const MOST_DRAWS: usize = 50 * RANDOM_STARTS;
 /// Of the best schedules of a search, so many are looked around at a time.
 const CLIMBERS: usize = 24;
 /// First samples of each schedule of a search.
@@ -93,7 +93,7 @@ impl<'c> SchedulesToTry<'c> {
                 Some(allowed) => allowed[random.random_range(0..allowed.len())].clone(),
                 None => self.space.random(&mut random),
             }]);
-            if self.tried.len() == START {
+            if self.tried.len() == RANDOM_STARTS {
                 break;
             }
         }

@@ -12,7 +12,7 @@ use crate::study::{Case, ComputeResult, ComputeSettings, Computed, Fingerprint, 
 use crate::verdict::Verdict;
 
 /// Schedules that stay to the end, at least.
-const LEAST: usize = 24;
+const LEAST_LEFT: usize = 24;
 /// Samples of each schedule that stays to the end.
 const MOST_SAMPLES: usize = 256;
 /// Samples that the guess from height, force and drift counts for, beside the samples that failed.
@@ -153,7 +153,7 @@ impl SuccessiveHalving<'_> {
             if drawn.partial || samples >= MOST_SAMPLES || self.sampling.is_none() {
                 return Ok(drawn);
             }
-            left = left.min((left / 2).max(LEAST));
+            left = left.min((left / 2).max(LEAST_LEFT));
             samples *= 2;
         }
     }

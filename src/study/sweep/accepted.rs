@@ -4,12 +4,12 @@
 //! 2. A window worth a check is a row of sampled intervals, neighbours within one window of the shot as planned, whose
 //!    failing share does not exceed the accepted risk. Its few samples at each interval prove no small risk.
 //! 3. The interval deepest inside a window (largest product of room and unused utilization, of 95 % of the samples) gets a
-//!    full verdict. Where that does not pass, the next deepest is tried, at most [`TRIES`] in all. Where it fails, the
+//!    full verdict. Where that does not pass, the next deepest is tried, at most [`MOST_FULL_VERDICTS`] in all. Where it fails, the
 //!    windows end there.
 
 use std::collections::BTreeSet;
 
-use super::windows::{deepest, windows};
+use super::windows::{deepest, find_windows};
 use super::{MOST_SAMPLED_GAP, Point, Sweep, is_whole_milliseconds, nanoseconds};
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, or_unknown};
@@ -21,7 +21,7 @@ use crate::study::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Sho
 use crate::verdict::Verdict;
 
 /// Most intervals that get a full verdict.
-const TRIES: usize = 6;
+const MOST_FULL_VERDICTS: usize = 6;
 
 /// Adds risk to a sweep of the shots as planned; of the `plan_intervals` [ns], those of its options, those that lie in a window as
 /// planned are among the intervals sampled.
@@ -46,9 +46,9 @@ pub fn add_risk(
     swept.recommended = None;
     let mut tried = BTreeSet::new();
     loop {
-        swept.windows_as_planned = windows(case, &swept.points);
+        swept.windows_as_planned = find_windows(case, &swept.points);
         swept.windows = accepted_windows(&swept.points, &swept.windows_as_planned);
-        if tried.len() == TRIES || partial {
+        if tried.len() == MOST_FULL_VERDICTS || partial {
             break;
         }
         let drawn: Vec<Point> = swept.points.iter().filter(|point| point.is_sampled()).copied().collect();

@@ -18,7 +18,7 @@ mod windows;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use self::windows::{midpoints, recommend, windows};
+use self::windows::{find_windows, midpoints, recommend};
 use super::as_planned::check_many::{check_summary, run_checks, run_checks_or_unknown};
 use super::as_planned::quick_check::quick_check;
 use super::judgement;
@@ -162,7 +162,7 @@ fn sweep_as_planned(
         if !next.is_empty() {
             continue;
         }
-        let windows = windows(case, &points);
+        let windows = find_windows(case, &points);
         // Out of time, only an interval that is checked as `check` does can be recommended.
         let recommended = recommend(case, &points, &windows)
             .filter(|recommended| !partial || exact.contains(&nanoseconds(recommended.interval)));
@@ -281,7 +281,7 @@ mod tests {
         loop {
             let next = midpoints(&case, &points);
             if next.is_empty() {
-                return windows(&case, &points);
+                return find_windows(&case, &points);
             }
             points.extend(next.into_iter().map(point));
             points.sort_by(|a, b| a.interval.total_cmp(&b.interval));
@@ -336,7 +336,7 @@ mod tests {
                 Point { interval: in_seconds(i64::from(n) * 100_000), planned, risk: Evidence::NotAsked }
             })
             .collect();
-        let windows = windows(&case, &points);
+        let windows = find_windows(&case, &points);
         let recommended = recommend(&case, &points, &windows).expect("two windows");
         // A window begins and ends a point before the limit. The middle of 5.1 to 11.7 ms is no whole number of milliseconds.
         assert!((recommended.interval - 8e-3).abs() < 1e-9 && (recommended.room - 2.9e-3).abs() < 1e-9);

@@ -48,7 +48,7 @@ pub(super) fn utilization_with_errors(case: &Case, point: &Point) -> f64 {
 }
 
 /// The windows of intervals that pass as planned [s].
-pub(super) fn windows(case: &Case, points: &[Point]) -> Vec<[f64; 2]> {
+pub(super) fn find_windows(case: &Case, points: &[Point]) -> Vec<[f64; 2]> {
     let joined = |n: usize| {
         let (a, b) = (&points[n], &points[n + 1]);
         passes(a) && passes(b) && b.interval - a.interval <= 1.01 * GAP && is_calm(case, points, n)

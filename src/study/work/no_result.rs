@@ -7,7 +7,8 @@ use crate::simulation::RunError;
 /// Why an option or a study has no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoResult {
-    /// A run failed by itself; of a run that was ended [`StudyControl::no_result`](super::StudyControl::no_result) tells the reason.
+    /// A run failed by itself; of a run that was ended [`StudyControl::no_result`](super::StudyControl::no_result) tells the
+    /// reason.
     #[error(transparent)]
     Failed(RunError),
     /// The user or a signal ended the study.

@@ -53,7 +53,8 @@ impl StudyControl {
         self.out_of_time.load(Ordering::Relaxed)
     }
 
-    /// Pieces of work done, and those expected as far as is known: a check of a shot, a sample, a launch margin, a minimum of a fit.
+    /// Pieces of work done, and those expected as far as is known: a check of a shot, a sample, a launch margin, a minimum of a
+    /// fit.
     pub fn counts(&self) -> (usize, usize) {
         (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed))
     }

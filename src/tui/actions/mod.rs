@@ -146,7 +146,7 @@ impl App {
             return Request::None;
         }
         let ending = match self.judgement(self.selected).map(Judgement::verdict) {
-            _ if !export::contradiction(self).is_empty() => "contradicted",
+            _ if !self.contradiction().is_empty() => "contradicted",
             Some(Verdict::Pass) => "to-be-fired",
             Some(Verdict::Fail) => "fails",
             Some(Verdict::Undecided) | None => "open",

@@ -13,7 +13,7 @@ use crate::units::Unit;
 use crate::verdict::Verdict;
 
 /// Least width and height of a chart that can be read.
-const LEAST: (u16, u16) = (20, 4);
+const LEAST_SIZE: (u16, u16) = (20, 4);
 /// Least height of charts that stand one above the other.
 const TALL: u16 = 8;
 /// Height of a firing tick, as a share of the chart.
@@ -44,7 +44,7 @@ struct Set {
 /// last at any size that can be read: one tall chart tells more than two flat ones.
 pub fn draw_all(app: &App, charts: &[&Chart], frame: &mut Frame, area: Rect) {
     let above = |count: u16| area.height >= TALL * count;
-    let beside = |count: u16| 2 * area.width >= 3 * LEAST.0 * count;
+    let beside = |count: u16| 2 * area.width >= 3 * LEAST_SIZE.0 * count;
     let fits = |&count: &u16| count == 1 || above(count) || beside(count);
     let count = (1..=charts.len() as u16).rev().find(fits).unwrap_or(0);
     let charts = &charts[charts.len() - usize::from(count)..];
@@ -59,7 +59,7 @@ pub fn draw_all(app: &App, charts: &[&Chart], frame: &mut Frame, area: Rect) {
 
 /// Draws one chart; nothing where the area is too small to read a chart.
 pub fn draw(app: &App, chart: &Chart, mark: Option<Mark>, frame: &mut Frame, area: Rect) {
-    if area.width < LEAST.0 || area.height < LEAST.1 {
+    if area.width < LEAST_SIZE.0 || area.height < LEAST_SIZE.1 {
         return;
     }
     let theme = app.theme;

@@ -9,12 +9,12 @@ use crate::tui::app::App;
 use crate::tui::prompt::Prompt;
 
 /// Most commands shown at once.
-const MOST: u16 = 10;
+const MOST_LINES: u16 = 10;
 
 /// Draws the list above `line`.
 pub fn draw(app: &App, prompt: &Prompt, frame: &mut Frame, line: Rect) {
     let commands = prompt.commands();
-    let height = (commands.len() as u16).clamp(1, MOST) + 2;
+    let height = (commands.len() as u16).clamp(1, MOST_LINES) + 2;
     let area = Rect { y: line.y.saturating_sub(height), height, width: line.width.min(100), ..line };
     let rows = commands.iter().enumerate().map(|(n, binding)| {
         let style = if n == prompt.selected { app.theme.selected() } else { app.theme.base() };

@@ -14,7 +14,6 @@ use crate::study::judgement::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::compare::OptionState;
 use crate::tui::compare::SortBy;
-use crate::tui::export;
 use crate::tui::theme;
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Quantity, Verdict};
@@ -28,7 +27,7 @@ struct CompareColumn {
     cell: fn(&App, usize, &Judgement) -> String,
 }
 
-const VERDICT: u16 = 6;
+const VERDICT_WIDTH: u16 = 6;
 /// Least number of characters of an option's name.
 const LEAST_NAME: u16 = 8;
 /// Least width of a screen whose table may have sparklines: below, bands and names are more useful.
@@ -148,7 +147,7 @@ fn use_of_limit(app: &App, _: usize, judged: &Judgement) -> String {
 /// Draws the table.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     // A column whose numbers would be cut is left out.
-    let mut room = area.width.saturating_sub(LEAST_NAME + VERDICT + 2);
+    let mut room = area.width.saturating_sub(LEAST_NAME + VERDICT_WIDTH + 2);
     let fits = |column: &&CompareColumn| {
         let fits = area.width >= column.from && room > column.width;
         room -= if fits { column.width + 1 } else { 0 };
@@ -156,11 +155,11 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     };
     let columns: Vec<&CompareColumn> = COLUMNS.iter().filter(fits).collect();
     let longest = app.case.plan.delays.iter().map(|delay| delay.name.chars().count()).max().unwrap_or(0);
-    let fixed: u16 = columns.iter().map(|column| column.width + 1).sum::<u16>() + VERDICT + 2;
+    let fixed: u16 = columns.iter().map(|column| column.width + 1).sum::<u16>() + VERDICT_WIDTH + 2;
     let sparks = if area.width >= SPARKS { 34 } else { 0 };
     let name = (longest.max(6) as u16 + 1).min(area.width.saturating_sub(fixed + sparks).max(LEAST_NAME));
     let spark = (area.width.saturating_sub(fixed + name + 2) / 2).min(40);
-    let mut heads = vec![("option", SortBy::Name, name), ("", SortBy::Verdict, VERDICT)];
+    let mut heads = vec![("option", SortBy::Name, name), ("", SortBy::Verdict, VERDICT_WIDTH)];
     heads.extend(columns.iter().map(|column| (column.head, column.sort, column.width)));
     if spark >= 4 {
         let names = if spark < 16 { ["h(t)", "F(t)"] } else { ["height over time", "force over time"] };
@@ -245,7 +244,7 @@ fn verdict(app: &App, verdict: Verdict) -> Line<'static> {
 
 /// A verdict with its sign; a pass that was seen otherwise has the sign of a warning.
 pub(super) fn verdict_words(app: &App, verdict: Verdict) -> (String, Style) {
-    match verdict == Verdict::Pass && !export::contradiction(app).is_empty() {
+    match verdict == Verdict::Pass && !app.contradiction().is_empty() {
         true => (format!("! {}", verdict.for_people()), app.theme.limit()),
         false => (theme::label(verdict).to_owned(), app.theme.verdict(verdict)),
     }

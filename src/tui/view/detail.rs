@@ -35,7 +35,6 @@ use crate::study::samples::influence::input_shares;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
 use crate::tui::compare::OptionState;
-use crate::tui::export;
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
 use crate::tui::theme;
@@ -169,7 +168,7 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
         lines.extend(remedy_lines(app));
     }
     // What was seen of earlier shots speaks against every verdict of the plan.
-    let contradiction = export::contradiction(app);
+    let contradiction = app.contradiction();
     let passes = judged.verdict() == Verdict::Pass && contradiction.is_empty();
     if let Some(sampled) = judged.sampled.known().filter(|_| passes) {
         let text = format!("✓ {}", reasons::pass(sampled));

@@ -11,12 +11,12 @@ use crate::scene::{Scene, TireId};
 /// Cells at the left of a map for the numbers of rows: two digits and a blank.
 const LEFT: u16 = 3;
 /// Least width and height of a map beside which there is room for numbers.
-const LEAST: (u16, u16) = (24, 6);
+const LEAST_SIZE: (u16, u16) = (24, 6);
 
 /// The part of an area that is left for the map; all of it where numbers have no room, or tires have none.
 pub fn map_area(scene: &Scene, area: Rect) -> Rect {
     let is_listed = matches!(scene.tire_ids.first(), Some(TireId::Listed(_)));
-    if is_listed || area.width < LEAST.0 + LEFT || area.height < LEAST.1 + 1 {
+    if is_listed || area.width < LEAST_SIZE.0 + LEFT || area.height < LEAST_SIZE.1 + 1 {
         return area;
     }
     Rect { x: area.x + LEFT, y: area.y + 1, width: area.width - LEFT, height: area.height - 1 }

@@ -32,7 +32,6 @@ use unicode_width::UnicodeWidthStr;
 use self::widgets::draw_row;
 use super::app::{App, Areas, ClickTarget};
 use super::compare::OptionState;
-use super::export;
 use super::keymap::{Action, BINDINGS, Binding};
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
@@ -44,14 +43,15 @@ use crate::units;
 use crate::verdict::Verdict;
 
 /// Least width and height of a screen that holds everything.
-pub const LEAST: (u16, u16) = (60, 18);
+pub const LEAST_SIZE: (u16, u16) = (60, 18);
 
 /// Draws the whole screen.
 pub fn draw(app: &App, frame: &mut Frame) -> Areas {
     let (area, mut areas) = (frame.area(), Areas::new());
     frame.render_widget(Block::new().style(app.theme.base()), area);
-    if area.width < LEAST.0 || area.height < LEAST.1 {
-        let text = format!("shelter needs {}x{}, has {}x{}", LEAST.0, LEAST.1, area.width, area.height);
+    if area.width < LEAST_SIZE.0 || area.height < LEAST_SIZE.1 {
+        let text =
+            format!("shelter needs {}x{}, has {}x{}", LEAST_SIZE.0, LEAST_SIZE.1, area.width, area.height);
         frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), area);
         return areas;
     }
@@ -150,9 +150,9 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
                 (all, _) => format!("! {} warnings: see Plan · ", all.len()),
             };
             // What was seen of earlier shots speaks against every verdict of the plan.
-            let contradiction = if export::contradiction(app).is_empty() {
+            let contradiction = if app.contradiction().is_empty() {
                 ""
-            } else if export::observed(app).is_empty() {
+            } else if !app.is_compared_with_seen() {
                 "! what was seen is not compared with this plan · "
             } else {
                 "! what was seen contradicts this plan: see Compare · "
@@ -192,7 +192,7 @@ fn summary(app: &App) -> String {
     } else if app.sampling() {
         format!("sampling: {} of {all} open", count(|state| state.verdict() == Verdict::Undecided))
     } else {
-        let against = if export::contradiction(app).is_empty() { "" } else { ", contradicted" };
+        let against = if app.contradiction().is_empty() { "" } else { ", contradicted" };
         format!("{} of {all} pass{against}", count(|state| state.verdict() == Verdict::Pass))
     }
 }
@@ -231,7 +231,7 @@ const LONGEST_NAME: usize = 24;
 fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
     let option = app.case.plan.delays.get(app.selected).map_or("", |delay| delay.name.as_str());
     let verdict = app.judgement(app.selected).map_or(Verdict::Undecided, Judgement::verdict);
-    let against = if export::contradiction(app).is_empty() { "" } else { ", contradicted" };
+    let against = if app.contradiction().is_empty() { "" } else { ", contradicted" };
     let verdict = verdict.for_people();
     let page = format!(" page of “{}” ({verdict}{against}): ", compare::cut(option, LONGEST_NAME));
     let seen = format!(" seen of “{}” (TIRE VALUE SD, or a .csv file): ", compare::cut(option, LONGEST_NAME));

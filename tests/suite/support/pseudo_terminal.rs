@@ -11,7 +11,7 @@ use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system}
 use super::{PROGRAM, shipped};
 
 /// A shelter running in a terminal that is watched.
-pub struct ObservedValue {
+pub struct RunningShelter {
     pub screen: Arc<Mutex<vt100::Parser>>,
     pub keyboard: Box<dyn Write + Send>,
     pub master: Box<dyn MasterPty + Send>,
@@ -23,7 +23,7 @@ pub struct ObservedValue {
 /// Generous: machines under load are slow, and nothing here measures speed.
 pub const PATIENCE: Duration = Duration::from_secs(300);
 
-impl ObservedValue {
+impl RunningShelter {
     pub fn open(plan: &str, arguments: &[&str], columns: u16, rows: u16) -> Self {
         let plan = if Path::new(plan).is_absolute() { plan.to_owned() } else { shipped(plan) };
         let all = [&[plan.as_str()], arguments].concat();

@@ -1,7 +1,7 @@
 //! Values of observed quantities in one run: what somebody would have seen of it.
 
 use crate::choice::ObservedQuantity;
-use crate::plan::observations::ObservedValue;
+use crate::plan::observations::ObservedPoint;
 use crate::simulation::Motion;
 
 /// Height above which a tire has visibly left the ground [m].
@@ -9,7 +9,7 @@ const OFF_THE_GROUND: f64 = 1e-3;
 
 /// Watches quantities through one run.
 pub struct ObservationRecorder<'w> {
-    watched: &'w [ObservedValue],
+    watched: &'w [ObservedPoint],
     tracks: Vec<Track>,
     time: f64,
 }
@@ -33,7 +33,7 @@ struct Track {
 
 impl<'w> ObservationRecorder<'w> {
     /// Watches these quantities from time 0 on.
-    pub fn new(watched: &'w [ObservedValue]) -> Self {
+    pub fn new(watched: &'w [ObservedPoint]) -> Self {
         Self { watched, tracks: vec![Track::default(); watched.len()], time: 0.0 }
     }
 
@@ -57,7 +57,7 @@ impl<'w> ObservationRecorder<'w> {
     /// The value of each quantity [its SI unit], in their order; not a number where the tire never lifts or never lands, nor of a
     /// height after a run that did not end `at_rest`.
     pub fn values(&self, at_rest: bool) -> Vec<f64> {
-        let value = |(watched, track): (&ObservedValue, &Track)| match watched.quantity {
+        let value = |(watched, track): (&ObservedPoint, &Track)| match watched.quantity {
             ObservedQuantity::FlightHeight | ObservedQuantity::Force => track.greatest,
             ObservedQuantity::Height => {
                 track.at_time.unwrap_or(if at_rest { track.last[1].1 } else { f64::NAN })
@@ -124,7 +124,7 @@ mod tests {
             let t = time - fired;
             (t * (5.0 - 0.5 * gravity * t)).max(0.0) * f64::from(u8::from(t > 0.0))
         };
-        let mut track = ObservationRecorder::new(&[ObservedValue {
+        let mut track = ObservationRecorder::new(&[ObservedPoint {
             quantity: ObservedQuantity::Height,
             index: 0,
             time: 0.4005,
