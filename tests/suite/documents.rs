@@ -108,3 +108,34 @@ fn names_in_documents_and_comments_exist() {
     let unknown: BTreeSet<&str> = named.into_iter().filter(|name| !known.contains(name)).collect();
     assert!(unknown.is_empty(), "no code has these names: {unknown:?}");
 }
+
+/// Words with a capital inside that are no names of the source.
+const PROPER_NAMES: [&str; 3] = ["PowerShell", "BackTab", "McNemar"];
+
+/// Whether a word is written as a type is: `ShotSummary`.
+fn is_type_name(word: &str) -> bool {
+    let letters: Vec<char> = word.chars().collect();
+    let turns = letters.windows(3).any(|three| {
+        three[0].is_ascii_lowercase() && three[1].is_ascii_uppercase() && three[2].is_ascii_lowercase()
+    });
+    turns && letters[0].is_ascii_uppercase() && letters.iter().all(char::is_ascii_alphanumeric)
+}
+
+/// A type that stands in a sentence without backticks is the trace of a rename that went through words.
+#[test]
+fn no_comment_has_the_name_of_a_type_for_a_word() {
+    let sources =
+        ["src", "tests", "benches"].into_iter().flat_map(|folder| files(&Path::new(ROOT).join(folder), "rs"));
+    for path in sources {
+        let mut in_example = false;
+        for line in read(&path).lines().map(str::trim_start).filter(|line| line.starts_with("//")) {
+            in_example ^= line.contains("```");
+            let sentence: String = line.split('`').step_by(2).collect();
+            let is_target = sentence.contains("]: ") || sentence.contains("](");
+            let words = sentence.split(|c: char| !c.is_alphanumeric());
+            let odd =
+                words.filter(|word| is_type_name(word) && !PROPER_NAMES.contains(word)).collect::<Vec<_>>();
+            assert!(in_example || is_target || odd.is_empty(), "{}: {odd:?} in “{line}”", path.display());
+        }
+    }
+}
