@@ -23,7 +23,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// The verdict of several together: the worst. Of none it is a pass: who asks must know that there is something to judge.
+    /// The verdict of several together: the worst. Of none it is a pass: callers rule that out.
     pub fn worst(verdicts: impl IntoIterator<Item = Verdict>) -> Verdict {
         verdicts.into_iter().max().unwrap_or(Verdict::Pass)
     }

@@ -49,7 +49,7 @@ fn main() {
 fn checked(case: &Case, order: &[usize], interval: f64) -> ShotSummary {
     let compute = ComputeSettings::of(&case.plan);
     let checked = check_shot(case, &case.shot(order, interval), &compute, &mut |_| ControlFlow::Continue(()));
-    checked.map_or(ShotSummary::UNKNOWN, |checked| ShotSummary::of(&checked))
+    checked.map_or(ShotSummary::FAILED_RUN, |checked| ShotSummary::of(&checked))
 }
 
 fn compare_windows(random: u64) {

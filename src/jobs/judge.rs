@@ -15,7 +15,7 @@ const SAMPLED_EVERY: Duration = Duration::from_millis(100);
 
 /// When an option was last told to compute, and to have samples.
 #[derive(Clone, Copy)]
-struct LastTold {
+struct LastSent {
     checking: Instant,
     sampled: Option<Instant>,
 }
@@ -24,11 +24,11 @@ impl Job {
     /// Judges all options: as planned, then by samples, then for their launch margins.
     pub(super) fn judge_with_margins(&self) {
         let cases = [(&*self.case, self.compute)];
-        let new = LastTold { checking: Instant::now(), sampled: None };
-        let last_told: Vec<Mutex<LastTold>> = self.case.shots.iter().map(|_| Mutex::new(new)).collect();
+        let new = LastSent { checking: Instant::now(), sampled: None };
+        let last_sent: Vec<Mutex<LastSent>> = self.case.shots.iter().map(|_| Mutex::new(new)).collect();
         let watch = |at: CaseOption, event: JudgeEvent<'_>| {
             let option = at.option;
-            let Ok(mut last) = last_told[option].lock() else { return };
+            let Ok(mut last) = last_sent[option].lock() else { return };
             match event {
                 JudgeEvent::Checking(progress) => {
                     if last.checking.elapsed() > CHECKING_EVERY {

@@ -79,8 +79,8 @@ pub struct Jobs {
     threads: usize,
     judging: Option<Arc<StudyControl>>,
     studies: [Option<Arc<StudyControl>>; StudyKind::ALL.len()],
-    /// Pieces of work done and expected of each study, as told last.
-    told: [(usize, usize); StudyKind::ALL.len()],
+    /// Pieces of work done and expected of each study, as reported last.
+    last_reported: [(usize, usize); StudyKind::ALL.len()],
     sender: Sender<(Arc<StudyControl>, News)>,
     receiver: Receiver<(Arc<StudyControl>, News)>,
 }
@@ -101,8 +101,8 @@ impl Jobs {
         let cores = || thread::available_parallelism().map_or(1, usize::from);
         let threads = if threads == 0 { cores() } else { threads };
         let (sender, receiver) = channel();
-        let (studies, told) = Default::default();
-        Self { threads, judging: None, studies, told, sender, receiver }
+        let (studies, last_reported) = Default::default();
+        Self { threads, judging: None, studies, last_reported, sender, receiver }
     }
 
     /// Checks every option of `case`: first as planned, then by samples, then for its launch margin. Each result is news by
@@ -129,7 +129,7 @@ impl Jobs {
     fn begin(&mut self, kind: StudyKind, option: usize, job: Job) {
         let compute = job.compute;
         stop(self.studies[kind as usize].replace(Arc::clone(&job.control)));
-        self.told[kind as usize] = (0, 0);
+        self.last_reported[kind as usize] = (0, 0);
         let tell = move |job: &Job, result| job.send(News::Studied { kind, compute, result });
         match thread_pool(self.threads) {
             Ok(pool) => pool.spawn(move || tell(&job, catch_panic(|| job.study(kind, option).map(Box::new)))),
@@ -145,16 +145,16 @@ impl Jobs {
     /// News since the last call; a job that was replaced or cancelled has none.
     pub fn news(&mut self) -> Vec<News> {
         let mut news = Vec::new();
-        for (_, told) in self.receiver.try_iter().filter(|(job, _)| !job.stopped()) {
-            if let News::Studied { kind, .. } = told {
+        for (_, item) in self.receiver.try_iter().filter(|(job, _)| !job.stopped()) {
+            if let News::Studied { kind, .. } = item {
                 self.studies[kind as usize] = None;
             }
-            news.push(told);
+            news.push(item);
         }
         for kind in StudyKind::ALL {
             let Some(control) = &self.studies[kind as usize] else { continue };
             let (done, total) = control.counts();
-            if std::mem::replace(&mut self.told[kind as usize], (done, total)) != (done, total) {
+            if std::mem::replace(&mut self.last_reported[kind as usize], (done, total)) != (done, total) {
                 news.push(News::Studying { kind, done, total });
             }
         }

@@ -55,8 +55,8 @@ fn title(case: &Case) -> String {
 
 /// The accepted risk, and what was assumed of inputs; nothing where only the shots as planned were judged.
 fn accepted_risk(case: &Case, sampled: bool) -> String {
-    let unknown = &case.plan.uncertainty;
-    let assumed = match (unknown.assumed, unknown.incomplete) {
+    let uncertainty = &case.plan.uncertainty;
+    let assumed = match (uncertainty.assumed, uncertainty.incomplete) {
         (true, _) => " · inputs assumed known to 1 %",
         (_, true) => " · inputs that [uncertainty] leaves out assumed known to 1 %",
         _ => "",

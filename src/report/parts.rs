@@ -172,7 +172,7 @@ impl Column {
     }
 
     /// The same column, not read by scripts.
-    pub const fn unread(self) -> Self {
+    pub const fn without_keys(self) -> Self {
         Self { keys: &[], ..self }
     }
 

@@ -25,8 +25,8 @@ fn frontier<'a>() -> [Field<(&'a Combination, Trial)>; 8] {
         Field::new(Column::numbers(&[], "of limit", Unit::One), |(_, trial)| {
             Cell::Utilization(trial.utilization)
         }),
-        Field::new(HEIGHT.unread(), |(_, trial)| height(trial.worst.height)),
-        Field::new(FORCE.unread(), |(_, trial)| force(trial.worst.force)),
+        Field::new(HEIGHT.without_keys(), |(_, trial)| height(trial.worst.height)),
+        Field::new(FORCE.without_keys(), |(_, trial)| force(trial.worst.force)),
     ]
 }
 

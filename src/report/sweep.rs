@@ -31,11 +31,11 @@ fn points<'a>() -> [Field<&'a Point>; 7] {
 fn highlights<'a>() -> [Field<(&'static str, &'a Point)>; 6] {
     [
         Field::new(Column::words(&[], ""), |(name, _)| Cell::Text((*name).to_owned())),
-        Field::new(INTERVAL.unread(), |(_, point)| Cell::Interval(point.interval)),
-        Field::new(VERDICT.unread(), |(_, point)| Cell::Verdict(point.verdict())),
-        Field::new(HEIGHT.unread(), |(_, point)| height(point.planned.height)),
-        Field::new(FORCE.unread(), |(_, point)| force(point.planned.force)),
-        Field::new(FAILURES.unread(), |(_, point)| failures(point.risk.known())),
+        Field::new(INTERVAL.without_keys(), |(_, point)| Cell::Interval(point.interval)),
+        Field::new(VERDICT.without_keys(), |(_, point)| Cell::Verdict(point.verdict())),
+        Field::new(HEIGHT.without_keys(), |(_, point)| height(point.planned.height)),
+        Field::new(FORCE.without_keys(), |(_, point)| force(point.planned.force)),
+        Field::new(FAILURES.without_keys(), |(_, point)| failures(point.risk.known())),
     ]
 }
 
@@ -268,7 +268,7 @@ mod tests {
     #[test]
     fn a_sweep_passes_only_where_every_interval_passes() {
         let said = |verdicts: &[Verdict], partial: bool| {
-            let as_planned = |verdict| ShotSummary { verdict, ..ShotSummary::UNKNOWN };
+            let as_planned = |verdict| ShotSummary { verdict, ..ShotSummary::FAILED_RUN };
             let point = |(n, &verdict): (usize, &Verdict)| Point {
                 interval: n as f64,
                 planned: as_planned(verdict),

@@ -4,8 +4,7 @@ use std::ops::ControlFlow;
 
 use super::as_planned::check::{CheckProgress, CheckedShot, check_as_planned};
 use super::as_planned::margin::{LaunchMargin, launch_margin};
-use super::judgement::Evidence;
-use super::judgement::Judgement;
+use super::judgement::{Evidence, Judgement};
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, sample_shots_watched};
 use super::samples::sampled_shot::SampledShot;

@@ -21,7 +21,7 @@
 pub mod accuracy;
 pub mod as_planned;
 mod case;
-mod compute;
+mod compute_settings;
 pub mod effects;
 pub mod eight_ms;
 pub mod fit;
@@ -42,7 +42,7 @@ pub mod work;
 
 pub use as_planned::shot_summary::{ShotSummary, ValueWithError};
 pub use case::Case;
-pub use compute::ComputeSettings;
+pub use compute_settings::ComputeSettings;
 pub use work::{
     ComputeResult, Computed, Fingerprint, Intervals, Journal, NoResult, Shard, StudyControl, catch_panic,
     thread_pool,

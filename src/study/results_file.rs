@@ -108,7 +108,7 @@ impl Head {
         Ok(sealed(text.strip_suffix('}').unwrap_or(&text)))
     }
 
-    /// What makes it no shard of the study of `other`, this one or another.
+    /// Why two files are not shards of one study; `None` where they are.
     pub fn difference_of_study(&self, other: &Head) -> Option<&'static str> {
         let shard = Shard { index: other.shard.index, ..self.shard };
         Head { shard, ..self.clone() }.difference(other)

@@ -22,8 +22,7 @@ use super::theme::Theme;
 use crate::jobs::{News, StudyKind};
 use crate::plan::{Plan, PlanSource};
 use crate::study::as_planned::step_error;
-use crate::study::judgement::Evidence;
-use crate::study::judgement::Judgement;
+use crate::study::judgement::{Evidence, Judgement};
 use crate::study::{Case, ComputeSettings};
 
 /// What the event loop must do after an update.
@@ -44,7 +43,7 @@ pub enum Request {
     /// Write the plan.
     Save,
     /// Ask for a new file to write the plan to.
-    NamePlan,
+    AskPlanPath,
     /// Write the plan to this new file.
     SaveAs(PathBuf),
     /// Ask for a file to export to; offer an unused name of this stem and ending.
@@ -254,7 +253,7 @@ impl App {
         self.replace_plan(Case::new(plan).with_source(source))
     }
 
-    /// Takes back edits that the last session could not save.
+    /// Restores edits that the last session could not save.
     pub fn restore_unsaved(&mut self, kept: RecoveredEdits) -> Request {
         let changed = !kept.are_of(self.editor.saved());
         let edit = self.editor.adopt(Ok(kept.text));

@@ -228,7 +228,7 @@ impl Session {
             }
             Request::Cancel(kind) => self.jobs.cancel(kind),
             Request::Save => self.save(),
-            Request::NamePlan => self.name_plan(),
+            Request::AskPlanPath => self.name_plan(),
             Request::SaveAs(path) => self.save_as(&path),
             Request::NameExport(stem, ending) => {
                 self.app.ask_for_file(Purpose::Export, &file::unused_path(&stem, ending));

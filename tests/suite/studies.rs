@@ -320,7 +320,7 @@ fn an_order_without_its_mirrored_order_is_refined() {
     let case = mirrored_case();
     let order = vec![3, 2, 1, 0];
     let tried =
-        TriedOrder { number: 0, order: order.clone(), interval: 0.045, planned: ShotSummary::UNKNOWN };
+        TriedOrder { number: 0, order: order.clone(), interval: 0.045, planned: ShotSummary::FAILED_RUN };
     let compute = ComputeSettings::of(&case.plan);
     let refined =
         check_extremes(&case, vec![tried], &compute, &StudyControl::default()).expect("a result").value;

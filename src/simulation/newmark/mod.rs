@@ -88,9 +88,9 @@ struct Stepper<'a> {
     /// Tires and cables that need work, in packs of one tire and blocks of one cable.
     wake: Wake<'a>,
     /// Elastic energy of the cables asleep [J].
-    asleep: f64,
+    asleep_elastic_energy: f64,
     /// Potential energy on the slope of all tires asleep [J].
-    asleep_on_slope: f64,
+    asleep_slope_energy: f64,
     /// Displacement [m].
     u: Vec<Vector3<f64>>,
     /// Velocity [m/s].
@@ -138,8 +138,8 @@ impl<'a> Stepper<'a> {
             record: Record::new(settings.step),
             peak_to_refine: None,
             wake,
-            asleep: 0.0,
-            asleep_on_slope: 0.0,
+            asleep_elastic_energy: 0.0,
+            asleep_slope_energy: 0.0,
             u: zeros(),
             v: zeros(),
             a: zeros(),
@@ -208,13 +208,13 @@ impl<'a> Stepper<'a> {
                 let cable = &self.scene.cables[cable];
                 cable.energy(cable.displaced(&self.u).norm())
             };
-            self.asleep += self.wake.fell_asleep.iter().map(stored).sum::<f64>();
-            self.asleep -= self.wake.woke.iter().map(stored).sum::<f64>();
+            self.asleep_elastic_energy += self.wake.fell_asleep.iter().map(stored).sum::<f64>();
+            self.asleep_elastic_energy -= self.wake.woke.iter().map(stored).sum::<f64>();
             if self.scene.downhill != Vector2::zeros() {
                 let asleep = (0..self.u.len()).filter(|&tire| !self.wake.is_awake(tire));
                 let energy =
                     |tire: usize| -self.scene.mass[tire] * self.scene.downhill.dot(&self.u[tire].xy());
-                self.asleep_on_slope = asleep.map(energy).sum();
+                self.asleep_slope_energy = asleep.map(energy).sum();
             }
         }
         changed

@@ -14,7 +14,8 @@ impl Stepper<'_> {
             self.record.interpolate_force(before, after);
         }
         let breaking_force = self.scene.breaking_force.unwrap_or(f64::INFINITY);
-        let (mut energy, mut height, mut force) = (self.asleep + self.asleep_on_slope, 0.0_f64, 0.0_f64);
+        let (mut energy, mut height, mut force) =
+            (self.asleep_elastic_energy + self.asleep_slope_energy, 0.0_f64, 0.0_f64);
         for &index in self.wake.awake_cables() {
             let cable = &self.scene.cables[index];
             let length = cable.displaced(&self.u).norm();

@@ -33,7 +33,7 @@ pub fn check_summary(
     )
 }
 
-/// Checks the shot of every job, like [`run_batch`]. A job whose run fails has the result [`ShotSummary::UNKNOWN`]; where every run
+/// Checks the shot of every job, like [`run_batch`]. A job whose run fails has the result [`ShotSummary::FAILED_RUN`]; where every run
 /// fails, the study has no result.
 pub fn run_checks<J: Sync>(
     jobs: &[J],
@@ -49,23 +49,23 @@ pub fn run_checks<J: Sync>(
     {
         return Err(NoResult::Failed(failure.clone()));
     }
-    let unknown_if_failed = |result: Result<ShotSummary, RunError>| result.unwrap_or(ShotSummary::UNKNOWN);
+    let unknown_if_failed = |result: Result<ShotSummary, RunError>| result.unwrap_or(ShotSummary::FAILED_RUN);
     Ok(done.into_iter().map(|result| result.map(unknown_if_failed)).collect())
 }
 
 /// Like [`run_checks`], for a part of the jobs of a study: all of them may fail.
-pub fn run_checks_or_unknown<J: Sync>(
+pub fn run_checks_or_failed<J: Sync>(
     jobs: &[J],
     control: &StudyControl,
     work: impl Fn(&J) -> Result<ShotSummary, NoResult> + Sync,
 ) -> Result<Vec<Option<ShotSummary>>, NoResult> {
-    run_batch(jobs, control, |job| or_unknown(work(job)))
+    run_batch(jobs, control, |job| or_failed_run(work(job)))
 }
 
 /// A run that failed is a shot of which nothing is known.
-pub fn or_unknown(checked: Result<ShotSummary, NoResult>) -> Result<ShotSummary, NoResult> {
+pub fn or_failed_run(checked: Result<ShotSummary, NoResult>) -> Result<ShotSummary, NoResult> {
     match checked {
-        Err(NoResult::Failed(_)) => Ok(ShotSummary::UNKNOWN),
+        Err(NoResult::Failed(_)) => Ok(ShotSummary::FAILED_RUN),
         checked => checked,
     }
 }
@@ -78,10 +78,10 @@ mod tests {
     #[test]
     fn a_run_that_fails_is_open_unless_all_fail() {
         let failure = NoResult::Failed(RunError::Diverged { time: 1.0 });
-        let good = ShotSummary { verdict: Verdict::Pass, ..ShotSummary::UNKNOWN };
+        let good = ShotSummary { verdict: Verdict::Pass, ..ShotSummary::FAILED_RUN };
         let work = |&job: &i32| if job == 2 { Err(failure.clone()) } else { Ok(good) };
         let some = run_checks(&[1, 2], &StudyControl::default(), work).expect("one of them is good");
-        assert_eq!(some, [Some(good), Some(ShotSummary::UNKNOWN)]);
+        assert_eq!(some, [Some(good), Some(ShotSummary::FAILED_RUN)]);
         assert_eq!(run_checks(&[2, 2], &StudyControl::default(), work), Err(failure.clone()));
     }
 }

@@ -19,7 +19,7 @@
 //! | `sweep::windows::CALM_ERROR_FACTOR` | with how many errors two intervals must pass for those between them to pass |
 //! | `orders::check_extremes::REACH_ERROR_FACTOR` | within how many errors an order may still be the worst or the best |
 //! | `reasons::shot::MOST_RESIDUAL` | which share of the energy may be missing in a run that counts at all |
-//! | `samples::sampled_shot::BIAS_ALLOWANCE` | how many times the difference that an audit finds may not change a verdict |
+//! | `samples::sampled_shot::BIAS_ALLOWANCE` | by how many times the difference that an audit finds all samples are moved, and the verdict must still stand |
 
 pub mod check;
 pub mod check_many;

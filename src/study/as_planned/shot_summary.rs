@@ -50,7 +50,7 @@ pub struct ShotSummary {
 
 impl ShotSummary {
     /// The shot of a run that failed: undecided, with infinite values.
-    pub const UNKNOWN: Self = Self {
+    pub const FAILED_RUN: Self = Self {
         verdict: Verdict::Undecided,
         height: ValueWithError::UNKNOWN,
         force: ValueWithError::UNKNOWN,
@@ -100,7 +100,7 @@ mod tests {
 
     #[test]
     fn values_that_are_unknown_survive_a_file() {
-        let text = serde_json::to_string(&ShotSummary::UNKNOWN).expect("JSON");
-        assert_eq!(serde_json::from_str::<ShotSummary>(&text).expect("read again"), ShotSummary::UNKNOWN);
+        let text = serde_json::to_string(&ShotSummary::FAILED_RUN).expect("JSON");
+        assert_eq!(serde_json::from_str::<ShotSummary>(&text).expect("read again"), ShotSummary::FAILED_RUN);
     }
 }

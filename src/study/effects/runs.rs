@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use super::{FIRST_SAMPLES, LEAST_RELATIVE_CHANGE, Spread, relative};
 use crate::scene::Shot;
-use crate::study::as_planned::check_many::or_unknown;
+use crate::study::as_planned::check_many::or_failed_run;
 use crate::study::as_planned::quick_check::quick_check;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::samples::sample_until_sure::{ShotToSample, run_sample_once};
@@ -96,7 +96,7 @@ pub(super) fn measure_option(
     let shot = &case.shots[option];
     let followed = &*followed(case, shot);
     let begun = Instant::now();
-    let as_planned = or_unknown(quick_check(followed, shot, compute, control))?;
+    let as_planned = or_failed_run(quick_check(followed, shot, compute, control))?;
     let verdict = verdict_of_values(&as_planned, followed);
     let runs = match sampling {
         Some(sampling) => {

@@ -143,15 +143,17 @@ impl Parameter {
 
     /// What the plan knows of the coordinate, by its own keys or by default; `None` where there is no key for it.
     pub fn prior(&self, plan: &Plan) -> Option<Prior> {
-        let unknown = &plan.uncertainty;
+        let uncertainty = &plan.uncertainty;
         match self.unknown {
-            Unknown::Launch | Unknown::LaunchByRow => Some(Prior::lognormal(unknown.launch_common_percent)),
-            Unknown::Friction => Some(Prior::between(unknown.friction)),
-            Unknown::Slack => Some(Prior::between(unknown.slack_percent)),
+            Unknown::Launch | Unknown::LaunchByRow => {
+                Some(Prior::lognormal(uncertainty.launch_common_percent))
+            }
+            Unknown::Friction => Some(Prior::between(uncertainty.friction)),
+            Unknown::Slack => Some(Prior::between(uncertainty.slack_percent)),
             Unknown::AxialStiffness => {
                 let planned = plan.cable.axial_stiffness_kn;
                 let end = |percent: f64| self.coordinate(planned * (1.0 + 1e-2 * percent));
-                Some(Prior::between(unknown.axial_stiffness_percent.map(end)))
+                Some(Prior::between(uncertainty.axial_stiffness_percent.map(end)))
             }
             Unknown::EndStiffness | Unknown::Damping => None,
         }

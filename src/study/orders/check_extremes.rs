@@ -7,7 +7,7 @@ use itertools::Itertools;
 use super::mirror_rows::{mirror_rows, mirrored};
 use super::{TriedOrder, utilization};
 use crate::scene::Shot;
-use crate::study::as_planned::check_many::{check_summary, run_checks_or_unknown};
+use crate::study::as_planned::check_many::{check_summary, run_checks_or_failed};
 use crate::study::{Case, ComputeResult, ComputeSettings, Computed, ShotSummary, StudyControl};
 
 /// Factor on the error of a quick check within which an order may still be the worst or the best.
@@ -35,7 +35,7 @@ pub fn check_extremes(
     for (interval, sign) in itertools::iproduct!(intervals, [1.0, -1.0]) {
         loop {
             let is_of_interval = |n: &usize| tried[*n].interval == interval;
-            let is_known = |n: &usize| tried[*n].planned != ShotSummary::UNKNOWN;
+            let is_known = |n: &usize| tried[*n].planned != ShotSummary::FAILED_RUN;
             let checked =
                 (0..tried.len()).filter(|n| is_of_interval(n) && refined.contains(n) && is_known(n));
             let farthest_checked =
@@ -58,7 +58,7 @@ pub fn check_extremes(
             }
             let shots: Vec<Shot> = next.iter().map(|&n| case.shot(&tried[n].order, interval)).collect();
             let checked =
-                run_checks_or_unknown(&shots, control, |shot| check_summary(case, shot, compute, control))?;
+                run_checks_or_failed(&shots, control, |shot| check_summary(case, shot, compute, control))?;
             for (n, planned) in next.into_iter().zip(checked) {
                 let Some(planned) = planned else {
                     return Ok(Computed { value: tried, partial: true });

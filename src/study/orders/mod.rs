@@ -23,10 +23,9 @@ use itertools::Itertools;
 pub use self::check_extremes::check_extremes;
 use self::climb::climb_orders;
 use self::mirror_rows::{mirror_rows, mirrored};
-use super::as_planned::check_many::{check_summary, run_checks_or_unknown};
+use super::as_planned::check_many::{check_summary, run_checks_or_failed};
 use super::as_planned::quick_check::{quick_check_is_sure, quick_check_until};
-use super::judgement;
-use super::judgement::Evidence;
+use super::judgement::{self, Evidence};
 use super::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use super::samples::sample_count::Sampling;
 use super::{
@@ -193,7 +192,7 @@ pub fn try_orders(
     let rows = case.plan.blast_rows.len();
     // Where no run at all succeeds, the first order tells why.
     let or_first_failure = |found: Computed<Vec<TriedOrder>>| {
-        if found.value.iter().all(|tried| tried.planned == ShotSummary::UNKNOWN) {
+        if found.value.iter().all(|tried| tried.planned == ShotSummary::FAILED_RUN) {
             for tried in found.value.iter().take(1) {
                 check_summary(case, &case.shot(&tried.order, tried.interval), compute, control)?;
             }
@@ -258,7 +257,7 @@ fn quick_check_orders(
         quick_check_is_sure(case, summary, runs)
             || case.plan.blast_rows.len() > MOST_SURE_ROWS && runs >= COARSE_RUNS
     };
-    let summaries = run_checks_or_unknown(&orders, control, |OrderToTry { order, interval, .. }| {
+    let summaries = run_checks_or_failed(&orders, control, |OrderToTry { order, interval, .. }| {
         let shot = case.shot(order, *interval);
         control.journal().recall_or(
             || Fingerprint::of(("order", case.fingerprint(), &shot, compute)),

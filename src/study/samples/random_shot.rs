@@ -108,25 +108,25 @@ fn normal(random: &mut ChaCha8Rng) -> f64 {
 
 /// Draws sample `number` of the shots that the plan describes beside `planned`.
 pub fn draw_shot(case: &Case, planned: &Shot, seed: u64, number: usize) -> DrawnShot {
-    let unknown = &case.plan.uncertainty;
+    let uncertainty = &case.plan.uncertainty;
     let mut random = Random::new(seed, number);
     let whole = random.at(Draws::WholeShot);
-    let launch_common = factor(whole, unknown.launch_common_percent);
+    let launch_common = factor(whole, uncertainty.launch_common_percent);
     let mut between = |[low, high]: [f64; 2]| low + (high - low) * whole.random::<f64>();
-    let friction = between(unknown.friction);
-    let slack_percent = between(unknown.slack_percent);
-    let stiffness = 1.0 + 1e-2 * between(unknown.axial_stiffness_percent);
+    let friction = between(uncertainty.friction);
+    let slack_percent = between(uncertainty.slack_percent);
+    let stiffness = 1.0 + 1e-2 * between(uncertainty.axial_stiffness_percent);
 
     let mut firings = planned.firings.clone();
-    scatter_gaps(&mut firings, unknown, &mut random);
+    scatter_gaps(&mut firings, uncertainty, &mut random);
     let mut scene = case.scene().clone();
-    scatter_tires(&mut scene, &mut firings, unknown, launch_common, &mut random);
+    scatter_tires(&mut scene, &mut firings, uncertainty, launch_common, &mut random);
     scene.change_cables(&case.plan.cable, slack_percent, stiffness);
-    if unknown.breaking_force_cv_percent > 0.0 {
-        let strength = |cable| factor(random.at(Draws::Cable(cable)), unknown.breaking_force_cv_percent);
+    if uncertainty.breaking_force_cv_percent > 0.0 {
+        let strength = |cable| factor(random.at(Draws::Cable(cable)), uncertainty.breaking_force_cv_percent);
         scene.strength = (0..scene.cables.len()).map(strength).collect();
     }
-    if unknown.tire_mass_cv_percent > 0.0 || unknown.breaking_force_cv_percent > 0.0 {
+    if uncertainty.tire_mass_cv_percent > 0.0 || uncertainty.breaking_force_cv_percent > 0.0 {
         scene.mirrors.clear();
     }
     // No firing may be before the start: all are shifted, and so is the end of the run.
@@ -138,21 +138,21 @@ pub fn draw_shot(case: &Case, planned: &Shot, seed: u64, number: usize) -> Drawn
 
 /// Shifts the firings [s], which are in order of time, by the scatter of the gaps before them: of the gaps between the rows, and
 /// of those between the holes of their row.
-fn scatter_gaps(firings: &mut [Firing], unknown: &Uncertainty, random: &mut Random) {
+fn scatter_gaps(firings: &mut [Firing], uncertainty: &Uncertainty, random: &mut Random) {
     let rows = firings.iter().map(|firing| firing.row + 1).max().unwrap_or(0);
     let mut holes: Vec<Vec<usize>> = vec![Vec::new(); rows];
     firings.iter().enumerate().for_each(|(n, firing)| holes[firing.row].push(n));
     let mut by_start: Vec<&[usize]> = holes.iter().map(Vec::as_slice).filter(|row| !row.is_empty()).collect();
     by_start.sort_by(|a, b| firings[a[0]].time.total_cmp(&firings[b[0]].time));
     let starts: Vec<f64> = by_start.iter().map(|row| firings[row[0]].time).collect();
-    let scattered_starts = scatter_chain(&starts, unknown, random.at(Draws::Gaps));
+    let scattered_starts = scatter_chain(&starts, uncertainty, random.at(Draws::Gaps));
     for (row, start) in by_start.into_iter().zip(scattered_starts) {
         let first = firings[row[0]].time;
         let random = random.at(Draws::BlastRow(firings[row[0]].row));
         for side in split_by_side(row, firings) {
             let planned: Vec<f64> =
                 [first].into_iter().chain(side.iter().map(|&n| firings[n].time)).collect();
-            let scattered = scatter_chain(&planned, unknown, random);
+            let scattered = scatter_chain(&planned, uncertainty, random);
             for (n, at) in side.into_iter().zip(&scattered[1..]) {
                 firings[n].time = at - first + start;
             }
@@ -177,12 +177,12 @@ fn split_by_side(row: &[usize], firings: &[Firing]) -> Vec<Vec<usize>> {
 
 /// Firing times [s] of which each fires the next: every gap between `planned` times, which are in order, scatters and shifts all
 /// that follow. A gap stays a delay: it is never negative.
-fn scatter_chain(planned: &[f64], unknown: &Uncertainty, random: &mut ChaCha8Rng) -> Vec<f64> {
+fn scatter_chain(planned: &[f64], uncertainty: &Uncertainty, random: &mut ChaCha8Rng) -> Vec<f64> {
     let mut at = planned.to_vec();
     for n in 1..planned.len() {
         let gap = planned[n] - planned[n - 1];
         at[n] = match gap > 0.0 {
-            true => at[n - 1] + (gap + unknown.delay.deviation(gap) * normal(random)).max(0.0),
+            true => at[n - 1] + (gap + uncertainty.delay.deviation(gap) * normal(random)).max(0.0),
             false => at[n - 1],
         };
     }
@@ -203,21 +203,21 @@ fn rotated(vector: Vector3<f64>, axis: Vector3<f64>) -> Vector3<f64> {
 fn scatter_tires(
     scene: &mut Scene,
     firings: &mut [Firing],
-    unknown: &Uncertainty,
+    uncertainty: &Uncertainty,
     launch_common: f64,
     random: &mut Random,
 ) {
     let mut above: Vec<Vec<usize>> = vec![Vec::new(); scene.tire_count()];
     firings.iter().enumerate().for_each(|(n, firing)| above[firing.tire].push(n));
-    let in_hole = unknown.in_hole_deviation();
-    let tilt = unknown.launch_tilt_deg.to_radians();
+    let in_hole = uncertainty.in_hole_deviation();
+    let tilt = uncertainty.launch_tilt_deg.to_radians();
     for (tire, mass) in scene.mass.iter_mut().enumerate() {
         let random = random.at(Draws::Tire(tire));
-        let heavier = factor(random, unknown.tire_mass_cv_percent);
+        let heavier = factor(random, uncertainty.tire_mass_cv_percent);
         *mass *= heavier;
         for &hole in &above[tire] {
             let firing = &mut firings[hole];
-            let faster = launch_common * factor(random, unknown.launch_cv_percent) / heavier;
+            let faster = launch_common * factor(random, uncertainty.launch_cv_percent) / heavier;
             let axis = Vector3::new(normal(random), normal(random), 0.0) * tilt;
             firing.launch = rotated(firing.launch, axis) * faster;
             firing.time += in_hole * normal(random);

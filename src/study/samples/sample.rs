@@ -52,7 +52,7 @@ pub struct SampleRun {
 
 impl SampleRun {
     /// A run that failed.
-    pub const UNKNOWN: Self = Self {
+    pub const FAILED_RUN: Self = Self {
         verdict: Verdict::Undecided,
         breaks: Verdict::Undecided,
         height: f64::INFINITY,

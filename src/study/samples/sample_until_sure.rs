@@ -10,7 +10,7 @@ use super::sampled_shot::{LEAST_AUDITS, SampledShot};
 use crate::choice::Accuracy;
 use crate::scene::{Scene, Shot};
 use crate::simulation::RunSettings;
-use crate::study::compute::step_factor;
+use crate::study::compute_settings::step_factor;
 use crate::study::reasons::shot::energy_balance_closes;
 use crate::study::work::batch::{run_announced_batch, run_batch};
 use crate::study::{
@@ -204,9 +204,12 @@ pub(in crate::study) fn run_sample(
 /// A sample in which the program panicked shows nothing; the others go on.
 fn undecided_if_panicked(sample: Result<Sample, NoResult>, number: usize) -> Result<Sample, NoResult> {
     match sample {
-        Err(NoResult::Panicked(_)) => {
-            Ok(Sample { number, run: SampleRun::UNKNOWN, finer: None, inputs: [f64::NAN; Input::ALL.len()] })
-        }
+        Err(NoResult::Panicked(_)) => Ok(Sample {
+            number,
+            run: SampleRun::FAILED_RUN,
+            finer: None,
+            inputs: [f64::NAN; Input::ALL.len()],
+        }),
         sample => sample,
     }
 }
@@ -258,7 +261,7 @@ fn try_sample(
                 Ok((SampleRun::new(case, &shot, &outcome), !energy_balance_closes(outcome.ledger.residual())))
             }
             Err(failure) => match control.no_result(failure) {
-                NoResult::Failed(_) => Ok((SampleRun::UNKNOWN, true)),
+                NoResult::Failed(_) => Ok((SampleRun::FAILED_RUN, true)),
                 ended => Err(ended),
             },
         }
@@ -321,7 +324,7 @@ mod tests {
     #[test]
     fn a_sample_that_panics_is_undecided_and_a_stop_stays_a_stop() {
         let panicked = undecided_if_panicked(Err(NoResult::Panicked("why".to_owned())), 7).expect("a sample");
-        assert_eq!((panicked.number, panicked.run), (7, SampleRun::UNKNOWN));
+        assert_eq!((panicked.number, panicked.run), (7, SampleRun::FAILED_RUN));
         assert_eq!(undecided_if_panicked(Err(NoResult::Stopped), 7), Err(NoResult::Stopped));
     }
 }

@@ -18,15 +18,15 @@ pub struct Swap {
 /// Pairs of successive rows of an option of which the first hole of the second fires before that of the first with a probability
 /// of at least `least`.
 pub fn find_swaps(case: &Case, option: usize, least: f64) -> Vec<Swap> {
-    let unknown = &case.plan.uncertainty;
-    let in_hole = unknown.in_hole_deviation();
+    let uncertainty = &case.plan.uncertainty;
+    let in_hole = uncertainty.in_hole_deviation();
     let times = fire_at_s(&case.plan.delays[option].timing);
     let mut rows: Vec<(f64, usize)> = times.into_iter().zip(0..).collect();
     rows.sort_by(|a, b| a.0.total_cmp(&b.0));
     let swap = |pair: &[(f64, usize)]| {
         let [(early, first), (late, second)] = [pair[0], pair[1]];
         let interval = late - early;
-        let deviation = unknown.delay.deviation(interval).hypot(in_hole.hypot(in_hole));
+        let deviation = uncertainty.delay.deviation(interval).hypot(in_hole.hypot(in_hole));
         // The gap between rows is never negative: without detonators in the holes rows keep their order.
         let may_swap = interval > 0.0 && in_hole > 0.0;
         let probability = 0.5 * libm::erfc(interval / (deviation * std::f64::consts::SQRT_2));

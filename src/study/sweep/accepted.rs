@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 use super::windows::{deepest, find_windows};
 use super::{MOST_SAMPLED_GAP, Point, Sweep, is_whole_milliseconds, nanoseconds};
 use crate::scene::Shot;
-use crate::study::as_planned::check_many::{check_summary, or_unknown};
+use crate::study::as_planned::check_many::{check_summary, or_failed_run};
 use crate::study::judgement::Evidence;
 use crate::study::samples::failure_bounds::ErrorShare;
 use crate::study::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
@@ -85,7 +85,7 @@ fn judge(
     compute: &ComputeSettings,
     control: &StudyControl,
 ) -> Result<Option<(ShotSummary, Option<RiskSummary>)>, NoResult> {
-    let as_planned = match or_unknown(check_summary(case, &shot, compute, control)) {
+    let as_planned = match or_failed_run(check_summary(case, &shot, compute, control)) {
         Err(NoResult::OutOfTime) => return Ok(None),
         judged => judged?,
     };

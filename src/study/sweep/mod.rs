@@ -19,10 +19,9 @@ mod windows;
 use std::collections::{BTreeMap, BTreeSet};
 
 use self::windows::{find_windows, midpoints, recommend};
-use super::as_planned::check_many::{check_summary, run_checks, run_checks_or_unknown};
+use super::as_planned::check_many::{check_summary, run_checks, run_checks_or_failed};
 use super::as_planned::quick_check::quick_check;
-use super::judgement;
-use super::judgement::Evidence;
+use super::judgement::{self, Evidence};
 use super::samples::risk_summary::RiskSummary;
 use super::samples::sample_count::Sampling;
 use super::{Case, ComputeResult, ComputeSettings, Computed, Intervals, NoResult, ShotSummary, StudyControl};
@@ -149,7 +148,7 @@ fn sweep_as_planned(
         // Of the points between points that are known, all may fail.
         let checked = match tried.is_empty() {
             true => run_checks(&jobs, control, work)?,
-            false => run_checks_or_unknown(&jobs, control, work)?,
+            false => run_checks_or_failed(&jobs, control, work)?,
         };
         // Out of time: gaps keep the width they have, and windows end there.
         let partial = checked.contains(&None);

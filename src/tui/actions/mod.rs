@@ -103,7 +103,7 @@ impl App {
                 return self.edited(edit);
             }
             Action::Save => return Request::Save,
-            Action::SaveAs => return Request::NamePlan,
+            Action::SaveAs => return Request::AskPlanPath,
             Action::Find => self.prompt = Some(Prompt::new(Purpose::Find, "")),
             Action::Commands => self.prompt = Some(Prompt::new(Purpose::Palette, "")),
             Action::Export => return self.name_export(),

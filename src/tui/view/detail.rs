@@ -28,8 +28,7 @@ use crate::report::words::option_sentences::{
 };
 use crate::report::words::reasons;
 use crate::report::words::{no_result, warnings};
-use crate::study::judgement;
-use crate::study::judgement::Judgement;
+use crate::study::judgement::{self, Judgement};
 use crate::study::reasons::Reason;
 use crate::study::samples::influence::input_shares;
 use crate::study::samples::sampled_shot::SampledShot;

@@ -44,11 +44,11 @@ impl<'s> TiresBefore<'s> {
     #[inline(always)]
     pub fn new(
         [x, y, z]: &'s [&mut [f64]; 3],
-        [dx, dy, dz]: &'s [&mut [f64]; 3],
+        [vx, vy, vz]: &'s [&mut [f64]; 3],
         forces: CableForces<'s>,
         masses: [&'s [f64]; 2],
     ) -> Self {
-        Self { u: [x, y, z], v: [dx, dy, dz], forces, masses }
+        Self { u: [x, y, z], v: [vx, vy, vz], forces, masses }
     }
 }
 

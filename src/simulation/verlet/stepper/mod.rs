@@ -97,7 +97,7 @@ pub(super) struct Stepper<'a> {
     /// Elastic energy of all blocks asleep [J].
     asleep_elastic_energy: Pack,
     /// Potential energy on the slope of all tires asleep [J].
-    asleep_on_slope: f64,
+    asleep_slope_energy: f64,
 }
 
 impl<'a> Stepper<'a> {
@@ -141,7 +141,7 @@ impl<'a> Stepper<'a> {
             v,
             stored: vec![[0.0; LANES]; part.blocks.blocks.len()],
             asleep_elastic_energy: [0.0; LANES],
-            asleep_on_slope: 0.0,
+            asleep_slope_energy: 0.0,
         }
     }
 
@@ -194,13 +194,13 @@ impl<'a> Stepper<'a> {
         }
         let tires = (0..part.reduction.weight.len()).filter(|tire| !wake.is_awake(tire / LANES));
         let energy = |tire: usize| -part.mass[tire] * scene.downhill.dot(&u.vector(tire).xy());
-        self.asleep_on_slope = tires.map(energy).sum();
+        self.asleep_slope_energy = tires.map(energy).sum();
     }
 
     /// Writes the step to ledger and history, and ticks the clock.
     fn end_step(&mut self, totals: &StepTotals) -> Result<(), RunError> {
         let greatest = |of: &Pack| of.iter().copied().fold(0.0, f64::max);
-        let energy = totals.energy.iter().sum::<f64>() + self.asleep_on_slope;
+        let energy = totals.energy.iter().sum::<f64>() + self.asleep_slope_energy;
         let dissipated = totals.dissipated.iter().sum::<f64>();
         let now = self.clock.now();
         if !(energy + dissipated).is_finite() {
