@@ -1,8 +1,9 @@
 //! What was seen of earlier shots, beside what the plan on the screen says of it.
 
 use super::app::App;
+use super::studies::compared_rows;
 use crate::jobs::{ComparedWithSeen, StudyKind, StudyResult};
-use crate::report::observed::{self, ObservedRow, observed_rows};
+use crate::report::observed::ObservedRow;
 use crate::study::fit::FitResult;
 
 /// What is said until a fit has compared what was seen with the plan on the screen.
@@ -17,18 +18,9 @@ impl App {
         }
     }
 
-    /// What was seen, where it is compared with this plan: of shots that it is not fitted to yet, then of those that it is.
+    /// What was seen, where it is compared with this plan.
     pub fn seen_rows(&self) -> Vec<ObservedRow<'_>> {
-        let Some(compared) = self.compared_with_seen() else { return Vec::new() };
-        let new = match &compared.fitted {
-            Some(FitResult::Fitted(fit)) => observed_rows(&self.case, &fit.observed, &fit.predictions),
-            Some(FitResult::NotDetermined { observed, predictions, .. }) => {
-                observed_rows(&self.case, observed, predictions)
-            }
-            Some(FitResult::KnownExactly(_) | FitResult::NotInMethod(_)) | None => Vec::new(),
-        };
-        let in_plan = observed_rows(&self.case, &compared.in_plan.list, &compared.predictions);
-        new.into_iter().chain(in_plan).collect()
+        self.compared_with_seen().map_or_else(Vec::new, |compared| compared_rows(&self.case, compared))
     }
 
     /// Whether all that was seen is compared with this plan.
@@ -43,6 +35,7 @@ impl App {
     /// Why what was seen speaks against the verdicts on the screen: it contradicts them, or is not compared with this plan.
     pub fn contradiction(&self) -> Vec<String> {
         let not_compared = (!self.is_compared_with_seen()).then(|| NOT_COMPARED.to_owned());
-        not_compared.into_iter().chain(observed::contradiction(&self.seen_rows())).collect()
+        let found = self.studies.finished(StudyKind::Fit).map(|finished| &finished.contradiction);
+        not_compared.into_iter().chain(found.into_iter().flatten().cloned()).collect()
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::jobs::{ComparedWithSeen, StudyKind, StudyResult};
 use crate::plan::observations::Observations;
-use crate::report::observed::observed_rows;
+use crate::report::observed::{self, ObservedRow, observed_rows};
 use crate::report::parts::{Block, Report};
 use crate::report::{self, charts};
 use crate::study::fit::{Fit, FitResult};
@@ -41,11 +41,14 @@ pub struct ShownStudy {
     pub compute: ComputeSettings,
     /// The result as the screen draws it.
     pub report: Report,
+    /// Why what was seen of earlier shots speaks against the plan, where this compares both.
+    pub contradiction: Vec<String>,
 }
 
 impl ShownStudy {
     /// Makes the report of a result.
     pub fn new(case: &Case, compute: ComputeSettings, found: Box<StudyResult>) -> Self {
+        let mut contradiction = Vec::new();
         let report = match &*found {
             StudyResult::Sweep(sweep) => report::sweep::report(case, sweep),
             StudyResult::Orders(orders) => report::orders::report(case, orders),
@@ -64,6 +67,7 @@ impl ShownStudy {
                     None => Report::default(),
                 };
                 let ComparedWithSeen { in_plan, predictions, .. } = &**compared;
+                contradiction = observed::contradiction(&compared_rows(case, compared));
                 report::fit::add_fitted_before(&mut report, &observed_rows(case, &in_plan.list, predictions));
                 report
             }
@@ -77,7 +81,7 @@ impl ShownStudy {
                 report
             }
         };
-        Self { found, compute, report }
+        Self { found, compute, report, contradiction }
     }
 
     /// The fit behind estimates that may go into the plan, and the observations that it is from; or why there are none.
@@ -92,6 +96,18 @@ impl ShownStudy {
             _ => Err("this is no fit"),
         }
     }
+}
+
+/// What was seen beside what the plan says of it: of shots that it is not fitted to yet, then of those that it is.
+pub fn compared_rows<'a>(case: &'a Case, compared: &'a ComparedWithSeen) -> Vec<ObservedRow<'a>> {
+    let new = match &compared.fitted {
+        Some(FitResult::Fitted(fit)) => observed_rows(case, &fit.observed, &fit.predictions),
+        Some(FitResult::NotDetermined { observed, predictions, .. }) => {
+            observed_rows(case, observed, predictions)
+        }
+        Some(FitResult::KnownExactly(_) | FitResult::NotInMethod(_)) | None => Vec::new(),
+    };
+    new.into_iter().chain(observed_rows(case, &compared.in_plan.list, &compared.predictions)).collect()
 }
 
 impl fmt::Display for StudyState {

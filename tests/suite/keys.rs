@@ -210,6 +210,7 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     assert!(page.ends_with("-contradicted") && says(&app, "not compared with this plan"), "{page}");
     assert!(says(&app, "! PASS") && !says(&app, "✓ PASS") && says(&app, "1 of 7 pass, contradicted"));
     assert_eq!(press(&mut app, "4E"), Request::None);
+    assert!(says(&app, "no estimate goes into the plan"), "a key that does nothing says why, on every tab");
     app.studies.show(StudyKind::Fit);
     assert_eq!(press(&mut app, "E"), Request::None);
     assert!(says(&app, "no estimate goes into the plan: nothing was fitted"), "nor before the fit has ended");

@@ -482,6 +482,9 @@ fn what_was_seen_of_earlier_shots_stands_on_the_page() {
         .find(|node| words(*node).ends_with("NOT to be fired"))
         .expect("at its charts");
 
+    let (_, page) = report(PLAN, &["--nominal", "--observed", &path]);
+    assert!(page.expect("a page").contains("speaks against this plan"), "also where no option is chosen");
+
     std::fs::write(&seen, line(1.6).replace("1:1", "9:9")).expect("written");
     let (wrong, _) = report(PLAN, &["--nominal", "--observed", &path]);
     assert_eq!(wrong.status.code(), Some(2));

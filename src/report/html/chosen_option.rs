@@ -18,7 +18,10 @@ use crate::verdict::{Quantity, Verdict};
 /// The box with the option to be fired; one line where none is chosen.
 pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     let Some(option) = page.to_be_fired else {
-        return html! { p.chosen { "No option is chosen to be fired: --option NAME of shelter report chooses one." } };
+        return html! {
+            p.chosen { "No option is chosen to be fired: --option NAME of shelter report chooses one." }
+            (seen_otherwise(page))
+        };
     };
     let case = page.case;
     let (delay, shot, result) = (&case.plan.delays[option], &case.shots[option], &page.results[option]);
@@ -33,10 +36,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
         div.fired {
             p.what { (firing_instruction(page, option)) ": " (delay.name) ", rows at " (option_sentences::firing_times(delay)) }
             p.large { (word(verdict)) (only_planned(page)) }
-            @if !page.contradiction.is_empty() {
-                p { strong { "What was seen of earlier shots speaks against this plan and its verdicts." } }
-            }
-            @for sentence in page.contradiction { p { strong { (sentence) } } }
+            (seen_otherwise(page))
             @if must_not_fire(page, option) {
                 p { strong { "Do not fire this option as it stands." } }
             }
@@ -53,6 +53,16 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
             }
             @for warning in warnings { p { strong { "Warning: " } (warning) } }
         }
+    }
+}
+
+/// Why what was seen of earlier shots speaks against every verdict of the page; nothing where it does not.
+fn seen_otherwise(page: &Page<'_>) -> Markup {
+    html! {
+        @if !page.contradiction.is_empty() {
+            p { strong { "What was seen of earlier shots speaks against this plan and its verdicts." } }
+        }
+        @for sentence in page.contradiction { p { strong { (sentence) } } }
     }
 }
 

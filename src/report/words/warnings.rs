@@ -59,7 +59,8 @@ fn false_interval(delay: &DelayOption) -> Option<[String; 2]> {
 /// drift that no limit judges.
 pub fn of_option(case: &Case, option: usize, judged: &Judgement) -> Vec<String> {
     let drift = far_drift(case, judged);
-    let drift = drift.map(|drift| format!("tires may end {} m away: {NOT_JUDGED}", units::rounded(drift, 2)));
+    let end = if judged.sampled.known().is_some() { FARTHER } else { AS_FAR };
+    let drift = drift.map(|drift| format!("{end} {} m: {NOT_JUDGED}", units::rounded(drift, 2)));
     swaps_and_cover(case, option, judged).chain(drift).collect()
 }
 
@@ -78,7 +79,9 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
         drifts.extend(drift.map(|drift| format!("{} {} m", name(option), units::rounded(drift, 2))));
     }
     if !drifts.is_empty() {
-        warnings.push(format!("tires may end far away ({}): {NOT_JUDGED}", drifts.join(", ")));
+        let is_sampled = |judged: &Judgement| judged.sampled.known().is_some();
+        let end = if results.iter().flatten().any(is_sampled) { FARTHER } else { AS_FAR };
+        warnings.push(format!("{end} {}: {NOT_JUDGED}", drifts.join(", ")));
     }
     warnings
 }
@@ -91,6 +94,10 @@ fn swaps_and_cover(case: &Case, option: usize, judged: &Judgement) -> impl Itera
     swaps.chain(uncovered(&judged.checked.cover))
 }
 
+/// What the drift of an option is where it was sampled; nobody may take it for the farthest.
+const FARTHER: &str = "in 1 of 20 possible shots a tire ends farther away than";
+/// What it is where it was not.
+const AS_FAR: &str = "as planned a tire ends as far away as";
 /// What a pass leaves open where tires drift far.
 const NOT_JUDGED: &str = "the plan has no limit `drift_m`, so that a PASS says nothing of it";
 

@@ -23,14 +23,13 @@ impl App {
                 Some(_) => self.prompt = Some(Prompt::new(Purpose::Forget, "")),
                 None => self.notice = Some("nothing was observed yet".to_owned()),
             },
-            Action::UseEstimates => return Some(self.use_estimates()),
             _ => return None,
         }
         Some(Request::None)
     }
 
     /// Puts the estimates into the plan, which holds what was seen from then on; or says why not.
-    fn use_estimates(&mut self) -> Request {
+    pub(super) fn use_estimates(&mut self) -> Request {
         let finished = self.studies.finished(StudyKind::Fit);
         let estimates = finished.map_or(Err("nothing was fitted to this plan yet"), ShownStudy::estimates);
         let (fit, files) = match estimates {
@@ -43,13 +42,12 @@ impl App {
         let checksums: Vec<String> = files.iter().map(|file| file.checksum.clone()).collect();
         let (before, fitted) = (&self.case.plan.uncertainty, fit.answers[0].to_write());
         let text = write_fit::write(&self.editor.text, before, &fitted, &checksums);
-        let files = files.to_vec();
         let edit = self.editor.adopt(text);
         if matches!(edit, EditOutcome::None) {
             self.notice = self.editor.problem.clone();
             return Request::None;
         }
-        self.observed.close_typed(&files);
+        self.observed.close_typed(files);
         let request = self.edited(edit);
         self.screen = Screen::Compare;
         let undo = self.keymap.hint(Action::Undo);

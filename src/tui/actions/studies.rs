@@ -33,6 +33,7 @@ impl App {
             Action::Open if self.studies.is_running(kind) => {}
             Action::Open | Action::Rerun => return self.begin_study(kind),
             Action::Cancel => return self.cancel_study(kind),
+            Action::UseEstimates => return self.use_estimates(),
             other => return self.act_anywhere(other),
         }
         Request::None
