@@ -56,8 +56,12 @@ impl Unit {
     }
 }
 
-/// A value and its error, both SI, with one digit of error, rounded up: `1.7655 ± 0.0002`.
+/// A value and its error, both SI, with one digit of error, rounded up: `1.7655 ± 0.0002`; an infinite error is one that is not
+/// known: `353.157 ± unknown`.
 pub fn value_and_error(value: f64, error: f64, unit: Unit) -> String {
+    if value.is_finite() && error == f64::INFINITY {
+        return format!("{} ± unknown", self::value(value, unit));
+    }
     let (value, error) = (value / unit.size(), error / unit.size());
     if !(value.is_finite() && error.is_finite()) {
         return format!("{value} ± {error}");
@@ -77,9 +81,12 @@ pub fn value_and_sd(value: f64, sd: f64) -> String {
     format!("{value:.decimals$} ± {sd:.decimals$}")
 }
 
-/// A value with the digits that its error leaves, without the error: `132`.
+/// A value with the digits that its error leaves, without the error unless that is not known: `132`.
 pub fn value_by_error(value: f64, error: f64, unit: Unit) -> String {
     let both = value_and_error(value, error, unit);
+    if error == f64::INFINITY {
+        return both;
+    }
     both.split(' ').next().unwrap_or_default().to_owned()
 }
 
@@ -156,9 +163,13 @@ pub fn exact_milliseconds(time: f64) -> String {
     format!("{} ms", (time * 1e9).round() / 1e6)
 }
 
-/// A ratio of breaking force to force: `2.11`, or `none` where no cable pulls.
+/// A ratio of breaking force to force: `2.11`, `none` where no cable pulls, or `unknown` where it is not a number.
 pub fn factor(factor: f64) -> String {
-    if factor.is_finite() { format!("{factor:.2}") } else { "none".to_owned() }
+    match factor {
+        _ if factor.is_nan() => "unknown".to_owned(),
+        f64::INFINITY => "none".to_owned(),
+        _ => format!("{factor:.2}"),
+    }
 }
 
 #[cfg(test)]

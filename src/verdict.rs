@@ -61,6 +61,11 @@ pub struct Estimate {
 }
 
 impl Estimate {
+    /// The same value with `times` its error.
+    pub fn times_error(self, times: f64) -> Self {
+        Self { error: times * self.error, ..self }
+    }
+
     /// The verdict on this value alone for an upper limit.
     pub fn compare_with(&self, limit: f64) -> Verdict {
         if self.value + self.error <= limit {

@@ -3,6 +3,10 @@
 //! `cargo bench --bench risk -- coverage [PLANS] [SEEDS]`: random plans whose true risk lies between 0.1 and 10 %, each
 //! judged with many seeds and both steps of samples; how often the interval holds the truth and the verdict is right.
 //! `cargo bench --bench risk -- shipped [SAMPLES]`: the options of the shipped plans that pass, by brute force at a fine step.
+//! `cargo bench --bench risk -- recommended [STREAMS] [PLANS] [SEEDS]`: how often an option is wrong that was recommended
+//! ([`recommended`]).
+
+mod recommended;
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -21,6 +25,7 @@ fn main() {
     match arguments.first().map(String::as_str) {
         Some("coverage") => coverage(number(1, 40), number(2, 25) as u64),
         Some("shipped") => shipped(number(1, 10_000)),
+        Some("recommended") => recommended::run(number(1, 200), number(2, 20), number(3, 5) as u64),
         _ => coverage(4, 5),
     }
 }

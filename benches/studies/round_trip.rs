@@ -114,7 +114,7 @@ fn plan(random: &mut StdRng) -> String {
         scatter,
         5.0 * scatter
     );
-    text + "detonator = \"electronic\"\nlaunch_common_percent = 10\nfriction = [0.3, 0.7]\nslack_percent = [0.5, 3.5]\n\
+    text + "detonator = \"electronic\"\nlaunch_common_percent = 10\nlaunch_between_shots_percent = 3\nfriction = [0.3, 0.7]\nslack_percent = [0.5, 3.5]\n\
             axial_stiffness_percent = [-20, 20]\n"
 }
 

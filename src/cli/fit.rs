@@ -16,11 +16,12 @@ use crate::choice::Unknown;
 use crate::file;
 use crate::plan::Plan;
 use crate::plan::observations::{Observations, template, used_twice};
-use crate::plan::write_fit;
+use crate::plan::write_fit::{self, LaunchUncertainty};
 use crate::report::fit::{refusal, report};
 use crate::report::json::FitDocument;
 use crate::study::fit::{Fit, FitRequest, FitResult, fit, observable_names};
 use crate::study::{Case, Computed, NoResult};
+use crate::units;
 
 #[derive(Args)]
 pub struct Arguments {
@@ -32,7 +33,7 @@ pub struct Arguments {
     /// What to estimate
     #[arg(long, value_delimiter = ',', default_value = "launch", value_parser = named::<Unknown>(Unknown::NAMES))]
     unknown: Vec<Unknown>,
-    /// Write the estimates into the plan; widens its [uncertainty] where they are less sure
+    /// Write the estimates into the plan, and into its [uncertainty] how sure they are
     #[arg(long)]
     write: bool,
     /// Print a file of observations to begin with
@@ -126,8 +127,7 @@ fn write(path: &Path, case: &Case, files: &[Observations], fit: &Fit) -> io::Res
         return Err(io::Error::other("the plan has changed meanwhile; nothing was written"));
     }
     let checksums: Vec<String> = files.iter().map(|file| file.checksum.clone()).collect();
-    let text =
-        write_fit::write(&case.source.text, &case.plan.uncertainty, &fit.answers[0].to_write(), &checksums);
+    let text = write_fit::write(&case.source.text, &case.plan.uncertainty, &fit.to_write(), &checksums);
     let text = text.map_err(io::Error::other)?;
     if let Err(mistakes) = Plan::parse(&case.source.path, &text) {
         return Err(io::Error::other(format!(
@@ -136,9 +136,12 @@ fn write(path: &Path, case: &Case, files: &[Observations], fit: &Fit) -> io::Res
         )));
     }
     file::save(path, &text)?;
-    tell!(
-        "written: {}; [uncertainty] is widened where an estimate is less sure, and never narrowed: the next shot may differ from those seen",
-        path.display()
-    );
+    let launches = fit.launches.map(|launches| {
+        let LaunchUncertainty { common_percent, between_shots_percent } = launches;
+        let [common, between] =
+            [common_percent, between_shots_percent].map(|percent| units::rounded(percent, 1));
+        format!("; launch_common_percent is {common} now, and launch_between_shots_percent {between}")
+    });
+    tell!("written: {}{}", path.display(), launches.unwrap_or_default());
     Ok(())
 }

@@ -11,7 +11,8 @@ use super::status::{REMEDY_AS_ARGUMENTS, Status};
 use crate::report::check::report;
 use crate::report::json::CheckDocument;
 use crate::report::parts::Report;
-use crate::study::judge_options::{MustPass, OptionResults, UNWATCHED, judge_all, judge_all_with_margins};
+use crate::study::judge_options::{MustPass, OptionResults, UNWATCHED, judge_all};
+use crate::study::recommend::judge_and_confirm;
 use crate::study::remedies::{Remedies, find_all_remedies, not_passing};
 use crate::study::samples::sample_count::Sampling;
 use crate::study::{Case, ComputeResult, Computed, NoResult};
@@ -35,7 +36,7 @@ pub fn judge_plans(
     let cases: Vec<_> = cases.iter().map(|case| (case, arguments.settings(&case.plan))).collect();
     run_study(arguments, |control| {
         let Computed { value: results, mut partial } = match &sampling {
-            Some(sampling) => judge_all_with_margins(&cases, Some(sampling), control, UNWATCHED)?,
+            Some(sampling) => judge_and_confirm(&cases, sampling, control, UNWATCHED)?,
             // The plan's own numbers alone: nothing varies, the launches neither.
             None => judge_all(&cases, None, control, UNWATCHED)?,
         };

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::arguments::LookArguments;
 use super::tell;
+use crate::plan::names;
 use crate::study::Case;
 
 /// Opens plans. Prints every mistake of every plan; `None` where there is a mistake.
@@ -47,7 +48,7 @@ pub fn choose_options(case: &Case, names: &[String]) -> Result<Vec<usize>, Strin
 fn find_option(case: &Case, name: Option<&str>) -> Result<usize, String> {
     let names: Vec<&str> = case.plan.delays.iter().map(|delay| delay.name.as_str()).collect();
     let Some(name) = name else { return Ok(0) };
-    names.iter().position(|&known| known == name).ok_or_else(|| {
+    names::find(names.iter().copied(), name).ok_or_else(|| {
         format!("no delay option '{name}' in {}; it has: {}", case.source.path, names.join("; "))
     })
 }

@@ -9,6 +9,7 @@ mod tell;
 
 mod accuracy;
 mod arguments;
+mod assumptions;
 mod check;
 mod completions;
 mod config;
@@ -49,7 +50,8 @@ use self::arguments::{ComputeArguments, LookArguments};
 ///
 /// Opens a plan in the terminal: `shelter plans/amur-three-rows.toml`. Scripts use `shelter check`.
 #[derive(Parser)]
-#[command(name = "shelter", version, args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+#[command(name = "shelter", args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+#[command(version = concat!(env!("CARGO_PKG_VERSION"), " (build ", env!("SHELTER_BUILD"), ")"))]
 #[command(help_template = grouped_help())]
 // On Windows, too, where the file is `shelter.exe`.
 #[command(bin_name = "shelter")]
@@ -83,6 +85,8 @@ enum Command {
     Search(search::Arguments),
     /// Which physical effects this scene requires: each switched on or taken away
     Effects(effects::Arguments),
+    /// What a PASS stands on: of everything taken as known, the value at which an option no longer passes
+    Assumptions(assumptions::Arguments),
     /// Launch velocities and other unknowns from what was seen of earlier shots
     Fit(fit::Arguments),
     /// The lightest rope, tires and border with which every option passes
@@ -107,7 +111,7 @@ enum Command {
 
 /// The commands by what one wants.
 const GROUPS: [(&str, &[&str]); 5] = [
-    ("Decide", &["check", "search", "risk", "report"]),
+    ("Decide", &["check", "search", "risk", "assumptions", "report"]),
     ("Plan", &["init", "ropes", "size"]),
     ("Study", &["sweep", "orders", "merge"]),
     ("Learn", &["fit", "effects", "accuracy", "trace"]),
@@ -176,6 +180,7 @@ pub fn run() -> ExitCode {
         (Some(Command::Risk(arguments)), _) => risk::run(&arguments, &cli.look),
         (Some(Command::Search(arguments)), _) => search::run(&arguments, &cli.look),
         (Some(Command::Effects(arguments)), _) => effects::run(&arguments, &cli.look),
+        (Some(Command::Assumptions(arguments)), _) => assumptions::run(&arguments, &cli.look),
         (Some(Command::Fit(arguments)), _) => fit::run(&arguments, &cli.look),
         (Some(Command::Size(arguments)), _) => size::run(&arguments, &cli.look),
         (Some(Command::Merge(arguments)), _) => merge::run(&arguments, &cli.look),

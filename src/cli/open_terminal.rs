@@ -49,8 +49,7 @@ pub fn start(compute: &ComputeArguments, look: &LookArguments) -> io::Result<Sta
     }
     needs_keyboard(compute)?;
     let (config, mistake) = Config::load_or_default();
-    let unsaved = recovery::find(None).map(|kept| kept.text);
-    let start = Start::new(Path::new("."), config::recent(), unsaved);
+    let start = Start::new(Path::new("."), config::recent(), recovery::find(None));
     let (name, text, kept) = match tui::choose(start, &config, screen(&config, look))? {
         Err(exit) => return Ok(status(&exit)),
         Ok(Opened::File(path)) => return self::plan(&path, compute, look),

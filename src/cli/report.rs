@@ -18,11 +18,16 @@ use crate::plan::observations::named_twice;
 use crate::report::check;
 use crate::report::html::{self, Page};
 use crate::report::observed::{contradiction, observed_rows};
+use crate::report::words::assumption_words::holds;
+use crate::study::assumptions::{Extent, SAMPLES, find_assumptions};
 use crate::study::fit::observation_bands::predict_observations;
 use crate::study::fit::observed_shots::ObservedShots;
 use crate::study::judge_options::MustPass;
+use crate::study::judgement::Judgement;
+use crate::study::samples::sample_count::Sampling;
 use crate::study::sweep::{DEFAULT_INTERVALS, sweep};
 use crate::study::{Computed, NoResult, StudyControl};
+use crate::verdict::Verdict;
 
 #[derive(Args)]
 pub struct Arguments {
@@ -111,6 +116,18 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Some(Err(NoResult::OutOfTime)) => None,
         Some(Err(reason)) => return failed(&reason),
     };
+    let passes = |judged: &Judgement| judged.verdict() == Verdict::Pass;
+    let is_asked =
+        asked.is_some() && checked.value[0].results[option].as_ref().is_ok_and(passes) && !was_interrupted();
+    let stands_on = sampling.filter(|_| is_asked).map(|Sampling { seed, .. }| {
+        let sampling = Sampling::exactly(SAMPLES, seed);
+        // The verdicts stand without it.
+        run_study(&arguments.compute, |control| {
+            find_assumptions(&cases[0], option, Some(&sampling), Extent::Nearest, &compute, control)
+        })
+        .ok()
+    });
+    let holds = stands_on.iter().flatten().next().map(|found| holds(&found.value));
     // Who interrupts wants no page, and keeps the page that is there.
     if was_interrupted() {
         return failed(&NoResult::Stopped);
@@ -127,12 +144,14 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         results: &checked.value[0].results,
         to_be_fired: asked.map(|_| option),
         sampling: sampling.as_ref(),
+        holds: holds.as_deref(),
         sweep: swept.as_ref(),
         fitted_to_observed: files.iter().any(|file| cases[0].plan.fitted_from.contains(&file.checksum)),
         observed: &observed,
         contradiction: &contradiction,
         partial: checked.partial
             || predictions.is_none()
+            || stands_on.as_ref().is_some_and(|found| found.as_ref().is_none_or(|found| found.partial))
             || swept.as_ref().is_some_and(|swept| swept.partial),
         unsaved: false,
         date: &html::today(),
@@ -144,13 +163,22 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         file::save(output, &page).map_err(|error| io::Error::other(error.to_string()))?;
         tell!("wrote {}", output.display());
     }
-    match arguments.format {
-        Some(format) => print_judged_plans(&cases, &checked, MustPass::Every, format, look),
+    let status = match arguments.format {
+        Some(format) => print_judged_plans(&cases, &checked, MustPass::Every, format, look)?,
         None => {
             let reports =
                 [check::report(&cases[0], &checked.value[0].results, None, MustPass::Every, checked.partial)];
             print_warnings(&reports);
-            Ok(Status::of(&reports))
+            Status::of(&reports)
         }
-    }
+    };
+    contradiction.iter().for_each(|sentence| tell!("warning: {sentence}"));
+    let results = &checked.value[0].results;
+    Ok(match asked {
+        // The page says it in the same words.
+        Some(_) if !html::may_be_fired(results, option, &contradiction) => Status::Fail,
+        Some(_) => Status::Pass,
+        None if contradiction.is_empty() => status,
+        None => Status::Fail,
+    })
 }

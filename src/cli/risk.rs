@@ -52,7 +52,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
     if let Some(shard) = arguments.saved.shard {
         return draw(arguments, &case, &sampling, shard, journal);
     }
-    let judge = |control: &_| case.judge_options(&compute, Some(&sampling), control);
+    let judge = |control: &_| case.sample_options(&compute, &sampling, control);
     match run_saved_study(&arguments.compute, journal, judge) {
         Err(reason) => failed(&reason),
         Ok(results) => print_risks(&case, &results, &sampling, arguments.format, look),

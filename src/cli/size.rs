@@ -15,6 +15,7 @@ use crate::file;
 use crate::plan::{Layout, Plan, SizeSpec, edit};
 use crate::report::json::SizeDocument;
 use crate::report::size::report;
+use crate::report::words::plan_notes::launches_of_mass;
 use crate::ropes::catalogue;
 use crate::study::orders::{MOST_ROWS, tries_all};
 use crate::study::results_file::Question;
@@ -135,9 +136,16 @@ fn write(arguments: &Arguments, case: &Case, found: &Combination) -> io::Result<
     if std::fs::read_to_string(&arguments.plan)? != case.source.text {
         return Err(io::Error::other("the plan has changed meanwhile; nothing was written"));
     }
-    let text = edit::write_sizes(&case.source.text, &found.rope.name, found.tire_mass, found.border_rows)
-        .map_err(io::Error::other)?;
+    let text = edit::write_sizes(
+        &case.source.text,
+        &case.plan,
+        &found.rope.name,
+        found.tire_mass,
+        found.border_rows,
+    )
+    .map_err(io::Error::other)?;
     file::save(&arguments.plan, &text)?;
-    tell!("written: {}", arguments.plan.display());
+    let launches = launches_of_mass(&case.plan, found.tire_mass).map(|told| format!("; {told}"));
+    tell!("written: {}{}", arguments.plan.display(), launches.unwrap_or_default());
     Ok(())
 }

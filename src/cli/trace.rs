@@ -17,7 +17,8 @@ use crate::report::json::TraceDocument;
 use crate::scene::{Scene, TireId, seconds};
 use crate::simulation::RunError;
 use crate::study::NoResult;
-use crate::study::trace::{TracedItems, trace};
+use crate::study::samples::sample_count::Sampling;
+use crate::study::trace::{TracedItems, TracedShot, trace};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -26,6 +27,12 @@ pub struct Arguments {
     /// Name of the delay option; default: the first
     #[arg(long, value_name = "NAME")]
     option: Option<String>,
+    /// Trace this sample of the option, as `check` draws it, at the step of samples; default: the shot as planned
+    #[arg(long, value_name = "N")]
+    sample: Option<usize>,
+    /// Seed of the random numbers; default: 1
+    #[arg(long, value_name = "N", requires = "sample", allow_negative_numbers = true)]
+    seed: Option<u64>,
     /// Tire to follow, `ROW,COLUMN` or `N` in a list layout; default: the highest
     #[arg(long, value_name = "ROW,COLUMN")]
     tire: Vec<String>,
@@ -51,7 +58,11 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         Err(message) => return wrong(&message),
     };
     let compute = arguments.compute.settings(&case.plan);
-    let settings = case.run_settings(compute.method, compute.first_step(&case));
+    let seed = arguments.seed.unwrap_or(Sampling::OF_VERDICT.seed);
+    let shot = match arguments.sample {
+        Some(number) => TracedShot::sample(&case, option, &compute, seed, number),
+        None => TracedShot::as_planned(&case, option, &compute),
+    };
     deadline::note_loaded();
     let timeout = arguments.compute.timeout;
     let in_time = || match timeout {
@@ -59,15 +70,15 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         _ => ControlFlow::Continue(()),
     };
     if chosen == TracedItems::default() {
-        match case.model.run(&case.shots[option], &settings, &mut |_| in_time()) {
+        match shot.run(&mut |_| in_time()) {
             Ok(outcome) => chosen = TracedItems::of(&outcome),
             Err(failure) => return failed(&failure),
         }
     }
     let mut rows = Rows::begin(arguments.format, &report::trace::header(case.scene(), &chosen))?;
-    let every = arguments.every.map_or(settings.step, seconds);
+    let every = arguments.every.map_or(shot.settings.step, seconds);
     let mut written = Ok(());
-    let done = trace(&case, option, &settings, &chosen, every, &mut |row| {
+    let done = trace(&shot, &chosen, every, &mut |row| {
         written = rows.row(row);
         if written.is_ok() { in_time() } else { ControlFlow::Break(()) }
     });

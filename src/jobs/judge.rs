@@ -3,10 +3,14 @@
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
+use super::studies::ASSUMPTIONS_SAMPLING;
 use super::{Job, News};
-use crate::study::judge_options::{CaseOption, JudgeEvent, judge_all_with_margins};
+use crate::study::assumptions::{Extent, find_assumptions};
+use crate::study::judge_options::{CaseOption, JudgeEvent, OptionResults};
+use crate::study::recommend::judge_and_confirm;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::{NoResult, catch_panic};
+use crate::verdict::Verdict;
 
 /// Least time between two pieces of news about an option that computes.
 const CHECKING_EVERY: Duration = Duration::from_millis(50);
@@ -21,8 +25,9 @@ struct LastSent {
 }
 
 impl Job {
-    /// Judges all options: as planned, then by samples, then for their launch margins.
-    pub(super) fn judge_with_margins(&self) {
+    /// Judges all options: as planned, then by samples, then for their launch margins, then by fresh draws; then finds what those
+    /// that pass stand on.
+    pub(super) fn judge(&self) {
         let cases = [(&*self.case, self.compute)];
         let new = LastSent { checking: Instant::now(), sampled: None };
         let last_sent: Vec<Mutex<LastSent>> = self.case.shots.iter().map(|_| Mutex::new(new)).collect();
@@ -46,13 +51,30 @@ impl Job {
                     }
                 }
                 JudgeEvent::Margin(margin) => self.send(News::Margin { option, margin }),
+                JudgeEvent::Dud(judged) => self.send(News::Dud { option, judged: Box::new(judged.clone()) }),
+                JudgeEvent::Confirmed(&confirmation) => {
+                    self.send(News::Confirmed { option, confirmation: Box::new(confirmation) });
+                }
             }
         };
-        let judged = catch_panic(|| {
-            judge_all_with_margins(&cases, Some(&Sampling::OF_VERDICT), &self.control, &watch)
-        });
-        if let Err(none) = judged {
-            self.tell_no_result(&none);
+        let judged = catch_panic(|| judge_and_confirm(&cases, &Sampling::OF_VERDICT, &self.control, &watch));
+        match judged {
+            Err(none) => self.tell_no_result(&none),
+            Ok(judged) => judged.value.iter().for_each(|results| self.find_assumptions(results)),
+        }
+    }
+
+    /// Finds what the options that pass stand on, one after the other: their verdicts stand without it.
+    fn find_assumptions(&self, results: &OptionResults) {
+        for (option, judged) in results.iter().enumerate() {
+            if !judged.as_ref().is_ok_and(|judged| judged.verdict() == Verdict::Pass) {
+                continue;
+            }
+            let (Self { case, compute, control, .. }, sampling) = (self, Some(&ASSUMPTIONS_SAMPLING));
+            let find = || find_assumptions(case, option, sampling, Extent::Nearest, compute, control);
+            if let Ok(found) = catch_panic(find) {
+                self.send(News::Assumptions { option, found: Box::new(found.value) });
+            }
         }
     }
 

@@ -16,6 +16,9 @@ pub use studies::{ComparedWithSeen, StudyKind, StudyResult};
 use crate::plan::observations::Observations;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::as_planned::margin::LaunchMargin;
+use crate::study::assumptions::Assumptions;
+use crate::study::judgement::Judgement;
+use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::{Case, ComputeSettings, NoResult, StudyControl, catch_panic, thread_pool};
 
@@ -53,6 +56,27 @@ pub enum News {
         option: usize,
         /// The margin.
         margin: LaunchMargin,
+    },
+    /// An option is judged with any one hole left out.
+    Dud {
+        /// Index of the option.
+        option: usize,
+        /// The judgement so far.
+        judged: Box<Judgement>,
+    },
+    /// Fresh draws confirm the pass of an option, or do not.
+    Confirmed {
+        /// Index of the option.
+        option: usize,
+        /// What they tell.
+        confirmation: Box<RiskSummary>,
+    },
+    /// What the pass of an option stands on.
+    Assumptions {
+        /// Index of the option.
+        option: usize,
+        /// The nearest of them.
+        found: Box<Assumptions>,
     },
     /// A study computes.
     Studying {
@@ -105,13 +129,13 @@ impl Jobs {
         Self { threads, judging: None, studies, last_reported, sender, receiver }
     }
 
-    /// Checks every option of `case`: first as planned, then by samples, then for its launch margin. Each result is news by
-    /// itself.
+    /// Checks every option of `case`: first as planned, then by samples, then for its launch margin, then by fresh draws; and once
+    /// all verdicts are known, what those that pass stand on. Each result is news by itself.
     pub fn judge(&mut self, case: &Arc<Case>, compute: ComputeSettings) {
         let job = self.job(case, compute);
         stop(self.judging.replace(Arc::clone(&job.control)));
         match thread_pool(self.threads) {
-            Ok(pool) => pool.spawn(move || job.judge_with_margins()),
+            Ok(pool) => pool.spawn(move || job.judge()),
             Err(none) => job.tell_no_result(&none),
         }
     }

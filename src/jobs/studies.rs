@@ -5,6 +5,7 @@ use std::time::Duration;
 use super::Job;
 use crate::choice::Unknown;
 use crate::plan::observations::Observations;
+use crate::study::assumptions::{self, Assumptions, Extent, find_assumptions};
 use crate::study::effects::{EffectsOnOptions, SAMPLES, effects};
 use crate::study::fit::observation_bands::{Prediction, predict_observations};
 use crate::study::fit::observed_shots::ObservedShots;
@@ -50,6 +51,8 @@ study_kinds! {
     Effects,
     /// Launch velocities from what was seen of earlier shots.
     Fit,
+    /// What the pass of one option stands on.
+    Assumptions,
     /// The motion of one option.
     Flight,
     /// The cost of accuracy, measured on one option.
@@ -59,8 +62,8 @@ study_kinds! {
 }
 
 impl StudyKind {
-    /// The kinds that answer a question about the whole plan, in the order of their tabs.
-    pub const TABS: [StudyKind; 7] = [
+    /// The kinds that have a tab, in the order of their tabs.
+    pub const TABS: [StudyKind; 8] = [
         StudyKind::Sweep,
         StudyKind::Orders,
         StudyKind::Risk,
@@ -68,6 +71,7 @@ impl StudyKind {
         StudyKind::Size,
         StudyKind::Effects,
         StudyKind::Fit,
+        StudyKind::Assumptions,
     ];
 }
 
@@ -88,6 +92,8 @@ pub enum StudyResult {
     Effects(Computed<EffectsOnOptions>),
     /// Result of [`StudyKind::Fit`].
     Fit(Box<ComparedWithSeen>),
+    /// Result of [`StudyKind::Assumptions`].
+    Assumptions(Computed<Assumptions>),
     /// Result of [`StudyKind::Flight`].
     Flight(Flight),
     /// Result of [`StudyKind::Accuracy`].
@@ -113,6 +119,9 @@ pub struct ComparedWithSeen {
 const RISK_SAMPLING: Sampling = Sampling::OF_RISK;
 /// Samples of a study of effects.
 const EFFECTS_SAMPLING: Sampling = Sampling::exactly(SAMPLES, Sampling::OF_RISK.seed);
+/// Samples of each value of an assumption.
+pub(super) const ASSUMPTIONS_SAMPLING: Sampling =
+    Sampling::exactly(assumptions::SAMPLES, Sampling::OF_VERDICT.seed);
 /// Longest run that [`StudyKind::Accuracy`] makes.
 const LONGEST_RUN: Duration = Duration::from_secs(1);
 
@@ -133,7 +142,7 @@ impl Job {
                 Ok(StudyResult::Orders(orders(&case, &case.intervals(), sampling, compute, control)?))
             }
             StudyKind::Risk => {
-                let results = case.judge_options(compute, Some(&RISK_SAMPLING), control)?;
+                let results = case.sample_options(compute, &RISK_SAMPLING, control)?;
                 Ok(StudyResult::Risk(RISK_SAMPLING, results))
             }
             StudyKind::Search => {
@@ -162,6 +171,11 @@ impl Job {
                 let in_plan = ObservedShots::new(&in_plan);
                 let predictions = predict_observations(case, &in_plan, sampling.as_ref(), compute, control)?;
                 Ok(StudyResult::Fit(Box::new(ComparedWithSeen { fitted, new, in_plan, predictions })))
+            }
+            StudyKind::Assumptions => {
+                let sampling = Some(&ASSUMPTIONS_SAMPLING);
+                let found = find_assumptions(case, option, sampling, Extent::All, compute, control)?;
+                Ok(StudyResult::Assumptions(found))
             }
             StudyKind::Flight => record(case, option, compute, control).map(StudyResult::Flight),
             StudyKind::Accuracy => Ok(StudyResult::Accuracy(

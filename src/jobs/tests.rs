@@ -7,7 +7,7 @@ use crate::study::fit::observable_names;
 const STUDY: StudyKind = StudyKind::Orders;
 
 fn case() -> Arc<Case> {
-    let text = include_str!("../../plans/amur-three-rows.toml").to_owned();
+    let text = include_str!("../../tests/fixtures/amur-three-rows.toml").to_owned();
     let case = Case::parse(PlanSource { path: String::new(), text });
     Arc::new(case.unwrap_or_else(|mistakes| panic!("{mistakes}")))
 }
@@ -112,6 +112,9 @@ fn the_newest_request_of_a_kind_wins() {
                 News::Checking { .. }
                 | News::Sampled { .. }
                 | News::Margin { .. }
+                | News::Dud { .. }
+                | News::Assumptions { .. }
+                | News::Confirmed { .. }
                 | News::Studying { .. } => {}
             }
         }

@@ -11,6 +11,9 @@ use super::visible;
 /// Most mistakes shown at once; a file that is no plan has thousands.
 const SHOWN: usize = 20;
 
+/// Most mistakes of one text that are kept: the rest would only take memory.
+pub const MOST_KEPT: usize = 1000;
+
 /// One mistake.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mistake {
@@ -42,7 +45,7 @@ impl Diagnostics {
         Self::new(path, "", vec![Mistake { span: 0..0, message, remedy: remedy.to_owned() }])
     }
 
-    /// Number of mistakes; never 0.
+    /// Number of mistakes that are kept; never 0.
     pub fn len(&self) -> usize {
         self.mistakes.len()
     }
@@ -90,7 +93,8 @@ impl Diagnostics {
             text += "\n\n";
         }
         if let Some(more @ 1..) = self.mistakes.len().checked_sub(SHOWN) {
-            text += &format!("and {more} more mistakes in {}\n", self.path);
+            let at_least = if self.mistakes.len() < MOST_KEPT { "" } else { "at least " };
+            text += &format!("and {at_least}{more} more mistakes in {}\n", self.path);
         }
         text
     }

@@ -6,10 +6,11 @@
 //! | what a key may be: name, unit, range, default, description | [`keys`], one table |
 //! | from TOML to values, or to mistakes | `reader` (key by key), `sections` (what a section means), `diagnostic` |
 //! | what is right, but not usual | [`usual`] |
+//! | how fast a tire of another mass leaves | [`mass_law`] |
 //! | changes to the text of a plan | [`edit`] |
 //! | new plans: from a few answers, from a list of holes | [`starter`], [`import`] |
 //! | what was seen of earlier shots, and what a fit of it writes into a plan | [`observations`], [`write_fit`] |
-//! | the text of a plan and its path; a place on the ground and the tire nearest to it | `source`, `nearest_point` |
+//! | names as people see them; the text of a plan and its path; a place on the ground and the tire nearest to it | [`names`], `source`, `nearest_point` |
 //! | the keys for editors | [`schema`] |
 //!
 //! [`Plan::load`] reads TOML and reports every mistake at once, each with file, line, column and remedy
@@ -21,6 +22,8 @@ mod diagnostic;
 pub mod edit;
 pub mod import;
 pub mod keys;
+pub mod mass_law;
+pub mod names;
 mod nearest_point;
 pub mod observations;
 mod reader;

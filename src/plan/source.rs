@@ -7,8 +7,8 @@ use std::path::Path;
 use super::{Diagnostics, Plan, sections, visible};
 use crate::file;
 
-/// Largest file read [bytes].
-pub(super) const MOST_BYTES: u64 = 64 << 20;
+/// Largest file read [bytes]; a text takes up to fifty times as much memory while it is read.
+const MOST_BYTES: u64 = 8 << 20;
 
 /// The path and the text of a plan or of a list of holes; both empty where the program made the plan.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -61,7 +61,7 @@ pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, Unreadable> {
     if bytes.len() as u64 > MOST_BYTES {
         return Err((
             format!("the file is larger than {} MB", MOST_BYTES >> 20),
-            "a plan is a short text: check the path",
+            "a plan, or a list, is a short text: check the path",
         ));
     }
     Ok(bytes)

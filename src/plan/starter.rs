@@ -4,6 +4,7 @@ use std::fmt::Display;
 
 use super::keys::{Key, Section, blast_row, cable, delay, ground, limits, plan, shelter, tire, uncertainty};
 use crate::choice::LayoutKind;
+use crate::ropes::catalogue;
 
 /// Questions for a new shelter, each with the answer offered.
 pub const QUESTIONS: [(&str, &str); 11] = [
@@ -12,7 +13,7 @@ pub const QUESTIONS: [(&str, &str); 11] = [
     ("shelter columns (along the blast rows)", "10"),
     ("spacing of the tires, m", "2.6"),
     ("mass of a tire, kg", "280"),
-    ("rope (Left Right: the catalogue)", "GOST 2688-80 19.5 1770"),
+    ("rope (Left Right: the catalogue)", "Polyester 28"),
     ("shelter rows over holes, as 2-4", "2-4"),
     ("launch, m/s; or height of a loose test tire, as 0.8 m", "4"),
     ("intervals to compare, ms, as 9, 25 or 9..109", "0, 9, 20, 25, 42, 67, 109"),
@@ -66,12 +67,25 @@ impl Shelter<'_> {
             explained(&tire::OUTER_DIAMETER_M, diameter_m),
             header(&cable::SECTION),
             explained(&cable::ROPE, quoted(self.rope)),
-            line(&cable::TERMINATION, quoted("mechanical sleeve")),
+            termination(self.rope),
             line(&cable::SLACK_PERCENT, 2),
             header(&ground::SECTION),
             explained(&ground::FRICTION, 0.5),
         ]
         .concat()
+    }
+}
+
+/// The termination of a rope: a sleeve where it fits, else the splice that fibre ropes have.
+fn termination(rope: &str) -> String {
+    const SLEEVE: &str = "mechanical sleeve";
+    let family = catalogue().find(rope).map(|rope| rope.family.as_str());
+    match family.is_none_or(|family| catalogue().fits(SLEEVE, family)) {
+        true => line(&cable::TERMINATION, quoted(SLEEVE)),
+        false => format!(
+            "{:<32} # spliced eyes; a well made splice leaves 70 to 90 % (FM 55-501)\n",
+            format!("{} = 70", cable::TERMINATION_PERCENT.name)
+        ),
     }
 }
 
@@ -126,12 +140,28 @@ pub(super) fn uncertainty() -> String {
             "of the detonator in every hole; 0: there is none, or it is electronic",
         ),
         typical(&uncertainty::LAUNCH_CV_PERCENT, "5", "hole by hole; assumed: put in yours"),
+        typical(&uncertainty::LAUNCH_ROW_CV_PERCENT, "1", "row by row; assumed"),
         typical(
             &uncertainty::LAUNCH_COMMON_PERCENT,
             "10",
             "of a velocity from a flight height known to 20 %: V0 = √(2 g h)",
         ),
+        typical(&uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT, "5", "from shot to shot; assumed: put in yours"),
+        typical(
+            &uncertainty::LAUNCH_MASS_EXPONENT,
+            "[0, 1]",
+            "a tire of mass m' leaves with V0 (m/m')^n; no measurement decides",
+        ),
         typical(&uncertainty::LAUNCH_TILT_DEG, "3", "assumed: put in yours"),
+        typical(&uncertainty::LAUNCH_TILT_COMMON_DEG, "0.5", "of all launches together; assumed"),
+        typical(&uncertainty::HOLE_POSITION_M, "0.05", "of a hole about its mark; assumed: measure some"),
+        typical(
+            &uncertainty::PATTERN_OFFSET_M,
+            "0.05",
+            "of the shelter over all holes; assumed: measure at two corners",
+        ),
+        typical(&uncertainty::HOLE_FAILS_PERCENT, "0.01", "duds; assumed"),
+        typical(&uncertainty::CABLE_LENGTH_M, "0.01", "of a rope as tied; assumed: measure some"),
         typical(&uncertainty::FRICTION, "[0.3, 0.5]", "rocky soil"),
         typical(
             &uncertainty::SLACK_PERCENT,

@@ -9,9 +9,9 @@ use crate::choice::Detonator;
 /// What is not known of the shot, and how far; 0 or `[x, x]` means known exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Uncertainty {
-    /// Whether the plan has no `[uncertainty]`: every input is assumed known to 1 %.
+    /// Whether the plan has no `[uncertainty]`: every input is assumed, see its default.
     pub assumed: bool,
-    /// Whether an input is assumed known to 1 %, because the plan does not name it.
+    /// Whether an input is assumed, because the plan does not name it.
     pub incomplete: bool,
     /// Scatter of every detonator.
     pub delay: DelayScatter,
@@ -19,10 +19,26 @@ pub struct Uncertainty {
     pub in_hole_delay_ms: f64,
     /// Coefficient of variation of launch velocities, hole by hole, lognormal [%].
     pub launch_cv_percent: f64,
-    /// Coefficient of variation of a factor on all launch velocities at once, lognormal [%].
+    /// Coefficient of variation of a factor on all launch velocities at once, lognormal [%]: they are an estimate.
     pub launch_common_percent: f64,
+    /// Coefficient of variation of another such factor, which each shot draws anew, lognormal [%].
+    pub launch_between_shots_percent: f64,
+    /// Smallest and largest exponent n of the [mass law](super::mass_law), the same in the whole shot.
+    pub launch_mass_exponent: [f64; 2],
+    /// Coefficient of variation of launch velocities, row by row, lognormal [%].
+    pub launch_row_cv_percent: f64,
     /// Standard deviation of the launch direction about each horizontal axis, hole by hole [°].
     pub launch_tilt_deg: f64,
+    /// Standard deviation of the launch directions of the whole shot about each horizontal axis [°].
+    pub launch_tilt_common_deg: f64,
+    /// Standard deviation of the place of a hole along each axis, hole by hole [m].
+    pub hole_position_m: f64,
+    /// Standard deviation of the place of the shelter over all holes along each axis [m].
+    pub pattern_offset_m: f64,
+    /// Probability that a hole does not fire, each by itself [%].
+    pub hole_fails_percent: f64,
+    /// Standard deviation of the length of cables as tied, cable by cable [m].
+    pub cable_length_m: f64,
     /// Smallest and largest coefficient of friction, the same under the whole shot.
     pub friction: [f64; 2],
     /// Smallest and largest slack, the same in all cables [%].
@@ -52,6 +68,9 @@ impl Uncertainty {
         let range = cable::SLACK_PERCENT.kind.range();
         [slack_percent - 0.1, slack_percent + 0.1].map(|slack| slack.clamp(*range.start(), *range.end()))
     }
+
+    /// The range of the exponent of the mass law where the plan gives none: no measurement decides.
+    pub const ANY_MASS_EXPONENT: [f64; 2] = [0.0, 1.0];
 
     /// The deviation of axial stiffness [%] assumed where the plan gives no range.
     pub const USUAL_AXIAL_STIFFNESS: [f64; 2] = [-1.0, 1.0];

@@ -67,7 +67,7 @@ mod tests {
 
     /// Names and values of what is unusual in the example with `new` in place of `old`.
     fn told(old: &str, new: &str) -> Vec<(&'static str, f64)> {
-        let text = include_str!("../../plans/amur-three-rows.toml");
+        let text = include_str!("../../tests/fixtures/amur-three-rows.toml");
         assert!(text.contains(old), "{old}");
         let plan = Plan::parse("", &text.replace(old, new)).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         plan.unusual().iter().map(|unusual| (unusual.key.name, unusual.value)).collect()
@@ -83,7 +83,7 @@ mod tests {
 
     #[test]
     fn every_key_with_a_usual_range_is_looked_at() {
-        let plan = Plan::parse("", include_str!("../../plans/amur-three-rows.toml"));
+        let plan = Plan::parse("", include_str!("../../tests/fixtures/amur-three-rows.toml"));
         let plan = plan.unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let looked_at = plan.with_usual_ranges();
         // Holes have their launch as rows do.

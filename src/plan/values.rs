@@ -68,17 +68,16 @@ pub struct SizeSpec {
 }
 
 impl Plan {
-    /// The plan with another rope, tire mass and border. The holes give the same momentum: a tire of another mass leaves at
-    /// another speed. All other values stay.
+    /// The plan with another rope, tire mass and border. Tires of another mass leave as fast as the worse end of the
+    /// [mass law](super::mass_law) says. All other values stay.
     pub fn with_sizes(&self, rope: &Rope, tire_mass_kg: f64, border_rows: usize) -> Plan {
         let mut plan = self.clone();
         plan.cable.rope = Some(rope.name.clone());
         plan.cable.axial_stiffness_kn = rope.axial_stiffness_kn;
         plan.cable.breaking_force_kn = rope.breaking_force_kn * plan.cable.termination_percent * 1e-2;
         plan.tire.mass_kg = tire_mass_kg;
-        for launch in plan.launches_mut() {
-            launch.speed_m_s = launch.speed_m_s * self.tire.mass_kg / tire_mass_kg;
-        }
+        let factor = self.launch_factor_of_mass(tire_mass_kg);
+        plan.launches_mut().for_each(|launch| launch.speed_m_s *= factor);
         if let Layout::Grid(mesh) | Layout::Quincunx(mesh) = &mut plan.layout {
             mesh.border_rows = border_rows;
         }
@@ -311,6 +310,8 @@ pub struct Launch {
     pub push_ms: f64,
     /// Explosive in the hole [kg]; all holes of a plan have a charge, or none has.
     pub charge_kg: Option<f64>,
+    /// Depth below the hole's mouth from which the push comes [m].
+    pub push_depth_m: Option<f64>,
 }
 
 /// Limits of a passing option.
@@ -328,6 +329,10 @@ pub struct LimitsSpec {
     pub charge_in_8_ms_kg: Option<f64>,
     /// Share of the shots that `[uncertainty]` describes that may go past a limit [%].
     pub accepted_risk_percent: f64,
+    /// Whether an option passes only if it also holds with any one hole that does not fire.
+    pub withstands_one_dud: bool,
+    /// Share of the shots with one dud that may go past a limit [%].
+    pub dud_risk_percent: f64,
 }
 
 /// One delay option.
@@ -355,11 +360,13 @@ pub struct HoleTiming {
     pub interval_ms: f64,
     /// Where the holes begin.
     pub order: HoleOrder,
+    /// Whether one hole fires the next, so that a dud takes others along.
+    pub fired_through: bool,
 }
 
 impl HoleTiming {
     /// The holes of a row fire together.
-    pub const TOGETHER: Self = Self { interval_ms: 0.0, order: HoleOrder::DEFAULT };
+    pub const TOGETHER: Self = Self { interval_ms: 0.0, order: HoleOrder::DEFAULT, fired_through: false };
 
     /// Whether the holes of a row fire at one time.
     pub fn is_together(&self) -> bool {
@@ -368,12 +375,13 @@ impl HoleTiming {
 
     /// Whether the holes of every row fire alike: without an interval the order says nothing.
     pub fn is_same(&self, other: &Self) -> bool {
-        self == other || self.is_together() && other.is_together()
+        let is_alike = self.is_together() && other.is_together() && self.fired_through == other.fired_through;
+        self == other || is_alike
     }
 
     /// In words, such as `holes 17 ms left`; `None` where they fire together.
     pub fn words(&self) -> Option<String> {
-        let Self { interval_ms, order } = self;
+        let Self { interval_ms, order, .. } = self;
         (*interval_ms > 0.0).then(|| format!("holes {interval_ms} ms {order}"))
     }
 }

@@ -7,15 +7,21 @@ pub fn turns_text(letter: char) -> bool {
     matches!(letter, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// The text with its control characters, and those that turn text round, as Rust and TOML write them: `\n`, `\u{202e}`.
+/// Whether a character has no width and no part in how its neighbours look.
+fn is_empty(letter: char) -> bool {
+    matches!(letter, '\u{ad}' | '\u{180e}' | '\u{200b}' | '\u{2060}'..='\u{2064}' | '\u{feff}')
+}
+
+/// The text with its control characters, those without width, and those that turn text round, as Rust and TOML write them: `\n`,
+/// `\u{202e}`.
 pub fn visible(text: &str) -> Cow<'_, str> {
-    let is_hidden = |letter: char| letter.is_control() || turns_text(letter);
+    let is_hidden = |letter: char| letter.is_control() || turns_text(letter) || is_empty(letter);
     if !text.contains(is_hidden) {
         return Cow::Borrowed(text);
     }
     let shown = |letter: char| match is_hidden(letter) {
-        // Some of those that turn text count as printable.
-        true if turns_text(letter) => letter.escape_unicode().to_string(),
+        // Some of the others count as printable.
+        true if !letter.is_control() => letter.escape_unicode().to_string(),
         true => letter.escape_default().to_string(),
         false => letter.to_string(),
     };
@@ -30,6 +36,10 @@ mod tests {
     fn what_nobody_sees_is_shown() {
         assert_eq!(visible("Reihe 3, größte №"), "Reihe 3, größte №");
         assert_eq!(visible("a\u{1b}[2J\n\u{202e}b\u{7f}"), "a\\u{1b}[2J\\n\\u{202e}b\\u{7f}");
-        assert!("\u{200f}\u{2066}\u{9b}".chars().all(|letter| visible(&letter.to_string()).is_ascii()));
+        assert!(
+            "\u{200f}\u{2066}\u{9b}\u{200b}\u{feff}"
+                .chars()
+                .all(|letter| visible(&letter.to_string()).is_ascii())
+        );
     }
 }

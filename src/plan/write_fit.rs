@@ -15,6 +15,8 @@ use crate::units::{self, Unit};
 pub struct StatedKeys {
     /// The launch in common.
     pub launch_common: bool,
+    /// The launch from shot to shot.
+    pub launch_between_shots: bool,
     /// Friction.
     pub friction: bool,
     /// Slack.
@@ -32,11 +34,30 @@ impl StatedKeys {
         let has = |key: &Key| section.is_some_and(|section| section.contains_key(key.name));
         Self {
             launch_common: has(&uncertainty::LAUNCH_COMMON_PERCENT),
+            launch_between_shots: has(&uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT),
             friction: has(&uncertainty::FRICTION),
             slack: has(&uncertainty::SLACK_PERCENT),
             axial_stiffness: has(&uncertainty::AXIAL_STIFFNESS_PERCENT),
         }
     }
+}
+
+/// What a fit leaves in a plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FitToWrite {
+    /// The estimates.
+    pub estimates: Vec<EstimateToWrite>,
+    /// How well launches are known; `None` where none were estimated.
+    pub launches: Option<LaunchUncertainty>,
+}
+
+/// How well launches are known after a fit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LaunchUncertainty {
+    /// Coefficient of variation of all launch velocities at once [%]: what the fit leaves of it.
+    pub common_percent: f64,
+    /// The same from shot to shot [%]: what no fit of few shots takes away.
+    pub between_shots_percent: f64,
 }
 
 /// One estimate.
@@ -66,29 +87,32 @@ impl EstimateToWrite {
 }
 
 /// The text of a plan with these estimates, and with the checksums of the observations behind them. Comments and formatting stay.
-/// A stiffness of rope takes the place of the rope's name. Launches by row leave the greatest of their standard deviations.
+/// A stiffness of rope takes the place of the rope's name.
 ///
-/// What is not known is widened where an estimate is less sure than `before`, and never narrowed: how well the launches, friction
-/// or slack of past shots are known does not say how far the next shot differs from them.
+/// How well launches are known is written as the fit leaves it, beside how far they differ from shot to shot, which stays. Of
+/// friction, slack and stiffness a plan has one range for both: it is widened where an estimate is less sure than `before`, and never
+/// narrowed, since how well those of past shots are known does not say how far the next shot differs from them.
 pub fn write(
     text: &str,
     before: &Uncertainty,
-    fitted: &[EstimateToWrite],
+    fitted: &FitToWrite,
     checksums: &[String],
 ) -> Result<String, String> {
     let mut document: DocumentMut =
         text.parse().map_err(|error: toml_edit::TomlError| error.message().to_owned())?;
-    for estimate in fitted {
+    for estimate in &fitted.estimates {
         write_value(&mut document, estimate);
     }
-    let launches =
-        fitted.iter().filter(|estimate| matches!(estimate.unknown, Unknown::Launch | Unknown::LaunchByRow));
-    let launch_percent = launches.map(EstimateToWrite::percent).reduce(f64::max);
     change_section(&mut document, &plan::UNCERTAINTY, |section| {
-        if let Some(percent) = launch_percent.filter(|percent| *percent > before.launch_common_percent) {
-            set(section, uncertainty::LAUNCH_COMMON_PERCENT.name, short(percent).into());
+        if let Some(LaunchUncertainty { common_percent, between_shots_percent }) = fitted.launches {
+            for (key, percent) in [
+                (&uncertainty::LAUNCH_COMMON_PERCENT, common_percent),
+                (&uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT, between_shots_percent),
+            ] {
+                set(section, key.name, short(percent).into());
+            }
         }
-        for estimate in fitted {
+        for estimate in &fitted.estimates {
             match estimate.unknown {
                 Unknown::Friction => {
                     set_range(section, &uncertainty::FRICTION, estimate.ends(before.friction));
@@ -164,21 +188,30 @@ mod tests {
     use super::*;
     use crate::plan::Plan;
 
-    const PLAN: &str = include_str!("../../plans/amur-three-rows.toml");
+    const PLAN: &str = include_str!("../../tests/fixtures/amur-three-rows.toml");
 
     fn written(text: &str, fitted: &[EstimateToWrite]) -> (String, Plan) {
         let before = Plan::parse("plan.toml", text)
             .map_or_else(|mistakes| panic!("{mistakes}"), |plan| plan.uncertainty);
-        let text = write(text, &before, fitted, &["ab12".to_owned()]).expect("TOML");
+        let text = write(text, &before, &to_write(fitted), &["ab12".to_owned()]).expect("TOML");
         let plan = Plan::parse("plan.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         (text, plan)
+    }
+
+    /// With launches known to 2 %, that differ by 5 % from shot to shot.
+    fn to_write(estimates: &[EstimateToWrite]) -> FitToWrite {
+        let of_launches = |e: &EstimateToWrite| matches!(e.unknown, Unknown::Launch | Unknown::LaunchByRow);
+        let launches = LaunchUncertainty { common_percent: 2.0, between_shots_percent: 5.0 };
+        let launches = estimates.iter().any(of_launches).then_some(launches);
+        FitToWrite { estimates: estimates.to_vec(), launches }
     }
 
     fn fitted(unknown: Unknown, value: f64, sd: f64) -> EstimateToWrite {
         EstimateToWrite { unknown, row: None, value, sd }
     }
 
-    /// Every line that no estimate is about stays as it is, with its comment; so does an uncertainty that an estimate would narrow.
+    /// Every line that no estimate is about stays as it is, with its comment; so does a range that an estimate would narrow. What is
+    /// known of launches is written as the fit leaves it, in common and from shot to shot.
     #[test]
     fn only_the_lines_of_estimates_change() {
         let estimates = [
@@ -196,17 +229,19 @@ mod tests {
                 "launch_m_s = 6.6",
                 "launch_m_s = 6.6",
                 "launch_m_s = 6.6",
+                "launch_common_percent = 2.0        # of the whole shot at once: the velocities are an estimate; assumed: put in yours",
+                "launch_between_shots_percent = 5.0 # from shot to shot, which no fit of one shot takes away; assumed: put in yours",
                 "friction = [0.35, 0.55]            # rocky soil",
                 "slack_percent = [0.0, 0.6]       # assumed: measure yours",
                 "fitted_from = [\"ab12\"]",
             ]
         );
         assert_eq!(plan.fitted_from, ["ab12"]);
-        let again = write(&text, &plan.uncertainty, &[], &["cd34".to_owned()]).expect("TOML");
+        let again = write(&text, &plan.uncertainty, &to_write(&[]), &["cd34".to_owned()]).expect("TOML");
         assert!(again.contains("fitted_from = [\"ab12\", \"cd34\"]"), "{again}");
         let before = Plan::parse("", PLAN).unwrap_or_else(|mistakes| panic!("{mistakes}")).uncertainty;
         let windows = PLAN.replace('\n', "\r\n");
-        let windows = write(&windows, &before, &estimates, &["ab12".to_owned()]).expect("TOML");
+        let windows = write(&windows, &before, &to_write(&estimates), &["ab12".to_owned()]).expect("TOML");
         assert_eq!(windows, text.replace('\n', "\r\n"));
     }
 
@@ -231,7 +266,7 @@ mod tests {
         let (_, plan) = written(PLAN, &[row(0, 0.5), row(1, 1.0), row(2, 2.0)]);
         let speeds: Vec<f64> = plan.launches().map(|launch| launch.speed_m_s).collect();
         assert_eq!(speeds, [3.0, 6.0, 12.0]);
-        assert_eq!(plan.uncertainty.launch_common_percent, 10.0);
+        assert_eq!(plan.uncertainty.launch_common_percent, 2.0);
     }
 
     #[test]
@@ -240,6 +275,8 @@ mod tests {
         assert_eq!(StatedKeys::of(text), StatedKeys::default());
         let (text, plan) = written(text, &[fitted(Unknown::Launch, 0.9, 0.018)]);
         assert_eq!(plan.uncertainty.launch_common_percent, 2.0);
-        assert_eq!(StatedKeys::of(&text), StatedKeys { launch_common: true, ..StatedKeys::default() });
+        assert_eq!(plan.uncertainty.launch_between_shots_percent, 5.0);
+        let stated = StatedKeys { launch_common: true, launch_between_shots: true, ..StatedKeys::default() };
+        assert_eq!(StatedKeys::of(&text), stated);
     }
 }

@@ -3,6 +3,7 @@
 use super::option_row::{OptionRow, option_rows};
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Detail, Field, Report, Table};
 use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height, launch_margin_share};
+use super::words::headline::headline;
 use super::words::option_sentences::{self, broken, compute_label, launch_margin};
 use super::words::reasons;
 use super::words::{no_result, warnings};
@@ -11,6 +12,7 @@ use crate::study::Case;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
+use crate::study::recommend::recommended;
 use crate::study::remedies::Remedies;
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Quantity, Verdict};
@@ -48,6 +50,10 @@ fn fields<'a>(sampled: bool, drift_has_limit: bool) -> Vec<Field<OptionRow<'a>>>
             row.result
                 .as_ref()
                 .map_or(Cell::Nothing, |judged| Cell::Text(judged_inputs(row.case, judged).to_owned()))
+        }),
+        Field::new(Column::scripts(&["confirmed"]), |row| {
+            let confirmed = row.result.as_ref().ok().and_then(Judgement::is_confirmed);
+            confirmed.map_or(Cell::Nothing, Cell::Flag)
         }),
         Field::new(Column::scripts(&["nominal_verdict"]), |row| {
             row.as_planned(|checked| Cell::Verdict(checked.verdict))
@@ -167,8 +173,11 @@ pub fn report(
     complete_rows(&mut table, case, results);
     let passed = results.iter().flatten().filter(|judged| judged.verdict() == Verdict::Pass).count();
     let so_far = if partial { " so far, ended early" } else { "" };
-    let mut text =
-        format!("{passed} of {} options pass{so_far}{}", results.len(), pass_caveat(case, sampled));
+    let caveat = pass_caveat(case, sampled);
+    let mut text = format!("{passed} of {} options pass{so_far}{caveat}", results.len());
+    if recommended(case, results).is_some() && results.len() > 1 {
+        text = format!("{}{caveat} · {passed} of {} pass{so_far}", headline(case, results), results.len());
+    }
     if let Some(judged) = results.iter().flatten().next() {
         text += &format!(" · {}", compute_label(&judged.checked.compute));
     }
@@ -198,7 +207,7 @@ pub fn judged_inputs(case: &Case, judged: &Judgement) -> &'static str {
 pub(super) fn pass_caveat(case: &Case, sampled: bool) -> &'static str {
     match (sampled, case.plan.uncertainty.assumed) {
         (false, _) => " (the plan's own numbers only)",
-        (true, true) => " (inputs assumed known to 1 %)",
+        (true, true) => " (inputs assumed: see `shelter assumptions`)",
         (true, false) => "",
     }
 }
@@ -220,6 +229,10 @@ pub(super) fn complete_rows(table: &mut Table, case: &Case, results: &OptionResu
 fn details(case: &Case, judged: &Judgement) -> Vec<Detail> {
     let checked = &judged.checked;
     let mut details = reasons::details(case, judged);
+    let next_tires = option_sentences::next_tires(case, judged).into_iter();
+    details.extend(next_tires.map(|text| Detail { verdict: Verdict::Undecided, text }));
+    details
+        .extend(option_sentences::dud_of(case, judged).map(|text| Detail { verdict: Verdict::Pass, text }));
     if !checked.broken.is_empty() {
         details.push(Detail { verdict: Verdict::Fail, text: broken(case.scene(), checked) });
     }

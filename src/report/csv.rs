@@ -100,8 +100,11 @@ fn fields<'a>(table: &Table, row: &'a Row) -> Vec<CsvValue<'a>> {
             Cell::Verdict(verdict) => vec![CsvValue::Text(verdict.for_scripts())],
             Cell::Flag(flag) => vec![CsvValue::Flag(*flag)],
             Cell::Count(count) => vec![CsvValue::Count(*count)],
-            Cell::Factor(factor) if factor.is_infinite() => Vec::new(),
-            Cell::Estimate { value, error, .. } => vec![CsvValue::Number(*value), CsvValue::Number(*error)],
+            Cell::Factor(factor) if !factor.is_finite() => Vec::new(),
+            Cell::Estimate { value, error, .. } => {
+                let error = if error.is_finite() { CsvValue::Number(*error) } else { CsvValue::Nothing };
+                vec![CsvValue::Number(*value), error]
+            }
             Cell::Spread(values, _) => values.map(CsvValue::Number).to_vec(),
             Cell::Band(ends, _) => ends.map(CsvValue::Number).to_vec(),
             Cell::Probability(interval) => interval.map(CsvValue::Number).to_vec(),

@@ -6,6 +6,7 @@ use super::report_head;
 use crate::choice::Unknown;
 use crate::plan::observations::{Observations, unit};
 use crate::study::Case;
+use crate::study::fit::between_shots::BetweenShotsSource;
 use crate::study::fit::parameter::Parameter;
 use crate::study::fit::{Answer, Fit, FitResult, FittedParameter, NotDetermined, Observable, Residual};
 use crate::units;
@@ -70,7 +71,9 @@ pub fn report(case: &Case, files: &[Observations], fit: &Fit, sampled: bool) -> 
     let columns: Vec<_> = [number, name].into_iter().chain(rest).chain(estimate_numbers()).collect();
     let mut blocks =
         vec![Block::Text(vec![basis(files, fit, sampled)]), Block::Table(Table::of(&columns, rows()))];
-    blocks.push(Block::Text(correlated_pairs(case, &fit.answers[0])));
+    blocks.push(Block::Text(
+        launches_known(fit).into_iter().chain(correlated_pairs(case, &fit.answers[0])).collect(),
+    ));
     let rows = fitted_rows(case, fit);
     let sentences = bands(case, &rows).into_iter().chain(next(case, fit)).collect();
     blocks.extend([Block::Table(observed_table(&rows)), Block::Text(sentences)]);
@@ -133,6 +136,21 @@ pub fn launch_speeds(case: &Case, parameter: Parameter) -> Vec<f64> {
     speeds.sort_by(f64::total_cmp);
     speeds.dedup();
     speeds
+}
+
+/// How well launches are known after the fit, and how far they differ from shot to shot.
+fn launches_known(fit: &Fit) -> Option<String> {
+    let between = fit.between_shots?;
+    let source = match between.source {
+        BetweenShotsSource::Stated => "as stated".to_owned(),
+        BetweenShotsSource::Assumed => "assumed: the plan does not say".to_owned(),
+        BetweenShotsSource::UpperBound => format!("95 % upper bound of {} shots", between.shots),
+    };
+    let percent = |percent: f64| units::rounded(percent, 1);
+    let common =
+        fit.launches.map(|launches| format!("launch_common_percent {}, ", percent(launches.common_percent)));
+    let (common, between) = (common.unwrap_or_default(), percent(between.percent));
+    Some(format!("after this fit: {common}launch_between_shots_percent {between} ({source})"))
 }
 
 /// Which estimates hang together.

@@ -3,7 +3,7 @@
 //! | what | where |
 //! |---|---|
 //! | what a report is | [`parts`] |
-//! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`mod@fit`], [`remedies`], [`accuracy`], `paper_table`, [`ropes`], [`trace`] |
+//! | what was found → report, one file a question | [`check`], [`sweep`], [`orders`], [`risk`], [`size`], [`search`], [`effects`], [`assumptions`], [`mod@fit`], [`remedies`], [`accuracy`], `paper_table`, [`ropes`], [`trace`] |
 //! | sentences that reports and screens share | [`words`] |
 //! | charts, columns and rows that reports share | [`charts`], [`shared_columns`], `option_row` |
 //! | faces | [`text`], [`csv`], [`json`], `html`; the terminal has its own |
@@ -13,6 +13,7 @@
 
 pub mod accuracy;
 pub mod ascii;
+pub mod assumptions;
 pub mod charts;
 pub mod check;
 pub mod csv;
@@ -57,8 +58,8 @@ fn title(case: &Case) -> String {
 fn accepted_risk(case: &Case, sampled: bool) -> String {
     let uncertainty = &case.plan.uncertainty;
     let assumed = match (uncertainty.assumed, uncertainty.incomplete) {
-        (true, _) => " · inputs assumed known to 1 %",
-        (_, true) => " · inputs that [uncertainty] leaves out assumed known to 1 %",
+        (true, _) => " · inputs assumed",
+        (_, true) => " · inputs that [uncertainty] leaves out are assumed",
         _ => "",
     };
     let text = format!(" · accepted risk {} %{assumed}", case.plan.limits.accepted_risk_percent);

@@ -56,8 +56,7 @@ fn sampled_fields<'a>() -> [Field<RankedOrder<'a>>; 3] {
 const OFFERED: usize = 100;
 
 /// How far the samples reach.
-const RANKING: &str =
-    "ranked as planned; the worst and the best are sampled a little, the very best until its verdict is sure";
+const RANKING: &str = "ranked as planned; the worst and the best get a few samples, those that decide as many as their verdict takes";
 
 /// The report of all orders tried, which is partial where the time was up.
 pub fn report(case: &Case, found: &Computed<Orders>) -> Report {

@@ -10,7 +10,7 @@ use super::shared_columns::{FAILURES, FORCE, HEIGHT, VERDICT, force, height, lau
 use super::words::option_sentences::{compute_label, launch_margin, together};
 use super::words::warnings;
 use super::{charts, report_head, row_names};
-use crate::study::search::{FrontPoint, Schedule, Search, duration};
+use crate::study::search::{FrontPoint, Schedule, Search};
 use crate::study::{Case, Computed};
 use crate::units::{self, Unit};
 use crate::verdict::Quantity;
@@ -40,7 +40,7 @@ fn fields<'a>() -> [Field<FoundRow<'a>>; 19] {
         Field::new(VERDICT, |row| Cell::Verdict(row.option.verdict())),
         Field::new(FAILURES, |row| row.option.sampled(|sampled| Cell::Probability(sampled.bounds.interval))),
         Field::new(Column::numbers(&["duration_s"], "lasts", Unit::One), |row| {
-            Cell::Interval(duration(row.option.shot))
+            Cell::Interval(row.option.shot.duration())
         }),
         Field::new(Column::words(&[], "in 8 ms"), |row| Cell::Text(together(row.option.together()))),
         Field::new(LAUNCH_MARGIN, |row| {

@@ -7,6 +7,7 @@ use super::words::limits::limits_of_any_rope;
 use super::words::no_result::REMEDY_IN_PLAN_WORDS;
 use super::words::warnings;
 use super::{accepted_risk, title};
+use crate::plan::Plan;
 use crate::study::Case;
 use crate::study::size::{Combination, Sizing, Trial, Untried, WorstShotRisk};
 use crate::units::{self, Unit};
@@ -68,9 +69,7 @@ pub fn report(case: &Case, sizing: &Sizing) -> Report {
         .iter()
         .any(|combination| combination.trial.is_ok_and(|trial| trial.risk.is_some()));
     facts[0] += &accepted_risk(case, sampled);
-    facts.push(
-        "a lighter tire leaves faster, a heavier one slower: the holes give the same momentum".to_owned(),
-    );
+    facts.extend(mass_law(&case.plan, sizing));
     let choices: Vec<(&Combination, Trial)> =
         sizing.choices().filter_map(|combination| Some((combination, combination.trial.ok()?))).collect();
     let mut blocks = vec![Block::Text(tried(sizing))];
@@ -91,6 +90,21 @@ pub fn report(case: &Case, sizing: &Sizing) -> Report {
     blocks.push(Block::Table(Table::of(&combinations(), &sizing.combinations)));
     blocks.push(Block::Picture(charts::size(sizing)));
     Report { title: title(case), facts, blocks, warnings, conclusion: Some(conclusion(sizing)) }
+}
+
+/// How fast tires of another mass leave; nothing where all have the mass of the plan.
+fn mass_law(plan: &Plan, sizing: &Sizing) -> Option<String> {
+    let mass = plan.tire.mass_kg;
+    if sizing.combinations.iter().all(|combination| combination.tire_mass == mass) {
+        return None;
+    }
+    let law = format!("a tire of mass m leaves with V0 ({mass} kg / m)^n");
+    Some(match plan.uncertainty.launch_mass_exponent {
+        [least, most] if least == most => format!("{law}, n = {most}"),
+        [least, most] => format!(
+            "{law}: tires of another mass must hold at n = {least} and at n = {most}; the plan gets the worse of both"
+        ),
+    })
 }
 
 /// How many combinations were tried, and why the others were not.

@@ -1,7 +1,7 @@
 //! Sparklines: a series as one line of bars; of each stretch the tallest bar is kept.
 
-// No full block: rows of sparklines would run into one another.
-const BARS: [char; 7] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇'];
+/// Bars from the least to the greatest. No full block: rows of sparklines would run into one another.
+pub const BARS: [char; 7] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇'];
 
 /// `width` bars for `series`, scaled so that `top` fills a bar, or the greatest value where that is more.
 pub fn sparkline(series: &[f64], width: usize, top: f64) -> String {

@@ -15,13 +15,14 @@ use crate::units::{self, Unit};
 use crate::verdict::Verdict;
 
 /// Every interval tried, for scripts.
-fn points<'a>() -> [Field<&'a Point>; 7] {
+fn points<'a>() -> [Field<&'a Point>; 8] {
     [
         Field::new(INTERVAL.shown(Audience::Scripts), |point| Cell::Interval(point.interval)),
         Field::new(HEIGHT.shown(Audience::Scripts), |point| height(point.planned.height)),
         Field::new(FORCE.shown(Audience::Scripts), |point| force(point.planned.force)),
         Field::new(VERDICT.shown(Audience::Scripts), |point| Cell::Verdict(point.verdict())),
         Field::new(NOMINAL_VERDICT, |point| Cell::Verdict(point.planned.verdict)),
+        Field::new(Column::scripts(&["quick"]), |point| Cell::Flag(point.is_quick)),
         Field::new(PROBABILITY, |point| probability(point.risk.known())),
         Field::new(FAILURES.shown(Audience::Scripts), |point| failures(point.risk.known())),
     ]
@@ -72,6 +73,10 @@ fn table_of_highlights(case: &Case, sweep: &Sweep) -> Table {
     let best = sweep.best();
     let named = [("recommended", best), ("worst", sweep.worst(case))];
     let named = named.into_iter().filter_map(|(name, point)| Some((name, point?)));
+    let named = named.map(|(name, point)| match (name, point.is_quick) {
+        ("worst", true) => ("worst, by a quick check", point),
+        _ => (name, point),
+    });
     // Without any sample the last column has no cell.
     let (fields, is_sampled) = (highlights(), sweep.points.iter().any(Point::is_sampled));
     // Only what has a full verdict is offered; without it the first row would be another.
@@ -173,7 +178,7 @@ fn recommended(sweep: &Sweep, has_risk: bool) -> Vec<String> {
         ));
         if let Some(risk) = sweep.best().and_then(|point| point.risk.known()) {
             lines.push(format!(
-                "its full verdict is PASS: {}, at each look surely fewer than accepted",
+                "its full verdict is PASS: {}, surely fewer than accepted; fresh draws confirm it",
                 sampled(risk)
             ));
         }
@@ -229,27 +234,18 @@ fn listed(what: &str, windows: &[[f64; 2]]) -> Vec<String> {
 
 fn conclusion(swept: &Computed<Sweep>) -> Conclusion {
     let Computed { value: sweep, partial } = swept;
-    let tried = sweep.points.len();
-    let not_passing = sweep.points.iter().filter(|point| point.verdict() != Verdict::Pass).count();
     let so_far = if *partial { " so far" } else { "" };
+    let best = sweep.best().map(|best| units::exact_milliseconds(best.interval));
     let has_risk = sweep.has_risk();
-    let text = match not_passing {
-        _ if has_risk => {
-            let passes = |point: &&Point| point.planned.verdict == Verdict::Pass;
-            let count = sweep.points.iter().filter(passes).count();
-            let best = sweep.best().map_or("none is recommended".to_owned(), |best| {
-                let best = units::exact_milliseconds(best.interval);
-                format!("{best} is recommended, and its full verdict is PASS")
-            });
-            let range = sweep.range().map(units::exact_milliseconds).join(" to ");
-            format!("the range as a whole, {range}; {count} of {tried} tried{so_far} pass as planned; {best}")
-        }
-        _ if tried == 0 => "no interval was tried".to_owned(),
-        0 => format!("all {tried} intervals tried{so_far} pass (the plan's own numbers only)"),
-        _ => format!(
-            "{not_passing} of {tried} intervals tried{so_far} do not pass (the plan's own numbers only)"
-        ),
+    let answer = match best {
+        _ if sweep.points.is_empty() => "no interval was tried".to_owned(),
+        Some(best) if has_risk => format!("{best} is recommended; fresh draws confirm it"),
+        Some(best) => format!("{best} lies deepest among intervals that pass (the plan's own numbers only)"),
+        None => format!("no interval is recommended{so_far}"),
     };
+    let passing = sweep.points.iter().filter(|point| point.planned.verdict == Verdict::Pass).count();
+    let count = format!("{passing} of {} intervals tried{so_far} pass as planned", sweep.points.len());
+    let text = if sweep.points.is_empty() { answer } else { format!("{answer} · {count}") };
     Conclusion { verdict: swept.verdict(), text }
 }
 
@@ -266,43 +262,33 @@ mod tests {
     }
 
     #[test]
-    fn a_sweep_passes_only_where_every_interval_passes() {
-        let said = |verdicts: &[Verdict], partial: bool| {
+    fn a_sweep_passes_only_where_an_interval_is_recommended() {
+        let said = |verdicts: &[Verdict], recommended: bool, partial: bool| {
             let as_planned = |verdict| ShotSummary { verdict, ..ShotSummary::FAILED_RUN };
             let point = |(n, &verdict): (usize, &Verdict)| Point {
                 interval: n as f64,
                 planned: as_planned(verdict),
+                is_quick: false,
                 risk: Evidence::NotAsked,
             };
             let points = verdicts.iter().enumerate().map(point).collect();
+            let deepest = Recommended { interval: 1.0, room: 0.0, utilization: 0.0 };
             let value = Sweep {
                 order: vec![0, 1],
                 points,
                 windows_as_planned: Vec::new(),
                 windows: Vec::new(),
-                recommended: None,
+                recommended: recommended.then_some(deepest),
                 failed_full_verdict: 0,
             };
-            let Conclusion { verdict, text } = conclusion(&Computed { value, partial });
-            format!("{}: {text}", verdict.for_people())
+            conclusion(&Computed { value, partial }).verdict
         };
         use Verdict::{Fail, Pass, Undecided};
-        assert_eq!(
-            said(&[Pass, Pass], false),
-            "PASS: all 2 intervals tried pass (the plan's own numbers only)"
-        );
-        assert_eq!(
-            said(&[Pass, Pass], true),
-            "OPEN: all 2 intervals tried so far pass (the plan's own numbers only)"
-        );
-        assert_eq!(
-            said(&[Pass, Fail, Undecided], false),
-            "FAIL: 2 of 3 intervals tried do not pass (the plan's own numbers only)"
-        );
-        assert_eq!(
-            said(&[Pass, Undecided], false),
-            "OPEN: 1 of 2 intervals tried do not pass (the plan's own numbers only)"
-        );
-        assert_eq!(said(&[], true), "OPEN: no interval was tried");
+        assert_eq!(said(&[Pass, Pass], true, false), Pass);
+        assert_eq!(said(&[Fail, Pass], true, true), Pass);
+        assert_eq!(said(&[Pass, Pass], false, false), Undecided);
+        assert_eq!(said(&[Fail, Fail], false, false), Fail);
+        assert_eq!(said(&[Fail, Fail], false, true), Undecided);
+        assert_eq!(said(&[], false, true), Undecided);
     }
 }

@@ -3,7 +3,8 @@
 use itertools::Itertools;
 use nalgebra::{Vector2, Vector3};
 
-use super::{Cable, Firing, Scene, Shot, TireId, with_ends};
+use super::shot::direction_of_slope;
+use super::{Cable, Firing, PushLine, Scene, Shot, TireId, with_ends};
 use crate::choice::{HoleOrder, Link, OnOverload};
 use crate::plan::{
     BlastRow, CableSpec, DelayOption, Hole, HoleTiming, Launch, LaunchTargets, Layout, Mesh, NearestPoint,
@@ -55,10 +56,15 @@ impl Shot {
                 true => hole_turns(&places, direction, holes.order),
                 false => vec![0; firings_of_row.len()],
             };
-            let fire = |(firing, turn): (Firing, usize)| Firing { time: at(row, turn as f64), row, ..firing };
-            firings.extend(firings_of_row.into_iter().zip(turns).map(fire));
+            let fire = |(number, (firing, turn)): (usize, (Firing, usize))| Firing {
+                time: at(row, turn as f64),
+                row,
+                number,
+                ..firing
+            };
+            firings.extend(firings_of_row.into_iter().zip(turns).enumerate().map(fire));
         }
-        Self::from_firings(firings)
+        Self { fired_through: holes.fired_through, ..Self::from_firings(firings) }
     }
 }
 
@@ -113,13 +119,19 @@ fn hole_turns(places: &[Vector2<f64>], direction: Vector2<f64>, order: HoleOrder
     turns
 }
 
-/// Firing at time 0 under a tire.
-fn firing(tire: usize, launch: &Launch) -> Firing {
-    let Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms, charge_kg } = *launch;
-    let sideways = azimuth(tilt_toward_deg).push(0.0);
-    let launch = speed_m_s * (cosine(tilt_deg - 90.0) * sideways + cosine(tilt_deg) * Vector3::z());
+/// Firing at time 0 under a tire, whose centre lies `offset` [m] from the mouth of the hole.
+fn firing(tire: usize, launch: &Launch, offset: Vector2<f64>) -> Firing {
+    let Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms, charge_kg, push_depth_m } = *launch;
+    let (sine, cosine) = (cosine(tilt_deg - 90.0), cosine(tilt_deg));
+    let line = PushLine { offset, tilt: sine / cosine * azimuth(tilt_toward_deg), depth: push_depth_m };
+    let direction = match push_depth_m {
+        // A hole right below its tire keeps a launch that is exactly its own mirror image.
+        None => (sine * azimuth(tilt_toward_deg)).push(cosine),
+        Some(_) => direction_of_slope(line.planned_slope()),
+    };
     let charge = charge_kg.unwrap_or(0.0);
-    Firing { push_time: seconds(push_ms), charge, ..Firing::at_once(0.0, tire, launch) }
+    let at_once = Firing::at_once(0.0, tire, speed_m_s * direction);
+    Firing { push_time: seconds(push_ms), charge, line, ..at_once }
 }
 
 /// Direction along the ground at an azimuth [°] from +x toward +y.
@@ -278,6 +290,21 @@ impl Scene {
         }
     }
 
+    /// Makes each cable, of a rope with the axial stiffness `rope` [N], longer by `longer(cable)` [m], but never shorter than what it
+    /// spans.
+    pub fn lengthen_cables(
+        &mut self,
+        spec: &CableSpec,
+        axial_stiffness: f64,
+        mut longer: impl FnMut(usize) -> f64,
+    ) {
+        for (n, cable) in self.cables.iter_mut().enumerate() {
+            let rest_length = (cable.rest_length + longer(n)).max(cable.span.norm());
+            let stiffness = with_ends(axial_stiffness / rest_length, spec.end_stiffness());
+            *cable = Cable { rest_length, stiffness, ..*cable };
+        }
+    }
+
     /// Firings of the holes of a blast row at time 0; a hole fires under the nearest tire, of two equally near under the first.
     pub fn firings(&self, targets: &LaunchTargets) -> Vec<Firing> {
         match targets {
@@ -285,14 +312,18 @@ impl Scene {
                 let in_row =
                     |&n: &usize| matches!(self.tire_ids[n], TireId::Cell { row: r, .. } if r == *row);
                 let tires = (0..self.tire_ids.len()).filter(in_row);
-                tires.map(|tire| firing(tire, launch)).collect()
+                tires.map(|tire| firing(tire, launch, Vector2::zeros())).collect()
             }
             LaunchTargets::UnderTires { tires, launch } => {
-                tires.iter().map(|&tire| firing(tire, launch)).collect()
+                tires.iter().map(|&tire| firing(tire, launch, Vector2::zeros())).collect()
             }
             LaunchTargets::Holes(holes) => {
                 let nearest = NearestPoint::of(self.position.iter().map(|at| [at.x, at.y]).collect());
-                let firing_at = |hole: &Hole| Some(firing(nearest.to([hole.x_m, hole.y_m])?, &hole.launch));
+                let firing_at = |hole: &Hole| {
+                    let tire = nearest.to([hole.x_m, hole.y_m])?;
+                    let offset = self.position[tire].xy() - Vector2::new(hole.x_m, hole.y_m);
+                    Some(firing(tire, &hole.launch, offset))
+                };
                 holes.iter().filter_map(firing_at).collect()
             }
         }

@@ -13,7 +13,7 @@ use nalgebra::{Vector2, Vector3};
 
 pub use build::{fire_at_s, seconds};
 pub use mirror::Mirror;
-pub use shot::{Firing, Shot};
+pub use shot::{ASSUMED_PUSH_DEPTH, Firing, PushLine, Shot, direction_of_slope};
 
 /// The shelter at rest, before any hole fires.
 #[derive(Clone, Debug)]

@@ -1,6 +1,8 @@
 //! Firings of one shot: which tire is launched when, and how fast.
 
-use nalgebra::Vector3;
+use std::collections::BTreeMap;
+
+use nalgebra::{Vector2, Vector3};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -19,8 +21,46 @@ pub struct Firing {
     pub push_time: f64,
     /// Index of the blast row.
     pub row: usize,
+    /// Number of the hole in its row, as the plan lists them, from 0.
+    pub number: usize,
     /// Explosive in the hole [kg]; 0 where the plan says nothing.
     pub charge: f64,
+    /// The line along which the hole pushes.
+    pub line: PushLine,
+}
+
+/// The line along which a hole pushes its tire: from a point below the hole's mouth to the centre of the tire.
+///
+/// Directions add as slopes, the horizontal part over the part along the ground's normal.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PushLine {
+    /// From the mouth of the hole to the centre of the tire, along the ground [m].
+    pub offset: Vector2<f64>,
+    /// Slope that the plan states by a tilt.
+    pub tilt: Vector2<f64>,
+    /// Depth below the mouth from which the push comes [m]; `None` where the plan gives none.
+    pub depth: Option<f64>,
+}
+
+/// Depth from which samples take the push of a hole where the plan gives none [m]. No measurement decides; a shallower one tilts
+/// more.
+pub const ASSUMED_PUSH_DEPTH: f64 = 0.8;
+
+impl PushLine {
+    /// Slope of the launch as planned: without a depth a hole beside its tire pushes it straight up.
+    pub fn planned_slope(&self) -> Vector2<f64> {
+        self.depth.map_or(self.tilt, |depth| self.tilt + self.offset / depth)
+    }
+
+    /// Slope of the launch where the hole lies `offset` [m] from the centre of its tire (tire less hole).
+    pub fn slope_at(&self, offset: Vector2<f64>) -> Vector2<f64> {
+        self.tilt + offset / self.depth.unwrap_or(ASSUMED_PUSH_DEPTH)
+    }
+}
+
+/// The unit vector of this slope.
+pub fn direction_of_slope(slope: Vector2<f64>) -> Vector3<f64> {
+    slope.push(1.0) / slope.push(1.0).norm()
 }
 
 impl Firing {
@@ -31,7 +71,7 @@ impl Firing {
 
     /// Firing at `time` [s] that gives a tire the velocity `launch` [m/s] at once.
     pub fn at_once(time: f64, tire: usize, launch: Vector3<f64>) -> Self {
-        Self { time, tire, launch, push_time: 0.0, row: 0, charge: 0.0 }
+        Self { time, tire, launch, push_time: 0.0, row: 0, number: 0, charge: 0.0, line: PushLine::default() }
     }
 
     /// Its image in a mirror plane.
@@ -49,13 +89,21 @@ pub struct Shot {
     /// Coefficient of friction in this shot, which counts before that of the scene: nearby shots and samples vary it, and share the
     /// scene. `None`: the friction of the scene.
     pub friction: Option<f64>,
+    /// Whether one hole fires the next, so that a dud takes others along.
+    pub fired_through: bool,
 }
 
 impl Shot {
     /// Shot of `firings` in any order.
     pub fn from_firings(mut firings: Vec<Firing>) -> Self {
         firings.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.tire.cmp(&b.tire)));
-        Self { firings, friction: None }
+        Self { firings, friction: None, fired_through: false }
+    }
+
+    /// Time from the first hole to the last [s].
+    pub fn duration(&self) -> f64 {
+        let ends = self.firings.first().zip(self.firings.last());
+        ends.map_or(0.0, |(first, last)| last.time - first.time)
     }
 
     /// Firing times [s], each once.
@@ -81,7 +129,79 @@ impl Shot {
     pub fn with_times(&self, times: &[(usize, f64)]) -> Self {
         let time = |firing: &Firing| times.iter().find(|(tire, _)| *tire == firing.tire).map(|(_, at)| *at);
         let timed = |firing: &Firing| Firing { time: time(firing).unwrap_or(firing.time), ..*firing };
-        Self { friction: self.friction, ..Self::from_firings(self.firings.iter().map(timed).collect()) }
+        self.with_firings(self.firings.iter().map(timed).collect())
+    }
+
+    /// The same shot with these firings in any order.
+    pub fn with_firings(&self, firings: Vec<Firing>) -> Self {
+        Self { firings: Self::from_firings(firings).firings, ..*self }
+    }
+
+    /// The same shot without the holes of which hole `dud` is a dud.
+    pub fn with_dud(&self, dud: usize) -> Self {
+        let lost = self.lost_with((0..self.firings.len()).map(|n| n == dud).collect());
+        let left = self.firings.iter().zip(lost).filter(|(_, lost)| !lost).map(|(firing, _)| *firing);
+        Self { firings: left.collect(), ..*self }
+    }
+
+    /// Which holes do not fire where these are duds (`n_holes`).
+    ///
+    /// A shot that is fired through loses with a dud those later in time on its own side of the row, none fired together with it.
+    /// With the hole that alone begins a row it loses the row and all rows that begin later.
+    pub fn lost_with(&self, mut lost: Vec<bool>) -> Vec<bool> {
+        if !self.fired_through || !lost.contains(&true) {
+            return lost;
+        }
+        for (row, chains) in self.rows_of_chains() {
+            for chain in &chains {
+                let dead = chain.iter().position(|&n| lost[n]).unwrap_or(chain.len());
+                chain[dead..].iter().for_each(|&n| lost[n] = true);
+            }
+            let begins = self.row_begins(row);
+            let mut beginners =
+                chains.iter().map(|chain| chain[0]).filter(|&n| self.firings[n].time == begins);
+            if let (Some(beginner), None) = (beginners.next(), beginners.next())
+                && lost[beginner]
+            {
+                let goes_along = |other: usize| other == row || self.row_begins(other) > begins;
+                for (firing, lost) in self.firings.iter().zip(&mut lost) {
+                    *lost |= goes_along(firing.row);
+                }
+            }
+        }
+        lost
+    }
+
+    /// Time at which a blast row begins to fire [s].
+    fn row_begins(&self, row: usize) -> f64 {
+        let of_row = self.firings.iter().filter(|firing| firing.row == row);
+        of_row.map(|firing| firing.time).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The blast rows in the order in which they begin, each with the chains in which its holes fire one another, by the indices of
+    /// the firings: of holes that are planned for one time, each belongs to a chain of its own, such as the two sides of a row fired
+    /// from its middle. The hole that alone begins a row is the first of one chain.
+    pub fn rows_of_chains(&self) -> Vec<(usize, Vec<Vec<usize>>)> {
+        let mut rows: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        self.firings.iter().enumerate().for_each(|(n, firing)| rows.entry(firing.row).or_default().push(n));
+        let mut rows: Vec<(usize, Vec<Vec<usize>>)> =
+            rows.into_iter().map(|(row, holes)| (row, self.chains_of(&holes))).collect();
+        rows.sort_by(|a, b| self.row_begins(a.0).total_cmp(&self.row_begins(b.0)));
+        rows
+    }
+
+    /// The chains of the holes of a row, which are in order of time.
+    fn chains_of(&self, holes: &[usize]) -> Vec<Vec<usize>> {
+        let mut chains: Vec<Vec<usize>> = Vec::new();
+        for together in holes.chunk_by(|&a, &b| self.firings[a].time == self.firings[b].time) {
+            for (side, &hole) in together.iter().enumerate() {
+                if side == chains.len() {
+                    chains.push(Vec::new());
+                }
+                chains[side].push(hole);
+            }
+        }
+        chains
     }
 
     /// Two shots near this one, to both sides of it: what is greater in one is smaller in the other.
@@ -105,14 +225,15 @@ impl Shot {
                     firing.launch *= launch;
                 }
             }
-            Self { friction, ..Self::from_firings(firings) }
+            Self { friction, ..self.with_firings(firings) }
         })
     }
 
     /// Whether the shot is its own image in a mirror plane.
     pub fn is_mirrored(&self, mirror: &Mirror) -> bool {
-        // Neither the row nor the charge moves a tire.
-        let plain = |firing: Firing| Firing { row: 0, charge: 0.0, ..firing };
+        // The launch moves a tire; neither the hole's address nor its charge does, nor the line that gave the launch.
+        let plain =
+            |firing: Firing| Firing { row: 0, number: 0, charge: 0.0, line: PushLine::default(), ..firing };
         let firings = self.firings.iter().copied().map(plain);
         let image = self.firings.iter().map(|firing| plain(firing.mirrored(mirror)));
         firings.eq(Self::from_firings(image.collect()).firings)

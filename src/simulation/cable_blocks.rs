@@ -76,17 +76,22 @@ impl Blocks {
         Self { blocks, weight, ends: ends.into(), cable: cable.into() }
     }
 
-    /// The same layout with other lengths and stiffnesses; `numbers` gives the cable of an index in the scene.
-    pub fn with_numbers<'c>(&self, numbers: impl Fn(usize) -> &'c Cable) -> Self {
+    /// The same layout with other lengths and stiffnesses; `numbers` gives the cable of an index in the scene. `None` where cables of
+    /// one block are no longer equal.
+    pub fn with_numbers<'c>(&self, numbers: impl Fn(usize) -> &'c Cable) -> Option<Self> {
         let mut layout = self.clone();
-        for (n, block) in layout.blocks.iter_mut().enumerate() {
+        for block in &mut layout.blocks {
             let slots = &self.cable[block.first_element..block.first_element + block.len];
-            if let Some(slot) = slots.iter().position(|&cable| cable != NONE) {
-                let &Cable { rest_length, stiffness, .. } = numbers(self.cable(n, slot));
+            let mut cables =
+                slots.iter().filter(|&&cable| cable != NONE).map(|&cable| numbers(cable as usize));
+            if let Some(&Cable { rest_length, stiffness, .. }) = cables.next() {
+                if cables.any(|other| (other.rest_length, other.stiffness) != (rest_length, stiffness)) {
+                    return None;
+                }
                 block.first = Cable { rest_length, stiffness, ..block.first };
             }
         }
-        layout
+        Some(layout)
     }
 
     /// Index in the scene of the cable of an element that holds one.

@@ -60,6 +60,8 @@ pub struct TireStep {
     elapsed: f64,
     /// Highest top of a parabola so far: height [m] and time since the start of the step [s].
     pub peak: (f64, f64),
+    /// First landing so far: its time since the start of the step [s], and the velocity gained in it [m/s].
+    pub landing: Option<(f64, Vector3<f64>)>,
 }
 
 /// Rise to the top of a parabola [m] and time until the top [s]; `None` when the top is not reached within `time` [s].
@@ -91,6 +93,7 @@ impl TireStep {
             put_in,
             elapsed,
             peak,
+            landing: None,
         }
     }
 
@@ -101,7 +104,7 @@ impl TireStep {
         let mut now = 0.0;
         for HoleImpulse { since_start, launch, push_acceleration } in impulses {
             self.integrate_between(since_start - now, h);
-            now = since_start;
+            (now, self.elapsed) = (since_start, since_start);
             self.put_in += launch.dot(&(self.velocity + 0.5 * launch));
             self.velocity += launch;
             self.push_acceleration += push_acceleration;
@@ -186,6 +189,7 @@ impl TireStep {
         after.z += rebound;
         self.velocity = after;
         self.lost += 0.5 * (before.norm_squared() - after.norm_squared());
+        self.landing.get_or_insert((self.elapsed, after - before));
     }
 
     /// Integrates over `time` [s] on the ground; returns the acceleration of the last phase [m/s²].

@@ -5,7 +5,8 @@ use std::sync::OnceLock;
 
 use super::work::{Fingerprint, NoResult};
 use crate::choice::Method;
-use crate::plan::{DelayOption, Diagnostics, HoleTiming, Plan, PlanSource, Timing};
+use crate::plan::names::look_alike;
+use crate::plan::{DelayOption, Diagnostics, HoleTiming, Plan, PlanSource, Timing, Uncertainty};
 use crate::scene::{Scene, Shot, seconds};
 use crate::simulation::{Model, RunSettings};
 use crate::verdict::Limits;
@@ -85,6 +86,12 @@ impl Case {
         case
     }
 
+    /// The case, of which something else is known or not.
+    pub(in crate::study) fn with_uncertainty(&self, uncertainty: Uncertainty) -> Self {
+        let plan = Plan { uncertainty, ..self.plan.clone() };
+        Self { plan, fingerprint: OnceLock::new(), ..self.clone() }
+    }
+
     /// Fingerprint of all that the plan says.
     pub(in crate::study) fn fingerprint(&self) -> Fingerprint {
         *self.fingerprint.get_or_init(|| Fingerprint::of(&self.plan))
@@ -119,7 +126,8 @@ impl Case {
 
     /// Fires the holes of each row as in the delay option of this name, where there is one.
     pub fn set_hole_timing_of(&mut self, option: Option<&str>) {
-        let delay = option.and_then(|name| self.plan.delays.iter().find(|delay| delay.name == name));
+        let alike = |name| self.plan.delays.iter().find(|delay| look_alike(&delay.name, name));
+        let delay = option.and_then(alike);
         self.hole_timing = delay.map(|delay| delay.hole_timing).or(self.hole_timing);
     }
 

@@ -4,7 +4,10 @@ use std::ops::ControlFlow;
 
 use super::as_planned::check::{CheckProgress, CheckedShot, check_as_planned};
 use super::as_planned::margin::{LaunchMargin, launch_margin};
+use super::beside_tire::judge_next_tires;
 use super::judgement::{Evidence, Judgement};
+use super::one_dud::judge_one_dud;
+use super::samples::risk_summary::RiskSummary;
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, sample_shots_watched};
 use super::samples::sampled_shot::SampledShot;
@@ -42,6 +45,10 @@ pub enum JudgeEvent<'r> {
     },
     /// The launch margin is known.
     Margin(LaunchMargin),
+    /// The option is judged with any one hole left out.
+    Dud(&'r Judgement),
+    /// Fresh draws confirm a pass, or do not.
+    Confirmed(&'r RiskSummary),
 }
 
 /// Steps of a run between two events.
@@ -54,14 +61,15 @@ pub type OnEvent<'w> = &'w (dyn Fn(CaseOption, JudgeEvent<'_>) + Sync);
 pub const UNWATCHED: OnEvent<'static> = &|_, _| {};
 
 impl Case {
-    /// Judges every delay option: as planned, then, where a `sampling` is given, how likely it fails.
-    pub fn judge_options(
+    /// The risk of every delay option, as planned and by samples. Nothing is recommended, and nothing confirmed.
+    pub fn sample_options(
         &self,
         compute: &ComputeSettings,
-        sampling: Option<&Sampling>,
+        sampling: &Sampling,
         control: &StudyControl,
     ) -> ComputeResult<OptionResults> {
-        let Computed { mut value, partial } = judge_all(&[(self, *compute)], sampling, control, UNWATCHED)?;
+        let Computed { mut value, partial } =
+            judge_all(&[(self, *compute)], Some(sampling), control, UNWATCHED)?;
         Ok(Computed { value: value.remove(0), partial })
     }
 }
@@ -95,18 +103,6 @@ pub fn judge_all(
         partial |= add_risks(cases, &mut results, sampling, control, watch)?.partial;
     }
     Ok(Computed { value: results, partial })
-}
-
-/// Like [`judge_all`], with the launch margin of every option: what `check` with samples, the terminal and a search show.
-pub fn judge_all_with_margins(
-    cases: &[(&Case, ComputeSettings)],
-    sampling: Option<&Sampling>,
-    control: &StudyControl,
-    watch: OnEvent<'_>,
-) -> ComputeResult<Vec<OptionResults>> {
-    let Computed { value: mut results, partial } = judge_all(cases, sampling, control, watch)?;
-    let margins = find_launch_margins(cases, &mut results, control, watch)?;
-    Ok(Computed { value: results, partial: partial || margins.partial })
 }
 
 fn check_one_as_planned(
@@ -198,6 +194,43 @@ pub fn find_launch_margins(
     let partial = margins.contains(&None);
     for ((_, judgement), margin) in judged.into_iter().zip(margins) {
         judgement.launch_margin = margin.flatten();
+    }
+    Ok(Computed { value: (), partial })
+}
+
+/// Judges every option that is checked with any one hole left out, and with the next tire over holes between two.
+pub fn find_duds(
+    cases: &[(&Case, ComputeSettings)],
+    results: &mut [OptionResults],
+    sampling: &Sampling,
+    control: &StudyControl,
+    watch: OnEvent<'_>,
+) -> ComputeResult<()> {
+    let judged = checked_options(results);
+    let options: Vec<CaseOption> = judged.iter().map(|(at, _)| *at).collect();
+    let found = run_batch(&options, control, |&at| {
+        let (case, compute) = &cases[at.case];
+        let (shot, sampling) =
+            (&case.shots[at.option], case.plan.limits.withstands_one_dud.then_some(sampling));
+        let both = catch_panic(|| {
+            let one_dud = judge_one_dud(case, shot, sampling, compute, control)?;
+            Ok((one_dud, judge_next_tires(case, shot, compute, control)?))
+        });
+        match both {
+            Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok((None, None)),
+            found => found,
+        }
+    })?;
+    let partial = found.contains(&None);
+    for ((at, judgement), found) in judged.into_iter().zip(found) {
+        let (one_dud, next_tires) = found.unwrap_or_default();
+        if cases[at.case].0.plan.limits.withstands_one_dud {
+            let verdict = one_dud.map(|one_dud| one_dud.verdict());
+            judgement.withstands_dud = verdict.map_or(Evidence::NoneDrawn, Evidence::Known);
+        }
+        judgement.one_dud = one_dud;
+        judgement.next_tires = next_tires.unwrap_or_default();
+        watch(at, JudgeEvent::Dud(judgement));
     }
     Ok(Computed { value: (), partial })
 }

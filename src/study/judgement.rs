@@ -2,12 +2,15 @@
 
 use super::as_planned::check::CheckedShot;
 use super::as_planned::margin::LaunchMargin;
+use super::beside_tire::HoleBesideTire;
+use super::one_dud::OneDud;
 use super::reasons::Reason;
+use super::samples::risk_summary::RiskSummary;
 use super::samples::sampled_shot::SampledShot;
 use crate::verdict::Verdict;
 
-/// A delay option: the check of the shot as planned, and the risk of the possible shots. Its parts come one after the other, in
-/// this order, and [`judge_options`](super::judge_options) puts each in.
+/// A delay option: the check of the shot as planned, the risk of the possible shots, and what fresh draws say of a pass. Its parts
+/// come one after the other, in this order, and [`judge_options`](super::judge_options) puts each in.
 #[derive(Clone, Debug)]
 pub struct Judgement {
     /// The shot as planned.
@@ -16,18 +19,59 @@ pub struct Judgement {
     pub sampled: Evidence<SampledShot>,
     /// How much faster than planned the tires may leave; `None` where it was not asked for, or the time was up.
     pub launch_margin: Option<LaunchMargin>,
+    /// The shot as planned with one hole left out, the worst of all holes; `None` where it was not asked for, or the time was up.
+    pub one_dud: Option<OneDud>,
+    /// Holes of which another tire may get the impulse, each with the verdict on the shot as planned in which it does.
+    pub next_tires: Vec<(HoleBesideTire, Verdict)>,
+    /// Whether the option withstands any one dud, where the plan makes that a part of the verdict.
+    pub withstands_dud: Evidence<Verdict>,
+    /// What fresh draws say of an option that others stand beside: whoever takes the best of several needs them
+    /// ([`recommend`](super::recommend)).
+    pub confirmation: Evidence<RiskSummary>,
 }
 
 impl Judgement {
     /// The judgement of the shot as planned alone.
     pub fn of_planned_alone(checked: CheckedShot) -> Self {
-        Self { checked, sampled: Evidence::NotAsked, launch_margin: None }
+        Self {
+            checked,
+            sampled: Evidence::NotAsked,
+            launch_margin: None,
+            one_dud: None,
+            next_tires: Vec::new(),
+            withstands_dud: Evidence::NotAsked,
+            confirmation: Evidence::NotAsked,
+        }
     }
 
-    /// Pass where the shot as planned passes and surely fewer shots than accepted fail; fail where the shot as planned
-    /// fails, or surely more shots than accepted.
+    /// Pass where the shot as planned passes, surely fewer shots than accepted fail, and fresh draws confirm that where it was asked
+    /// for; fail where the shot as planned fails, or surely more shots than accepted.
     pub fn verdict(&self) -> Verdict {
-        verdict_of_both(self.checked.verdict, self.sampled.map(SampledShot::verdict))
+        let confirmed = self.confirmation.map(|drawn| drawn.verdict.min(Verdict::Undecided));
+        verdict_of_both(self.verdict_before_confirmation(), confirmed)
+    }
+
+    /// The verdict of the shot as planned, of the samples that all options get, and of one dud where the plan asks for it.
+    pub fn verdict_before_confirmation(&self) -> Verdict {
+        let planned = verdict_of_both(self.checked.verdict, self.withstands_dud);
+        verdict_of_both(planned, self.sampled.map(SampledShot::verdict))
+    }
+
+    /// Whether fresh draws confirm the pass; `None` where none were drawn.
+    pub fn is_confirmed(&self) -> Option<bool> {
+        self.confirmation.known().map(|drawn| drawn.verdict == Verdict::Pass)
+    }
+
+    /// Whether the option passes but for fresh draws that are still missing.
+    pub fn awaits_confirmation(&self) -> bool {
+        let is_missing = matches!(self.confirmation, Evidence::NoneDrawn);
+        is_missing && self.verdict_before_confirmation() == Verdict::Pass
+    }
+
+    /// Whether the option may be headed "to be fired": a full PASS, of planned and sampled shots, that is confirmed where others stand
+    /// beside it, and that nothing seen of earlier shots contradicts.
+    pub fn may_be_fired(&self, is_contradicted: bool) -> bool {
+        self.verdict() == Verdict::Pass && self.sampled.is_asked() && !is_contradicted
     }
 
     /// Why the verdict is no pass; empty for a pass.
@@ -38,7 +82,23 @@ impl Judgement {
             Evidence::NoneDrawn => Some(Reason::NoSamples),
             Evidence::Known(sampled) => sampled.reason().map(Reason::Samples),
         };
-        as_planned.chain(of_samples).collect()
+        let confirmation = match &self.confirmation {
+            _ if self.verdict_before_confirmation() != Verdict::Pass => None,
+            Evidence::Known(RiskSummary { verdict, bounds, .. }) if *verdict != Verdict::Pass => {
+                Some(Reason::NotConfirmed {
+                    failures: bounds.failures + bounds.undecided,
+                    samples: bounds.samples,
+                })
+            }
+            Evidence::NoneDrawn => Some(Reason::AwaitsConfirmation),
+            Evidence::Known(_) | Evidence::NotAsked => None,
+        };
+        let dud = match self.withstands_dud {
+            Evidence::Known(Verdict::Pass) | Evidence::NotAsked => None,
+            Evidence::Known(verdict) => Some(Reason::OneDud(verdict)),
+            Evidence::NoneDrawn => Some(Reason::OneDud(Verdict::Undecided)),
+        };
+        as_planned.chain(of_samples).chain(dud).chain(confirmation).collect()
     }
 }
 

@@ -58,7 +58,7 @@ pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
             MergedResult::Orders(orders(&case, &intervals_s, sampling.as_ref(), compute, control)?)
         }
         Question::Risk { sampling } => {
-            MergedResult::Risk(sampling, case.judge_options(compute, Some(&sampling), control)?)
+            MergedResult::Risk(sampling, case.sample_options(compute, &sampling, control)?)
         }
         Question::Search { sampling } => {
             MergedResult::Search(Box::new(search(&case, sampling.as_ref(), compute, control)?))

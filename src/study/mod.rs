@@ -6,9 +6,11 @@
 //! | one shot as planned: checked, and what speaks against it | [`as_planned`] |
 //! | the shots that are possible: drawn, run, counted | [`samples`] |
 //! | both together: the judgement on an option, on all options | [`judgement`], [`judge_options`] |
+//! | whether an option holds with any one hole left out; which holes lie beside their tires | [`one_dud`], [`beside_tire`] |
+//! | which option is recommended, and the fresh draws that confirm it | [`recommend`] |
 //! | why an option fails, or its verdict stays open | [`reasons`] |
 //! | what fires within any 8 ms | [`eight_ms`] |
-//! | other questions of the user, one each | [`sweep`], [`orders`], [`search`], [`size`], [`remedies`], [`effects`], [`mod@fit`], [`accuracy`], [`flight`], [`trace`] |
+//! | other questions of the user, one each | [`sweep`], [`orders`], [`search`], [`size`], [`remedies`], [`effects`], [`assumptions`], [`mod@fit`], [`accuracy`], [`flight`], [`trace`] |
 //! | how work runs: on all cores, with progress, to be stopped | [`work`]; on many machines: [`merge`]; results on the disk: [`results_file`] |
 //!
 //! Three verbs: a shot as planned is *checked*, possible shots are *sampled*, and both together are *judged*.
@@ -20,6 +22,8 @@
 
 pub mod accuracy;
 pub mod as_planned;
+pub mod assumptions;
+pub mod beside_tire;
 mod case;
 mod compute_settings;
 pub mod effects;
@@ -29,8 +33,10 @@ pub mod flight;
 pub mod judge_options;
 pub mod judgement;
 pub mod merge;
+pub mod one_dud;
 pub mod orders;
 pub mod reasons;
+pub mod recommend;
 pub mod remedies;
 pub mod results_file;
 pub mod samples;

@@ -70,6 +70,8 @@ pub struct Head {
     schema: String,
     /// Version of the program that wrote the file.
     version: String,
+    /// Its [`BUILD`].
+    build: String,
     /// The question.
     pub question: Question,
     /// Method and accuracy.
@@ -83,9 +85,11 @@ pub struct Head {
 }
 
 /// Name of this format.
-const SCHEMA: &str = "shelter.results/2";
+const SCHEMA: &str = "shelter.results/3";
 /// Version of this program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
+/// Fingerprint of all sources that results depend on: a file of another build may hold other numbers.
+pub const BUILD: &str = env!("SHELTER_BUILD");
 /// How every first line of this format begins, in any version.
 const BEGINNING: &str = "{\"schema\":\"shelter.results/";
 
@@ -95,6 +99,7 @@ impl Head {
         Self {
             schema: SCHEMA.to_owned(),
             version: VERSION.to_owned(),
+            build: BUILD.to_owned(),
             question,
             compute,
             plan: case.source.path.clone(),
@@ -145,6 +150,8 @@ pub struct Contents {
 struct Origin {
     schema: String,
     version: String,
+    #[serde(default)]
+    build: String,
 }
 
 /// Reads a file of results; says what is wrong with it. `name` stands for the file in messages.
@@ -162,10 +169,15 @@ pub fn read(name: &str, text: &str) -> Result<Contents, String> {
         format!("{name}:{}: the line is not as it was written; copy the file again, or {remedy}", line + 1)
     };
     let first = lines.next().map(|(_, line)| line).ok_or_else(|| damaged(0))?;
-    let Origin { schema, version } = serde_json::from_str(first).map_err(|_| damaged(0))?;
+    let Origin { schema, version, build } = serde_json::from_str(first).map_err(|_| damaged(0))?;
     if schema != SCHEMA || version != VERSION {
         return Err(format!(
             "{name}: results of version {version} of the program ({schema}), but this is version {VERSION} ({SCHEMA}): go on with that version, or begin another file"
+        ));
+    }
+    if build != BUILD {
+        return Err(format!(
+            "{name}: results of build {build} of the program, but this is build {BUILD}, whose numbers may differ: go on with that build (`shelter --version` names it), or begin another file"
         ));
     }
     let body = unsealed(first).ok_or_else(|| damaged(0))?;

@@ -1,10 +1,14 @@
-//! Time histories of chosen tires and cables of one option.
+//! Time histories of chosen tires and cables of one option, as planned or as one of its samples.
 
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 
-use super::Case;
+use super::samples::random_shot::{DrawnShot, draw_shot};
+use super::samples::sample_until_sure::{sample_settings, sample_step};
+use super::{Case, ComputeSettings};
 use crate::outcome::Outcome;
-use crate::simulation::{Motion, RunError, RunSettings};
+use crate::scene::{Scene, Shot};
+use crate::simulation::{Motion, RunError, RunSettings, Watcher};
 
 /// Tires and cables to record.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,27 +27,74 @@ impl TracedItems {
     }
 }
 
-/// Runs one option and hands a row to `emit` every `every` seconds.
+/// A shot to trace.
+#[derive(Clone, Debug)]
+pub struct TracedShot<'c> {
+    case: &'c Case,
+    shot: Cow<'c, Shot>,
+    /// The scene of a sample; `None` for the shot as planned.
+    variant: Option<Scene>,
+    /// Method, step and end of the run.
+    pub settings: RunSettings,
+}
+
+impl<'c> TracedShot<'c> {
+    /// The shot as planned of an option, at the first step of a check.
+    ///
+    /// # Panics
+    ///
+    /// Where the plan has no delay option with the index `option`.
+    pub fn as_planned(case: &'c Case, option: usize, compute: &ComputeSettings) -> Self {
+        let settings = case.run_settings(compute.method, compute.first_step(case));
+        Self { case, shot: Cow::Borrowed(&case.shots[option]), variant: None, settings }
+    }
+
+    /// Sample `number` of an option as a check draws it with `seed`, at the step of samples.
+    ///
+    /// # Panics
+    ///
+    /// Where the plan has no delay option with the index `option`.
+    pub fn sample(
+        case: &'c Case,
+        option: usize,
+        compute: &ComputeSettings,
+        seed: u64,
+        number: usize,
+    ) -> Self {
+        let DrawnShot { scene, shot, later, .. } = draw_shot(case, &case.shots[option], seed, number);
+        let settings = sample_settings(case, compute, sample_step(compute, &scene), later);
+        Self { case, shot: Cow::Owned(shot), variant: Some(scene), settings }
+    }
+
+    /// Runs the shot; `watch` sees every step and may stop the run.
+    pub fn run(&self, watch: &mut Watcher<'_>) -> Result<Outcome, RunError> {
+        let model = &self.case.model;
+        match &self.variant {
+            Some(scene) => model.run_variant(scene, &self.shot, &self.settings, watch),
+            None => model.run(&self.shot, &self.settings, watch),
+        }
+    }
+}
+
+/// Runs a shot and hands a row to `emit` every `every` seconds.
 ///
 /// A row is the time [s], then per tire x, y, height [m], friction and its limit μR [N], then per cable its force [N].
 pub fn trace(
-    case: &Case,
-    option: usize,
-    settings: &RunSettings,
+    shot: &TracedShot<'_>,
     chosen: &TracedItems,
     every: f64,
     emit: &mut dyn FnMut(&[f64]) -> ControlFlow<()>,
 ) -> Result<Outcome, RunError> {
     let mut row = Vec::with_capacity(1 + 5 * chosen.tires.len() + chosen.cables.len());
-    let mut next = 0.0;
-    case.model.run(&case.shots[option], settings, &mut |motion| {
+    let (mut next, step) = (0.0, shot.settings.step);
+    shot.run(&mut |motion| {
         let now = motion.time();
         // The nearest step counts: a row may be up to half a step early.
-        if now + 0.5 * settings.step < next {
+        if now + 0.5 * step < next {
             return ControlFlow::Continue(());
         }
-        next = ((now + 0.5 * settings.step) / every).floor() * every + every;
-        fill(&mut row, case, chosen, motion);
+        next = ((now + 0.5 * step) / every).floor() * every + every;
+        fill(&mut row, shot.case, chosen, motion);
         emit(&row)
     })
 }

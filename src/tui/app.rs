@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use ratatui::layout::Rect;
 
-use super::compare::{Listing, OptionState, SortBy};
+use super::compare::{Listing, OptionState, SortBy, results};
 use super::config::Config;
 use super::editor::{EditOutcome, Editor};
 use super::keymap::{Action, Keymap};
@@ -21,9 +21,14 @@ use super::studies::{ShownStudy, Studies, StudyState};
 use super::theme::Theme;
 use crate::jobs::{News, StudyKind};
 use crate::plan::{Plan, PlanSource};
+use crate::report::words::assumption_words::holds;
+use crate::report::words::headline::headline;
 use crate::study::as_planned::step_error;
+use crate::study::assumptions::Assumptions;
 use crate::study::judgement::{Evidence, Judgement};
+use crate::study::recommend::recommended;
 use crate::study::{Case, ComputeSettings};
+use crate::verdict::Verdict;
 
 /// What the event loop must do after an update.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -95,6 +100,8 @@ pub struct App {
     pub compute: ComputeSettings,
     /// State of each delay option (`n_options`).
     pub options: Vec<OptionState>,
+    /// What the pass of each option stands on, the nearest; `None` where it is not known (`n_options`).
+    pub assumptions: Vec<Option<Box<Assumptions>>>,
     /// Index of the selected option.
     pub selected: usize,
     /// Whether the selected option fills the screen.
@@ -109,6 +116,10 @@ pub struct App {
     pub keymap: Keymap,
     /// The screen shown.
     pub screen: Screen,
+    /// The answer, and the option that it recommends, once all options are judged.
+    pub answer: Option<(Option<usize>, String)>,
+    /// Whether the user has selected an option: else the recommended one is selected once it is known.
+    pub has_selected: bool,
     /// How the options are listed.
     pub listing: Listing,
     /// Which time of the flight is shown.
@@ -138,11 +149,13 @@ impl App {
     /// An app on which nothing is computed yet.
     pub fn new(case: Arc<Case>, compute: ComputeSettings, config: &Config) -> Self {
         let options = vec![OptionState::Waiting; case.plan.delays.len()];
+        let assumptions = vec![None; options.len()];
         let (editor, studies) = (Editor::new(&case.source.text), Studies::new(&case.source.text));
         Self {
             case,
             compute,
             options,
+            assumptions,
             selected: 0,
             zoom: false,
             help: false,
@@ -150,6 +163,8 @@ impl App {
             theme: config.theme,
             keymap: config.keymap.clone(),
             screen: Screen::default(),
+            answer: None,
+            has_selected: false,
             listing: Listing::default(),
             player: Player::default(),
             studies,
@@ -173,6 +188,12 @@ impl App {
         self.options.get(option)?.judgement()
     }
 
+    /// What the pass of an option stands on, in a sentence; `None` where it does not pass, or that is not known.
+    pub fn holds(&self, option: usize) -> Option<String> {
+        let passes = self.judgement(option)?.verdict() == Verdict::Pass;
+        self.assumptions.get(option)?.as_deref().filter(|_| passes).map(holds)
+    }
+
     /// The result that the others are compared with, and its option.
     pub fn baseline(&self) -> Option<(usize, &Judgement)> {
         let option = self.listing.baseline?;
@@ -187,6 +208,7 @@ impl App {
         let next = line.map_or(0, |line| line.saturating_add_signed(lines).min(last));
         if let Some(&option) = listed.get(next) {
             self.selected = option;
+            self.has_selected = true;
         }
     }
 
@@ -240,8 +262,10 @@ impl App {
         self.compute.adopt_changed_defaults(&self.case.plan, &case.plan);
         self.case = Arc::new(case);
         self.options = vec![OptionState::Waiting; self.case.plan.delays.len()];
+        self.assumptions = vec![None; self.options.len()];
         self.selected = self.selected.min(self.options.len().saturating_sub(1));
         self.listing.baseline = None;
+        self.answer = None;
         self.studies.mark_as_of_plan_before(&self.case.source.text);
         self.player.option = None;
         Request::JudgeNewPlan
@@ -256,15 +280,16 @@ impl App {
     /// Restores edits that the last session could not save.
     pub fn restore_unsaved(&mut self, kept: RecoveredEdits) -> Request {
         let changed = !kept.are_of(self.editor.saved());
-        let edit = self.editor.adopt(Ok(kept.text));
+        let RecoveredEdits { text, time, .. } = kept;
+        let edit = self.editor.adopt(Ok(text));
         let undo = self.keymap.hint(Action::Undo);
         if let EditOutcome::Changed(plan) = edit {
             let request = self.take_edited(*plan);
             self.notice = Some(match changed {
                 true => format!(
-                    "edits of an OLDER file are back: another program has changed it since; {undo} shows the file"
+                    "edits of {time}, of an OLDER file, are back: another program has changed it since; {undo} shows the file"
                 ),
-                false => format!("the edits that were not saved are back; {undo} takes them away"),
+                false => format!("edits of {time} that were not saved are back; {undo} takes them away"),
             });
             return request;
         }
@@ -329,8 +354,35 @@ impl App {
         self.screen == Screen::Flight && self.player.playing
     }
 
+    /// Finds the answer once all options are judged, and selects the option that it recommends where the user has selected none.
+    fn find_answer(&mut self) {
+        let Ok(results) = results(&self.options) else {
+            self.answer = None;
+            return;
+        };
+        let best = recommended(&self.case, &results);
+        if self.answer.is_none() && !self.has_selected && self.screen == Screen::Compare {
+            self.selected = best.unwrap_or(self.selected);
+        }
+        self.answer = Some((best, headline(&self.case, &results)));
+    }
+
     /// Takes news of a job.
     pub fn take_news(&mut self, news: News) {
+        let may_end = matches!(
+            news,
+            News::Checked { .. }
+                | News::Sampled { more: false, .. }
+                | News::Dud { .. }
+                | News::Confirmed { .. }
+        );
+        self.note_news(news);
+        if may_end && !self.checking() && !self.sampling() {
+            self.find_answer();
+        }
+    }
+
+    fn note_news(&mut self, news: News) {
         match news {
             News::Checking { option, runs, time } => {
                 let done = self.share_done(option, runs, time);
@@ -340,7 +392,14 @@ impl App {
                 let state = result.map_or_else(OptionState::Failed, |checked| {
                     // Until samples arrive the option stays OPEN: a shot that passes as planned shows no PASS.
                     let sampled = Evidence::NoneDrawn;
-                    let judgement = Box::new(Judgement { sampled, ..Judgement::of_planned_alone(*checked) });
+                    // A lone option that nothing chose needs no fresh draws.
+                    let is_lone = self.options.len() == 1;
+                    let confirmation = if is_lone { Evidence::NotAsked } else { Evidence::NoneDrawn };
+                    let must_withstand = self.case.plan.limits.withstands_one_dud;
+                    let withstands_dud =
+                        if must_withstand { Evidence::NoneDrawn } else { Evidence::NotAsked };
+                    let planned = Judgement::of_planned_alone(*checked);
+                    let judgement = Box::new(Judgement { sampled, withstands_dud, confirmation, ..planned });
                     OptionState::Judged { judgement, more_samples: true }
                 });
                 self.set_option(option, state);
@@ -348,12 +407,31 @@ impl App {
             News::Sampled { option, sampled, more } => {
                 if let Some(OptionState::Judged { judgement, more_samples }) = self.options.get_mut(option) {
                     judgement.sampled = Evidence::of(*sampled);
-                    *more_samples = more;
+                    *more_samples = more || judgement.awaits_confirmation();
                 }
             }
             News::Margin { option, margin } => {
                 if let Some(OptionState::Judged { judgement, .. }) = self.options.get_mut(option) {
                     judgement.launch_margin = Some(margin);
+                }
+            }
+            News::Dud { option, judged } => {
+                if let Some(OptionState::Judged { judgement, more_samples }) = self.options.get_mut(option) {
+                    judgement.one_dud = judged.one_dud;
+                    judgement.withstands_dud = judged.withstands_dud;
+                    judgement.next_tires = judged.next_tires;
+                    *more_samples |= judgement.awaits_confirmation();
+                }
+            }
+            News::Confirmed { option, confirmation } => {
+                if let Some(OptionState::Judged { judgement, more_samples }) = self.options.get_mut(option) {
+                    judgement.confirmation = Evidence::Known(*confirmation);
+                    *more_samples = false;
+                }
+            }
+            News::Assumptions { option, found } => {
+                if let Some(known) = self.assumptions.get_mut(option) {
+                    *known = Some(found);
                 }
             }
             News::Studying { kind, done, total } => {
@@ -370,6 +448,7 @@ impl App {
     fn set_option(&mut self, option: usize, state: OptionState) {
         if let Some(known) = self.options.get_mut(option) {
             *known = state;
+            self.assumptions[option] = None;
         }
     }
 

@@ -2,6 +2,7 @@
 
 use crate::plan::Plan;
 use crate::study::NoResult;
+use crate::study::judge_options::OptionResults;
 use crate::study::judgement::Judgement;
 use crate::verdict::Verdict;
 
@@ -51,6 +52,21 @@ impl OptionState {
     pub fn is_sampling(&self) -> bool {
         matches!(self, OptionState::Judged { more_samples: true, .. })
     }
+}
+
+/// Results of all options, once every option has one, with all its samples.
+pub fn results(options: &[OptionState]) -> Result<OptionResults, String> {
+    let result = |state: &OptionState| match state {
+        OptionState::Judged { more_samples: true, .. } => {
+            Err("not all options have all their samples yet".to_owned())
+        }
+        OptionState::Judged { judgement, .. } => Ok(Ok((**judgement).clone())),
+        OptionState::Failed(no_result) => Ok(Err(no_result.clone())),
+        OptionState::Waiting | OptionState::Running { .. } => {
+            Err("not all options are computed yet".to_owned())
+        }
+    };
+    options.iter().map(result).collect()
 }
 
 /// Key of the order in which the options are listed.

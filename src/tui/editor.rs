@@ -9,9 +9,9 @@ use super::keymap::Action;
 use super::name_list::NameList;
 use super::order_editor::OrderEditor;
 use super::paste::paste;
-use crate::plan::edit::fields;
 use crate::plan::edit::fields::{EditField, Path};
-use crate::plan::keys::{Kind, delay, plan};
+use crate::plan::edit::{self, fields};
+use crate::plan::keys::{Kind, delay, plan, tire};
 use crate::plan::{Layout, Plan};
 
 /// Outcome of an edit.
@@ -200,7 +200,24 @@ impl Editor {
             (.., Some(input)) => input.value().to_owned(),
             _ => return Err("nothing is typed".to_owned()),
         };
-        Self::checked(fields::set(&self.text, &field.path, &typed)?)
+        self.with_value(&field.path, &typed)
+    }
+
+    /// Text and plan with another value. Launches follow the mass of the tires, from that of the file on: a mass that is changed
+    /// back leaves them as they were.
+    fn with_value(&self, path: &Path, new: &str) -> Result<(String, Plan), String> {
+        let (text, plan) = Self::checked(fields::set(&self.text, path, new)?)?;
+        let before = Plan::parse("", &self.text).ok().filter(|_| is_tire_mass(path));
+        let (Some(before), Some(file)) = (before, self.plan_of_file()) else { return Ok((text, plan)) };
+        let law = Plan { uncertainty: plan.uncertainty, ..file };
+        let [of_new, of_old] = [&plan, &before].map(|plan| law.launch_factor_of_mass(plan.tire.mass_kg));
+        let followed = edit::with_launches(&text, of_new / of_old);
+        Self::checked(followed.map_err(|error| error.to_string())?)
+    }
+
+    /// The plan of the file; `None` where the file holds none.
+    pub fn plan_of_file(&self) -> Option<Plan> {
+        Plan::parse("", &self.saved).ok()
     }
 
     /// A text with its plan, or the first mistake.
@@ -308,7 +325,7 @@ impl Editor {
             kind => neighbouring_name(&kind.names(), value, up),
         };
         let Some(next) = next else { return EditOutcome::None };
-        let changed = fields::set(&self.text, &field.path, &next).and_then(Self::checked);
+        let changed = self.with_value(&field.path, &next);
         self.adopt_if_valid(changed)
     }
 
@@ -347,6 +364,10 @@ fn unquoted(value: &str) -> String {
     text.unwrap_or_else(|| value.to_owned())
 }
 
+fn is_tire_mass(path: &Path) -> bool {
+    path.section == plan::TIRE.name && path.key.name == tire::MASS_KG.name
+}
+
 /// Whether a field holds the times of a delay option.
 fn is_timing(field: &EditField) -> bool {
     let Path { key, .. } = field.path;
@@ -360,7 +381,7 @@ mod tests {
     use super::*;
 
     fn editor() -> Editor {
-        Editor::new(include_str!("../../plans/amur-three-rows.toml"))
+        Editor::new(include_str!("../../tests/fixtures/amur-three-rows.toml"))
     }
 
     fn type_text(editor: &mut Editor, text: &str) {
@@ -388,8 +409,8 @@ mod tests {
     #[test]
     fn names_of_any_letters_stay_themselves() {
         let slow = "20 ms \\\"slow\\\"";
-        let text =
-            include_str!("../../plans/amur-three-rows.toml").replace("\"20 ms\"", &format!("\"{slow}\""));
+        let text = include_str!("../../tests/fixtures/amur-three-rows.toml")
+            .replace("\"20 ms\"", &format!("\"{slow}\""));
         let mut editor = Editor::new(&text);
         editor.find("slow", false);
         editor.begin();
@@ -437,6 +458,35 @@ mod tests {
         assert!(!editor.unsaved());
         assert!(matches!(editor.redo(), EditOutcome::Changed(_)));
         assert!(matches!(editor.redo(), EditOutcome::None));
+    }
+
+    /// A lighter tire may leave faster, a heavier one as fast: whatever the way there, and back. Launches typed meanwhile follow.
+    #[test]
+    fn launches_follow_the_mass_of_the_tires() {
+        let mut editor = editor();
+        let speeds = |editor: &Editor| -> Vec<f64> {
+            let plan = Plan::parse("", &editor.text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+            plan.launches().map(|launch| launch.speed_m_s).collect()
+        };
+        let typed = |editor: &mut Editor, label: &str, value: &str| {
+            editor.find(label, false);
+            editor.begin();
+            editor.type_key(&KeyEvent::new(KeyCode::Char('u'), KeyModifiers::CONTROL));
+            type_text(editor, value);
+            let enter = KeyEvent::new(KeyCode::Enter, KeyModifiers::NONE);
+            assert!(matches!(editor.type_key(&enter), EditOutcome::Changed(_)), "{:?}", editor.problem);
+            speeds(editor)
+        };
+        assert_eq!(typed(&mut editor, "tire mass", "240"), [7.0; 3]);
+        assert_eq!(typed(&mut editor, "tire mass", "350"), [6.0; 3]);
+        assert_eq!(typed(&mut editor, "tire mass", "210"), [8.0; 3]);
+        assert_eq!(typed(&mut editor, "row 2: launch", "4"), [8.0, 4.0, 8.0]);
+        assert_eq!(typed(&mut editor, "tire mass", "280"), [6.0, 3.0, 6.0]);
+        editor.find("tire mass", false);
+        for up in [false, true] {
+            assert!(matches!(editor.step(up), EditOutcome::Changed(_)), "{:?}", editor.problem);
+        }
+        assert_eq!(speeds(&editor), [6.0, 3.0, 6.0], "{}", editor.text);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::app::App;
-use super::compare::OptionState;
+use super::compare::results;
 use super::screen::Screen;
 use super::studies::ShownStudy;
 use crate::file;
@@ -12,7 +12,7 @@ use crate::report::csv::Separators;
 use crate::report::html::{self, Page};
 use crate::report::{self, charts};
 use crate::study::Computed;
-use crate::study::judge_options::{MustPass, OptionResults};
+use crate::study::judge_options::MustPass;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::sweep::Sweep;
 
@@ -40,9 +40,10 @@ pub fn write_page(app: &App, path: &Path) -> Result<(), String> {
 fn page(app: &App, to_be_fired: Option<usize>) -> Result<String, String> {
     Ok(html::page(&Page {
         case: &app.case,
-        results: &results(app)?,
+        results: &results(&app.options)?,
         to_be_fired,
         sampling: Some(&Sampling::OF_VERDICT),
+        holds: to_be_fired.and_then(|option| app.holds(option)).as_deref(),
         sweep: swept(app),
         fitted_to_observed: app
             .compared_with_seen()
@@ -75,7 +76,7 @@ fn is_saved(app: &App) -> bool {
 pub fn csv(app: &App) -> Result<String, String> {
     let text = match app.screen {
         Screen::Plan | Screen::Compare => report::csv::csv(
-            &[report::check::report(&app.case, &results(app)?, None, MustPass::Every, false)],
+            &[report::check::report(&app.case, &results(&app.options)?, None, MustPass::Every, false)],
             Separators::Comma,
         ),
         _ => report::csv::csv(std::slice::from_ref(&finished(app)?.report), Separators::Comma),
@@ -124,19 +125,4 @@ fn finished(app: &App) -> Result<&ShownStudy, String> {
         }
         _ => Ok(finished),
     }
-}
-
-/// Results of all options, once every option has one, with all its samples.
-pub fn results(app: &App) -> Result<OptionResults, String> {
-    let result = |state: &OptionState| match state {
-        OptionState::Judged { more_samples: true, .. } => {
-            Err("not all options have all their samples yet".to_owned())
-        }
-        OptionState::Judged { judgement, .. } => Ok(Ok((**judgement).clone())),
-        OptionState::Failed(no_result) => Ok(Err(no_result.clone())),
-        OptionState::Waiting | OptionState::Running { .. } => {
-            Err("not all options are computed yet".to_owned())
-        }
-    };
-    app.options.iter().map(result).collect()
 }

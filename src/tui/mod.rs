@@ -53,6 +53,7 @@ pub use self::display::ScreenStyle;
 use self::display::{Display, Signals, restore_on_panic};
 use self::plan_file::{PlanFile, Refusal};
 use self::prompt::Purpose;
+use self::recovery::Keeper;
 use self::start::{Next, Opened, Start};
 use self::studies::StudyState;
 use crate::file;
@@ -70,6 +71,8 @@ pub enum Exit {
 
 /// Longest wait for a key while something computes or moves: one frame.
 const FRAME: Duration = Duration::from_millis(16);
+/// Age at which an edit that is not saved is kept: what a kill or a loss of power takes.
+const KEPT_AFTER: Duration = Duration::from_secs(1);
 /// Longest wait for a key otherwise.
 const IDLE: Duration = Duration::from_millis(250);
 
@@ -80,7 +83,8 @@ pub fn run(app: App, jobs: Jobs, look: ScreenStyle, plan: Option<&Path>) -> io::
     let signals = Signals::register()?;
     restore_on_panic();
     let mut display = Display::open()?;
-    let mut session = Session { app, jobs, file: plan.map(PlanFile::new) };
+    let mut session =
+        Session { app, jobs, file: plan.map(PlanFile::new), keeper: Keeper::default(), unkept: None };
     session.restore_unsaved();
     session.carry_out(Request::Judge);
     let exit = session.serve_events(&mut display, &signals, look);
@@ -95,6 +99,9 @@ struct Session {
     app: App,
     jobs: Jobs,
     file: Option<PlanFile>,
+    /// What keeps the edits that are not saved, and why it could not.
+    keeper: Keeper,
+    unkept: Option<String>,
 }
 
 impl Session {
@@ -108,6 +115,7 @@ impl Session {
         let (mut dirty, mut drawn) = (true, Instant::now());
         loop {
             dirty |= self.listen();
+            dirty |= self.keep_edits(KEPT_AFTER);
             if self.app.playing() {
                 self.app.advance(drawn.elapsed());
                 dirty = true;
@@ -137,6 +145,8 @@ impl Session {
             match request {
                 Request::Quit => return Ok(Exit::Quit),
                 Request::Suspend => {
+                    // Who sleeps may be killed.
+                    self.keep_edits(Duration::ZERO);
                     display.suspend()?;
                     dirty = true;
                 }
@@ -148,23 +158,41 @@ impl Session {
     /// Takes back the edits that the last session could not save; they can be undone.
     fn restore_unsaved(&mut self) {
         // A plan without a file is offered by the start screen.
-        let Some(kept) = self.file.as_ref().and_then(|file| recovery::find(Some(file.path()))) else {
-            return;
+        let found = self.file.as_ref().and_then(|file| recovery::find(Some(file.path())));
+        if let Some(kept) = found {
+            let request = self.app.restore_unsaved(kept);
+            self.carry_out(request);
+        }
+        self.keeper = Keeper::new(self.file.as_ref().map(PlanFile::path), &self.app.editor.text);
+    }
+
+    /// Keeps edits that are older than `pause`. Returns whether the screen says something new: why they cannot be kept.
+    fn keep_edits(&mut self, pause: Duration) -> bool {
+        let (plan, editor) = (self.file.as_ref().map(PlanFile::path), &self.app.editor);
+        let Err(error) = self.keeper.keep_after(pause, plan, editor.saved(), &editor.text) else {
+            return false;
         };
-        let request = self.app.restore_unsaved(kept);
-        self.carry_out(request);
+        let error = visible(&error.to_string()).into_owned();
+        let is_new = self.unkept.as_ref() != Some(&error);
+        if is_new {
+            self.app.notice = Some(format!("a crash would lose what is not saved: {error}"));
+            self.unkept = Some(error);
+        }
+        is_new
     }
 
     /// Keeps the edits that are not saved, unless the user gave them up.
-    fn keep_or_drop_edits(&self, given_up: bool) {
+    fn keep_or_drop_edits(&mut self, given_up: bool) {
         let plan = self.file.as_ref().map(PlanFile::path);
         match (self.app.editor.unsaved(), given_up, plan) {
             (true, false, _) => {
-                if let Err(error) = recovery::save(plan, self.app.editor.saved(), &self.app.editor.text) {
+                let editor = &self.app.editor;
+                if let Err(error) = self.keeper.keep_after(Duration::ZERO, plan, editor.saved(), &editor.text)
+                {
                     let _ = writeln!(
                         io::stderr(),
                         "edits that were not saved are lost: {}",
-                        crate::plan::visible(&error.to_string())
+                        visible(&error.to_string())
                     );
                 }
             }

@@ -164,7 +164,7 @@ mod tests {
 
     #[test]
     fn typed_lines_are_observations_or_are_refused() {
-        let text = include_str!("../../plans/amur-three-rows.toml");
+        let text = include_str!("../../tests/fixtures/amur-three-rows.toml");
         let source = PlanSource { path: "plan.toml".to_owned(), text: text.to_owned() };
         let case = Case::parse(source).expect("a plan");
         let mut observed = Observed::default();

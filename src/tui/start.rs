@@ -14,6 +14,7 @@ use tui_input::backend::crossterm::EventHandler;
 use super::config::Config;
 use super::keymap::{Action, Keymap, ctrl_c_as_esc};
 use super::paste::paste;
+use super::recovery::RecoveredEdits;
 use super::theme::Theme;
 use crate::file::canonical;
 use crate::plan::Plan;
@@ -23,8 +24,8 @@ use crate::ropes::catalogue;
 /// A line of the list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum StartLine {
-    /// A new plan of the last session that was never saved: its text.
-    Unsaved(String),
+    /// A new plan of an earlier session that was never saved.
+    Unsaved(RecoveredEdits),
     /// A new plan, made from the answers to questions.
     New,
     /// A file.
@@ -96,7 +97,7 @@ pub enum Next {
 impl Start {
     /// Lists a plan that was never saved, a new plan, the `recent` plans, the plans in `folder` and in its folder `plans`, then
     /// the examples.
-    pub fn new(folder: &Path, recent: Vec<PathBuf>, unsaved: Option<String>) -> Self {
+    pub fn new(folder: &Path, recent: Vec<PathBuf>, unsaved: Option<RecoveredEdits>) -> Self {
         let mut files: Vec<PathBuf> = [folder.to_owned(), folder.join("plans")]
             .iter()
             .filter_map(|folder| std::fs::read_dir(folder).ok())
@@ -178,7 +179,7 @@ impl Start {
         match self.choices.get(self.selected).cloned() {
             Some(StartLine::File(path)) => Next::Open(Opened::File(path)),
             Some(StartLine::Example(name, text)) => Next::Open(Opened::Example(name, text)),
-            Some(StartLine::Unsaved(text)) => Next::Open(Opened::New(text)),
+            Some(StartLine::Unsaved(kept)) => Next::Open(Opened::New(kept.text)),
             Some(StartLine::New) => {
                 let answers = QUESTIONS.map(|(_, answer)| Input::new(answer.to_owned()));
                 self.questions = Some(Questions { answers, selected: 0, offered: true, problem: None });
@@ -227,7 +228,7 @@ impl Start {
             let style = if n == self.selected { theme.selected() } else { theme.base() };
             let (name, kind) = match choice {
                 StartLine::New => ("A new plan by a few questions".to_owned(), ""),
-                StartLine::Unsaved(_) => ("The new plan of the last session, not saved".to_owned(), ""),
+                StartLine::Unsaved(kept) => (format!("The new plan of {}, not saved", kept.time), ""),
                 StartLine::File(path) => (crate::plan::visible(&path.display().to_string()).into_owned(), ""),
                 StartLine::Example(name, _) => ((*name).to_owned(), "  example"),
             };

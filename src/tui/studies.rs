@@ -55,6 +55,7 @@ impl ShownStudy {
             StudyResult::Risk(sampling, results) => report::risk::report(case, results, sampling),
             StudyResult::Search(search) => report::search::report(case, search),
             StudyResult::Effects(effects) => report::effects::report(case, effects),
+            StudyResult::Assumptions(found) => report::assumptions::report_of_one(case, found),
             StudyResult::Size(sizing) => report::size::report(case, sizing),
             StudyResult::Remedies(remedies) => {
                 let blocks = report::remedies::blocks(case, std::slice::from_ref(remedies));

@@ -3,8 +3,9 @@
 use std::fmt::Write;
 
 use shelter::plan::Plan;
+use shelter::plan::observations::{ObservableNames, Observations};
 
-use super::support::PROGRAM;
+use super::support::{Edited, PROGRAM, output, shelter};
 
 pub const GOOD: &str = r#"title = "T"
 [shelter]
@@ -232,6 +233,9 @@ pub const BAD: &[(&str, &str)] = &[
     ("interval_ms = 20", "interval_ms = 20\n[uncertainty]\nlaunch_tilt_deg = 60\ntire_mass_cv_percent = 101"),
     ("interval_ms = 20", "interval_ms = 20\n[uncertainty]\ndetonator = \"electronic\"\ndelay_sd_ms = 1"),
     ("interval_ms = 20", "interval_ms = 20\n[uncertainty]\nmass_cv_percent = 10"),
+    ("interval_ms = 20", "interval_ms = 20\n[uncertainty]\nlaunch_between_shots_percent = -5"),
+    ("interval_ms = 20", "interval_ms = 20\n[uncertainty]\nlaunch_mass_exponent = [1, 0]"),
+    ("interval_ms = 20", "interval_ms = 20\n[uncertainty]\nlaunch_mass_exponent = [0, 2]"),
     ("interval_ms = 20", "interval_ms = 20\n[scatter]\ndetonator = \"electronic\""),
     ("cable_safety_factor = 2.0", "cable_safety_factor = 2.0\naccepted_risk_percent = 0"),
     ("cable_safety_factor = 2.0", "cable_safety_factor = 2.0\naccepted_risk_percent = 51"),
@@ -312,6 +316,76 @@ fn all_mistakes_of_a_plan_are_told_at_once() {
     insta::assert_snapshot!(mistakes.render(false));
 }
 
+/// Names that nobody can tell apart are refused with both and their lines; what nobody sees around a name does not count.
+#[test]
+fn names_that_look_alike_are_refused() {
+    let other = |name: &str| format!("{GOOD}[[delay]]\nname = \"{name}\"\ninterval_ms = 25\n");
+    for same in ["20 ms ", " 20 ms", "20 ms\u{a0}", "20 ms\u{200b}", "\u{feff}20 ms\u{2003}"] {
+        let told = mistakes_of(&other(same));
+        assert!(
+            told.contains("two delay options are named \"20 ms\", this one and that of line 25"),
+            "{told}"
+        );
+        assert!(told.contains("plan.toml:28:8"), "{told}");
+    }
+    for (alike, letter) in [
+        ("20 m\u{455}", "\"\u{455}\" is U+0455 here"),
+        ("2O ms", "\"O\" is U+004F here"),
+        ("20\u{a0}ms", "is U+00A0 here"),
+        ("20\u{200b} ms", "is U+200B here"),
+        ("20  ms", "takes for the other"),
+    ] {
+        let told = mistakes_of(&other(alike));
+        let message = "\" looks like \"20 ms\" of line 25";
+        assert!(told.contains(message) && told.contains("plan.toml:28:8"), "{told}");
+        assert!(told.contains(letter), "{told}");
+    }
+    let rows = GOOD.edited("name = \"2\"", "name = \"l\"");
+    let told = mistakes_of(&rows);
+    assert!(told.contains("the blast row \"l\" looks like \"1\" of line 14"), "{told}");
+    assert!(told.contains("plan.toml:18:8"), "{told}");
+    let empty = GOOD.edited("\"20 ms\"", "\"\u{200b}\u{a0}\"");
+    assert!(mistakes_of(&empty).contains("`name` is empty"));
+}
+
+fn mistakes_of(text: &str) -> String {
+    Plan::parse("plan.toml", text).map(|_| ()).expect_err("a mistake").render(false)
+}
+
+/// A name is what people see of it: in the plan, in an order, on the command line and in a file of observations.
+#[test]
+fn names_are_read_as_people_see_them() {
+    let text = GOOD
+        .edited("name = \"20 ms\"", "order = [\"2\", \"1\\u00A0\"]\nname = \" 20\u{a0}ms\u{200b} \"")
+        .edited("name = \"1\"", "name = \"1 \"");
+    let plan = Plan::parse("plan.toml", &text).expect("a plan");
+    assert_eq!(plan.blast_rows[0].name, "1");
+    assert_eq!(plan.delays[0].name, "20\u{a0}ms");
+    assert_eq!(plan.delays[0].timing.fire_at_ms(), [20.0, 0.0]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plan.toml");
+    let more = "[[delay]]\nname = \"42 ms\"\ninterval_ms = 42\n";
+    std::fs::write(&path, format!("{text}{more}")).expect("written");
+    let path = path.to_str().expect("UTF-8");
+    let flown = |option: &str| shelter(&["trace", path, "--accuracy", "draft", "--option", option]);
+    let first = flown("20\u{a0}ms");
+    assert!(first.status.success());
+    for typed in ["20 ms", " 20 ms ", "20 ms\u{200b}"] {
+        assert_eq!(flown(typed).stdout, first.stdout, "{typed:?}");
+    }
+    assert_ne!(flown("42 ms").stdout, first.stdout);
+    assert_eq!(flown("20ms").status.code(), Some(2));
+    let known = ObservableNames {
+        options: vec![plan.delays[0].name.clone(), "42 ms".to_owned()],
+        tires: vec![vec![1.0, 1.0]],
+        cables: Vec::new(),
+        holes: Vec::new(),
+    };
+    let table = "option,tire,quantity,value,sd\n20 ms,1:1,flight_height_m,1,0.1\n";
+    let seen = Observations::parse("seen.csv", table, &known).expect("observations");
+    assert_eq!(seen.list[0].option, 0);
+}
+
 #[test]
 fn of_thousands_of_mistakes_the_first_are_shown() {
     let page = "<p>no plan</p>\n".repeat(1000);
@@ -390,7 +464,7 @@ fn every_wrong_command_line_is_explained() {
     let mut all = String::new();
     for arguments in COMMANDS {
         let mut command = std::process::Command::new(PROGRAM);
-        let output = command.args(*arguments).current_dir(folder.path()).output().expect("it runs");
+        let output = output(command.args(*arguments).current_dir(folder.path()));
         let told = String::from_utf8(output.stderr).expect("UTF-8");
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {told}");
         assert!(output.stdout.is_empty(), "{arguments:?}");

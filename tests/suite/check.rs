@@ -3,10 +3,10 @@
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Output, Stdio};
 
-use super::support::{Edited, PROGRAM, json, shelter, shipped, small_plan, text};
+use super::support::{Edited, PROGRAM, ended, json, shelter, small_plan, tested_plan, text, within};
 
 fn on(name: &str, arguments: &[&str]) -> Output {
-    let path = shipped(name);
+    let path = tested_plan(name);
     let mut all = vec![arguments[0], &path];
     all.extend(&arguments[1..]);
     shelter(&all)
@@ -27,7 +27,7 @@ fn the_exit_status_tells_the_verdict() {
 fn a_run_that_ends_early_is_no_pass() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("plan.toml");
-    let text = std::fs::read_to_string(shipped("paper-5-tire.toml")).expect("a plan");
+    let text = std::fs::read_to_string(tested_plan("paper-5-tire.toml")).expect("a plan");
     let (head, _) = text.split_once("[simulation]").unwrap_or((&text, ""));
     let check = |delay: &str, duration: &str| {
         let text = format!("{head}\n{delay}\n[simulation]\nduration_s = {duration}\n");
@@ -55,7 +55,7 @@ fn a_run_that_ends_early_is_no_pass() {
 fn tires_that_still_move_are_no_pass() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("plan.toml");
-    let text = std::fs::read_to_string(shipped("paper-5-tire.toml")).expect("a plan");
+    let text = std::fs::read_to_string(tested_plan("paper-5-tire.toml")).expect("a plan");
     for (friction, duration, open) in [("0", "", true), ("0.5", "", false), ("0", "duration_s = 2.0", true)] {
         let text = text.edited("friction = 0.5", &format!("friction = {friction}"));
         let text = text.edited("breaking_force_kn = 20.4", "breaking_force_kn = 1e6");
@@ -75,7 +75,7 @@ fn tires_that_still_move_are_no_pass() {
 fn a_run_that_loses_energy_is_no_pass() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("plan.toml");
-    let text = std::fs::read_to_string(shipped("paper-5-tire.toml")).expect("a plan");
+    let text = std::fs::read_to_string(tested_plan("paper-5-tire.toml")).expect("a plan");
     let text = text.edited("breaking_force_kn = 20.4", "breaking_force_kn = 1e6");
     std::fs::write(&path, text.edited("mass_kg = 280", "mass_kg = 280\nouter_diameter_m = 0.9999"))
         .expect("written");
@@ -176,7 +176,7 @@ fn what_is_still_to_come_is_not_passed() {
 fn broken_cables_fail_at_their_breaking_force() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("plan.toml");
-    let text = std::fs::read_to_string(shipped("paper-5-tire.toml")).expect("a plan");
+    let text = std::fs::read_to_string(tested_plan("paper-5-tire.toml")).expect("a plan");
     for factor in ["1.0", "1.3", "5.0"] {
         let text = text
             .edited("[cable]\n", "[cable]\non_overload = \"break\"\n")
@@ -242,7 +242,7 @@ fn json_has_the_fields_scripts_read() {
 /// not known, the one of three rows does.
 #[test]
 fn json_tells_the_risk() {
-    for (plan, judged) in [("paper-5-tire.toml", "default"), ("amur-three-rows.toml", "plan")] {
+    for (plan, judged) in [("five-tires-assumed.toml", "default"), ("amur-three-rows.toml", "plan")] {
         let document = json(&on(plan, &["check", "--format", "json", "--samples", "250", "--seed", "2"]));
         assert_eq!(document["judged"], judged);
         for option in document["options"].as_array().expect("options") {
@@ -260,7 +260,7 @@ fn json_tells_the_risk() {
             assert!(option["launch_margin"].is_number());
             let shares = option["inputs"].as_array().expect("shares");
             let shares: Vec<f64> = shares.iter().map(|input| number(&input["share"])).collect();
-            assert_eq!(shares.len(), 4);
+            assert_eq!(shares.len(), 9);
             assert!(shares.windows(2).all(|pair| pair[0] >= pair[1]), "largest first");
         }
     }
@@ -272,15 +272,18 @@ fn the_text_says_what_was_judged() {
     let said = |plan: &str, arguments: &[&str]| text(&on(plan, arguments).stdout).to_owned();
     let nominal = said("amur-three-rows.toml", &["check", "--nominal"]);
     assert!(nominal.contains("options pass (the plan's own numbers only)"), "{nominal}");
-    let usual = said("paper-5-tire.toml", &["check"]);
-    assert!(usual.contains("PASS: 1 of 1 options pass (inputs assumed known to 1 %)"), "{usual}");
+    let usual = said("five-tires-assumed.toml", &["check"]);
+    assert!(
+        usual.contains("PASS: 1 of 1 options pass (inputs assumed: see `shelter assumptions`) · verlet"),
+        "{usual}"
+    );
     let own = said("amur-three-rows.toml", &["check"]);
-    assert!(own.contains("options pass · verlet"), "{own}");
+    assert!(own.contains("42 ms passes, the only one of 7: surely fewer than 1 in 100 shots"), "{own}");
 }
 
 #[test]
 fn several_plans_are_one_document_and_one_verdict() {
-    let [first, second] = ["paper-5-tire.toml", "amur-three-rows.toml"].map(shipped);
+    let [first, second] = ["paper-5-tire.toml", "amur-three-rows.toml"].map(tested_plan);
     let output = shelter(&["check", &first, &second, "--format", "json"]);
     assert_eq!(json(&output).as_array().map(Vec::len), Some(2));
     assert_eq!(output.status.code(), Some(1));
@@ -301,7 +304,7 @@ fn threads_change_nothing_but_the_time() {
 fn text_is_plain_without_a_terminal_and_ascii_on_request() {
     let output = on("amur-three-rows.toml", &["check"]);
     assert!(!text(&output.stdout).contains('\x1b'));
-    assert!(text(&output.stdout).contains("1 of 7 options pass"));
+    assert!(text(&output.stdout).contains("1 of 7 pass"));
     let output = on("amur-three-rows.toml", &["check", "--ascii"]);
     assert!(text(&output.stdout).is_ascii());
     let output = on("paper-5-tire.toml", &["check", "--color", "always"]);
@@ -314,7 +317,9 @@ fn csv_has_a_row_per_option() {
     let lines: Vec<&str> = text(&output.stdout).lines().collect();
     assert_eq!(lines.len(), 8);
     assert!(
-        lines[0].starts_with("plan,option,verdict,judged,nominal_verdict,low_95,high_95,flight_height_m,")
+        lines[0].starts_with(
+            "plan,option,verdict,judged,confirmed,nominal_verdict,low_95,high_95,flight_height_m,"
+        )
     );
     assert!(lines[4].contains("\"25 ms, middle first\""));
 }
@@ -329,7 +334,7 @@ fn a_step_past_the_stability_limit_is_refused_by_name() {
 
 #[test]
 fn a_plan_opened_without_a_terminal_is_checked() {
-    let path = shipped("paper-5-tire.toml");
+    let path = tested_plan("paper-5-tire.toml");
     let output = shelter(&[&path]);
     assert_eq!(output.status.code(), Some(0));
     assert!(text(&output.stdout).contains("PASS"));
@@ -366,7 +371,7 @@ fn trace_refuses_what_is_not_there() {
 
 #[test]
 fn a_reader_that_goes_away_ends_trace_quietly() {
-    let path = shipped("paper-5-tire.toml");
+    let path = tested_plan("paper-5-tire.toml");
     let mut command = Command::new(PROGRAM);
     let mut child = command
         .args(["trace", &path])
@@ -374,10 +379,13 @@ fn a_reader_that_goes_away_ends_trace_quietly() {
         .stderr(Stdio::piped())
         .spawn()
         .expect("it starts");
-    let mut line = String::new();
-    BufReader::new(child.stdout.take().expect("a pipe")).read_line(&mut line).expect("a line");
+    let stdout = child.stdout.take().expect("a pipe");
+    let line = within("the first line", move || {
+        let mut line = String::new();
+        BufReader::new(stdout).read_line(&mut line).map(|_| line).expect("a line")
+    });
     assert!(line.starts_with("t_s,"), "{line}");
-    let output = child.wait_with_output().expect("it ends");
+    let output = ended(child);
     assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
 }
 
@@ -406,7 +414,7 @@ fn names_that_mislead_are_told_or_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("plan.toml");
     let run = |name: &str| {
-        let plan = include_str!("../../plans/amur-three-rows.toml");
+        let plan = include_str!("../fixtures/amur-three-rows.toml");
         let text = plan.edited("name = \"42 ms\"", &format!("name = \"{name}\""));
         std::fs::write(&path, text).expect("written");
         shelter(&[
@@ -469,7 +477,7 @@ fn packagers_get_completions_and_a_manual_page() {
 fn what_a_method_lacks_is_told() {
     let folder = tempfile::tempdir().expect("a folder");
     let plan = folder.path().join("plan.toml");
-    let pushed = std::fs::read_to_string(shipped("paper-5-tire.toml")).expect("the plan");
+    let pushed = std::fs::read_to_string(tested_plan("paper-5-tire.toml")).expect("the plan");
     let pushed = pushed.replacen("launch_m_s", "push_ms = 20\nlaunch_m_s", 1);
     std::fs::write(&plan, pushed).expect("written");
     let plan = plan.to_str().expect("UTF-8");

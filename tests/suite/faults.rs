@@ -12,7 +12,9 @@ use std::time::Instant;
 
 use shelter::file;
 
-use super::support::{PROGRAM, shipped};
+#[cfg(unix)]
+use super::support::within;
+use super::support::{PATIENCE, PROGRAM, ended, output, tested_plan};
 
 /// A plan of one small shelter that three ropes are tried for, and what `size --write` makes of it.
 fn small_plan(folder: &Path) -> (std::path::PathBuf, String, String) {
@@ -28,7 +30,7 @@ fn small_plan(folder: &Path) -> (std::path::PathBuf, String, String) {
 }
 
 fn size(plan: &Path) -> Output {
-    sizing(plan).output().expect("it runs")
+    output(&mut sizing(plan))
 }
 
 fn sizing(plan: &Path) -> Command {
@@ -79,13 +81,14 @@ fn a_save_killed_as_it_begins_leaves_the_old_plan_or_the_new_one() {
         let before = files();
         let mut child = sizing(&plan).spawn().expect("it starts");
         let length = || plan.metadata().map_or(0, |data| data.len());
-        while child.try_wait().expect("a child").is_none() {
+        let begun = Instant::now();
+        while child.try_wait().expect("a child").is_none() && begun.elapsed() < PATIENCE {
             if files() != before || length() != old.len() as u64 {
                 let _ = child.kill();
                 break;
             }
         }
-        child.wait().expect("it ended");
+        ended(child);
         let left = fs::read_to_string(&plan).expect("the plan");
         assert!(left == old || left == new, "round {n}: {} bytes of {}", left.len(), old.len());
     }
@@ -103,7 +106,7 @@ fn a_full_disk_leaves_the_old_plan() {
         // A file may grow to `blocks` blocks of 512 bytes; beyond that writing fails as on a full disk.
         let script =
             format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" size --write --accuracy draft \"$1\"");
-        let output = Command::new("sh").args(["-c", &script, PROGRAM]).arg(&plan).output().expect("it runs");
+        let output = output(Command::new("sh").args(["-c", &script, PROGRAM]).arg(&plan));
         let told = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{blocks} blocks: {told}");
         assert!(told.contains("plan.toml"), "{told}");
@@ -157,8 +160,10 @@ fn a_device_stays_one() {
 #[test]
 fn output_that_cannot_be_written_is_said() {
     let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("the full device");
-    let plan = &shipped("paper-5-tire.toml");
-    let output = Command::new(PROGRAM).args(["check", plan]).stdout(full).output().expect("it runs");
+    let plan = &tested_plan("paper-5-tire.toml");
+    let mut command = Command::new(PROGRAM);
+    let child = command.args(["check", plan]).stdout(full).stderr(Stdio::piped()).spawn();
+    let output = ended(child.expect("it runs"));
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("No space left"));
 }
@@ -170,7 +175,7 @@ fn output_and_errors_that_nobody_takes_end_in_a_status() {
     let folder = tempfile::tempdir().expect("a folder");
     let bad = folder.path().join("bad.toml");
     fs::write(&bad, "rows = ").expect("written");
-    let (plan, bad) = (shipped("paper-5-tire.toml"), bad.to_str().expect("UTF-8").to_owned());
+    let (plan, bad) = (tested_plan("paper-5-tire.toml"), bad.to_str().expect("UTF-8").to_owned());
     let draft = ["--accuracy", "draft", "--nominal"];
     let cases: &[&[&str]] = &[
         &["check", &plan],
@@ -199,8 +204,8 @@ fn output_and_errors_that_nobody_takes_end_in_a_status() {
         };
         let more = if arguments.contains(&"--timeout") { &[] } else { more };
         let mut command = Command::new(PROGRAM);
-        let status = command.args(*arguments).args(more).stdout(full()).stderr(full()).status();
-        let code = status.expect("it runs").code();
+        let child = command.args(*arguments).args(more).stdout(full()).stderr(full()).spawn();
+        let code = ended(child.expect("it runs")).status.code();
         assert!([Some(1), Some(2)].contains(&code), "{arguments:?}: {code:?}");
     }
 }
@@ -208,7 +213,7 @@ fn output_and_errors_that_nobody_takes_end_in_a_status() {
 /// Whoever reads the output may stop reading: nothing is said about it.
 #[test]
 fn a_closed_pipe_ends_it_quietly() {
-    let plan = &shipped("paper-5-tire.toml");
+    let plan = &tested_plan("paper-5-tire.toml");
     for arguments in [&["check", plan][..], &["trace", plan], &["ropes"], &["man"], &["schema"]] {
         let mut child = Command::new(PROGRAM)
             .args(arguments)
@@ -217,7 +222,7 @@ fn a_closed_pipe_ends_it_quietly() {
             .spawn()
             .expect("it starts");
         drop(child.stdout.take());
-        let output = child.wait_with_output().expect("it ends");
+        let output = ended(child);
         let told = String::from_utf8_lossy(&output.stderr);
         assert!(told.lines().all(|line| line.starts_with("warning: ")), "{arguments:?}: {told}");
         assert_ne!(output.status.code(), None, "{arguments:?} ends by itself");
@@ -227,12 +232,12 @@ fn a_closed_pipe_ends_it_quietly() {
 #[test]
 fn a_closed_pipe_does_not_turn_a_fail_into_a_pass() {
     let mut child = Command::new(PROGRAM)
-        .args(["check", &shipped("amur-three-rows.toml"), "--accuracy", "draft"])
+        .args(["check", &tested_plan("amur-three-rows.toml"), "--accuracy", "draft"])
         .stdout(Stdio::piped())
         .spawn()
         .expect("it starts");
     drop(child.stdout.take());
-    assert_eq!(child.wait().expect("it ends").code(), Some(1));
+    assert_eq!(ended(child).status.code(), Some(1));
 }
 
 /// A plan that comes through a pipe is read as it comes.
@@ -249,16 +254,17 @@ fn a_plan_is_read_from_a_fifo_and_from_standard_input() {
         command.spawn().expect("it starts")
     };
     let child = check(&fifo);
-    let mut writer = fs::OpenOptions::new().write(true).open(&fifo).expect("the fifo");
+    let open = move || fs::OpenOptions::new().write(true).open(&fifo).expect("the fifo");
+    let mut writer = within("opening a fifo that nobody reads", open);
     let (first, second) = text.split_at(text.len() / 2);
     writer.write_all(first.as_bytes()).expect("written");
     thread::sleep(Duration::from_millis(50));
     writer.write_all(second.as_bytes()).expect("written");
     drop(writer);
-    assert!(child.wait_with_output().expect("it ends").status.success());
+    assert!(ended(child).status.success());
     let mut child = check(Path::new("-"));
     child.stdin.take().expect("a pipe").write_all(text.as_bytes()).expect("written");
-    assert!(child.wait_with_output().expect("it ends").status.success());
+    assert!(ended(child).status.success());
 }
 
 /// A pipe that nobody reads from, or writes to, holds up neither --timeout nor a signal.
@@ -268,26 +274,25 @@ fn a_pipe_without_a_partner_holds_nothing_up() {
     let folder = tempfile::tempdir().expect("a folder");
     let fifo = folder.path().join("fifo");
     assert!(Command::new("mkfifo").arg(&fifo).status().expect("mkfifo runs").success());
-    let (fifo, plan) = (fifo.to_str().expect("UTF-8"), shipped("paper-5-tire.toml"));
+    let (fifo, plan) = (fifo.to_str().expect("UTF-8"), tested_plan("paper-5-tire.toml"));
     let begun = Instant::now();
     let start = |arguments: &[&str]| {
         let mut command = Command::new(PROGRAM);
         command.args(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("it starts")
     };
-    let output =
-        start(&["report", &plan, "-o", fifo, "--force", "--nominal"]).wait_with_output().expect("it ends");
+    let output = ended(start(&["report", &plan, "-o", fifo, "--force", "--nominal"]));
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("nobody reads from it"));
-    let output = start(&["check", fifo, "--timeout", "0.5"]).wait_with_output().expect("it ends");
+    let output = ended(start(&["check", fifo, "--timeout", "0.5"]));
     assert_eq!(output.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&output.stderr).contains("the time was up before the plan was read"));
-    let output = start(&["search", fifo, "--write", "--timeout", "0.5"]).wait_with_output().expect("it ends");
+    let output = ended(start(&["search", fifo, "--write", "--timeout", "0.5"]));
     assert!(!output.status.success());
-    let mut waiting = start(&["check", fifo]);
+    let waiting = start(&["check", fifo]);
     thread::sleep(Duration::from_millis(300));
     let id = waiting.id().to_string();
     assert!(Command::new("kill").args(["-s", "TERM", &id]).status().expect("kill runs").success());
-    assert!(!waiting.wait().expect("it ends").success());
+    assert!(!ended(waiting).status.success());
     assert!(begun.elapsed() < Duration::from_secs(60), "{:?}", begun.elapsed());
     // With a partner, however slow, all of it arrives.
     let reader = thread::spawn({
@@ -301,7 +306,7 @@ fn a_pipe_without_a_partner_holds_nothing_up() {
     });
     let text = "what the shotfirer noted\n".repeat(100_000);
     file::save(Path::new(fifo), &text).expect("written");
-    assert!(reader.join().expect("a reader").expect("read") == text);
+    assert!(within("reading a fifo", || reader.join()).expect("a reader").expect("read") == text);
 }
 
 /// A plan of somebody else stays theirs, though anybody may write into its folder. Only root can set this up.
@@ -335,7 +340,7 @@ fn a_save_keeps_the_owner_or_refuses() {
         rights(&plan, mode);
         let mut command = Command::new(&program);
         command.args(["size", "--write", "--accuracy", "draft"]).arg(&plan).uid(NOBODY).gid(NOBODY);
-        let output = command.output().expect("it runs");
+        let output = output(&mut command);
         let told = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{told}");
         assert!(told.contains(said), "{told}");
@@ -356,8 +361,7 @@ fn a_file_name_with_characters_that_nobody_sees_is_shown() {
         let plan = folder.path().join(name);
         let page = folder.path().join("page.html");
         let run = |arguments: &[&str]| {
-            let output =
-                Command::new(PROGRAM).args(arguments).current_dir(folder.path()).output().expect("it runs");
+            let output = output(Command::new(PROGRAM).args(arguments).current_dir(folder.path()));
             let all = [output.stdout, output.stderr].concat();
             String::from_utf8(all).expect("UTF-8")
         };

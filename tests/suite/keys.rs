@@ -90,7 +90,7 @@ fn options_are_sorted_filtered_and_compared() {
     key(&mut app, KeyCode::Esc);
     app.selected = 0;
     press(&mut app, "b");
-    let screen = text(&draw(&app, 120, 36));
+    let screen = text(&draw(&app, 200, 36));
     assert!(screen.contains("=all at once") && screen.contains("-0.010"), "{screen}");
     press(&mut app, "b");
     assert!(app.baseline().is_none());
@@ -117,7 +117,7 @@ fn clicks_do_what_keys_do() {
     click(&mut app, "20 ms");
     assert!(app.zoom, "a second click opens");
     key(&mut app, KeyCode::Esc);
-    click(&mut app, "plan F, kN");
+    click(&mut app, "force   of");
     assert_eq!(app.listing.sort, SortBy::Force);
     click(&mut app, "4 Studies");
     assert_eq!(app.screen, Screen::Studies);
@@ -233,6 +233,9 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     let before = app.editor.text.clone();
     assert_eq!(press(&mut app, "E"), Request::JudgeNewPlan);
     assert_eq!((app.screen, app.case.plan.fitted_from.len()), (Screen::Compare, 1));
+    let known = app.case.plan.uncertainty;
+    // This fit took all but the launches for exact: it knows them to 1 %, and narrows nothing.
+    assert_eq!((known.launch_common_percent, known.launch_between_shots_percent), (3.0, 0.0));
     key(&mut app, KeyCode::Esc);
     assert!(says(&app, "! what was seen is not compared with this plan"), "{}", text(&draw(&app, 120, 36)));
     let found = compare(&app);
@@ -530,4 +533,25 @@ fn paging_changes_no_option_that_fills_the_screen() {
     key(&mut app, KeyCode::Enter);
     key(&mut app, KeyCode::PageDown);
     assert_eq!(app.selected, 6);
+}
+
+/// A lighter tire may leave faster, a heavier one as fast: the launches follow, and the screen says so.
+#[test]
+fn launches_follow_the_mass_of_the_tires_and_the_screen_says_so() {
+    let mut app = finished();
+    let speeds = |app: &App| app.case.plan.launches().map(|launch| launch.speed_m_s).collect::<Vec<_>>();
+    press(&mut app, "1");
+    app.editor.find("tire mass", false);
+    assert_eq!(key(&mut app, KeyCode::Left), Request::JudgeNewPlan);
+    let mass = app.case.plan.tire.mass_kg;
+    assert!(mass < 280.0 && speeds(&app).iter().all(|speed| (speed / 6.0 - 280.0 / mass).abs() < 1e-5));
+    let says = |app: &App, words: &str| text(&draw(app, 120, 36)).contains(words);
+    assert!(says(&app, "launch_mass_exponent 1, the worse end"), "{}", text(&draw(&app, 120, 36)));
+    key(&mut app, KeyCode::Right);
+    assert_eq!((app.case.plan.tire.mass_kg, speeds(&app)), (280.0, vec![6.0; 3]));
+    key(&mut app, KeyCode::Right);
+    assert_eq!(speeds(&app), [6.0; 3]);
+    assert!(says(&app, "launches stay (launch_mass_exponent 0"), "{}", text(&draw(&app, 120, 36)));
+    press(&mut app, "uuu");
+    assert!(!app.editor.unsaved());
 }

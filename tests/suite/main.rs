@@ -2,10 +2,12 @@
 //!
 //! | claim | where |
 //! |---|---|
-//! | the motion is right | `closed_forms`, `reference`, `oracle`, `properties`, `mirrors`, `extremes`, `breaking`, `effects`, `hole_by_hole` |
-//! | its errors are right, and it takes no memory | `calibration`, `allocation` |
+//! | a shelter as it is laid, a shot as it is fired | `as_laid` |
 //! | a plan is read or its mistake is told | `plans`, `bad_plans`, `plan_keys`, `schema`, `import`, `shotplus`, `damaged_texts` |
-//! | studies find what brute force finds | `risk`, `studies`, `search`, `remedies`, `fit` |
+//! | what is recommended is confirmed, and what a PASS stands on is told | `recommend`, `assumptions` |
+//! | the motion is right | `closed_forms`, `reference`, `published`, `oracle`, `properties`, `mirrors`, `extremes`, `breaking`, `effects`, `damped_peaks`, `hole_by_hole` |
+//! | its errors are right, and it takes no memory | `calibration`, `unknown_errors`, `allocation` |
+//! | studies find what brute force finds | `risk`, `made_samples`, `studies`, `search`, `remedies`, `fit` |
 //! | commands do what scripts expect | `check`, `long_studies`, `saved`, `page` |
 //! | nothing is lost, whatever happens | `faults`, `saved`, `terminal` |
 //! | screens and keys | `screens`, `keys`, `flight`, `terminal`; what a person came for, in how many keys: `journeys` |
@@ -13,12 +15,15 @@
 //! | what tests share | `support`: scenes, an app on a test terminal, the program on a pseudo-terminal |
 
 mod allocation;
+mod as_laid;
+mod assumptions;
 mod bad_plans;
 mod breaking;
 mod calibration;
 mod check;
 mod closed_forms;
 mod damaged_texts;
+mod damped_peaks;
 mod documents;
 mod effects;
 mod extremes;
@@ -32,12 +37,15 @@ mod journeys;
 mod keys;
 mod layers;
 mod long_studies;
+mod made_samples;
 mod mirrors;
 mod oracle;
 mod page;
 mod plan_keys;
 mod plans;
 mod properties;
+mod published;
+mod recommend;
 mod reference;
 mod remedies;
 mod risk;
@@ -51,3 +59,4 @@ mod studies;
 mod support;
 #[cfg(unix)]
 mod terminal;
+mod unknown_errors;

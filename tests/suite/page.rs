@@ -9,7 +9,7 @@ use serde_json::Value;
 use shelter::tui::export;
 
 use super::support::stage::finished;
-use super::support::{Edited, json, shelter, shipped, text};
+use super::support::{Edited, json, shelter, tested_plan, text};
 
 /// Its first line is empty, and it holds a carriage return: both are kept.
 const PLAN: &str = "
@@ -23,6 +23,13 @@ delay = [{ name = \"20 & 0\", interval_ms = 20 }, { name = \"<b>\", at_ms = [0, 
 simulation = { accuracy = \"draft\" }
 [uncertainty]
 launch_common_percent = 2
+launch_row_cv_percent = 0
+launch_tilt_deg = 0
+launch_tilt_common_deg = 0
+hole_position_m = 0
+pattern_offset_m = 0
+hole_fails_percent = 0
+cable_length_m = 0
 [[blast_row]]
 name = \"1 < 2\"
 under_row = 2
@@ -129,7 +136,7 @@ fn the_page_holds_every_result_and_nothing_from_elsewhere() {
 
 #[test]
 fn a_page_that_cannot_be_written_says_so() {
-    let output = shelter(&["report", &shipped("paper-5-tire.toml"), "-o", "/no/such/folder/page.html"]);
+    let output = shelter(&["report", &tested_plan("paper-5-tire.toml"), "-o", "/no/such/folder/page.html"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(!output.stderr.is_empty());
 }
@@ -203,27 +210,27 @@ fn in_style_sheet(text: &str) -> String {
 fn a_page_without_samples_says_so_wherever_it_says_pass() {
     let output = shelter(&[
         "report",
-        &shipped("amur-three-rows.toml"),
+        &tested_plan("amur-three-rows.toml"),
         "-o",
         "-",
         "--nominal",
         "--accuracy",
         "draft",
         "--option",
-        "109 ms",
+        "42 ms",
     ]);
     let page = text(&output.stdout);
     let caveat = " as planned only; the possible shots were NOT judged";
     assert!(
-        page.contains("NOT to be fired: 109 ms") && !page.contains("To be fired"),
+        page.contains("NOT to be fired: 42 ms") && !page.contains("To be fired"),
         "nobody fires by this alone"
     );
     for place in [
         // The head, the signature, the heading of its charts, and the foot of every printed page.
         format!("<p class=\"large\"><span class=\"pass\">PASS</span>{caveat}"),
-        format!("“109 ms”, <span class=\"pass\">PASS</span>{caveat}"),
-        format!("109 ms <span class=\"pass\">PASS</span>{caveat} · NOT to be fired"),
-        in_style_sheet(&format!("“109 ms”: PASS{caveat}")),
+        format!("“42 ms”, <span class=\"pass\">PASS</span>{caveat}"),
+        format!("42 ms <span class=\"pass\">PASS</span>{caveat} · NOT to be fired"),
+        in_style_sheet(&format!("“42 ms”: PASS{caveat}")),
     ] {
         assert!(page.contains(&place), "{place}\n{page}");
     }
@@ -288,7 +295,7 @@ fn the_terminal_says_where_the_plan_is_not_saved() {
     let exported = |name: &str, edit: &str| {
         let (mut app, path) = (finished(), folder.path().join(name));
         let source = &mut Arc::make_mut(&mut app.case).source;
-        source.path = shipped("amur-three-rows.toml");
+        source.path = tested_plan("amur-three-rows.toml");
         source.text += edit;
         export::write(&app, &path).expect("written");
         xml(&std::fs::read_to_string(path).expect("the page"))
@@ -430,7 +437,7 @@ fn a_file_that_is_no_page_of_this_program_is_not_overwritten() {
     let folder = tempfile::tempdir().expect("a folder");
     let page = folder.path().join("page.html");
     let page = page.to_str().expect("UTF-8");
-    let plan = shipped("paper-5-tire.toml");
+    let plan = tested_plan("paper-5-tire.toml");
     let report = |more: &[&str]| {
         let arguments = ["report", &plan, "-o", page, "--nominal", "--accuracy", "draft"];
         shelter(&[&arguments[..], more].concat())
@@ -488,6 +495,31 @@ fn what_was_seen_of_earlier_shots_stands_on_the_page() {
     std::fs::write(&seen, line(1.6).replace("1:1", "9:9")).expect("written");
     let (wrong, _) = report(PLAN, &["--nominal", "--observed", &path]);
     assert_eq!(wrong.status.code(), Some(2));
+}
+
+/// The exit status says what the head of the page says: only a full PASS that nothing seen contradicts may be fired.
+#[test]
+fn the_exit_status_of_a_page_is_whether_its_option_may_be_fired() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let seen = folder.path().join("seen.csv");
+    std::fs::write(&seen, "option,tire,quantity,value,sd\n20 & 0,1:1,flight_height_m,1.9,0.05\n")
+        .expect("written");
+    let seen = seen.display().to_string();
+    let option = ["--option", "<b>"];
+    for (more, may_be_fired) in [
+        (&[][..], true),
+        (&["--nominal"][..], false),
+        (&["--samples", "100"][..], false),
+        (&["--observed", &seen][..], false),
+    ] {
+        let (output, page) = report(PLAN, &[&option[..], more].concat());
+        let page = page.expect("a page");
+        assert_eq!(page.contains("\">To be fired: "), may_be_fired, "{more:?}");
+        assert_eq!(output.status.code(), Some(i32::from(!may_be_fired)), "{more:?}");
+        assert_eq!(text(&output.stderr).contains("was seen, over the limit"), more.contains(&"--observed"));
+    }
+    let (output, _) = report(PLAN, &["--nominal", "--observed", &seen]);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
 }
 
 #[test]

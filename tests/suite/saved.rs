@@ -7,7 +7,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::support::{self, Edited, PROGRAM, shelter};
+use super::support::{self, Edited, PATIENCE, PROGRAM, shelter};
 
 /// A small plan in a folder, and the path of a file of results there.
 fn plan_and_file(folder: &Path) -> [String; 2] {
@@ -16,6 +16,11 @@ fn plan_and_file(folder: &Path) -> [String; 2] {
     fs::write(&plan, support::small_plan()).expect("written");
     [plan, file]
 }
+
+/// What the build script computes.
+#[allow(dead_code)]
+#[path = "../../build.rs"]
+mod build;
 
 fn start(arguments: &[&str]) -> Child {
     let mut command = Command::new(PROGRAM);
@@ -92,12 +97,9 @@ fn an_interrupt_prints_what_there_is() {
     let command = ["risk", &plan, "--samples", "40000", "--format", "json", "--save", &file];
     let child = start(&command);
     let saved = || fs::read_to_string(&file).map_or(0, |text| text.lines().count());
-    let begun = Instant::now();
-    while saved() < 300 && begun.elapsed() < Duration::from_secs(60) {
-        thread::sleep(Duration::from_millis(5));
-    }
+    support::wait(PATIENCE, || (saved() >= 300).then_some(()), || format!("{} results are saved", saved()));
     interrupt(&child);
-    let output = child.wait_with_output().expect("it ends");
+    let output = support::ended(child);
     let told = support::text(&output.stderr);
     assert!(told.contains("interrupted with ") && told.contains("what follows is partial"), "{told}");
     assert_eq!(output.status.code(), Some(130));
@@ -118,7 +120,7 @@ fn interrupt(child: &Child) {
 #[cfg(unix)]
 #[test]
 fn an_interrupt_ends_a_command_with_130() {
-    let plan = support::shipped("large-50x50.toml");
+    let plan = support::tested_plan("large-50x50.toml");
     for command in ["check", "sweep", "orders", "size", "report"] {
         let page = ["-o", "never-written.html"];
         let arguments =
@@ -127,7 +129,7 @@ fn an_interrupt_ends_a_command_with_130() {
         thread::sleep(Duration::from_millis(700));
         let begun = Instant::now();
         interrupt(&child);
-        let output = child.wait_with_output().expect("it ends");
+        let output = support::ended(child);
         assert_eq!(output.status.code(), Some(130), "{command}");
         assert!(begun.elapsed() < Duration::from_secs(20), "{command}");
         assert!(!Path::new("never-written.html").exists());
@@ -160,7 +162,8 @@ fn a_torn_line_is_dropped_and_a_damaged_line_is_refused() {
         (text.replacen("\n{", "\n\n{", 1), "saved.jsonl:2: the line is not as it was written"),
         (without(3), "results were written and"),
         (text.replacen("\"version\":\"", "\"version\":\"9", 1), "go on with that version"),
-        (text.replacen("shelter.results/2", "shelter.results/99", 1), "go on with that version"),
+        (text.replacen("\"build\":\"", "\"build\":\"9", 1), "go on with that build"),
+        (text.replacen("shelter.results/3", "shelter.results/99", 1), "go on with that version"),
     ];
     for (changed, message) in cases {
         assert_ne!(changed, text, "{message}");
@@ -179,6 +182,74 @@ fn a_torn_line_is_dropped_and_a_damaged_line_is_refused() {
     assert_eq!(shelter(&command).stdout, whole.stdout);
     let merged = shelter(&["merge", &file]);
     assert_eq!(merged.stdout, whole.stdout, "what is saved is a shard, too");
+}
+
+/// The build of a file of results is that of the program, and what another build saved is neither gone on with nor merged, even
+/// where every line of it is as it was written.
+#[test]
+fn results_of_another_build_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [plan, file] = plan_and_file(folder.path());
+    let second = format!("{file}.2");
+    let shard = |index: &str, file: &str| {
+        shelter(&["risk", &plan, "--samples", "20", "--accuracy", "draft", "--shard", index, "-o", file])
+    };
+    assert!(shard("1/2", &file).status.success() && shard("2/2", &second).status.success());
+    assert_eq!(shelter(&["merge", &file, &second]).status.code(), Some(1));
+    let text = fs::read_to_string(&second).expect("results");
+    let build =
+        format!("{:016x}", build::fingerprint(Path::new(env!("CARGO_MANIFEST_DIR"))).expect("sources"));
+    let version = shelter(&["--version"]);
+    assert!(support::text(&version.stdout).contains(&build), "{}", support::text(&version.stdout));
+    let (head, rest) = text.split_once('\n').expect("a first line");
+    let changed = head.edited(&build, "0123456789abcdef");
+    let (body, _) = changed.rsplit_once(",\"check\"").expect("sealed");
+    let digest = shelter::file::checksum(body);
+    let other = format!("{body},\"check\":\"{}\"}}\n{rest}", &digest[..16]);
+    fs::write(&second, &other).expect("written");
+    for output in [shard("2/2", &second), shelter(&["merge", &file, &second])] {
+        let told = support::text(&output.stderr);
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{told}");
+        assert!(told.contains("results of build 0123456789abcdef") && told.contains(&build), "{told}");
+    }
+    assert_eq!(fs::read_to_string(&second).expect("results"), other, "it stays as it is");
+}
+
+/// The fingerprint of a build changes with every source that computes, the rope catalogue and the dependencies, and with no screen.
+#[test]
+fn the_fingerprint_of_a_build_is_of_what_computes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let root = folder.path();
+    let files = [
+        ("src/simulation/contact.rs", "1.0", true),
+        ("src/study/risk.rs", "let n = 20;\nlet m = 2;\n", true),
+        ("src/plan/values.rs", "default", true),
+        ("src/ropes/ropes.toml", "20.9", true),
+        ("src/verdict.rs", "<", true),
+        ("Cargo.lock", "libm 0.2.16", true),
+        ("src/tui/app.rs", "a screen", false),
+        ("src/report/text.rs", "a table", false),
+        ("src/main.rs", "main", false),
+        ("src/study/.risk.rs.swp", "an editor's", false),
+    ];
+    for (name, text, _) in files {
+        let path = root.join(name);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+        fs::write(path, text).expect("written");
+    }
+    let build = || build::fingerprint(root).expect("sources");
+    let first = build();
+    for (name, text, computes) in files {
+        fs::write(root.join(name), text.replace('\n', "\r\n")).expect("written");
+        assert_eq!(build(), first, "{name}: line ends do not count");
+        fs::write(root.join(name), format!("{text}1")).expect("written");
+        assert_eq!(build() != first, computes, "{name}");
+        fs::write(root.join(name), text).expect("written");
+    }
+    fs::rename(root.join("src/plan/values.rs"), root.join("src/plan/other.rs")).expect("renamed");
+    assert_ne!(build(), first, "a name counts");
+    fs::remove_file(root.join("Cargo.lock")).expect("removed");
+    assert!(build::fingerprint(root).is_ok(), "it is no mistake to have none");
 }
 
 /// Machines keep a plan in different folders; a plan that says something else is another study, and is told.
@@ -278,7 +349,7 @@ fn a_full_disk_loses_no_result_that_was_saved() {
     let [plan, file] = plan_and_file(folder.path());
     let command = ["risk", &plan, "--samples", "100", "--accuracy", "draft", "--save", &file];
     let script = "trap '' XFSZ; ulimit -f 40; exec \"$0\" \"$@\"";
-    let output = Command::new("sh").args(["-c", script, PROGRAM]).args(command).output().expect("it runs");
+    let output = support::output(Command::new("sh").args(["-c", script, PROGRAM]).args(command));
     let told = support::text(&output.stderr);
     assert!(told.contains("not all results are saved"), "{told}");
     let again = shelter(&command);

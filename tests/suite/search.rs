@@ -7,7 +7,7 @@ use shelter::study::judge_options::OptionResults;
 use shelter::study::orders::try_orders;
 use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::sample_count::Sampling;
-use shelter::study::search::{MOST_TRIED, Search, duration, search};
+use shelter::study::search::{MOST_TRIED, Search, search};
 use shelter::study::{Case, ComputeSettings, Computed, NoResult, Shard, StudyControl};
 use shelter::verdict::Verdict;
 
@@ -115,7 +115,7 @@ fn the_least_risk_of_all_is_found() {
     }
     let all = Case::new(Plan { delays, ..case.plan.clone() });
     let results =
-        all.judge_options(&compute, Some(&all_at_once), &StudyControl::default()).expect("a result").value;
+        all.sample_options(&compute, &all_at_once, &StudyControl::default()).expect("a result").value;
     let least = (0..results.len()).map(|n| share(&results, n)).fold(1.0, f64::min);
     let best = found.case.plan.delays.iter().map(|delay| {
         let at = all.plan.delays.iter().position(|other| other.timing == delay.timing);
@@ -133,7 +133,7 @@ fn what_is_found_keeps_the_limits_of_the_search() {
     let found = searched(&case, None);
     assert!(found.screened > 0 && found.screened < found.possible);
     for shot in &found.case.shots {
-        assert!(duration(shot) <= 0.08 + 1e-9);
+        assert!(shot.duration() <= 0.08 + 1e-9);
         assert!(WithinEightMs::of(&case, shot).holes <= 2);
     }
     let none = searched(&self::case(&plan("intervals_ms = [67], longest_ms = 80")), None);

@@ -226,6 +226,42 @@ fn launch_directions_come_from_the_design() {
     assert!(refused.contains("hole 7: DesignAngle is `90`"), "{refused}");
 }
 
+/// Memory stays small, however the XML is made: what is not read of a hole is not kept, and what no design has is refused.
+#[test]
+fn odd_designs_take_little_memory() {
+    let with = |inside: &str| {
+        let list = xml(&[hole("1", [0.0, 0.0], 0.0, &[], 0.0).replace("<Index>0</Index>", inside)]);
+        archive(&[("BlisData.Xml", list.as_bytes())])
+    };
+    let nested = |depth: usize| "<a>".repeat(depth) + &"</a>".repeat(depth);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("blast.spf");
+    let megabytes = |bytes: &[u8]| {
+        std::fs::write(&path, bytes).expect("written");
+        let mut read = Err(String::new());
+        let used = allocation_counter::measure(|| {
+            let found = plan_from_file(&path, Directions::Vertical);
+            read = found.map(|_| ()).map_err(|mistakes| mistakes.render(false));
+        });
+        (used.bytes_max >> 20, read)
+    };
+    // A hole lies three deep.
+    let (used, read) = megabytes(&with(&nested(17)));
+    assert!(used < 2 && read.is_ok(), "{used} MB: {read:?}");
+    for depth in [18, 20_000] {
+        let (used, read) = megabytes(&with(&nested(depth)));
+        let told = read.expect_err("it is too deep");
+        assert!(used < 2 && told.contains("its elements lie more than 20 deep"), "{used} MB: {told}");
+    }
+    // Four megabytes of elements that nobody reads; the list itself, and its text, are four times as much.
+    let (used, read) = megabytes(&with(&(0..250_000).map(|n| format!("<a{n:07}/>\n")).collect::<String>()));
+    assert!(used < 20 && read.is_ok(), "{used} MB: {read:?}");
+    let (used, read) =
+        megabytes(&archive(&[("BlisData.Xml", xml(&vec!["<Hole/>".to_owned(); 60_000]).as_bytes())]));
+    let told = read.expect_err("there are too many");
+    assert!(used < 20 && told.contains("more than 50000 holes"), "{used} MB: {told}");
+}
+
 /// Two detonators in one charge are one shot: the first fires it.
 #[test]
 fn a_second_detonator_does_not_move_a_charge() {

@@ -14,7 +14,6 @@ use shelter::study::judgement::Evidence;
 use shelter::study::judgement::Judgement;
 use shelter::study::orders::{Orders, TriedOrder, check_extremes, orders, try_orders};
 use shelter::study::reasons::Reason;
-use shelter::study::samples::failure_bounds::ErrorShare;
 use shelter::study::samples::sample_count::Sampling;
 use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
 use shelter::study::samples::sampled_shot::SampledShot;
@@ -39,7 +38,7 @@ delay = [{{ name = "a", interval_ms = 20 }}, {{ name = "b", interval_ms = 45 }}]
 {more}
 "#
     );
-    if !more.contains("cable") {
+    if !more.contains("cable = ") {
         text += "cable = { axial_stiffness_kn = 1400, breaking_force_kn = 60, slack_percent = 3 }\n";
     }
     for row in 0..rows {
@@ -118,7 +117,12 @@ fn a_sweep_is_the_check_of_every_interval() {
 
 /// Three rows with a limit on height [m] that some of their samples reach; accepted risk 5 %.
 fn risky_case(height: f64) -> Case {
-    let mut plan = plan(3, "uncertainty = { launch_common_percent = 3, friction = [0.45, 0.55] }");
+    let mut plan = plan(
+        3,
+        "uncertainty = { launch_common_percent = 3, friction = [0.45, 0.55], launch_row_cv_percent = 0, \
+         launch_tilt_deg = 0, launch_tilt_common_deg = 0, launch_between_shots_percent = 0, hole_position_m = 0, \
+         pattern_offset_m = 0, hole_fails_percent = 0, cable_length_m = 0 }",
+    );
     plan.limits.flight_height_m = height;
     plan.limits.accepted_risk_percent = 5.0;
     Case::new(plan)
@@ -154,7 +158,8 @@ fn windows_of_accepted_risk_are_those_of_the_samples() {
         let bounds = point.risk.known().expect("sampled").bounds;
         // More samples have the few intervals that got a full verdict.
         if bounds.samples <= 100 {
-            let alone = risk_at(&case, point.interval, &sampling.first_look(), compute).bounds;
+            let first_look = sampling.for_screening().first_look();
+            let alone = risk_at(&case, point.interval, &first_look, compute).bounds;
             assert_eq!(bounds, alone, "the same draws at every interval");
             let keeps = 20 * alone.failures <= alone.samples;
             assert_eq!(inside(&swept.windows, point.interval), keeps, "{}", point.interval);
@@ -178,14 +183,13 @@ fn the_recommended_interval_has_a_full_verdict() {
     let shot = case.shot(&[0, 1, 2], best.interval);
     let checked = check_shot(&case, &shot, &compute, &mut |_| ControlFlow::Continue(()));
     assert_eq!((best.verdict(), best.planned), (Verdict::Pass, ShotSummary::of(&checked.expect("a result"))));
-    // The first look chose the interval for its draws; the verdict has others.
-    let full = risk_at(
-        &case,
-        best.interval,
-        &sampling.with_fresh_draws(ErrorShare::Nth(1 + swept.failed_full_verdict)),
-        compute,
-    );
+    // The draws of the first look chose the interval; `check` has others, and so has the confirmation.
+    let full = risk_at(&case, best.interval, &sampling, compute);
     assert_eq!((full.verdict(), best.risk.known().expect("sampled").bounds), (Verdict::Pass, full.bounds));
+    let confirms = |n: usize| {
+        risk_at(&case, best.interval, &sampling.for_confirmation(n), compute).verdict() == Verdict::Pass
+    };
+    assert!((1..=1 + swept.failed_full_verdict).any(confirms));
 }
 
 /// A hundred samples of an interval may keep the accepted risk, and its full verdict does not pass: it is not recommended.
@@ -208,6 +212,7 @@ fn the_ends_of_the_ranking_are_sampled() {
     let nominal = orders(None).expect("a result").value;
     let ranked = orders(Some(&sampling)).expect("a result").value;
     assert_eq!((&ranked.ranked, ranked.ranked.len()), (&nominal.ranked, 72));
+    let (mut least, mut full) = (0, 0);
     for (n, tried) in ranked.ranked.iter().enumerate() {
         assert_eq!(nominal.verdict_on(n), tried.planned.verdict);
         let Evidence::Known(risk) = ranked.risk(n) else {
@@ -215,13 +220,20 @@ fn the_ends_of_the_ranking_are_sampled() {
             assert!(ranked.verdict_on(n) != Verdict::Pass, "not sampled, so not sure");
             continue;
         };
-        let sampling = if n == 71 { sampling } else { sampling.first_look() };
+        let few = risk.bounds.samples <= 100;
+        (least, full) = (least + usize::from(few), full + usize::from(!few));
+        let sampling = if few { sampling.for_screening().first_look() } else { sampling };
         let shot = case.shot(&tried.order, tried.interval);
         let target = ShotToSample::new(&case, &shot, compute, sampling);
         let risks = sample_shots(&[target], &control).expect("samples").value;
         assert_eq!(risk.bounds, risks[0].bounds);
-        assert_eq!(ranked.verdict_on(n), tried.planned.verdict.max(risks[0].verdict()));
+        let samples = ranked.verdict_on(n).max(tried.planned.verdict);
+        // Fresh draws confirm the best, or leave it open.
+        let may_be_open = n == 71 && samples == Verdict::Undecided;
+        assert!(may_be_open || samples == tried.planned.verdict.max(risks[0].verdict()));
     }
+    // The worst as planned, that which fails most often, and the best.
+    assert!((2..=3).contains(&full) && least >= 37, "{full} {least}");
 }
 
 /// Runs that end in the air tell neither that a rope holds nor that it does not.
@@ -424,7 +436,8 @@ fn many_rows_are_searched() {
     }
 }
 
-/// The lightest combination under which every option passes as planned, and surely few enough of its samples fail.
+/// The lightest combination under which every option passes as planned, and surely few enough of its samples fail: as written, and
+/// with tires that leave with the same velocity, or with the same momentum, as those of the plan.
 #[test]
 fn the_lightest_shelter_is_that_of_brute_force() {
     let family = "EN 12385-4 6x19 FC";
@@ -439,14 +452,20 @@ fn the_lightest_shelter_is_that_of_brute_force() {
     let sizing = sizing.expect("a result").value;
     let ropes = catalogue().ropes.iter().filter(|rope| rope.family == family);
     let combinations = itertools::iproduct!(ropes, [150.0, 400.0], 0..=1).map(|(rope, mass, border)| {
-        let case = Case::new(plan.with_sizes(rope, mass, border));
-        let length: f64 = case.scene().cables.iter().map(|cable| cable.rest_length).sum();
-        (case.scene().tire_count() as f64 * mass + length * rope.mass_kg_per_m, case)
+        let with_exponents = |exponents: [f64; 2]| {
+            let mut plan = plan.clone();
+            plan.uncertainty.launch_mass_exponent = exponents;
+            Case::new(plan.with_sizes(rope, mass, border))
+        };
+        let cases = [[0.0, 1.0], [0.0, 0.0], [1.0, 1.0]].map(with_exponents);
+        let length: f64 = cases[0].scene().cables.iter().map(|cable| cable.rest_length).sum();
+        (cases[0].scene().tire_count() as f64 * mass + length * rope.mass_kg_per_m, cases)
     });
     let (mut lightest, mut fragile) = (f64::INFINITY, 0);
-    for (total, case) in combinations.sorted_by(|a, b| a.0.total_cmp(&b.0)) {
-        let results = judge_all(&[(&case, compute)], Some(&sampling), &StudyControl::default(), UNWATCHED);
-        let results = results.expect("a result").value.remove(0);
+    for (total, cases) in combinations.sorted_by(|a, b| a.0.total_cmp(&b.0)) {
+        let cases = cases.each_ref().map(|case| (case, compute));
+        let results = judge_all(&cases, Some(&sampling), &StudyControl::default(), UNWATCHED);
+        let results = results.expect("a result").value.concat();
         if results.iter().flatten().all(|judged| judged.verdict() == Verdict::Pass) {
             lightest = total;
             break;

@@ -2,13 +2,11 @@
 
 use std::io::Read;
 use std::sync::Arc;
-use std::thread;
-use std::time::{Duration, Instant};
 
 use portable_pty::{CommandBuilder, PtySize, native_pty_system};
 
-use super::support::pseudo_terminal::{PATIENCE, RunningShelter};
-use super::support::{Edited, PROGRAM, shipped, small_plan};
+use super::support::pseudo_terminal::RunningShelter;
+use super::support::{Edited, PROGRAM, SHORT_PATIENCE, output, small_plan, tested_plan, wait, within};
 
 #[test]
 fn the_table_appears_keys_and_resizing_work_and_q_restores() {
@@ -83,7 +81,7 @@ fn studies_run_are_cancelled_and_keep_their_result() {
     watched.press("ll\r");
     watched.until("combinations tried");
     watched.press("2");
-    watched.until("samples  plan H, m");
+    watched.until("of its limit");
     watched.press("4");
     watched.until("combinations tried");
     watched.press("q");
@@ -110,9 +108,98 @@ fn without_a_plan_there_is_a_choice() {
     watched.until(" of 7 pass");
     watched.press("q");
     assert_eq!(watched.ends(), 0);
-    let piped = std::process::Command::new(PROGRAM).output().expect("it runs");
+    let piped = output(&mut std::process::Command::new(PROGRAM));
     assert_eq!(piped.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&piped.stdout).contains("Usage"));
+}
+
+/// The file of kept edits holds `text`.
+fn is_kept(home: &tempfile::TempDir, text: &str) -> Option<()> {
+    let folder = std::fs::read_dir(home.path().join("shelter/unsaved")).ok()?;
+    // A file that is being written has another ending.
+    let paths = folder.filter_map(|file| Some(file.ok()?.path()));
+    let mut kept = paths.filter(|path| path.extension().is_some_and(|ending| ending == "toml"));
+    kept.any(|path| std::fs::read_to_string(path).is_ok_and(|kept| kept.contains(text))).then_some(())
+}
+
+/// Edits are kept within moments, so that a kill or a loss of power takes none; what is kept is of the last edit, told with its
+/// time, and gone once the plan is saved.
+#[test]
+fn unsaved_edits_survive_a_kill() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("plan.toml");
+    std::fs::write(&file, include_str!("../../plans/paper-5-tire.toml")).expect("written");
+    let arguments = [file.to_str().expect("UTF-8"), "--accuracy", "draft"];
+    let home = Arc::new(tempfile::tempdir().expect("a folder"));
+    let opened = || {
+        let watched = RunningShelter::start_at_home(&arguments, folder.path(), 120, 36, Arc::clone(&home));
+        watched.until(" of 1 pass");
+        watched
+    };
+    let kept = |watched: &RunningShelter, text: &str| {
+        wait(
+            SHORT_PATIENCE,
+            || is_kept(&home, text),
+            || format!("{text} is kept nowhere:\n{}", watched.contents()),
+        );
+    };
+    let told = format!("edits of {}", chrono::Local::now().format("%Y-%m-%d "));
+    let mut watched = opened();
+    assert!(is_kept(&home, "").is_none(), "a plan that is only looked at leaves nothing");
+    watched.press("1/friction\r\r\x150.61\r");
+    kept(&watched, "friction = 0.61");
+    watched.kill();
+    // Killed again, after another edit: the older one does not come back.
+    let mut watched = opened();
+    watched.until(&told);
+    watched.until("that were not saved are back");
+    watched.press("1/friction\r\r\x150.62\r");
+    kept(&watched, "friction = 0.62");
+    watched.kill();
+    let mut watched = opened();
+    watched.until(&told);
+    watched.press("1");
+    watched.until("0.62");
+    watched.press("s");
+    watched.until("saved /");
+    let gone = || is_kept(&home, "friction").is_none().then_some(());
+    wait(SHORT_PATIENCE, gone, || "what is saved is still kept".to_owned());
+    watched.kill();
+    let mut watched = opened();
+    assert!(!watched.contents().contains("not saved"), "{}", watched.contents());
+    watched.press("q");
+    assert_eq!(watched.ends(), 0);
+    // Where nothing can be kept, the screen says so.
+    std::fs::remove_dir_all(home.path().join("shelter/unsaved")).expect("removed");
+    std::fs::write(home.path().join("shelter/unsaved"), "").expect("written");
+    let mut watched = opened();
+    watched.press("1/friction\r\r\x150.63\r");
+    watched.until("a crash would lose what is not saved");
+    watched.press("qq");
+    assert_eq!(watched.ends(), 0);
+}
+
+/// A new plan that was never saved is offered at the next start, with its time.
+#[test]
+fn a_new_plan_survives_a_kill() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let home = Arc::new(tempfile::tempdir().expect("a folder"));
+    let begun = || RunningShelter::start_at_home(&[], folder.path(), 120, 36, Arc::clone(&home));
+    let mut watched = begun();
+    watched.until("A new plan by a few questions");
+    watched.press("\r");
+    watched.until("title");
+    watched.press("Killed shelter\r\r\r\r\r\r\r\r\r1.9\r\r");
+    watched.until("*not saved*");
+    wait(SHORT_PATIENCE, || is_kept(&home, "Killed shelter"), || "the new plan is kept nowhere".to_owned());
+    watched.kill();
+    let mut watched = begun();
+    watched.until(&format!("The new plan of {}", chrono::Local::now().format("%Y-%m-%d ")));
+    watched.press("\r");
+    watched.until("Killed shelter");
+    watched.press("qq");
+    assert_eq!(watched.ends(), 0);
+    assert!(is_kept(&home, "").is_none(), "given up, it stays away");
 }
 
 /// Edits that a signal left unsaved are back at the next start, once.
@@ -137,8 +224,9 @@ fn unsaved_edits_survive_a_signal() {
         edit(&mut watched);
         watched.signal(signal);
         assert_eq!(watched.ends(), 130);
+        assert!(is_kept(&home, "friction = 0.61").is_some(), "{signal}");
         let mut watched = opened(&home);
-        watched.until("the edits that were not saved are back");
+        watched.until("that were not saved are back");
         watched.until("*not saved*");
         watched.press("1");
         watched.until("0.61");
@@ -170,7 +258,7 @@ fn unsaved_edits_of_a_file_that_has_changed_say_so() {
     assert_eq!(watched.ends(), 130);
     std::fs::write(&file, format!("{text}# stricter now\n")).expect("written");
     let mut watched = RunningShelter::start_at_home(&arguments, folder.path(), 120, 36, home);
-    watched.until("edits of an OLDER file are back");
+    watched.until("of an OLDER file, are back");
     watched.press("qq");
     assert_eq!(watched.ends(), 0);
 }
@@ -199,7 +287,7 @@ fn pasted_text_is_no_command() {
 fn a_plan_is_edited_saved_and_reloaded() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("plan.toml");
-    let text = include_str!("../../plans/amur-three-rows.toml");
+    let text = include_str!("../fixtures/amur-three-rows.toml");
     std::fs::write(&file, text).expect("written");
     let read = || std::fs::read_to_string(&file).expect("the plan");
     let mut watched = RunningShelter::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 120, 36);
@@ -271,7 +359,7 @@ fn a_walk_through_everything() {
     let mut watched = RunningShelter::open(file.to_str().expect("UTF-8"), &["--accuracy", "draft"], 200, 60);
     watched.until(" of 7 pass");
     watched.press("oooo");
-    watched.until("plan H, m▲");
+    watched.until("height▲");
     watched.press("/42\r");
     watched.until("42 ms ─");
     watched.press("\x1b");
@@ -335,11 +423,11 @@ fn suspending_gives_the_terminal_back_and_continuing_takes_it_again() {
     let mut watched = RunningShelter::open("paper-5-tire.toml", &[], 100, 30);
     watched.until(" of 1 pass");
     watched.press("\x1a");
-    let start = Instant::now();
-    while watched.screen.lock().expect("the parser lives").screen().alternate_screen() {
-        assert!(start.elapsed() < PATIENCE, "the alternate screen is left");
-        thread::sleep(Duration::from_millis(10));
-    }
+    let left = || {
+        let parser = watched.screen.lock().expect("the parser lives");
+        (!parser.screen().alternate_screen()).then_some(())
+    };
+    wait(SHORT_PATIENCE, left, || format!("the alternate screen is not left:\n{}", watched.contents()));
     watched.signal("CONT");
     watched.until(" of 1 pass");
     assert!(watched.screen.lock().expect("the parser lives").screen().alternate_screen());
@@ -378,10 +466,10 @@ fn a_mistake_in_the_configuration_is_named() {
     let home = Arc::new(tempfile::tempdir().expect("a folder"));
     let folder = home.path().to_path_buf();
     let mut command = std::process::Command::new(PROGRAM);
-    let output = command.arg("config").env("XDG_CONFIG_HOME", &folder).env("HOME", &folder).output();
-    let text = String::from_utf8(output.expect("it runs").stdout).expect("UTF-8");
+    let output = output(command.arg("config").env("XDG_CONFIG_HOME", &folder).env("HOME", &folder));
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
     assert!(text.contains("shelter/config.toml") && text.contains("# theme = \"dark\""), "{text}");
-    let plan = shipped("paper-5-tire.toml");
+    let plan = tested_plan("paper-5-tire.toml");
     let opened = |notice: &str| {
         let mut watched = RunningShelter::start_at_home(&[&plan], &folder, 160, 36, Arc::clone(&home));
         watched.until(notice);
@@ -407,25 +495,23 @@ fn a_terminal_that_is_closed_ends_the_program() {
         let size = PtySize { rows: 30, cols: 100, pixel_width: 0, pixel_height: 0 };
         let pair = native_pty_system().openpty(size).expect("a pty");
         let mut command = CommandBuilder::new(PROGRAM);
-        command.args([&[shipped(plan).as_str()], more].concat());
+        command.args([&[tested_plan(plan).as_str()], more].concat());
         command.env("HOME", home.path());
         let mut child = pair.slave.spawn_command(command).expect("it starts");
         drop(pair.slave);
-        let (mut reader, mut bytes, mut seen) =
-            (pair.master.try_clone_reader().expect("a reader"), [0; 4096], 0);
+        let mut reader = pair.master.try_clone_reader().expect("a reader");
         // More than what enters the screen: something is drawn.
-        while seen < 2000 {
-            seen += reader.read(&mut bytes).expect("a screen");
-        }
-        drop((reader, pair.master));
-        let start = Instant::now();
-        let status = loop {
-            if let Some(status) = child.try_wait().expect("a child") {
-                break status;
-            }
-            assert!(start.elapsed() < Duration::from_secs(60), "still running");
-            thread::sleep(Duration::from_millis(10));
-        };
+        within("the first screen", move || reader.read_exact(&mut [0; 2000]).expect("a screen"));
+        drop(pair.master);
+        let mut killer = child.clone_killer();
+        let status = wait(
+            SHORT_PATIENCE,
+            || child.try_wait().expect("a child"),
+            || {
+                let _ = killer.kill();
+                "still running".to_owned()
+            },
+        );
         assert!([2, 130].contains(&status.exit_code()), "{status:?}");
     }
 }

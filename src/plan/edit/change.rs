@@ -4,7 +4,9 @@ use toml_edit::{DocumentMut, Item, Value};
 
 use super::fields;
 use super::fields::Path;
-use super::{as_number, change_launches, change_section, number, replace_keys, set, with_line_ends_of};
+use super::{
+    as_number, change_section, number, replace_keys, rounded, scale_launches, set, with_line_ends_of,
+};
 use crate::plan::keys::{cable, delay, plan, shelter, uncertainty};
 use crate::ropes::{Rope, Termination};
 use crate::units::{self, Unit};
@@ -99,10 +101,7 @@ impl Change {
                 set(table, shelter::BORDER_ROWS.name, (rows as i64).into());
             }),
             Change::Slack(percent) => change_slack(&mut document, percent),
-            Change::Launch(factor) => {
-                let scaled = |by: f64| move |_, value: f64| rounded(value * by);
-                change_launches(&mut document, &scaled(factor), &scaled(factor * factor));
-            }
+            Change::Launch(factor) => scale_launches(&mut document, factor),
             Change::Interval { .. } => {}
         }
         Ok(with_line_ends_of(text, &document))
@@ -128,18 +127,13 @@ fn change_slack(document: &mut DocumentMut, percent: f64) {
     }
 }
 
-/// The number with six digits: 6 × 0.95 is 5.7.
-fn rounded(number: f64) -> f64 {
-    units::exact(number, Unit::One).parse().unwrap_or(number)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::plan::Plan;
     use crate::ropes::catalogue;
 
-    const PLAN: &str = include_str!("../../../plans/amur-three-rows.toml");
+    const PLAN: &str = include_str!("../../../tests/fixtures/amur-three-rows.toml");
 
     fn changed(text: &str, change: Change) -> String {
         change.apply(text).expect("a place for it")

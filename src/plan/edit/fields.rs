@@ -4,6 +4,7 @@ use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
 
 use super::{as_number, free_name, with_line_ends_of};
 use crate::plan::keys::{DefaultValue, Key, Kind, Offered, delay, plan};
+use crate::plan::names::look_alike;
 
 /// One value of a plan's text.
 #[derive(Clone, Debug)]
@@ -188,7 +189,7 @@ fn rename_with_interval(table: &mut dyn TableLike, interval: &Value, names: &[St
     let Some(rest) = name.strip_prefix(&old).filter(|rest| !rest.starts_with(char::is_alphanumeric)) else {
         return;
     };
-    let is_taken = |new: &str| new != name && names.iter().any(|taken| taken == new);
+    let is_taken = |new: &str| new != name && names.iter().any(|taken| look_alike(taken, new));
     // Of `20 ms (2)` no number stays: it told two options of 20 ms apart.
     let number = rest.strip_prefix(" (").and_then(|rest| rest.strip_suffix(')'));
     let is_number = number.is_some_and(|number| number.bytes().all(|letter| letter.is_ascii_digit()));
@@ -212,7 +213,7 @@ fn table_mut<'d>(document: &'d mut DocumentMut, path: &Path) -> Option<&'d mut d
 pub fn copy_delay(text: &str, index: usize) -> Option<String> {
     let mut document: DocumentMut = text.parse().ok()?;
     let names = names(&document, "delay");
-    let new = free_name(names.get(index)?, |new| names.iter().any(|taken| taken == new));
+    let new = free_name(names.get(index)?, |new| names.iter().any(|taken| look_alike(taken, new)));
     match document.get_mut("delay")? {
         Item::ArrayOfTables(tables) => {
             let mut all: Vec<Table> = tables.iter().cloned().collect();
@@ -261,7 +262,7 @@ fn replace(tables: &mut toml_edit::ArrayOfTables, all: Vec<Table>) {
 mod tests {
     use super::*;
 
-    const PLAN: &str = include_str!("../../../plans/amur-three-rows.toml");
+    const PLAN: &str = include_str!("../../../tests/fixtures/amur-three-rows.toml");
 
     fn find(text: &str, section: &str, index: Option<usize>, key: &str) -> EditField {
         let mut all = fields(text).into_iter();

@@ -9,36 +9,41 @@ use super::keys::blast_row::{FREE_FLIGHT_HEIGHT_M, HOLES, LAUNCH_M_S};
 use super::keys::cable::{AXIAL_STIFFNESS_KN, BREAKING_FORCE_KN, ROPE};
 use super::keys::shelter::BORDER_ROWS;
 use super::keys::tire::MASS_KG;
-use super::keys::{self, Key, plan};
+use super::keys::{self, Key};
+use super::names::look_alike;
 use super::{BlastRow, DelayOption, Plan, Timing};
+use crate::units::{self, Unit};
 
-/// The text of a plan with another rope, tire mass and border, and the launch velocities of tires of that mass.
+/// The text of `plan` with another rope, tire mass and border, and the launch velocities of tires of that mass at the worse end of
+/// the [mass law](super::mass_law).
 pub fn write_sizes(
     text: &str,
+    plan: &Plan,
     rope: &str,
     tire_mass_kg: f64,
     border_rows: usize,
 ) -> Result<String, toml_edit::TomlError> {
     let mut document: DocumentMut = text.parse()?;
-    change_section(&mut document, &plan::CABLE, |cable| {
+    change_section(&mut document, &keys::plan::CABLE, |cable| {
         replace_keys(cable, &[&AXIAL_STIFFNESS_KN, &BREAKING_FORCE_KN], &ROPE, rope.into());
     });
-    let old = document
-        .get(plan::TIRE.name)
-        .and_then(Item::as_table_like)
-        .and_then(|tire| number(tire, MASS_KG.name));
-    if let Some(old) = old.filter(|&old| old != tire_mass_kg) {
-        change_section(&mut document, &plan::TIRE, |tire| set(tire, MASS_KG.name, tire_mass_kg.into()));
-        // By the same momentum; a height grows with the square of its velocity.
-        change_launches(&mut document, &|_, speed| speed * old / tire_mass_kg, &|_, height| {
-            height * (old / tire_mass_kg).powi(2)
-        });
+    if plan.tire.mass_kg != tire_mass_kg {
+        let set_mass = |tire: &mut dyn TableLike| set(tire, MASS_KG.name, tire_mass_kg.into());
+        change_section(&mut document, &keys::plan::TIRE, set_mass);
+        scale_launches(&mut document, plan.launch_factor_of_mass(tire_mass_kg));
     }
-    change_section(&mut document, &plan::SHELTER, |shelter| {
+    change_section(&mut document, &keys::plan::SHELTER, |shelter| {
         if border_rows > 0 || shelter.contains_key(BORDER_ROWS.name) {
             set(shelter, BORDER_ROWS.name, (border_rows as i64).into());
         }
     });
+    Ok(with_line_ends_of(text, &document))
+}
+
+/// The text of a plan with all launches scaled.
+pub fn with_launches(text: &str, factor: f64) -> Result<String, toml_edit::TomlError> {
+    let mut document: DocumentMut = text.parse()?;
+    scale_launches(&mut document, factor);
     Ok(with_line_ends_of(text, &document))
 }
 
@@ -47,7 +52,7 @@ pub fn add_delays(text: &str, plan: &Plan, delays: &[&DelayOption]) -> Result<St
     let mut document: DocumentMut = text.parse()?;
     let mut names: Vec<String> = plan.delays.iter().map(|delay| delay.name.clone()).collect();
     for &delay in delays {
-        let name = free_name(&delay.name, |name| names.iter().any(|taken| taken == name));
+        let name = free_name(&delay.name, |name| names.iter().any(|taken| look_alike(taken, name)));
         let entries = delay_entries(delay, &name, &plan.blast_rows);
         names.push(name);
         match document.entry(keys::plan::DELAY.name).or_insert(Item::ArrayOfTables(ArrayOfTables::new())) {
@@ -93,6 +98,9 @@ fn delay_entries(delay: &DelayOption, name: &str, rows: &[BlastRow]) -> Vec<(&'s
     if delay.hole_timing.interval_ms > 0.0 {
         entries.push((keys::delay::HOLE_INTERVAL_MS.name, plain(delay.hole_timing.interval_ms)));
         entries.push((keys::delay::HOLE_ORDER.name, delay.hole_timing.order.name().into()));
+    }
+    if delay.hole_timing.fired_through {
+        entries.push((keys::delay::FIRED_THROUGH.name, true.into()));
     }
     entries
 }
@@ -163,10 +171,23 @@ pub(super) fn change_launches(
             }
         }
     };
-    each(document.get_mut(plan::BLAST_ROW.name), &|row, table| {
+    each(document.get_mut(keys::plan::BLAST_ROW.name), &|row, table| {
         change(row, table);
         each(table.get_mut(HOLES.name), &|_, hole| change(row, hole));
     });
+}
+
+/// Scales all launches of a plan; a height grows with the square of its velocity. Launches that stay keep their digits.
+pub(super) fn scale_launches(document: &mut DocumentMut, factor: f64) {
+    if factor != 1.0 {
+        let scaled = |by: f64| move |_, value: f64| rounded(value * by);
+        change_launches(document, &scaled(factor), &scaled(factor * factor));
+    }
+}
+
+/// The number with six digits: 6 × 0.95 is 5.7.
+pub(super) fn rounded(number: f64) -> f64 {
+    units::exact(number, Unit::One).parse().unwrap_or(number)
 }
 
 /// The text of a changed document, with the line ends of the text before the change.
@@ -192,25 +213,36 @@ pub(super) fn set(table: &mut dyn TableLike, key: &str, mut new: Value) {
 mod tests {
     use super::*;
 
+    /// A plan with tires of 280 kg.
+    fn plan() -> Plan {
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
+        Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}"))
+    }
+
     #[test]
     fn only_the_chosen_values_change() {
         let text = "# top\n[shelter] # here\nrows = 5\n\n[tire]\nmass_kg = 280 # worn\n\n[cable]\n# ours\naxial_stiffness_kn = 1519\nbreaking_force_kn = 20.9\nslack_percent = 2\n";
-        let windows = write_sizes(&text.replace('\n', "\r\n"), "GOST 2688-80 8.3", 350.0, 1).expect("TOML");
-        let written = write_sizes(text, "GOST 2688-80 8.3", 350.0, 1).expect("TOML");
+        let windows =
+            write_sizes(&text.replace('\n', "\r\n"), &plan(), "GOST 2688-80 8.3", 350.0, 1).expect("TOML");
+        let written = write_sizes(text, &plan(), "GOST 2688-80 8.3", 350.0, 1).expect("TOML");
+        let mut heavy = plan();
+        heavy.tire.mass_kg = 350.0;
         assert_eq!(windows, written.replace('\n', "\r\n"));
-        let same = write_sizes(&written, "GOST 2688-80 8.3", 350.0, 1).expect("TOML");
+        let same = write_sizes(&written, &heavy, "GOST 2688-80 8.3", 350.0, 1).expect("TOML");
         assert_eq!(same, written);
         let expected = "# top\n[shelter] # here\nrows = 5\nborder_rows = 1\n\n[tire]\nmass_kg = 350.0 # worn\n\n[cable]\nslack_percent = 2\n# ours\nrope = \"GOST 2688-80 8.3\"\n";
         assert_eq!(written, expected);
     }
 
-    /// A tire of half the mass leaves twice as fast, and rises four times as high.
+    /// A tire of half the mass may leave twice as fast, and rise four times as high; a heavier one as fast and as high.
     #[test]
-    fn launches_keep_their_momentum() {
+    fn launches_take_the_worse_end_of_the_mass_law() {
         let text = "tire = { mass_kg = 280 }\n[[blast_row]]\nlaunch_m_s = 6 # filmed\n[[blast_row]]\n\
                     holes = [{ x_m = 0, free_flight_height_m = 1.5 }]\n";
-        let written = write_sizes(text, "GOST 2688-80 8.3", 140.0, 0).expect("TOML");
+        let written = write_sizes(text, &plan(), "GOST 2688-80 8.3", 140.0, 0).expect("TOML");
         assert!(written.contains("launch_m_s = 12.0 # filmed"), "{written}");
         assert!(written.contains("free_flight_height_m = 6.0 }"), "{written}");
+        let heavier = write_sizes(text, &plan(), "GOST 2688-80 8.3", 350.0, 0).expect("TOML");
+        assert!(heavier.contains("launch_m_s = 6 # filmed") && heavier.contains("= 1.5 }"), "{heavier}");
     }
 }

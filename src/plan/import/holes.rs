@@ -8,7 +8,7 @@ use super::direction::{Directions, Tilt};
 use super::header::{Columns, REMEDY, with_header, without_header};
 use super::number::{self, Decimals};
 use super::table::{Line, Table, split};
-use crate::plan::diagnostic::Mistake;
+use crate::plan::diagnostic::{MOST_KEPT, Mistake};
 use crate::plan::keys::{Key, delay, hole};
 
 /// One hole of the list.
@@ -106,6 +106,9 @@ pub fn read(source: &str, directions: Directions) -> Result<Holes, Vec<Mistake>>
                 "write one value for each column; decimals with a point, or values separated by semicolons";
             mistakes.push(mistake(line.span.clone(), message, remedy));
             continue;
+        }
+        if mistakes.len() >= MOST_KEPT {
+            return Err(mistakes);
         }
         if let Some(hole) = read_hole(line, &columns, comma, &mut mistakes) {
             unnamed.extend(

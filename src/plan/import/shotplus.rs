@@ -16,14 +16,34 @@ use zip::ZipArchive;
 
 use super::direction::{Directions, Tilt};
 use super::holes::{Holes, ListedHole, repeated};
-use crate::plan::diagnostic::Mistake;
+use crate::plan::diagnostic::{MOST_KEPT, Mistake};
 use crate::plan::keys::{Key, delay, hole};
-use crate::plan::source::{MOST_BYTES, Unreadable, text_of};
+use crate::plan::source::{Unreadable, text_of};
 
 /// The file of the archive that lists the holes.
 const LIST: &str = "BlisData.Xml";
 /// Elements above what is said of a hole.
 const HOLE: [&str; 3] = ["BlisBlastData", "Holes", "Hole"];
+/// What is read of a hole.
+const READ: [&str; 13] = [
+    "HoleId",
+    "IsDummy",
+    "DesignCoordinates/X",
+    "DesignCoordinates/Y",
+    "ActualCoordinates/X",
+    "ActualCoordinates/Y",
+    "DesignAngle",
+    "DesignBearing",
+    "FiringTime",
+    "InitSysLoading/Initiators/FiringTime",
+    "InitSysLoading/Initiators/ExDeckIndex",
+    "DesignLoading/Decks/Type",
+    "DesignLoading/Decks/Weight",
+];
+/// Largest list [bytes], most holes in it, and how deep its elements may lie.
+const MOST_BYTES: u64 = 64 << 20;
+const MOST_HOLES: usize = 50_000;
+const MOST_DEPTH: usize = 20;
 /// Greatest difference of two times that are the same [ms]: the addition for a thousand ties.
 const SAME_MS: f64 = 0.1;
 const REMEDY: &str = "save the design in SHOTPlus 6 again, or export its holes as a table";
@@ -56,6 +76,9 @@ pub fn read(xml: &str, directions: Directions) -> Result<Holes, Vec<Mistake>> {
     let detonators = holes.iter().any(|hole| hole.has_detonator());
     let (mut moved_m, mut steepest_deg) = (0.0_f64, 0.0_f64);
     for (n, hole) in holes.iter().enumerate() {
+        if mistakes.len() >= MOST_KEPT {
+            return Err(mistakes);
+        }
         let Some(listed) = hole.listed(n, detonators, directions, &mut mistakes) else { continue };
         let actual = ["X", "Y"].map(|axis| hole.number(&format!("ActualCoordinates/{axis}")));
         if let [Some(x), Some(y)] = actual {
@@ -107,8 +130,8 @@ fn wrong(span: Range<usize>, message: String, remedy: &str) -> Mistake {
 
 /// What the XML says of one hole.
 struct Element {
-    /// Texts by path, such as `DesignCoordinates/X`, in the order of the XML.
-    texts: BTreeMap<String, Vec<String>>,
+    /// Texts by path of [`READ`], in the order of the XML.
+    texts: BTreeMap<&'static str, Vec<String>>,
     /// Bytes of its tag in the XML.
     span: Range<usize>,
 }
@@ -280,7 +303,14 @@ fn holes(xml: &str) -> Result<Vec<Element>, Vec<Mistake>> {
             Event::Start(tag) => {
                 path.push(tag.local_name().as_ref().to_owned());
                 text.clear();
+                if path.len() > MOST_DEPTH {
+                    let error = format!("its elements lie more than {MOST_DEPTH} deep");
+                    return Err(broken(start as u64, error));
+                }
                 if path == HOLE {
+                    if holes.len() == MOST_HOLES {
+                        return Err(broken(start as u64, format!("it lists more than {MOST_HOLES} holes")));
+                    }
                     holes.push(Element {
                         texts: BTreeMap::new(),
                         span: start..reader.buffer_position() as usize,
@@ -291,9 +321,10 @@ fn holes(xml: &str) -> Result<Vec<Element>, Vec<Mistake>> {
                 if let (Some(hole), Some((above, below))) =
                     (holes.last_mut(), path.split_at_checked(HOLE.len()))
                     && above == HOLE
+                    && let Some(read) = READ.iter().find(|read| read.split('/').eq(below))
                 {
                     let text = text.trim().replace(char::is_control, " ");
-                    hole.texts.entry(below.join("/")).or_default().push(text);
+                    hole.texts.entry(read).or_default().push(text);
                 }
                 path.pop();
                 text.clear();

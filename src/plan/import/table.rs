@@ -80,17 +80,26 @@ pub fn split(source: &str, remedy: &str) -> Result<Table, Vec<Mistake>> {
     Ok(Table { has_header, lines, titles: Vec::new(), separator })
 }
 
-/// The lines of a table that are not blank, with what `separator` separates in them.
-pub fn lines(source: &str, separator: u8) -> Result<Vec<Line>, csv::Error> {
+/// Most values of a table: a list of 50,000 holes with twenty columns.
+const MOST_VALUES: usize = 1_000_000;
+
+/// The lines of a table that are not blank, with what `separator` separates in them; or why there are none, in words.
+pub fn lines(source: &str, separator: u8) -> Result<Vec<Line>, String> {
     let mut reader = csv::ReaderBuilder::new()
         .delimiter(separator)
         .has_headers(false)
         .flexible(true)
         .trim(csv::Trim::All)
         .from_reader(source.as_bytes());
-    let mut lines = Vec::new();
+    let (mut lines, mut values) = (Vec::new(), 0);
     for record in reader.records() {
-        let record = record?;
+        let record = record.map_err(|error| error.to_string())?;
+        values += record.len();
+        if values > MOST_VALUES {
+            return Err(format!(
+                "it has more than {MOST_VALUES} values, as no blast has; is it the right file?"
+            ));
+        }
         if record.iter().any(|value| !value.is_empty()) {
             lines.push(Line {
                 // A plan refuses names with control characters.

@@ -151,11 +151,14 @@ sections! {
         PUSH_MS = key("push_ms", number("ms", 0.0..=200.0), "20", "time over which the launch acts, as a constant force")
             .default(0.0).edit("push, ms");
         CHARGE_KG = key("charge_kg", number("kg", 1e-6..=1e6), "25", "explosive in each hole").edit("charge, kg");
+        PUSH_DEPTH_M = key("push_depth_m", number("m", 0.01..=1e3), "0.8",
+            "depth below the hole's mouth from which the push comes: a hole beside its tire pushes it aside")
+            .described("0.8 in samples; as planned the push is straight up").edit("push depth, m");
         UNDER_ROW = key("under_row", Kind::ShelterRow(0.0..=1e7), "2", "launches every tire of this shelter row")
             .edit("under row");
         UNDER_TIRES = key("under_tires", Kind::List(&TIRE_NUMBER), "[3, 4]", "launches these tires of a list");
         HOLES = key("holes", Kind::Sections(&hole::SECTION), "[{ x_m = 1.5, y_m = 4.5, launch_m_s = 6.0 }]",
-            "one by one; each hole has its own launch_m_s or free_flight_height_m, tilt_deg with tilt_toward_deg, push_ms, and charge_kg");
+            "one by one; each hole has its own launch_m_s or free_flight_height_m, tilt_deg with tilt_toward_deg, push_ms, charge_kg, and push_depth_m");
     }
 
     hole "a hole" "one hole; it launches the nearest tire" {
@@ -167,6 +170,7 @@ sections! {
         TILT_TOWARD_DEG = blast_row::TILT_TOWARD_DEG;
         PUSH_MS = blast_row::PUSH_MS;
         CHARGE_KG = blast_row::CHARGE_KG;
+        PUSH_DEPTH_M = blast_row::PUSH_DEPTH_M;
     }
 
     limits "[limits]" "what an option must keep to pass" {
@@ -182,6 +186,10 @@ sections! {
             "heaviest charge within any 8 ms; every hole then needs charge_kg").edit("limit of charge in 8 ms, kg").offered();
         ACCEPTED_RISK_PERCENT = key("accepted_risk_percent", number("%", 1e-6..=50.0), "1",
             "share of the shots that may go past a limit").default(1.0).usual(0.01, 5.0).edit("accepted risk, %").offered();
+        WITHSTANDS_ONE_DUD = key("withstands_one_dud", Kind::Flag, "true",
+            "whether an option passes only if it also holds with any one hole that does not fire").named("false");
+        DUD_RISK_PERCENT = key("dud_risk_percent", number("%", 1e-6..=90.0), "10",
+            "share of the shots with one dud that may go past a limit, with withstands_one_dud").default(10.0);
     }
 
     delay "[[delay]]" "one delay option" {
@@ -196,6 +204,8 @@ sections! {
         HOLE_ORDER = key("hole_order", Kind::Choice(HoleOrder::NAMES), "\"left\"",
             "where the holes of each row begin; from centre or ends, the n-th holes of both sides fire together")
             .named(HoleOrder::DEFAULT.name()).edit("hole order").offered_beside(HOLE_INTERVAL_MS.name);
+        FIRED_THROUGH = key("fired_through", Kind::Flag, "true",
+            "whether one hole fires the next: a dud takes along those later on its side of the row").named("false");
     }
 
     simulation "[simulation]" "how to compute" {
@@ -220,11 +230,34 @@ sections! {
             .default(0.0).edit("in-hole delay, ms").offered();
         LAUNCH_CV_PERCENT = key("launch_cv_percent", PERCENT, "5", "of launch velocities, hole by hole, lognormal")
             .default(1.0).edit("launch by hole, %").offered();
+        LAUNCH_ROW_CV_PERCENT = key("launch_row_cv_percent", PERCENT, "3", "of launch velocities, row by row, lognormal")
+            .default(1.0).edit("launch by row, %").offered();
         LAUNCH_COMMON_PERCENT = key("launch_common_percent", PERCENT, "10",
-            "of all launch velocities at once, lognormal").default(1.0).edit("launch in common, %").offered();
+            "of all launch velocities at once, which are an estimate: what a fit learns; lognormal").default(1.0)
+            .edit("launch in common, %").offered();
+        LAUNCH_BETWEEN_SHOTS_PERCENT = key("launch_between_shots_percent", PERCENT, "5",
+            "of all launch velocities at once, from shot to shot, lognormal; a fit takes 5 or more where it is left out")
+            .default(1.0).edit("launch between shots, %").offered();
+        LAUNCH_MASS_EXPONENT = key("launch_mass_exponent", Kind::Range(&number("", 0.0..=1.0)), "[0, 1]",
+            "a tire of mass m' leaves with V0 (m/m')^n: n = 1 keeps the momentum, n = 0 the velocity")
+            .described("0 to 1").edit("mass exponent between").offered();
         LAUNCH_TILT_DEG = key("launch_tilt_deg", number("°", 0.0..=45.0), "3",
-            "of launch directions, hole by hole: standard deviation about each horizontal axis").default(0.0)
+            "of launch directions, hole by hole: standard deviation about each horizontal axis").default(1.0)
             .edit("launch direction, deg").offered();
+        LAUNCH_TILT_COMMON_DEG = key("launch_tilt_common_deg", number("°", 0.0..=45.0), "1",
+            "of the launch directions of the whole shot: standard deviation about each horizontal axis").default(0.5)
+            .edit("direction in common, deg").offered();
+        HOLE_POSITION_M = key("hole_position_m", number("m", 0.0..=1e2), "0.1",
+            "of holes, one by one: standard deviation along each axis; it decides the tire and the direction of its push")
+            .default(0.05).edit("hole position, m").offered();
+        PATTERN_OFFSET_M = key("pattern_offset_m", number("m", 0.0..=1e2), "0.1",
+            "of the shelter over the whole pattern of holes: standard deviation along each axis").default(0.05)
+            .edit("pattern offset, m").offered();
+        HOLE_FAILS_PERCENT = key("hole_fails_percent", number("%", 0.0..=100.0), "0.05",
+            "how likely a hole does not fire, each by itself").default(0.01).edit("duds, %").offered();
+        CABLE_LENGTH_M = key("cable_length_m", number("m", 0.0..=1e2), "0.02",
+            "of the length of cables as tied, one by one: standard deviation; never shorter than what a cable spans")
+            .default(0.01).edit("cable length, m").offered();
         FRICTION = key("friction", Kind::Range(&number("", FRICTION_RANGE)), "[0.4, 0.6]",
             "anything between, the same under the whole shot").described("1 % either side of that of [ground]")
             .edit("friction between").offered();

@@ -13,7 +13,7 @@ use itertools::Itertools;
 
 use self::row::{Row, Seen};
 use super::Diagnostics;
-use super::diagnostic::Mistake;
+use super::diagnostic::{MOST_KEPT, Mistake};
 use super::import::number::{Decimals, both_ways, decimals};
 use super::import::table::{Line, lines};
 use super::reader::nearest;
@@ -236,6 +236,9 @@ fn read(
     // Line of each value: what was watched of which option, a firing time without a quantity.
     let mut lines: HashMap<(usize, Option<ObservedQuantity>, usize, u64), u64> = HashMap::new();
     for line in &rows {
+        if mistakes.len() >= MOST_KEPT {
+            return Err(mistakes);
+        }
         let Some(seen) = (Row { line, columns: &columns, known, comma }).read(&mut mistakes) else {
             continue;
         };

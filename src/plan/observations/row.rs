@@ -10,6 +10,7 @@ use crate::choice::ObservedQuantity;
 use crate::plan::diagnostic::Mistake;
 use crate::plan::import::number::value;
 use crate::plan::import::table::Line;
+use crate::plan::names;
 use crate::plan::reader::nearest;
 
 /// What a line states.
@@ -154,7 +155,7 @@ impl Row<'_> {
                 )),
             };
         };
-        options.iter().position(|option| option == name).ok_or_else(|| {
+        names::find(options.iter().map(String::as_str), name).ok_or_else(|| {
             (format!("the plan has no delay option `{name}`"), format!("it has: {}", options.join("; ")))
         })
     }

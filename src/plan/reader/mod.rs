@@ -6,38 +6,73 @@
 mod nested;
 mod value;
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
+use std::collections::HashMap;
 use std::ops::{Range, RangeInclusive};
 use std::str::FromStr;
 
+use itertools::Itertools;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 pub use self::value::nearest;
 use self::value::{article, as_number, as_whole, range_mistake};
-use super::diagnostic::Mistake;
+use super::diagnostic::{MOST_KEPT, Mistake};
 use super::keys::{DefaultValue, Key, RENAMED, Section};
+use super::names;
 use super::visible::turns_text;
 
 /// Mistakes found so far.
-#[derive(Debug, Default)]
-pub struct Mistakes(RefCell<Vec<Mistake>>);
+#[derive(Debug)]
+pub struct Mistakes<'s> {
+    source: &'s str,
+    found: RefCell<Vec<Mistake>>,
+    count: Cell<usize>,
+}
 
-impl Mistakes {
-    /// Notes a mistake.
+impl<'s> Mistakes<'s> {
+    /// No mistake yet in `source`.
+    pub fn of(source: &'s str) -> Self {
+        Self { source, found: RefCell::default(), count: Cell::new(0) }
+    }
+
+    /// Notes a mistake; of many, the first are kept.
     pub fn add(&self, span: Range<usize>, message: impl Into<String>, remedy: impl Into<String>) {
-        let (message, remedy) = (message.into(), remedy.into());
-        self.0.borrow_mut().push(Mistake { span, message, remedy });
+        self.count.set(self.count.get() + 1);
+        if self.count.get() <= MOST_KEPT {
+            let (message, remedy) = (message.into(), remedy.into());
+            self.found.borrow_mut().push(Mistake { span, message, remedy });
+        }
+    }
+
+    /// Notes a mistake where nobody can tell a name from one of `earlier`, found by what they look like.
+    pub fn check_name<'n>(&self, what: &str, name: &At<&'n str>, earlier: &mut HashMap<String, At<&'n str>>) {
+        let Some(other) = earlier.insert(names::look(name.value), name.clone()) else { return };
+        if name.value.is_empty() {
+            return;
+        }
+        let line = self.source.get(..other.span.start).map_or(1, |before| before.matches('\n').count() + 1);
+        if name.value == other.value {
+            let message =
+                format!("two {what}s are named \"{}\", this one and that of line {line}", name.value);
+            return self.add(name.span.clone(), message, "give each its own name");
+        }
+        let message = format!("the {what} \"{}\" looks like \"{}\" of line {line}", name.value, other.value);
+        let not_there = name.value.chars().filter(|letter| !other.value.contains(*letter)).unique();
+        let letters = not_there.map(|letter| format!("; \"{letter}\" is U+{:04X} here", u32::from(letter)));
+        let remedy =
+            format!("give each a name that nobody takes for the other{}", letters.collect::<String>());
+        self.add(name.span.clone(), message, remedy);
     }
 
     /// Number of mistakes so far.
     pub fn count(&self) -> usize {
-        self.0.borrow().len()
+        self.count.get()
     }
 
-    /// All mistakes.
+    /// The first mistakes.
     pub fn take(self) -> Vec<Mistake> {
-        self.0.into_inner()
+        self.found.into_inner()
     }
 }
 
@@ -58,7 +93,7 @@ pub struct SectionReader<'s> {
     /// `None`: the plan leaves the section out.
     entries: Option<&'s DeTable<'s>>,
     asked: RefCell<Vec<&'static str>>,
-    mistakes: &'s Mistakes,
+    mistakes: &'s Mistakes<'s>,
 }
 
 impl<'s> SectionReader<'s> {
@@ -67,7 +102,7 @@ impl<'s> SectionReader<'s> {
         section: &'static Section,
         span: Range<usize>,
         entries: &'s DeTable<'s>,
-        mistakes: &'s Mistakes,
+        mistakes: &'s Mistakes<'s>,
     ) -> Self {
         Self { section, span, entries: Some(entries), asked: RefCell::default(), mistakes }
     }
@@ -199,7 +234,7 @@ impl<'s> SectionReader<'s> {
     /// A text; its absence is a mistake.
     pub fn text(&self, key: &Key) -> At<&'s str> {
         let text = self.text_if(key).inspect(|text| {
-            if text.value.trim().is_empty() {
+            if names::trimmed(text.value).is_empty() {
                 self.mistakes.add(
                     text.span.clone(),
                     format!("`{}` is empty", key.name),
@@ -213,6 +248,12 @@ impl<'s> SectionReader<'s> {
             }
             At { value: "", span: self.span.clone() }
         })
+    }
+
+    /// The name of a row or an option, without what nobody sees around it; its absence is a mistake.
+    pub fn name(&self, key: &Key) -> At<&'s str> {
+        let At { value, span } = self.text(key);
+        At { value: names::trimmed(value), span }
     }
 
     /// One of the names that the key allows, if the plan has the key.

@@ -17,11 +17,26 @@ use super::{CableSpec, GroundSpec, Layout, LimitsSpec, Plan, SimulationSpec, Tir
 use crate::choice::{Accuracy, Method, OnOverload};
 use crate::ropes::{Rope, Termination, catalogue};
 
+/// Most sections of a plan, and tables in braces: each takes a kilobyte of memory. A shelter of 60,000 tires listed one by one has
+/// as many, with their cables.
+const MOST_TABLES: usize = 300_000;
+
+/// Number of sections and of tables in braces.
+fn tables(source: &str) -> usize {
+    let sections = source.lines().filter(|line| line.trim_start().starts_with('[')).count();
+    sections + source.bytes().filter(|&byte| byte == b'{').count()
+}
+
 /// The plan of a text, or all mistakes; messages name the file `path`.
 pub fn parse(path: &str, text: &str) -> Result<Plan, Diagnostics> {
     let source = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let tables = tables(source);
+    if tables > MOST_TABLES {
+        let message = format!("the file has {tables} sections; a plan has at most {MOST_TABLES}");
+        return Err(Diagnostics::unreadable(path, message, "a plan is a short text: check the path"));
+    }
     let (document, errors) = DeTable::parse_recoverable(source);
-    let mistakes = Mistakes::default();
+    let mistakes = Mistakes::of(source);
     for error in errors {
         let span = error.span().unwrap_or(0..0);
         mistakes.add(
@@ -143,6 +158,8 @@ fn read_limits(section: SectionReader<'_>) -> LimitsSpec {
         holes_in_8_ms: section.has(&limits::HOLES_IN_8_MS).then(|| section.whole(&limits::HOLES_IN_8_MS)),
         charge_in_8_ms_kg: section.number_if(&limits::CHARGE_IN_8_MS_KG),
         accepted_risk_percent: section.number(&limits::ACCEPTED_RISK_PERCENT),
+        withstands_one_dud: section.flag(&limits::WITHSTANDS_ONE_DUD),
+        dud_risk_percent: section.number(&limits::DUD_RISK_PERCENT),
     };
     section.finish();
     spec

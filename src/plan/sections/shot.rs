@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::choice::{HoleOrder, Method};
 use crate::plan::keys::{blast_row, delay, hole, plan};
+use crate::plan::names::look;
 use crate::plan::reader::{Mistakes, SectionReader, nearest};
 use crate::plan::{
     BlastRow, DelayOption, Hole, HoleTiming, Launch, LaunchTargets, Layout, NearestPoint, Plan,
@@ -17,13 +18,10 @@ pub fn read_blast_rows(
     mistakes: &Mistakes,
 ) -> Vec<BlastRow> {
     let shelter = layout.map(ShelterOverHoles::of);
-    let mut rows: Vec<BlastRow> = Vec::new();
+    let (mut rows, mut named) = (Vec::new(), HashMap::new());
     for section in root.sections(&plan::BLAST_ROW) {
-        let name = section.text(&blast_row::NAME);
-        if rows.iter().any(|row| row.name == name.value) && !name.value.is_empty() {
-            let message = format!("two blast rows are named \"{}\"", name.value);
-            mistakes.add(name.span.clone(), message, "give each its own name");
-        }
+        let name = section.name(&blast_row::NAME);
+        mistakes.check_name("blast row", &name, &mut named);
         let targets = read_targets(&section, shelter.as_ref(), simulation, mistakes);
         rows.push(BlastRow { name: name.value.to_owned(), targets });
         section.finish();
@@ -102,6 +100,7 @@ fn read_targets(
             &blast_row::TILT_TOWARD_DEG,
             &blast_row::PUSH_MS,
             &blast_row::CHARGE_KG,
+            &blast_row::PUSH_DEPTH_M,
         ] {
             if section.has(key) {
                 let message = format!("`{}` stands beside `holes`", key.name);
@@ -237,7 +236,8 @@ fn read_launch(section: &SectionReader<'_>, simulation: &SimulationSpec) -> Laun
         );
     }
     let charge_kg = section.number_if(&blast_row::CHARGE_KG);
-    Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms, charge_kg }
+    let push_depth_m = section.number_if(&blast_row::PUSH_DEPTH_M);
+    Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms, charge_kg, push_depth_m }
 }
 
 /// Launch speed [m/s].
@@ -264,13 +264,10 @@ fn read_speed(section: &SectionReader<'_>, simulation: &SimulationSpec) -> f64 {
 }
 
 pub fn read_delays(root: &SectionReader<'_>, rows: &[BlastRow], mistakes: &Mistakes) -> Vec<DelayOption> {
-    let mut delays: Vec<DelayOption> = Vec::new();
+    let (mut delays, mut named) = (Vec::new(), HashMap::new());
     for section in root.sections(&plan::DELAY) {
-        let name = section.text(&delay::NAME);
-        if delays.iter().any(|delay| delay.name == name.value) && !name.value.is_empty() {
-            let message = format!("two delay options are named \"{}\"", name.value);
-            mistakes.add(name.span.clone(), message, "give each its own name");
-        }
+        let name = section.name(&delay::NAME);
+        mistakes.check_name("delay option", &name, &mut named);
         let timing = read_timing(&section, rows, mistakes);
         let hole_timing = read_hole_timing(&section);
         delays.push(DelayOption { name: name.value.to_owned(), timing, hole_timing });
@@ -287,6 +284,7 @@ fn read_hole_timing(section: &SectionReader<'_>) -> HoleTiming {
     HoleTiming {
         interval_ms: section.number(&delay::HOLE_INTERVAL_MS),
         order: section.choice(&delay::HOLE_ORDER, HoleOrder::DEFAULT),
+        fired_through: section.flag(&delay::FIRED_THROUGH),
     }
 }
 
@@ -304,16 +302,16 @@ fn read_timing(section: &SectionReader<'_>, rows: &[BlastRow], mistakes: &Mistak
         return Timing::At(at.value.into_iter().map(|time| time.value).collect());
     }
     let interval_ms = section.number(&delay::INTERVAL_MS);
-    let names: HashMap<&str, usize> =
-        rows.iter().enumerate().map(|(n, row)| (row.name.as_str(), n)).collect();
+    let names: HashMap<String, usize> =
+        rows.iter().enumerate().map(|(n, row)| (look(&row.name), n)).collect();
     let Some(list) = section.texts(&delay::ORDER) else {
         return Timing::Interval { order: (0..rows.len()).collect(), interval_ms };
     };
     let mut order = Vec::new();
     for name in &list.value {
-        match names.get(name.value) {
+        match names.get(&look(name.value)) {
             None => {
-                let near = nearest(name.value, names.keys().copied());
+                let near = nearest(name.value, rows.iter().map(|row| row.name.as_str()));
                 let all: Vec<_> = rows.iter().map(|row| format!("\"{}\"", row.name)).collect();
                 let remedy = near.map_or_else(
                     || format!("the rows are {}", all.join(", ")),

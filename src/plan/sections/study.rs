@@ -24,7 +24,17 @@ pub fn read_uncertainty(
         in_hole_delay_ms: section.number(&uncertainty::IN_HOLE_DELAY_MS),
         launch_cv_percent: section.number(&uncertainty::LAUNCH_CV_PERCENT),
         launch_common_percent: section.number(&uncertainty::LAUNCH_COMMON_PERCENT),
+        launch_between_shots_percent: section.number(&uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT),
+        launch_mass_exponent: section
+            .range(&uncertainty::LAUNCH_MASS_EXPONENT, 0.0)
+            .unwrap_or(Uncertainty::ANY_MASS_EXPONENT),
+        launch_row_cv_percent: section.number(&uncertainty::LAUNCH_ROW_CV_PERCENT),
         launch_tilt_deg: section.number(&uncertainty::LAUNCH_TILT_DEG),
+        launch_tilt_common_deg: section.number(&uncertainty::LAUNCH_TILT_COMMON_DEG),
+        hole_position_m: section.number(&uncertainty::HOLE_POSITION_M),
+        pattern_offset_m: section.number(&uncertainty::PATTERN_OFFSET_M),
+        hole_fails_percent: section.number(&uncertainty::HOLE_FAILS_PERCENT),
+        cable_length_m: section.number(&uncertainty::CABLE_LENGTH_M),
         friction: section
             .range(&uncertainty::FRICTION, friction)
             .unwrap_or_else(|| Uncertainty::assumed_friction(friction)),
@@ -41,10 +51,18 @@ pub fn read_uncertainty(
     (uncertainty, used.into_iter().map(|checksum| checksum.value.to_owned()).collect())
 }
 
-/// Keys whose default is an input known to 1 %.
-const OF_INPUTS: [&Key; 6] = [
+/// Keys whose default is an assumption: an input known to 1 %, a shelter laid and fired carefully.
+const OF_INPUTS: [&Key; 14] = [
     &uncertainty::LAUNCH_CV_PERCENT,
+    &uncertainty::LAUNCH_ROW_CV_PERCENT,
+    &uncertainty::LAUNCH_TILT_DEG,
+    &uncertainty::LAUNCH_TILT_COMMON_DEG,
+    &uncertainty::HOLE_POSITION_M,
+    &uncertainty::PATTERN_OFFSET_M,
+    &uncertainty::HOLE_FAILS_PERCENT,
+    &uncertainty::CABLE_LENGTH_M,
     &uncertainty::LAUNCH_COMMON_PERCENT,
+    &uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT,
     &uncertainty::FRICTION,
     &uncertainty::SLACK_PERCENT,
     &uncertainty::AXIAL_STIFFNESS_PERCENT,
@@ -108,7 +126,7 @@ pub fn read_search(section: SectionReader<'_>) -> SearchSpec {
     let orders = orders.unwrap_or_else(|| vec![HoleOrder::DEFAULT]);
     let with_order = itertools::iproduct!(hole_intervals_ms, orders);
     let holes = with_order.map(|(interval_ms, order)| match interval_ms > 0.0 {
-        true => HoleTiming { interval_ms, order },
+        true => HoleTiming { interval_ms, order, fired_through: false },
         false => HoleTiming::TOGETHER,
     });
     let limit = &search::MOST_HOLES_IN_8_MS;

@@ -10,6 +10,7 @@ use crate::scene::Shot;
 use crate::study::Case;
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::eight_ms::WithinEightMs;
+use crate::study::judge_options::OptionResults;
 use crate::study::judgement::{Evidence, Judgement};
 use crate::study::samples::influence::input_shares;
 use crate::units;
@@ -46,6 +47,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
                 @for (name, text) in result.iter().flat_map(|judged| judgement(case, shot, judged)) {
                     tr { th { (name) } td { (text) } }
                 }
+                @if let Some(holds) = page.holds { tr { th { "Stands on" } td { (holds) "; advice, no verdict" } } }
                 tr { th { "Within any 8 ms" } td { (together) " fire, as planned" } }
                 @if !case.plan.fitted_from.is_empty() && page.observed.is_empty() {
                     tr { th { "Fitted" } td { "to what was seen of earlier shots; it is not compared with the plan on this page" } }
@@ -66,10 +68,13 @@ fn seen_otherwise(page: &Page<'_>) -> Markup {
     }
 }
 
-/// Whether an option has no full PASS, or what was seen speaks against it.
+/// Whether an option may be fired, in spite of what was seen of earlier shots.
+pub fn may_be_fired(results: &OptionResults, option: usize, contradiction: &[String]) -> bool {
+    results[option].as_ref().is_ok_and(|judged| judged.may_be_fired(!contradiction.is_empty()))
+}
+
 fn must_not_fire(page: &Page<'_>, option: usize) -> bool {
-    let verdict = page.results[option].as_ref().map_or(Verdict::Undecided, Judgement::verdict);
-    verdict != Verdict::Pass || page.sampling.is_none() || !page.contradiction.is_empty()
+    !may_be_fired(page.results, option, page.contradiction)
 }
 
 /// What the page says of the option that it is about: wherever one of its sheets lies alone, nobody takes it for another order.
@@ -90,6 +95,10 @@ fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str,
         let inputs = shares.map(|shares| option_sentences::inputs(&shares));
         facts.push(("What decides", inputs.unwrap_or_else(|| "too few samples to tell".to_owned())));
     }
+    facts.extend(
+        option_sentences::next_tires(case, judged).into_iter().map(|text| ("Hole between tires", text)),
+    );
+    facts.extend(option_sentences::dud_of(case, judged).map(|text| ("One dud", text)));
     facts.push(("As planned", option_sentences::peaks(case.scene(), &judged.checked)));
     facts.push(("Utilization as planned", utilization(case, judged)));
     let bands = judged.sampled.known().and_then(|sampled| option_sentences::bands(case, sampled));

@@ -94,6 +94,7 @@ pub fn uncertainty(unknown: &Uncertainty) -> Markup {
     let DelayScatter { sd_ms, cv_percent } = unknown.delay;
     let between =
         |[low, high]: [f64; 2], unit: &str| format!("anything between {low}{unit} and {high}{unit}");
+    let deviation = |sd: f64, unit: &str| format!("standard deviation {sd}{unit} along each horizontal axis");
     let rows = [
         (
             "Delays between blast rows",
@@ -109,8 +110,25 @@ pub fn uncertainty(unknown: &Uncertainty) -> Markup {
             format!("coefficient of variation {} %", unknown.launch_common_percent),
         ),
         (
-            "Launch directions",
-            format!("standard deviation {}° about each horizontal axis", unknown.launch_tilt_deg),
+            "Launch velocities, shot by shot",
+            format!("coefficient of variation {} %", unknown.launch_between_shots_percent),
+        ),
+        ("Launch velocity at another mass m' of the tire", {
+            let [low, high] = unknown.launch_mass_exponent;
+            format!("V0 (m/m')^n, n anything between {low} and {high}")
+        }),
+        (
+            "Launch velocities, row by row",
+            format!("coefficient of variation {} %", unknown.launch_row_cv_percent),
+        ),
+        ("Launch directions, hole by hole", deviation(unknown.launch_tilt_deg, "°")),
+        ("Launch directions of the whole shot", deviation(unknown.launch_tilt_common_deg, "°")),
+        ("Place of a hole", deviation(unknown.hole_position_m, " m")),
+        ("Place of the shelter over all holes", deviation(unknown.pattern_offset_m, " m")),
+        ("Holes that do not fire", format!("{} %, each by itself", unknown.hole_fails_percent)),
+        (
+            "Length of cables as tied, cable by cable",
+            format!("standard deviation {} m, never shorter than what a cable spans", unknown.cable_length_m),
         ),
         ("Friction", between(unknown.friction, "")),
         ("Slack", between(unknown.slack_percent, " %")),
@@ -179,7 +197,7 @@ fn launched(targets: &LaunchTargets) -> String {
 }
 
 fn speed(launch: &Launch) -> String {
-    let Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms, charge_kg } = *launch;
+    let Launch { speed_m_s, tilt_deg, tilt_toward_deg, push_ms, charge_kg, push_depth_m } = *launch;
     let mut text = format!("{speed_m_s} m/s");
     if tilt_deg > 0.0 {
         text += &format!(", tilted by {tilt_deg}° toward {tilt_toward_deg}° from +x");
@@ -189,6 +207,9 @@ fn speed(launch: &Launch) -> String {
     }
     if let Some(charge_kg) = charge_kg {
         text += &format!(", {charge_kg} kg");
+    }
+    if let Some(push_depth_m) = push_depth_m {
+        text += &format!(", pushed from {push_depth_m} m below the hole's mouth");
     }
     text
 }

@@ -11,6 +11,7 @@ mod table;
 mod top_view;
 mod words;
 
+pub use self::chosen_option::may_be_fired;
 pub use self::svg::{stack_charts, svg};
 use self::table::word;
 pub use self::top_view::svg as top_view;
@@ -42,6 +43,8 @@ pub struct Page<'a> {
     pub to_be_fired: Option<usize>,
     /// The samples behind the verdicts; `None` where only the shots as planned were judged.
     pub sampling: Option<&'a Sampling>,
+    /// What the pass of the option to be fired stands on, in a sentence; `None` where it is not known.
+    pub holds: Option<&'a str>,
     /// A sweep of the interval between rows, whose charts the page shows.
     pub sweep: Option<&'a Computed<Sweep>>,
     /// Whether the plan was fitted to some of what was seen.

@@ -14,12 +14,14 @@ use crate::report::shared_columns::launch_margin_share;
 use crate::report::words::reasons;
 use crate::report::words::{no_result, warnings};
 use crate::scene::{Scene, TireId, fire_at_s, seconds};
-use crate::study::Case;
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::judge_options::{MustPass, OptionResults, verdict_on_plan};
 use crate::study::judgement::Judgement;
+use crate::study::one_dud::OneDud;
+use crate::study::recommend::recommended;
 use crate::study::remedies::Remedies;
 use crate::study::samples::sampled_shot::SampledShot;
+use crate::study::{Case, ValueWithError};
 use crate::verdict::{Estimate, Quantity};
 
 /// The document of one plan.
@@ -31,6 +33,8 @@ pub struct CheckDocument {
     judged: &'static str,
     accepted_risk_percent: f64,
     verdict: &'static str,
+    /// Name of the option recommended; null where none is.
+    recommended: Option<String>,
     partial: bool,
     scene: SceneSize,
     limits: LimitsObject,
@@ -65,10 +69,15 @@ struct JudgedOption {
 #[derive(Serialize)]
 struct OptionValues {
     nominal_verdict: &'static str,
+    /// Whether fresh draws confirm the pass; null where none were drawn.
+    confirmed: Option<bool>,
     failure_probability: Option<Failures>,
+    one_dud: Option<OneDudObject>,
     any_cable_breaks: Option<Bounds>,
     launch_margin: Option<f64>,
     inputs: Option<Vec<Share>>,
+    /// Number of the sample that decides, for `trace --sample`; null without a sample.
+    deciding_sample: Option<usize>,
     flight_height_m: TirePeakObject,
     cable_force_n: CablePeakObject,
     cable_safety_factor: Option<f64>,
@@ -83,6 +92,34 @@ struct OptionValues {
     wall_s: f64,
     total_wall_s: f64,
     runs: usize,
+}
+
+/// The shot as planned with one hole left out, the worst of all holes.
+#[derive(Serialize)]
+struct OneDudObject {
+    verdict: &'static str,
+    /// Blast row, and number of the hole in it, from 1.
+    hole: (String, usize),
+    places: usize,
+    not_passing: usize,
+    flight_height_m: ValueWithError,
+    cable_force_n: ValueWithError,
+    /// Of the worst place, where the plan asks for `withstands_one_dud`.
+    failure_probability: Option<Bounds>,
+}
+
+impl OneDudObject {
+    fn new(case: &Case, one_dud: &OneDud) -> Self {
+        Self {
+            verdict: one_dud.verdict().for_scripts(),
+            hole: (case.plan.blast_rows[one_dud.row].name.clone(), one_dud.number + 1),
+            places: one_dud.places,
+            not_passing: one_dud.not_passing,
+            flight_height_m: one_dud.planned.height,
+            cable_force_n: one_dud.planned.force,
+            failure_probability: one_dud.sampled.map(|sampled| sampled.bounds.interval.into()),
+        }
+    }
 }
 
 /// The cover over the holes of the shot as planned, each at its firing time: holes under a tire in the air or aside, and the
@@ -114,6 +151,7 @@ impl Percentiles {
 #[derive(Serialize)]
 pub(super) struct TirePeakObject {
     value: f64,
+    /// Null where it is not known, because the run ended before the value could no longer grow.
     error: f64,
     #[serde(flatten)]
     band: Percentiles,
@@ -124,6 +162,7 @@ pub(super) struct TirePeakObject {
 #[derive(Serialize)]
 pub(super) struct CablePeakObject {
     value: f64,
+    /// Null where it is not known, because the run ended before the value could no longer grow.
     error: f64,
     #[serde(flatten)]
     band: Percentiles,
@@ -172,10 +211,13 @@ impl OptionValues {
         let drift_is_judged = sampled.filter(|_| case.limits.drift.is_some());
         Self {
             nominal_verdict: checked.verdict.for_scripts(),
+            confirmed: judged.is_confirmed(),
             failure_probability: Failures::of(&judged.sampled),
+            one_dud: judged.one_dud.map(|one_dud| OneDudObject::new(case, &one_dud)),
             any_cable_breaks: intervals(&judged.sampled).map(|[_, breaks]| breaks.into()),
             launch_margin: launch_margin_share(judged),
             inputs: sampled.and_then(|sampled| input_shares(sampled, &case.limits)),
+            deciding_sample: sampled.and_then(SampledShot::deciding_sample),
             flight_height_m: TirePeakObject::new(
                 scene,
                 &checked.height,
@@ -253,6 +295,7 @@ impl CheckDocument {
             judged: results.iter().flatten().next().map_or("nominal", |judged| judged_inputs(case, judged)),
             accepted_risk_percent: plan.limits.accepted_risk_percent,
             verdict: verdict_on_plan(results, must_pass).for_scripts(),
+            recommended: recommended(case, results).map(|option| plan.delays[option].name.clone()),
             partial,
             scene: SceneSize {
                 tires: scene.tire_count(),

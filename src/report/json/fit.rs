@@ -22,6 +22,10 @@ pub struct FitDocument<'a> {
     degrees_of_freedom: usize,
     unknowns: Vec<UnknownObject>,
     correlation: &'a [Vec<f64>],
+    /// How well launches are known after the fit; null where none were estimated.
+    launch_common_percent: Option<f64>,
+    /// How far launches differ from shot to shot, as `--write` leaves it; null with `--nominal`.
+    launch_between_shots_percent: Option<f64>,
     residuals: Vec<ResidualObject>,
     /// Separate answers that fit nearly as well.
     other_answers: Vec<AnswerObject<'a>>,
@@ -148,6 +152,8 @@ impl<'a> FitDocument<'a> {
             degrees_of_freedom: best.freedom,
             unknowns: UnknownObject::all(case, best),
             correlation: &best.correlation,
+            launch_common_percent: fit.launches.map(|launches| launches.common_percent),
+            launch_between_shots_percent: fit.between_shots.map(|between| between.percent),
             residuals: fitted_rows(case, fit).iter().map(ResidualObject::of).collect(),
             other_answers: others
                 .iter()

@@ -1,6 +1,7 @@
 //! JSON documents: serialisable mirrors of results, with the field names that scripts depend on.
 
 mod accuracy;
+mod assumptions;
 mod check;
 mod effects;
 mod fit;
@@ -18,6 +19,7 @@ use std::io;
 use serde::Serialize;
 
 pub use self::accuracy::AccuracyDocument;
+pub use self::assumptions::AssumptionsDocument;
 pub use self::check::CheckDocument;
 pub use self::effects::EffectsDocument;
 pub use self::fit::FitDocument;

@@ -13,7 +13,7 @@ use crate::report::words::reasons;
 use crate::scene::{fire_at_s, seconds};
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::judgement::Judgement;
-use crate::study::search::{FrontPoint, Schedule, Search, duration};
+use crate::study::search::{FrontPoint, Schedule, Search};
 use crate::study::{Case, Computed};
 use crate::verdict::Quantity;
 
@@ -130,7 +130,7 @@ impl SearchDocument {
                 },
                 probability: sampled.and_then(|sampled| sampled.bounds.probability()),
                 interval_95: judged.and_then(|judged| Some(intervals(&judged.sampled)?[0])),
-                duration_s: duration(row.shot),
+                duration_s: row.shot.duration(),
                 holes_in_8_ms: holes,
                 charge_in_8_ms_kg: charge,
                 values: judged.map(|judged| FoundValues::of(row.case, judged)),

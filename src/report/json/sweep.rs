@@ -29,6 +29,8 @@ pub struct SweepDocument {
 #[derive(Serialize)]
 struct IntervalResult {
     interval_s: f64,
+    /// Whether only a quick check judged the shot as planned.
+    quick: bool,
     #[serde(flatten)]
     values: Values,
     #[serde(flatten)]
@@ -38,8 +40,14 @@ struct IntervalResult {
 impl IntervalResult {
     fn of(point: &Point) -> Self {
         let sampled = SampledValues::of(point.planned.verdict, point.risk.known());
-        Self { interval_s: point.interval, values: Values::of(point.verdict(), &point.planned), sampled }
+        let values = Values::of(point.verdict(), &point.planned);
+        Self { interval_s: point.interval, quick: point.is_quick, values, sampled }
     }
+}
+
+/// The windows that hold more than one point.
+fn wider_than_a_point(windows: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    windows.iter().copied().filter(|[from, to]| from < to).collect()
 }
 
 impl SweepDocument {
@@ -55,12 +63,37 @@ impl SweepDocument {
             order: row_names(case, &sweep.order),
             limits: LimitsObject::of(case),
             points: sweep.points.iter().map(IntervalResult::of).collect(),
-            nominal_windows_s: sweep.windows_as_planned.clone(),
-            windows_s: sweep.windows.clone(),
+            nominal_windows_s: wider_than_a_point(&sweep.windows_as_planned),
+            windows_s: wider_than_a_point(&sweep.windows),
             largest_gap_s: sweep.largest_gap(),
             recommended_s: sweep.recommended.map(|recommended| recommended.interval),
             recommended_room_s: sweep.recommended.map(|recommended| recommended.room),
             worst: sweep.worst(case).map(IntervalResult::of),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::Plan;
+
+    /// A point that passes between two that do not is no window.
+    #[test]
+    fn a_window_is_wider_than_a_point() {
+        let plan = Plan::parse("", include_str!("../../../plans/amur-three-rows.toml"));
+        let case = Case::new(plan.unwrap_or_else(|mistakes| panic!("{mistakes}")));
+        let windows = vec![[0.01, 0.01], [0.02, 0.03], [0.04, 0.04]];
+        let value = Sweep {
+            order: vec![0, 1, 2],
+            points: Vec::new(),
+            windows_as_planned: windows.clone(),
+            windows,
+            recommended: None,
+            failed_full_verdict: 0,
+        };
+        let document = SweepDocument::new(&case, &Computed { value, partial: false });
+        assert_eq!(document.windows_s, [[0.02, 0.03]]);
+        assert_eq!(document.nominal_windows_s, [[0.02, 0.03]]);
     }
 }

@@ -5,11 +5,15 @@
 //! | a plan: its limits, and what it adds to the model of the source paper | [`limits`], [`plan_notes`] |
 //! | one delay option: its peaks, margins and what decides it | [`option_sentences`] |
 //! | a verdict that is no pass: why | [`reasons`] |
+//! | what a PASS stands on | [`assumption_words`] |
 //! | a result that does not come | [`no_result`] |
+//! | the answer in one line | [`headline`] |
 //! | what a reader must know beside a verdict | [`warnings`] |
 //! | a cell, a column, an axis | `cell_words` |
 
+pub mod assumption_words;
 mod cell_words;
+pub mod headline;
 pub mod limits;
 pub mod no_result;
 pub mod option_sentences;

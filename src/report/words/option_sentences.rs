@@ -5,9 +5,12 @@ use crate::plan::{BlastRow, DelayOption};
 use crate::scene::{Scene, Shot, fire_at_s};
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::as_planned::margin::LaunchMargin;
+use crate::study::beside_tire::HoleBesideTire;
 use crate::study::eight_ms::WithinEightMs;
-use crate::study::judgement::Judgement;
+use crate::study::judgement::{Evidence, Judgement};
+use crate::study::one_dud::OneDud;
 use crate::study::samples::random_shot::Input;
+use crate::study::samples::sample::Sample;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::{Case, ComputeSettings};
 use crate::units::{self, Unit, value_and_error};
@@ -50,13 +53,16 @@ pub(in crate::report) fn grams(charge: f64) -> f64 {
     (charge * 1e3).round() / 1e3
 }
 
-/// What decides how a shot turns out: `slack 61 %, launch 24 %, hole by hole and interplay 13 %`.
+/// What decides how a shot turns out: `slack 61 %, launch 24 %, chance differences between holes, rows and cables 13 %`.
 pub fn inputs(shares: &[(Input, f64)]) -> String {
     let unexplained = 1.0 - shares.iter().map(|(_, share)| share).sum::<f64>();
     let worth = shares.iter().filter(|(_, share)| *share >= LEAST_SHARE);
     let mut words: Vec<String> =
         worth.map(|(input, share)| format!("{} {}", input_name(*input), units::percent(*share, 0))).collect();
-    words.push(format!("hole by hole and interplay {}", units::percent(unexplained.max(0.0), 0)));
+    words.push(format!(
+        "chance differences between holes, rows and cables {}",
+        units::percent(unexplained.max(0.0), 0)
+    ));
     words.join(", ")
 }
 
@@ -69,6 +75,15 @@ pub fn measure_first(shares: &[(Input, f64)]) -> Option<&'static str> {
         Input::Friction => "to know more, drag a tire along the ground with a spring scale",
         Input::Slack => "to know more, measure the slack of laid cables",
         Input::AxialStiffness => "to know more, find the stiffness of the rope, by its maker or a pull test",
+        Input::LaunchBetweenShots => {
+            "to know more, film five shots or more and fit them together (Studies, Fit)"
+        }
+        Input::MassExponent => "to know more, launch loose tires of different mass from holes that are alike",
+        Input::CommonSlopeX | Input::CommonSlopeY => "to know more, film a shot from two sides",
+        Input::OffsetX | Input::OffsetY => {
+            "to know more, measure from the shelter to the holes at two corners"
+        }
+        Input::Duds => "test every detonator before you lay the shelter",
     })
 }
 
@@ -84,7 +99,72 @@ fn input_name(input: Input) -> &'static str {
         Input::Friction => "friction",
         Input::Slack => "slack",
         Input::AxialStiffness => "stiffness",
+        Input::LaunchBetweenShots => "launch between shots",
+        Input::MassExponent => "mass exponent",
+        Input::CommonSlopeX | Input::CommonSlopeY => "tilt of all launches",
+        Input::OffsetX | Input::OffsetY => "offset of the shelter",
+        Input::Duds => "duds",
     }
+}
+
+/// What becomes of an option where the next tire gets the impulse of a hole between two, one sentence a hole.
+pub fn next_tires(case: &Case, judged: &Judgement) -> Vec<String> {
+    let sentence = |(hole, verdict): &(HoleBesideTire, Verdict)| {
+        let [own, next] = hole.tires.map(|tire| case.scene().tire_ids[tire]);
+        let [near, far] = hole.away.map(|away| units::rounded(away, 2));
+        let row = &case.plan.blast_rows[hole.row].name;
+        format!(
+            "row {row}, hole {}: {near} m from tire {own}, {far} m from tire {next}; as planned with tire {next}: {}",
+            hole.number + 1,
+            verdict.for_people()
+        )
+    };
+    judged.next_tires.iter().map(sentence).collect()
+}
+
+/// What one dud does to an option that passes as planned; `None` where it is not known, or a reason of the verdict.
+pub fn dud_of(case: &Case, judged: &Judgement) -> Option<String> {
+    let is_reason =
+        judged.withstands_dud.is_asked() && judged.withstands_dud != Evidence::Known(Verdict::Pass);
+    let found = judged.one_dud.filter(|_| judged.checked.verdict == Verdict::Pass && !is_reason)?;
+    let mut text = one_dud(case, &found);
+    if let Some(sampled) = judged.sampled.known() {
+        let duds = Input::ALL.iter().position(|input| *input == Input::Duds);
+        let has_dud = |sample: &&Sample| duds.is_some_and(|n| sample.inputs[n] > 0.0);
+        let fails = |sample: &&Sample| sample.finest().verdict == Verdict::Fail;
+        let failing = sampled.samples.iter().filter(fails);
+        let with_dud = failing.clone().filter(has_dud).count();
+        if with_dud > 0 {
+            text += &format!("; {with_dud} of {} failing shots have a dud", failing.count());
+        }
+    }
+    Some(text)
+}
+
+/// What one dud does to an option: `one dud, nothing else varied: within limits at all 15 places`.
+pub fn one_dud(case: &Case, one_dud: &OneDud) -> String {
+    let OneDud { row, number, planned, not_passing, places, sampled } = one_dud;
+    let place = format!("row {}, hole {}", case.plan.blast_rows[*row].name, number + 1);
+    let quantity = one_dud.nearest_limit(case);
+    let (name, unit) = quantity_name(quantity);
+    let [value, limit] = [planned.get(quantity).value, case.limits.get(quantity).unwrap_or(f64::INFINITY)]
+        .map(|value| format!("{} {}", units::value(value, unit), unit.symbol()));
+    let worst = format!("the worst, {place}: {name} {value}, limit {limit}");
+    let planned = match not_passing {
+        0 if *places == 1 => "one dud, and nothing flies".to_owned(),
+        0 => format!("one dud, nothing else varied: within limits at all {places} places; {worst}"),
+        _ => {
+            format!("one dud, nothing else varied: past a limit at {not_passing} of {places} places; {worst}")
+        }
+    };
+    let sampled = sampled.as_ref().map(|sampled| {
+        let bounds = units::probabilities(sampled.bounds.interval);
+        format!(
+            "; with everything varied {bounds} % of the shots fail, {} % accepted",
+            units::short(case.plan.limits.dud_risk_percent)
+        )
+    });
+    planned + &sampled.unwrap_or_default()
 }
 
 /// How much faster the tires may leave, in words: `to +4 %`.
@@ -209,4 +289,13 @@ pub fn computation(scene: &Scene, checked: &CheckedShot) -> String {
         checked.runs,
         units::residual(checked.energy_residual),
     )
+}
+
+/// Name and unit of a quantity.
+pub fn quantity_name(quantity: Quantity) -> (&'static str, Unit) {
+    match quantity {
+        Quantity::Height => ("flight height", Unit::Metre),
+        Quantity::Force => ("cable force", Unit::Kilonewton),
+        Quantity::Drift => ("drift", Unit::Metre),
+    }
 }

@@ -2,6 +2,7 @@
 
 use crate::plan::{Launch, Plan, Timing};
 use crate::study::Case;
+use crate::units;
 
 /// The delay options that a study of orders leaves out at the intervals of the plan; `None` where there is no such option.
 pub fn options_left_out(case: &Case) -> Option<String> {
@@ -18,6 +19,19 @@ pub fn hole_timing(case: &Case) -> Option<String> {
         Some(holes) => Some(format!("in every row: {holes}")),
         None => differ.then(|| "here every row fires at once".to_owned()),
     }
+}
+
+/// How fast tires of another mass leave: `tires of 200 kg: launches × 1.4 (launch_mass_exponent 1, the worse end)`; `None` of the
+/// mass of the plan.
+pub fn launches_of_mass(plan: &Plan, tire_mass_kg: f64) -> Option<String> {
+    let heavier = tire_mass_kg / plan.tire.mass_kg;
+    let factor = plan.launch_factor_of_mass(tire_mass_kg);
+    let launches = if factor == 1.0 { "stay".to_owned() } else { format!("× {}", units::short(factor)) };
+    let exponent = plan.uncertainty.worse_mass_exponent(heavier);
+    let text = format!(
+        "tires of {tire_mass_kg} kg: launches {launches} (launch_mass_exponent {exponent}, the worse end)"
+    );
+    (heavier != 1.0).then_some(text)
 }
 
 /// What the plan adds to the source paper's model, in one line; `None` where it adds nothing.

@@ -1,6 +1,6 @@
 //! Why the verdict on an option is no pass, in words: one sentence a reason.
 
-use super::option_sentences::grams;
+use super::option_sentences::{self, grams, quantity_name};
 use crate::choice::Accuracy;
 use crate::report::parts::Detail;
 use crate::study::judgement::Judgement;
@@ -11,7 +11,7 @@ use crate::study::samples::failure_bounds::FailureBounds;
 use crate::study::samples::sample::SampleRun;
 use crate::study::samples::sampled_shot::SampledShot;
 use crate::study::{Case, ComputeSettings};
-use crate::units::{self, Unit, value_and_error};
+use crate::units::{self, value_and_error};
 use crate::verdict::{Quantity, Verdict};
 
 /// Why an option does not pass; empty for a pass.
@@ -29,6 +29,14 @@ pub fn sentences(case: &Case, judged: &Judgement) -> Vec<String> {
 pub fn sentence(case: &Case, judged: &Judgement, reason: &Reason) -> String {
     match (reason, judged.sampled.known()) {
         (Reason::AsPlanned(reason), _) => of_shot(reason),
+        (Reason::OneDud(_), _) => match judged.one_dud {
+            Some(one_dud) => option_sentences::one_dud(case, &one_dud),
+            None => "whether it withstands one dud is not known: ended early".to_owned(),
+        },
+        (Reason::NotConfirmed { failures, samples }, _) => {
+            format!("fresh draws do not confirm it: {failures} of {samples} more shots fail")
+        }
+        (Reason::AwaitsConfirmation, _) => "fresh draws are still to confirm it".to_owned(),
         (Reason::Samples(reason), Some(sampled)) => of_risk(case, &judged.checked.compute, sampled, *reason),
         (Reason::Samples(_) | Reason::NoSamples, _) => {
             "no sample of the possible shots was drawn: ended early".to_owned()
@@ -39,7 +47,8 @@ pub fn sentence(case: &Case, judged: &Judgement, reason: &Reason) -> String {
 /// Why a shot does not pass.
 fn of_shot(reason: &ShotReason) -> String {
     let (quantity, verdict, estimate, limit) = match reason {
-        ShotReason::Limit { quantity, verdict, estimate, limit } => (quantity, verdict, estimate, limit),
+        ShotReason::Limit { quantity, verdict, estimate, limit } => (quantity, *verdict, estimate, limit),
+        ShotReason::NotSure { quantity, estimate, limit } => (quantity, Verdict::Pass, estimate, limit),
         ShotReason::Broken(1) => return "a cable breaks".to_owned(),
         ShotReason::Broken(count) => return format!("{count} cables break"),
         ShotReason::HolesTogether { holes, limit } => {
@@ -59,7 +68,12 @@ fn of_shot(reason: &ShotReason) -> String {
     let (limit, symbol) = (units::exact(*limit, unit), unit.symbol());
     match verdict {
         Verdict::Fail => format!("{name} {value} {symbol} is over the limit of {limit} {symbol}"),
-        _ => format!("{name} {value} {symbol} is too near the limit of {limit} {symbol} to tell"),
+        Verdict::Pass => format!(
+            "{name} {value} {symbol} keeps the limit of {limit} {symbol}, but a pass must also stand with three times its error"
+        ),
+        Verdict::Undecided => {
+            format!("{name} {value} {symbol} is too near the limit of {limit} {symbol} to tell")
+        }
     }
 }
 
@@ -94,7 +108,7 @@ fn of_risk(case: &Case, compute: &ComputeSettings, sampled: &SampledShot, reason
     }
 }
 
-/// How many samples go past each limit: ` (cable force 12, flight height 3)`.
+/// In how many samples each limit is passed and a cable breaks that is then gone: ` (flight height 3, a cable breaks 16)`.
 fn limits_exceeded(case: &Case, sampled: &SampledShot) -> String {
     let count = |quantity: Quantity| {
         let limit = case.limits.get(quantity)?;
@@ -103,7 +117,9 @@ fn limits_exceeded(case: &Case, sampled: &SampledShot) -> String {
         let past = sampled.samples.iter().filter(|sample| is_past(sample.finest(), quantity, limit)).count();
         (past > 0).then(|| format!("{} {past}", quantity_name(quantity).0))
     };
-    let words: Vec<String> = Quantity::ALL.into_iter().filter_map(count).collect();
+    let broken = sampled.samples.iter().filter(|sample| sampled.lost_a_cable(sample.finest())).count();
+    let broken = (broken > 0).then(|| format!("a cable breaks {broken}"));
+    let words: Vec<String> = Quantity::ALL.into_iter().filter_map(count).chain(broken).collect();
     if words.is_empty() { String::new() } else { format!(" ({})", words.join(", ")) }
 }
 
@@ -126,13 +142,5 @@ fn ends_early(end: f64, open: EarlyEnd) -> String {
         EarlyEnd::TiresMoving => {
             format!("tires still move at {end} and may pull harder later: give a longer duration_s")
         }
-    }
-}
-
-fn quantity_name(quantity: Quantity) -> (&'static str, Unit) {
-    match quantity {
-        Quantity::Height => ("flight height", Unit::Metre),
-        Quantity::Force => ("cable force", Unit::Kilonewton),
-        Quantity::Drift => ("drift", Unit::Metre),
     }
 }

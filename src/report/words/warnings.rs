@@ -5,6 +5,7 @@ use crate::plan::DelayOption;
 use crate::plan::keys::Key;
 use crate::plan::usual::Unusual;
 use crate::study::as_planned::cover::Cover;
+use crate::study::beside_tire::{HoleBesideTire, holes_beside_tires};
 use crate::study::judge_options::OptionResults;
 use crate::study::judgement::Judgement;
 use crate::study::samples::swaps::{Swap, find_swaps};
@@ -41,7 +42,31 @@ pub fn of_plan(case: &Case) -> Vec<String> {
         let name = &delay.name;
         Some(format!("the option named \"{name}\" fires its rows {fired} ms apart, not {named} ms"))
     });
-    names.chain(unusual).chain(case.plan.ranges_beside_the_plan().into_iter().map(warning)).collect()
+    let ranges = case.plan.ranges_beside_the_plan().into_iter().map(warning);
+    names.chain(unusual).chain(ranges).chain(beside_tires(case)).collect()
+}
+
+/// Holes that lie beside their tires, or under none.
+fn beside_tires(case: &Case) -> Vec<String> {
+    let Some(shot) = case.shots.first() else { return Vec::new() };
+    let holes = holes_beside_tires(case, shot);
+    let told = |what: &str, among: &dyn Fn(&HoleBesideTire) -> bool| {
+        let some: Vec<&HoleBesideTire> = holes.iter().filter(|hole| among(hole)).collect();
+        let worst = some.iter().max_by(|a, b| a.away[0].total_cmp(&b.away[0]))?;
+        let place = format!("row {}, hole {}", case.plan.blast_rows[worst.row].name, worst.number + 1);
+        let away = units::rounded(worst.away[0], 2);
+        let tire = case.scene().tire_ids[worst.tires[0]];
+        let (some, all) = (some.len(), shot.firings.len());
+        Some(format!("{some} of {all} holes lie {what}: {place} is {away} m from tire {tire}"))
+    };
+    let uncovered = told("under no tire, and the nearest gets the whole launch", &|hole| hole.is_uncovered);
+    let beside = told("beside their tires, which are pushed aside", &|hole| {
+        !hole.is_uncovered && !hole.may_be_the_next
+    });
+    let between = told("between two tires, and either may get the launch", &|hole| {
+        hole.may_be_the_next && !hole.is_uncovered
+    });
+    [uncovered, between, beside].into_iter().flatten().collect()
 }
 
 /// The interval in the name of an option and the first other interval at which its rows fire [ms]: `42 ms` at 109 ms.

@@ -187,6 +187,7 @@ impl<'a> Stepper<'a> {
                 self.advance(after - done, 0)?;
                 done = after;
             }
+            self.note_force_at_firing(firing.tire, firing.time);
             let velocity = &mut self.v[firing.tire];
             let energy = firing.launch.dot(&(*velocity + 0.5 * firing.launch));
             *velocity += firing.launch;

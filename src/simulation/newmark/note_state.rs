@@ -44,6 +44,24 @@ impl Stepper<'_> {
         self.record.history.note(now, height, force.min(breaking_force));
     }
 
+    /// Notes the greatest force of the cables of a tire as a hole fires under it, at a time [s] between two steps: the force has a kink
+    /// there, and a parabola through the forces of steps on both sides does not show it.
+    pub(super) fn note_force_at_firing(&mut self, tire: usize, time: f64) {
+        for index in 0..self.scene.cables.len() {
+            if !self.scene.cables[index].ends.contains(&tire) {
+                continue;
+            }
+            if self.peak_to_refine.is_some_and(|(peak, _)| peak == index) {
+                self.peak_to_refine = None;
+            }
+            let value = self.stretch_over_strength(index, &self.u);
+            if value > self.record.force.value {
+                self.record.force = Peak { value, time, index };
+                self.peak_to_refine = None;
+            }
+        }
+    }
+
     /// Removes the cables whose force is above the breaking force; their elastic energy is lost, and their tires wake.
     #[cold]
     fn break_cables(&mut self, breaking_force: f64) {

@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 
-use nalgebra::Vector3;
 use pulp::Simd;
 
 use crate::simulation::cable_blocks::{Block, Blocks};
@@ -30,8 +29,8 @@ struct Damped<'a> {
     viscosity: &'a [f64],
     /// Change of L² over the step before [m²].
     length2_change: Aligned,
-    /// Force N at the last evaluation, negative where its motion is forgotten since, and at the evaluation before [N]; the latter
-    /// is infinite where the force jumps, so that no parabola is laid through the jump.
+    /// Force N at the last evaluation and at the evaluation before [N]. The latter is infinite where the force has a kink or the
+    /// cable became taut since then, so that no parabola is laid through that, and negative infinite where the force jumped.
     force: [Aligned; 2],
 }
 
@@ -104,23 +103,24 @@ impl<'a> CableForceMemory<'a> {
         self.weight[element] != 0.0
     }
 
-    /// Forgets how a damped cable moved until now, because one of its tires was launched or has landed: as if its ends had always
-    /// moved as they do now. `span` is the vector between its ends at rest, `between` what their displacements add to it now,
-    /// `per_step` what they add in one step [m].
-    pub fn forget_motion(
-        &mut self,
-        element: usize,
-        span: Vector3<f64>,
-        between: Vector3<f64>,
-        per_step: Vector3<f64>,
-    ) {
-        let change = |steps: f64| (span + between - per_step * steps).norm_squared() - span.norm_squared();
-        self.length2_change[element] = change(1.0);
-        self.damped.length2_change[element] = change(1.0) - change(2.0);
-        self.damped.force[0][element] = -1.0;
+    /// Forgets how a damped cable moved until now, because one of its tires was launched or has landed, or a push on it began or
+    /// ended: as if its ends had always moved as they do now. `changes` are the changes of L² over the step before this one and over
+    /// this one [m²], `since_rest` is L² now less L² at rest, `jumps` says whether the force jumped.
+    pub fn forget_motion(&mut self, element: usize, since_rest: f64, changes: [f64; 2], jumps: bool) {
+        self.length2_change[element] = since_rest - changes[1];
+        self.damped.length2_change[element] = changes[0];
+        self.damped.force[0][element] = if jumps { f64::NEG_INFINITY } else { f64::INFINITY };
     }
 
-    /// Force of a damped cable at the evaluation before the last [N]; `None` without damping.
+    /// L² of a cable at the last evaluation less L² at rest, and the change of L² over the step before that, which only a damped
+    /// cable has [m²].
+    pub fn length2_changes(&self, element: usize) -> [f64; 2] {
+        let last = self.damped.length2_change.get(element).copied();
+        [self.length2_change[element], last.unwrap_or_default()]
+    }
+
+    /// Force of a damped cable at the evaluation before the last [N]: infinite where the force has a kink or the cable became taut
+    /// since then, negative infinite where the force jumped. `None` without damping.
     pub fn slot_force_before(&self, block: &Block, slot: usize) -> Option<f64> {
         (!self.damped.viscosity.is_empty()).then(|| self.damped.force[1][block.first_element + slot])
     }
@@ -266,7 +266,11 @@ impl CableEvaluator<'_, '_> {
                 let rate = switches.select(excess_change, extrapolated);
                 // Where nothing moves, nothing that moved before counts.
                 let rate = zero.less(excess_change.abs()).select(rate, zero);
-                let lengthening = half * rate / length.max(tiny);
+                let per_length = one / length.max(tiny);
+                let lengthening = half * rate * per_length;
+                // A mean rate is that at the mean length, which is shorter than the last by half of what was gained.
+                let at_mean = (half * lengthening * per_length).times_plus(lengthening, lengthening);
+                let lengthening = switches.select(at_mean, lengthening);
                 let viscous = Wide::load(simd, viscosities, at) * lengthening * per_step;
                 let whole = taut.select((elastic + viscous).max(zero), zero);
                 let after = half + excess_before / excess_change;
@@ -276,9 +280,7 @@ impl CableEvaluator<'_, '_> {
                 (weight * taut.select(force - elastic, zero) * lengthening)
                     .add_to(&mut dissipated, at % LANES);
                 let force_before = Wide::load(simd, forces_at_step, at);
-                let jumps =
-                    switches.select(infinite, zero.at_most(force_before).select(force_before, infinite));
-                jumps.store(forces_at_step_before, at);
+                switches.select(infinite, force_before).store(forces_at_step_before, at);
                 force_at_step.store(forces_at_step, at);
             }
             force_at_step.max(Wide::load(simd, &greatest, at % LANES)).store(&mut greatest, at % LANES);

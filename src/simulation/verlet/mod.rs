@@ -22,8 +22,6 @@ mod stepper;
 
 use std::sync::{Arc, OnceLock};
 
-use nalgebra::Vector3;
-
 use self::mirror_reduction::MirrorReduction;
 use self::stepper::Stepper;
 use super::cable_blocks::Blocks;
@@ -32,7 +30,7 @@ use super::wake::Ties;
 use super::{RunError, RunSettings, Watcher};
 use crate::choice::Method;
 use crate::outcome::Outcome;
-use crate::scene::{Cable, Mirror, Scene, Shot};
+use crate::scene::{Mirror, Scene, Shot};
 
 /// Parts of one scene, each made at its first use and kept for later runs.
 #[derive(Debug, Default)]
@@ -53,8 +51,6 @@ pub struct Part {
     inverse_mass: Vec<f64>,
     /// Viscosity of each element [N s/m]; empty without damping.
     viscosity: Vec<f64>,
-    /// Cable of each element, between tires of the part; empty without damping.
-    cables: Vec<Cable>,
     /// Longest stable step [s].
     critical_step: f64,
 }
@@ -92,7 +88,11 @@ impl VerletModel {
         watch: &mut Watcher<'_>,
     ) -> Result<Outcome, RunError> {
         let planes = shared_planes(variant, shot);
-        run(&self.part_of(scene, &planes).variant(variant), variant, shot, settings, watch)
+        match self.part_of(scene, &planes).variant(variant) {
+            Some(part) => run(&part, variant, shot, settings, watch),
+            // Cables that differ one by one share no register: they are laid out anew.
+            None => run(&Part::new(variant, &planes), variant, shot, settings, watch),
+        }
     }
 
     /// Number of tires that are integrated for a shot: a half or a quarter of the scene's where scene and shot are their own
@@ -130,10 +130,10 @@ impl Part {
         Self::with_masses(scene, reduction.into(), blocks, ties.into())
     }
 
-    /// The same layout with the numbers of `variant`.
-    fn variant(&self, variant: &Scene) -> Self {
-        let blocks = self.blocks.with_numbers(|cable| &variant.cables[self.reduction.cable(cable)]);
-        Self::with_masses(variant, Arc::clone(&self.reduction), blocks, Arc::clone(&self.ties))
+    /// The same layout with the numbers of `variant`; `None` where cables that were equal are no longer.
+    fn variant(&self, variant: &Scene) -> Option<Self> {
+        let blocks = self.blocks.with_numbers(|cable| &variant.cables[self.reduction.cable(cable)])?;
+        Some(Self::with_masses(variant, Arc::clone(&self.reduction), blocks, Arc::clone(&self.ties)))
     }
 
     fn with_masses(scene: &Scene, reduction: Arc<MirrorReduction>, blocks: Blocks, ties: Arc<Ties>) -> Self {
@@ -148,26 +148,12 @@ impl Part {
             mass: weighted().map(|(mass, weight)| mass * weight).chain(spare(0.0)).collect(),
             inverse_mass: weighted().map(inverse_mass).chain(spare(1.0)).collect(),
             critical_step: scene.critical_step(),
-            cables: if scene.damping > 0.0 { cables(&blocks) } else { Vec::new() },
             viscosity: if scene.damping > 0.0 { blocks.by_element(viscosity) } else { Vec::new() },
             blocks,
             ties,
             reduction,
         }
     }
-}
-
-/// Cable of each element, between tires of the part (`n_elements`); that of an empty slot has no meaning.
-fn cables(blocks: &Blocks) -> Vec<Cable> {
-    let nothing = Cable { ends: [0; 2], rest_length: 1.0, stiffness: 0.0, span: Vector3::x() };
-    let mut all = vec![nothing; blocks.weight.len()];
-    for block in &blocks.blocks {
-        for slot in 0..block.len {
-            let ends = block.first.ends.map(|end| end + slot);
-            all[block.first_element + slot] = Cable { ends, ..block.first };
-        }
-    }
-    all
 }
 
 #[cfg(test)]

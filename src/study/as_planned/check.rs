@@ -14,7 +14,9 @@ use crate::choice::Accuracy;
 use crate::outcome::{BrokenCable, History, Outcome, RunEnd};
 use crate::scene::Shot;
 use crate::simulation::{Motion, RunError};
-use crate::study::reasons::shot::{ShotReason, energy_balance_closes, find_reasons_as_planned, with_limits};
+use crate::study::reasons::shot::{
+    ShotReason, energy_balance_closes, find_reasons_as_planned, with_limits, with_unknown_errors,
+};
 use crate::study::{Case, ComputeSettings};
 use crate::verdict::{Estimate, Limits, PerQuantity, Quantity, Verdict};
 
@@ -31,7 +33,7 @@ pub struct CheckedShot {
     pub force: Estimate,
     /// Greatest drift of any tire at the end [m].
     pub drift: Estimate,
-    /// Breaking force over greatest force; infinite where no cable pulls.
+    /// Breaking force over greatest force; infinite where no cable pulls, and not a number where the force is not known.
     pub safety_factor: f64,
     /// Broken cables in order of time; empty where the plan lets no cable break.
     pub broken: Vec<BrokenCable>,
@@ -68,8 +70,8 @@ pub struct CheckProgress {
     pub time: f64,
 }
 
-/// Factor on the error with which a verdict must still stand. The error itself holds in 19 of 20 runs; a verdict must hold
-/// in more: with a factor of 2, 4 of 4,480 limits near true values were passed or failed wrongly.
+/// Factor on the error with which a verdict must still stand to be sure, and a pass to be one. The error itself holds in 19 of 20
+/// runs; a verdict must hold in more: with a factor of 2, 4 of 4,480 limits near true values were passed or failed wrongly.
 pub const SURE_ERROR_FACTOR: f64 = 3.0;
 
 impl CheckedShot {
@@ -91,23 +93,21 @@ impl CheckedShot {
     pub fn share_of_limit(&self, quantity: Quantity, limits: &Limits) -> Option<f64> {
         Some(self.get(quantity).value / limits.get(quantity)?)
     }
+}
 
-    /// Whether the verdict of the limits would stand with errors [`SURE_ERROR_FACTOR`] times larger, and the energy balance
-    /// closes for a pass.
-    fn is_sure(&self, limits: &Limits) -> bool {
-        let estimates = self.estimates();
-        let verdict = |times: f64| {
-            let larger = |estimate: Estimate| Estimate { error: times * estimate.error, ..estimate };
-            let each = with_limits(&estimates, limits)
-                .map(|(_, estimate, limit)| larger(estimate).compare_with(limit));
-            Verdict::worst(each)
-        };
-        let stands = verdict(1.0) == verdict(SURE_ERROR_FACTOR);
-        match verdict(1.0) {
-            Verdict::Pass => stands && energy_balance_closes(self.energy_residual),
-            Verdict::Fail => stands,
-            Verdict::Undecided => false,
-        }
+/// Whether the verdict of the limits would stand with errors [`SURE_ERROR_FACTOR`] times larger, and the energy balance closes for a
+/// pass; `residual` over the energy put in.
+fn is_sure(estimates: &PerQuantity<Estimate>, residual: f64, limits: &Limits) -> bool {
+    let verdict = |times: f64| {
+        let each = with_limits(estimates, limits)
+            .map(|(_, estimate, limit)| estimate.times_error(times).compare_with(limit));
+        Verdict::worst(each)
+    };
+    let stands = verdict(1.0) == verdict(SURE_ERROR_FACTOR);
+    match verdict(1.0) {
+        Verdict::Pass => stands && energy_balance_closes(residual),
+        Verdict::Fail => stands,
+        Verdict::Undecided => false,
     }
 }
 
@@ -155,16 +155,15 @@ pub fn check_shot(
         compute.step.is_some(),
         |runner, step| runner.run(shot, step),
         |runner, runs, is_last| {
-            let checked = checked_from_runs(shot, runs, &[], runner);
-            if !is_last && !checked.is_sure(&case.limits) {
-                return Ok(Finding { found: checked, is_sure: false });
+            let without_pairs = checked_from_runs(shot, runs, &[], runner);
+            if !is_last && !without_pairs.is_sure {
+                return Ok(without_pairs);
             }
             let coarsest = &runs[error_runs(runs.len()).start];
             let pairs = runner.run_pairs(shot, coarsest.outcome.step)?;
-            let checked = checked_from_runs(shot, runs, &pairs, runner);
+            let Finding { found, is_sure } = checked_from_runs(shot, runs, &pairs, runner);
             // Where a nearby shot has no result, nothing says that none differs.
-            let is_sure = pairs.len() == step_error::PAIRS as usize && checked.is_sure(&case.limits);
-            Ok(Finding { found: checked, is_sure })
+            Ok(Finding { found, is_sure: is_sure && pairs.len() == step_error::PAIRS as usize })
         },
     )
 }
@@ -228,7 +227,12 @@ impl Runner<'_> {
 
 /// Checks a shot by a ladder of runs, of which the last gives the values, and by `pairs` of nearby shots at the step of the
 /// coarsest neighbour.
-fn checked_from_runs(shot: &Shot, runs: &[Run], pairs: &[[Run; 2]], runner: &Runner<'_>) -> CheckedShot {
+fn checked_from_runs(
+    shot: &Shot,
+    runs: &[Run],
+    pairs: &[[Run; 2]],
+    runner: &Runner<'_>,
+) -> Finding<CheckedShot> {
     let case = runner.case;
     let last = &runs[runs.len() - 1];
     let outcomes: Vec<&Outcome> = runs.iter().map(|run| &run.outcome).collect();
@@ -236,15 +240,20 @@ fn checked_from_runs(shot: &Shot, runs: &[Run], pairs: &[[Run; 2]], runner: &Run
         pairs.iter().map(|pair| pair.each_ref().map(|run| &run.outcome)).collect();
     let estimates = peaks_with_rivals(&outcomes, &pairs);
     let outcome = &last.outcome;
-    let reasons = find_reasons_as_planned(case, shot, outcome, &estimates);
-    let PerQuantity { height, force, drift } = estimates;
-    CheckedShot {
+    let reasons = find_reasons_as_planned(case, shot, outcome, &estimates, SURE_ERROR_FACTOR);
+    let PerQuantity { height, force, drift } = with_unknown_errors(shot, outcome, &estimates);
+    let is_sure = is_sure(&estimates, outcome.ledger.residual(), &case.limits);
+    let found = CheckedShot {
         verdict: Verdict::worst(reasons.iter().map(ShotReason::verdict)),
         reasons,
         height,
         force,
         drift,
-        safety_factor: case.limits.breaking_force / force.value,
+        safety_factor: if force.error.is_finite() {
+            case.limits.breaking_force / force.value
+        } else {
+            f64::NAN
+        },
         broken: outcome.broken.clone(),
         history: outcome.history.clone(),
         cover: last.cover,
@@ -257,5 +266,6 @@ fn checked_from_runs(shot: &Shot, runs: &[Run], pairs: &[[Run; 2]], runner: &Run
         total_wall: runner.begun.elapsed(),
         runs: runner.runs,
         total_steps: runner.steps,
-    }
+    };
+    Finding { found, is_sure }
 }

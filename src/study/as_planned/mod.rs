@@ -15,7 +15,8 @@
 //! | `step_error::MARGIN` | the reported error, over the largest estimate by neighbouring steps |
 //! | `step_error::FAR_ERROR_FACTOR` | how many errors nearby shots may differ before their difference is the error |
 //! | `check::SURE_ERROR_FACTOR` | with how many errors a verdict of a check must stand |
-//! | `quick_check::SURE_PASS`, `SURE_FAIL` | the same for a quick check, whose runs are coarser |
+//! | `quick_check::ERROR_FACTOR` | the reported error of a quick check, whose runs are coarser, over that which a check would report |
+//! | `quick_check::SURE_PASS`, `SURE_FAIL` | with how many errors a verdict of a quick check must stand |
 //! | `sweep::windows::CALM_ERROR_FACTOR` | with how many errors two intervals must pass for those between them to pass |
 //! | `orders::check_extremes::REACH_ERROR_FACTOR` | within how many errors an order may still be the worst or the best |
 //! | `reasons::shot::MOST_RESIDUAL` | which share of the energy may be missing in a run that counts at all |

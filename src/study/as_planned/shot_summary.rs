@@ -12,7 +12,7 @@ pub struct ValueWithError {
     /// The value.
     #[serde(deserialize_with = "or_infinite")]
     pub value: f64,
-    /// The error.
+    /// The error; infinite where it is not known.
     #[serde(deserialize_with = "or_infinite")]
     pub error: f64,
 }
@@ -77,6 +77,16 @@ impl ShotSummary {
             error: 0.0,
         };
         Self { height: add(self.height), force: add(self.force), drift: add(self.drift), ..*self }
+    }
+
+    /// The same shot without errors that are not known, because the run ended early: what it has shown until then.
+    pub fn as_far_as_shown(&self) -> Self {
+        let shown =
+            |quantity: ValueWithError| match quantity.value.is_finite() && quantity.error.is_infinite() {
+                true => ValueWithError { error: 0.0, ..quantity },
+                false => quantity,
+            };
+        Self { height: shown(self.height), force: shown(self.force), drift: shown(self.drift), ..*self }
     }
 
     /// Utilization: the greatest value over its limit; above 1 the shot fails.

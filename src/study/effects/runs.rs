@@ -133,7 +133,8 @@ pub(super) fn time_sample(
 
 /// On which side of the limits a shot lies. A run that ends early counts by its values: without friction none comes to rest.
 fn verdict_of_values(summary: &ShotSummary, case: &Case) -> Verdict {
-    let utilization = |errors: f64| summary.with_errors(errors).utilization(&case.limits);
+    let shown = summary.as_far_as_shown();
+    let utilization = |errors: f64| shown.with_errors(errors).utilization(&case.limits);
     match (utilization(1.0) <= 1.0, utilization(-1.0) > 1.0) {
         _ if summary.verdict == Verdict::Fail => Verdict::Fail,
         (true, _) => Verdict::Pass,

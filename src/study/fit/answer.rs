@@ -1,11 +1,13 @@
 //! What a fit finds: estimates, and what speaks for and against them.
 
+use super::between_shots::BetweenShots;
 use super::determined::NotDetermined;
 use super::observation_bands::{NextObservation, Prediction};
 use super::parameter::Parameter;
 use crate::choice::Unknown;
+use crate::plan::Uncertainty;
 use crate::plan::observations::Observation;
-use crate::plan::write_fit::EstimateToWrite;
+use crate::plan::write_fit::{EstimateToWrite, FitToWrite, LaunchUncertainty};
 
 /// What a fit finds.
 #[derive(Clone, Debug)]
@@ -38,8 +40,28 @@ pub struct Fit {
     pub file: Vec<usize>,
     /// What the plan as it is says of each observation.
     pub predictions: Vec<Prediction>,
+    /// How far launch velocities were taken to differ from shot to shot; `None` where all but the unknowns was taken for exact.
+    pub between_shots: Option<BetweenShots>,
+    /// How well launches are known after the fit; `None` where none were estimated.
+    pub launches: Option<LaunchUncertainty>,
     /// What to observe next.
     pub next: Option<NextObservation>,
+}
+
+impl Fit {
+    /// The best answer as a plan writes it.
+    pub fn to_write(&self) -> FitToWrite {
+        let to_write = |estimate: &FittedParameter| EstimateToWrite {
+            unknown: estimate.parameter.unknown,
+            row: estimate.parameter.row,
+            value: estimate.value,
+            sd: estimate.sd,
+        };
+        FitToWrite {
+            estimates: self.answers[0].estimates.iter().map(to_write).collect(),
+            launches: self.launches,
+        }
+    }
 }
 
 /// One set of estimates.
@@ -113,14 +135,57 @@ impl Answer {
         ((self.chi_square / f).cbrt() - (1.0 - spread)) / spread.sqrt() <= TOO_GREAT
     }
 
-    /// The estimates as a plan writes them.
-    pub fn to_write(&self) -> Vec<EstimateToWrite> {
-        let to_write = |estimate: &FittedParameter| EstimateToWrite {
-            unknown: estimate.parameter.unknown,
-            row: estimate.parameter.row,
-            value: estimate.value,
-            sd: estimate.sd,
+    /// How well launches are known by this answer: as the least sure of them. What was known `before` is not narrowed by launches by
+    /// row, for which a plan has no key of their own, by estimates that have not settled, and by a fit without a scatter from shot to
+    /// shot, `between_shots_percent`, which took all else for exact.
+    pub(super) fn launch_uncertainty(
+        &self,
+        before: &Uncertainty,
+        between_shots_percent: Option<f64>,
+    ) -> LaunchUncertainty {
+        let is_launch = |estimate: &&FittedParameter| {
+            matches!(estimate.parameter.unknown, Unknown::Launch | Unknown::LaunchByRow)
         };
-        self.estimates.iter().map(to_write).collect()
+        let percents =
+            self.estimates.iter().filter(is_launch).map(|estimate| 1e2 * estimate.sd / estimate.value);
+        let fitted = percents.fold(0.0, f64::max);
+        let is_by_row = self.estimates.iter().any(|estimate| estimate.parameter.row.is_some());
+        let narrows = self.is_settled && between_shots_percent.is_some() && !is_by_row;
+        LaunchUncertainty {
+            common_percent: if narrows { fitted } else { fitted.max(before.launch_common_percent) },
+            between_shots_percent: between_shots_percent.unwrap_or(before.launch_between_shots_percent),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::Plan;
+
+    /// Launches are known to 2 % by this fit, and were to 3 %: only one that counts on scatter between shots says so, of all
+    /// launches at once, once it has settled. What is less sure than before is always told.
+    #[test]
+    fn nothing_less_sure_is_written_as_surer() {
+        let text = include_str!("../../../plans/amur-three-rows.toml");
+        let before = Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")).uncertainty;
+        let percent = |row: Option<usize>, sd: f64, is_settled: bool, between: Option<f64>| {
+            let unknown = if row.is_some() { Unknown::LaunchByRow } else { Unknown::Launch };
+            let parameter = Parameter { unknown, row };
+            let (was, from_stated, is_at_end) = (Some(1.0), None, false);
+            let estimate = FittedParameter { parameter, value: 1.1, sd, was, from_stated, is_at_end };
+            let (correlation, residuals) = (vec![vec![1.0]], Vec::new());
+            let (estimates, chi_square, freedom) = (vec![estimate], 0.0, 0);
+            let answer = Answer { estimates, correlation, residuals, chi_square, is_settled, freedom };
+            let known = answer.launch_uncertainty(&before, between);
+            assert_eq!(known.between_shots_percent, between.unwrap_or(before.launch_between_shots_percent));
+            (1e6 * known.common_percent).round() / 1e6
+        };
+        assert_eq!(before.launch_common_percent, 3.0);
+        assert_eq!(percent(None, 0.022, true, Some(5.0)), 2.0);
+        assert_eq!(percent(None, 0.022, true, None), 3.0, "all else was taken for exact");
+        assert_eq!(percent(None, 0.022, false, Some(5.0)), 3.0, "not settled");
+        assert_eq!(percent(Some(1), 0.022, true, Some(5.0)), 3.0, "by row");
+        assert_eq!(percent(None, 0.044, true, Some(5.0)), 4.0, "less sure than before");
     }
 }

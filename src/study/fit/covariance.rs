@@ -3,15 +3,18 @@
 //!
 //! The motion is not smooth: the prediction of the plan as it is jumps where a cable catches, and is not the mean of what scatter
 //! makes of it. So samples are drawn in which the parameters spread a little, inputs in common that are not estimated spread as
-//! `[uncertainty]` has it, and holes and tires scatter; the values seen are regressed on parameters and inputs. That gives
+//! `[uncertainty]` has it, each shot has a launch factor of its own, and holes and tires scatter; the values seen are regressed on
+//! parameters, inputs and factors. That gives
 //! 1. the mean prediction and its slopes over the parameters,
-//! 2. the covariance of observations about it, the sum of four: what was stated of each observation, and the error of the time
+//! 2. the covariance of observations about it, the sum of five: what was stated of each observation, and the error of the time
 //!    integration, both independent; what the slopes over the inputs in common make of their variance, which ties all shots
-//!    together; and the covariance of what remains, the scatter from hole to hole, within each shot. Different shots scatter
-//!    independently.
+//!    together; what the slope over its launch factor makes of each shot, which ties the observations of that shot; and the
+//!    covariance of what remains, the scatter from hole to hole, within each shot. Different shots scatter independently.
 //!
 //! Covariances of a finite number of samples tie observations by chance: for n observations of a shot those that remain are drawn
 //! toward 0 by the share n/(n + samples).
+
+use std::ops::Range;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use rand::{Rng, SeedableRng};
@@ -65,6 +68,13 @@ impl ObservationCovariance {
         self.factor.l().solve_lower_triangular(slopes)
     }
 
+    /// The covariance of some of the observations, which follow one another.
+    pub fn of(&self, observations: Range<usize>) -> DMatrix<f64> {
+        let (first, count) = (observations.start, observations.len());
+        let rows = self.factor.l().rows(first, count).clone_owned();
+        &rows * rows.transpose()
+    }
+
     fn new(covariance: DMatrix<f64>, errors: Vec<f64>) -> Option<Self> {
         let sds = covariance.diagonal().iter().map(|variance| variance.sqrt()).collect();
         let factor = covariance.cholesky()?;
@@ -79,6 +89,8 @@ pub struct SampledPrediction {
     pub mean: Vec<f64>,
     /// Its derivatives (`n_observations` × `n_parameters`).
     pub slopes: DMatrix<f64>,
+    /// Its change with the launch factor of its shot, over a standard deviation of that factor (`n_observations`).
+    pub over_shot_factor: DVector<f64>,
     /// The covariance of the observations about it.
     pub covariance: ObservationCovariance,
 }
@@ -91,6 +103,8 @@ pub struct CovarianceModel<'a> {
     pub plan: &'a Plan,
     /// Inputs in common that are not estimated, each with what the plan knows of it.
     pub not_estimated: &'a [(Parameter, Prior)],
+    /// Coefficient of variation of launch velocities from shot to shot [%].
+    pub between_shots_percent: f64,
     /// The observations.
     pub seen: &'a ObservedShots,
 }
@@ -115,52 +129,67 @@ impl CovarianceModel<'_> {
         let drawn = SAMPLES.max(SAMPLES_EACH * self.seen.list.len());
         let numbers: Vec<usize> = (0..drawn).collect();
         let samples = run_batch(&numbers, self.predictor.control, |&number| {
-            let (case, deviations) = self.sample(at, spread, seed, number);
+            let sample = self.sample(at, spread, shots.len(), seed, number);
             // A seed for each shot: what scatters in one does not repeat in another.
             let observe = |(n, shot): (usize, &ObservedShot)| {
-                self.observe_sample(&case, shot, seed.wrapping_add(n as u64), number)
+                self.observe_sample(&sample, n, shot, seed.wrapping_add(n as u64), number)
             };
-            Ok((deviations, shots.iter().enumerate().map(observe).collect::<Result<Vec<_>, _>>()?))
+            let runs = shots.iter().enumerate().map(observe).collect::<Result<Vec<_>, _>>()?;
+            Ok((sample.deviations, sample.shot_deviations, runs))
         })?;
         let samples: Option<Vec<_>> = samples.into_iter().collect();
         let samples = samples.ok_or(NoResult::OutOfTime)?;
-        let (count, inputs) = (self.seen.list.len(), 1 + at.len() + self.not_estimated.len());
+        // The mean, the parameters, inputs that are not estimated, and the factor of the shot.
+        let (count, inputs) = (self.seen.list.len(), 2 + at.len() + self.not_estimated.len());
         let mut values = DMatrix::from_element(drawn, count, f64::NAN);
-        let mut regressors = DMatrix::from_element(drawn, inputs, 1.0);
-        for (number, (deviations, runs)) in samples.iter().enumerate() {
-            deviations.iter().enumerate().for_each(|(n, deviation)| regressors[(number, 1 + n)] = *deviation);
+        for (number, (.., runs)) in samples.iter().enumerate() {
             for (shot, run) in shots.iter().zip(runs) {
                 let seen = shot.observations().zip(run.iter().flatten());
                 seen.for_each(|(n, &value)| values[(number, n)] = value);
             }
         }
         let is_known = fill_gaps(&mut values);
-        // A coordinate that cannot spread has no slope.
-        let normal =
-            regressors.transpose() * &regressors + DMatrix::from_diagonal_element(inputs, inputs, 1e-9);
-        let Some(factor) = normal.cholesky() else { return Ok(None) };
-        let found = factor.solve(&(regressors.transpose() * &values));
-        let rest = &values - &regressors * &found;
+        let (mut found, mut rest) = (DMatrix::zeros(inputs, count), values.clone());
+        for (n, shot) in shots.iter().enumerate() {
+            let regressor = |number: usize, input: usize| {
+                let (deviations, shot_deviations, _) = &samples[number];
+                match input {
+                    0 => 1.0,
+                    _ if input == inputs - 1 => shot_deviations[n],
+                    _ => deviations[input - 1],
+                }
+            };
+            let regressors = DMatrix::from_fn(drawn, inputs, regressor);
+            // A coordinate that cannot spread has no slope.
+            let normal =
+                regressors.transpose() * &regressors + DMatrix::from_diagonal_element(inputs, inputs, 1e-9);
+            let Some(factor) = normal.cholesky() else { return Ok(None) };
+            let (first, watched) = (shot.first, shot.watched.len());
+            let of_shot = factor.solve(&(regressors.transpose() * values.columns(first, watched)));
+            let explained = regressors * &of_shot;
+            found.columns_mut(first, watched).copy_from(&of_shot);
+            let mut unexplained = rest.columns_mut(first, watched);
+            unexplained -= explained;
+        }
         let mut covariance = self.observation_covariance(&errors);
         let of_not_estimated = found.rows(1 + at.len(), self.not_estimated.len());
         covariance += of_not_estimated.transpose() * of_not_estimated;
+        let over_shot_factor = found.row(inputs - 1).transpose();
         let freedom = (drawn - inputs) as f64;
         for shot in &shots {
             let toward_zero = drawn as f64 / (drawn + shot.watched.len()) as f64;
             for (a, b) in itertools::iproduct!(shot.observations(), shot.observations()) {
                 let kept = if a == b { 1.0 } else { toward_zero };
-                covariance[(a, b)] += kept * rest.column(a).dot(&rest.column(b)) / freedom;
+                covariance[(a, b)] += kept * rest.column(a).dot(&rest.column(b)) / freedom
+                    + over_shot_factor[a] * over_shot_factor[b];
             }
         }
         let mean = (0..count).map(|n| if is_known[n] { found[(0, n)] } else { f64::NAN }).collect();
         // Slopes per coordinate, not per standard deviation of its spread.
         let slopes =
             DMatrix::from_fn(count, at.len(), |n, parameter| found[(1 + parameter, n)] / spread[parameter]);
-        Ok(ObservationCovariance::new(covariance, errors).map(|covariance| SampledPrediction {
-            mean,
-            slopes,
-            covariance,
-        }))
+        let covariance = ObservationCovariance::new(covariance, errors);
+        Ok(covariance.map(|covariance| SampledPrediction { mean, slopes, over_shot_factor, covariance }))
     }
 
     /// Covariance of what was stated of each observation and of the error of each prediction.
@@ -169,9 +198,8 @@ impl CovarianceModel<'_> {
         DMatrix::from_diagonal(&DVector::from_fn(errors.len(), |n, _| variance(n)))
     }
 
-    /// The case of a sample, in which only holes and tires scatter still, and how far its parameters and other inputs lie from
-    /// their means [standard deviations of their spread].
-    fn sample(&self, at: &[f64], spread: &[f64], seed: u64, number: usize) -> (Case, Vec<f64>) {
+    /// The sample of a number, with factors of so many `shots`.
+    fn sample(&self, at: &[f64], spread: &[f64], shots: usize, seed: u64, number: usize) -> SampleOfShots {
         let mut random = ChaCha8Rng::seed_from_u64(!seed);
         // In pairs to both sides, so that a bend of the predictions makes no slope.
         random.set_stream((number / 2) as u64);
@@ -190,27 +218,37 @@ impl CovarianceModel<'_> {
         let mut deviations: Vec<f64> =
             parameters.map(|(parameter, (&mean, &sd))| draw(parameter, mean, sd)).collect();
         deviations.extend(not_estimated);
+        let factor = Prior::lognormal(self.between_shots_percent);
+        let mut shot_deviation =
+            || if factor.sd > 0.0 { side * random.sample::<f64, _>(StandardNormal) } else { 0.0 };
+        let shot_deviations: Vec<f64> = (0..shots).map(|_| shot_deviation()).collect();
+        let shot_factors =
+            shot_deviations.iter().map(|deviation| (factor.mean + factor.sd * deviation).exp()).collect();
         let exact = |value: f64| [value; 2];
         plan.uncertainty = Uncertainty {
             launch_common_percent: 0.0,
+            launch_between_shots_percent: 0.0,
             friction: exact(plan.ground.friction),
             slack_percent: exact(plan.cable.slack_percent),
             axial_stiffness_percent: exact(0.0),
             ..plan.uncertainty
         };
-        (Case::new(plan), deviations)
+        SampleOfShots { case: Case::new(plan), deviations, shot_deviations, shot_factors }
     }
 
-    /// The values seen of one shot of a sample; `None` where its run fails.
+    /// The values seen of one shot of a sample, the `n`-th; `None` where its run fails.
     fn observe_sample(
         &self,
-        case: &Case,
+        sampled: &SampleOfShots,
+        n: usize,
         shot: &ObservedShot,
         seed: u64,
         number: usize,
     ) -> Result<Option<Vec<f64>>, NoResult> {
         let Predictor { compute, control, .. } = self.predictor;
-        let sample = draw_shot(case, &case.shots[shot.option], seed, number);
+        let case = &sampled.case;
+        let planned = case.shots[shot.option].with_launches(sampled.shot_factors[n]);
+        let sample = draw_shot(case, &planned, seed, number);
         let settings = case.run_settings(compute.method, sample_step(compute, &sample.scene));
         // In the time of the plan, as observations are.
         let fired = sample.shot.later_by(-sample.later).with_times(&shot.times);
@@ -231,6 +269,18 @@ impl CovarianceModel<'_> {
         let errors = (0..values.len()).map(error);
         Ok(Some(errors.map(|error| if error.is_finite() { error } else { 0.0 }).collect()))
     }
+}
+
+/// One sample of all shots that were observed.
+struct SampleOfShots {
+    /// The case, in which only holes and tires scatter still.
+    case: Case,
+    /// How far its parameters and other inputs lie from their means [standard deviations of their spread].
+    deviations: Vec<f64>,
+    /// The same of the launch factor of each shot (`n_shots`).
+    shot_deviations: Vec<f64>,
+    /// The launch factor of each shot (`n_shots`).
+    shot_factors: Vec<f64>,
 }
 
 /// Puts the mean of a column in place of the values that it lacks. Whether each column had values often enough.

@@ -3,7 +3,8 @@
 //! Weighted least squares: of the parameters within plausible ranges those whose predictions fit the observations best; what
 //! `[uncertainty]` of the plan states of them counts as observations. The weights are the inverse of the observations'
 //! [`covariance`], first at the plan, then at each answer. Inputs that are not estimated are not taken for exact: they widen the
-//! covariance.
+//! covariance. Launch velocities differ from shot to shot, and no observation of one shot says how far: each shot has a factor of
+//! its own in the covariance ([`between_shots`]).
 //!
 //! | question | where |
 //! |---|---|
@@ -13,11 +14,13 @@
 //! | the observations by shot | [`observed_shots`] |
 //! | what a plan predicts | `predictor`, `observation_recorder` |
 //! | how far observations may lie from it | [`covariance`] |
+//! | how far shots differ | [`between_shots`] |
 //! | which parameters fit best, in which separate answers | [`search`] |
 //! | whether observations determine them | [`determined`] |
 //! | how observations lie among the shots that were possible, and what to observe next | [`observation_bands`] |
 
 mod answer;
+pub mod between_shots;
 pub mod covariance;
 pub mod determined;
 pub mod observation_bands;
@@ -26,9 +29,11 @@ pub mod observed_shots;
 pub mod parameter;
 mod predictor;
 mod problem;
+mod refined_answer;
 pub mod search;
 
 pub use self::answer::{Answer, Fit, FitResult, FittedParameter, Residual};
+use self::between_shots::BetweenShots;
 pub use self::determined::{NotDetermined, Observable};
 use self::observation_bands::{NextObservation, next_observation, predict_observations};
 use self::observed_shots::ObservedShots;
@@ -88,7 +93,10 @@ pub fn fit(
         return Ok(Computed::complete(FitResult::NotInMethod(Unknown::Damping)));
     }
     let seen = ObservedShots::new(request.files);
-    let problem = FitProblem {
+    let stated = StatedKeys::of(&case.source.text);
+    let mut between_shots =
+        request.sampling.map(|_| BetweenShots::before(&case.plan.uncertainty, &stated, seen.shots().len()));
+    let mut problem = FitProblem {
         space: search_box(&case.plan, &parameters, &priors),
         predictor: Predictor {
             plan: plan_of_not_estimated(case, request),
@@ -98,11 +106,22 @@ pub fn fit(
             control,
         },
         not_estimated: not_estimated(case, request),
+        between_shots_percent: between_shots.map_or(0.0, |between| between.percent),
         priors,
         seen,
         seed: request.sampling.map(|sampling| sampling.seed),
     };
-    let settled = problem.answers(case)?;
+    let mut settled = problem.answers(case)?;
+    if let Some(before) = between_shots {
+        // The mean of the factors is followed by a launch; where none is estimated, it is one parameter more.
+        let follow = problem.predictor.parameters.len() + usize::from(!estimates_launches(request));
+        let narrowed = before.narrowed(&problem.seen, &settled[0], follow);
+        if narrowed != before {
+            problem.between_shots_percent = narrowed.percent;
+            settled = problem.answers(case)?;
+        }
+        between_shots = Some(narrowed);
+    }
     let best = &settled[0];
     let slopes = best.covariance.whiten(&best.slopes).unwrap_or_else(|| best.slopes.clone());
     let start = problem.start_coordinates(&case.plan);
@@ -112,11 +131,20 @@ pub fn fit(
         let observed = problem.seen.list;
         return Ok(Computed::complete(FitResult::NotDetermined { refused, observed, predictions }));
     }
-    let answers = settled.iter().map(|settled| problem.answer(case, settled)).collect();
+    let answers: Vec<Answer> = settled.iter().map(|settled| problem.answer(case, settled)).collect();
+    let launches = estimates_launches(request).then(|| {
+        let before = &case.plan.uncertainty;
+        answers[0].launch_uncertainty(before, between_shots.map(|between| between.percent))
+    });
     let ObservedShots { list: observed, file, .. } = problem.seen;
-    let mut fit = Fit { answers, observed, file, predictions, next: None };
+    let mut fit = Fit { answers, observed, file, predictions, between_shots, launches, next: None };
     fit.next = what_to_observe_next(case, &fit, request, compute, control)?;
     Ok(Computed::complete(FitResult::Fitted(fit)))
+}
+
+/// Whether launches are among what is estimated.
+fn estimates_launches(request: &FitRequest<'_>) -> bool {
+    request.unknowns.iter().any(|unknown| matches!(unknown, Unknown::Launch | Unknown::LaunchByRow))
 }
 
 /// The case without a `duration_s`, where friction brings the tires to rest: what was seen later than that is computed, too.
@@ -182,12 +210,7 @@ fn what_to_observe_next(
     control: &StudyControl,
 ) -> Result<Option<NextObservation>, NoResult> {
     let Some(sampling) = request.sampling else { return Ok(None) };
-    let text = crate::plan::write_fit::write(
-        &case.source.text,
-        &case.plan.uncertainty,
-        &fit.answers[0].to_write(),
-        &[],
-    );
+    let text = crate::plan::write_fit::write(&case.source.text, &case.plan.uncertainty, &fit.to_write(), &[]);
     let Some(plan) = text.ok().and_then(|text| Plan::parse("", &text).ok()) else { return Ok(None) };
     let shots = fit.observed.chunk_by(|a, b| a.option == b.option);
     let Some(most) = shots.max_by_key(|shot| shot.len()) else { return Ok(None) };

@@ -139,15 +139,15 @@ pub fn next_observation(
     let drawn = samples(case, &shot, sampling, compute, control)?;
     let watched = shot.watched;
     let count = drawn.values.len();
-    if count <= 2 * Input::ALL.len() {
+    let repeated: Vec<usize> = (0..Input::ALL.len()).filter(|&n| Input::ALL[n].repeats()).collect();
+    if count <= 2 * repeated.len() {
         return Ok(None);
     }
     let utilization: Vec<f64> =
         drawn.values.iter().map(|values| utilization(case, &watched, values)).collect();
-    let inputs = DMatrix::from_fn(count, Input::ALL.len(), |n, input| drawn.inputs[n][input]);
-    let centred = DMatrix::from_fn(count, Input::ALL.len(), |n, input| {
-        inputs[(n, input)] - inputs.column(input).mean()
-    });
+    let inputs = DMatrix::from_fn(count, repeated.len(), |n, input| drawn.inputs[n][repeated[input]]);
+    let centred =
+        DMatrix::from_fn(count, repeated.len(), |n, input| inputs[(n, input)] - inputs.column(input).mean());
     let covariance = centred.transpose() * &centred / (count - 1) as f64;
     let Ok(inverse) = covariance.clone().pseudo_inverse(1e-15) else { return Ok(None) };
     let regression = |values: &DVector<f64>| -> (DVector<f64>, f64) {

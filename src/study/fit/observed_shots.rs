@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use itertools::Itertools;
+
 use crate::plan::observations::{MeasuredFiring, Observation, Observations, ObservedPoint};
 
 /// Observations, each with the number of its file, in the order of their options, then files.
@@ -16,12 +18,13 @@ pub struct ObservedShots {
 }
 
 impl ObservedShots {
-    /// The observations of all files.
+    /// The observations of all files; those of a file that repeats another count once.
     pub fn new(files: &[Observations]) -> Self {
         let of_file = |(n, file): (usize, &Observations)| {
             file.list.iter().map(move |seen| (n, *seen)).collect::<Vec<_>>()
         };
-        let mut all: Vec<(usize, Observation)> = files.iter().enumerate().flat_map(of_file).collect();
+        let distinct = files.iter().enumerate().unique_by(|(_, file)| &file.checksum);
+        let mut all: Vec<(usize, Observation)> = distinct.flat_map(of_file).collect();
         all.sort_by_key(|(file, seen)| (seen.option, *file));
         let (file, list) = all.into_iter().unzip();
         Self { list, file, firings: files.iter().map(|file| file.firings.clone()).collect() }

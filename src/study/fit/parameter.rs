@@ -33,7 +33,7 @@ impl Prior {
     }
 
     /// Of the logarithm of a lognormal factor with mean 1.
-    fn lognormal(cv_percent: f64) -> Self {
+    pub fn lognormal(cv_percent: f64) -> Self {
         let variance = (cv_percent * 1e-2).powi(2).ln_1p();
         Self { mean: -0.5 * variance, sd: variance.sqrt() }
     }

@@ -7,6 +7,7 @@ use super::covariance::{CovarianceModel, ObservationCovariance, SampledPredictio
 use super::observed_shots::{ObservedShot, ObservedShots};
 use super::parameter::{Parameter, Prior};
 use super::predictor::Predictor;
+use super::refined_answer::RefinedAnswer;
 use super::search::{Minimum, SearchBox};
 use crate::plan::Plan;
 use crate::study::work::batch::run_batch;
@@ -27,27 +28,10 @@ pub(super) struct FitProblem<'p> {
     pub space: SearchBox,
     pub priors: Vec<Option<Prior>>,
     pub not_estimated: Vec<(Parameter, Prior)>,
+    /// Coefficient of variation of launch velocities from shot to shot [%].
+    pub between_shots_percent: f64,
     pub seen: ObservedShots,
     pub seed: Option<u64>,
-}
-
-/// An answer with what is known of its neighbourhood.
-pub(super) struct RefinedAnswer {
-    pub minimum: Minimum,
-    /// The predictions there.
-    pub predicted: Vec<f64>,
-    /// Their derivatives (`n_observations` × `n_parameters`).
-    pub slopes: DMatrix<f64>,
-    pub covariance: ObservationCovariance,
-    /// Whether the last round changed little.
-    pub is_settled: bool,
-}
-
-impl RefinedAnswer {
-    /// −2 × the logarithm of the likelihood, but for a constant.
-    fn unlikelihood(&self) -> f64 {
-        self.minimum.misfit + self.covariance.log_determinant
-    }
 }
 
 /// Spread of the samples about an answer, over its standard deviation: wide enough for slopes that samples hardly blur.
@@ -96,6 +80,7 @@ impl FitProblem<'_> {
             predictor: &self.predictor,
             plan: &case.plan,
             not_estimated: &self.not_estimated,
+            between_shots_percent: self.between_shots_percent,
             seen: &self.seen,
         };
         let covariance = match self.seed {
@@ -149,7 +134,8 @@ impl FitProblem<'_> {
         };
         let Some(predicted) = self.predictor.values(&minimum.point, 1.0)? else { return Ok(None) };
         let slopes = self.slopes(&minimum, &predicted)?;
-        Ok(Some(RefinedAnswer { minimum, predicted, slopes, covariance, is_settled: true }))
+        let over_shot_factor = DVector::zeros(predicted.len());
+        Ok(Some(RefinedAnswer { minimum, predicted, slopes, over_shot_factor, covariance, is_settled: true }))
     }
 
     /// The answer near a minimum, for the mean of what scatter makes of the predictions: samples about the answer give the mean,
@@ -164,7 +150,7 @@ impl FitProblem<'_> {
         let (mut at, mut spread) = (minimum.point.clone(), self.sample_spread(|n| minimum.sd(n)));
         let mut settled = None;
         for _ in 0..MOST_ROUNDS {
-            let Some(SampledPrediction { mean, slopes, covariance }) =
+            let Some(SampledPrediction { mean, slopes, over_shot_factor, covariance }) =
                 model.from_samples(&at, &spread, seed)?
             else {
                 break;
@@ -203,7 +189,8 @@ impl FitProblem<'_> {
                 |n: usize| moved[n].abs() <= 0.3 * spread[n] && (wanted[n] / spread[n]).ln().abs() < 0.4;
             let is_settled = (0..count).all(is_near);
             (at, spread) = (minimum.point.clone(), wanted);
-            settled = Some(RefinedAnswer { minimum, predicted, slopes, covariance, is_settled });
+            settled =
+                Some(RefinedAnswer { minimum, predicted, slopes, over_shot_factor, covariance, is_settled });
             if is_settled {
                 break;
             }

@@ -11,7 +11,7 @@ use crate::study::as_planned::check_many::{check_summary, run_checks_or_failed};
 use crate::study::{Case, ComputeResult, ComputeSettings, Computed, ShotSummary, StudyControl};
 
 /// Factor on the error of a quick check within which an order may still be the worst or the best.
-const REACH_ERROR_FACTOR: f64 = 6.0;
+const REACH_ERROR_FACTOR: f64 = 2.4;
 
 /// Number of orders refined together: a fixed number, so that the number of threads changes nothing.
 const REFINED_TOGETHER: usize = 32;
@@ -43,7 +43,8 @@ pub fn check_extremes(
             // An order whose runs failed may be the worst, and is not the best.
             let reachable = |n: usize| match is_known(&n) {
                 true => {
-                    sign * tried[n].planned.with_errors(sign * REACH_ERROR_FACTOR).utilization(&case.limits)
+                    let shown = tried[n].planned.as_far_as_shown();
+                    sign * shown.with_errors(sign * REACH_ERROR_FACTOR).utilization(&case.limits)
                 }
                 false => sign * f64::INFINITY,
             };

@@ -7,7 +7,8 @@
 //!    reversed.
 //!
 //! The orders are ranked by the shots as planned. The [`SAMPLED_AT_EACH_END`] worst and the [`SAMPLED_AT_EACH_END`] best of them
-//! are sampled; the best gets a full verdict.
+//! get a few samples, by draws that only choose. Of these the worst as planned, the one that fails most often, and the best get a
+//! full verdict; fresh draws confirm the best.
 //!
 //! With more rows the orders are searched: random orders first; then exchanges of two rows in the worst `CLIMBERS` of
 //! them and in the best, until no exchange leads further. A search may miss the worst order; its result says so.
@@ -16,7 +17,7 @@ mod check_extremes;
 mod climb;
 mod mirror_rows;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use itertools::Itertools;
 
@@ -26,8 +27,10 @@ use self::mirror_rows::{mirror_rows, mirrored};
 use super::as_planned::check_many::{check_summary, run_checks_or_failed};
 use super::as_planned::quick_check::{quick_check_is_sure, quick_check_until};
 use super::judgement::{self, Evidence};
+use super::recommend::confirm_shot;
 use super::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use super::samples::sample_count::Sampling;
+use super::samples::sample_until_sure::ShotToSample;
 use super::{
     Case, ComputeResult, ComputeSettings, Computed, Fingerprint, NoResult, Shard, ShotSummary, StudyControl,
 };
@@ -65,6 +68,12 @@ pub struct Orders {
     pub complete: bool,
     /// Samples of ranked orders, by their indices; `None` where only the shots as planned were asked for.
     risks: Option<BTreeMap<usize, RiskSummary>>,
+    /// Ranks of the orders that have a full verdict.
+    decisive: Vec<usize>,
+}
+
+fn passes_samples(risk: &RiskSummary) -> bool {
+    risk.verdict == Verdict::Pass
 }
 
 impl Orders {
@@ -74,10 +83,10 @@ impl Orders {
         tried.sort_by(|a, b| {
             utilization(case, b).total_cmp(&utilization(case, a)).then(a.number.cmp(&b.number))
         });
-        Self { ranked: tried, complete, risks: None }
+        Self { ranked: tried, complete, risks: None, decisive: Vec::new() }
     }
 
-    /// Samples the worst and the best orders, and the best until its verdict is sure.
+    /// Samples the worst and the best orders; those that decide until their verdict is sure.
     pub fn add_risk(
         &mut self,
         case: &Case,
@@ -93,12 +102,22 @@ impl Orders {
             (case.shot(order, *interval), *planned)
         };
         let shots: Vec<_> = ends.iter().map(shot).collect();
-        let mut sampled = sample_shots_in_brief(case, &shots, &sampling.first_look(), compute, control)?;
-        if let (Some(best), Some(last)) = (shots.last(), sampled.last_mut()) {
-            *last = sample_shots_in_brief(case, std::slice::from_ref(best), sampling, compute, control)?
-                .remove(0);
+        let first_look = sampling.for_screening().first_look();
+        let mut sampled = sample_shots_in_brief(case, &shots, &first_look, compute, control)?;
+        let share = |n: &usize| sampled[*n].map_or(0.0, |risk| risk.failing_share());
+        let fails_most = (0..ends.len()).max_by(|a, b| share(a).total_cmp(&share(b)).then(b.cmp(a)));
+        let best = ends.len().checked_sub(1);
+        let decisive: BTreeSet<usize> = best.map(|_| 0).into_iter().chain(fails_most).chain(best).collect();
+        let full: Vec<_> = decisive.iter().map(|&n| shots[n].clone()).collect();
+        let judged = sample_shots_in_brief(case, &full, sampling, compute, control)?;
+        decisive.iter().zip(judged).for_each(|(&n, judged)| sampled[n] = judged);
+        if let Some((n, judged)) = best.and_then(|n| Some((n, sampled[n].filter(passes_samples)?))) {
+            let target = ShotToSample::new(case, &shots[n].0, *compute, *sampling).with_planned(shots[n].1);
+            sampled[n] = confirm_shot(&target, 1, control)?
+                .map(|drawn| RiskSummary { verdict: drawn.verdict.min(Verdict::Undecided), ..judged });
         }
         let partial = sampled.contains(&None);
+        self.decisive = decisive.into_iter().map(|n| ends[n]).collect();
         let drawn = ends.into_iter().zip(sampled).filter_map(|(n, sampled)| Some((n, sampled?)));
         self.risks = Some(drawn.collect());
         Ok(Computed { value: (), partial })
@@ -129,12 +148,19 @@ impl Orders {
 }
 
 impl Computed<Orders> {
-    /// The verdict on all orders: pass only where every order was tried and passes.
+    /// The verdict on the worst order: pass only where every order was tried and passes as planned, and where the samples of those
+    /// that decide pass.
     pub fn verdict(&self) -> Verdict {
         let Computed { value: orders, partial } = self;
-        let worst = Verdict::worst((0..orders.ranked.len()).map(|n| orders.verdict_on(n)));
-        let is_open = worst == Verdict::Pass && (*partial || orders.ranked.is_empty());
-        if is_open { Verdict::Undecided } else { worst }
+        let planned = Verdict::worst(orders.ranked.iter().map(|tried| tried.planned.verdict));
+        let fails = |n: usize| orders.verdict_on(n) == Verdict::Fail;
+        let worst = match orders.has_risk() {
+            false => planned,
+            true if (0..orders.ranked.len()).any(fails) => Verdict::Fail,
+            true => planned.max(Verdict::worst(orders.decisive.iter().map(|&n| orders.verdict_on(n)))),
+        };
+        let is_open = *partial || orders.ranked.is_empty() || !orders.complete;
+        if worst == Verdict::Pass && is_open { Verdict::Undecided } else { worst }
     }
 }
 

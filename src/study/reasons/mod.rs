@@ -16,6 +16,17 @@ pub enum Reason {
     NoSamples,
     /// The possible shots do not pass.
     Samples(RiskReason),
+    /// The plan asks for an option that withstands one dud, and this one does not, or it is not known.
+    OneDud(Verdict),
+    /// The possible shots pass, and fresh draws do not confirm it.
+    NotConfirmed {
+        /// Number of fresh draws that fail.
+        failures: usize,
+        /// Number of fresh draws.
+        samples: usize,
+    },
+    /// The possible shots pass, and fresh draws are still to confirm it.
+    AwaitsConfirmation,
 }
 
 impl Reason {
@@ -23,8 +34,11 @@ impl Reason {
     pub fn verdict(&self) -> Verdict {
         match self {
             Reason::AsPlanned(reason) => reason.verdict(),
-            Reason::NoSamples => Verdict::Undecided,
+            Reason::NoSamples | Reason::NotConfirmed { .. } | Reason::AwaitsConfirmation => {
+                Verdict::Undecided
+            }
             Reason::Samples(reason) => reason.verdict(),
+            Reason::OneDud(verdict) => *verdict,
         }
     }
 }

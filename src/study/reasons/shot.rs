@@ -24,6 +24,15 @@ pub enum ShotReason {
         /// The limit [SI unit of the quantity].
         limit: f64,
     },
+    /// A value keeps its limit with its error, and would not with as many times its error as a pass must stand with.
+    NotSure {
+        /// The quantity.
+        quantity: Quantity,
+        /// The computed value with its error.
+        estimate: Estimate,
+        /// The limit [SI unit of the quantity].
+        limit: f64,
+    },
     /// Cables break; their number.
     Broken(usize),
     /// More holes fire within 8 ms than the plan allows.
@@ -59,7 +68,9 @@ impl ShotReason {
             ShotReason::Broken(_) | ShotReason::HolesTogether { .. } | ShotReason::ChargeTogether { .. } => {
                 Verdict::Fail
             }
-            ShotReason::EnergyResidual(_) | ShotReason::EndsEarly { .. } => Verdict::Undecided,
+            ShotReason::NotSure { .. } | ShotReason::EnergyResidual(_) | ShotReason::EndsEarly { .. } => {
+                Verdict::Undecided
+            }
         }
     }
 }
@@ -75,6 +86,17 @@ pub enum EarlyEnd {
     ForceGrowing,
     /// Tires move on, and may pull harder later.
     TiresMoving,
+}
+
+impl EarlyEnd {
+    /// Whether a quantity may still grow after the end: nothing is known of its error then.
+    fn may_grow(self, quantity: Quantity) -> bool {
+        match self {
+            EarlyEnd::HolesUnfired(_) | EarlyEnd::TiresInAir => true,
+            // On the ground nothing pulls a tire up.
+            EarlyEnd::ForceGrowing | EarlyEnd::TiresMoving => quantity != Quantity::Height,
+        }
+    }
 }
 
 /// What the run of a shot leaves open, where the run ends too early for a verdict.
@@ -102,8 +124,9 @@ pub fn find_reasons_as_planned(
     shot: &Shot,
     outcome: &Outcome,
     estimates: &PerQuantity<Estimate>,
+    errors_of_pass: f64,
 ) -> Vec<ShotReason> {
-    let of_run = find_reasons(case, shot, outcome, estimates);
+    let of_run = find_reasons(case, shot, outcome, estimates, errors_of_pass);
     of_run.into_iter().chain(too_much_together(case, WithinEightMs::of(case, shot))).collect()
 }
 
@@ -124,26 +147,50 @@ fn too_much_together(
     holes.into_iter().chain(heaviest.map(|(charge, limit)| ShotReason::ChargeTogether { charge, limit }))
 }
 
-/// Why a run of a shot does not pass, given its height, force and drift with their errors; empty for a pass.
+/// Height, force and drift of a run of a shot: where one may still grow after the end of the run, its error is infinite, because it
+/// is not known.
+pub fn with_unknown_errors(
+    shot: &Shot,
+    outcome: &Outcome,
+    estimates: &PerQuantity<Estimate>,
+) -> PerQuantity<Estimate> {
+    let open = early_end(shot, outcome);
+    PerQuantity::from_fn(|quantity| {
+        let estimate = *estimates.get(quantity);
+        let may_grow = open.is_some_and(|open| open.may_grow(quantity));
+        if may_grow { Estimate { error: f64::INFINITY, ..estimate } } else { estimate }
+    })
+}
+
+/// Why a run of a shot does not pass, given its height, force and drift with the errors of their steps; empty for a pass, which must
+/// stand with `errors_of_pass` times each error.
 pub fn find_reasons(
     case: &Case,
     shot: &Shot,
     outcome: &Outcome,
     estimates: &PerQuantity<Estimate>,
+    errors_of_pass: f64,
 ) -> Vec<ShotReason> {
-    let limits = with_limits(estimates, &case.limits).map(|(quantity, estimate, limit)| ShotReason::Limit {
-        quantity,
-        verdict: estimate.compare_with(limit),
-        estimate,
-        limit,
+    let told = with_unknown_errors(shot, outcome, estimates);
+    let limits = with_limits(estimates, &case.limits).filter_map(|(quantity, estimate, limit)| {
+        let (verdict, told) = (estimate.compare_with(limit), *told.get(quantity));
+        match verdict {
+            Verdict::Fail => Some(ShotReason::Limit { quantity, verdict, estimate: told, limit }),
+            // Of a value that may still grow the reason is the early end.
+            _ if told.error.is_infinite() => None,
+            Verdict::Undecided => Some(ShotReason::Limit { quantity, verdict, estimate, limit }),
+            Verdict::Pass if estimate.times_error(errors_of_pass).compare_with(limit) != Verdict::Pass => {
+                Some(ShotReason::NotSure { quantity, estimate, limit })
+            }
+            Verdict::Pass => None,
+        }
     });
     let broken = Some(outcome.broken.len()).filter(|&count| count > 0).map(ShotReason::Broken);
     let too_large = Some(outcome.ledger.residual()).filter(|&residual| !energy_balance_closes(residual));
     let residual = too_large.map(ShotReason::EnergyResidual);
     let end = case.plan.simulation.duration_s.unwrap_or(outcome.end.time);
     let early = early_end(shot, outcome).map(|open| ShotReason::EndsEarly { end, open });
-    let all = limits.chain(broken).chain(residual).chain(early);
-    all.filter(|reason| reason.verdict() != Verdict::Pass).collect()
+    limits.chain(broken).chain(residual).chain(early).collect()
 }
 
 /// Whether the energy balance of a run closes well enough for a pass; `residual` over the energy put in.

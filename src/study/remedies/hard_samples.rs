@@ -19,7 +19,7 @@ const MOST_HARD_SAMPLES: usize = 40;
 
 /// Numbers of samples that failed, per option.
 pub(super) struct HardSamples {
-    /// Bounds of the first change of a kind, without a sample; those of later ones are wider.
+    /// Bounds of a change without a sample.
     bounds: FailureBounds,
     /// Most samples of a verdict.
     most: usize,
@@ -37,7 +37,7 @@ pub(super) struct HardDrawn {
 
 impl HardSamples {
     pub(super) fn new(accepted: f64, most: usize) -> Self {
-        Self { bounds: FailureBounds::new(accepted, ErrorShare::Nth(1)), most, failed: BTreeMap::new() }
+        Self { bounds: FailureBounds::new(accepted, ErrorShare::Whole), most, failed: BTreeMap::new() }
     }
 
     /// Whether so many samples are allowed that a pass can come at all, where none of them fails.

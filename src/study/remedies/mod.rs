@@ -3,8 +3,8 @@
 //! 1. Candidates come by kind (interval, rope, termination, ballast, slack, launches), from the smallest change up. Each is
 //!    written into the plan's text, and the plan of the new text is what is judged: whoever writes it gets this very plan.
 //! 2. All candidates are judged coarsely, as planned; those that surely fail are out.
-//! 3. Of each kind the smallest left is judged as `check` judges it: as planned, then by the samples of a verdict. Where that is
-//!    no PASS, the next follows. The first PASS is offered.
+//! 3. Of each kind the smallest left is judged as `check` judges it: as planned, then by the samples of a verdict, then by fresh
+//!    draws ([`recommend`](super::recommend)). Where that is no PASS, the next follows. The first PASS is offered.
 //!
 //! A candidate gets no more samples once so many failed that no PASS can come. That offers nothing wrong: a PASS has all samples of
 //! `check`.
@@ -12,7 +12,7 @@
 mod candidates;
 mod hard_samples;
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 
 use self::candidates::find_candidates;
 use self::hard_samples::{HardDrawn, HardSamples};
@@ -21,7 +21,7 @@ use super::as_planned::quick_check::quick_check;
 use super::judge_options::OptionResults;
 use super::judgement::{Evidence, Judgement};
 use super::reasons::shot::exceeds_together;
-use super::samples::failure_bounds::ErrorShare;
+use super::recommend::confirm_shots;
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{ShotToSample, sample_shots};
 use super::samples::sampled_shot::SampledShot;
@@ -86,8 +86,6 @@ pub fn not_passing(results: &OptionResults) -> Vec<usize> {
 struct ChangesOfOneKind {
     option: usize,
     left: VecDeque<Change>,
-    /// Number of changes sampled so far.
-    sampled: usize,
     found: TriedKind,
 }
 
@@ -143,8 +141,9 @@ pub fn find_all_remedies(
     let mut hard = HardSamples::new(case.limits.accepted_risk, sampling.map_or(0, |sampling| sampling.most));
     let enough_samples = sampling.is_none() || hard.enough_samples();
     let mut kinds = if enough_samples { screen_candidates(&task, options)? } else { Vec::new() };
+    let mut confirmations = BTreeMap::new();
     while kinds.iter().any(ChangesOfOneKind::has_next) {
-        judge_next(&task, &mut kinds, &mut hard)?;
+        judge_next(&task, &mut kinds, &mut hard, &mut confirmations)?;
     }
     let partial = kinds.iter().any(|kind| kind.found.out_of_time);
     let mut remedies: Vec<Remedies> =
@@ -202,17 +201,19 @@ fn screen_candidates(task: &RemediesTask<'_>, options: &[usize]) -> Result<Vec<C
         }
         if let Some(kind) = kind.filter(|_| out_of_time || !tried.is_empty()) {
             let found = TriedKind { kind, tried, undecided: 0, out_of_time, passing: None };
-            kinds.push(ChangesOfOneKind { option, left, sampled: 0, found });
+            kinds.push(ChangesOfOneKind { option, left, found });
         }
     }
     Ok(kinds)
 }
 
-/// Judges the next change of every kind that has one in full.
+/// Judges the next change of every kind that has one in full. `confirmations` counts those of each option: the changes for one
+/// option share the probability of an error.
 fn judge_next(
     task: &RemediesTask<'_>,
     kinds: &mut [ChangesOfOneKind],
     hard: &mut HardSamples,
+    confirmations: &mut BTreeMap<usize, usize>,
 ) -> Result<(), NoResult> {
     let mut to_judge = Vec::new();
     for (n, kind) in kinds.iter_mut().enumerate().filter(|(_, kind)| kind.has_next()) {
@@ -233,28 +234,40 @@ fn judge_next(
     };
     let mut targets = Vec::with_capacity(passing.len());
     for (next, checked) in &passing {
-        let kind = &mut kinds[next.kind];
-        kind.sampled += 1;
-        // Who tries change after change until one passes, must not be lucky more often than with one.
-        let sampling = Sampling { error_share: ErrorShare::Nth(kind.sampled), ..*sampling };
-        let option = kind.option;
-        let target = ShotToSample::new(&next.case, &next.case.shots[option], *task.compute, sampling);
+        let option = kinds[next.kind].option;
+        let target = ShotToSample::new(&next.case, &next.case.shots[option], *task.compute, *sampling);
         targets.push((option, target.with_planned(ShotSummary::of(checked)).only_pass()));
     }
     let sampled_changes = sample(&targets, hard, task.control)?;
-    for ((next, checked), sampled) in passing.into_iter().zip(sampled_changes) {
+    let (mut to_confirm, mut fresh) = (Vec::new(), Vec::new());
+    for (((next, checked), sampled), (option, target)) in passing.iter().zip(sampled_changes).zip(&targets) {
         let kind = &mut kinds[next.kind];
         match sampled {
             SampledChange::CannotPass => kind.note(Verdict::Undecided),
             SampledChange::OutOfTime => kind.found.out_of_time = true,
             SampledChange::Sampled(sampled) => {
-                let judgement =
-                    Judgement { sampled: Evidence::of(*sampled), ..Judgement::of_planned_alone(checked) };
+                let planned = Judgement::of_planned_alone(checked.clone());
+                let judgement = Judgement { sampled: Evidence::of(*sampled), ..planned };
                 kind.note(judgement.verdict());
                 if judgement.verdict() == Verdict::Pass {
-                    kind.found.passing = Some(Remedy { change: next.change, judgement });
+                    let count = confirmations.entry(*option).or_insert(0);
+                    *count += 1;
+                    fresh.push(ShotToSample { sampling: sampling.for_confirmation(*count), ..*target });
+                    to_confirm.push((*next, judgement));
                 }
             }
+        }
+    }
+    for ((next, judgement), drawn) in to_confirm.into_iter().zip(confirm_shots(&fresh, task.control)?) {
+        let kind = &mut kinds[next.kind];
+        let Some(drawn) = drawn else {
+            kind.found.out_of_time = true;
+            continue;
+        };
+        let judgement = Judgement { confirmation: Evidence::Known(drawn), ..judgement };
+        kind.note(judgement.verdict());
+        if judgement.verdict() == Verdict::Pass {
+            kind.found.passing = Some(Remedy { change: next.change, judgement });
         }
     }
     Ok(())

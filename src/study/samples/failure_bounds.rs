@@ -53,11 +53,8 @@ pub struct FailureBounds {
 pub enum ErrorShare {
     /// There is no other verdict.
     Whole,
-    /// The n-th of candidates that are tried one after the other, n from 1: 1/(n (n + 1)). All together take no more than the
-    /// whole.
+    /// The n-th of a series, n from 1: 1/(n (n + 1)). However many there are, they take no more than the whole together.
     Nth(usize),
-    /// One of so many verdicts at once.
-    OneOf(usize),
 }
 
 impl ErrorShare {
@@ -66,7 +63,6 @@ impl ErrorShare {
         match self {
             ErrorShare::Whole => 1,
             ErrorShare::Nth(n) => n * (n + 1),
-            ErrorShare::OneOf(count) => count,
         }
     }
 }

@@ -19,7 +19,14 @@ pub fn input_shares(sampled: &SampledShot, limits: &Limits) -> Option<Vec<(Input
         let inputs: Vec<f64> = sampled.decided().map(|sample| sample.inputs[n]).collect();
         (input, share_of_variance(&inputs, &values))
     };
-    let mut shares: Vec<_> = Input::ALL.into_iter().enumerate().map(share).collect();
+    // Both axes of one key count together.
+    let mut shares: Vec<(Input, f64)> = Vec::new();
+    for (input, share) in Input::ALL.into_iter().enumerate().map(share) {
+        match shares.iter_mut().find(|(known, _)| known.key().name == input.key().name) {
+            Some((_, known)) => *known += share,
+            None => shares.push((input, share)),
+        }
+    }
     shares.sort_by(|a, b| b.1.total_cmp(&a.1));
     Some(shares)
 }

@@ -5,20 +5,25 @@
 //! shards, accuracy or the order of options, and the options of a plan are compared on the same draws.
 //!
 //! Factors on launch velocities, masses and breaking forces are lognormal with mean 1. A hole's launch velocity belongs to a
-//! tire of the plan's mass: a tire of another mass leaves with the same momentum. Each gap between blast rows scatters by itself
-//! and shifts all later rows; so does each gap between the holes of a row, which shifts the later
+//! tire of the plan's mass; how fast a tire of another mass leaves, the [mass law](crate::plan::mass_law) says. Each gap between
+//! blast rows scatters by itself and shifts all later rows; so does each gap between the holes of a row, which shifts the later
 //! holes of its side.
+//!
+//! As laid and fired: each hole lies beside its place, and the shelter beside the whole pattern. The nearest tire gets the impulse,
+//! along the line from below the hole ([`PushLine`](crate::scene::PushLine)). Slopes of that line, of the whole shot and of each hole add. A hole fails
+//! by itself; a cable is as long as it was tied, and never shorter than what it spans.
 //!
 //! Functions such as the exponential come from `libm`, not from the system, whose last digits differ from another's.
 
-use nalgebra::Vector3;
+use nalgebra::Vector2;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::plan::Uncertainty;
 use crate::plan::keys::{Key, uncertainty};
-use crate::scene::{Firing, Scene, Shot};
+use crate::plan::mass_law::launch_factor;
+use crate::scene::{Firing, Scene, Shot, direction_of_slope};
 use crate::study::Case;
 
 /// An input that is the same in the whole shot, and not known exactly.
@@ -32,11 +37,37 @@ pub enum Input {
     Slack,
     /// Factor on the axial stiffness of all cables.
     AxialStiffness,
+    /// Factor on all launch velocities, which the next shot draws anew.
+    LaunchBetweenShots,
+    /// Exponent of the mass law.
+    MassExponent,
+    /// Slope of all launches along x.
+    CommonSlopeX,
+    /// Slope of all launches along y.
+    CommonSlopeY,
+    /// How far the shelter lies beside its place along x [m].
+    OffsetX,
+    /// How far the shelter lies beside its place along y [m].
+    OffsetY,
+    /// Number of holes that do not fire.
+    Duds,
 }
 
 impl Input {
     /// Every input, in the order of the values of [`DrawnShot::inputs`].
-    pub const ALL: [Input; 4] = [Input::LaunchCommon, Input::Friction, Input::Slack, Input::AxialStiffness];
+    pub const ALL: [Input; 11] = [
+        Input::LaunchCommon,
+        Input::Friction,
+        Input::Slack,
+        Input::AxialStiffness,
+        Input::LaunchBetweenShots,
+        Input::MassExponent,
+        Input::CommonSlopeX,
+        Input::CommonSlopeY,
+        Input::OffsetX,
+        Input::OffsetY,
+        Input::Duds,
+    ];
 
     /// The key of a plan that says how well the input is known.
     pub fn key(self) -> &'static Key {
@@ -45,7 +76,24 @@ impl Input {
             Input::Friction => &uncertainty::FRICTION,
             Input::Slack => &uncertainty::SLACK_PERCENT,
             Input::AxialStiffness => &uncertainty::AXIAL_STIFFNESS_PERCENT,
+            Input::LaunchBetweenShots => &uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT,
+            Input::MassExponent => &uncertainty::LAUNCH_MASS_EXPONENT,
+            Input::CommonSlopeX | Input::CommonSlopeY => &uncertainty::LAUNCH_TILT_COMMON_DEG,
+            Input::OffsetX | Input::OffsetY => &uncertainty::PATTERN_OFFSET_M,
+            Input::Duds => &uncertainty::HOLE_FAILS_PERCENT,
         }
+    }
+
+    /// Whether the next shot has the same value.
+    pub fn repeats(self) -> bool {
+        matches!(
+            self,
+            Input::LaunchCommon
+                | Input::Friction
+                | Input::Slack
+                | Input::AxialStiffness
+                | Input::MassExponent
+        )
     }
 }
 
@@ -71,8 +119,11 @@ enum Draws {
     WholeShot,
     Gaps,
     BlastRow(usize),
+    LaunchOfRow(usize),
     Tire(usize),
+    HolesUnder(usize),
     Cable(usize),
+    LengthOf(usize),
 }
 
 impl Random {
@@ -88,8 +139,11 @@ impl Random {
             Draws::WholeShot => 0,
             Draws::Gaps => 1 << 32,
             Draws::BlastRow(row) => (1 << 40) + ((row as u128) << 20),
+            Draws::LaunchOfRow(row) => (1 << 43) + ((row as u128) << 6),
             Draws::Tire(tire) => (1 << 44) + ((tire as u128) << 20),
+            Draws::HolesUnder(tire) => (1 << 52) + ((tire as u128) << 20),
             Draws::Cable(cable) => (1 << 60) + ((cable as u128) << 6),
+            Draws::LengthOf(cable) => (1 << 61) + ((cable as u128) << 6),
         };
         self.0.set_word_pos(word);
         &mut self.0
@@ -116,63 +170,87 @@ pub fn draw_shot(case: &Case, planned: &Shot, seed: u64, number: usize) -> Drawn
     let friction = between(uncertainty.friction);
     let slack_percent = between(uncertainty.slack_percent);
     let stiffness = 1.0 + 1e-2 * between(uncertainty.axial_stiffness_percent);
+    let mass_exponent = between(uncertainty.launch_mass_exponent);
+    let launch_of_shot = factor(whole, uncertainty.launch_between_shots_percent);
+    let slope = on_both_axes(whole, tangent(uncertainty.launch_tilt_common_deg));
+    let offset = on_both_axes(whole, uncertainty.pattern_offset_m);
+    let launches = LaunchesOfShot { factor: launch_common * launch_of_shot, mass_exponent, slope, offset };
 
     let mut firings = planned.firings.clone();
-    scatter_gaps(&mut firings, uncertainty, &mut random);
+    scatter_gaps(planned, &mut firings, uncertainty, &mut random);
     let mut scene = case.scene().clone();
-    scatter_tires(&mut scene, &mut firings, uncertainty, launch_common, &mut random);
+    let duds = scatter_tires(&mut scene, &mut firings, uncertainty, &launches, &mut random);
     scene.change_cables(&case.plan.cable, slack_percent, stiffness);
+    if uncertainty.cable_length_m > 0.0 {
+        let axial_stiffness = case.plan.cable.axial_stiffness_kn * 1e3 * stiffness;
+        let longer = |cable| uncertainty.cable_length_m * normal(random.at(Draws::LengthOf(cable)));
+        scene.lengthen_cables(&case.plan.cable, axial_stiffness, longer);
+    }
     if uncertainty.breaking_force_cv_percent > 0.0 {
         let strength = |cable| factor(random.at(Draws::Cable(cable)), uncertainty.breaking_force_cv_percent);
         scene.strength = (0..scene.cables.len()).map(strength).collect();
     }
-    if uncertainty.tire_mass_cv_percent > 0.0 || uncertainty.breaking_force_cv_percent > 0.0 {
+    let differ_tire_by_tire = uncertainty.tire_mass_cv_percent > 0.0;
+    let differ_cable_by_cable =
+        uncertainty.breaking_force_cv_percent > 0.0 || uncertainty.cable_length_m > 0.0;
+    if differ_tire_by_tire || differ_cable_by_cable {
         scene.mirrors.clear();
     }
+    // What a dud takes along follows from the planned times.
+    let lost = planned.lost_with(duds);
+    let count_of_lost = lost.iter().filter(|lost| **lost).count() as f64;
+    let fired = firings.into_iter().zip(lost).filter(|(_, lost)| !lost).map(|(firing, _)| firing);
+    let mut fired: Vec<Firing> = fired.collect();
     // No firing may be before the start: all are shifted, and so is the end of the run.
-    let later = -firings.iter().map(|firing| firing.time).fold(0.0, f64::min);
-    firings.iter_mut().for_each(|firing| firing.time += later);
-    let shot = Shot { friction: Some(friction), ..Shot::from_firings(firings) };
-    DrawnShot { scene, shot, inputs: [launch_common, friction, slack_percent, stiffness], later }
+    let later = -fired.iter().map(|firing| firing.time).fold(0.0, f64::min);
+    fired.iter_mut().for_each(|firing| firing.time += later);
+    let shot = Shot { friction: Some(friction), ..planned.with_firings(fired) };
+    let inputs = [
+        launch_common,
+        friction,
+        slack_percent,
+        stiffness,
+        launch_of_shot,
+        mass_exponent,
+        slope.x,
+        slope.y,
+        offset.x,
+        offset.y,
+        count_of_lost,
+    ];
+    DrawnShot { scene, shot, inputs, later }
 }
 
-/// Shifts the firings [s], which are in order of time, by the scatter of the gaps before them: of the gaps between the rows, and
-/// of those between the holes of their row.
-fn scatter_gaps(firings: &mut [Firing], uncertainty: &Uncertainty, random: &mut Random) {
-    let rows = firings.iter().map(|firing| firing.row + 1).max().unwrap_or(0);
-    let mut holes: Vec<Vec<usize>> = vec![Vec::new(); rows];
-    firings.iter().enumerate().for_each(|(n, firing)| holes[firing.row].push(n));
-    let mut by_start: Vec<&[usize]> = holes.iter().map(Vec::as_slice).filter(|row| !row.is_empty()).collect();
-    by_start.sort_by(|a, b| firings[a[0]].time.total_cmp(&firings[b[0]].time));
-    let starts: Vec<f64> = by_start.iter().map(|row| firings[row[0]].time).collect();
+/// Tangent of an angle [°].
+fn tangent(degrees: f64) -> f64 {
+    libm::tan(degrees.to_radians())
+}
+
+/// Normal deviations along x and y, of a standard deviation.
+fn on_both_axes(random: &mut ChaCha8Rng, deviation: f64) -> Vector2<f64> {
+    let x = deviation * normal(random);
+    Vector2::new(x, deviation * normal(random))
+}
+
+/// Shifts the firings of a `planned` shot [s] by the scatter of the gaps before them: of the gaps between the rows, and of those between
+/// the holes of their row.
+fn scatter_gaps(planned: &Shot, firings: &mut [Firing], uncertainty: &Uncertainty, random: &mut Random) {
+    let rows = planned.rows_of_chains();
+    let begins = |chains: &[Vec<usize>]| planned.firings[chains[0][0]].time;
+    let starts: Vec<f64> = rows.iter().map(|(_, chains)| begins(chains)).collect();
     let scattered_starts = scatter_chain(&starts, uncertainty, random.at(Draws::Gaps));
-    for (row, start) in by_start.into_iter().zip(scattered_starts) {
-        let first = firings[row[0]].time;
-        let random = random.at(Draws::BlastRow(firings[row[0]].row));
-        for side in split_by_side(row, firings) {
-            let planned: Vec<f64> =
-                [first].into_iter().chain(side.iter().map(|&n| firings[n].time)).collect();
+    for ((row, chains), start) in rows.iter().zip(scattered_starts) {
+        let first = begins(chains);
+        let random = random.at(Draws::BlastRow(*row));
+        for chain in chains {
+            let of_chain = chain.iter().map(|&n| planned.firings[n].time);
+            let planned: Vec<f64> = [first].into_iter().chain(of_chain).collect();
             let scattered = scatter_chain(&planned, uncertainty, random);
-            for (n, at) in side.into_iter().zip(&scattered[1..]) {
+            for (&n, at) in chain.iter().zip(&scattered[1..]) {
                 firings[n].time = at - first + start;
             }
         }
     }
-}
-
-/// The chains in which the holes of a row fire one another, from its first hole on: of holes that are planned for one time, each
-/// belongs to a chain of its own, such as the two sides of a row fired from its middle.
-fn split_by_side(row: &[usize], firings: &[Firing]) -> Vec<Vec<usize>> {
-    let mut sides: Vec<Vec<usize>> = Vec::new();
-    for together in row.chunk_by(|&a, &b| firings[a].time == firings[b].time) {
-        for (side, &hole) in together.iter().enumerate() {
-            if side == sides.len() {
-                sides.push(Vec::new());
-            }
-            sides[side].push(hole);
-        }
-    }
-    sides
 }
 
 /// Firing times [s] of which each fires the next: every gap between `planned` times, which are in order, scatters and shifts all
@@ -189,38 +267,85 @@ fn scatter_chain(planned: &[f64], uncertainty: &Uncertainty, random: &mut ChaCha
     at
 }
 
-/// A vector turned about an axis, by the length of the axis [rad] (Rodrigues).
-fn rotated(vector: Vector3<f64>, axis: Vector3<f64>) -> Vector3<f64> {
-    let angle = axis.norm();
-    if angle == 0.0 {
-        return vector;
-    }
-    let (axis, (sin, cos)) = (axis / angle, libm::sincos(angle));
-    vector * cos + axis.cross(&vector) * sin + axis * (axis.dot(&vector) * (1.0 - cos))
+/// What all launches of a shot have in common.
+struct LaunchesOfShot {
+    /// Factor on all launch velocities.
+    factor: f64,
+    /// Exponent of the mass law.
+    mass_exponent: f64,
+    /// Slope that adds to that of every launch.
+    slope: Vector2<f64>,
+    /// How far the shelter lies beside its place [m].
+    offset: Vector2<f64>,
 }
 
-/// Scatters masses tire by tire, and launches and in-hole delays hole by hole.
+/// What is drawn for one hole.
+struct DrawnHole {
+    /// Factor on its launch velocity.
+    factor: f64,
+    /// Slope that adds to that of its launch.
+    slope: Vector2<f64>,
+    /// How far it lies beside its place [m].
+    beside: Vector2<f64>,
+    /// How much later it fires [s].
+    later: f64,
+}
+
+/// Scatters masses tire by tire, and places, launches and in-hole delays hole by hole. Returns which holes are duds (`n_holes`).
 fn scatter_tires(
     scene: &mut Scene,
     firings: &mut [Firing],
     uncertainty: &Uncertainty,
-    launch_common: f64,
+    launches: &LaunchesOfShot,
     random: &mut Random,
-) {
+) -> Vec<bool> {
     let mut above: Vec<Vec<usize>> = vec![Vec::new(); scene.tire_count()];
     firings.iter().enumerate().for_each(|(n, firing)| above[firing.tire].push(n));
     let in_hole = uncertainty.in_hole_deviation();
-    let tilt = uncertainty.launch_tilt_deg.to_radians();
+    let slope = tangent(uncertainty.launch_tilt_deg);
+    let planned_mass = scene.mass.clone();
+    let (mut drawn, mut duds) = (Vec::with_capacity(firings.len()), vec![false; firings.len()]);
     for (tire, mass) in scene.mass.iter_mut().enumerate() {
-        let random = random.at(Draws::Tire(tire));
-        let heavier = factor(random, uncertainty.tire_mass_cv_percent);
-        *mass *= heavier;
-        for &hole in &above[tire] {
-            let firing = &mut firings[hole];
-            let faster = launch_common * factor(random, uncertainty.launch_cv_percent) / heavier;
-            let axis = Vector3::new(normal(random), normal(random), 0.0) * tilt;
-            firing.launch = rotated(firing.launch, axis) * faster;
-            firing.time += in_hole * normal(random);
+        let of_tire = random.at(Draws::Tire(tire));
+        *mass *= factor(of_tire, uncertainty.tire_mass_cv_percent);
+        let own = |_: &usize| DrawnHole {
+            factor: factor(of_tire, uncertainty.launch_cv_percent),
+            slope: on_both_axes(of_tire, slope),
+            later: in_hole * normal(of_tire),
+            beside: Vector2::zeros(),
+        };
+        let mut holes: Vec<DrawnHole> = above[tire].iter().map(own).collect();
+        let of_holes = random.at(Draws::HolesUnder(tire));
+        for (&n, hole) in above[tire].iter().zip(&mut holes) {
+            hole.beside = on_both_axes(of_holes, uncertainty.hole_position_m);
+            duds[n] = 1e2 * of_holes.random::<f64>() < uncertainty.hole_fails_percent;
         }
+        drawn.extend(above[tire].iter().copied().zip(holes));
     }
+    let row_factor = |row| factor(random.at(Draws::LaunchOfRow(row)), uncertainty.launch_row_cv_percent);
+    let rows = firings.iter().map(|firing| firing.row + 1).max().unwrap_or(0);
+    let of_row: Vec<f64> = (0..rows).map(row_factor).collect();
+    for (n, hole) in drawn {
+        let firing = &mut firings[n];
+        let moved = hole.beside - launches.offset;
+        let place = scene.position[firing.tire].xy() - firing.line.offset + moved;
+        // A hole that is known to lie under its tire keeps it, whatever else is near.
+        let tire = if moved == Vector2::zeros() { firing.tire } else { nearest_tire(scene, place) };
+        let slope = firing.line.slope_at(scene.position[tire].xy() - place) + launches.slope + hole.slope;
+        let of_mass = launch_factor(scene.mass[tire] / planned_mass[tire], launches.mass_exponent);
+        let speed = firing.launch.norm() * launches.factor * of_row[firing.row] * hole.factor * of_mass;
+        *firing = Firing {
+            tire,
+            time: firing.time + hole.later,
+            launch: speed * direction_of_slope(slope),
+            ..*firing
+        };
+    }
+    duds
+}
+
+/// Index of the tire whose centre is nearest to a point [m], the first of several.
+pub(in crate::study) fn nearest_tire(scene: &Scene, place: Vector2<f64>) -> usize {
+    let away = |tire: &usize| (scene.position[*tire].xy() - place).norm_squared();
+    (0..scene.tire_count()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
 }

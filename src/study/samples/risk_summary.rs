@@ -25,20 +25,25 @@ pub struct RiskSummary {
 }
 
 impl RiskSummary {
-    fn of(sampled: &SampledShot, limits: &Limits) -> Self {
+    /// The summary of a shot with its samples.
+    pub fn of(sampled: &SampledShot, limits: &Limits) -> Self {
         let shares = sampled.samples.iter().map(|sample| sample.run.utilization(limits));
         let utilization = percentiles(shares, [0.95]).map_or(f64::INFINITY, |[p95]| p95);
         let (verdict, is_contradicted) = (sampled.verdict(), sampled.is_contradicted());
         Self { bounds: sampled.bounds, verdict, is_contradicted, utilization }
     }
 
+    /// The share of the samples that fails; undecided ones count as failing.
+    pub fn failing_share(&self) -> f64 {
+        let FailureBounds { samples, failures, undecided, .. } = self.bounds;
+        (failures + undecided) as f64 / samples.max(1) as f64
+    }
+
     /// Whether the failing share so far does not exceed the accepted risk, and nothing speaks against the samples; not yet a
-    /// verdict. Undecided samples count as failing.
+    /// verdict.
     pub fn is_accepted(&self) -> bool {
-        let FailureBounds { accepted, samples, failures, undecided, .. } = self.bounds;
-        let failing = (failures + undecided) as f64;
         let is_not_refuted = !self.is_contradicted && self.verdict != Verdict::Fail;
-        samples > 0 && is_not_refuted && failing <= accepted * samples as f64 + 1e-9
+        self.bounds.samples > 0 && is_not_refuted && self.failing_share() <= self.bounds.accepted + 1e-12
     }
 }
 

@@ -66,7 +66,7 @@ impl SampleRun {
         let exact = |Peak { value, time, index }| Estimate { value, error: 0.0, time, index };
         let Outcome { height, force, drift, .. } = *outcome;
         let estimates = PerQuantity { height: exact(height), force: exact(force), drift: exact(drift) };
-        let reasons = find_reasons(case, shot, outcome, &estimates);
+        let reasons = find_reasons(case, shot, outcome, &estimates, 1.0);
         let verdict = match energy_balance_closes(outcome.ledger.residual()) {
             true => Verdict::worst(reasons.iter().map(ShotReason::verdict)),
             false => Verdict::Undecided,

@@ -13,6 +13,13 @@ use crate::verdict::Verdict;
 const SHORT_ROUND: usize = 50;
 const LONG_ROUND: usize = 100;
 
+/// Most samples of a confirmation: a shot of which 0.5 % fail is confirmed at an accepted risk of 1 % in most cases.
+const MOST_OF_CONFIRMATION: usize = 5000;
+
+/// What keeps the draws of one purpose apart from those of another.
+const SCREENING: u64 = 0x5c7e_e21f_60d1_a3b5;
+const CONFIRMATION: u64 = 0xc04f_12a7_93be_0d61;
+
 /// Number of samples of each shot, and their seed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sampling {
@@ -60,15 +67,33 @@ impl Sampling {
         drawn..(drawn + size).min(self.most)
     }
 
-    /// The same sampling with other draws: a choice and the verdict on what was chosen must not share theirs.
-    pub fn with_fresh_draws(&self, error_share: ErrorShare) -> Self {
-        Self { seed: !self.seed, error_share, ..*self }
+    /// Draws that choose among many shots, or that a fit learns from. No verdict rests on them.
+    pub fn for_screening(&self) -> Self {
+        Self { seed: mixed(self.seed ^ SCREENING), error_share: ErrorShare::Whole, ..*self }
+    }
+
+    /// Draws for the `n`-th shot that one question confirms, n from 1. Nothing before used them: they follow from the seed alone.
+    pub fn for_confirmation(&self, n: usize) -> Self {
+        Self {
+            least: 0,
+            most: self.most.max(MOST_OF_CONFIRMATION),
+            seed: mixed(self.seed ^ CONFIRMATION),
+            error_share: ErrorShare::Nth(n),
+        }
     }
 
     /// The sampling of a shot that fails as planned: only to show by how much.
     pub fn least_only(&self) -> Self {
         Self { most: self.least, ..*self }
     }
+}
+
+/// A seed unlike those near it (the finalizer of SplitMix64, Steele, Lea and Flood 2014).
+fn mixed(seed: u64) -> u64 {
+    let seed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let seed = (seed ^ (seed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let seed = (seed ^ (seed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    seed ^ (seed >> 31)
 }
 
 #[cfg(test)]

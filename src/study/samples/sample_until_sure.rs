@@ -243,6 +243,17 @@ pub(in crate::study) fn sample_step(compute: &ComputeSettings, scene: &Scene) ->
     compute.step.unwrap_or(step_factor(compute.method) * level * usual)
 }
 
+/// Settings of the run of a sample at `step` [s], all of whose firings are shifted by `later` [s].
+pub(in crate::study) fn sample_settings(
+    case: &Case,
+    compute: &ComputeSettings,
+    step: f64,
+    later: f64,
+) -> RunSettings {
+    let planned = case.run_settings(compute.method, step);
+    RunSettings { duration: planned.duration.map(|duration| duration + later), ..planned }
+}
+
 fn try_sample(
     target: &ShotToSample<'_>,
     number: usize,
@@ -254,8 +265,7 @@ fn try_sample(
     let DrawnShot { scene, shot, inputs, later } = draw_shot(case, shot, sampling.seed, number);
     // The run, and whether it failed or has no energy balance.
     let run = |step: f64| {
-        let planned = case.run_settings(compute.method, step);
-        let settings = RunSettings { duration: planned.duration.map(|duration| duration + later), ..planned };
+        let settings = sample_settings(case, &compute, step, later);
         match case.model.run_variant(&scene, &shot, &settings, &mut |_| control.keep_going()) {
             Ok(outcome) => {
                 Ok((SampleRun::new(case, &shot, &outcome), !energy_balance_closes(outcome.ledger.residual())))

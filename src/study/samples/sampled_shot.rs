@@ -38,6 +38,8 @@ pub struct SampledShot {
     pub step_halvings: u32,
     /// Whether samples are audited: not where the user fixed the step.
     is_audited: bool,
+    /// Force at which a cable breaks and is gone, so that no run tells a greater one [N]; infinite where none breaks.
+    breaking_force: f64,
     planned: Option<ShotSummary>,
     limits: Limits,
 }
@@ -48,7 +50,17 @@ impl SampledShot {
     pub fn new(case: &Case, planned: Option<ShotSummary>, share: ErrorShare, is_audited: bool) -> Self {
         let limits = case.limits;
         let bounds = FailureBounds::new(limits.accepted_risk, share);
-        Self { samples: Vec::new(), bounds, breaks: bounds, step_halvings: 0, is_audited, planned, limits }
+        let breaking_force = case.scene().breaking_force.unwrap_or(f64::INFINITY);
+        Self {
+            samples: Vec::new(),
+            bounds,
+            breaks: bounds,
+            step_halvings: 0,
+            is_audited,
+            breaking_force,
+            planned,
+            limits,
+        }
     }
 
     /// Takes the next sample; one of the audit counts as it is at the finer step.
@@ -101,8 +113,8 @@ impl SampledShot {
     pub fn planned_exceeds_samples(&self) -> bool {
         let Some(planned) = self.planned else { return false };
         let would_fail = |quantity: Quantity| {
-            let (refined, values) =
-                (planned.get(quantity).value, self.decided().map(|s| s.run.get(quantity)));
+            let refined = self.uncapped(quantity, planned.get(quantity).value);
+            let values = self.decided().map(|sample| self.value(&sample.run, quantity));
             let greatest = values.fold(0.0, f64::max);
             let limit = self.limits.get(quantity).unwrap_or(f64::INFINITY);
             refined > greatest && 2.0 * refined - greatest > limit
@@ -121,6 +133,22 @@ impl SampledShot {
             changed.filter(|(_, fine)| (*fine != Verdict::Pass) == more).count()
         };
         sign_test_rejects(count(true), count(false))
+    }
+
+    /// The value of a quantity in a run [its SI unit]; infinite where it is only known to be greater than any that a run tells.
+    fn value(&self, run: &SampleRun, quantity: Quantity) -> f64 {
+        self.uncapped(quantity, run.get(quantity))
+    }
+
+    /// A value of a run [its SI unit]: the force of a cable that broke and is gone is infinite, since it would have grown on.
+    fn uncapped(&self, quantity: Quantity, value: f64) -> f64 {
+        let broke = quantity == Quantity::Force && value >= self.breaking_force;
+        if broke { f64::INFINITY } else { value }
+    }
+
+    /// Whether a cable broke in a run, and was gone from then on.
+    pub fn lost_a_cable(&self, run: &SampleRun) -> bool {
+        self.value(run, Quantity::Force) == f64::INFINITY && run.verdict != Verdict::Undecided
     }
 
     /// The samples of which no run is undecided.
@@ -144,7 +172,7 @@ impl SampledShot {
     fn is_biased(&self) -> bool {
         let factors = PerQuantity::from_fn(|quantity| self.bias_factor(quantity));
         let fails = |sample: &&Sample| {
-            let value = |quantity: Quantity| sample.run.get(quantity) * factors.get(quantity);
+            let value = |quantity: Quantity| self.value(&sample.run, quantity) * factors.get(quantity);
             self.limits.utilization(value) > 1.0
         };
         let share = self.samples.iter().filter(fails).count() as f64 / self.samples.len().max(1) as f64;
@@ -161,8 +189,10 @@ impl SampledShot {
 
     /// Factor by which a quantity is to be moved: 1, unless the finer values lie to one side beyond chance.
     fn bias_factor(&self, quantity: Quantity) -> f64 {
-        let pairs = self.audited().map(|(coarse, fine)| fine.get(quantity) / coarse.get(quantity) - 1.0);
-        let changes: Vec<f64> = pairs.filter(|change| change.is_finite()).collect();
+        let pairs = self.audited().map(|runs| <[_; 2]>::from(runs).map(|run| self.value(run, quantity)));
+        let known = pairs.filter(|values| values.iter().all(|value| value.is_finite()));
+        let changes = known.map(|[coarse, fine]| fine / coarse - 1.0);
+        let changes: Vec<f64> = changes.filter(|change| change.is_finite()).collect();
         if lies_to_one_side(&changes) {
             1.0 + BIAS_ALLOWANCE * changes.iter().sum::<f64>() / changes.len() as f64
         } else {
@@ -187,6 +217,17 @@ impl SampledShot {
             counts.into_iter().map(|(cable, count)| (cable, count as f64 / total)).collect();
         cables.sort_by(|a, b| b.1.total_cmp(&a.1));
         cables
+    }
+
+    /// Number of the sample that decides: of those that judge, the one that uses most of a limit once the accepted share of all is left
+    /// out, and of equal ones the first. `None` without a decided sample.
+    pub fn deciding_sample(&self) -> Option<usize> {
+        let used =
+            |sample: &Sample| self.limits.utilization(|quantity| self.value(sample.finest(), quantity));
+        let mut decided: Vec<(f64, usize)> = self.decided().map(|s| (used(s), s.number)).collect();
+        decided.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let left_out = (self.bounds.accepted * self.samples.len() as f64 + 1e-9) as usize;
+        decided.get(left_out).or(decided.last()).map(|&(_, number)| number)
     }
 
     /// The 5th, 50th and 95th percentile and the greatest value of a quantity over the decided samples; `None` for fewer than

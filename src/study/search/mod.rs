@@ -4,30 +4,27 @@
 //!    500,000 possible schedules all are looked at. Up to [`MOST_TRIED`] candidates all are tried; where there are more,
 //!    2,000 at random, then the neighbours of the best, the neighbours of these, and so on. Mirror images are one.
 //! 2. Successive halving ([`successive_halving`]): a few samples of each, twice as many of the better half, and so on.
-//! 3. The best that differ from one another become delay options, which are judged as `check` judges options, with draws of their
-//!    own: the draws that chose them flatter them.
+//! 3. The best that differ from one another become delay options, which are judged and confirmed as `check` does it: the draws that
+//!    chose them flatter them.
 
 mod schedule;
 mod schedules_to_try;
 mod successive_halving;
 
-use std::cmp::Ordering;
-
 use itertools::Itertools;
 
+pub use self::schedule::Schedule;
 use self::schedule::ScheduleSpace;
 pub use self::schedule::{RefusedCounts, SearchLimit};
-pub use self::schedule::{Schedule, duration};
 pub use self::schedules_to_try::MOST_TRIED;
 use self::schedules_to_try::{AllowedSchedules, FIRST_OF_SEARCH, SchedulesToTry};
 use self::successive_halving::{SuccessiveHalving, TriedSchedule};
-use super::as_planned::margin::LaunchMargin;
-use super::judge_options::{OptionResults, UNWATCHED, judge_all_with_margins};
+use super::judge_options::OptionResults;
 use super::judgement::Judgement;
-use super::samples::failure_bounds::ErrorShare;
+use super::recommend::{judge_chosen, safest_first};
 use super::samples::sample_count::Sampling;
-use super::samples::sampled_shot::SampledShot;
 use super::{Case, ComputeResult, ComputeSettings, Computed, NoResult, Shard, StudyControl};
+use crate::plan::names::look_alike;
 use crate::plan::{DelayOption, Plan, edit};
 use crate::verdict::Verdict;
 
@@ -35,7 +32,7 @@ use crate::verdict::Verdict;
 const FIRST_OF_ALL: usize = 16;
 /// Most schedules in the report.
 const MOST_REPORTED: usize = 10;
-/// Schedules with a full verdict; these verdicts share the probability of an error.
+/// Schedules with a full verdict.
 const JUDGED_IN_FULL: usize = 12;
 /// A schedule with fewer samples is left out of the front of risk against duration.
 const SAMPLES_OF_FRONT: usize = 256;
@@ -164,11 +161,7 @@ fn start_halving<'c>(
     sampling: Option<&Sampling>,
     compute: &ComputeSettings,
 ) -> SuccessiveHalving<'c> {
-    SuccessiveHalving {
-        case,
-        compute: *compute,
-        sampling: sampling.map(|sampling| sampling.with_fresh_draws(ErrorShare::Whole)),
-    }
+    SuccessiveHalving { case, compute: *compute, sampling: sampling.map(Sampling::for_screening) }
 }
 
 impl RoughShare {
@@ -202,7 +195,7 @@ fn pareto_front(space: &ScheduleSpace<'_>, tried: &[TriedSchedule]) -> Vec<Front
     let sampled_enough = tried.iter().filter(|trial| trial.tally.samples >= SAMPLES_OF_FRONT);
     let point = |trial: &TriedSchedule| FrontPoint {
         schedule: space.schedule(&trial.candidate),
-        duration: duration(&trial.shot),
+        duration: trial.shot.duration(),
         share: RoughShare::of(trial),
     };
     let in_turn = sampled_enough.map(point).sorted_by(|a, b| {
@@ -223,7 +216,8 @@ fn option_with_free_name(case: &Case, schedule: &Schedule) -> DelayOption {
     if let Some(old) = case.plan.delays.iter().find(|old| old.fires_like(&new)) {
         return DelayOption { name: old.name.clone(), ..new };
     }
-    let name = edit::free_name(&new.name, |name| case.plan.delays.iter().any(|old| old.name == name));
+    let name =
+        edit::free_name(&new.name, |name| case.plan.delays.iter().any(|old| look_alike(&old.name, name)));
     DelayOption { name, ..new }
 }
 
@@ -238,63 +232,21 @@ fn judge(
     let delays = schedules.iter().map(|schedule| option_with_free_name(case, schedule)).collect();
     let plan = Plan { delays, ..case.plan.clone() };
     let case = Case::new(plan).with_source(case.source.clone());
-    let sampling =
-        sampling.map(|sampling| Sampling { error_share: ErrorShare::OneOf(JUDGED_IN_FULL), ..*sampling });
-    let cases = [(&case, *compute)];
-    let mut found = judge_all_with_margins(&cases, sampling.as_ref(), control, UNWATCHED)?;
-    let results = found.value.remove(0);
-    Ok((case, Computed { value: results, partial: found.partial }))
+    let found = judge_chosen(&case, sampling, compute, control)?;
+    Ok((case, found))
 }
 
 impl Search {
-    /// Puts the schedules in order, the best first, and keeps [`MOST_REPORTED`] of them: by verdict, then by the failing share.
-    /// Schedules that pass, and whose bounds overlap with those of the best of them, are ties: the one with the larger launch
-    /// margin stands first, then the shorter.
+    /// Puts the schedules in order, the best first, and keeps [`MOST_REPORTED`] of them: by verdict, then the safest first.
     fn rank(&mut self) {
-        let rank_key = |n: &usize| {
-            let judged = self.results[*n].as_ref().ok();
-            let share = judged
-                .and_then(|judged| judged.sampled.known())
-                .and_then(|sampled| sampled.bounds.probability());
-            let share = share.unwrap_or_else(|| self.rough[*n].value());
-            (judged.map_or(Verdict::Undecided, Judgement::verdict), share)
-        };
-        let mut waiting: Vec<usize> = (0..self.schedules.len())
-            .sorted_by(|a, b| rank_key(a).partial_cmp(&rank_key(b)).unwrap_or(Ordering::Equal))
-            .collect();
-        let mut ranked = Vec::new();
-        while let Some(&best) = waiting.first() {
-            let high = self.bounds(best)[1];
-            let (passes, overlaps) =
-                (rank_key(&best).0 == Verdict::Pass, |n: usize| self.bounds(n)[0] <= high);
-            let is_tie = |n: &usize| *n == best || passes && rank_key(n).0 == Verdict::Pass && overlaps(*n);
-            let (mut ties, others): (Vec<usize>, Vec<usize>) = waiting.into_iter().partition(is_tie);
-            ties.sort_by(|&a, &b| {
-                let [duration_a, duration_b] = [a, b].map(|n| duration(&self.case.shots[n]));
-                self.margin(b).total_cmp(&self.margin(a)).then(duration_a.total_cmp(&duration_b))
-            });
-            ranked.extend(ties);
-            waiting = others;
-        }
+        let verdict = |n: &usize| self.results[*n].as_ref().map_or(Verdict::Undecided, Judgement::verdict);
+        let mut ranked = safest_first(&self.case, &self.results, |n| self.rough[n].value());
+        ranked.sort_by_key(verdict);
         ranked.truncate(MOST_REPORTED);
         self.case = self.case.with_options(&ranked);
         self.schedules = ranked.iter().map(|&n| self.schedules[n].clone()).collect();
         self.results = ranked.iter().map(|&n| self.results[n].clone()).collect();
         self.rough = ranked.iter().map(|&n| self.rough[n]).collect();
-    }
-
-    /// Bounds of the failure probability of a schedule; everything is possible where no sample tells.
-    fn bounds(&self, n: usize) -> [f64; 2] {
-        let sampled = self.results[n].as_ref().ok().and_then(|judged| judged.sampled.known());
-        sampled.map_or([0.0, 1.0], |sampled: &SampledShot| sampled.bounds.interval)
-    }
-
-    fn margin(&self, n: usize) -> f64 {
-        match self.results[n].as_ref().ok().and_then(|judged| judged.launch_margin) {
-            Some(LaunchMargin::BeyondTried) => f64::INFINITY,
-            Some(LaunchMargin::UpTo { rise, .. }) => rise,
-            Some(LaunchMargin::NotPassing) | None => 0.0,
-        }
     }
 
     /// The schedules that pass, as delay options, the best first.

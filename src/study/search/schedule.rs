@@ -102,12 +102,6 @@ impl Schedule {
     }
 }
 
-/// Time from the first hole to the last [s].
-pub fn duration(shot: &Shot) -> f64 {
-    let ends = shot.firings.first().zip(shot.firings.last());
-    ends.map_or(0.0, |(first, last)| last.time - first.time)
-}
-
 /// A schedule by the positions of its parts in the lists of [`ScheduleSpace`].
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Candidate {
@@ -295,14 +289,18 @@ impl<'c> ScheduleSpace<'c> {
         Schedule {
             order: candidate.order.clone(),
             gaps_ms: (0..candidate.order.len() - 1).map(gap).collect(),
-            hole_timing: self.case.plan.search.holes[candidate.holes],
+            // The safe side: where one option of the plan is fired through, a schedule is.
+            hole_timing: HoleTiming {
+                fired_through: self.case.plan.delays.iter().any(|delay| delay.hole_timing.fired_through),
+                ..self.case.plan.search.holes[candidate.holes]
+            },
         }
     }
 
     /// The limit that a shot exceeds, if any: the longest duration, the most holes, or the heaviest charge within 8 ms.
     pub fn exceeded_limit(&self, shot: &Shot) -> Option<SearchLimit> {
         let (spec, limits) = (&self.case.plan.search, &self.case.limits);
-        if spec.longest_ms.is_some_and(|longest| duration(shot) > seconds(longest) + 1e-9) {
+        if spec.longest_ms.is_some_and(|longest| shot.duration() > seconds(longest) + 1e-9) {
             return Some(SearchLimit::Longest);
         }
         // The stricter of both.

@@ -5,8 +5,12 @@
 //! stiffness move the shelter alike, and the stronger rope holds wherever the weaker one holds. The strongest rope of each
 //! stiffness is tried first. Where it fails, the other ropes of that stiffness are not tried.
 //!
+//! Nobody knows how fast a tire of another mass leaves ([mass law](crate::plan::mass_law)). A combination with such tires must hold
+//! at both ends of `launch_mass_exponent`; the plan that is written takes the worse end.
+//!
 //! A combination that holds as planned is a choice only if surely fewer shots than accepted fail of those that `[uncertainty]`
-//! describes. From the lightest on, every combination with more margin than the choices before is sampled so.
+//! describes, and fresh draws confirm it. From the lightest on, every combination with more margin than the choices before is
+//! sampled so.
 
 mod size_candidate;
 
@@ -17,7 +21,6 @@ use serde::{Deserialize, Serialize};
 
 use self::size_candidate::{ShotsToSample, SizeCandidate};
 use super::judgement::{Evidence, verdict_of_both};
-use super::samples::failure_bounds::ErrorShare;
 use super::samples::sample_count::Sampling;
 use super::{ComputeResult, ComputeSettings, Computed, NoResult, ShotSummary, StudyControl};
 use crate::plan::{Layout, Plan};
@@ -241,13 +244,13 @@ fn ropes_by_stiffness(plan: &Plan) -> Vec<Vec<&'static Rope>> {
     groups.map(|(_, ropes)| ropes.into_iter().sorted_by(strongest_first).collect()).collect()
 }
 
-/// Marks the choices among combinations that are sorted by mass: samples those that could be one.
+/// Marks the choices among combinations that are sorted by mass: samples those that could be one, and confirms those that pass.
 fn choose(
     task: &SizingTask<'_>,
     tried: &mut [(Combination, ShotsToSample)],
     sampling: Option<&Sampling>,
 ) -> Result<(), NoResult> {
-    let (mut least, mut candidates) = (f64::INFINITY, 0);
+    let (mut least, mut confirmations) = (f64::INFINITY, 0);
     for (combination, hardest) in tried {
         let Ok(mut trial) = combination.trial else { continue };
         if !trial.holds || trial.utilization >= least {
@@ -255,11 +258,17 @@ fn choose(
         }
         let mut sampled = Evidence::NotAsked;
         if let Some(sampling) = sampling {
-            candidates += 1;
             let Combination { rope, tire_mass, border_rows, .. } = *combination;
             let candidate = SizeCandidate::new(task, rope, tire_mass, border_rows);
-            let sampling = Sampling { least: 0, error_share: ErrorShare::Nth(candidates), ..*sampling };
-            let Some(risk) = candidate.sample(hardest, &sampling)? else {
+            let mut risk = candidate.sample(hardest, &Sampling { least: 0, ..*sampling })?;
+            if let Some(passing) = risk.as_mut().filter(|risk| risk.verdict == Verdict::Pass) {
+                confirmations += 1;
+                match candidate.confirm(hardest, &sampling.for_confirmation(confirmations))? {
+                    Some(confirmed) => passing.verdict = confirmed,
+                    None => risk = None,
+                }
+            }
+            let Some(risk) = risk else {
                 combination.trial = Err(Untried::OutOfTime);
                 continue;
             };

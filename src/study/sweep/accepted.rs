@@ -1,11 +1,12 @@
 //! The risk of a sweep: windows worth a check, and an interval whose verdict is a full one.
 //!
-//! 1. Of the intervals that pass as planned, some about [`MOST_SAMPLED_GAP`] apart are sampled, with the same draws at each.
+//! 1. Of the intervals that pass as planned, some about [`MOST_SAMPLED_GAP`] apart are sampled, with the same draws at each. These
+//!    draws choose; no verdict rests on them.
 //! 2. A window worth a check is a row of sampled intervals, neighbours within one window of the shot as planned, whose
 //!    failing share does not exceed the accepted risk. Its few samples at each interval prove no small risk.
 //! 3. The interval deepest inside a window (largest product of room and unused utilization, of 95 % of the samples) gets a
-//!    full verdict. Where that does not pass, the next deepest is tried, at most [`MOST_FULL_VERDICTS`] in all. Where it fails, the
-//!    windows end there.
+//!    full verdict: that of `check`, and fresh draws that confirm it. Where that does not pass, the next deepest is tried, at most
+//!    [`MOST_FULL_VERDICTS`] in all. Where it fails, the windows end there.
 
 use std::collections::BTreeSet;
 
@@ -14,9 +15,10 @@ use super::{MOST_SAMPLED_GAP, Point, Sweep, is_whole_milliseconds, nanoseconds};
 use crate::scene::Shot;
 use crate::study::as_planned::check_many::{check_summary, or_failed_run};
 use crate::study::judgement::Evidence;
-use crate::study::samples::failure_bounds::ErrorShare;
+use crate::study::recommend::confirm_shot;
 use crate::study::samples::risk_summary::{RiskSummary, sample_shots_in_brief};
 use crate::study::samples::sample_count::Sampling;
+use crate::study::samples::sample_until_sure::ShotToSample;
 use crate::study::{Case, ComputeResult, ComputeSettings, Computed, NoResult, ShotSummary, StudyControl};
 use crate::verdict::Verdict;
 
@@ -37,14 +39,15 @@ pub fn add_risk(
     let shot = |point: &Point| (case.shot(&swept.order, point.interval), point.planned);
     let chosen = choose(&swept.points, &swept.windows_as_planned, plan_intervals);
     let shots: Vec<_> = chosen.iter().map(|&n| shot(&swept.points[n])).collect();
-    let sampled = sample_shots_in_brief(case, &shots, &sampling.first_look(), compute, control)?;
+    let first_look = sampling.for_screening().first_look();
+    let sampled = sample_shots_in_brief(case, &shots, &first_look, compute, control)?;
     partial |= sampled.contains(&None);
     swept.points.iter_mut().for_each(|point| point.risk = Evidence::NoneDrawn);
     for (&n, sampled) in chosen.iter().zip(sampled) {
         swept.points[n].risk = sampled.map_or(Evidence::NoneDrawn, Evidence::Known);
     }
     swept.recommended = None;
-    let mut tried = BTreeSet::new();
+    let (mut tried, mut confirmations) = (BTreeSet::new(), 0);
     loop {
         swept.windows_as_planned = find_windows(case, &swept.points);
         swept.windows = accepted_windows(&swept.points, &swept.windows_as_planned);
@@ -59,12 +62,12 @@ pub fn add_risk(
             break;
         };
         tried.insert(nanoseconds(candidate.interval));
-        let fresh = sampling.with_fresh_draws(ErrorShare::Nth(tried.len()));
-        match judge(case, case.shot(&swept.order, candidate.interval), &fresh, compute, control)? {
+        let shot = case.shot(&swept.order, candidate.interval);
+        match judge(case, &shot, sampling, &mut confirmations, compute, control)? {
             None => partial = true,
             Some((as_planned, risk)) => {
                 let point = &mut swept.points[n];
-                point.planned = as_planned;
+                (point.planned, point.is_quick) = (as_planned, false);
                 point.risk = risk.map_or(point.risk, Evidence::Known);
                 if point.verdict() == Verdict::Pass {
                     swept.recommended = Some(candidate);
@@ -77,23 +80,33 @@ pub fn add_risk(
     Ok(Computed { value: swept, partial })
 }
 
-/// The full verdict on a shot: as planned, and where that passes, its samples; `None` where the time was up.
+/// The full verdict on a shot: as planned, where that passes its samples, and where these pass fresh draws; `None` where the time
+/// was up. `confirmations` counts those of the sweep.
 fn judge(
     case: &Case,
-    shot: Shot,
+    shot: &Shot,
     sampling: &Sampling,
+    confirmations: &mut usize,
     compute: &ComputeSettings,
     control: &StudyControl,
 ) -> Result<Option<(ShotSummary, Option<RiskSummary>)>, NoResult> {
-    let as_planned = match or_failed_run(check_summary(case, &shot, compute, control)) {
+    let as_planned = match or_failed_run(check_summary(case, shot, compute, control)) {
         Err(NoResult::OutOfTime) => return Ok(None),
         judged => judged?,
     };
     if as_planned.verdict != Verdict::Pass {
         return Ok(Some((as_planned, None)));
     }
-    let sampled = sample_shots_in_brief(case, &[(shot, as_planned)], sampling, compute, control)?.remove(0);
-    Ok(sampled.map(|sampled| (as_planned, Some(sampled))))
+    let shots = [(shot.clone(), as_planned)];
+    let sampled = sample_shots_in_brief(case, &shots, sampling, compute, control)?.remove(0);
+    let Some(mut sampled) = sampled else { return Ok(None) };
+    if sampled.verdict == Verdict::Pass {
+        *confirmations += 1;
+        let target = ShotToSample::new(case, shot, *compute, *sampling).with_planned(as_planned);
+        let Some(drawn) = confirm_shot(&target, *confirmations, control)? else { return Ok(None) };
+        sampled.verdict = drawn.verdict.min(Verdict::Undecided);
+    }
+    Ok(Some((as_planned, Some(sampled))))
 }
 
 /// Indices of the points to sample: the plan's own intervals, both ends of each window, whole milliseconds between them, and points

@@ -5,7 +5,7 @@
 //! 2. The interval in the middle of a *gap* between two neighbours is tried, too, where the gap is wider than [`GAP`] and a
 //!    neighbour passes, where only one neighbour passes, or where both pass but the gap is not *calm*. Gaps are halved down
 //!    to `NARROWEST` in `windows`.
-//! 3. A gap of width w is calm where u + s w ≤ 1. u is the greater upper bound (value + 1.5 errors) of the utilization at its two
+//! 3. A gap of width w is calm where u + s w ≤ 1. u is the greater upper bound (value + error) of the utilization at its two
 //!    neighbours; s is the steepest change of utilization with the interval in this gap and the one on either side.
 //! 4. A window is a row of passing intervals with calm gaps no wider than [`GAP`]. Its ends are intervals that were tried.
 //!
@@ -36,6 +36,8 @@ pub struct Point {
     pub interval: f64,
     /// Verdict, height, force and drift of the shot as planned.
     pub planned: ShotSummary,
+    /// Whether these come from a quick check alone.
+    pub is_quick: bool,
     /// What the samples tell.
     pub risk: Evidence<RiskSummary>,
 }
@@ -76,12 +78,15 @@ pub struct Sweep {
 }
 
 impl Computed<Sweep> {
-    /// The verdict: pass only where every interval of the range was tried and passes.
+    /// The verdict: pass where an interval is recommended, fail where every interval of the range was tried and surely fails.
     pub fn verdict(&self) -> Verdict {
-        let Computed { value: Sweep { points, .. }, partial } = self;
-        let worst = Verdict::worst(points.iter().map(Point::verdict));
-        let is_open = worst == Verdict::Pass && (*partial || points.is_empty());
-        if is_open { Verdict::Undecided } else { worst }
+        let Computed { value: Sweep { points, recommended, .. }, partial } = self;
+        let all_fail = !points.is_empty() && points.iter().all(|point| point.verdict() == Verdict::Fail);
+        match recommended {
+            Some(_) => Verdict::Pass,
+            None if all_fail && !*partial => Verdict::Fail,
+            None => Verdict::Undecided,
+        }
     }
 }
 
@@ -155,7 +160,12 @@ fn sweep_as_planned(
         tried.extend(jobs.into_iter().zip(checked).filter_map(|(at, planned)| Some((at, planned?))));
         let points: Vec<Point> = tried
             .iter()
-            .map(|(&at, &planned)| Point { interval: in_seconds(at), planned, risk: Evidence::NotAsked })
+            .map(|(&at, &planned)| Point {
+                interval: in_seconds(at),
+                planned,
+                is_quick: !exact.contains(&at),
+                risk: Evidence::NotAsked,
+            })
             .collect();
         next = if partial { BTreeSet::new() } else { midpoints(case, &points).into_iter().collect() };
         if !next.is_empty() {
@@ -259,7 +269,7 @@ mod tests {
 
     /// Tries a shelter whose height is `height` [m] at an interval [ms], limit 1 m, at first every `step` [ms] up to 20 ms.
     fn tried(step: f64, height: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
-        let text = include_str!("../../../plans/amur-three-rows.toml")
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml")
             .replace("flight_height_m = 2.35", "flight_height_m = 1");
         let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
         let point = |at: i64| {
@@ -273,7 +283,7 @@ mod tests {
                 drift: ValueWithError::default(),
                 cover: Cover::NONE,
             };
-            Point { interval: in_seconds(at), planned, risk: Evidence::NotAsked }
+            Point { interval: in_seconds(at), planned, is_quick: true, risk: Evidence::NotAsked }
         };
         let count = (20.0 / step) as i64;
         let mut points: Vec<Point> = (0..=count).map(|n| point((n as f64 * step * 1e6) as i64)).collect();
@@ -317,7 +327,7 @@ mod tests {
             5.0..=11.8 => 0.6,
             _ => 1.5,
         };
-        let text = include_str!("../../../plans/amur-three-rows.toml")
+        let text = include_str!("../../../tests/fixtures/amur-three-rows.toml")
             .replace("flight_height_m = 2.35", "flight_height_m = 1");
         let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
         let points: Vec<Point> = (0..=150)
@@ -332,7 +342,12 @@ mod tests {
                     drift: ValueWithError::default(),
                     cover: Cover::NONE,
                 };
-                Point { interval: in_seconds(i64::from(n) * 100_000), planned, risk: Evidence::NotAsked }
+                Point {
+                    interval: in_seconds(i64::from(n) * 100_000),
+                    planned,
+                    is_quick: true,
+                    risk: Evidence::NotAsked,
+                }
             })
             .collect();
         let windows = find_windows(&case, &points);

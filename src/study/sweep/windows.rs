@@ -7,7 +7,7 @@ use crate::study::Case;
 const NARROWEST: f64 = GAP / 8.0;
 
 /// Factor on the errors of two points, with which the limits must be out of reach between them.
-const CALM_ERROR_FACTOR: f64 = 1.5;
+const CALM_ERROR_FACTOR: f64 = 1.0;
 
 /// Room that counts for a recommended interval [s]: more than detonators scatter.
 const ENOUGH_ROOM: f64 = 10e-3;

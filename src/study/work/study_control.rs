@@ -66,7 +66,12 @@ impl StudyControl {
 
     /// Counts one piece of work as done.
     pub(in crate::study) fn advance(&self) {
-        self.done.fetch_add(1, Ordering::Relaxed);
+        self.advance_by(1);
+    }
+
+    /// Counts pieces of work as done, or as not needed.
+    pub(in crate::study) fn advance_by(&self, pieces: usize) {
+        self.done.fetch_add(pieces, Ordering::Relaxed);
     }
 
     /// Whether a run goes on: every run of a study asks at each step, and hands its failure to [`Self::no_result`].

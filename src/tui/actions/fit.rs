@@ -40,7 +40,7 @@ impl App {
             }
         };
         let checksums: Vec<String> = files.iter().map(|file| file.checksum.clone()).collect();
-        let (before, fitted) = (&self.case.plan.uncertainty, fit.answers[0].to_write());
+        let (before, fitted) = (&self.case.plan.uncertainty, fit.to_write());
         let text = write_fit::write(&self.editor.text, before, &fitted, &checksums);
         let edit = self.editor.adopt(text);
         if matches!(edit, EditOutcome::None) {

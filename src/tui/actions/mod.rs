@@ -23,7 +23,7 @@ use super::screen::Screen;
 use crate::choice::Accuracy;
 use crate::jobs::StudyKind;
 use crate::study::judgement::Judgement;
-use crate::tui::export;
+use crate::tui::compare::results;
 use crate::verdict::Verdict;
 
 /// Lines that a page key moves.
@@ -70,7 +70,7 @@ impl App {
         match target {
             ClickTarget::Act(action) => return self.act(action),
             ClickTarget::Option(option) if option == self.selected => return self.act(Action::Open),
-            ClickTarget::Option(option) => self.selected = option,
+            ClickTarget::Option(option) => (self.selected, self.has_selected) = (option, true),
             ClickTarget::Sort(sort) => self.listing.sort_by(sort),
             ClickTarget::Field(field) if field == self.editor.selected => return self.act(Action::Open),
             ClickTarget::Field(field) => {
@@ -141,15 +141,17 @@ impl App {
     /// Asks for the file of the page, once all options are judged; the name offered says which option it is of, and whether that
     /// passes.
     fn name_page(&mut self) -> Request {
-        if let Err(missing) = export::results(self) {
+        if let Err(missing) = results(&self.options) {
             self.notice = Some(missing);
             return Request::None;
         }
-        let ending = match self.judgement(self.selected).map(Judgement::verdict) {
-            _ if !self.contradiction().is_empty() => "contradicted",
-            Some(Verdict::Pass) => "to-be-fired",
+        let is_contradicted = !self.contradiction().is_empty();
+        let judged = self.judgement(self.selected);
+        let ending = match judged.map(Judgement::verdict) {
+            _ if judged.is_some_and(|judged| judged.may_be_fired(is_contradicted)) => "to-be-fired",
+            _ if is_contradicted => "contradicted",
             Some(Verdict::Fail) => "fails",
-            Some(Verdict::Undecided) | None => "open",
+            Some(Verdict::Pass | Verdict::Undecided) | None => "open",
         };
         let option = self.case.plan.delays.get(self.selected).map_or("", |delay| delay.name.as_str());
         let option =

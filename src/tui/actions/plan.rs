@@ -2,6 +2,7 @@
 
 use super::PAGE_LINES;
 use crate::plan::keys::plan;
+use crate::report::words::plan_notes::launches_of_mass;
 use crate::tui::app::{App, Request};
 use crate::tui::editor::EditOutcome;
 use crate::tui::keymap::Action;
@@ -32,7 +33,20 @@ impl App {
             Action::RemoveOption => self.editor.remove(),
             other => return self.act_anywhere(other),
         };
-        self.edited(edit)
+        self.took_value(edit)
+    }
+
+    /// Takes an edit of a value; tells of launches that follow the mass of the tires.
+    fn took_value(&mut self, edit: EditOutcome) -> Request {
+        let mass = self.case.plan.tire.mass_kg;
+        let request = self.edited(edit);
+        let new = self.case.plan.tire.mass_kg;
+        if new != mass {
+            let told = self.editor.plan_of_file().and_then(|file| launches_of_mass(&file, new));
+            let undo = self.keymap.hint(Action::Undo);
+            self.notice = told.map(|told| format!("{told} · {undo} takes it back"));
+        }
+        request
     }
 
     /// Selects the field `lines` further down, and the option of that field.
@@ -55,7 +69,7 @@ impl App {
             (true, Some(action)) if key.code != KeyCode::Esc => self.editor.act_on_order(action),
             _ => self.editor.type_key(key),
         };
-        self.edited(edit)
+        self.took_value(edit)
     }
 
     pub(super) fn edited(&mut self, edit: EditOutcome) -> Request {

@@ -4,6 +4,7 @@ use super::PAGE_LINES;
 use crate::jobs::StudyKind;
 use crate::plan::edit;
 use crate::report::parts::Offer;
+use crate::report::words::plan_notes::launches_of_mass;
 use crate::tui::app::{App, Request};
 use crate::tui::editor::EditOutcome;
 use crate::tui::keymap::Action;
@@ -82,10 +83,12 @@ impl App {
         }
         let (changed, done) = match offer {
             Offer::Option(delay) => (edit::add_delays(text, plan, &[delay]), "added".to_owned()),
-            Offer::Sizes { rope, tire_mass, border_rows } => (
-                edit::write_sizes(text, rope, *tire_mass, *border_rows),
-                format!("used: {rope}, tires of {tire_mass} kg, {border_rows} border rows"),
-            ),
+            Offer::Sizes { rope, tire_mass, border_rows } => {
+                let launches = launches_of_mass(plan, *tire_mass);
+                let tires = launches.unwrap_or_else(|| format!("tires of {tire_mass} kg"));
+                let done = format!("used: {rope}, {tires}, {border_rows} border rows");
+                (edit::write_sizes(text, plan, rope, *tire_mass, *border_rows), done)
+            }
         };
         let edit = self.editor.adopt(changed.map_err(|error| error.to_string()));
         if matches!(edit, EditOutcome::None) {

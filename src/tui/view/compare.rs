@@ -6,7 +6,7 @@ use ratatui::style::Style;
 use ratatui::text::Line;
 use ratatui::widgets::{Row as Cells, Table, TableState};
 
-use crate::report::spark::sparkline;
+use super::gauges;
 use crate::report::words::no_result;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::judgement::{Evidence, Judgement};
@@ -17,71 +17,62 @@ use crate::tui::theme;
 use crate::units::{self, Unit};
 use crate::verdict::{Estimate, Quantity, Verdict};
 
-/// A column: head, width, and the least width of a screen that shows the column.
+/// A column of digits: head and width.
 struct CompareColumn {
     head: &'static str,
     sort: SortBy,
     width: u16,
-    from: u16,
     cell: fn(&App, usize, &Judgement) -> String,
 }
 
 const VERDICT_WIDTH: u16 = 6;
-/// Least number of characters of an option's name.
-const LEAST_NAME: u16 = 8;
-/// Least width of a screen whose table may have sparklines: below, bands and names are more useful.
-const SPARKS: u16 = 150;
+/// Least and greatest number of characters of an option's name.
+const NAME: [u16; 2] = [8, 24];
+/// Least and greatest width of the gauge of risk.
+const RISK: [u16; 2] = [6, 16];
+/// Least and greatest width of a sparkline.
+const SPARK: [u16; 2] = [7, 40];
+/// Least and greatest width of a gauge of a limit.
+const GAUGE: [u16; 2] = [7, 13];
 
 const COLUMNS: &[CompareColumn] = &[
-    CompareColumn { head: "of limit", sort: SortBy::Verdict, width: 8, from: 0, cell: use_of_limit },
-    CompareColumn {
-        head: "fails, %",
-        sort: SortBy::Risk,
-        width: 15,
-        from: 0,
-        cell: |_, _, judged| fails(judged),
-    },
-    CompareColumn { head: "samples", sort: SortBy::Risk, width: 7, from: 0, cell: samples },
+    CompareColumn { head: "of limit", sort: SortBy::Verdict, width: 8, cell: use_of_limit },
+    CompareColumn { head: "fails, %", sort: SortBy::Risk, width: 15, cell: |_, _, judged| fails(judged) },
+    CompareColumn { head: "samples", sort: SortBy::Risk, width: 7, cell: samples },
     CompareColumn {
         head: "plan H, m",
         sort: SortBy::Height,
         width: 10,
-        from: 0,
         cell: |app, option, _| value_or_difference(app, option, |checked| checked.height, Unit::Metre),
     },
     CompareColumn {
         head: "5 to 95 %",
         sort: SortBy::Height,
         width: 14,
-        from: 110,
         cell: |_, _, judged| band(judged, Quantity::Height, Unit::Metre),
     },
     CompareColumn {
         head: "plan F, kN",
         sort: SortBy::Force,
         width: 11,
-        from: 0,
         cell: |app, option, _| value_or_difference(app, option, |checked| checked.force, Unit::Kilonewton),
     },
     CompareColumn {
         head: "5 to 95 %",
         sort: SortBy::Force,
         width: 18,
-        from: 110,
         cell: |_, _, judged| band(judged, Quantity::Force, Unit::Kilonewton),
     },
     CompareColumn {
         head: "factor",
         sort: SortBy::Force,
         width: 6,
-        from: 125,
         cell: |_, _, judged| units::factor(judged.checked.safety_factor),
     },
     CompareColumn {
         head: "plan D, m",
         sort: SortBy::Drift,
         width: 9,
-        from: SPARKS,
         cell: |app, option, _| value_or_difference(app, option, |checked| checked.drift, Unit::Metre),
     },
 ];
@@ -143,36 +134,73 @@ fn use_of_limit(app: &App, _: usize, judged: &Judgement) -> String {
     worst.map_or_else(String::new, |(letter, share)| format!("{letter} {}", units::percent(share, 0)))
 }
 
+/// Widths of the graphics of a row: name, gauge of risk, sparkline and gauge of a limit.
+#[derive(Clone, Copy)]
+struct Graphics {
+    name: u16,
+    risk: u16,
+    spark: u16,
+    gauge: u16,
+}
+
+impl Graphics {
+    /// The graphics and columns of digits for a table of this width. Graphics stand at every width; digits take what is left of
+    /// them, and what then is left goes to the sparklines.
+    fn for_width(width: u16, longest_name: u16) -> (Self, Vec<&'static CompareColumn>) {
+        let [least_name, most_name] = NAME;
+        let mut graphics = Self { name: least_name, risk: RISK[0], spark: SPARK[0], gauge: GAUGE[0] };
+        let mut room = width.saturating_sub(graphics.width());
+        let mut grow = |size: &mut u16, most: u16, times: u16| {
+            let more = (room / times).min(most.saturating_sub(*size));
+            *size += more;
+            room -= times * more;
+        };
+        grow(&mut graphics.name, (longest_name + 1).clamp(least_name, most_name), 1);
+        grow(&mut graphics.gauge, GAUGE[1], 2);
+        grow(&mut graphics.risk, RISK[1], 1);
+        let fits = |column: &&CompareColumn| {
+            let fits = room > column.width;
+            room -= if fits { column.width + 1 } else { 0 };
+            fits
+        };
+        let columns = COLUMNS.iter().filter(fits).collect();
+        graphics.spark += (room / 2).min(SPARK[1] - SPARK[0]);
+        (graphics, columns)
+    }
+
+    /// Width of all of them and of the verdict, with a space between two.
+    fn width(&self) -> u16 {
+        self.name + VERDICT_WIDTH + self.risk + 2 * (self.spark + self.gauge) + 6
+    }
+}
+
 /// Draws the table.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
-    // A column whose numbers would be cut is left out.
-    let mut room = area.width.saturating_sub(LEAST_NAME + VERDICT_WIDTH + 2);
-    let fits = |column: &&CompareColumn| {
-        let fits = area.width >= column.from && room > column.width;
-        room -= if fits { column.width + 1 } else { 0 };
-        fits
-    };
-    let columns: Vec<&CompareColumn> = COLUMNS.iter().filter(fits).collect();
     let longest = app.case.plan.delays.iter().map(|delay| delay.name.chars().count()).max().unwrap_or(0);
-    let fixed: u16 = columns.iter().map(|column| column.width + 1).sum::<u16>() + VERDICT_WIDTH + 2;
-    let sparks = if area.width >= SPARKS { 34 } else { 0 };
-    let name = (longest.max(6) as u16 + 1).min(area.width.saturating_sub(fixed + sparks).max(LEAST_NAME));
-    let spark = (area.width.saturating_sub(fixed + name + 2) / 2).min(40);
+    let (graphics, columns) = Graphics::for_width(area.width, longest as u16);
+    let Graphics { name, risk, spark, gauge } = graphics;
     let mut heads = vec![("option", SortBy::Name, name), ("", SortBy::Verdict, VERDICT_WIDTH)];
+    let wide = |wide: &'static str, short: &'static str, width: u16| {
+        if usize::from(width) >= wide.len() { wide } else { short }
+    };
+    heads.extend([
+        (wide("fails .01-100%", "fails", risk), SortBy::Risk, risk),
+        (wide("height in time", "height", spark), SortBy::Height, spark),
+        (wide("of its limit", "limit", gauge), SortBy::Height, gauge),
+        (wide("force in time", "force", spark), SortBy::Force, spark),
+        (wide("of its limit", "limit", gauge), SortBy::Force, gauge),
+    ]);
     heads.extend(columns.iter().map(|column| (column.head, column.sort, column.width)));
-    if spark >= 4 {
-        let names = if spark < 16 { ["h(t)", "F(t)"] } else { ["height over time", "force over time"] };
-        heads.extend([(names[0], SortBy::Height, spark), (names[1], SortBy::Force, spark)]);
-    }
+    let first_digits = heads.len() - columns.len();
     let listed = app.listed();
-    let rows = listed.iter().map(|&option| row(app, option, &columns, (name, spark)));
+    let rows = listed.iter().map(|&option| row(app, option, &columns, graphics));
     let widths = heads.iter().map(|head| Constraint::Length(head.2));
     // Several columns may sort by the same quantity: the first has the mark.
     let marked = heads.iter().position(|head| head.1 == app.listing.sort);
     let mark = if app.listing.reversed { "▼" } else { "▲" };
     let cells = heads.iter().enumerate().map(|(n, head)| {
         let line = Line::from(format!("{}{}", head.0, if marked == Some(n) { mark } else { "" }));
-        if (2..2 + columns.len()).contains(&n) { line.right_aligned() } else { line }
+        if n >= first_digits { line.right_aligned() } else { line }
     });
     let table = Table::new(rows, widths).header(Cells::new(cells).style(app.theme.muted()));
     let selected = listed.iter().position(|&option| option == app.selected);
@@ -193,23 +221,19 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     }
 }
 
-fn row<'r>(app: &'r App, option: usize, columns: &[&CompareColumn], (name, spark): (u16, u16)) -> Cells<'r> {
+fn row<'r>(app: &'r App, option: usize, columns: &[&CompareColumn], graphics: Graphics) -> Cells<'r> {
     let style = if option == app.selected { app.theme.selected() } else { app.theme.base() };
     let mark = if app.listing.baseline == Some(option) { "=" } else { "" };
     let label = format!("{mark}{}", app.case.plan.delays[option].name);
-    let mut cells =
-        vec![Line::styled(format!("{:1$}", cut(&label, usize::from(name)), usize::from(name)), style)];
+    let name = usize::from(graphics.name);
+    let mut cells = vec![Line::styled(format!("{:1$}", cut(&label, name), name), style)];
     match &app.options[option] {
         OptionState::Judged { judgement, .. } => {
             cells.push(verdict(app, judgement.verdict()));
+            cells.extend(graphics_of(app, judgement, graphics));
             let cell =
                 |column: &&CompareColumn| Line::from((column.cell)(app, option, judgement)).right_aligned();
             cells.extend(columns.iter().map(cell));
-            let width = usize::from(spark);
-            let (history, limits) = (&judgement.checked.history, &app.case.limits);
-            let spark = |series, limit| Line::styled(sparkline(series, width, limit), app.theme.curve());
-            cells.push(spark(&history.height, limits.height));
-            cells.push(spark(&history.force, limits.force));
         }
         OptionState::Failed(failed) => {
             cells.push(verdict(app, Verdict::Undecided));
@@ -223,6 +247,27 @@ fn row<'r>(app: &'r App, option: usize, columns: &[&CompareColumn], (name, spark
         }
     }
     Cells::new(cells)
+}
+
+/// The gauge of risk, and for height and force the planned shot over time and the use of its limit.
+fn graphics_of(app: &App, judged: &Judgement, graphics: Graphics) -> Vec<Line<'static>> {
+    let (theme, limits) = (app.theme, &app.case.limits);
+    let sampled = judged.sampled.known();
+    let bar = theme.verdict(sampled.map_or(Verdict::Undecided, |sampled| sampled.verdict()));
+    let interval = sampled.map(|sampled| sampled.bounds.interval);
+    let mut cells =
+        vec![gauges::risk(interval, limits.accepted_risk, graphics.risk.into(), [bar, theme.muted()])];
+    let history = &judged.checked.history;
+    for (quantity, series, limit) in
+        [(Quantity::Height, &history.height, limits.height), (Quantity::Force, &history.force, limits.force)]
+    {
+        let worst = sampled.and_then(|sampled| sampled.value_at_risk(quantity)).map(|value| value / limit);
+        let planned = judged.checked.get(quantity).value / limit;
+        let [curve, fail] = [theme.curve(), theme.limit()];
+        cells.push(gauges::over_time(series, limit, graphics.spark.into(), [curve, fail]));
+        cells.push(gauges::use_of_limit(planned, worst, graphics.gauge.into(), [curve, fail, theme.muted()]));
+    }
+    cells
 }
 
 /// A name in so many columns: where letters are left out, its end stays, because names differ there.

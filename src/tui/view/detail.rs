@@ -24,7 +24,7 @@ use crate::report::charts;
 use crate::report::parts::Chart;
 use crate::report::remedies::{sentence, without_pass};
 use crate::report::words::option_sentences::{
-    bands, broken, firing_times_text, inputs, launch_limit, measure_first, peaks,
+    bands, broken, dud_of, firing_times_text, inputs, launch_limit, measure_first, next_tires, peaks,
 };
 use crate::report::words::reasons;
 use crate::report::words::{no_result, warnings};
@@ -184,6 +184,10 @@ fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
         let samples = sampled.map_or(0, |sampled| sampled.samples.len());
         lines.push(Line::styled(format!("? {samples} samples so far, more come"), theme.firing()));
     }
+    let next_tires = next_tires(case, judged).into_iter();
+    lines.extend(next_tires.map(|text| Line::styled(format!("! {text}"), theme.firing())));
+    lines.extend(dud_of(case, judged).map(Line::from));
+    lines.extend(app.holds(app.selected).map(Line::from));
     let shares = sampled.and_then(|sampled| input_shares(sampled, &case.limits));
     let decided = shares.as_deref().map(|shares| format!("decided by {}", inputs(shares)));
     let measure = shares.as_deref().and_then(measure_first).map(str::to_owned);

@@ -16,6 +16,7 @@ mod compare;
 mod detail;
 mod fields;
 mod flight;
+mod gauges;
 mod help;
 mod map_numbers;
 mod plan;
@@ -114,7 +115,7 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
     let mut about = format!("limits: {}", limits_in_short(case));
     about += &format!(", risk {} %", units::short(case.plan.limits.accepted_risk_percent));
     if case.plan.uncertainty.assumed {
-        about += " · inputs assumed known to 1 %";
+        about += " · inputs assumed";
     }
     about += &format!(" · {}", compute_label(&app.compute));
     let size = format!(" · {} tires, {} cables", case.scene().tire_count(), case.scene().cables.len());
@@ -157,14 +158,34 @@ fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
             } else {
                 "! what was seen contradicts this plan: see Compare · "
             };
-            Line::from(vec![
+            let answer = answer(app).filter(|_| app.screen == Screen::Compare);
+            let mut spans = vec![
                 Span::styled(contradiction, theme.limit()),
                 Span::styled(warning, theme.limit()),
                 Span::styled(about, theme.muted()),
-            ])
+            ];
+            spans.splice(0..0, answer);
+            Line::from(spans)
         }
     };
     frame.render_widget(line, second);
+}
+
+/// The answer, before all else on Compare: which option passes and is the safest, or HOLD where what was seen contradicts the plan.
+fn answer(app: &App) -> Option<Span<'static>> {
+    let (best, text) = app.answer.as_ref()?;
+    let theme = app.theme;
+    Some(match best {
+        _ if !app.contradiction().is_empty() => Span::styled("HOLD · ", theme.limit()),
+        Some(_) => Span::styled(format!("✓ {text} · "), theme.verdict(Verdict::Pass)),
+        None => {
+            let why = app.keymap.hint(Action::Why);
+            Span::styled(
+                format!("✗ {text}; {why}: what would make one pass · "),
+                theme.verdict(Verdict::Fail),
+            )
+        }
+    })
 }
 
 /// Lines that a notice may cover.

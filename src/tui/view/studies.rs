@@ -1,7 +1,8 @@
-//! The studies of the whole plan: sweep, orders, risk, search, size, effects and fit, one shown at a time.
+//! The studies of the whole plan: sweep, orders, risk, search, size, effects and fit, and what the selected option
+//! stands on; one shown at a time.
 //!
 //! ```text
-//!  Sweep   Orders   Risk   Search   Size   Effects   Fit
+//!  Sweep   Orders   Risk   Search   Size   Effects   Fit   Holds
 //! ─ settings ────────────────────────
 //! conclusion, warnings, tables
 //! charts
@@ -51,6 +52,10 @@ fn name_and_question(kind: StudyKind) -> (&'static str, &'static str) {
         StudyKind::Fit => {
             ("Fit", "How fast did the tires really leave? From what was seen of earlier shots.")
         }
+        StudyKind::Assumptions => (
+            "Holds",
+            "Until when does the selected option hold? Of each thing taken as known, the value at which it fails.",
+        ),
         // Flight and accuracy have screens of their own; what would make an option pass stands beside the option.
         StudyKind::Flight | StudyKind::Accuracy | StudyKind::Remedies => ("", ""),
     }

@@ -4,11 +4,11 @@ use std::io::{Read, Write};
 use std::path::Path;
 use std::sync::{Arc, Mutex};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
 
-use super::{PROGRAM, shipped};
+use super::{PROGRAM, SHORT_PATIENCE, tested_plan, wait};
 
 /// A shelter running in a terminal that is watched.
 pub struct RunningShelter {
@@ -20,12 +20,12 @@ pub struct RunningShelter {
     pub home: Arc<tempfile::TempDir>,
 }
 
-/// Generous: machines under load are slow, and nothing here measures speed.
-pub const PATIENCE: Duration = Duration::from_secs(300);
+/// Longest wait for a screen: options are judged on it.
+const PATIENCE: Duration = Duration::from_secs(120);
 
 impl RunningShelter {
     pub fn open(plan: &str, arguments: &[&str], columns: u16, rows: u16) -> Self {
-        let plan = if Path::new(plan).is_absolute() { plan.to_owned() } else { shipped(plan) };
+        let plan = if Path::new(plan).is_absolute() { plan.to_owned() } else { tested_plan(plan) };
         let all = [&[plan.as_str()], arguments].concat();
         Self::start(&all, Path::new(env!("CARGO_MANIFEST_DIR")), columns, rows)
     }
@@ -71,11 +71,8 @@ impl RunningShelter {
     }
 
     pub fn until(&self, what: &str) {
-        let start = Instant::now();
-        while !self.contents().contains(what) {
-            assert!(start.elapsed() < PATIENCE, "no {what:?} on the screen:\n{}", self.contents());
-            thread::sleep(Duration::from_millis(10));
-        }
+        let is_there = || self.contents().contains(what).then_some(());
+        wait(PATIENCE, is_there, || format!("no {what:?} on the screen:\n{}", self.contents()));
     }
 
     pub fn press(&mut self, keys: &str) {
@@ -90,28 +87,26 @@ impl RunningShelter {
 
     /// Waits for the end; the terminal must be as it was.
     pub fn ends(mut self) -> u32 {
-        let start = Instant::now();
-        let status = loop {
-            if let Some(status) = self.child.try_wait().expect("a child") {
-                break status;
-            }
-            assert!(start.elapsed() < PATIENCE, "still running:\n{}", self.contents());
-            thread::sleep(Duration::from_millis(10));
-        };
+        let screen = Arc::clone(&self.screen);
+        let contents = || screen.lock().expect("the parser lives").screen().contents();
+        let status = wait(
+            PATIENCE,
+            || self.child.try_wait().expect("a child"),
+            || format!("still running:\n{}", contents()),
+        );
         // What it wrote last may still be on its way.
         let restored = || {
             let parser = self.screen.lock().expect("the parser lives");
             let screen = parser.screen();
             let mouse = screen.mouse_protocol_mode() != vt100::MouseProtocolMode::None;
-            !screen.alternate_screen() && !screen.hide_cursor() && !mouse && !screen.bracketed_paste()
+            let as_before =
+                !screen.alternate_screen() && !screen.hide_cursor() && !mouse && !screen.bracketed_paste();
+            as_before.then_some(())
         };
-        while !restored() {
-            assert!(
-                start.elapsed() < PATIENCE,
-                "the alternate screen, the mouse and pasting are left, and the cursor is back"
-            );
-            thread::sleep(Duration::from_millis(10));
-        }
+        wait(SHORT_PATIENCE, restored, || {
+            let claim = "the alternate screen, the mouse and pasting are left, and the cursor is back";
+            format!("not so: {claim}:\n{}", contents())
+        });
         // Lines and echo, the second and fourth flag of a terminal, are on again.
         let flags = self.master.get_termios().expect("flags").local_flags.bits();
         assert_eq!(flags & 0b1010, 0b1010, "raw mode is left");
@@ -122,5 +117,20 @@ impl RunningShelter {
         let id = self.child.process_id().expect("a process").to_string();
         let status = std::process::Command::new("kill").args(["-s", name, &id]).status().expect("kill runs");
         assert!(status.success());
+    }
+
+    /// Ends the program as a loss of power does: at once, without a word.
+    pub fn kill(mut self) {
+        self.signal("KILL");
+        wait(SHORT_PATIENCE, || self.child.try_wait().expect("a child"), || "it lives".to_owned());
+    }
+}
+
+/// No test leaves a program behind, whatever it found.
+impl Drop for RunningShelter {
+    fn drop(&mut self) {
+        if self.child.try_wait().is_ok_and(|status| status.is_none()) {
+            let _ = self.child.kill();
+        }
     }
 }

@@ -32,10 +32,10 @@ use shelter::tui::config::Config;
 use shelter::tui::{dispatch, view};
 use shelter::verdict::{Estimate, Quantity, Verdict};
 
-use super::shipped;
+use super::tested_plan;
 
 pub fn app() -> App {
-    let path = shipped("amur-three-rows.toml");
+    let path = tested_plan("amur-three-rows.toml");
     let mut case = Case::load(path.as_ref()).expect("a shipped plan");
     case.source.path = "plans/amur-three-rows.toml".to_owned();
     let compute = ComputeSettings::of(&case.plan);
@@ -91,7 +91,7 @@ pub fn samples(case: &Case, count: usize, some_fail: bool) -> SampledShot {
                 drift: 0.3,
             },
             finer: None,
-            inputs: [part, 0.5, 2.0, 1.0],
+            inputs: [part, 0.5, 2.0, 1.0, 1.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0],
         });
     }
     risk
@@ -171,6 +171,7 @@ pub fn swept() -> StudyResult {
                 drift: ValueWithError::default(),
                 cover: Cover::NONE,
             },
+            is_quick: false,
             risk: Evidence::NotAsked,
         }
     };

@@ -3,8 +3,7 @@
 use pulp::Simd;
 
 use super::events::{EventContext, Integrated, TiresBefore};
-use super::{Jump, StepTotals, Stepper};
-use crate::outcome::Peak;
+use super::{StepTotals, Stepper};
 use crate::simulation::pack::{LANES, Wide};
 use crate::simulation::verlet::mirror_reduction::Image;
 
@@ -37,6 +36,8 @@ impl Stepper<'_> {
             integrated: &mut self.integrated,
             pushes: &mut self.pushes,
             jumped: &mut self.jumped,
+            // Without damping only a peak that is between two steps needs them.
+            notes_jumps: self.scene.damping > 0.0 || self.peak_to_refine.is_some(),
         };
         let Self { part, wake, cable_forces, u, v, due, .. } = self;
         let (u, v, forces) = (u.slices_mut(), v.slices_mut(), cable_forces.forces());
@@ -91,43 +92,6 @@ impl Stepper<'_> {
             totals.dissipated[j] += dissipated[j];
             totals.height[j] = totals.height[j].max(height[j]);
             totals.motion[j] = totals.motion[j].max(motion[j]);
-        }
-    }
-
-    /// Lets damped cables forget how the tires moved that were launched or landed in this step. The force of a cable that is taut
-    /// at a launch is greatest at the launch, between two steps.
-    pub(super) fn forget_jumps(&mut self) {
-        // Images still stand where the step began, and jump with their kept tires.
-        self.copy_images();
-        self.copy_velocities();
-        for n in 0..self.jumped.len() {
-            let jump = self.jumped[n];
-            let images = self.part.reduction.images.iter();
-            let of_jump = images.filter(|image| image.read == jump.tire && image.written != jump.tire);
-            self.jumped.extend(of_jump.map(|image| Jump { tire: image.written, ..jump }));
-        }
-        let Self { part, cable_forces, u, v, jumped, step, clock, record, scene, peak_to_refine, .. } = self;
-        let end = clock.now() + *step;
-        for Jump { tire, since_launch } in jumped.drain(..) {
-            for &element in part.blocks.ends.of(tire / LANES).into_iter().flatten() {
-                let element = element as usize + tire % LANES;
-                let (Some(cable), true) = (part.cables.get(element), cable_forces.exists(element)) else {
-                    continue;
-                };
-                let [first, second] = cable.ends;
-                let [between, apart] = [&*u, &*v].map(|of| of.vector(second) - of.vector(first));
-                cable_forces.forget_motion(element, cable.span, between, apart * *step);
-                let Some(since) = since_launch else { continue };
-                let span_then = cable.span + between - apart * since;
-                let (length, viscosity) = (span_then.norm(), part.viscosity[element]);
-                let force = cable.stretch_force(length) + viscosity * span_then.dot(&apart) / length;
-                let index = part.reduction.cable(part.blocks.cable_of(element));
-                let value = force / scene.strength(index);
-                if length > cable.rest_length && value > record.force.value {
-                    record.force = Peak { value, time: end - since, index };
-                    *peak_to_refine = None;
-                }
-            }
         }
     }
 

@@ -6,7 +6,8 @@ use nalgebra::Vector3;
 use pulp::{Scalar, Simd};
 
 use super::impulses::{DueImpulse, PushedTire, Pushes, push_at_start};
-use super::{Jump, Part, StepTotals};
+use super::jumps::Jump;
+use super::{Part, StepTotals};
 use crate::outcome::Peak;
 use crate::scene::Scene;
 use crate::simulation::contact::{TireStep, stop_at_ground};
@@ -70,8 +71,10 @@ pub struct EventContext<'e> {
     pub totals: &'e mut StepTotals,
     /// Tires of the present register that were integrated by themselves.
     pub integrated: &'e mut Vec<Integrated>,
-    /// Tires that were launched or landed in this step, where cables are damped.
+    /// Jumps of tires in this step, where `notes_jumps`.
     pub jumped: &'e mut Vec<Jump>,
+    /// Whether jumps are noted.
+    pub notes_jumps: bool,
     /// Pushes that began in an earlier step or go on after this one.
     pub pushes: &'e mut Pushes,
 }
@@ -148,7 +151,14 @@ impl EventContext<'_> {
                     kick_dissipation = 0.0;
                 }
                 let step = TireStep::new(displacement, velocity, free, self.friction, self.scene.restitution);
-                self.integrate(step, free, tire, here, kick_dissipation);
+                let without_event = match pushed_on_ground {
+                    Some(_) => {
+                        displacement
+                            + (velocity + 0.5 * self.step * (free + pushed).xy().push(0.0)) * self.step
+                    }
+                    None => vector(moved.u) + pushed * (0.5 * self.step * self.step),
+                };
+                self.integrate(step, free, tire, here, kick_dissipation, without_event);
             }
         }
         !self.integrated.is_empty()
@@ -163,6 +173,8 @@ impl EventContext<'_> {
     /// 3. The kick at tₙ₊₁ will count its first half again: `next_half` is taken off.
     /// 4. On the ground under a push, friction is another than that of the kick, which knows no push: the caller takes all off that
     ///    the kick has counted. There 2 and 3 are 0.
+    ///
+    /// `without_event` is where the tire would be at the end of the step [m].
     fn integrate(
         &mut self,
         mut motion: TireStep,
@@ -170,9 +182,10 @@ impl EventContext<'_> {
         tire: usize,
         due: &[DueImpulse],
         kick_dissipation: f64,
+        without_event: Vector3<f64>,
     ) {
-        let h = self.step;
-        let was_in_air = motion.displacement.z > 0.0;
+        let (h, move_of_step) = (self.step, without_event - motion.displacement);
+        let acceleration = (move_of_step - motion.velocity * h) * (2.0 / (h * h));
         let last = motion.integrate(h, due.iter().map(|due| due.impulse));
         let goes_on = self.pushes.is_pushed_after_step(tire);
         let in_air = motion.displacement.z > 0.0 || motion.velocity.z > 0.0;
@@ -198,12 +211,15 @@ impl EventContext<'_> {
         let mass = self.part.mass[tire];
         self.totals.lost += mass * (motion.lost - next_half) - kick_dissipation;
         self.totals.put_in += mass * motion.put_in;
-        let last_launch = due.iter().rev().find(|due| due.impulse.launch != Vector3::zeros());
-        // In the air nothing is lost but in a landing, whether a push goes on or not.
-        let lands = was_in_air && motion.lost > 0.0;
-        if self.scene.damping > 0.0 && (last_launch.is_some() || lands) {
-            let since_launch = last_launch.map(|due| self.step - due.impulse.since_start);
-            self.jumped.push(Jump { tire, since_launch });
+        if self.notes_jumps {
+            let (end, gained) = (without_event, last - acceleration);
+            let jump = |(at, change)| Jump { tire, at, change, gained, end, move_of_step };
+            // A push that goes on from an earlier step is no event.
+            let is_event =
+                |due: &&DueImpulse| due.impulse.launch != Vector3::zeros() || due.impulse.since_start > 0.0;
+            let by_holes =
+                due.iter().filter(is_event).map(|due| (due.impulse.since_start, due.impulse.launch));
+            self.jumped.extend(by_holes.chain(motion.landing).map(jump));
         }
         self.integrated.push(Integrated { tire, displacement: motion.displacement, velocity });
     }

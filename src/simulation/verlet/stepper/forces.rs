@@ -74,9 +74,14 @@ impl Stepper<'_> {
         for slot in 0..block.len {
             let force = self.force_over_strength(n, slot);
             if force > self.record.force.value {
+                let before = self.cable_forces.slot_force_before(block, slot);
+                // Right after a jump the force is of first order; `cross_jumps` has noted that at the jump.
+                if before == Some(f64::NEG_INFINITY) {
+                    continue;
+                }
                 let index = self.part.reduction.cable(self.part.blocks.cable(n, slot));
                 self.record.force = Peak { value: force, time: self.clock.now(), index };
-                let force_before = match self.cable_forces.slot_force_before(block, slot) {
+                let force_before = match before {
                     Some(force) => force / self.strength(n, slot),
                     None => self.stretch_over_strength(n, slot, -self.step),
                 };
@@ -144,7 +149,7 @@ impl Stepper<'_> {
     }
 
     /// Strength of the cable in a slot of a block.
-    fn strength(&self, block: usize, slot: usize) -> f64 {
+    pub(super) fn strength(&self, block: usize, slot: usize) -> f64 {
         self.scene.strength(self.part.reduction.cable(self.part.blocks.cable(block, slot)))
     }
 

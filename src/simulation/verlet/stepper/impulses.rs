@@ -68,6 +68,16 @@ impl Pushes {
         self.active.iter().any(|push| push.tire == tire)
     }
 
+    /// Whether no push goes on after the present step.
+    pub fn is_empty(&self) -> bool {
+        self.active.is_empty()
+    }
+
+    /// Acceleration of a tire by the pushes that go on after the present step [m/s²].
+    pub fn after_step(&self, tire: usize) -> Vector3<f64> {
+        self.active.iter().filter(|push| push.tire == tire).map(|push| push.acceleration).sum()
+    }
+
     /// Keeps a tire on the ground under a push that goes on.
     pub fn remember_on_ground(&mut self, pushed: PushedTire) {
         self.next.push(pushed);

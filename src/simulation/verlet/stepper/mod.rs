@@ -4,6 +4,7 @@ mod advance;
 mod events;
 mod forces;
 mod impulses;
+mod jumps;
 
 use nalgebra::{Vector2, Vector3};
 
@@ -11,6 +12,7 @@ use self::advance::MoveTires;
 use self::events::Integrated;
 use self::forces::EvaluateCables;
 use self::impulses::{DueImpulse, Pushes, push_at_start};
+use self::jumps::Jump;
 use super::Part;
 use crate::outcome::{EndReason, Outcome};
 use crate::scene::{Firing, Scene, Shot};
@@ -22,21 +24,12 @@ use crate::simulation::verlet::cable_forces::CableForceMemory;
 use crate::simulation::wake::Wake;
 use crate::simulation::{Motion, RunError, RunSettings, Watcher};
 
-/// A tire whose velocity jumped within the present step.
-#[derive(Clone, Copy, Debug)]
-struct Jump {
-    /// Index of the tire in the part.
-    tire: usize,
-    /// Time from its last launch to the end of the step [s]; `None` for a landing.
-    since_launch: Option<f64>,
-}
-
 /// Cable in which the greatest force was seen.
 #[derive(Clone, Copy, Debug)]
 struct PeakCable {
     block: usize,
     slot: usize,
-    /// k (L − L0) over strength of the cable one step earlier [N].
+    /// k (L − L0) over strength of the cable one step earlier [N]; of a damped cable its force over strength.
     force_before: f64,
 }
 
@@ -82,7 +75,7 @@ pub(super) struct Stepper<'a> {
     /// Impulses of the present step, in order of tires, then of time.
     due: Vec<DueImpulse>,
     pushes: Pushes,
-    /// Tires that were launched or landed in the present step; empty without damping.
+    /// Jumps of tires in the present step that matter to the force of cables.
     jumped: Vec<Jump>,
     /// Tires of the present register that were integrated by themselves.
     integrated: Vec<Integrated>,
@@ -132,7 +125,7 @@ impl<'a> Stepper<'a> {
             peak_to_refine: None,
             due: Vec::with_capacity(2 * firings.len()),
             pushes: Pushes::with_capacity(firings.len()),
-            jumped: Vec::with_capacity(if scene.damping > 0.0 { tires } else { 0 }),
+            jumped: Vec::with_capacity(tires + 2 * firings.len()),
             firings,
             integrated: Vec::with_capacity(LANES),
             wake,
@@ -170,7 +163,7 @@ impl<'a> Stepper<'a> {
                 false => arch.dispatch(MoveTires::<true>(&mut self, &mut totals)),
             }
             if !self.jumped.is_empty() {
-                self.forget_jumps();
+                self.cross_jumps();
             }
             self.end_step(&totals)?;
         }

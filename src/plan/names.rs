@@ -1,0 +1,74 @@
+//! Names as people see them: two that nobody can tell apart are one, and what nobody sees around a name does not count.
+
+use itertools::Itertools;
+use unicode_security::confusable_detection::skeleton;
+
+/// The pattern of six empty dots: Unicode counts it as a sign.
+const BLANK_BRAILLE: char = '\u{2800}';
+
+/// The name without what nobody sees before and behind it: white space of any kind, and characters without width.
+pub fn trimmed(name: &str) -> &str {
+    let is_ignored = |letter: char| skeleton(letter.encode_utf8(&mut [0; 4])).next().is_none();
+    name.trim_matches(|letter: char| letter.is_whitespace() || letter == BLANK_BRAILLE || is_ignored(letter))
+}
+
+/// What a name looks like: the same for names that nobody can tell apart, such as `1O ms` and `10 ms`.
+///
+/// It is the skeleton of Unicode's "Security Mechanisms" (UTS 39) with white space of any kind and length as one space.
+pub fn look(name: &str) -> String {
+    let skeleton: String = skeleton(name).collect();
+    skeleton
+        .split(|letter: char| letter.is_whitespace() || letter == BLANK_BRAILLE)
+        .filter(|word| !word.is_empty())
+        .join(" ")
+}
+
+/// Whether nobody can tell two names apart.
+pub fn look_alike(one: &str, other: &str) -> bool {
+    one == other || look(one) == look(other)
+}
+
+/// Index of the name that looks like `name`; no two of `known` look alike.
+pub fn find<'k>(known: impl IntoIterator<Item = &'k str>, name: &str) -> Option<usize> {
+    let wanted = look(name);
+    known.into_iter().position(|known| look(known) == wanted)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_nobody_sees_around_a_name_does_not_count() {
+        for unseen in
+            [" ", "\t", "\u{a0}", "\u{2007}", "\u{202f}", "\u{3000}", "\u{200b}", "\u{feff}", "\u{2060}"]
+        {
+            for name in
+                [format!("42 ms{unseen}"), format!("{unseen} 42 ms"), format!("{unseen}42 ms {unseen}")]
+            {
+                assert_eq!(trimmed(&name), "42 ms", "{name:?}");
+                assert!(look_alike(&name, "42 ms"), "{name:?}");
+            }
+            assert!(look_alike(&format!("42{unseen} ms"), "42 ms"), "{unseen:?} within");
+        }
+        for empty in ["", " ", "\u{200b}", "\u{ad}\u{3164}", "\u{2800}"] {
+            assert_eq!(trimmed(empty), "", "{empty:?}");
+        }
+        assert_eq!(trimmed("größte №, Ряд 1, 3 行"), "größte №, Ряд 1, 3 行");
+    }
+
+    #[test]
+    fn names_that_nobody_can_tell_apart_are_one() {
+        // A Cyrillic ѕ, capital letters for digits, a fullwidth digit, ö in one character and in two, a mathematical m.
+        for other in ["42 m\u{455}", "42\u{a0}ms", "42  ms", "\u{ff14}2 ms", "42 \u{1d5c6}s"] {
+            assert!(look_alike("42 ms", other), "{other:?}");
+            assert_eq!(find(["20 ms", "42 ms"], other), Some(1));
+        }
+        assert!(look_alike("10 ms", "1O ms") && look_alike("10 ms", "l0 ms"));
+        assert!(look_alike("größte", "gro\u{308}ßte"));
+        for other in ["42 mS", "4.2 ms", "24 ms", "42 ms (2)", "42ms", "42 ms, middle first"] {
+            assert!(!look_alike("42 ms", other), "{other:?}");
+            assert_eq!(find(["42 ms"], other), None);
+        }
+    }
+}

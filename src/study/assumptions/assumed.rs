@@ -1,0 +1,439 @@
+//! What a plan takes as known, and the values of each that are tried.
+//!
+//! Every value has a `ratio`: how large it is against what the plan states as usual. Of a spread it is the spread over that of the
+//! plan, of a range its half-width over that of the plan, of a fixed deviation (launch velocity, place of the shelter) the deviation
+//! over the standard deviation that the plan states of it, and of a depth that shrinks the depth of the plan over it. So 1 is as
+//! stated for all of them, and 2 is twice as bad as stated.
+
+use nalgebra::Vector2;
+
+use crate::plan::keys::{Key, uncertainty};
+use crate::plan::{Plan, Uncertainty};
+use crate::scene::{ASSUMED_PUSH_DEPTH, Firing, Shot, direction_of_slope};
+use crate::study::Case;
+use crate::study::samples::random_shot::nearest_tire;
+
+/// A key of `[uncertainty]` that holds one number: how far something scatters, or how likely it happens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spread {
+    /// Launch velocities, hole by hole.
+    LaunchByHole,
+    /// Launch velocities, row by row.
+    LaunchByRow,
+    /// All launch velocities at once.
+    LaunchCommon,
+    /// All launch velocities, from shot to shot.
+    LaunchBetweenShots,
+    /// Launch directions, hole by hole.
+    Tilt,
+    /// Launch directions of the whole shot.
+    TiltCommon,
+    /// Places of holes, one by one.
+    HolePosition,
+    /// Place of the shelter over all holes.
+    PatternOffset,
+    /// Holes that do not fire.
+    Duds,
+    /// Lengths of cables as tied.
+    CableLength,
+    /// Masses, tire by tire.
+    TireMass,
+    /// Breaking forces, cable by cable.
+    BreakingForce,
+    /// Firing times, whatever the delay.
+    DelayTime,
+    /// Firing times, as a share of the delay.
+    DelayShare,
+}
+
+/// A key of `[uncertainty]` that holds a range, the same in the whole shot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ranged {
+    /// Friction under the tires.
+    Friction,
+    /// Slack of the cables.
+    Slack,
+    /// Axial stiffness of the rope.
+    AxialStiffness,
+    /// Exponent of the mass law.
+    MassExponent,
+}
+
+/// Which end of a range moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Both ends, away from the value of the plan.
+    Both,
+    /// The lower end.
+    Low,
+    /// The upper end.
+    High,
+}
+
+/// A direction along an axis of the plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Toward {
+    /// +x.
+    PlusX,
+    /// −x.
+    MinusX,
+    /// +y.
+    PlusY,
+    /// −y.
+    MinusY,
+}
+
+/// Something that a plan takes as known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Assumed {
+    /// All launch velocities: a common factor on them.
+    LaunchVelocity,
+    /// That the shelter lies in its place over the holes: how far it lies beside it [m].
+    Place(Toward),
+    /// The depth from which holes push [m]; the smallest of all holes.
+    PushDepth,
+    /// How far something scatters, in the unit of its key.
+    Spread(Spread),
+    /// Between which values something lies: half the width of the range where both ends move, else the end that moves; in the unit
+    /// of its key.
+    Range(Ranged, Side),
+}
+
+/// A value to try.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Rung {
+    /// The value, as [`Assumed`] says.
+    pub value: f64,
+    /// How large it is against what the plan states.
+    pub ratio: f64,
+}
+
+/// Factors on what the plan states.
+pub(super) const FACTORS: [f64; 10] = [1.25, 1.6, 2.0, 2.5, 3.2, 4.0, 5.0, 6.3, 8.0, 10.0];
+/// Rises of all launch velocities [%].
+const RISES: [f64; 18] =
+    [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 13.0, 16.0, 20.0, 25.0, 30.0, 40.0, 50.0, 65.0, 80.0, 100.0];
+/// Distances of the shelter from its place [m], up to the first that is no shorter than the distance between tied tires.
+const DISTANCES: [f64; 18] =
+    [0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0];
+
+/// Least spread of each unit from which factors count: what nobody knows better.
+const LEAST_PERCENT: f64 = 0.5;
+const LEAST_DEGREES: f64 = 0.25;
+const LEAST_METRES: f64 = 0.01;
+const LEAST_DUDS_PERCENT: f64 = 0.01;
+const LEAST_MILLISECONDS: f64 = 0.1;
+
+impl Spread {
+    const ALL: [Spread; 14] = [
+        Spread::LaunchByHole,
+        Spread::LaunchByRow,
+        Spread::LaunchCommon,
+        Spread::LaunchBetweenShots,
+        Spread::Tilt,
+        Spread::TiltCommon,
+        Spread::HolePosition,
+        Spread::PatternOffset,
+        Spread::Duds,
+        Spread::CableLength,
+        Spread::TireMass,
+        Spread::BreakingForce,
+        Spread::DelayTime,
+        Spread::DelayShare,
+    ];
+
+    /// Its key, its place among the values of the plan, and the least spread from which factors count.
+    fn parts(self) -> (&'static Key, fn(&mut Uncertainty) -> &mut f64, f64) {
+        match self {
+            Spread::LaunchByHole => {
+                (&uncertainty::LAUNCH_CV_PERCENT, |all| &mut all.launch_cv_percent, LEAST_PERCENT)
+            }
+            Spread::LaunchByRow => {
+                (&uncertainty::LAUNCH_ROW_CV_PERCENT, |all| &mut all.launch_row_cv_percent, LEAST_PERCENT)
+            }
+            Spread::LaunchCommon => {
+                (&uncertainty::LAUNCH_COMMON_PERCENT, |all| &mut all.launch_common_percent, LEAST_PERCENT)
+            }
+            Spread::LaunchBetweenShots => (
+                &uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT,
+                |all| &mut all.launch_between_shots_percent,
+                LEAST_PERCENT,
+            ),
+            Spread::Tilt => (&uncertainty::LAUNCH_TILT_DEG, |all| &mut all.launch_tilt_deg, LEAST_DEGREES),
+            Spread::TiltCommon => {
+                (&uncertainty::LAUNCH_TILT_COMMON_DEG, |all| &mut all.launch_tilt_common_deg, LEAST_DEGREES)
+            }
+            Spread::HolePosition => {
+                (&uncertainty::HOLE_POSITION_M, |all| &mut all.hole_position_m, LEAST_METRES)
+            }
+            Spread::PatternOffset => {
+                (&uncertainty::PATTERN_OFFSET_M, |all| &mut all.pattern_offset_m, LEAST_METRES)
+            }
+            Spread::Duds => {
+                (&uncertainty::HOLE_FAILS_PERCENT, |all| &mut all.hole_fails_percent, LEAST_DUDS_PERCENT)
+            }
+            Spread::CableLength => {
+                (&uncertainty::CABLE_LENGTH_M, |all| &mut all.cable_length_m, LEAST_METRES)
+            }
+            Spread::TireMass => {
+                (&uncertainty::TIRE_MASS_CV_PERCENT, |all| &mut all.tire_mass_cv_percent, LEAST_PERCENT)
+            }
+            Spread::BreakingForce => (
+                &uncertainty::BREAKING_FORCE_CV_PERCENT,
+                |all| &mut all.breaking_force_cv_percent,
+                LEAST_PERCENT,
+            ),
+            Spread::DelayTime => (&uncertainty::DELAY_SD_MS, |all| &mut all.delay.sd_ms, LEAST_MILLISECONDS),
+            Spread::DelayShare => {
+                (&uncertainty::DELAY_CV_PERCENT, |all| &mut all.delay.cv_percent, LEAST_PERCENT)
+            }
+        }
+    }
+
+    fn stated(self, plan: &Plan) -> f64 {
+        let mut all = plan.uncertainty;
+        *(self.parts().1)(&mut all)
+    }
+
+    /// The spread of the plan, or the least one from which factors count.
+    fn scale(self, plan: &Plan) -> f64 {
+        self.stated(plan).max(self.parts().2)
+    }
+}
+
+impl Ranged {
+    const ALL: [Ranged; 4] = [Ranged::Friction, Ranged::Slack, Ranged::AxialStiffness, Ranged::MassExponent];
+
+    /// Its key, its place among the values of the plan, and the least half-width from which factors count.
+    fn parts(self) -> (&'static Key, fn(&mut Uncertainty) -> &mut [f64; 2], f64) {
+        match self {
+            Ranged::Friction => (&uncertainty::FRICTION, |all| &mut all.friction, 0.01),
+            Ranged::Slack => (&uncertainty::SLACK_PERCENT, |all| &mut all.slack_percent, 0.1),
+            Ranged::AxialStiffness => {
+                (&uncertainty::AXIAL_STIFFNESS_PERCENT, |all| &mut all.axial_stiffness_percent, LEAST_PERCENT)
+            }
+            Ranged::MassExponent => {
+                (&uncertainty::LAUNCH_MASS_EXPONENT, |all| &mut all.launch_mass_exponent, 0.05)
+            }
+        }
+    }
+
+    fn stated(self, plan: &Plan) -> [f64; 2] {
+        let mut all = plan.uncertainty;
+        *(self.parts().1)(&mut all)
+    }
+
+    /// The value about which the range widens: that of the plan, or the nearest in the range. The exponent of the mass law has none.
+    fn centre(self, plan: &Plan) -> f64 {
+        let [low, high] = self.stated(plan);
+        let own = match self {
+            Ranged::Friction => plan.ground.friction,
+            Ranged::Slack => plan.cable.slack_percent,
+            Ranged::AxialStiffness => 0.0,
+            Ranged::MassExponent => 0.5 * (low + high),
+        };
+        own.clamp(low, high)
+    }
+
+    /// The range of the plan with the distance of the ends that move from the value of the plan times `factor`.
+    fn widened(self, plan: &Plan, side: Side, factor: f64) -> [f64; 2] {
+        let ([low, high], centre, (key, _, least)) = (self.stated(plan), self.centre(plan), self.parts());
+        let range = key.kind.range();
+        let away = |end: f64| factor * (end - centre).abs().max(least);
+        let lower = (centre - away(low)).clamp(*range.start(), low);
+        let upper = (centre + away(high)).clamp(high, *range.end());
+        match side {
+            Side::Both => [lower, upper],
+            Side::Low => [lower, high],
+            Side::High => [low, upper],
+        }
+    }
+}
+
+impl Side {
+    /// The number by which a range is told.
+    fn value(self, [low, high]: [f64; 2]) -> f64 {
+        match self {
+            Side::Both => 0.5 * (high - low),
+            Side::Low => low,
+            Side::High => high,
+        }
+    }
+}
+
+impl Toward {
+    const ALL: [Toward; 4] = [Toward::PlusX, Toward::MinusX, Toward::PlusY, Toward::MinusY];
+
+    fn vector(self) -> Vector2<f64> {
+        match self {
+            Toward::PlusX => Vector2::x(),
+            Toward::MinusX => -Vector2::x(),
+            Toward::PlusY => Vector2::y(),
+            Toward::MinusY => -Vector2::y(),
+        }
+    }
+}
+
+impl Assumed {
+    /// Everything that a plan takes as known.
+    pub(super) fn all() -> impl Iterator<Item = Assumed> {
+        let sides = |ranged: Ranged| match ranged {
+            // The plan has no value of its own between the ends.
+            Ranged::MassExponent => vec![Side::Both],
+            _ => vec![Side::Both, Side::Low, Side::High],
+        };
+        let ranges = Ranged::ALL
+            .into_iter()
+            .flat_map(move |ranged| sides(ranged).into_iter().map(move |side| Assumed::Range(ranged, side)));
+        [Assumed::LaunchVelocity, Assumed::PushDepth]
+            .into_iter()
+            .chain(Toward::ALL.map(Assumed::Place))
+            .chain(Spread::ALL.map(Assumed::Spread))
+            .chain(ranges)
+    }
+
+    /// Name for scripts: that of the key, where one key holds the value.
+    pub fn name(self) -> String {
+        match self {
+            Assumed::LaunchVelocity => "launch_factor".to_owned(),
+            Assumed::Place(toward) => {
+                let toward = match toward {
+                    Toward::PlusX => "plus_x",
+                    Toward::MinusX => "minus_x",
+                    Toward::PlusY => "plus_y",
+                    Toward::MinusY => "minus_y",
+                };
+                format!("shelter_{toward}_m")
+            }
+            Assumed::PushDepth => "push_depth_m".to_owned(),
+            Assumed::Spread(spread) => spread.parts().0.name.to_owned(),
+            Assumed::Range(ranged, side) => {
+                let end = match side {
+                    Side::Both => "",
+                    Side::Low => ".low",
+                    Side::High => ".high",
+                };
+                format!("{}{end}", ranged.parts().0.name)
+            }
+        }
+    }
+
+    /// Unit of its values; empty where they have none.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Assumed::LaunchVelocity => "",
+            Assumed::Place(_) | Assumed::PushDepth => "m",
+            Assumed::Spread(spread) => spread.parts().0.kind.unit(),
+            Assumed::Range(ranged, _) => ranged.parts().0.kind.unit(),
+        }
+    }
+
+    /// Whether other values of it change the shot as planned.
+    pub(super) fn is_of_planned_shot(self) -> bool {
+        matches!(self, Assumed::LaunchVelocity | Assumed::Place(_) | Assumed::PushDepth)
+    }
+
+    /// Whether most draws stay what they are at other values of it: those without a dud, and those of delays whose scatter is of the
+    /// other kind.
+    pub(super) fn leaves_most_draws(self) -> bool {
+        matches!(self, Assumed::Spread(Spread::Duds | Spread::DelayTime | Spread::DelayShare))
+    }
+
+    /// The value that the plan states.
+    pub(super) fn stated(self, plan: &Plan, shot: &Shot) -> f64 {
+        match self {
+            Assumed::LaunchVelocity => 1.0,
+            Assumed::Place(_) => 0.0,
+            Assumed::PushDepth => shot.firings.iter().map(push_depth).fold(f64::INFINITY, f64::min),
+            Assumed::Spread(spread) => spread.stated(plan),
+            Assumed::Range(ranged, side) => side.value(ranged.stated(plan)),
+        }
+    }
+
+    /// The values to try beyond what the plan states, the smallest change first.
+    pub(super) fn rungs(self, plan: &Plan, shot: &Shot) -> Vec<Rung> {
+        let stated = self.stated(plan, shot);
+        // Where the plan knows better than anybody does, the least spread is the first.
+        let factors = || [1.0].into_iter().chain(FACTORS);
+        let mut rungs: Vec<Rung> = match self {
+            Assumed::LaunchVelocity => {
+                let common = Spread::LaunchCommon.stated(plan);
+                let scale = common.hypot(Spread::LaunchBetweenShots.stated(plan)).max(LEAST_PERCENT);
+                RISES.map(|rise| Rung { value: 1.0 + 1e-2 * rise, ratio: rise / scale }).to_vec()
+            }
+            Assumed::Place(_) => {
+                let (scale, widest) = (Spread::PatternOffset.scale(plan), plan.layout.widest_tie());
+                let longer = DISTANCES.iter().position(|&away| away >= widest).unwrap_or(DISTANCES.len() - 1);
+                let rung = |&away: &f64| Rung { value: away, ratio: away / scale };
+                DISTANCES[..=longer].iter().map(rung).collect()
+            }
+            Assumed::PushDepth if shot.firings.is_empty() => Vec::new(),
+            Assumed::PushDepth => {
+                factors().map(|factor| Rung { value: stated / factor, ratio: factor }).collect()
+            }
+            Assumed::Spread(spread) => {
+                let (most, scale) = (*spread.parts().0.kind.range().end(), spread.scale(plan));
+                factors().map(|factor| Rung { value: (factor * scale).min(most), ratio: factor }).collect()
+            }
+            Assumed::Range(ranged, side) => {
+                let value = |factor| side.value(ranged.widened(plan, side, factor));
+                factors().map(|factor| Rung { value: value(factor), ratio: factor }).collect()
+            }
+        };
+        // What the plan states is known already, and past the end of a key's range nothing changes.
+        let mut last = stated;
+        rungs.retain(|rung| std::mem::replace(&mut last, rung.value) != rung.value);
+        rungs
+    }
+
+    /// The plan and the shot as planned of a delay option with another value.
+    pub(super) fn vary(self, case: &Case, shot: &Shot, rung: &Rung) -> (Case, Shot) {
+        let mut unknown = case.plan.uncertainty;
+        let shot = match self {
+            Assumed::LaunchVelocity => shot.with_launches(rung.value),
+            Assumed::Place(toward) => with_shelter_aside(case, shot, rung.value * toward.vector()),
+            Assumed::PushDepth => with_shallower_pushes(shot, rung.ratio),
+            Assumed::Spread(spread) => {
+                *(spread.parts().1)(&mut unknown) = rung.value;
+                shot.clone()
+            }
+            Assumed::Range(ranged, side) => {
+                *(ranged.parts().1)(&mut unknown) = ranged.widened(&case.plan, side, rung.ratio);
+                shot.clone()
+            }
+        };
+        (case.with_uncertainty(unknown), shot)
+    }
+}
+
+/// Depth from which samples take the push of a hole [m].
+fn push_depth(firing: &Firing) -> f64 {
+    firing.line.depth.unwrap_or(ASSUMED_PUSH_DEPTH)
+}
+
+/// The same shot, whose holes push from a depth that is so many times less.
+fn with_shallower_pushes(shot: &Shot, times: f64) -> Shot {
+    let shallower = |firing: &Firing| {
+        let mut line = firing.line;
+        line.depth = Some(push_depth(firing) / times);
+        let launch = firing.launch.norm() * direction_of_slope(line.planned_slope());
+        Firing { line, launch, ..*firing }
+    };
+    shot.with_firings(shot.firings.iter().map(shallower).collect())
+}
+
+/// The same shot, where the shelter lies `aside` [m] from its place over the holes: the nearest tire gets the impulse of a hole.
+fn with_shelter_aside(case: &Case, shot: &Shot, aside: Vector2<f64>) -> Shot {
+    let scene = case.scene();
+    let under_nearest = |firing: &Firing| {
+        let place = scene.position[firing.tire].xy() - firing.line.offset - aside;
+        let (tire, mut line) = (nearest_tire(scene, place), firing.line);
+        line.offset = scene.position[tire].xy() - place;
+        let launch = match line.depth {
+            None => firing.launch,
+            Some(_) => firing.launch.norm() * direction_of_slope(line.planned_slope()),
+        };
+        Firing { tire, line, launch, ..*firing }
+    };
+    shot.with_firings(shot.firings.iter().map(under_nearest).collect())
+}

@@ -1,0 +1,377 @@
+//! What a PASS stands on: for everything that a plan takes as known, the value at which an option no longer passes.
+//!
+//! 1. Each assumption is tried at ever worse values, all else as the plan says. The first value that does not pass ends it: force
+//!    against slack, for one, rises and falls again.
+//! 2. A value passes where the shot as planned does, if that changes with it, and no more than the accepted share of the samples
+//!    fails. All values have the same draws, which no verdict has used; a sample that stays undecided counts as failing.
+//! 3. Samples that came nearest to a limit with what the plan states are run first: a value at which too many fail gets no others.
+//! 4. Assumptions whose value fails nearest to what is stated come first. How near, [`assumed`] says.
+//!
+//! All values of one ratio are tried before those of the next, whatever they are of. So the nearest few are known before the others
+//! are tried to their ends.
+//!
+//! It is advice: a value that passes here has no verdict.
+
+pub mod assumed;
+
+use std::ops::Range;
+
+use self::assumed::{Assumed, FACTORS, Rung};
+use super::as_planned::check_many::or_failed_run;
+use super::as_planned::quick_check::quick_check;
+use super::judgement::Judgement;
+use super::recommend::judge_chosen;
+use super::samples::random_shot::draw_shot;
+use super::samples::sample::SampleRun;
+use super::samples::sample_count::Sampling;
+use super::samples::sample_until_sure::{ShotToSample, run_sample_once};
+use super::work::batch::{run_announced_batch, run_batch};
+use super::{
+    Case, ComputeResult, ComputeSettings, Computed, NoResult, ShotSummary, StudyControl, catch_panic,
+};
+use crate::scene::Shot;
+use crate::verdict::Verdict;
+
+/// Samples of each value.
+pub const SAMPLES: usize = 300;
+/// The nearest assumptions that one sentence names.
+pub const NEAREST: usize = 3;
+
+/// How far one assumption holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Assumption {
+    /// What is assumed.
+    pub assumed: Assumed,
+    /// The value that the plan states; values are as [`Assumed`] says.
+    pub stated: f64,
+    /// The last value tried before the first that does not pass; `None` where what is stated does not.
+    pub passes_until: Option<f64>,
+    /// The first value that does not pass; `None` where every value that was tried passes.
+    pub fails_from: Option<f64>,
+    /// How large that value is against what is stated.
+    pub ratio: Option<f64>,
+    /// Whether no further value is left to be tried.
+    pub is_complete: bool,
+}
+
+/// What one option stands on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assumptions {
+    /// Index of the option.
+    pub option: usize,
+    /// Samples of each value; 0 where only the shot as planned was asked for.
+    pub samples: usize,
+    /// Most samples of a value that passes which fail.
+    pub accepted: usize,
+    /// Verdict on the shot as planned.
+    pub planned: Verdict,
+    /// Samples that fail with all as stated.
+    pub failing: usize,
+    /// The assumptions, the nearest first.
+    pub all: Vec<Assumption>,
+}
+
+impl Assumptions {
+    /// Whether the option passes here with all as stated.
+    pub fn pass_as_stated(&self) -> bool {
+        self.planned == Verdict::Pass && self.failing <= self.accepted
+    }
+
+    /// The assumptions of which a value that does not pass is known, the nearest first.
+    pub fn failing(&self) -> impl Iterator<Item = &Assumption> {
+        self.all.iter().filter(|assumption| assumption.fails_from.is_some())
+    }
+}
+
+/// How far a study goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// Every assumption is tried to its end.
+    All,
+    /// The study ends once the [`NEAREST`] are known.
+    Nearest,
+}
+
+/// An option, judged, and what its pass stands on.
+#[derive(Clone, Debug)]
+pub struct OptionAssumptions {
+    /// Index of the option.
+    pub option: usize,
+    /// Its judgement.
+    pub judged: Result<Judgement, NoResult>,
+    /// `None` where it does not pass, or the time was up before.
+    pub assumptions: Option<Assumptions>,
+}
+
+/// Judges options, given by their indices, and finds what those stand on that pass. Each value gets as many samples as `sampling`
+/// says; without it only the shots as planned count.
+pub fn find_assumptions_of_passing(
+    case: &Case,
+    options: &[usize],
+    sampling: Option<&Sampling>,
+    compute: &ComputeSettings,
+    control: &StudyControl,
+) -> ComputeResult<Vec<OptionAssumptions>> {
+    let of_verdict = sampling.map(|sampling| Sampling { seed: sampling.seed, ..Sampling::OF_VERDICT });
+    // An option that others stand beside needs the fresh draws that `check` gives it.
+    let chosen = case.with_options(options);
+    let Computed { value: judged, mut partial } = match case.shots.len() {
+        1 => chosen.judge_options(compute, of_verdict.as_ref(), control)?,
+        _ => judge_chosen(&chosen, of_verdict.as_ref(), compute, control)?,
+    };
+    let mut all = Vec::new();
+    for (&option, judged) in options.iter().zip(judged) {
+        let mut assumptions = None;
+        if judged.as_ref().is_ok_and(|judged| judged.verdict() == Verdict::Pass) {
+            match find_assumptions(case, option, sampling, Extent::All, compute, control) {
+                Err(NoResult::OutOfTime) => partial = true,
+                found => {
+                    let found = found?;
+                    partial |= found.partial;
+                    assumptions = Some(found.value);
+                }
+            }
+        }
+        all.push(OptionAssumptions { option, judged, assumptions });
+    }
+    Ok(Computed { value: all, partial })
+}
+
+/// Finds what one option stands on. Each value gets as many samples as `sampling` says; without it only the shot as planned counts.
+pub fn find_assumptions(
+    case: &Case,
+    option: usize,
+    sampling: Option<&Sampling>,
+    extent: Extent,
+    compute: &ComputeSettings,
+    control: &StudyControl,
+) -> ComputeResult<Assumptions> {
+    let shot = &case.shots[option];
+    let sampling = sampling.map_or(Sampling::exactly(0, 0), |sampling| {
+        Sampling::exactly(sampling.most, sampling.seed).for_screening()
+    });
+    let tried = |assumed: &Assumed| sampling.most > 0 || assumed.is_of_planned_shot();
+    let mut ladders: Vec<Ladder> =
+        Assumed::all().filter(tried).map(|assumed| Ladder::new(assumed, case, shot)).collect();
+    let values: usize = 1 + ladders.iter().map(|ladder| ladder.rungs.len()).sum::<usize>();
+    control.announce(values * sampling.most);
+    let trials = Trials::new(case, shot, sampling, compute, control)?;
+    let accepted = trials.accepted;
+    let failing = trials.as_stated.iter().filter(|run| run.verdict != Verdict::Pass).count();
+    let planned = trials.check(case, shot)?;
+    let mut partial = false;
+    if planned == Verdict::Pass && failing <= accepted {
+        partial = climb(&trials, &mut ladders, extent)?;
+    } else {
+        ladders.iter_mut().for_each(Ladder::fail_as_stated);
+    }
+    ladders.iter().for_each(|ladder| control.advance_by(ladder.left() * sampling.most));
+    let mut all: Vec<Assumption> = ladders.into_iter().map(|ladder| ladder.found).collect();
+    let ratio = |assumption: &Assumption| assumption.ratio.unwrap_or(f64::INFINITY);
+    all.sort_by(|a, b| ratio(a).total_cmp(&ratio(b)));
+    let value = Assumptions { option, samples: sampling.most, accepted, planned, failing, all };
+    Ok(Computed { value, partial })
+}
+
+/// Tries values of all ladders, one ratio after the other. Returns whether the time was up.
+fn climb(trials: &Trials<'_>, ladders: &mut [Ladder], extent: Extent) -> Result<bool, NoResult> {
+    for most in [1.0].into_iter().chain(FACTORS).chain([f64::INFINITY]) {
+        loop {
+            let mut next: Vec<&mut Ladder> = ladders
+                .iter_mut()
+                .filter(|ladder| ladder.next().is_some_and(|rung| rung.ratio <= most))
+                .collect();
+            if next.is_empty() {
+                break;
+            }
+            if trials.try_next(&mut next)? {
+                return Ok(true);
+            }
+        }
+        let known = ladders.iter().filter(|ladder| ladder.found.fails_from.is_some()).count();
+        if extent == Extent::Nearest && known >= NEAREST {
+            break;
+        }
+    }
+    Ok(false)
+}
+
+/// The values of one assumption, while they are tried.
+struct Ladder {
+    rungs: Vec<Rung>,
+    /// Number of values tried.
+    tried: usize,
+    found: Assumption,
+}
+
+impl Ladder {
+    fn new(assumed: Assumed, case: &Case, shot: &Shot) -> Self {
+        let (stated, rungs) = (assumed.stated(&case.plan, shot), assumed.rungs(&case.plan, shot));
+        let found = Assumption {
+            assumed,
+            stated,
+            passes_until: Some(stated),
+            fails_from: None,
+            ratio: None,
+            is_complete: rungs.is_empty(),
+        };
+        Self { rungs, tried: 0, found }
+    }
+
+    /// The next value to try; `None` where there is none, or one has failed.
+    fn next(&self) -> Option<&Rung> {
+        self.rungs.get(self.tried).filter(|_| self.found.fails_from.is_none())
+    }
+
+    /// Number of values that were not tried.
+    fn left(&self) -> usize {
+        self.rungs.len() - self.tried
+    }
+
+    fn note(&mut self, passes: bool) {
+        let Some(&Rung { value, ratio }) = self.next() else { return };
+        self.tried += 1;
+        if passes {
+            self.found.passes_until = Some(value);
+        } else {
+            (self.found.fails_from, self.found.ratio) = (Some(value), Some(ratio));
+        }
+        self.found.is_complete = !passes || self.left() == 0;
+    }
+
+    fn fail_as_stated(&mut self) {
+        let stated = self.found.stated;
+        self.found = Assumption {
+            passes_until: None,
+            fails_from: Some(stated),
+            ratio: Some(1.0),
+            is_complete: true,
+            ..self.found
+        };
+    }
+}
+
+/// What all values are tried with.
+struct Trials<'t> {
+    case: &'t Case,
+    shot: &'t Shot,
+    sampling: Sampling,
+    compute: &'t ComputeSettings,
+    control: &'t StudyControl,
+    /// Most samples of a value that passes which fail.
+    accepted: usize,
+    /// The samples with all as stated.
+    as_stated: Vec<SampleRun>,
+    /// Numbers of the samples, those that came nearest to a limit first.
+    hardest_first: Vec<usize>,
+}
+
+/// Samples of the first rounds of a value; the last round takes all others.
+const ROUNDS: [usize; 2] = [25, 75];
+
+impl<'t> Trials<'t> {
+    /// Runs the samples with all as stated.
+    fn new(
+        case: &'t Case,
+        shot: &'t Shot,
+        sampling: Sampling,
+        compute: &'t ComputeSettings,
+        control: &'t StudyControl,
+    ) -> Result<Self, NoResult> {
+        let target = ShotToSample::new(case, shot, *compute, sampling);
+        let numbers: Vec<usize> = (0..sampling.most).collect();
+        let runs = run_announced_batch(&numbers, control, |&number| {
+            Ok(run_sample_once(&target, number, control)?.run)
+        })?;
+        let as_stated = runs.into_iter().collect::<Option<Vec<SampleRun>>>().ok_or(NoResult::OutOfTime)?;
+        let utilization: Vec<f64> = as_stated.iter().map(|run| run.utilization(&case.limits)).collect();
+        let mut hardest_first = numbers;
+        hardest_first.sort_by(|&a, &b| utilization[b].total_cmp(&utilization[a]));
+        let accepted = (case.limits.accepted_risk * sampling.most as f64 + 1e-9).floor() as usize;
+        Ok(Self { case, shot, sampling, compute, control, accepted, as_stated, hardest_first })
+    }
+
+    /// The verdict on a shot as planned.
+    fn check(&self, case: &Case, shot: &Shot) -> Result<Verdict, NoResult> {
+        match catch_panic(|| or_failed_run(quick_check(case, shot, self.compute, self.control))) {
+            Err(NoResult::Panicked(_)) => Ok(ShotSummary::FAILED_RUN.verdict),
+            checked => Ok(checked?.verdict),
+        }
+    }
+
+    /// Tries the next value of each of these ladders. Returns whether the time was up: then none of them has moved.
+    fn try_next(&self, ladders: &mut [&mut Ladder]) -> Result<bool, NoResult> {
+        let Self { case, shot, control, .. } = *self;
+        let vary = |ladder: &&mut Ladder| {
+            let (case, shot) = ladder.next().map_or_else(
+                || (case.clone(), shot.clone()),
+                |rung| ladder.found.assumed.vary(case, shot, rung),
+            );
+            Varied { assumed: ladder.found.assumed, case, shot, failing: 0 }
+        };
+        let mut varied: Vec<Varied> = ladders.iter().map(vary).collect();
+        let planned = run_batch(&varied, control, |varied| match varied.shot == *shot {
+            true => Ok(Verdict::Pass),
+            false => self.check(&varied.case, &varied.shot),
+        })?;
+        let Some(planned) = planned.into_iter().collect::<Option<Vec<Verdict>>>() else { return Ok(true) };
+        let mut passes: Vec<bool> = planned.into_iter().map(|verdict| verdict == Verdict::Pass).collect();
+        let fail_as_planned = passes.iter().filter(|passes| !**passes).count();
+        control.advance_by(fail_as_planned * self.sampling.most);
+        for round in self.rounds() {
+            let open = passes.iter().enumerate().filter(|(_, passes)| **passes).map(|(n, _)| n);
+            let jobs: Vec<(usize, usize)> = open
+                .flat_map(|n| self.hardest_first[round.clone()].iter().map(move |&number| (n, number)))
+                .collect();
+            let verdicts =
+                run_announced_batch(&jobs, control, |&(n, number)| self.sample(&varied[n], number))?;
+            for (&(n, _), verdict) in jobs.iter().zip(verdicts) {
+                let Some(verdict) = verdict else { return Ok(true) };
+                varied[n].failing += usize::from(verdict != Verdict::Pass);
+            }
+            for (n, passes) in passes.iter_mut().enumerate().filter(|(_, passes)| **passes) {
+                if varied[n].failing > self.accepted {
+                    *passes = false;
+                    control.advance_by(self.sampling.most - round.end);
+                }
+            }
+        }
+        for (ladder, passes) in ladders.iter_mut().zip(passes) {
+            ladder.note(passes);
+        }
+        Ok(false)
+    }
+
+    /// The places in [`Self::hardest_first`] of the samples of each round.
+    fn rounds(&self) -> Vec<Range<usize>> {
+        let (mut rounds, mut start) = (Vec::new(), 0_usize);
+        for size in ROUNDS.into_iter().chain([usize::MAX]) {
+            let end = start.saturating_add(size).min(self.sampling.most);
+            rounds.push(start..end);
+            start = end;
+        }
+        rounds
+    }
+
+    /// The verdict on one sample. A draw that another value leaves as it is need not be run again.
+    fn sample(&self, varied: &Varied, number: usize) -> Result<Verdict, NoResult> {
+        let Self { case, shot, sampling, compute, control, .. } = *self;
+        if varied.assumed.leaves_most_draws() {
+            let drawn = |case: &Case, shot: &Shot| draw_shot(case, shot, sampling.seed, number).shot;
+            if drawn(&varied.case, &varied.shot) == drawn(case, shot) {
+                return Ok(self.as_stated[number].verdict);
+            }
+        }
+        let target = ShotToSample::new(&varied.case, &varied.shot, *compute, sampling);
+        Ok(run_sample_once(&target, number, control)?.run.verdict)
+    }
+}
+
+/// The plan and the shot with one value of one assumption.
+struct Varied {
+    assumed: Assumed,
+    case: Case,
+    shot: Shot,
+    /// Samples that fail so far.
+    failing: usize,
+}

@@ -1,0 +1,112 @@
+//! Gauges of one line: how likely an option fails, how much of a limit its shots use, and a quantity over time with its limit.
+//!
+//! ```text
+//! ━━━━┊         risk on a scale from 0.01 to 100 %, logarithmic; ┊ is the accepted risk
+//! ██████▒▒▒┃    planned shot and one in a hundred, ┃ is the limit
+//! ▃▅▅▅▅▃▁       over time; a full cell is past the limit
+//! ```
+
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+
+use crate::report::spark::{BARS, resample};
+
+/// Least risk of the scale; the greatest is 1.
+const LEAST_RISK: f64 = 1e-4;
+
+/// Cells of a gauge of limits beyond its limit.
+const BEYOND: usize = 2;
+
+/// A failure probability between two bounds, on a logarithmic scale of `width` cells with a mark at the accepted one.
+pub fn risk(
+    interval: Option<[f64; 2]>,
+    accepted: f64,
+    width: usize,
+    [bar, scale]: [Style; 2],
+) -> Line<'static> {
+    let decades = -LEAST_RISK.log10();
+    let cell = |risk: f64| {
+        let part = 1.0 + risk.max(LEAST_RISK).log10() / decades;
+        ((part * width as f64) as usize).min(width.saturating_sub(1))
+    };
+    let mark = cell(accepted);
+    let span = |n: usize| match interval {
+        Some([low, high]) if (cell(low)..=cell(high)).contains(&n) => Span::styled("━", bar),
+        _ if n == mark => Span::styled("┊", scale),
+        _ => Span::raw(" "),
+    };
+    Line::from_iter((0..width).map(span))
+}
+
+/// Shares of a limit that the planned shot uses, and that all but the accepted share of the sampled shots use at most.
+pub fn use_of_limit(
+    planned: f64,
+    worst: Option<f64>,
+    width: usize,
+    [bar, beyond, limit]: [Style; 3],
+) -> Line<'static> {
+    let inside = width.saturating_sub(BEYOND + 1);
+    let cells = |share: f64| (share * inside as f64).round() as usize;
+    let (planned, worst) = (cells(planned), cells(worst.unwrap_or(planned)));
+    let span = |n: usize| {
+        // The cell of the limit itself belongs to no share.
+        let at = if n < inside { n } else { n - 1 };
+        let style = if n < inside { bar } else { beyond };
+        match () {
+            () if n == inside => Span::styled("┃", limit),
+            () if n + 1 == width && worst > at + 1 => Span::styled("▶", beyond),
+            () if at < planned => Span::styled("█", style),
+            () if at < worst => Span::styled("▒", style),
+            () => Span::raw(" "),
+        }
+    };
+    Line::from_iter((0..width).map(span))
+}
+
+/// A quantity over time; what lies past the limit is a full cell in the style of a fail.
+pub fn over_time(series: &[f64], limit: f64, width: usize, [bar, beyond]: [Style; 2]) -> Line<'static> {
+    let span = |value: f64| {
+        let level = (value / limit * BARS.len() as f64) as usize;
+        match BARS.get(level) {
+            Some(symbol) => Span::styled(symbol.to_string(), bar),
+            None if value > limit => Span::styled("█", beyond),
+            None => Span::styled(BARS[BARS.len() - 1].to_string(), bar),
+        }
+    };
+    Line::from_iter(resample(series, width).into_iter().map(span))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(line: &Line<'_>) -> String {
+        line.spans.iter().map(|span| span.content.as_ref()).collect()
+    }
+
+    /// 0.01, 0.1, 1, 10 and 100 % lie a quarter of the scale apart; 1 % is accepted.
+    #[test]
+    fn risk_lies_on_its_side_of_the_accepted_one() {
+        let of = |interval| text(&risk(interval, 0.01, 8, [Style::new(); 2]));
+        assert_eq!(of(None), "    ┊   ");
+        assert_eq!(of(Some([0.0, 0.005])), "━━━━┊   ");
+        assert_eq!(of(Some([0.05, 0.2])), "    ┊━━ ");
+        assert_eq!(of(Some([0.002, 0.03])), "  ━━━   ");
+        assert_eq!(of(Some([1.0, 1.0])), "    ┊  ━");
+    }
+
+    #[test]
+    fn a_gauge_is_full_at_its_limit() {
+        let of = |planned, worst| text(&use_of_limit(planned, worst, 13, [Style::new(); 3]));
+        assert_eq!(of(0.6, Some(0.9)), "██████▒▒▒ ┃  ");
+        assert_eq!(of(0.6, None), "██████    ┃  ");
+        assert_eq!(of(0.9, Some(1.1)), "█████████▒┃▒ ");
+        assert_eq!(of(1.5, Some(3.0)), "██████████┃█▶");
+    }
+
+    #[test]
+    fn only_what_lies_past_the_limit_is_a_full_cell() {
+        let of = |series: &[f64]| text(&over_time(series, 1.0, series.len(), [Style::new(); 2]));
+        assert_eq!(of(&[0.0, 0.5, 0.99, 1.0, 1.01]), "▁▄▇▇█");
+    }
+}

@@ -1,0 +1,231 @@
+//! A shelter as it is laid and a shot as it is fired: holes beside their tires, ropes as tied, rows, tilts and duds, each against its
+//! closed form or limit.
+
+use std::ops::ControlFlow;
+
+use nalgebra::Vector2;
+use shelter::plan::Plan;
+use shelter::scene::ASSUMED_PUSH_DEPTH;
+use shelter::study::as_planned::check::check_as_planned;
+use shelter::study::samples::random_shot::{DrawnShot, draw_shot};
+use shelter::study::samples::sample_count::Sampling;
+use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
+use shelter::study::{Case, ComputeSettings, StudyControl};
+use shelter::verdict::Verdict;
+
+use super::support::AS_DRAWN;
+use super::support::scenes::GRAVITY;
+
+/// `rows` × `columns` tires 1.5 m apart with these holes; `unknown` takes the place of exact laying and firing.
+fn case(rows: usize, columns: usize, holes: &str, unknown: &[(&str, &str)]) -> Case {
+    let known = "delay_sd_ms = 0\nlaunch_cv_percent = 0\nlaunch_common_percent = 0\ntire_mass_cv_percent = 0\n\
+                 launch_between_shots_percent = 0\nfriction = [0.5, 0.5]\nslack_percent = [2, 2]\naxial_stiffness_percent = [0, 0]\n";
+    let mut exact = format!("{known}{AS_DRAWN}");
+    for (key, value) in unknown {
+        let line =
+            exact.lines().find(|line| line.starts_with(&format!("{key} = "))).expect("a key").to_owned();
+        exact = exact.replace(&line, &format!("{key} = {value}"));
+    }
+    let text = format!(
+        r#"
+shelter = {{ layout = "grid", rows = {rows}, columns = {columns}, spacing_m = 1.5 }}
+tire = {{ mass_kg = 280 }}
+cable = {{ axial_stiffness_kn = 1400, breaking_force_kn = 1000, slack_percent = 2 }}
+ground = {{ friction = 0.5 }}
+limits = {{ flight_height_m = 50, cable_safety_factor = 1 }}
+delay = [{{ name = "20 ms", interval_ms = 20 }}]
+{holes}
+[uncertainty]
+{exact}
+"#
+    );
+    Case::new(Plan::parse("plan.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
+}
+
+fn hole(x: f64, y: f64, more: &str) -> String {
+    format!("[[blast_row]]\nname = \"{x} {y}\"\nholes = [{{ x_m = {x}, y_m = {y}, launch_m_s = 6{more} }}]\n")
+}
+
+fn drawn(case: &Case, number: usize) -> DrawnShot {
+    draw_shot(case, &case.shots[0], 7, number)
+}
+
+/// How far a lone tire comes that leaves with 6 m/s at slope `slope`: V² sin 2θ/g in flight, (V sin θ − μ V cos θ)²/(2 μ g) sliding.
+fn range(slope: f64) -> f64 {
+    let (speed, friction, angle) = (6.0_f64, 0.5, slope.atan());
+    let slide = (speed * angle.sin() - friction * speed * angle.cos()).max(0.0);
+    speed.powi(2) * (2.0 * angle).sin() / GRAVITY + slide.powi(2) / (2.0 * friction * GRAVITY)
+}
+
+/// A hole 0.3 m beside a lone tire, pushed from 0.8 m below: it comes as far as its direction says, to within the error of the
+/// computation. Where the plan gives no depth, the planned push is straight up, and samples take 0.8 m.
+#[test]
+fn a_tire_beside_its_hole_comes_as_far_as_the_line_of_its_push_says() {
+    for (depth, slope) in [(0.8, 0.3 / 0.8), (0.4, 0.75)] {
+        let case = case(1, 1, &hole(-0.3, 0.0, &format!(", push_depth_m = {depth}")), &[]);
+        let compute = ComputeSettings::of(&case.plan);
+        let checked =
+            check_as_planned(&case, 0, &compute, &mut |_| ControlFlow::Continue(())).expect("a result");
+        let away = (checked.drift.value - range(slope)).abs();
+        assert!(away <= checked.drift.error + 1e-6, "{} is not {}", checked.drift.value, range(slope));
+    }
+    let case = case(1, 1, &hole(-0.3, 0.0, ""), &[]);
+    assert_eq!(case.shots[0].firings[0].launch.xy(), Vector2::zeros());
+    let slope = drawn(&case, 0).shot.firings[0].launch;
+    assert!((slope.x / slope.z - 0.3 / ASSUMED_PUSH_DEPTH).abs() < 1e-12 && slope.y == 0.0);
+    assert!((slope.norm() - 6.0).abs() < 1e-12, "the speed is that of the plan");
+}
+
+/// A hole midway between two tires belongs to either in half of the samples: of 4,000 draws within four standard errors (3.2 %).
+#[test]
+fn a_hole_midway_between_two_tires_belongs_to_either() {
+    let case = case(1, 2, &hole(0.75, 0.0, ""), &[("hole_position_m", "0.05")]);
+    let first = (0..4000).filter(|&number| drawn(&case, number).shot.firings[0].tire == 0).count();
+    assert!((first as f64 / 4000.0 - 0.5).abs() < 0.032, "{first}");
+}
+
+/// The whole pattern moves as one: every hole has the tire nearest to where it then lies, and a push toward it.
+#[test]
+fn an_offset_moves_all_holes_alike() {
+    let holes = [hole(1.5, 1.5, ""), hole(3.0, 1.5, ""), hole(4.5, 3.0, "")].concat();
+    let case = case(5, 6, &holes, &[("pattern_offset_m", "0.8")]);
+    let mut other_tires = 0;
+    for number in 0..200 {
+        let sample = drawn(&case, number);
+        let [x, y] = [8, 9].map(|input| sample.inputs[input]);
+        for firing in &case.shots[0].firings {
+            let planned = case.scene().position[firing.tire].xy();
+            let place = planned - Vector2::new(x, y);
+            let away = |tire: usize| (case.scene().position[tire].xy() - place).norm();
+            let nearest = (0..30).min_by(|&a, &b| away(a).total_cmp(&away(b))).expect("tires");
+            let launched = sample.shot.firings.iter().find(|other| other.row == firing.row).expect("fired");
+            assert_eq!(launched.tire, nearest);
+            let slope = launched.launch.xy() / launched.launch.z;
+            let expected = (case.scene().position[nearest].xy() - place) / ASSUMED_PUSH_DEPTH;
+            assert!((slope - expected).norm() < 1e-9);
+            other_tires += usize::from(nearest != firing.tire);
+        }
+    }
+    assert!(other_tires > 100, "a test that can fail: {other_tires}");
+}
+
+/// Of five holes that each fail with 20 %, the number that fails is binomial: 0.3277, 0.4096, 0.2048 for none, one and two, within four
+/// standard errors of 4,000 draws (3 %).
+#[test]
+fn duds_are_binomial() {
+    let row = "[[blast_row]]\nname = \"1\"\nunder_row = 1\nlaunch_m_s = 6\n";
+    let case = case(1, 5, row, &[("hole_fails_percent", "20")]);
+    let mut counts = [0; 6];
+    (0..4000).for_each(|number| counts[5 - drawn(&case, number).shot.firings.len()] += 1);
+    for (count, exact) in counts.into_iter().zip([0.3277, 0.4096, 0.2048]) {
+        assert!((f64::from(count) / 4000.0 - exact).abs() < 0.03, "{counts:?}");
+    }
+}
+
+/// Where every hole fails nothing flies, and nothing is past a limit.
+#[test]
+fn where_all_holes_fail_nothing_flies() {
+    let row = "[[blast_row]]\nname = \"1\"\nunder_row = 1\nlaunch_m_s = 6\n";
+    let case = case(1, 5, row, &[("hole_fails_percent", "100")]);
+    let target =
+        ShotToSample::new(&case, &case.shots[0], ComputeSettings::of(&case.plan), Sampling::exactly(20, 1));
+    let sampled = sample_shots(&[target], &StudyControl::default()).expect("samples").value.remove(0);
+    for sample in &sampled.samples {
+        assert_eq!((sample.run.verdict, sample.run.height, sample.run.force), (Verdict::Pass, 0.0, 0.0));
+    }
+}
+
+/// A cable is as long as tied: its length has the stated deviation, never less than its span, and stiffness EA over its length. With a
+/// deviation far above the slack half of the cables are just taut.
+#[test]
+fn cables_are_as_long_as_tied() {
+    let row = "[[blast_row]]\nname = \"1\"\nunder_row = 1\nlaunch_m_s = 6\n";
+    for (deviation, taut) in [(0.005, 0.0), (10.0, 0.5)] {
+        let case = case(4, 5, row, &[("cable_length_m", &deviation.to_string())]);
+        let planned = &case.scene().cables;
+        let (mut just_taut, mut squares, mut count) = (0, 0.0, 0);
+        for number in 0..100 {
+            let scene = drawn(&case, number).scene;
+            assert!(scene.mirrors.is_empty(), "no cable is like its image");
+            for (cable, planned) in scene.cables.iter().zip(planned) {
+                assert!(cable.rest_length >= cable.span.norm());
+                assert!((cable.stiffness * cable.rest_length / 1.4e6 - 1.0).abs() < 1e-12);
+                just_taut += usize::from(cable.rest_length == cable.span.norm());
+                squares += (cable.rest_length - planned.rest_length).powi(2);
+                count += 1;
+            }
+        }
+        assert!((just_taut as f64 / f64::from(count) - taut).abs() < 0.03, "{just_taut} of {count}");
+        if taut == 0.0 {
+            // Four standard errors of a standard deviation of 5,500 draws are 4 %.
+            assert!(((squares / f64::from(count)).sqrt() / deviation - 1.0).abs() < 0.04);
+        }
+    }
+}
+
+/// Launches vary row by row about a mean of 1, alike within a row; and all tilt by one slope.
+#[test]
+fn rows_and_the_whole_shot_vary_as_one() {
+    let rows: String = (1..=2)
+        .map(|n| format!("[[blast_row]]\nname = \"{n}\"\nunder_row = {n}\nlaunch_m_s = 6\n"))
+        .collect();
+    let unknown = [("launch_row_cv_percent", "20"), ("launch_tilt_common_deg", "10")];
+    let case = case(2, 4, &rows, &unknown);
+    let (mut factors, mut slopes) = (Vec::new(), Vec::new());
+    for number in 0..4000 {
+        let sample = drawn(&case, number);
+        let speed = |row: usize| {
+            let of_row: Vec<f64> =
+                sample.shot.firings.iter().filter(|f| f.row == row).map(|f| f.launch.norm()).collect();
+            assert!(of_row.iter().all(|speed| (speed / of_row[0] - 1.0).abs() < 1e-12));
+            of_row[0] / 6.0
+        };
+        let [first, second] = [0, 1].map(speed);
+        assert_ne!(first, second);
+        factors.extend([first, second]);
+        let slope = sample.shot.firings[0].launch.xy() / sample.shot.firings[0].launch.z;
+        for firing in &sample.shot.firings {
+            assert!((firing.launch.xy() / firing.launch.z - slope).norm() < 1e-12);
+        }
+        slopes.extend([slope.x, slope.y]);
+    }
+    let moments = |values: &[f64]| {
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        (mean, (values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / values.len() as f64).sqrt())
+    };
+    // Four standard errors of 8,000 draws: 0.9 % of the mean, 4 % of a deviation.
+    let (mean, deviation) = moments(&factors);
+    assert!((mean - 1.0).abs() < 0.009 && (deviation / 0.2 - 1.0).abs() < 0.05, "{mean} {deviation}");
+    let (mean, deviation) = moments(&slopes);
+    let expected = 10_f64.to_radians().tan();
+    assert!(mean.abs() < 0.008 && (deviation / expected - 1.0).abs() < 0.04, "{mean} {deviation}");
+}
+
+/// Extremes: results are finite and the energy balance closes to 1 %, or the sample is undecided.
+#[test]
+fn extremes_of_laying_and_firing_are_finite_or_undecided() {
+    let rows: String = (1..=2)
+        .map(|n| format!("[[blast_row]]\nname = \"{n}\"\nunder_row = {n}\nlaunch_m_s = 6\n"))
+        .collect();
+    for (key, value) in [
+        ("cable_length_m", "5"),
+        ("hole_fails_percent", "100"),
+        ("hole_position_m", "1.5"),
+        ("pattern_offset_m", "1.5"),
+        ("launch_tilt_deg", "40"),
+        ("launch_tilt_common_deg", "40"),
+        ("launch_row_cv_percent", "100"),
+    ] {
+        let case = case(3, 4, &rows, &[(key, value)]);
+        let compute = ComputeSettings::of(&case.plan);
+        let target = ShotToSample::new(&case, &case.shots[0], compute, Sampling::exactly(40, 1));
+        let sampled = sample_shots(&[target], &StudyControl::default()).expect("samples").value.remove(0);
+        for sample in &sampled.samples {
+            let run = sample.finest();
+            let is_finite = run.height.is_finite() && run.force.is_finite() && run.drift.is_finite();
+            assert!(is_finite || run.verdict == Verdict::Undecided, "{key} {value}: {run:?}");
+        }
+        let undecided = sampled.bounds.undecided;
+        assert!(undecided <= 2, "{key} {value}: {undecided} of 40 undecided");
+    }
+}

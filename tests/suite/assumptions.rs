@@ -1,0 +1,255 @@
+//! What a PASS stands on: where each assumption ends, against closed forms on lone tires and against the draws themselves.
+
+use shelter::plan::Plan;
+use shelter::study::assumptions::assumed::{Assumed, Ranged, Side, Spread, Toward};
+use shelter::study::assumptions::{Assumption, Assumptions, Extent, NEAREST, SAMPLES, find_assumptions};
+use shelter::study::samples::random_shot::{Input, draw_shot};
+use shelter::study::samples::sample_count::Sampling;
+use shelter::study::{Case, ComputeSettings, StudyControl, thread_pool};
+
+use super::support::scenes::GRAVITY;
+use super::support::{AS_DRAWN, json, shelter, text};
+
+const SAMPLING: Sampling = Sampling::exactly(SAMPLES, 1);
+/// Speed of every launch [m/s].
+const SPEED: f64 = 6.0;
+
+/// A shelter with these blast rows and limits; of all that is not named in `unknown`, everything is known exactly.
+fn plan(shelter: &str, rows: &str, limits: &str, unknown: &[(&str, &str)]) -> String {
+    let known = "delay_sd_ms = 0\nlaunch_cv_percent = 0\nlaunch_common_percent = 0\ntire_mass_cv_percent = 0\n\
+                 friction = [0.5, 0.5]\nslack_percent = [2, 2]\naxial_stiffness_percent = [0, 0]\n\
+                 launch_mass_exponent = [1, 1]\nlaunch_between_shots_percent = 0\n";
+    let mut exact = format!("{known}{AS_DRAWN}");
+    for (key, value) in unknown {
+        let line =
+            exact.lines().find(|line| line.starts_with(&format!("{key} = "))).expect("a key").to_owned();
+        exact = exact.replace(&line, &format!("{key} = {value}"));
+    }
+    format!(
+        "tire = {{ mass_kg = 280 }}\nground = {{ friction = 0.5 }}\n\
+         cable = {{ axial_stiffness_kn = 1400, breaking_force_kn = 10, slack_percent = 2 }}\n\
+         limits = {{ cable_safety_factor = 1, {limits} }}\n\
+         delay = [{{ name = \"20 ms\", interval_ms = 20 }}]\n{rows}\n{shelter}\n[uncertainty]\n{exact}"
+    )
+}
+
+fn case(text: &str) -> Case {
+    Case::new(Plan::parse("plan.toml", text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
+}
+
+const LONE: &str = "shelter = { layout = \"grid\", rows = 1, columns = 1, spacing_m = 1.5 }";
+const ROW: &str = "blast_row = [{ name = \"1\", under_row = 1, launch_m_s = 6 }]";
+
+/// One tire that must not fly above `height` [m].
+fn lone(height: f64, unknown: &[(&str, &str)]) -> Case {
+    case(&plan(LONE, ROW, &format!("flight_height_m = {height}"), unknown))
+}
+
+fn find(case: &Case, extent: Extent) -> Assumptions {
+    let compute = ComputeSettings::of(&case.plan);
+    let found = find_assumptions(case, 0, Some(&SAMPLING), extent, &compute, &StudyControl::default());
+    found.expect("a result").expect_complete()
+}
+
+fn of(found: &Assumptions, assumed: Assumed) -> Assumption {
+    *found.all.iter().find(|found| found.assumed == assumed).expect("it is tried")
+}
+
+/// Both ends of the step in which an assumption fails.
+fn ends(found: &Assumptions, assumed: Assumed) -> [f64; 2] {
+    let Assumption { passes_until, fails_from, .. } = of(found, assumed);
+    [passes_until.expect("it passes"), fails_from.expect("it fails")]
+}
+
+/// A lone tire rises V0²/2g: with nothing else unknown it fails where that is past the limit.
+#[test]
+fn launches_end_where_a_lone_tire_flies_too_high() {
+    for limit in [1.95, 2.3, 2.9, 5.0] {
+        let found = find(&lone(limit, &[]), Extent::All);
+        let exact = (2.0 * GRAVITY * limit).sqrt() / SPEED;
+        let [until, from] = ends(&found, Assumed::LaunchVelocity);
+        assert!(until < exact && exact < from, "{until} {exact} {from}");
+        assert!(from - until < 0.21, "values lie close");
+    }
+}
+
+/// A shot that flies higher than the limit with probability p, and of 300 draws at most 3 may: what passes has p below 3.3 %, what fails
+/// p above 0.28 % (else a binomial count would be that small, or that large, in less than 1 of 100). The draws themselves tell more:
+/// the first value at which 4 of them fly too high by V0²/2g is the one that fails.
+#[test]
+fn the_estimate_of_launches_ends_at_its_quantile() {
+    let limit: f64 = 2.3;
+    let case = lone(limit, &[("launch_common_percent", "2")]);
+    let found = find(&case, Extent::All);
+    let spread = Assumed::Spread(Spread::LaunchCommon);
+    let [until, from] = ends(&found, spread);
+    let exceeds = |cv_percent: f64| {
+        let variance = (cv_percent * 1e-2).powi(2).ln_1p();
+        let rise = ((2.0 * GRAVITY * limit).sqrt() / SPEED).ln();
+        let deviations = (rise + 0.5 * variance) / variance.sqrt();
+        0.5 * libm::erfc(deviations / std::f64::consts::SQRT_2)
+    };
+    assert!(exceeds(until) < 0.033 && exceeds(from) > 0.0028, "{until} {from}");
+    let too_high = |cv_percent: f64| {
+        let mut varied = case.clone();
+        varied.plan.uncertainty.launch_common_percent = cv_percent;
+        let seed = SAMPLING.for_screening().seed;
+        let speed = |number: usize| draw_shot(&varied, &varied.shots[0], seed, number).shot.firings[0].launch;
+        (0..SAMPLES).filter(|&number| speed(number).z.powi(2) / (2.0 * GRAVITY) > limit).count()
+    };
+    assert!(too_high(until) <= 3 && too_high(from) > 3, "{} {}", too_high(until), too_high(from));
+    assert_eq!(of(&found, spread).ratio, Some(from / 2.0));
+    // Shot by shot is another such factor, known exactly here: what passes with it has few draws that fly too high.
+    let other = of(&found, Assumed::Spread(Spread::LaunchBetweenShots)).passes_until.expect("it passes");
+    assert!(exceeds(other.hypot(2.0)) < 0.033, "{other}");
+}
+
+/// Three tires 1.5 m apart, of which the second and the third are tied: a hole under the first tears nothing. Where the shelter lies
+/// more than half of that toward -x, the second tire is over the hole, and pulls at its cable. Nothing else comes over it.
+#[test]
+fn a_shelter_laid_aside_ends_where_the_next_tire_is_nearer() {
+    let shelter = "[shelter]\nlayout = \"list\"\ncable = [{ from = 2, to = 3 }]\n\
+                   tire = [{ x_m = 0, y_m = 0 }, { x_m = 1.5, y_m = 0 }, { x_m = 3, y_m = 0 }]";
+    let hole =
+        "blast_row = [{ name = \"1\", holes = [{ x_m = 0, y_m = 0, launch_m_s = 6, push_depth_m = 1000 }] }]";
+    let found = find(&case(&plan(shelter, hole, "flight_height_m = 3", &[])), Extent::All);
+    assert!(found.pass_as_stated());
+    let [until, from] = ends(&found, Assumed::Place(Toward::MinusX));
+    assert_eq!([until, from], [0.7, 1.0], "0.75 m");
+    for toward in [Toward::PlusX, Toward::PlusY, Toward::MinusY] {
+        let aside = of(&found, Assumed::Place(toward));
+        assert_eq!((aside.passes_until, aside.fails_from), (Some(1.5), None), "{toward:?}");
+    }
+    // Drawn offsets: 300 of a spread of which 4 lie beyond 0.75 m toward -x, and none of a spread of a tenth.
+    let spread = of(&found, Assumed::Spread(Spread::PatternOffset));
+    assert_eq!(spread.fails_from, None, "ten times 0.01 m");
+}
+
+/// A tire 0.1 m beside its hole comes as far as the line of its push says: V² sin 2θ/g in flight, then it slides.
+#[test]
+fn a_shallow_push_ends_where_the_tire_comes_too_far() {
+    let hole = "blast_row = [{ name = \"1\", holes = [{ x_m = -0.1, y_m = 0, launch_m_s = 6, push_depth_m = 0.8 }] }]";
+    let limit = 2.0;
+    let found =
+        find(&case(&plan(LONE, hole, &format!("flight_height_m = 3, drift_m = {limit}"), &[])), Extent::All);
+    let range = |depth: f64| {
+        let (angle, friction) = ((0.1 / depth).atan(), 0.5);
+        let slide = (SPEED * angle.sin() - friction * SPEED * angle.cos()).max(0.0);
+        SPEED.powi(2) * (2.0 * angle).sin() / GRAVITY + slide.powi(2) / (2.0 * friction * GRAVITY)
+    };
+    let [until, from] = ends(&found, Assumed::PushDepth);
+    assert!(range(until) < limit && limit < range(from), "{} {}", range(until), range(from));
+    assert!(from < until && until < 0.8);
+}
+
+/// A row of two tied tires moves as one; a dud pulls at the cable. At most 3 of 300 draws may have exactly one dud.
+#[test]
+fn duds_end_where_too_many_draws_have_one() {
+    let two = "shelter = { layout = \"grid\", rows = 1, columns = 2, spacing_m = 1.5 }";
+    let case = case(&plan(two, ROW, "flight_height_m = 3", &[("hole_fails_percent", "0.1")]));
+    let found = find(&case, Extent::All);
+    let [until, from] = ends(&found, Assumed::Spread(Spread::Duds));
+    let lost = |percent: f64| {
+        let mut varied = case.clone();
+        varied.plan.uncertainty.hole_fails_percent = percent;
+        let duds = Input::ALL.iter().position(|input| *input == Input::Duds).expect("an input");
+        let seed = SAMPLING.for_screening().seed;
+        let drawn = |number: usize| draw_shot(&varied, &varied.shots[0], seed, number).inputs[duds];
+        (0..SAMPLES).filter(|&number| drawn(number) == 1.0).count()
+    };
+    assert!(lost(until) <= 3 && lost(from) > 3, "{until}: {}, {from}: {}", lost(until), lost(from));
+}
+
+/// Limits that nothing reaches: every assumption is tried to its end. And a wider limit makes no end come earlier.
+#[test]
+fn what_no_value_exceeds_has_no_end() {
+    let found = find(&lone(50.0, &[]), Extent::All);
+    assert!(found.pass_as_stated());
+    for assumption in &found.all {
+        assert_eq!((assumption.fails_from, assumption.ratio), (None, None), "{assumption:?}");
+        assert!(assumption.is_complete);
+    }
+    let tilt = of(&found, Assumed::Spread(Spread::TiltCommon));
+    assert_eq!(
+        (tilt.stated, tilt.passes_until),
+        (0.0, Some(2.5)),
+        "from the least spread, 0.25°, to ten times it"
+    );
+    let friction = of(&found, Assumed::Range(Ranged::Friction, Side::Low));
+    assert_eq!((friction.stated, friction.passes_until), (0.5, Some(0.4)));
+    let scattered = [("launch_cv_percent", "3"), ("launch_common_percent", "3")];
+    let [near, far] = [2.5, 3.0].map(|limit| find(&lone(limit, &scattered), Extent::All));
+    let mut later = 0;
+    for near in &near.all {
+        let far = of(&far, near.assumed);
+        let end = |found: &Assumption| found.ratio.unwrap_or(f64::INFINITY);
+        assert!(end(near) <= end(&far), "{near:?} {far:?}");
+        later += usize::from(end(near) < end(&far));
+    }
+    assert!(later > 0, "a test that can fail");
+}
+
+/// What fails with all as stated has no value that passes.
+#[test]
+fn what_does_not_pass_as_stated_stands_on_nothing() {
+    // The planned shot fails; only samples do.
+    for case in [lone(1.5, &[]), lone(1.9, &[("launch_common_percent", "3")])] {
+        let found = find(&case, Extent::All);
+        assert!(!found.pass_as_stated() && found.failing > 3);
+        assert!(found.all.iter().all(|one| one.passes_until.is_none() && one.fails_from == Some(one.stated)));
+    }
+}
+
+/// Whether a study ends at the nearest three, and on how many threads it runs, changes nothing of these.
+#[test]
+fn the_nearest_are_the_same_however_they_are_found() {
+    let unknown = [("launch_common_percent", "2"), ("launch_tilt_deg", "1"), ("hole_position_m", "0.05")];
+    let case = case(&plan(LONE, ROW, "flight_height_m = 2.5, drift_m = 2", &unknown));
+    let nearest = |threads: usize, extent: Extent| -> Vec<Assumption> {
+        let pool = thread_pool(threads).expect("threads");
+        pool.install(|| find(&case, extent)).failing().take(NEAREST).copied().collect()
+    };
+    let all = nearest(1, Extent::All);
+    assert_eq!(all.len(), NEAREST);
+    assert!(all.is_sorted_by(|a, b| a.ratio <= b.ratio));
+    assert_eq!(nearest(3, Extent::Nearest), all);
+}
+
+/// The command: text, the fields that scripts read, and plans of which no option passes.
+#[test]
+fn the_command_tells_the_nearest_first() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plan.toml");
+    let run = |height: f64, more: &[&str]| {
+        let limits = format!("flight_height_m = {height}");
+        let unknown = [("launch_common_percent", "2"), ("launch_tilt_common_deg", "1")];
+        std::fs::write(&path, plan(LONE, ROW, &limits, &unknown)).expect("written");
+        let output = shelter(&[&["assumptions", path.to_str().expect("UTF-8")], more].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        output
+    };
+    let told = text(&run(2.3, &[]).stdout).replace(folder.path().to_str().expect("UTF-8"), "folder");
+    insta::assert_snapshot!(told);
+    let document = json(&run(2.3, &["--format", "json"]));
+    assert_eq!(document["schema"], "shelter.assumptions/1");
+    let option = &document["options"][0];
+    assert_eq!((&option["name"], &option["verdict"]), (&"20 ms".into(), &"pass".into()));
+    let all = option["assumptions"].as_array().expect("assumptions");
+    let common = all.iter().find(|one| one["name"] == "launch_common_percent").expect("a key");
+    assert_eq!(
+        (&common["value"], &common["unit"], &common["samples"]),
+        (&2.0.into(), &"%".into(), &300.into())
+    );
+    assert!(common["passes_until"].as_f64() < common["fails_from"].as_f64());
+    assert!(all.last().expect("one")["fails_from"].is_null(), "those without an end stand last");
+    let csv = run(2.3, &["--format", "csv"]);
+    let csv = text(&csv.stdout);
+    assert!(csv.starts_with("option,name,value,unit,passes_until,fails_from,samples\n"), "{csv}");
+    assert_eq!(csv.lines().count(), 1 + all.len());
+    // As planned alone, only what changes the shot as planned is asked about.
+    let nominal = json(&run(2.3, &["--nominal", "--format", "json"]));
+    assert_eq!(nominal["options"][0]["assumptions"].as_array().map(Vec::len), Some(6));
+    let failing = run(1.5, &[]);
+    assert!(text(&failing.stdout).contains("20 ms: FAIL, there is no PASS to ask about"));
+    assert!(json(&run(1.5, &["--format", "json"]))["options"][0]["assumptions"].is_null());
+}

@@ -1,0 +1,170 @@
+//! What is recommended is confirmed by draws that did not choose it.
+
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use shelter::study::judge_options::{MustPass, verdict_on_plan};
+use shelter::study::judgement::Evidence;
+use shelter::study::recommend::{recommended, safest_first};
+use shelter::study::samples::failure_bounds::{ErrorShare, FailureBounds};
+use shelter::study::samples::risk_summary::RiskSummary;
+use shelter::study::samples::sample_count::Sampling;
+use shelter::study::samples::sample_until_sure::{ShotToSample, sample_shots};
+use shelter::study::search::search;
+use shelter::study::{Case, ComputeSettings, ShotSummary, StudyControl};
+use shelter::verdict::Verdict;
+
+/// A lone tire under a limit that no shot reaches, with so many options that fire it later and later.
+fn safe_case(options: usize) -> Case {
+    let delays: Vec<String> =
+        (0..options).map(|n| format!("{{ name = \"{n}\", at_ms = [0, {}] }}", 10 * n)).collect();
+    let text = format!(
+        r#"
+shelter = {{ layout = "grid", rows = 1, columns = 2, spacing_m = 3, links = [] }}
+tire = {{ mass_kg = 280 }}
+cable = {{ axial_stiffness_kn = 1400, breaking_force_kn = 100 }}
+ground = {{ friction = 0.5 }}
+blast_row = [
+    {{ name = "1", holes = [{{ x_m = 0, y_m = 0, launch_m_s = 3 }}] }},
+    {{ name = "2", holes = [{{ x_m = 3, y_m = 0, launch_m_s = 3 }}] }},
+]
+limits = {{ flight_height_m = 5, cable_safety_factor = 1 }}
+delay = [{}]
+search = {{ intervals_ms = [40, 80] }}
+"#,
+        delays.join(", ")
+    );
+    Case::new(shelter::Plan::parse("safe", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
+}
+
+/// Each option that passes has fresh draws of its own share of the error, the safest the first: those of a shot sampled by itself.
+#[test]
+fn every_pass_beside_others_has_fresh_draws() {
+    let case = safe_case(3);
+    let (compute, control) = (ComputeSettings::of(&case.plan), StudyControl::default());
+    let sampling = Sampling::OF_VERDICT;
+    let results = case.judge_options(&compute, Some(&sampling), &control).expect("a result").value;
+    let ranked = safest_first(&case, &results, |_| 1.0);
+    let mut counts = Vec::new();
+    for (n, &option) in ranked.iter().enumerate() {
+        let judged = results[option].as_ref().expect("a result");
+        let Evidence::Known(drawn) = judged.confirmation else {
+            panic!("option {option} has no fresh draws")
+        };
+        let alone = ShotToSample::new(&case, &case.shots[option], compute, sampling.for_confirmation(n + 1))
+            .with_planned(ShotSummary::of(&judged.checked));
+        let alone = sample_shots(&[alone], &control).expect("samples").value.remove(0);
+        assert_eq!(drawn.bounds, alone.bounds);
+        let first = judged.sampled.known().expect("samples").samples[0];
+        assert_ne!(alone.samples[0].inputs, first.inputs, "draws that the verdict did not use");
+        counts.push(drawn.bounds.samples);
+    }
+    // Without a failure a smaller share takes more samples: some 430 for the whole, ln 2, ln 6 and ln 12 more over 1 %.
+    assert!(counts[0] > 435 && counts[0] <= counts[1] && counts[0] < counts[2], "{counts:?}");
+    assert_eq!(recommended(&case, &results), Some(ranked[0]));
+}
+
+/// A confirmation that fails makes the option OPEN, and the next is recommended; with none confirmed none is, and none passes for
+/// `--any`.
+#[test]
+fn an_option_that_is_not_confirmed_is_open_and_not_recommended() {
+    let case = safe_case(2);
+    let compute = ComputeSettings::of(&case.plan);
+    let found = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &StudyControl::default());
+    let mut results = found.expect("a result").value;
+    for verdict in [Verdict::Undecided, Verdict::Fail] {
+        let first = recommended(&case, &results).expect("one passes");
+        let judged = results[first].as_mut().expect("a result");
+        let Evidence::Known(drawn) = judged.confirmation else { panic!("fresh draws") };
+        judged.confirmation = Evidence::Known(RiskSummary { verdict, ..drawn });
+        assert_eq!((judged.verdict(), judged.is_confirmed()), (Verdict::Undecided, Some(false)));
+        assert_eq!(judged.reasons().len(), 1);
+        assert_ne!(recommended(&case, &results), Some(first));
+    }
+    assert_eq!(recommended(&case, &results), None);
+    assert_eq!(verdict_on_plan(&results, MustPass::One), Verdict::Undecided);
+}
+
+#[test]
+fn a_lone_option_needs_no_confirmation() {
+    let case = safe_case(1);
+    let compute = ComputeSettings::of(&case.plan);
+    let found = case.judge_options(&compute, Some(&Sampling::OF_VERDICT), &StudyControl::default());
+    let results = found.expect("a result").value;
+    let judged = results[0].as_ref().expect("a result");
+    assert_eq!((judged.verdict(), judged.is_confirmed()), (Verdict::Pass, None));
+    assert!(judged.may_be_fired(false));
+}
+
+/// Only a full PASS may be fired: of planned and sampled shots, confirmed, and not contradicted.
+#[test]
+fn only_a_full_pass_may_be_fired() {
+    let case = safe_case(2);
+    let (compute, control) = (ComputeSettings::of(&case.plan), StudyControl::default());
+    let sampling = Sampling::OF_VERDICT;
+    let full = case.judge_options(&compute, Some(&sampling), &control).expect("a result").value;
+    let full = full[0].clone().expect("a result");
+    assert!(full.may_be_fired(false) && !full.may_be_fired(true));
+    let nominal = case.judge_options(&compute, None, &control).expect("a result").value;
+    assert!(!nominal[0].as_ref().expect("a result").may_be_fired(false));
+    let few = Sampling { least: 100, most: 100, ..sampling };
+    let open = case.judge_options(&compute, Some(&few), &control).expect("a result").value;
+    let open = open[0].as_ref().expect("a result");
+    assert_eq!((open.verdict(), open.may_be_fired(false)), (Verdict::Undecided, false));
+    let mut missing = full.clone();
+    missing.confirmation = Evidence::NoneDrawn;
+    assert!(missing.awaits_confirmation() && !missing.may_be_fired(false));
+}
+
+/// A search judges what it found by the draws of `check`, not by those that chose it, and confirms the best.
+#[test]
+fn a_search_judges_by_draws_that_did_not_choose() {
+    let case = safe_case(2);
+    let (compute, control) = (ComputeSettings::of(&case.plan), StudyControl::default());
+    let sampling = Sampling::OF_VERDICT;
+    let found = search(&case, Some(&sampling), &compute, &control).expect("a result").value;
+    let checked = found.case.sample_options(&compute, &sampling, &control).expect("a result").value;
+    for (found, checked) in found.results.iter().zip(&checked) {
+        let [found, checked] = [found, checked].map(|result| result.as_ref().expect("a result"));
+        let [a, b] = [found, checked].map(|judged| judged.sampled.known().expect("samples").bounds);
+        assert_eq!((a, found.is_confirmed()), (b, Some(true)));
+    }
+}
+
+/// Seven options of which each fails a little more often than accepted: whoever fires what is recommended is wrong in at most 2.5 %
+/// of 800 plans, but for four standard errors (2.2 %). Who takes the best that passes at first sight, is wrong more often.
+#[test]
+fn whoever_takes_what_is_recommended_is_as_rarely_wrong_as_with_one() {
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    let mut sampled = |risk: f64, share: ErrorShare, most: usize| {
+        let mut bounds = FailureBounds::new(0.01, share);
+        let in_question = |bounds: &FailureBounds| {
+            bounds.verdict() == Verdict::Undecided
+                && (!bounds.samples.is_multiple_of(100) || bounds.can_pass(most))
+        };
+        while bounds.samples < most && in_question(&bounds) {
+            bounds.push(if random.random::<f64>() < risk { Verdict::Fail } else { Verdict::Pass });
+        }
+        bounds
+    };
+    let (mut at_first_sight, mut recommended) = (0, 0);
+    let plans = 800;
+    for _ in 0..plans {
+        let options = [1.0, 1.0, 1.05, 1.1, 1.2, 1.5, 2.0].map(|percent| 1e-2 * percent);
+        let mut passing: Vec<(f64, f64)> = options
+            .iter()
+            .map(|&risk| (risk, sampled(risk, ErrorShare::Whole, Sampling::OF_VERDICT.most)))
+            .filter(|(_, bounds)| bounds.verdict() == Verdict::Pass)
+            .map(|(risk, bounds)| (bounds.interval[1], risk))
+            .collect();
+        passing.sort_by(|a, b| a.0.total_cmp(&b.0));
+        at_first_sight += usize::from(!passing.is_empty());
+        let confirmed = passing.iter().enumerate().any(|(n, &(_, risk))| {
+            let Sampling { error_share, most, .. } = Sampling::OF_VERDICT.for_confirmation(n + 1);
+            sampled(risk, error_share, most).verdict() == Verdict::Pass
+        });
+        recommended += usize::from(confirmed);
+    }
+    let share = |count: usize| count as f64 / f64::from(plans);
+    assert!(share(recommended) < 0.025 + 0.022, "{recommended}");
+    assert!(share(at_first_sight) > 0.04, "a test that can fail: {at_first_sight}");
+}
