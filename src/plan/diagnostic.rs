@@ -78,8 +78,18 @@ impl Diagnostics {
         let mut text = String::new();
         for mistake in self.mistakes.iter().take(SHOWN) {
             let snippet = (!self.source.is_empty()).then(|| {
-                let annotation = AnnotationKind::Primary.span(self.visible(&mistake.span));
-                Snippet::source(self.source.as_str()).path(self.path.as_str()).annotation(annotation)
+                // The line alone: the renderer would take memory for every line of the source.
+                let Range { start, end } = self.visible(&mistake.span);
+                let before = &self.source[..start];
+                let line = before.rfind('\n').map_or(0, |newline| newline + 1);
+                let number = before.matches('\n').count() + 1;
+                let line_end =
+                    self.source[end..].find('\n').map_or(self.source.len(), |newline| end + newline);
+                let annotation = AnnotationKind::Primary.span(start - line..end - line);
+                Snippet::source(&self.source[line..line_end])
+                    .line_start(number)
+                    .path(self.path.as_str())
+                    .annotation(annotation)
             });
             let title = match snippet {
                 Some(_) => visible(&mistake.message).into_owned(),
@@ -101,10 +111,12 @@ impl Diagnostics {
 
     /// The part of a span on its first line.
     fn visible(&self, span: &Range<usize>) -> Range<usize> {
-        let start = span.start.min(self.source.len());
-        let rest = self.source.get(start..).unwrap_or("");
+        let begin_of_char =
+            |at: usize| (0..=at).rev().find(|&at| self.source.is_char_boundary(at)).unwrap_or(0);
+        let start = begin_of_char(span.start.min(self.source.len()));
+        let rest = &self.source[start..];
         let line_end = start + rest.find('\n').unwrap_or(rest.len());
-        start..span.end.clamp(start, line_end)
+        start..begin_of_char(span.end.clamp(start, line_end))
     }
 }
 

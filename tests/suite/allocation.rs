@@ -65,7 +65,7 @@ fn a_table_takes_a_bounded_amount_of_memory() {
     std::fs::write(&path, format!("{quote}{}", holes(7))).expect("written");
     let (megabytes, told) = memory_of(read);
     assert!(
-        told.contains("the line has 2 values for 3 columns") && megabytes < 150,
+        told.contains("the line has 2 values for 3 columns") && megabytes < 120,
         "{megabytes} MB: {told}"
     );
     // From elsewhere than a file, too.

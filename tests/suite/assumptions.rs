@@ -146,7 +146,7 @@ fn a_shallow_push_ends_where_the_tire_comes_too_far() {
 #[test]
 fn duds_end_where_too_many_draws_have_one() {
     let two = "shelter = { layout = \"grid\", rows = 1, columns = 2, spacing_m = 1.5 }";
-    let case = case(&plan(two, ROW, "flight_height_m = 3", &[("hole_fails_percent", "0.1")]));
+    let case = case(&plan(two, ROW, "flight_height_m = 3", &[("hole_fails_percent", "0.5")]));
     let found = find(&case, Extent::All);
     let [until, from] = ends(&found, Assumed::Spread(Spread::Duds));
     let lost = |percent: f64| {

@@ -54,8 +54,8 @@ fn only_open_verdicts_cost_more() {
     assert!(near.height.error < far.height.error);
 }
 
-/// At a hundred intervals of three rows, the true height and force are within the error of a quick check in 19 of 20, as those of a
-/// check are, but for two standard errors. Once the error that a check tells by the same runs leaves out more than twice as many.
+/// At 200 intervals of three rows, up to 1.2 s, where the rows that fire last snap cables of a shelter at rest, the true height and
+/// force are within the error of a quick check in 19 of 20, but for two standard errors. Two fifths of the error leave out more.
 #[test]
 fn errors_of_quick_checks_hold() {
     use shelter::choice::Method;
@@ -68,8 +68,8 @@ fn errors_of_quick_checks_hold() {
     let compute = ComputeSettings::of(&case.plan);
     let fine = ComputeSettings { accuracy: Accuracy::Field, ..compute }.first_step(&case) / 16.0;
     let (mut missed, mut missed_by_check) = ([0; 2], [0; 2]);
-    for n in 0..100 {
-        let shot = case.shot(&[0, 1, 2], 3e-3 * (n as f64 + 0.37));
+    for n in 0..200 {
+        let shot = case.shot(&[0, 1, 2], 6e-3 * (n as f64 + 0.37));
         let found = quick_check(&case, &shot, &compute, &StudyControl::default()).expect("a result");
         let settings = RunSettings { method: Method::Verlet, step: fine, duration: None };
         let truth = case.model.run(&shot, &settings, &mut |_| ControlFlow::Continue(())).expect("an outcome");
@@ -80,7 +80,7 @@ fn errors_of_quick_checks_hold() {
             missed_by_check[q] += usize::from((found.value - truth).abs() > 0.4 * found.error);
         }
     }
-    println!("height and force: {missed:?} of 100, with 0.4 of the error {missed_by_check:?}");
-    assert!(missed.iter().all(|&missed| missed <= 5 + 4), "{missed:?}");
-    assert!(missed_by_check.iter().sum::<usize>() > 2 * 9, "a test that can fail: {missed_by_check:?}");
+    println!("height and force: {missed:?} of 200, with 0.4 of the error {missed_by_check:?}");
+    assert!(missed.iter().all(|&missed| missed <= 10 + 6), "{missed:?}");
+    assert!(missed_by_check[1] > 10 + 6, "a test that can fail: {missed_by_check:?}");
 }

@@ -24,7 +24,7 @@ fn the_table_appears_keys_and_resizing_work_and_q_restores() {
     watched.resize(120, 36);
     watched.until("5 to 95 %");
     watched.press("-");
-    watched.until("draft");
+    watched.until("accuracy: draft");
     watched.press("q");
     assert_eq!(watched.ends(), 0);
 }
@@ -395,11 +395,11 @@ fn a_walk_through_everything() {
     // Rows that are computed move in a list that is sorted.
     watched.until(" of 7 pass");
     watched.press("ttt");
-    // The third tab; the fourth option of the table.
+    // The second tab; the fourth option of the table.
     watched.press("\x1b[<0;18;1M\x1b[<0;18;1m");
-    watched.until("height over time");
+    watched.until("of its limit");
     watched.press("o");
-    watched.until("plan F, kN▲");
+    watched.until("force▲");
     watched.press("\x1b[<0;3;8M\x1b[<0;3;8m");
     watched.until("25 ms, middle first ─");
     watched.resize(60, 18);

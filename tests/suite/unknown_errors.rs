@@ -109,6 +109,7 @@ fn values_that_may_grow_have_no_error_in_any_face() {
     let path = folder.path().join("plan.toml");
     let plan = include_str!("../../plans/paper-5-tire.toml");
     let (plan, _) = plan.split_once("\n[uncertainty]").expect("the section");
+    let plan = plan.edited("breaking_force_kn = 20.4", "breaking_force_kn = 40");
     let path = path.to_str().expect("UTF-8");
     let told = |plan: &str, format: &str| {
         std::fs::write(path, plan).expect("written");

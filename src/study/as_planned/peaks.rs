@@ -1,5 +1,4 @@
-//! Height, force and drift of a shot with their errors, from runs at a ladder of steps. A check takes [`peaks_with_rivals`],
-//! a quick check takes [`peaks`].
+//! Height, force and drift of a shot with their errors, from runs at a ladder of steps.
 
 use std::ops::Range;
 
@@ -10,7 +9,10 @@ use crate::verdict::{Estimate, PerQuantity};
 /// Number of equal parts of a run in which rivals of its greatest value are looked for.
 const SLICES: usize = 32;
 
-/// Like [`peaks`]; errors of height and force reach up to rivals of the greatest value.
+/// Height, force and drift of the last of `runs`, which stand in order from the coarsest step to the finest; errors of height and
+/// force reach up to rivals of the greatest value.
+///
+/// The errors come from the runs of [`error_runs`], and from `pairs` of nearby shots, run at the coarsest step of those.
 pub fn peaks_with_rivals(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> PerQuantity<Estimate> {
     let near = &runs[error_runs(runs.len())];
     let last = runs[runs.len() - 1];
@@ -22,10 +24,8 @@ pub fn peaks_with_rivals(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> PerQuant
     }
 }
 
-/// Height, force and drift of the last of `runs`, which stand in order from the coarsest step to the finest.
-///
-/// The errors come from the runs of [`error_runs`], and from `pairs` of nearby shots, run at the coarsest step of those.
-pub fn peaks(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> PerQuantity<Estimate> {
+/// The same without regard to rivals.
+fn peaks(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> PerQuantity<Estimate> {
     let near = &runs[error_runs(runs.len())];
     let last = runs[runs.len() - 1];
     let estimate_of = |peak: fn(&Outcome) -> Peak| {

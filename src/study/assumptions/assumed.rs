@@ -143,7 +143,7 @@ impl Spread {
     ];
 
     /// Its key, its place among the values of the plan, and the least spread from which factors count.
-    fn parts(self) -> (&'static Key, fn(&mut Uncertainty) -> &mut f64, f64) {
+    fn parts(self) -> (&'static Key, PlaceOf<f64>, f64) {
         match self {
             Spread::LaunchByHole => {
                 (&uncertainty::LAUNCH_CV_PERCENT, |all| &mut all.launch_cv_percent, LEAST_PERCENT)
@@ -201,11 +201,14 @@ impl Spread {
     }
 }
 
+/// Where a value stands among those of the plan.
+type PlaceOf<T> = fn(&mut Uncertainty) -> &mut T;
+
 impl Ranged {
     const ALL: [Ranged; 4] = [Ranged::Friction, Ranged::Slack, Ranged::AxialStiffness, Ranged::MassExponent];
 
     /// Its key, its place among the values of the plan, and the least half-width from which factors count.
-    fn parts(self) -> (&'static Key, fn(&mut Uncertainty) -> &mut [f64; 2], f64) {
+    fn parts(self) -> (&'static Key, PlaceOf<[f64; 2]>, f64) {
         match self {
             Ranged::Friction => (&uncertainty::FRICTION, |all| &mut all.friction, 0.01),
             Ranged::Slack => (&uncertainty::SLACK_PERCENT, |all| &mut all.slack_percent, 0.1),

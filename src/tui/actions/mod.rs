@@ -223,7 +223,10 @@ impl App {
         let same = match self.compute.step {
             Some(_) => "the step is fixed by --dt",
             None if accuracy == self.compute.accuracy => "there is no other level that way",
-            None => return self.judge_again(accuracy),
+            None => {
+                self.notice = Some(format!("accuracy: {}", accuracy.name()));
+                return self.judge_again(accuracy);
+            }
         };
         self.notice = Some(same.to_owned());
         Request::None
