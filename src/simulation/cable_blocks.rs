@@ -1,11 +1,12 @@
-//! Cables in blocks of equal cables: their order in memory, and the tires at which each cable acts.
+//! Cables in blocks of parallel cables: their order in memory, and the tires at which each cable acts.
 //!
-//! Cables form a *run* when their tires follow one another (a row of a mesh) and span, length and stiffness are equal. In a
-//! run, first ends lie one after the other in memory, and second ends too, so that one register takes several neighbouring
+//! Cables form a *run* when their tires follow one another (a row of a mesh) and their spans are equal. In a run, first ends lie one after the other in memory, and second ends too, so that one register takes several neighbouring
 //! cables. Where a cable is missing (at the end of a mesh row) its slot stays empty, so that a run continues from row to row.
 //! Long runs are cut into blocks. A block is the unit that sleeps and wakes.
 
 use std::sync::Arc;
+
+use nalgebra::Vector3;
 
 use super::compressed_rows::CompressedRows;
 use super::pack::LANES;
@@ -18,12 +19,14 @@ const EMPTY_SLOTS: usize = 4;
 /// Cable of an empty slot.
 const NONE: u32 = u32::MAX;
 
-/// Equal cables whose tires follow one another.
+/// Cables of one span whose tires follow one another.
 #[derive(Clone, Copy, Debug)]
 pub struct Block {
-    /// Cable in slot 0, or the cable that would lie there. The cable in slot n is equal and joins tires `ends[0] + n` and
+    /// Tires of the cable in slot 0, or of the cable that would lie there. The cable in slot n joins tires `ends[0] + n` and
     /// `ends[1] + n`.
-    pub first: Cable,
+    pub ends: [usize; 2],
+    /// From the first end of each cable to the second, as laid [m].
+    pub span: Vector3<f64>,
     /// Number of slots.
     pub len: usize,
     /// Element of slot 0 in arrays over all cables; a multiple of [`LANES`].
@@ -37,6 +40,10 @@ pub struct Blocks {
     pub blocks: Vec<Block>,
     /// Number of cables of the whole scene that each element stands for; 0 for an empty slot (`n_elements`).
     pub weight: Arc<[f64]>,
+    /// Unstretched length of each element [m]; 0 for an empty slot (`n_elements`).
+    pub rest_length: Vec<f64>,
+    /// Stiffness of each element [N/m]; 0 for an empty slot (`n_elements`).
+    pub stiffness: Vec<f64>,
     /// Elements that act on each pack of tires.
     pub ends: Arc<Ends>,
     /// Scene's cable of each element; [`NONE`] for an empty slot (`n_elements`).
@@ -50,13 +57,13 @@ impl Blocks {
         let mut blocks = Vec::with_capacity(scene.cables.len() / BLOCK_SLOTS + runs.len());
         let mut cable = Vec::with_capacity(scene.cables.len() + 3 * LANES * (runs.len() + 1));
         let mut acting = Vec::with_capacity(2 * runs.len());
-        for Run { slots, first } in runs {
+        for Run { slots, ends, span } in runs {
             // A run begins at the same lane as its first tire, so that packs of cables and packs of tires coincide. The pack
             // of spare elements before it is read with the tires of the second ends, which begin at another lane.
-            let head = first.ends[0] % LANES;
+            let head = ends[0] % LANES;
             let begin = cable.len().next_multiple_of(LANES) + LANES;
             cable.resize(begin + head, NONE);
-            for (side, tire) in first.ends.into_iter().enumerate() {
+            for (side, tire) in ends.into_iter().enumerate() {
                 for pack in tire / LANES..=(tire + slots.len() - 1) / LANES {
                     let element = begin + head + pack * LANES - tire;
                     acting.push(((2 * pack + side) as u32, element as u32));
@@ -64,34 +71,41 @@ impl Blocks {
             }
             cable.extend(&slots);
             for from in (0..head + slots.len()).step_by(BLOCK_SLOTS) {
-                let first = Cable { ends: first.ends.map(|tire| tire + from - head), ..first };
+                let ends = ends.map(|tire| tire + from - head);
                 let len = (head + slots.len() - from).min(BLOCK_SLOTS);
-                blocks.push(Block { first, len, first_element: begin + from });
+                blocks.push(Block { ends, span, len, first_element: begin + from });
             }
         }
         cable.resize(cable.len().next_multiple_of(LANES) + LANES, NONE);
         let weight = cable.iter().map(|&c| if c == NONE { 0.0 } else { weight[c as usize] }).collect();
         let packs = scene.tire_count().div_ceil(LANES);
         let ends = Ends(CompressedRows::new(2 * packs, &acting));
-        Self { blocks, weight, ends: ends.into(), cable: cable.into() }
+        let (rest_length, stiffness) = (Vec::new(), Vec::new());
+        let layout = Self { blocks, weight, rest_length, stiffness, ends: ends.into(), cable: cable.into() };
+        layout.with_numbers(|cable| &scene.cables[cable])
     }
 
-    /// The same layout with other lengths and stiffnesses; `numbers` gives the cable of an index in the scene. `None` where cables of
-    /// one block are no longer equal.
-    pub fn with_numbers<'c>(&self, numbers: impl Fn(usize) -> &'c Cable) -> Option<Self> {
-        let mut layout = self.clone();
-        for block in &mut layout.blocks {
-            let slots = &self.cable[block.first_element..block.first_element + block.len];
-            let mut cables =
-                slots.iter().filter(|&&cable| cable != NONE).map(|&cable| numbers(cable as usize));
-            if let Some(&Cable { rest_length, stiffness, .. }) = cables.next() {
-                if cables.any(|other| (other.rest_length, other.stiffness) != (rest_length, stiffness)) {
-                    return None;
-                }
-                block.first = Cable { rest_length, stiffness, ..block.first };
-            }
+    /// The same layout with other lengths and stiffnesses; `numbers` gives the cable of an index in the scene.
+    pub fn with_numbers<'c>(&self, numbers: impl Fn(usize) -> &'c Cable) -> Self {
+        Self {
+            blocks: self.blocks.clone(),
+            weight: Arc::clone(&self.weight),
+            rest_length: self.by_element(|cable| numbers(cable).rest_length),
+            stiffness: self.by_element(|cable| numbers(cable).stiffness),
+            ends: Arc::clone(&self.ends),
+            cable: Arc::clone(&self.cable),
         }
-        Some(layout)
+    }
+
+    /// The cable in a slot of a block, or the cable that would lie there.
+    pub fn cable_in(&self, block: &Block, slot: usize) -> Cable {
+        let element = block.first_element + slot;
+        Cable {
+            ends: block.ends.map(|end| end + slot),
+            span: block.span,
+            rest_length: self.rest_length[element],
+            stiffness: self.stiffness[element],
+        }
     }
 
     /// Index in the scene of the cable of an element that holds one.
@@ -110,12 +124,14 @@ impl Blocks {
     }
 }
 
-/// Equal cables whose tires follow one another, of any number.
+/// Cables of one span whose tires follow one another, of any number.
 struct Run {
     /// Scene's cable in each slot; [`NONE`] for an empty slot.
     slots: Vec<u32>,
-    /// Cable in slot 0, its ends in ascending order.
-    first: Cable,
+    /// Tires of the cable in slot 0, in ascending order.
+    ends: [usize; 2],
+    /// From the first of them to the second, as laid [m].
+    span: Vector3<f64>,
 }
 
 fn runs(cables: &[Cable]) -> Vec<Run> {
@@ -123,26 +139,26 @@ fn runs(cables: &[Cable]) -> Vec<Run> {
         let [a, b] = cable.ends;
         if a < b { cable } else { Cable { ends: [b, a], span: -cable.span, ..cable } }
     };
-    let offset = |cable: &Cable| cable.ends[0].abs_diff(cable.ends[1]);
+    let offset = |[a, b]: [usize; 2]| a.abs_diff(b);
     let mut order: Vec<u32> = (0..cables.len() as u32).collect();
     order.sort_by_key(|&c| {
         let cable = &cables[c as usize];
-        (offset(cable), cable.ends[0].min(cable.ends[1]))
+        (offset(cable.ends), cable.ends[0].min(cable.ends[1]))
     });
     let mut runs = Vec::<Run>::new();
     for c in order {
         let new = ascending(cables[c as usize]);
         let continued = runs.last_mut().and_then(|run| {
-            let gap = new.ends[0].checked_sub(run.first.ends[0] + run.slots.len())?;
-            let equal = Cable { ends: run.first.ends, ..new } == run.first;
-            (equal && offset(&new) == offset(&run.first) && gap <= EMPTY_SLOTS).then_some((run, gap))
+            let gap = new.ends[0].checked_sub(run.ends[0] + run.slots.len())?;
+            let is_parallel = new.span == run.span && offset(new.ends) == offset(run.ends);
+            (is_parallel && gap <= EMPTY_SLOTS).then_some((run, gap))
         });
         match continued {
             Some((run, gap)) => {
                 run.slots.resize(run.slots.len() + gap, NONE);
                 run.slots.push(c);
             }
-            None => runs.push(Run { slots: vec![c], first: new }),
+            None => runs.push(Run { slots: vec![c], ends: new.ends, span: new.span }),
         }
     }
     runs

@@ -27,7 +27,7 @@ impl Ties {
     /// Ties of packs of [`LANES`] tires.
     pub fn of_blocks(blocks: &Blocks, tires: usize) -> Self {
         let (mut at_packs, mut tied) = (Vec::<(u32, u32)>::new(), Vec::<(u32, u32)>::new());
-        for (n, Block { first: Cable { ends, .. }, len, .. }) in blocks.blocks.iter().enumerate() {
+        for (n, Block { ends, len, .. }) in blocks.blocks.iter().enumerate() {
             let packs = |tire: usize, len: usize| (tire / LANES) as u32..=((tire + len - 1) / LANES) as u32;
             at_packs.extend(ends.iter().flat_map(|&end| packs(end, *len)).map(|pack| (pack, n as u32)));
             for first in packs(ends[0], *len) {

@@ -10,6 +10,7 @@ use crate::simulation::pack::{Aligned, LANES, Pack, VectorArrays, Wide};
 /// All cables from one step to the next, and their forces.
 #[derive(Debug)]
 pub struct CableForceMemory<'a> {
+    blocks: &'a Blocks,
     /// Number of cables of the whole scene that each element stands for; 0 for an empty slot (`n_elements`).
     weight: Cow<'a, [f64]>,
     /// L² at the last evaluation less L² at rest [m²] (`n_elements`).
@@ -62,6 +63,7 @@ impl<'a> CableForceMemory<'a> {
         let elements = blocks.weight.len();
         let zeros = || Aligned::zeros(viscosity.len());
         Self {
+            blocks,
             weight: Cow::Borrowed(&blocks.weight),
             length2_change: Aligned::zeros(elements),
             force: VectorArrays::zeros(elements),
@@ -76,6 +78,8 @@ impl<'a> CableForceMemory<'a> {
         let n = self.weight.len();
         CableEvaluator {
             weight: &self.weight[..n],
+            rest_length: &self.blocks.rest_length[..n],
+            stiffness: &self.blocks.stiffness[..n],
             length2_change: &mut self.length2_change[..n],
             force: self.force.slices_mut(),
             state: &mut self.state[..n],
@@ -86,14 +90,17 @@ impl<'a> CableForceMemory<'a> {
     /// Length of the cable in a slot of a block at the last evaluation [m]; `None` for an empty slot.
     fn length(&self, block: &Block, slot: usize) -> Option<f64> {
         let element = block.first_element + slot;
-        let length2 = self.length2_change[element] + block.first.span.norm_squared();
+        let length2 = self.length2_change[element] + block.span.norm_squared();
         (self.weight[element] != 0.0).then(|| length2.sqrt())
     }
 
     /// Force of the cable in a slot of a block at the last evaluation [N]; 0 for an empty slot.
     pub fn slot_force(&self, block: &Block, slot: usize) -> f64 {
         match self.damped.viscosity {
-            [] => self.length(block, slot).map_or(0.0, |length| block.first.force(length)),
+            [] => {
+                let force = |length| self.blocks.cable_in(block, slot).force(length);
+                self.length(block, slot).map_or(0.0, force)
+            }
             _ => self.damped.force[0][block.first_element + slot],
         }
     }
@@ -128,7 +135,8 @@ impl<'a> CableForceMemory<'a> {
     /// Removes the cable in a slot of a block; returns the elastic energy lost with the cable [J].
     pub fn remove(&mut self, block: &Block, slot: usize) -> f64 {
         let element = block.first_element + slot;
-        let stored = self.length(block, slot).map_or(0.0, |length| block.first.energy(length));
+        let energy = |length| self.blocks.cable_in(block, slot).energy(length);
+        let stored = self.length(block, slot).map_or(0.0, energy);
         let lost = self.weight[element] * stored;
         self.weight.to_mut()[element] = 0.0;
         // The cable acts until now, through the first half of the kick.
@@ -146,6 +154,8 @@ impl<'a> CableForceMemory<'a> {
 /// [`CableForceMemory`] during the evaluation of many blocks.
 pub struct CableEvaluator<'a, 'b> {
     weight: &'a [f64],
+    rest_length: &'a [f64],
+    stiffness: &'a [f64],
     length2_change: &'a mut [f64],
     force: [&'a mut [f64]; 3],
     state: &'a mut [CableState],
@@ -194,20 +204,18 @@ impl CableEvaluator<'_, '_> {
     ) -> BlockTotals {
         let (zero, half, one) = (Wide::splat(simd, 0.0), Wide::splat(simd, 0.5), Wide::splat(simd, 1.0));
         let (tiny, infinite) = (Wide::splat(simd, f64::MIN_POSITIVE), Wide::splat(simd, f64::INFINITY));
-        let Block { first: cable, len, first_element } = block;
-        let rest_length = Wide::splat(simd, cable.rest_length);
-        let stiffness = Wide::splat(simd, cable.stiffness);
-        let span: [Wide<S>; 3] = std::array::from_fn(|c| Wide::splat(simd, cable.span[c]));
-        let slack2 = rest_length * rest_length;
-        let eighth = Wide::splat(simd, 0.125) * stiffness;
+        let eighth = Wide::splat(simd, 0.125);
+        let Block { ends, span, len, first_element } = block;
+        let span: [Wide<S>; 3] = std::array::from_fn(|c| Wide::splat(simd, span[c]));
         let span2 = norm_squared(span);
-        let excess_at_rest = span2 - slack2;
         // All slices have one length, so that one check of bounds serves them all.
         let room = len.next_multiple_of(LANES);
         let elements = *first_element..first_element + room;
         let end = |from: usize| -> [&[f64]; 3] { std::array::from_fn(|c| &u[c][from..from + room]) };
-        let at_ends = [end(cable.ends[0]), end(cable.ends[1])];
+        let at_ends = [end(ends[0]), end(ends[1])];
         let weights = &self.weight[elements.clone()];
+        let rest_lengths = &self.rest_length[elements.clone()];
+        let stiffnesses = &self.stiffness[elements.clone()];
         let changes = &mut self.length2_change[elements.clone()];
         let [x, y, z] = &mut self.force;
         let forces = [&mut x[elements.clone()], &mut y[elements.clone()], &mut z[elements.clone()]];
@@ -229,8 +237,10 @@ impl CableEvaluator<'_, '_> {
             let length2 = norm_squared(d);
             let weight = Wide::load(simd, weights, at);
             let exists = zero.less(weight);
+            let rest_length = Wide::load(simd, rest_lengths, at);
+            let slack2 = rest_length * rest_length;
             let (length2_change, excess) = (length2 - span2, length2 - slack2);
-            let excess_before = Wide::load(simd, changes, at) + excess_at_rest;
+            let excess_before = Wide::load(simd, changes, at) + (span2 - slack2);
             length2_change.store(changes, at);
             let was = states[at];
             let taut = zero.less(excess).and(exists);
@@ -252,6 +262,7 @@ impl CableEvaluator<'_, '_> {
             let length = length2.sqrt();
             // Empty slots count as slack.
             let stretch = exists.select(length - rest_length, zero).max(zero);
+            let stiffness = Wide::load(simd, stiffnesses, at);
             let elastic = stiffness * stretch;
             (half * weight * elastic * stretch).add_to(&mut energy, at % LANES);
             let mut switches = taut.differs(zero.less(excess_before).and(exists));
@@ -286,7 +297,7 @@ impl CableEvaluator<'_, '_> {
             force_at_step.max(Wide::load(simd, &greatest, at % LANES)).store(&mut greatest, at % LANES);
             let apart = (excess - excess_before).abs() * (length + rest_length);
             let sum = excess + excess_before;
-            let above = switches.select(force.times_plus(apart, eighth * sum * sum), force);
+            let above = switches.select(force.times_plus(apart, eighth * stiffness * sum * sum), force);
             let below = switches.select(apart * length, length).max(tiny);
             let per_length = above / below;
             for c in 0..3 {

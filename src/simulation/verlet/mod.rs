@@ -88,11 +88,7 @@ impl VerletModel {
         watch: &mut Watcher<'_>,
     ) -> Result<Outcome, RunError> {
         let planes = shared_planes(variant, shot);
-        match self.part_of(scene, &planes).variant(variant) {
-            Some(part) => run(&part, variant, shot, settings, watch),
-            // Cables that differ one by one share no register: they are laid out anew.
-            None => run(&Part::new(variant, &planes), variant, shot, settings, watch),
-        }
+        run(&self.part_of(scene, &planes).variant(variant), variant, shot, settings, watch)
     }
 
     /// Number of tires that are integrated for a shot: a half or a quarter of the scene's where scene and shot are their own
@@ -130,10 +126,10 @@ impl Part {
         Self::with_masses(scene, reduction.into(), blocks, ties.into())
     }
 
-    /// The same layout with the numbers of `variant`; `None` where cables that were equal are no longer.
-    fn variant(&self, variant: &Scene) -> Option<Self> {
-        let blocks = self.blocks.with_numbers(|cable| &variant.cables[self.reduction.cable(cable)])?;
-        Some(Self::with_masses(variant, Arc::clone(&self.reduction), blocks, Arc::clone(&self.ties)))
+    /// The same layout with the numbers of `variant`.
+    fn variant(&self, variant: &Scene) -> Self {
+        let blocks = self.blocks.with_numbers(|cable| &variant.cables[self.reduction.cable(cable)]);
+        Self::with_masses(variant, Arc::clone(&self.reduction), blocks, Arc::clone(&self.ties))
     }
 
     fn with_masses(scene: &Scene, reduction: Arc<MirrorReduction>, blocks: Blocks, ties: Arc<Ties>) -> Self {

@@ -109,7 +109,8 @@ pub fn fit(
         between_shots_percent: between_shots.map_or(0.0, |between| between.percent),
         priors,
         seen,
-        seed: request.sampling.map(|sampling| sampling.seed),
+        // The estimates go into a plan that the draws of the seed itself then judge.
+        seed: request.sampling.map(|sampling| sampling.for_screening().seed),
     };
     let mut settled = problem.answers(case)?;
     if let Some(before) = between_shots {

@@ -156,9 +156,9 @@ impl Stepper<'_> {
     /// k (L − L0) over strength of the cable in a slot of a block, its tires moved on over the time `ahead` [s] at their
     /// present velocity [N].
     fn stretch_over_strength(&self, block: usize, slot: usize, ahead: f64) -> f64 {
-        let cable = &self.part.blocks.blocks[block].first;
+        let cable = self.part.blocks.cable_in(&self.part.blocks.blocks[block], slot);
         let moved = |tire: usize| self.u.vector(tire) + ahead * self.v.vector(tire);
-        let force = cable.stretch_force(cable.between(cable.ends.map(|end| moved(end + slot))).norm());
+        let force = cable.stretch_force(cable.between(cable.ends.map(moved)).norm());
         force / self.strength(block, slot)
     }
 }

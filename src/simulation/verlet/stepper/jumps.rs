@@ -145,8 +145,7 @@ impl Stepper<'_> {
         let blocks = &self.part.blocks.blocks;
         let block = blocks.partition_point(|block| block.first_element <= element) - 1;
         let slot = element - blocks[block].first_element;
-        let first = blocks[block].first;
-        (block, slot, Cable { ends: first.ends.map(|end| end + slot), ..first })
+        (block, slot, self.part.blocks.cable_in(&blocks[block], slot))
     }
 
     fn cable_in_step(&self, element: usize) -> CableInStep {
