@@ -64,7 +64,10 @@ impl LookArguments {
     /// Style of text on a stream that is or is not a terminal.
     pub fn style(&self, terminal: bool) -> Style {
         let ascii = self.ascii || self.plain || terminal && !shows_unicode();
-        Style { ascii, color: self.colored(terminal) && !self.plain, plain: self.plain }
+        // No columns: a terminal that does not say its width.
+        let size = terminal.then(crossterm::terminal::size).and_then(Result::ok);
+        let width = size.map(|(columns, _)| usize::from(columns)).filter(|&columns| columns > 0);
+        Style { ascii, color: self.colored(terminal) && !self.plain, plain: self.plain, width }
     }
 
     /// Whether text is coloured on a stream that is or is not a terminal.

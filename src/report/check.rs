@@ -84,7 +84,7 @@ fn fields<'a>(sampled: bool, drift_has_limit: bool) -> Vec<Field<OptionRow<'a>>>
             row.as_planned(|checked| Cell::Text(row.case.scene().cable_name(checked.force.index)))
         }),
         Field::new(
-            Column::numbers(&["cable_safety_factor"], "factor", Unit::One).under("as planned"),
+            Column::numbers(&["cable_safety_factor"], "factor", Unit::One).under("as planned").spare(1),
             |row| row.as_planned(|checked| Cell::Factor(checked.safety_factor)),
         ),
         Field::new(Column::scripts(&["low_95_any_cable_breaks", "high_95_any_cable_breaks"]), |row| {
@@ -100,7 +100,7 @@ fn fields<'a>(sampled: bool, drift_has_limit: bool) -> Vec<Field<OptionRow<'a>>>
             let margin = passes.and_then(|judged| judged.launch_margin);
             margin.map_or(Cell::Nothing, |margin| Cell::Text(launch_margin(margin)))
         }),
-        Field::new(Column::words(&[], "in 8 ms"), |row| {
+        Field::new(Column::words(&[], "in 8 ms").spare(5), |row| {
             Cell::Text(option_sentences::together(row.together()))
         }),
         Field::new(Column::scripts(&["holes_in_8_ms"]), |row| Cell::Count(row.together().holes)),
@@ -131,10 +131,10 @@ fn fields<'a>(sampled: bool, drift_has_limit: bool) -> Vec<Field<OptionRow<'a>>>
             row.as_planned(|checked| Cell::Number(checked.energy_residual))
         }),
         Field::new(Column::scripts(&["reasons"]), |row| Cell::Text(all_reasons(row))),
-        Field::new(words("height over time"), |row| {
+        Field::new(words("height").under("over time"), |row| {
             row.as_planned(|checked| bars(&checked.history.height, row.case.limits.height))
         }),
-        Field::new(words("force over time"), |row| {
+        Field::new(words("force").under("over time"), |row| {
             row.as_planned(|checked| bars(&checked.history.force, row.case.limits.force))
         }),
     ];
@@ -142,19 +142,23 @@ fn fields<'a>(sampled: bool, drift_has_limit: bool) -> Vec<Field<OptionRow<'a>>>
 }
 
 /// Greatest height of the shot as planned.
-pub(super) const PLANNED_HEIGHT: Column = Column::numbers(&[], "height", Unit::Metre).under("as planned");
+pub(super) const PLANNED_HEIGHT: Column =
+    Column::numbers(&[], "height", Unit::Metre).under("as planned").spare(4);
 /// Band of the greatest height of the possible shots.
 pub(super) const HEIGHT_BAND: Column =
     Column::numbers(&["flight_height_p05_m", "flight_height_p95_m"], "height", Unit::Metre)
-        .under("5 to 95 %");
+        .under("5 to 95 %")
+        .spare(3);
 /// Greatest force of the shot as planned.
-pub(super) const PLANNED_FORCE: Column = Column::numbers(&[], "force", Unit::Kilonewton).under("as planned");
+pub(super) const PLANNED_FORCE: Column =
+    Column::numbers(&[], "force", Unit::Kilonewton).under("as planned").spare(4);
 /// Band of the greatest force of the possible shots.
 pub(super) const FORCE_BAND: Column =
     Column::numbers(&["cable_force_p05_n", "cable_force_p95_n"], "force", Unit::Kilonewton)
-        .under("5 to 95 %");
+        .under("5 to 95 %")
+        .spare(3);
 /// How much faster the tires may leave.
-pub(super) const LAUNCH_MARGIN: Column = Column::words(&[], "launches").under("as planned");
+pub(super) const LAUNCH_MARGIN: Column = Column::words(&[], "launches").under("as planned").spare(2);
 /// Greatest drift and its error.
 const DRIFT: Column = Column::numbers(&["drift_m", "drift_error_m"], "drift", Unit::Metre);
 
@@ -175,9 +179,6 @@ pub fn report(
     let so_far = if partial { " so far, ended early" } else { "" };
     let caveat = pass_caveat(case, sampled);
     let mut text = format!("{passed} of {} options pass{so_far}{caveat}", results.len());
-    if recommended(case, results).is_some() && results.len() > 1 {
-        text = format!("{}{caveat} · {passed} of {} pass{so_far}", headline(case, results), results.len());
-    }
     if let Some(judged) = results.iter().flatten().next() {
         text += &format!(" · {}", compute_label(&judged.checked.compute));
     }
@@ -185,6 +186,8 @@ pub fn report(
     report.blocks.push(Block::Table(table));
     report.blocks.extend(remedies.iter().flat_map(|changes| remedies::blocks(case, changes)));
     report.warnings.extend(warnings::of_options(case, results, None));
+    let is_chosen = results.len() > 1 && recommended(case, results).is_some();
+    report.answer = is_chosen.then(|| headline(case, results));
     report.conclusion = Some(Conclusion { verdict: verdict_on_plan(results, must_pass), text });
     report
 }

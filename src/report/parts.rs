@@ -20,7 +20,9 @@ pub struct Report {
     pub blocks: Vec<Block>,
     /// What a reader must know beside the results, one sentence each.
     pub warnings: Vec<String>,
-    /// What the results come to; always the last line.
+    /// What is recommended; begins the last line.
+    pub answer: Option<String>,
+    /// What the results come to; always in the last line.
     pub conclusion: Option<Conclusion>,
 }
 
@@ -83,6 +85,8 @@ pub struct Column {
     pub align: Align,
     /// Who sees the column.
     pub shown: Audience,
+    /// Text that is short of room leaves out columns of greater numbers first, and never those of 0.
+    pub spare: u8,
 }
 
 /// A column, and its cell in the row of an item.
@@ -153,7 +157,15 @@ impl Row {
 impl Column {
     /// A column of words.
     pub const fn words(keys: &'static [&'static str], heading: &'static str) -> Self {
-        Self { keys, heading, subheading: "", unit: Unit::One, align: Align::Left, shown: Audience::People }
+        Self {
+            keys,
+            heading,
+            subheading: "",
+            unit: Unit::One,
+            align: Align::Left,
+            shown: Audience::People,
+            spare: 0,
+        }
     }
 
     /// A column of numbers.
@@ -169,6 +181,11 @@ impl Column {
     /// The same column, shown to others.
     pub const fn shown(self, shown: Audience) -> Self {
         Self { shown, ..self }
+    }
+
+    /// The same column, left out by text that is short of room: those of greater numbers first.
+    pub const fn spare(self, spare: u8) -> Self {
+        Self { spare, ..self }
     }
 
     /// The same column, not read by scripts.

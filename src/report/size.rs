@@ -89,7 +89,7 @@ pub fn report(case: &Case, sizing: &Sizing) -> Report {
     warnings.extend(warnings::uncovered_shot("the lightest", lightest.as_ref().map(|trial| &trial.worst)));
     blocks.push(Block::Table(Table::of(&combinations(), &sizing.combinations)));
     blocks.push(Block::Picture(charts::size(sizing)));
-    Report { title: title(case), facts, blocks, warnings, conclusion: Some(conclusion(sizing)) }
+    Report { title: title(case), facts, blocks, warnings, answer: None, conclusion: Some(conclusion(sizing)) }
 }
 
 /// How fast tires of another mass leave; nothing where all have the mass of the plan.

@@ -4,7 +4,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::ascii::to_ascii;
 use super::palette::Role;
-use super::parts::{Align, Audience, Block, Cell, Chart, Column, Report, Row, Scale, SeriesKind, Table};
+use super::parts::{Align, Audience, Block, Cell, Chart, Report, Row, Scale, SeriesKind, Table};
 use super::spark::sparkline;
 use crate::units;
 use crate::verdict::Verdict;
@@ -18,10 +18,14 @@ pub struct Style {
     pub color: bool,
     /// Without charts and sparklines.
     pub plain: bool,
+    /// Width of the terminal, where there is one: longer sentences are wrapped there.
+    pub width: Option<usize>,
 }
 
-/// Bars of a series in a table.
-const BARS: usize = 16;
+/// Columns for tables where there is no terminal.
+const USUAL_WIDTH: usize = 80;
+/// Least and greatest number of bars of a series in a table.
+const BARS: [usize; 2] = [9, 16];
 /// Bars of a chart.
 const CHART_BARS: usize = 60;
 /// Columns and lines of a chart with logarithmic axes.
@@ -51,11 +55,32 @@ pub fn text(report: &Report, style: Style) -> String {
     }
     paragraphs.push(report.warnings.iter().map(|warning| format!("warning: {warning}")).collect());
     if let Some(conclusion) = &report.conclusion {
-        paragraphs.push(vec![format!("{}: {}", colored(conclusion.verdict, style), conclusion.text)]);
+        let answer = report.answer.as_ref().map(|answer| format!("{answer} · ")).unwrap_or_default();
+        let verdict = colored(conclusion.verdict, style);
+        paragraphs.push(vec![format!("{answer}{verdict}: {}", conclusion.text)]);
     }
-    let paragraphs = paragraphs.into_iter().filter(|lines| !lines.is_empty()).map(|lines| lines.join("\n"));
+    let wrapped = |line: &String| style.width.map_or_else(|| line.clone(), |width| wrap(line, width));
+    let paragraphs = paragraphs.iter().filter(|lines| !lines.is_empty());
+    let paragraphs = paragraphs.map(|lines| lines.iter().map(wrapped).collect::<Vec<_>>().join("\n"));
     let text = paragraphs.collect::<Vec<_>>().join("\n\n") + "\n";
     if style.ascii { to_ascii(&text) } else { text }
+}
+
+/// A line broken at words, the rest of it indented as it is and by two columns more.
+fn wrap(line: &str, width: usize) -> String {
+    let indent = line.len() - line.trim_start().len() + 2;
+    let (mut text, mut column) = (String::new(), 0);
+    for word in line.split_inclusive(' ') {
+        let end = column + word.trim_end().width();
+        if end > width && column > indent {
+            text.truncate(text.trim_end().len());
+            text += &format!("\n{:indent$}", "");
+            column = indent;
+        }
+        text += word;
+        column += word.width();
+    }
+    text
 }
 
 fn colored(verdict: Verdict, style: Style) -> String {
@@ -77,9 +102,9 @@ impl Label {
         Self { text: if style.ascii { to_ascii(&text) } else { text }, verdict: None }
     }
 
-    fn of(cell: &Cell, style: Style) -> Self {
+    fn of(cell: &Cell, bars: usize, style: Style) -> Self {
         let verdict = if let Cell::Verdict(verdict) = cell { Some(*verdict) } else { None };
-        Self { verdict, ..Self::new(cell.label(BARS), style) }
+        Self { verdict, ..Self::new(cell.label(bars), style) }
     }
 
     fn pad(&self, align: Align, width: usize, style: Style) -> String {
@@ -97,6 +122,53 @@ fn is_drawn(table: &Table, column: usize) -> bool {
     table.rows.iter().any(|row| matches!(row.cells[column], Cell::Sparkline { .. }))
 }
 
+/// Heading and rows of a table, ready but for their padding.
+struct Labels {
+    /// Indices of the columns shown (`n_shown`).
+    seen: Vec<usize>,
+    heading: Vec<Vec<Label>>,
+    rows: Vec<Vec<Label>>,
+    /// Width of each column (`n_shown`).
+    widths: Vec<usize>,
+}
+
+impl Labels {
+    /// The labels of the columns `seen`, with so many bars to a series.
+    fn new(table: &Table, seen: Vec<usize>, bars: usize, style: Style) -> Self {
+        let labels = |line: Vec<String>| line.into_iter().map(|text| Label::new(text, style)).collect();
+        let heading: Vec<Vec<Label>> = table.heading(&seen).into_iter().map(labels).collect();
+        let cells = |row: &Row| seen.iter().map(|&n| Label::of(&row.cells[n], bars, style)).collect();
+        let rows: Vec<Vec<Label>> = table.rows.iter().map(cells).collect();
+        let width =
+            |n: usize| heading.iter().chain(&rows).map(|line| line[n].text.width()).max().unwrap_or(0);
+        let widths = (0..seen.len()).map(width).collect();
+        Self { seen, heading, rows, widths }
+    }
+
+    /// As many columns and bars as fit: columns that can be spared go before a series gets fewer bars than [`BARS`] begins with.
+    fn that_fit(table: &Table, seen: &[usize], style: Style) -> Self {
+        let width = style.width.unwrap_or(USUAL_WIDTH);
+        let most_spare = seen.iter().map(|&n| table.columns[n].spare).max().unwrap_or(0);
+        let keeping = |spare: u8| {
+            let kept = seen.iter().copied().filter(|&n| table.columns[n].spare <= spare).collect::<Vec<_>>();
+            (BARS[0]..=BARS[1]).rev().map(move |bars| (kept.clone(), bars))
+        };
+        let tried = (0..=most_spare).rev().flat_map(keeping);
+        let mut tried = tried.map(|(seen, bars)| Self::new(table, seen, bars, style)).peekable();
+        loop {
+            let labels = tried.next().expect("one is tried");
+            if labels.width() <= width || tried.peek().is_none() {
+                return labels;
+            }
+        }
+    }
+
+    /// Width of the whole table.
+    fn width(&self) -> usize {
+        self.widths.iter().sum::<usize>() + 2 * self.widths.len().saturating_sub(1)
+    }
+}
+
 /// Heading and rows of the columns that readers of text see; no line where they see no column.
 fn table_lines(table: &Table, style: Style) -> Vec<String> {
     let mut seen = table.columns_for(Audience::is_in_text);
@@ -104,16 +176,10 @@ fn table_lines(table: &Table, style: Style) -> Vec<String> {
     if seen.is_empty() {
         return Vec::new();
     }
-    let columns: Vec<&Column> = seen.iter().map(|&n| &table.columns[n]).collect();
-    let labels = |line: Vec<String>| line.into_iter().map(|text| Label::new(text, style)).collect();
-    let heading: Vec<Vec<Label>> = table.heading(&seen).into_iter().map(labels).collect();
-    let cells = |row: &Row| seen.iter().map(|&n| Label::of(&row.cells[n], style)).collect();
-    let rows: Vec<Vec<Label>> = table.rows.iter().map(cells).collect();
-    let width = |n: usize| heading.iter().chain(&rows).map(|line| line[n].text.width()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..columns.len()).map(width).collect();
+    let Labels { seen, heading, rows, widths } = Labels::that_fit(table, &seen, style);
     let join = |labels: &[Label]| {
-        let labels = labels.iter().zip(&columns).zip(&widths);
-        let padded = labels.map(|((label, column), &width)| label.pad(column.align, width, style));
+        let labels = labels.iter().zip(&seen).zip(&widths);
+        let padded = labels.map(|((label, &n), &width)| label.pad(table.columns[n].align, width, style));
         padded.collect::<Vec<_>>().join("  ").trim_end().to_owned()
     };
     let mut lines: Vec<String> = heading.iter().map(|labels| join(labels)).collect();
@@ -194,6 +260,7 @@ fn plot_lines(chart: &Chart) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::parts::Column;
     use crate::units::Unit;
 
     fn report(names: &[&str]) -> Report {
@@ -216,6 +283,31 @@ mod tests {
     fn in_ascii_columns_stay_aligned() {
         let text = text(&report(&["a ± b", "爆破排"]), Style { ascii: true, ..Style::default() });
         assert_eq!(text, "option        n\na +- b  FAIL  7\n???     FAIL  7\n");
+    }
+
+    /// Series get fewer bars, and columns that can be spared go, until the table is as wide as the terminal; sentences break there.
+    #[test]
+    fn a_table_is_as_wide_as_its_terminal() {
+        let digits = |heading, spare| Column::words(&[], heading).spare(spare);
+        let columns =
+            [Column::words(&[], "option"), digits("first", 1), digits("last", 2), digits("time", 0)];
+        let words = |text: &str| Cell::Text(text.to_owned());
+        let series = Cell::Sparkline { series: vec![1.0; 32], top: 2.0 };
+        let table = Table::new(&columns, [vec![words("a"), words("12345"), words("6789"), series]]);
+        let sentence = "many words about it".to_owned();
+        let report =
+            Report { blocks: vec![Block::Table(table)], warnings: vec![sentence], ..Report::default() };
+        let drawn = |width| text(&report, Style { width: Some(width), ..Style::default() });
+        let rows = [35, 30, 25, 18].map(|width| drawn(width).lines().nth(1).expect("a row").to_owned());
+        let bars = |count| "▅".repeat(count);
+        let expected = [
+            format!("a       12345  6789  {}", bars(14)),
+            format!("a       12345  6789  {}", bars(9)),
+            format!("a       12345  {}", bars(10)),
+            format!("a       {}", bars(10)),
+        ];
+        assert_eq!(rows, expected);
+        assert!(drawn(18).ends_with("warning: many\n  words about it\n"), "{}", drawn(18));
     }
 
     #[test]

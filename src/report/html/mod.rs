@@ -187,7 +187,7 @@ fn foot(page: &Page<'_>, hash: &str) -> String {
 fn conclusion(report: &Report) -> Markup {
     html! {
         @if let Some(conclusion) = &report.conclusion {
-            p { (word(conclusion.verdict)) " · " (conclusion.text) }
+            p { @if let Some(answer) = &report.answer { (answer) " · " } (word(conclusion.verdict)) " · " (conclusion.text) }
         }
     }
 }

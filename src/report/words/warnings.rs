@@ -20,6 +20,9 @@ const SAME_INTERVAL_MS: f64 = 1e-6;
 /// Drift over the widest distance of tied tires from which it is told where no limit judges it.
 const FAR_DRIFT_SHARE: f64 = 0.5;
 
+/// Most warnings that name single options; the others are counted.
+const MOST_OF_A_KIND: usize = 3;
+
 /// Warnings of a plan, whatever is found: values that are not usual, and ranges of `[uncertainty]` that leave out what the plan
 /// itself says.
 pub fn of_plan(case: &Case) -> Vec<String> {
@@ -100,13 +103,23 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
         }
         let of_option = swaps_and_cover(case, option, judged);
         warnings.extend(of_option.map(|warning| format!("option {}: {warning}", name(option))));
-        let drift = far_drift(case, judged);
-        drifts.extend(drift.map(|drift| format!("{} {} m", name(option), units::rounded(drift, 2))));
+        drifts.extend(far_drift(case, judged).map(|drift| (drift, option)));
     }
-    if !drifts.is_empty() {
+    let more = warnings.len().saturating_sub(MOST_OF_A_KIND);
+    if more > 0 {
+        warnings.truncate(MOST_OF_A_KIND);
+        warnings.push(format!("{more} more such warnings, of {} options in all", results.len()));
+    }
+    drifts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    if let (Some(&(least, _)), Some(&(most, farthest))) = (drifts.first(), drifts.last()) {
         let is_sampled = |judged: &Judgement| judged.sampled.known().is_some();
         let end = if results.iter().flatten().any(is_sampled) { FARTHER } else { AS_FAR };
-        warnings.push(format!("{end} {}: {NOT_JUDGED}", drifts.join(", ")));
+        let [least, most] = [least, most].map(|drift| units::rounded(drift, 2));
+        let drift = match drifts.len() {
+            1 => format!("{most} m ({})", name(farthest)),
+            count => format!("{least} to {most} m ({count} options; most with {})", name(farthest)),
+        };
+        warnings.push(format!("{end} {drift}: {NOT_JUDGED}"));
     }
     warnings
 }
@@ -124,7 +137,7 @@ const FARTHER: &str = "in 1 of 20 possible shots a tire ends farther away than";
 /// What it is where it was not.
 const AS_FAR: &str = "as planned a tire ends as far away as";
 /// What a pass leaves open where tires drift far.
-const NOT_JUDGED: &str = "the plan has no limit `drift_m`, so that a PASS says nothing of it";
+const NOT_JUDGED: &str = "how far tires slide is not checked, since the plan has no limit `drift_m`";
 
 /// The drift of an option where no limit judges it and it is far [m]: of the shot as planned, or of 1 in 20 of the possible shots.
 fn far_drift(case: &Case, judged: &Judgement) -> Option<f64> {
