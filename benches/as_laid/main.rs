@@ -57,19 +57,15 @@ fn share_by_program(case: &Case, shot: &Shot, samples: usize) -> Share {
     Share { failures: bounds.failures, samples: bounds.samples - bounds.undecided }
 }
 
-/// One line of a table: what varies, the program's share, the independent one, and whether they agree.
-fn compare_line(what: &str, program: Share, independent: Share) -> bool {
+/// Prints both shares of the first option of a plan, as a line of a table; true where they agree.
+fn compare_plan(what: &str, case: &Case, samples: usize) -> bool {
+    let program = share_by_program(case, &case.shots[0], samples);
+    let independent = Planned::new(case, 0, None).share(SEED, samples);
     let agrees = program.agrees_with(independent);
-    let deviations = program.deviations_from(independent);
     println!(
-        "| {what} | {program} | {independent} | {deviations:.1} | {} |",
+        "| {what} | {program} | {independent} | {:.1} | {} |",
+        program.deviations_from(independent),
         if agrees { "yes" } else { "NO" }
     );
     agrees
-}
-
-/// Compares both on the first option of a plan.
-fn compare_plan(what: &str, case: &Case, samples: usize) -> bool {
-    let program = share_by_program(case, &case.shots[0], samples);
-    compare_line(what, program, Planned::new(case, 0, None).share(SEED, samples))
 }

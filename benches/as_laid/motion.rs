@@ -1,6 +1,7 @@
 //! Motion of tires and ties a third time, as simply as can be: velocity Verlet at a small fixed step.
 //!
-//! Written from the equations of the model (`docs/`, "Model"), apart from the program's simulation. One step of length h:
+//! Written from the equations of the model, apart from the program's simulation: it shares no type and no line with it. One step of
+//! length h:
 //!
 //! 1. v ← v + h/2 (f/m + g), f the pull of the taut ties. A tire on the ground whose v_z is then negative gets the impulse −m v_z
 //!    of the ground, and loses up to μ times that of its horizontal momentum.

@@ -77,7 +77,7 @@ slack_percent = [1, 2]
 const POSITIONS: &str = r#"
 shelter = { layout = "grid", rows = 3, columns = 4, spacing_m = 2.6 }
 tire = { mass_kg = 280, outer_diameter_m = 1.6 }
-cable = { axial_stiffness_kn = 2000, breaking_force_kn = 80, slack_percent = 2 }
+cable = { axial_stiffness_kn = 2000, breaking_force_kn = 115, slack_percent = 2 }
 ground = { friction = 0.5 }
 limits = { flight_height_m = 2.2, cable_safety_factor = 1.3 }
 delay = [{ name = "42 ms", interval_ms = 42, hole_interval_ms = 9, hole_order = "left" }]
@@ -99,7 +99,7 @@ slack_percent = [1, 3]
 const ELASTIC: &str = r#"
 shelter = { layout = "grid", rows = 3, columns = 4, spacing_m = 2.6 }
 tire = { mass_kg = 280, outer_diameter_m = 1.6 }
-cable = { axial_stiffness_kn = 7000, breaking_force_kn = 45, slack_percent = 2, end_stiffness_kn_m = 1500 }
+cable = { axial_stiffness_kn = 7000, breaking_force_kn = 38, slack_percent = 2, end_stiffness_kn_m = 1500 }
 ground = { friction = 0.5 }
 limits = { flight_height_m = 2.2, cable_safety_factor = 1.3 }
 delay = [{ name = "20 ms", interval_ms = 20 }]
@@ -121,9 +121,9 @@ slack_percent = [1, 3]
 const SLOPE: &str = r#"
 shelter = { layout = "grid", rows = 4, columns = 3, spacing_m = 1.8 }
 tire = { mass_kg = 280 }
-cable = { axial_stiffness_kn = 1519, breaking_force_kn = 45, slack_percent = 2 }
+cable = { axial_stiffness_kn = 1519, breaking_force_kn = 60, slack_percent = 2 }
 ground = { friction = 0.55, slope_percent = 25, slope_toward_deg = 70 }
-limits = { flight_height_m = 1.9, cable_safety_factor = 1.3, drift_m = 3.5 }
+limits = { flight_height_m = 1.9, cable_safety_factor = 1.3, drift_m = 4.5 }
 delay = [{ name = "30 ms", interval_ms = 30 }]
 [[blast_row]]
 name = "1"
