@@ -4,7 +4,8 @@ use super::as_planned::check_many::or_failed_run;
 use super::as_planned::quick_check::quick_check;
 use super::work::batch::run_batch;
 use super::{Case, ComputeSettings, NoResult, StudyControl};
-use crate::scene::{Firing, Scene, Shot, direction_of_slope};
+use crate::plan::mass_law::launch_factor;
+use crate::scene::{Firing, Shot, direction_of_slope};
 use crate::verdict::Verdict;
 
 /// Distance of a hole from the centre of its tire over the tire's diameter from which it is told.
@@ -59,8 +60,9 @@ pub fn holes_beside_tires(case: &Case, shot: &Shot) -> Vec<HoleBesideTire> {
     shot.firings.iter().filter_map(beside).collect()
 }
 
-/// The shot in which a hole launches the next tire.
-fn with_next_tire(scene: &Scene, shot: &Shot, hole: &HoleBesideTire) -> Shot {
+/// The shot in which a hole launches the next tire: one of another mass at the end of the mass law at which it leaves faster.
+fn with_next_tire(case: &Case, shot: &Shot, hole: &HoleBesideTire) -> Shot {
+    let (scene, uncertainty) = (case.scene(), &case.plan.uncertainty);
     let moved = |firing: &Firing| {
         if (firing.row, firing.number) != (hole.row, hole.number) {
             return *firing;
@@ -68,10 +70,13 @@ fn with_next_tire(scene: &Scene, shot: &Shot, hole: &HoleBesideTire) -> Shot {
         let place = scene.position[firing.tire].xy() - firing.line.offset;
         let mut line = firing.line;
         line.offset = scene.position[hole.tires[1]].xy() - place;
-        let launch = match line.depth {
-            None => firing.launch,
-            Some(_) => firing.launch.norm() * direction_of_slope(line.planned_slope()),
-        };
+        let heavier = scene.mass[hole.tires[1]] / scene.mass[firing.tire];
+        let of_mass = launch_factor(heavier, uncertainty.worse_mass_exponent(heavier));
+        let launch = of_mass
+            * match line.depth {
+                None => firing.launch,
+                Some(_) => firing.launch.norm() * direction_of_slope(line.planned_slope()),
+            };
         Firing { tire: hole.tires[1], line, launch, ..*firing }
     };
     shot.with_firings(shot.firings.iter().map(moved).collect())
@@ -88,7 +93,7 @@ pub fn judge_next_tires(
     let in_doubt = |hole: &HoleBesideTire| hole.may_be_the_next || hole.is_uncovered;
     let holes: Vec<HoleBesideTire> = holes_beside_tires(case, shot).into_iter().filter(in_doubt).collect();
     let verdicts = run_batch(&holes, control, |hole| {
-        let shot = with_next_tire(case.scene(), shot, hole);
+        let shot = with_next_tire(case, shot, hole);
         or_failed_run(quick_check(case, &shot, compute, control)).map(|planned| planned.verdict)
     })?;
     let verdicts: Option<Vec<Verdict>> = verdicts.into_iter().collect();
@@ -135,8 +140,27 @@ mod tests {
     fn the_next_tire_gets_the_impulse() {
         let case = case(0.95, 1.6);
         let moved = &holes_beside_tires(&case, &case.shots[0])[0];
-        let shot = with_next_tire(case.scene(), &case.shots[0], moved);
+        let shot = with_next_tire(&case, &case.shots[0], moved);
         assert_eq!((shot.firings[0].tire, shot.firings[0].launch), (1, case.shots[0].firings[0].launch));
         assert!((shot.firings[0].line.offset.x - 1.05).abs() < 1e-12);
+    }
+    /// Between a tire of 560 kg and one of 280 kg: the light one leaves with up to twice the launch, and the heavy one with up to all
+    /// of it.
+    #[test]
+    fn the_next_tire_leaves_as_the_mass_law_says() {
+        for (x, next, factor) in [(0.95, 1, 2.0), (1.05, 0, 1.0)] {
+            let text = format!(
+                "tire = {{ mass_kg = 280 }}\ncable = {{ axial_stiffness_kn = 1400, breaking_force_kn = 60 }}\n\
+                 ground = {{ friction = 0.5 }}\nlimits = {{ flight_height_m = 2, cable_safety_factor = 1 }}\n\
+                 delay = [{{ name = \"1\", interval_ms = 0 }}]\n\
+                 blast_row = [{{ name = \"1\", holes = [{{ x_m = {x}, y_m = 0, launch_m_s = 6 }}] }}]\n\
+                 [shelter]\nlayout = \"list\"\ntire = [{{ x_m = 0, y_m = 0, mass_kg = 560 }}, {{ x_m = 2, y_m = 0 }}]\n\
+                 cable = [{{ from = 1, to = 2 }}]\n"
+            );
+            let case = Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+            let moved = &holes_beside_tires(&case, &case.shots[0])[0];
+            let shot = with_next_tire(&case, &case.shots[0], moved);
+            assert_eq!((shot.firings[0].tire, shot.firings[0].launch.norm()), (next, 6.0 * factor));
+        }
     }
 }

@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use nalgebra::Vector2;
-use shelter::plan::Plan;
+use shelter::plan::{Layout, ListedTire, Plan};
 use shelter::scene::ASSUMED_PUSH_DEPTH;
 use shelter::study::as_planned::check::check_as_planned;
 use shelter::study::samples::random_shot::{DrawnShot, draw_shot};
@@ -82,6 +82,27 @@ fn a_hole_midway_between_two_tires_belongs_to_either() {
     let case = case(1, 2, &hole(0.75, 0.0, ""), &[("hole_position_m", "0.05")]);
     let first = (0..4000).filter(|&number| drawn(&case, number).shot.firings[0].tire == 0).count();
     assert!((first as f64 / 4000.0 - 0.5).abs() < 0.032, "{first}");
+}
+
+/// A hole midway between a tire of 560 kg and one of 280 kg: the planned launch belongs to the heavy one, over which the plan has it.
+/// The light one leaves with twice of it at n = 1, and with all of it at n = 0.
+#[test]
+fn a_hole_that_launches_a_tire_of_another_mass_keeps_to_the_mass_law() {
+    for (exponent, factor) in [(1, 2.0), (0, 1.0)] {
+        let unknown = [("hole_position_m", "0.05")];
+        let mut plan = case(1, 2, &hole(0.75, 0.0, ""), &unknown).plan;
+        plan.uncertainty.launch_mass_exponent = [f64::from(exponent); 2];
+        let tire = |x_m, mass_kg| ListedTire { x_m, y_m: 0.0, mass_kg };
+        plan.layout =
+            Layout::List { tires: vec![tire(0.0, Some(560.0)), tire(1.5, None)], cables: vec![(0, 1)] };
+        let case = Case::new(plan);
+        assert_eq!(case.shots[0].firings[0].tire, 0);
+        for number in 0..100 {
+            let firing = drawn(&case, number).shot.firings[0];
+            let expected = if firing.tire == 1 { 6.0 * factor } else { 6.0 };
+            assert!((firing.launch.norm() - expected).abs() < 1e-12, "{firing:?}");
+        }
+    }
 }
 
 /// The whole pattern moves as one: every hole has the tire nearest to where it then lies, and a push toward it.

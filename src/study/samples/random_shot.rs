@@ -4,8 +4,8 @@
 //! an input of the whole shot, a gap between blast rows, a blast row, a tire, or a cable. So a sample does not depend on threads,
 //! shards, accuracy or the order of options, and the options of a plan are compared on the same draws.
 //!
-//! Factors on launch velocities, masses and breaking forces are lognormal with mean 1. A hole's launch velocity belongs to a
-//! tire of the plan's mass; how fast a tire of another mass leaves, the [mass law](crate::plan::mass_law) says. Each gap between
+//! Factors on launch velocities, masses and breaking forces are lognormal with mean 1. A hole's launch velocity belongs to the
+//! tire over it in the plan, of the mass there; how fast a tire of another mass leaves, the [mass law](crate::plan::mass_law) says. Each gap between
 //! blast rows scatters by itself and shifts all later rows; so does each gap between the holes of a row, which shifts the later
 //! holes of its side.
 //!
@@ -332,7 +332,8 @@ fn scatter_tires(
         // A hole that is known to lie under its tire keeps it, whatever else is near.
         let tire = if moved == Vector2::zeros() { firing.tire } else { nearest_tire(scene, place) };
         let slope = firing.line.slope_at(scene.position[tire].xy() - place) + launches.slope + hole.slope;
-        let of_mass = launch_factor(scene.mass[tire] / planned_mass[tire], launches.mass_exponent);
+        // The planned launch belongs to the tire that the plan has over the hole.
+        let of_mass = launch_factor(scene.mass[tire] / planned_mass[firing.tire], launches.mass_exponent);
         let speed = firing.launch.norm() * launches.factor * of_row[firing.row] * hole.factor * of_mass;
         *firing = Firing {
             tire,
