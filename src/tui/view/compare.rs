@@ -27,8 +27,10 @@ const VERDICT_WIDTH: u16 = 6;
 const NAME: [u16; 3] = [8, 12, 26];
 /// Least, usual and greatest width of the gauge of risk.
 const RISK: [u16; 3] = [6, 11, 16];
-/// Least and greatest width of a sparkline.
-const SPARK: [u16; 2] = [7, 40];
+/// Least, usual and greatest width of a sparkline.
+const SPARK: [u16; 3] = [7, 16, 40];
+/// Columns of digits that stand before longer sparklines.
+const FIRST_COLUMNS: usize = 3;
 /// Least and greatest width of a gauge of a limit.
 const GAUGE: [u16; 2] = [7, 13];
 
@@ -46,6 +48,12 @@ impl Graphics {
     /// them, and what then is left goes to the sparklines.
     fn for_width(width: u16, longest_name: u16) -> (Self, Vec<&'static CompareColumn>) {
         let mut graphics = Self { name: NAME[0], risk: RISK[0], spark: SPARK[0], gauge: GAUGE[0] };
+        if width < graphics.width() {
+            // Beside the values of the plan: verdict and sparklines.
+            graphics = Self { risk: 0, gauge: 0, ..graphics };
+            graphics.name += width.saturating_sub(graphics.width());
+            return (graphics, Vec::new());
+        }
         let mut room = width.saturating_sub(graphics.width());
         let mut grow = |size: &mut u16, most: u16, times: u16| {
             let more = (room / times).min(most.saturating_sub(*size));
@@ -59,13 +67,20 @@ impl Graphics {
         grow(&mut graphics.gauge, GAUGE[1], 2);
         grow(&mut graphics.name, longest_name, 1);
         grow(&mut graphics.risk, RISK[2], 1);
-        let fits = |column: &&CompareColumn| {
-            let fits = room > column.width;
-            room -= if fits { column.width + 1 } else { 0 };
-            fits
-        };
-        let columns = COLUMNS.iter().filter(fits).collect();
-        graphics.spark += (room / 2).min(SPARK[1] - SPARK[0]);
+        let mut columns = Vec::new();
+        let (first, others) = COLUMNS.split_at(FIRST_COLUMNS);
+        // Longer sparklines come before all but the first columns of digits, and take what the others leave.
+        for (digits, spark) in [(first, SPARK[1]), (others, SPARK[2])] {
+            for column in digits {
+                if column.width < room {
+                    room -= column.width + 1;
+                    columns.push(column);
+                }
+            }
+            let more = (room / 2).min(spark - graphics.spark);
+            graphics.spark += more;
+            room -= 2 * more;
+        }
         (graphics, columns)
     }
 

@@ -1,7 +1,7 @@
 //! The selected option: six short lines, the cables from above where the screen is wide, and charts; enlarged, its sentences, too.
 //!
 //! ```text
-//! ─ 42 ms · rows 0/42/84 ms ───────── █ planned ▒ worst of 100 ┃ limit ─
+//! ─ 42 ms ✓ PASS · rows fire at 0/42/84 ms ─ █ planned ▒ worst of 100 ┃ limit ─
 //!  fails    0 of 500 shots tried; …   ┬ cables pulled hardest ─────────
 //!  highest  …                         │
 //!  height in time                     │  force in time
@@ -14,6 +14,7 @@ use ratatui::style::Modifier;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
+use super::compare::verdict_words;
 use super::sentences::sentences;
 use super::six_lines::six_lines;
 use super::widgets::wrapped;
@@ -55,10 +56,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         return draw_remedies(app, judged, frame, inside);
     }
     let with_cables = area.width >= WITH_CABLES && inside.height >= CABLES[0];
-    let beside = if with_cables { inside.width / 2 } else { 0 };
+    let beside = if with_cables { inside.width * 9 / 20 } else { 0 };
     let lines = six_lines(app, judged, inside.width - beside);
     let height = match with_cables {
-        true => (inside.height / 2).clamp(CABLES[0], CABLES[1]),
+        true => (inside.height * 3 / 5).clamp(CABLES[0], CABLES[1]),
         false => lines.len() as u16,
     };
     let [top, rest] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(inside);
@@ -78,17 +79,21 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     let inside = rule.inner(area);
     let Some(delay) = app.case.plan.delays.get(app.selected) else { return inside };
     let name = Span::styled(format!(" {} ", delay.name), app.theme.title());
+    let verdict = app.judgement(app.selected).map(|judged| verdict_words(app, judged.verdict()));
+    let (verdict, style) = verdict.unwrap_or_default();
+    let verdict = Span::styled(format!("{verdict} "), style);
     let times = Span::styled(format!("· rows fire at {} ", firing_times(delay)), app.theme.muted());
     let one_in = units::one_in(app.case.limits.accepted_risk);
     let legend = Span::styled(format!(" █ planned ▒ worst of {one_in} ┃ limit "), app.theme.muted());
-    let mut room = usize::from(area.width).saturating_sub(name.width() + 2);
+    let mut room = usize::from(area.width).saturating_sub(name.width() + verdict.width() + 2);
     let mut fits = |span: &Span<'_>| {
         let fits = span.width() < room;
         room -= if fits { span.width() } else { 0 };
         fits
     };
     let (with_times, with_legend) = (fits(&times), fits(&legend));
-    let title = if with_times { Line::from(vec![name, times]) } else { Line::from(name) };
+    let times = if with_times { times } else { Span::default() };
+    let title = Line::from(vec![name, verdict, times]);
     let rule = rule.title(title);
     let rule = if with_legend { rule.title(Line::from(legend).right_aligned()) } else { rule };
     frame.render_widget(rule, area);

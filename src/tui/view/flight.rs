@@ -107,7 +107,8 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
     frame.render_widget(block, area);
     let around = draw_legend(app, frame, around);
     let Some(map) = FromAbove::fit(app, around) else { return };
-    map.draw_cables(app, forces, flight.outcome.force.index, frame);
+    let worst = flight.outcome.force.index;
+    map.draw_cables(app, forces, worst..worst + 1, frame);
     let mut firing = vec![None; scene.tire_count()];
     for fire in app.case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings) {
         if (fire.time..fire.time + FLASH).contains(&time) {

@@ -1,7 +1,7 @@
 //! Gauges of one line: how likely an option fails, how much of a limit its shots use, and a quantity over time with its limit.
 //!
 //! ```text
-//! ━━━━┊         risk on a scale from 0.01 to 100 %, logarithmic; ┊ is the accepted risk
+//! ━━━━┊         risk on a scale from 0.01 to 100 %, logarithmic; ┊ is the accepted risk, ┿ where the bar lies across it
 //! ██████▒▒▒┃    planned shot and one in a hundred, ┃ is the limit
 //! ▃▅▅▅▅▃▁       over time; a full cell is past the limit
 //! ```
@@ -47,7 +47,9 @@ pub fn risk(
     let cell = |risk: f64| risk_cell(risk, width);
     let mark = cell(accepted);
     let span = |n: usize| match interval {
-        Some([low, high]) if (cell(low)..=cell(high)).contains(&n) => Span::styled("━", bar),
+        Some([low, high]) if (cell(low)..=cell(high)).contains(&n) => {
+            Span::styled(if n == mark { "┿" } else { "━" }, bar)
+        }
         _ if n == mark => Span::styled("┊", scale),
         _ => Span::raw(" "),
     };
@@ -107,7 +109,7 @@ mod tests {
         assert_eq!(of(None), "    ┊   ");
         assert_eq!(of(Some([0.0, 0.005])), "━━━━┊   ");
         assert_eq!(of(Some([0.05, 0.2])), "    ┊━━ ");
-        assert_eq!(of(Some([0.002, 0.03])), "  ━━━   ");
+        assert_eq!(of(Some([0.002, 0.03])), "  ━━┿   ");
         assert_eq!(of(Some([1.0, 1.0])), "    ┊  ━");
     }
 

@@ -5,7 +5,7 @@
 //! 4 o───o───o───o
 //!   │   ║   │   │
 //! 3 ●───●───◉───●
-//! ● hole  ◉ highest tire  double: over limit
+//! ● hole  ◉ highest  ━ over 80 %  ═ over the limit
 //! ```
 
 use ratatui::Frame;
@@ -41,7 +41,7 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     frame.render_widget(block, area);
     let [view, legend] = Layout::vertical([Constraint::Min(0), Constraint::Length(1)]).areas(inside);
     let Some(map) = FromAbove::fit(app, view) else { return };
-    map.draw_cables(app, &forces, checked.force.index, frame);
+    map.draw_cables(app, &forces, 0..forces.len(), frame);
     let holes = app.case.shots[app.selected].firings.iter().map(|firing| (firing.tire, "●", theme.firing()));
     let highest = (checked.height.value > 0.0).then_some((checked.height.index, "◉", theme.title()));
     let tires = (0..scene.tire_count()).map(|tire| (tire, "o", theme.muted()));
@@ -50,15 +50,14 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
         let (x, y) = map.cell_of(tire);
         frame.buffer_mut().set_string(x, y, sign, style);
     }
-    let signs = [("●", theme.firing(), " hole  "), ("◉", theme.title(), " highest tire  ")];
-    let signs = signs
+    let entries = [
+        ("●", theme.firing(), " hole  "),
+        ("◉", theme.title(), " highest  "),
+        ("━", theme.firing(), " over 80 %  "),
+        ("═", theme.limit(), " over the limit"),
+    ];
+    let entries = entries
         .into_iter()
         .flat_map(|(sign, style, words)| [Span::styled(sign, style), Span::styled(words, theme.muted())]);
-    let forces = [
-        Span::styled("yellow", theme.firing()),
-        Span::styled(" over 80 %  ", theme.muted()),
-        Span::styled("double", theme.limit()),
-        Span::styled(" over the limit", theme.muted()),
-    ];
-    frame.render_widget(Line::from_iter(signs.chain(forces)), legend);
+    frame.render_widget(Line::from_iter(entries), legend);
 }

@@ -136,7 +136,7 @@ fn badges(app: &App) -> Vec<Badge> {
     if uncertainty.assumed {
         badges.push(badge("all inputs assumed", "inputs assumed", "assumed"));
     } else if uncertainty.incomplete {
-        badges.push(badge("some inputs assumed", "some assumed", "assumed"));
+        badges.push(badge("some inputs are defaults", "some defaults", "defaults"));
     }
     let dud = judged.and_then(|judged| judged.one_dud).filter(|dud| dud.not_passing > 0);
     badges.extend(dud.map(|dud| {
@@ -148,7 +148,8 @@ fn badges(app: &App) -> Vec<Badge> {
         let plan = app.keymap.first_key(Action::Show(Screen::Plan));
         badges.push(badge(&format!("warnings: {of_plan} ({plan} Plan)"), "warnings: see Plan", "warnings"));
     }
-    let of_option = judged.map_or(0, |judged| warnings_of_option(app, judged));
+    let of_option = judged.filter(|_| app.screen == Screen::Compare);
+    let of_option = of_option.map_or(0, |judged| warnings_of_option(app, judged));
     if of_option > 0 {
         let open = app.keymap.hint(Action::Open);
         badges.push(badge(&format!("{open}: {of_option} on this option"), &format!("see {open}"), "more"));

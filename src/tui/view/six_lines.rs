@@ -27,7 +27,6 @@ use crate::study::samples::sampled_shot::SampledShot;
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
 use crate::tui::screen::Screen;
-use crate::tui::theme;
 use crate::units::{self, Unit};
 use crate::verdict::{Quantity, Verdict};
 
@@ -42,16 +41,11 @@ const DECIDES: f64 = 0.3;
 pub fn six_lines(app: &App, judged: &Judgement, width: u16) -> Vec<Line<'static>> {
     let room = usize::from(width).saturating_sub(LABEL);
     let verdict = judged.verdict();
-    let sign = theme::label(verdict).chars().next().unwrap_or(' ');
-    let mut fails = fails(app, judged);
-    if let Some(first) = fails.first_mut() {
-        *first = format!("{sign} {first}");
-    }
     let [highest, hardest] = peaks(app, judged, room);
     let (stands, margin) = margin(app, judged);
     let plain = app.theme.base();
     let lines = [
-        ("fails", fitting(fails, " · ", room), app.theme.verdict(verdict)),
+        ("fails", fitting(fails(app, judged), " · ", room), app.theme.verdict(verdict)),
         ("highest", highest, plain),
         ("hardest", hardest, plain),
         (stands, fitting(margin, ", ", room), plain),
@@ -63,7 +57,7 @@ pub fn six_lines(app: &App, judged: &Judgement, width: u16) -> Vec<Line<'static>
 }
 
 /// A label and what it says.
-pub fn line(app: &App, label: &str, text: String, style: Style) -> Line<'static> {
+fn line(app: &App, label: &str, text: String, style: Style) -> Line<'static> {
     let label = format!(" {label:0$}", LABEL - 1);
     Line::from(vec![Span::styled(label, app.theme.muted()), Span::styled(text, style)])
 }
