@@ -117,7 +117,7 @@ fn clicks_do_what_keys_do() {
     click(&mut app, "20 ms");
     assert!(app.zoom, "a second click opens");
     key(&mut app, KeyCode::Esc);
-    click(&mut app, "force   worst");
+    click(&mut app, "force    ");
     assert_eq!(app.listing.sort, SortBy::Force);
     click(&mut app, "4 Studies");
     assert_eq!(app.screen, Screen::Studies);
@@ -258,10 +258,10 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     // This fit took all but the launches for exact: it knows them to 1 %, and narrows nothing.
     assert_eq!((known.launch_common_percent, known.launch_between_shots_percent), (3.0, 0.0));
     key(&mut app, KeyCode::Esc);
-    assert!(says(&app, "! what was seen is not compared with this plan"), "{}", text(&draw(&app, 120, 36)));
+    assert!(says(&app, "! observations are not compared with this plan"), "{}", text(&draw(&app, 120, 36)));
     let found = compare(&app);
     study_ends(&mut app, StudyKind::Fit, Ok(found));
-    assert!(says(&app, "! what was seen contradicts this plan"), "{}", text(&draw(&app, 120, 36)));
+    assert!(says(&app, "! observations contradict this plan"), "{}", text(&draw(&app, 120, 36)));
     press(&mut app, "4");
     assert!(
         says(&app, "the plan was fitted to this, and says of it now")

@@ -14,7 +14,6 @@ use ratatui::widgets::{Row as Cells, Table, TableState};
 
 use super::columns::{COLUMNS, CompareColumn};
 use super::gauges;
-use crate::report::words::no_result;
 use crate::study::judgement::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::compare::{OptionState, SortBy};
@@ -200,9 +199,10 @@ fn row<'r>(app: &'r App, option: usize, columns: &[&CompareColumn], graphics: Gr
                 |column: &&CompareColumn| Line::from((column.cell)(app, option, judgement)).right_aligned();
             cells.extend(columns.iter().map(cell));
         }
-        OptionState::Failed(failed) => {
+        // The detail says why.
+        OptionState::Failed(_) => {
             cells.push(verdict(app, Verdict::Undecided));
-            cells.push(Line::from(no_result::message(failed)));
+            cells.push(Line::from("none"));
         }
         OptionState::Waiting => cells.push(Line::styled("waits", app.theme.muted())),
         OptionState::Running { runs, done } => {

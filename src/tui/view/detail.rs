@@ -79,9 +79,10 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     let inside = rule.inner(area);
     let Some(delay) = app.case.plan.delays.get(app.selected) else { return inside };
     let name = Span::styled(format!(" {} ", delay.name), app.theme.title());
-    let verdict = app.judgement(app.selected).map(|judged| verdict_words(app, judged.verdict()));
-    let (verdict, style) = verdict.unwrap_or_default();
-    let verdict = Span::styled(format!("{verdict} "), style);
+    let verdict = app.judgement(app.selected).map_or(Span::default(), |judged| {
+        let (words, style) = verdict_words(app, judged.verdict());
+        Span::styled(format!("{words} "), style)
+    });
     let times = Span::styled(format!("· rows fire at {} ", firing_times(delay)), app.theme.muted());
     let one_in = units::one_in(app.case.limits.accepted_risk);
     let legend = Span::styled(format!(" █ planned ▒ worst of {one_in} ┃ limit "), app.theme.muted());

@@ -107,8 +107,7 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
     frame.render_widget(block, area);
     let around = draw_legend(app, frame, around);
     let Some(map) = FromAbove::fit(app, around) else { return };
-    let worst = flight.outcome.force.index;
-    map.draw_cables(app, forces, worst..worst + 1, frame);
+    map.draw_cables(app, forces, flight.outcome.force.index, frame);
     let mut firing = vec![None; scene.tire_count()];
     for fire in app.case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings) {
         if (fire.time..fire.time + FLASH).contains(&time) {
@@ -231,7 +230,7 @@ fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area
             context.draw(&Points { coords: &tires, color: color(theme.curve()) });
             context.layer();
             context.draw(&stroke((from, limit), (to, limit), color(theme.limit())));
-            let label = format!("limit {} m", units::value(limit, Unit::Metre));
+            let label = format!("limit {} m", units::significant(limit, Unit::Metre, 3));
             context.print(from, limit, Span::styled(label, theme.limit()));
         });
     frame.render_widget(canvas, area);
@@ -257,18 +256,21 @@ fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<
     let tire = peak(height).or_else(|| greatest(&heights)).map_or(
         "no tire in the air".to_owned(),
         |(tire, height)| {
-            let value = units::value(height, Unit::Metre);
+            let value = units::significant(height, Unit::Metre, 3);
             format!("tire {} {value} m, {}", scene.tire_ids[tire], share(height, limits.height))
         },
     );
     let cable =
         peak(force).or_else(|| greatest(forces)).map_or("no cable taut".to_owned(), |(cable, force)| {
-            let value = units::value(force, Unit::Kilonewton);
+            let value = units::significant(force, Unit::Kilonewton, 3);
             format!("cable {} {value} kN, {}", scene.cable_name(cable), share(force, limits.force))
         });
-    let pulled =
-        format!("{} kN at {}", units::value(force.value, Unit::Kilonewton), scene.cable_name(force.index));
-    let both = format!(" · most: ^ {} m, {pulled}", units::value(height.value, Unit::Metre));
+    let pulled = format!(
+        "{} kN at {}",
+        units::significant(force.value, Unit::Kilonewton, 3),
+        scene.cable_name(force.index)
+    );
+    let both = format!(" · most: ^ {} m, {pulled}", units::significant(height.value, Unit::Metre, 3));
     let force_alone = format!(" · most: {pulled}");
     let name =
         stop_name(app, flight).map_or("now".to_owned(), |stop| format!("{stop} {}", units::seconds(time)));

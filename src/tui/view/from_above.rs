@@ -1,7 +1,5 @@
 //! The shelter from above: the cell of every place, and the cables by their force.
 
-use std::ops::Range;
-
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
@@ -62,9 +60,9 @@ impl<'s> FromAbove<'s> {
         (inside.x + x, inside.y + y)
     }
 
-    /// Draws the cables that pull by their forces [N] (`n_cables`), dotted those that are `marked` in any case, and the numbers of
-    /// rows and columns.
-    pub fn draw_cables(&self, app: &App, forces: &[f64], marked: Range<usize>, frame: &mut Frame) {
+    /// Draws the cables that pull by their forces [N] (`n_cables`), the cable `marked` in any case, and the numbers of rows and
+    /// columns.
+    pub fn draw_cables(&self, app: &App, forces: &[f64], marked: usize, frame: &mut Frame) {
         let Self { scene, around, inside, left, top, width } = self;
         let (columns, rows) = (f64::from(inside.width), f64::from(inside.height));
         let place = |tire: usize| (scene.position[tire].x, scene.position[tire].y);
@@ -77,7 +75,7 @@ impl<'s> FromAbove<'s> {
             .y_bounds([top - (2.0 * rows - 1.0) * width, top + width])
             .paint(|context| {
                 let pulled = forces.iter().copied().enumerate().filter(|(_, force)| *force > 0.0);
-                for (cable, force) in marked.clone().map(|cable| (cable, 0.0)).chain(pulled) {
+                for (cable, force) in [(marked, 0.0)].into_iter().chain(pulled) {
                     if let Some(ends) = ends(cable) {
                         draw_cable(app, force, ends, dot, context);
                     }

@@ -41,7 +41,7 @@ pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
     frame.render_widget(block, area);
     let [view, legend] = Layout::vertical([Constraint::Min(0), Constraint::Length(1)]).areas(inside);
     let Some(map) = FromAbove::fit(app, view) else { return };
-    map.draw_cables(app, &forces, 0..forces.len(), frame);
+    map.draw_cables(app, &forces, checked.force.index, frame);
     let holes = app.case.shots[app.selected].firings.iter().map(|firing| (firing.tire, "●", theme.firing()));
     let highest = (checked.height.value > 0.0).then_some((checked.height.index, "◉", theme.title()));
     let tires = (0..scene.tire_count()).map(|tire| (tire, "o", theme.muted()));
