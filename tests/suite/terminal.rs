@@ -448,7 +448,7 @@ fn a_new_plan_by_questions() {
     watched.press("1.9\r\r");
     watched.until("assumed, check these");
     watched.press("j");
-    watched.until("height 1.900 m");
+    watched.until("limit 1.90 m");
     watched.until("*not saved*");
     watched.press("q");
     watched.until("not saved: s saves");

@@ -205,7 +205,7 @@ fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area
     let count = |least: f64| forces.iter().filter(|force| **force > least).count();
     let (taut, over) = (count(0.0), count(app.case.limits.force));
     let taut = if taut == 0 { "no cable pulls".to_owned() } else { format!("{taut} taut") };
-    let title = format!("{seen}, heights drawn {scale} times: {taut}");
+    let title = format!("{seen}, {taut}, heights drawn {scale} times");
     let with_over = format!("{title}, {over} over the limit (double lines)");
     let has_room = Span::raw(&with_over).width() + 2 <= usize::from(area.width);
     let title = if over > 0 && has_room { with_over } else { title };

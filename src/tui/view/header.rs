@@ -85,14 +85,15 @@ fn notes(app: &App, width: u16) -> Line<'_> {
     let badges = fitting(&badges(app), width.into());
     let case = &app.case;
     let risk = units::short(case.plan.limits.accepted_risk_percent);
-    let about = format!("limits: {}, risk {risk} % · {}", limits_in_short(case), compute_label(&app.compute));
-    let about = if badges.is_empty() { about } else { format!(" · {about}") };
+    let limits = format!("limits: {}", limits_in_short(case));
+    let all = format!("{limits}, risk {risk} % · {}", compute_label(&app.compute));
+    let behind = if badges.is_empty() { "" } else { " · " };
+    let room = usize::from(width).saturating_sub(badges.width() + behind.width());
+    let about = [all, limits].into_iter().find(|about| about.width() <= room);
     // The table of options has its limits above it.
-    let fits = badges.width() + about.width() <= usize::from(width) && app.screen != Screen::Compare;
-    Line::from(vec![
-        Span::styled(badges, theme.limit()),
-        Span::styled(if fits { about } else { String::new() }, theme.muted()),
-    ])
+    let about = about.filter(|_| app.screen != Screen::Compare);
+    let about = about.map_or_else(String::new, |about| format!("{behind}{about}"));
+    Line::from(vec![Span::styled(badges, theme.limit()), Span::styled(about, theme.muted())])
 }
 
 /// What stays true until it is mended: from the longest wording to the shortest.
