@@ -95,6 +95,13 @@ pub fn value(value: f64, unit: Unit) -> String {
     format!("{:.3}", value / unit.size())
 }
 
+/// A value with so many significant digits, at most a millionth: `1.67`, `53.0`.
+pub fn significant(value: f64, unit: Unit, digits: i32) -> String {
+    let value = value / unit.size();
+    let first = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
+    rounded(value, (digits - 1 - first).clamp(0, 6) as usize)
+}
+
 /// A value whose error stands elsewhere, with one digit more than an error ever has: `0.75732`.
 pub fn computed(value: f64, unit: Unit) -> String {
     rounded(value / unit.size(), unit.most_decimals() + 1)
@@ -108,6 +115,11 @@ pub fn rounded(number: f64, decimals: usize) -> String {
 /// A share of 1 as percent with `decimals` decimals: `52 %`.
 pub fn percent(share: f64, decimals: usize) -> String {
     format!("{} %", rounded(100.0 * share, decimals))
+}
+
+/// How many shots hold one that may fail, for a probability: `100` for 1 %.
+pub fn one_in(probability: f64) -> String {
+    short((1.0 / probability).floor())
 }
 
 /// An interval of a probability, without the sign of percent: `88.65 to 100.00`.
@@ -191,6 +203,15 @@ mod tests {
     fn an_error_is_never_shown_smaller_than_it_is() {
         assert_eq!(value_and_error(1.0, 1e-9, Unit::Metre), "1.0000 ± 0.0001");
         assert_eq!(value_and_error(1.0, 0.000_11, Unit::Metre), "1.0000 ± 0.0002");
+    }
+
+    #[test]
+    fn a_screen_has_three_digits() {
+        let of = |value| significant(value, Unit::Kilonewton, 3);
+        assert_eq!(
+            [53_000.0, 1671.0, 123_456.0, 12.3, 0.0].map(of),
+            ["53.0", "1.67", "123", "0.0123", "0.00"]
+        );
     }
 
     #[test]

@@ -86,7 +86,11 @@ fn needs_keyboard(compute: &ComputeArguments) -> io::Result<()> {
 }
 
 fn screen(config: &Config, look: &LookArguments) -> tui::ScreenStyle {
-    tui::ScreenStyle { ascii: config.ascii || look.style(true).ascii, color: look.colored(true) }
+    tui::ScreenStyle {
+        ascii: config.ascii || look.style(true).ascii,
+        color: look.colored(true),
+        mouse: config.mouse,
+    }
 }
 
 fn show(

@@ -16,8 +16,6 @@ use crate::verdict::{Quantity, Verdict};
 
 /// Room above the greatest value.
 const HEADROOM: f64 = 1.08;
-/// Room above and below samples and their limit, as a share of the stretch that they take.
-const ROOM: f64 = 0.1;
 
 /// Greatest flight height and cable force over time, with the firing times [s].
 pub fn history(case: &Case, history: &History, shot: &Shot) -> [Chart; 2] {
@@ -159,12 +157,7 @@ pub fn samples(case: &Case, sampled: &SampledShot) -> [Chart; 2] {
         // A sample whose run failed has no value.
         let points = points.filter(|(_, value)| value.is_finite()).collect();
         let share = axis("share of samples", Unit::Percent, [0.0, 1.0]);
-        let chart = quantity_chart(share, (name, unit), points, limit);
-        // The samples lie close together, far from 0: the axis shows only where they and the limit are.
-        let values = chart.series.iter().flat_map(|series| &series.points).map(|(_, value)| *value);
-        let [low, high] = values.fold([limit; 2], |[low, high], value| [low.min(value), high.max(value)]);
-        let room = ROOM * (high - low);
-        Chart { y: axis(name, unit, [(low - room).max(0.0), high + room]), ..chart }
+        quantity_chart(share, (name, unit), points, limit)
     };
     [
         chart(height_name(case), Unit::Metre, Quantity::Height, case.limits.height),

@@ -86,6 +86,12 @@ fn halve(times: &mut Vec<f64>, displacements: &mut Vec<[f32; 3]>, tires: usize) 
 }
 
 impl Flight {
+    /// Time of the greatest force [s], or of the greatest height where no cable pulls.
+    pub fn worst_moment(&self) -> f64 {
+        let Outcome { height, force, .. } = &self.outcome;
+        if force.value > 0.0 { force.time } else { height.time }
+    }
+
     /// End of the run [s].
     pub fn end(&self) -> f64 {
         self.outcome.end.time

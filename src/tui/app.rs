@@ -25,6 +25,7 @@ use crate::report::words::assumption_words::holds;
 use crate::report::words::headline::headline;
 use crate::study::as_planned::step_error;
 use crate::study::assumptions::Assumptions;
+use crate::study::flight::Flight;
 use crate::study::judgement::{Evidence, Judgement};
 use crate::study::recommend::recommended;
 use crate::study::{Case, ComputeSettings};
@@ -441,6 +442,9 @@ impl App {
                 let finish = |found| StudyState::Done(Arc::new(ShownStudy::new(&self.case, compute, found)));
                 let state = result.map_or_else(StudyState::Failed, finish);
                 self.studies.set(kind, state);
+                if kind == StudyKind::Flight {
+                    self.player.time = self.studies.flight(self.selected).map_or(0.0, Flight::worst_moment);
+                }
             }
         }
     }

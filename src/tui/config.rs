@@ -12,14 +12,22 @@ use super::theme::Theme;
 use crate::file::canonical;
 
 /// The configuration.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Config {
     /// Colours to begin with.
     pub theme: Theme,
     /// Plain characters only.
     pub ascii: bool,
+    /// Whether the program takes clicks; without, the terminal selects text.
+    pub mouse: bool,
     /// Which key asks for which action.
     pub keymap: Keymap,
+}
+
+impl Default for Config {
+    fn default() -> Self {
+        Self { theme: Theme::default(), ascii: false, mouse: true, keymap: Keymap::default() }
+    }
 }
 
 /// The configuration as the file has it.
@@ -30,8 +38,14 @@ struct Written {
     theme: Theme,
     #[serde(default)]
     ascii: bool,
+    #[serde(default = "with_mouse")]
+    mouse: bool,
     #[serde(default)]
     keys: BTreeMap<String, Vec<String>>,
+}
+
+fn with_mouse() -> bool {
+    Config::default().mouse
 }
 
 impl Config {
@@ -66,7 +80,8 @@ impl Config {
         let written: Written =
             toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())?;
         let keymap = Keymap::with(written.keys).map_err(|mistake| format!("[keys]: {mistake}"))?;
-        Ok(Self { theme: written.theme, ascii: written.ascii, keymap })
+        let Written { theme, ascii, mouse, .. } = written;
+        Ok(Self { theme, ascii, mouse, keymap })
     }
 }
 
@@ -80,7 +95,8 @@ pub fn default_text() -> String {
     let read_from = path().map_or_else(String::new, |path| format!("# Read from {}.\n", path.display()));
     let mut text = format!(
         "# The terminal's colours, characters and keys. Take the '#' away from what you change.\n{read_from}\n\
-         # theme = \"dark\"   # dark | light | sunlight\n# ascii = false    # plain characters only, for poor fonts\n\n\
+         # theme = \"dark\"   # dark | light | sunlight\n# ascii = false    # plain characters only, for poor fonts\n\
+         # mouse = true     # false: no clicks, and the terminal selects text\n\n\
          # Keys: one character, or a name such as \"enter\", \"pageup\", \"f5\", \"ctrl-a\", \"alt-a\".\n# [keys]\n"
     );
     let width = BINDINGS.iter().map(|binding| binding.name.len()).max().unwrap_or(0);
@@ -143,6 +159,7 @@ mod tests {
             .map(|line| format!("{line}\n"))
             .collect();
         let config = Config::parse(&all).unwrap_or_else(|mistake| panic!("{mistake}\n{all}"));
+        assert!(config.mouse && !Config::parse("mouse = false").expect("a configuration").mouse);
         for binding in BINDINGS {
             let default = Keymap::default().all_keys(binding.action);
             assert_eq!(config.keymap.all_keys(binding.action), default);

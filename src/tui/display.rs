@@ -18,32 +18,35 @@ use ratatui::{Frame, Terminal};
 
 use super::theme;
 
-/// How the screen is drawn.
+/// How the terminal is used.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ScreenStyle {
     /// Plain characters only.
     pub ascii: bool,
     /// With colours.
     pub color: bool,
+    /// Whether clicks go to the program.
+    pub mouse: bool,
 }
 
 /// The terminal while the program draws on it.
 pub(super) struct Display {
     /// There until it is given back.
     terminal: Option<Terminal<CrosstermBackend<Stdout>>>,
+    look: ScreenStyle,
 }
 
 impl Display {
-    pub fn open() -> io::Result<Self> {
-        enter()?;
+    pub fn open(look: ScreenStyle) -> io::Result<Self> {
+        enter(look)?;
         // From here on `drop` gives the terminal back.
         Terminal::new(CrosstermBackend::new(io::stdout()))
-            .map(|terminal| Self { terminal: Some(terminal) })
+            .map(|terminal| Self { terminal: Some(terminal), look })
             .inspect_err(|_| leave())
     }
 
-    pub fn draw(&mut self, look: ScreenStyle, content: impl FnOnce(&mut Frame)) -> io::Result<()> {
-        let Some(terminal) = &mut self.terminal else { return Ok(()) };
+    pub fn draw(&mut self, content: impl FnOnce(&mut Frame)) -> io::Result<()> {
+        let (look, Some(terminal)) = (self.look, &mut self.terminal) else { return Ok(()) };
         terminal.draw(|frame| {
             content(frame);
             let buffer = frame.buffer_mut();
@@ -61,7 +64,7 @@ impl Display {
         leave();
         #[cfg(unix)]
         signal_hook::low_level::raise(signal_hook::consts::SIGSTOP)?;
-        enter()?;
+        enter(self.look)?;
         // A new one draws every cell. `clear` would ask the terminal for its cursor, and wait for the answer.
         self.terminal = Some(Terminal::new(CrosstermBackend::new(io::stdout()))?);
         Ok(())
@@ -80,14 +83,14 @@ impl Drop for Display {
     }
 }
 
-fn enter() -> io::Result<()> {
+fn enter(look: ScreenStyle) -> io::Result<()> {
     enable_raw_mode()?;
     let mut out = io::stdout();
     // Some terminals do not clear the alternate screen.
     let entered = out
         .execute(EnterAlternateScreen)
         .and_then(|out| out.execute(Clear(ClearType::All)))
-        .and_then(|out| out.execute(EnableMouseCapture))
+        .and_then(|out| if look.mouse { out.execute(EnableMouseCapture) } else { Ok(out) })
         .and_then(|out| out.execute(EnableBracketedPaste));
     entered.map(|_| ()).inspect_err(|_| leave())
 }

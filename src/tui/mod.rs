@@ -82,12 +82,12 @@ pub fn run(app: App, jobs: Jobs, look: ScreenStyle, plan: Option<&Path>) -> io::
     crossterm::style::force_color_output(true);
     let signals = Signals::register()?;
     restore_on_panic();
-    let mut display = Display::open()?;
+    let mut display = Display::open(look)?;
     let mut session =
         Session { app, jobs, file: plan.map(PlanFile::new), keeper: Keeper::default(), unkept: None };
     session.restore_unsaved();
     session.carry_out(Request::Judge);
-    let exit = session.serve_events(&mut display, &signals, look);
+    let exit = session.serve_events(&mut display, &signals);
     // Messages printed on the alternate screen would vanish with it.
     drop(display);
     session.keep_or_drop_edits(matches!(exit, Ok(Exit::Quit)));
@@ -106,12 +106,7 @@ struct Session {
 
 impl Session {
     /// Draws and listens until the user leaves.
-    fn serve_events(
-        &mut self,
-        display: &mut Display,
-        signals: &Signals,
-        look: ScreenStyle,
-    ) -> io::Result<Exit> {
+    fn serve_events(&mut self, display: &mut Display, signals: &Signals) -> io::Result<Exit> {
         let (mut dirty, mut drawn) = (true, Instant::now());
         loop {
             dirty |= self.listen();
@@ -123,7 +118,7 @@ impl Session {
             drawn = Instant::now();
             if dirty {
                 let mut areas = Areas::new();
-                display.draw(look, |frame| areas = view::draw(&self.app, frame))?;
+                display.draw(|frame| areas = view::draw(&self.app, frame))?;
                 self.app.note_drawn(areas);
                 dirty = false;
             }
@@ -332,9 +327,9 @@ pub fn choose(mut start: Start, config: &Config, look: ScreenStyle) -> io::Resul
     crossterm::style::force_color_output(true);
     let signals = Signals::register()?;
     restore_on_panic();
-    let mut screen = Display::open()?;
+    let mut screen = Display::open(look)?;
     loop {
-        screen.draw(look, |frame| start.draw(config, frame))?;
+        screen.draw(|frame| start.draw(config, frame))?;
         while !event::poll(IDLE)? {
             if signals.end.load(Ordering::Relaxed) {
                 return Ok(Err(Exit::Signal));

@@ -91,7 +91,7 @@ fn options_are_sorted_filtered_and_compared() {
     app.selected = 0;
     press(&mut app, "b");
     let screen = text(&draw(&app, 200, 36));
-    assert!(screen.contains("=all at once") && screen.contains("-0.010"), "{screen}");
+    assert!(screen.contains("=all at once") && screen.contains("+0.0"), "{screen}");
     press(&mut app, "b");
     assert!(app.baseline().is_none());
 }
@@ -117,7 +117,7 @@ fn clicks_do_what_keys_do() {
     click(&mut app, "20 ms");
     assert!(app.zoom, "a second click opens");
     key(&mut app, KeyCode::Esc);
-    click(&mut app, "force   of");
+    click(&mut app, "force    ");
     assert_eq!(app.listing.sort, SortBy::Force);
     click(&mut app, "4 Studies");
     assert_eq!(app.screen, Screen::Studies);
@@ -149,6 +149,12 @@ fn a_flight_is_asked_for_once_and_played() {
     assert!(text(&draw(&app, 100, 30)).contains("recording"));
     let flight = recorded(&app, 0);
     study_ends(&mut app, StudyKind::Flight, Ok(flight));
+    let worst = app.studies.flight(0).expect("a flight").outcome.force.time;
+    assert_eq!(app.player.time, worst, "it opens at the worst moment");
+    let says = |app: &App, words: &str| text(&draw(app, 120, 36)).contains(words);
+    assert!(says(&app, "WORST FORCE"), "{}", text(&draw(&app, 120, 36)));
+    key(&mut app, KeyCode::Home);
+    assert!(says(&app, "rows 1, 2, 3 fire 0.000 s"), "{}", text(&draw(&app, 120, 36)));
     press(&mut app, " ");
     assert!(app.playing());
     app.advance(std::time::Duration::from_secs(1));
@@ -196,6 +202,21 @@ fn what_was_seen_of_a_shot_is_typed_and_fitted() {
     assert!(app.observed.is_empty() && matches!(app.studies.state(StudyKind::Fit), StudyState::Idle));
 }
 
+#[test]
+fn options_are_added_and_removed_where_they_are_compared() {
+    let mut app = finished();
+    press(&mut app, "a");
+    assert!(text(&draw(&app, 80, 24)).contains("interval_ms of the copy “all at once (2)”"));
+    press(&mut app, "33");
+    key(&mut app, KeyCode::Enter);
+    let name = |app: &App| app.case.plan.delays[app.selected].name.clone();
+    assert_eq!((app.screen, name(&app), app.options.len()), (Screen::Compare, "33 ms".to_owned(), 8));
+    press(&mut app, "d");
+    assert_eq!(app.options.len(), 7);
+    press(&mut app, "uu");
+    assert_eq!(app.options.len(), 8, "a removed option comes back");
+}
+
 /// Also once the plan is fitted to it: a plan with other launches may still not say what was seen.
 #[test]
 fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
@@ -237,10 +258,10 @@ fn what_was_seen_stands_against_every_plan_that_does_not_say_it() {
     // This fit took all but the launches for exact: it knows them to 1 %, and narrows nothing.
     assert_eq!((known.launch_common_percent, known.launch_between_shots_percent), (3.0, 0.0));
     key(&mut app, KeyCode::Esc);
-    assert!(says(&app, "! what was seen is not compared with this plan"), "{}", text(&draw(&app, 120, 36)));
+    assert!(says(&app, "! observations are not compared with this plan"), "{}", text(&draw(&app, 120, 36)));
     let found = compare(&app);
     study_ends(&mut app, StudyKind::Fit, Ok(found));
-    assert!(says(&app, "! what was seen contradicts this plan"), "{}", text(&draw(&app, 120, 36)));
+    assert!(says(&app, "! observations contradict this plan"), "{}", text(&draw(&app, 120, 36)));
     press(&mut app, "4");
     assert!(
         says(&app, "the plan was fitted to this, and says of it now")

@@ -13,16 +13,16 @@ fn the_table_appears_keys_and_resizing_work_and_q_restores() {
     let mut watched = RunningShelter::open("amur-three-rows.toml", &[], 120, 36);
     watched.until(" of 7 pass");
     watched.press("jjjj");
-    watched.until("42 ms ─");
+    watched.until(" · rows fire at 0/42/84 ms");
     watched.press("?");
     watched.until("sort by the next column");
     watched.press("?");
     watched.resize(80, 24);
-    watched.until("u undo        ? help");
+    watched.until("P page              ? help");
     watched.resize(40, 10);
     watched.until("shelter needs 60x18, has 40x10");
     watched.resize(120, 36);
-    watched.until("5 to 95 %");
+    watched.until("worst of 100");
     watched.press("-");
     watched.until("accuracy: draft");
     watched.press("q");
@@ -81,7 +81,7 @@ fn studies_run_are_cancelled_and_keep_their_result() {
     watched.press("ll\r");
     watched.until("combinations tried");
     watched.press("2");
-    watched.until("of its limit");
+    watched.until("worst of 100");
     watched.press("4");
     watched.until("combinations tried");
     watched.press("q");
@@ -361,7 +361,7 @@ fn a_walk_through_everything() {
     watched.press("oooo");
     watched.until("height▲");
     watched.press("/42\r");
-    watched.until("42 ms ─");
+    watched.until(" · rows fire at 0/42/84 ms");
     watched.press("\x1b");
     watched.until("long period");
     watched.press("3");
@@ -397,11 +397,11 @@ fn a_walk_through_everything() {
     watched.press("ttt");
     // The second tab; the fourth option of the table.
     watched.press("\x1b[<0;18;1M\x1b[<0;18;1m");
-    watched.until("of its limit");
+    watched.until("worst of 100");
     watched.press("o");
     watched.until("force▲");
-    watched.press("\x1b[<0;3;8M\x1b[<0;3;8m");
-    watched.until("25 ms, middle first ─");
+    watched.press("\x1b[<0;3;9M\x1b[<0;3;9m");
+    watched.until(" · rows fire at 25/0/50 ms");
     watched.resize(60, 18);
     watched.until("? help");
     watched.resize(200, 60);
@@ -448,7 +448,7 @@ fn a_new_plan_by_questions() {
     watched.press("1.9\r\r");
     watched.until("assumed, check these");
     watched.press("j");
-    watched.until("height 1.900 m");
+    watched.until("limit 1.90 m");
     watched.until("*not saved*");
     watched.press("q");
     watched.until("not saved: s saves");

@@ -180,20 +180,27 @@ fn names(document: &DocumentMut, section: &str) -> Vec<String> {
 }
 
 /// Lets the name of a delay option that is its interval, or begins with it, follow the interval: `25 ms, middle first` would be a
-/// lie about 30 ms. `names` are those of all options.
+/// lie about 30 ms. A copy with any other name is named after its interval: `all at once (2)` would be one. `names` are those of all
+/// options.
 fn rename_with_interval(table: &mut dyn TableLike, interval: &Value, names: &[String]) {
     let written = |value: &Value| as_number(value).map(|number| format!("{number} ms"));
     let old = table.get(delay::INTERVAL_MS.name).and_then(Item::as_value).and_then(written);
     let name = table.get(delay::NAME.name).and_then(Item::as_str);
     let (Some(old), Some(new), Some(name)) = (old, written(interval), name) else { return };
-    let Some(rest) = name.strip_prefix(&old).filter(|rest| !rest.starts_with(char::is_alphanumeric)) else {
-        return;
+    let after_interval = name.strip_prefix(&old).filter(|rest| !rest.starts_with(char::is_alphanumeric));
+    let is_number = |text: &str| text.bytes().all(|letter| letter.is_ascii_digit());
+    let original = name.strip_suffix(')').and_then(|name| name.rsplit_once(" ("));
+    let original = original.filter(|(_, number)| is_number(number)).map(|(original, _)| original);
+    let is_copy = original.is_some_and(|original| names.iter().any(|name| name == original));
+    let rest = match after_interval {
+        // Of `20 ms (2)` no number stays: it told two options of 20 ms apart.
+        Some(_) if original == Some(old.as_str()) => "",
+        Some(rest) => rest,
+        None if is_copy => "",
+        None => return,
     };
     let is_taken = |new: &str| new != name && names.iter().any(|taken| look_alike(taken, new));
-    // Of `20 ms (2)` no number stays: it told two options of 20 ms apart.
-    let number = rest.strip_prefix(" (").and_then(|rest| rest.strip_suffix(')'));
-    let is_number = number.is_some_and(|number| number.bytes().all(|letter| letter.is_ascii_digit()));
-    let new = free_name(&format!("{new}{}", if is_number { "" } else { rest }), is_taken);
+    let new = free_name(&format!("{new}{rest}"), is_taken);
     super::set(table, delay::NAME.name, new.into());
 }
 
@@ -300,7 +307,8 @@ mod tests {
         assert_eq!(renamed("25 ms", "42"), "\"42 ms (2)\"", "names differ");
         assert_eq!(renamed("25 ms", "25"), "\"25 ms\"");
         assert_eq!(renamed("25 ms (2)", "33"), "\"33 ms\"");
-        for name in ["25 msec", "middle first", "125 ms"] {
+        assert_eq!(renamed("42 ms (2)", "33"), "\"33 ms\"", "a copy of an option with another name");
+        for name in ["25 msec", "middle first", "middle first (2)", "125 ms"] {
             assert_eq!(renamed(name, "30"), format!("\"{name}\""));
         }
     }

@@ -136,6 +136,11 @@ fn holds_until(found: &Assumption) -> Option<String> {
     })
 }
 
+/// The nearest assumptions, a sentence each: `all launches tilt by 2.6° (assumed 1°)`.
+pub fn nearest(found: &Assumptions) -> Vec<String> {
+    found.failing().take(NEAREST).filter_map(holds_until).collect()
+}
+
 /// What the pass of an option stands on, its nearest assumptions: `holds until all launches tilt by 2.6° (assumed 1°), tires leave 20 %
 /// faster`.
 pub fn holds(found: &Assumptions) -> String {
@@ -148,7 +153,7 @@ pub fn holds(found: &Assumptions) -> String {
             ),
         };
     }
-    let nearest: Vec<String> = found.failing().take(NEAREST).filter_map(holds_until).collect();
+    let nearest = nearest(found);
     match nearest.is_empty() {
         true => "holds at every value tried of what it stands on".to_owned(),
         false => format!("holds until {}", nearest.join(", ")),

@@ -26,6 +26,6 @@ pub fn headline(case: &Case, results: &OptionResults) -> String {
         (1, _) => format!(", the only one of {all}"),
         _ => format!(", the safest of {all}"),
     };
-    let one_in = (1.0 / case.limits.accepted_risk).floor();
-    format!("{name} passes{among}: surely fewer than 1 in {} shots exceed a limit", units::short(one_in))
+    let one_in = units::one_in(case.limits.accepted_risk);
+    format!("{name} passes{among}: surely fewer than 1 in {one_in} shots exceed a limit")
 }

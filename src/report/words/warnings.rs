@@ -125,7 +125,7 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
 }
 
 /// Warnings of an option that need no other option beside them.
-fn swaps_and_cover(case: &Case, option: usize, judged: &Judgement) -> impl Iterator<Item = String> {
+pub fn swaps_and_cover(case: &Case, option: usize, judged: &Judgement) -> impl Iterator<Item = String> {
     let swaps =
         if judged.sampled.is_asked() { find_swaps(case, option, LEAST_SWAP_PROBABILITY) } else { Vec::new() };
     let swaps = swaps.into_iter().map(move |found| swap_warning(case, option, &found));

@@ -219,6 +219,18 @@ impl SampledShot {
         cables
     }
 
+    /// Greatest force of the decided samples in each cable that was the hardest pulled of one [N] (`n_cables`, given by their number); 0
+    /// in the others.
+    pub fn forces_where_hardest(&self, cables: usize) -> Vec<f64> {
+        let mut forces = vec![0.0_f64; cables];
+        for run in self.decided().map(|sample| sample.finest()) {
+            if let Some(force) = forces.get_mut(run.cable) {
+                *force = force.max(run.force);
+            }
+        }
+        forces
+    }
+
     /// Number of the sample that decides: of those that judge, the one that uses most of a limit once the accepted share of all is left
     /// out, and of equal ones the first. `None` without a decided sample.
     pub fn deciding_sample(&self) -> Option<usize> {

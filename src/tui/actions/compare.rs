@@ -25,6 +25,8 @@ impl App {
                 self.listing.reversed = false;
             }
             Action::Reverse => self.listing.reversed = !self.listing.reversed,
+            Action::AddOption => return self.add_option(),
+            Action::RemoveOption => return self.remove_option(),
             Action::Why => return self.ask_for_remedies(),
             Action::Baseline => {
                 let same = self.listing.baseline == Some(self.selected);

@@ -24,16 +24,29 @@ impl App {
             }
             Action::Left => self.editor.step(false),
             Action::Right => self.editor.step(true),
-            Action::AddOption => {
-                let edit = self.editor.copy_option(self.selected);
-                let request = self.edited(edit);
-                self.follow_field();
-                return request;
-            }
+            Action::AddOption => return self.add_option(),
             Action::RemoveOption => self.editor.remove(),
             other => return self.act_anywhere(other),
         };
         self.took_value(edit)
+    }
+
+    /// Copies the selected delay option, selects the copy, and begins to type its interval.
+    pub(super) fn add_option(&mut self) -> Request {
+        let edit = self.editor.copy_option(self.selected);
+        let request = self.edited(edit);
+        self.follow_field();
+        self.has_selected = true;
+        request
+    }
+
+    /// Removes the selected delay option.
+    pub(super) fn remove_option(&mut self) -> Request {
+        self.editor.select_option(self.selected);
+        let edit = self.editor.remove();
+        let request = self.edited(edit);
+        self.notice = self.editor.problem.clone();
+        request
     }
 
     /// Takes an edit of a value; tells of launches that follow the mass of the tires.

@@ -141,9 +141,9 @@ const fn bind(
 
 const ALL: &[Screen] = &[];
 
-const PLAN: &[Screen] = &[Screen::Plan];
-
 const COMPARE: &[Screen] = &[Screen::Compare];
+
+const OPTIONS: &[Screen] = &[Screen::Plan, Screen::Compare];
 
 const FLIGHT: &[Screen] = &[Screen::Flight];
 
@@ -186,7 +186,7 @@ pub const BINDINGS: &[Binding] = &[
         &["a"],
         "add",
         "copy the selected delay option, and type its interval",
-        PLAN,
+        OPTIONS,
     ),
     bind(
         Action::RemoveOption,
@@ -194,7 +194,7 @@ pub const BINDINGS: &[Binding] = &[
         &["d"],
         "remove",
         "remove the selected option, or value that may be left out",
-        PLAN,
+        OPTIONS,
     ),
     bind(Action::Undo, "undo", &["u"], "undo", "take the last change of the plan back", ALL),
     bind(Action::Redo, "redo", &["U", "ctrl-r"], "", "make it again", ALL),

@@ -6,14 +6,18 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::chart::{self, Mark};
-use super::widgets::{draw_message, draw_progress};
+use super::widgets::{draw_message, draw_progress, wrapped};
 use crate::choice::Method;
 use crate::jobs::{StudyKind, StudyResult};
+use crate::outcome::EndReason;
 use crate::report::accuracy::enough;
 use crate::report::charts::work_and_error;
 use crate::report::effects;
 use crate::report::words::no_result;
+use crate::report::words::option_sentences::{compute_label, peaks};
 use crate::study::accuracy::{AccuracyTable, LevelStep, Measured};
+use crate::study::judgement::Judgement;
+use crate::study::samples::sample_count::Sampling;
 use crate::tui::app::App;
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
@@ -30,6 +34,10 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
         .title(Line::styled(format!(" {name} "), app.theme.title()));
     let inside = rule.inner(area);
     frame.render_widget(rule, area);
+    let lines = computed(app);
+    let height = wrapped(&lines, inside.width).min(inside.height / 2);
+    let [how, inside] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(inside);
+    frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), how);
     let question = Line::styled(QUESTION, app.theme.title());
     let start = app.keymap.hint(Action::Open);
     match app.studies.state(StudyKind::Accuracy) {
@@ -62,6 +70,29 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
             }
         }
     }
+}
+
+/// The values of the selected option with their errors, and how they were computed; nothing as long as it has none.
+fn computed<'l>(app: &App) -> Vec<Line<'l>> {
+    let Some(Judgement { checked, sampled, .. }) = app.judgement(app.selected) else { return Vec::new() };
+    let end = match checked.end.reason {
+        EndReason::AtRest => "at rest after",
+        EndReason::TimeLimit => "followed for",
+    };
+    let drawn = sampled.known().map_or_else(String::new, |sampled| {
+        format!(" · {} shots drawn by seed {}", sampled.samples.len(), Sampling::OF_VERDICT.seed)
+    });
+    let how = format!(
+        "{} · step {} · {} runs in {} · energy residual {} · {end} {}{drawn}",
+        compute_label(&checked.compute),
+        units::milliseconds(checked.step),
+        checked.runs,
+        units::milliseconds(checked.total_wall.as_secs_f64()),
+        units::residual(checked.energy_residual),
+        units::seconds(checked.end.time),
+    );
+    let values = format!("planned: {}", peaks(app.case.scene(), checked));
+    vec![Line::styled(values, app.theme.base()), Line::styled(how, app.theme.muted())]
 }
 
 /// A line per level: first step, errors of that step before refinement, time of a run. A mark shows the chosen level.

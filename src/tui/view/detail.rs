@@ -1,14 +1,11 @@
-//! The selected option: why it does not pass, its peaks as planned, its samples, what decides it, and charts of both.
+//! The selected option: six short lines, the cables from above where the screen is wide, and charts; enlarged, its sentences, too.
 //!
 //! ```text
-//! ── 20 ms ───────────────────────────────────────
-//! ✗ cable force … is over the limit of …
-//! > launches 5 % lower … (what would make it pass)
-//! as planned it fails from +5 % launch · decided by launch 60 %, …
-//! as planned: height 1.741 ± 0.001 m, tire 3:1, 0.602 s …
-//! 5 to 95 % of 200 samples: height …
-//!  height over time        │ force over time
-//!  height of the samples   │ force of the samples
+//! ─ 42 ms ✓ PASS · rows fire at 0/42/84 ms ─ █ planned ▒ worst of 100 ┃ limit ─
+//!  fails    0 of 500 shots tried; …   ┬ cables pulled hardest ─────────
+//!  highest  …                         │
+//!  height in time                     │  force in time
+//!  height of the shots                │  force of the shots
 //! ```
 
 use ratatui::Frame;
@@ -17,102 +14,123 @@ use ratatui::style::Modifier;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
-use super::chart;
+use super::compare::verdict_words;
+use super::sentences::sentences;
+use super::six_lines::six_lines;
+use super::widgets::wrapped;
+use super::{hardest_cables, limit_chart};
 use crate::jobs::StudyKind;
-use crate::outcome::EndReason;
 use crate::report::charts;
-use crate::report::parts::Chart;
 use crate::report::remedies::{sentence, without_pass};
-use crate::report::words::option_sentences::{
-    bands, broken, dud_of, firing_times_text, inputs, launch_limit, measure_first, next_tires, peaks,
-};
-use crate::report::words::reasons;
-use crate::report::words::{no_result, warnings};
-use crate::study::judgement::{self, Judgement};
-use crate::study::reasons::Reason;
-use crate::study::samples::influence::input_shares;
-use crate::study::samples::sampled_shot::SampledShot;
+use crate::report::words::no_result;
+use crate::report::words::option_sentences::firing_times;
+use crate::study::judgement::Judgement;
 use crate::tui::app::App;
 use crate::tui::compare::OptionState;
 use crate::tui::keymap::Action;
 use crate::tui::studies::StudyState;
-use crate::tui::theme;
 use crate::units;
-use crate::verdict::Verdict;
 
-/// Least height of charts: flatter ones tell nothing.
-const LEAST_CHART: u16 = 6;
-/// Least height of two rows of charts.
-const TWO_ROWS: u16 = 2 * LEAST_CHART;
-/// Least width of four charts side by side.
-const FOUR_CHARTS: u16 = 160;
+/// Least width of a screen with the cables from above beside the lines.
+const WITH_CABLES: u16 = 120;
+/// Least and greatest height of the cables from above.
+const CABLES: [u16; 2] = [8, 14];
+/// Greatest height of a row of charts.
+const HIGHEST_CHART: u16 = 12;
 
 /// Draws the detail of the selected option.
 pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
-    let Some(delay) = app.case.plan.delays.get(app.selected) else { return };
-    let rule = Block::new()
-        .borders(Borders::TOP)
-        .border_style(app.theme.muted())
-        .title(Line::styled(format!(" {} ", delay.name), app.theme.title()));
-    let times = format!(" rows fire at {} ", firing_times_text(&app.case.plan.blast_rows, delay));
-    // The name is worth more than the times.
-    let fits = Span::raw(&times).width() + Span::raw(&delay.name).width() + 4 <= usize::from(area.width);
-    let rule = if fits { rule.title(Line::styled(times, app.theme.muted()).right_aligned()) } else { rule };
-    let inside = rule.inner(area);
-    frame.render_widget(rule, area);
-    let judged = match &app.options[app.selected] {
-        OptionState::Judged { judgement, .. } => judgement,
-        OptionState::Failed(failed) => {
+    let inside = draw_rule(app, frame, area);
+    let judged = match app.options.get(app.selected) {
+        Some(OptionState::Judged { judgement, .. }) => judgement,
+        Some(OptionState::Failed(failed)) => {
             let text = format!("No result: {}", no_result::message(failed));
             return frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inside);
         }
-        OptionState::Waiting | OptionState::Running { .. } => {
-            let text = "Computing…";
-            return frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inside);
+        Some(OptionState::Waiting | OptionState::Running { .. }) => {
+            return frame.render_widget("Computing…", inside);
         }
+        None => return,
     };
-    let facts = fact_lines(app, judged);
-    let lines: u16 =
-        facts.iter().map(|line| (line.width() as u16).div_ceil(inside.width.max(1)).max(1)).sum();
-    // Text is worth more than charts; Enter gives both the whole screen.
-    let [text, rest] = Layout::vertical([Constraint::Length(lines), Constraint::Min(0)]).areas(inside);
-    frame.render_widget(Paragraph::new(facts).wrap(Wrap { trim: true }), text);
-    if lines > text.height {
-        mark_cut(app, frame, text);
+    if is_listed(app) {
+        return draw_remedies(app, judged, frame, inside);
     }
-    let history = charts::history(&app.case, &judged.checked.history, &app.case.shots[app.selected]);
-    let sampled = judged.sampled.known();
-    draw_charts(app, history, sampled, frame, rest);
+    let with_cables = area.width >= WITH_CABLES && inside.height >= CABLES[0];
+    let beside = if with_cables { inside.width * 9 / 20 } else { 0 };
+    let lines = six_lines(app, judged, inside.width - beside);
+    let height = match with_cables {
+        true => (inside.height * 3 / 5).clamp(CABLES[0], CABLES[1]),
+        false => lines.len() as u16,
+    };
+    let [top, rest] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(inside);
+    let [text, cables] = Layout::horizontal([Constraint::Min(0), Constraint::Length(beside)]).areas(top);
+    frame.render_widget(Paragraph::new(lines), text);
+    if with_cables {
+        hardest_cables::draw(app, judged, frame, cables);
+    }
+    let rest = if app.zoom { draw_sentences(app, judged, frame, rest) } else { rest };
+    draw_charts(app, judged, frame, rest);
+}
+
+/// Draws the rule above the detail with the name of the option, its firing times, and what the signs of the table mean, as much as has
+/// room; the area left.
+fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
+    let rule = Block::new().borders(Borders::TOP).border_style(app.theme.muted());
+    let inside = rule.inner(area);
+    let Some(delay) = app.case.plan.delays.get(app.selected) else { return inside };
+    let name = Span::styled(format!(" {} ", delay.name), app.theme.title());
+    let verdict = app.judgement(app.selected).map_or(Span::default(), |judged| {
+        let (words, style) = verdict_words(app, judged.verdict());
+        Span::styled(format!("{words} "), style)
+    });
+    let times = Span::styled(format!("· rows fire at {} ", firing_times(delay)), app.theme.muted());
+    let one_in = units::one_in(app.case.limits.accepted_risk);
+    let legend = Span::styled(format!(" █ planned ▒ worst of {one_in} ┃ limit "), app.theme.muted());
+    let mut room = usize::from(area.width).saturating_sub(name.width() + verdict.width() + 2);
+    let mut fits = |span: &Span<'_>| {
+        let fits = span.width() < room;
+        room -= if fits { span.width() } else { 0 };
+        fits
+    };
+    let (with_times, with_legend) = (fits(&times), fits(&legend));
+    let times = if with_times { times } else { Span::default() };
+    let title = Line::from(vec![name, verdict, times]);
+    let rule = rule.title(title);
+    let rule = if with_legend { rule.title(Line::from(legend).right_aligned()) } else { rule };
+    frame.render_widget(rule, area);
+    inside
+}
+
+/// Draws the sentences of the option; the area left below.
+fn draw_sentences(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) -> Rect {
+    let lines = sentences(app, judged);
+    let height = wrapped(&lines, area.width);
+    let [text, rest] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(area);
+    frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), text);
+    if height > text.height {
+        mark_more(app, frame, text);
+    }
+    rest
 }
 
 /// Says at the end of a text that it goes on below.
-fn mark_cut(app: &App, frame: &mut Frame, text: Rect) {
-    let rest = match is_listed(app) {
-        // Enter makes the change selected there.
-        true => " … goes on below: make the window higher ".to_owned(),
-        false => format!(" … goes on below: {} ", app.keymap.hint(Action::Open)),
-    };
+fn mark_more(app: &App, frame: &mut Frame, text: Rect) {
     let last = Rect { y: text.bottom().saturating_sub(1), height: text.height.min(1), ..text };
-    let mark = Line::styled(rest, app.theme.firing().add_modifier(Modifier::REVERSED)).right_aligned();
-    frame.render_widget(mark, last);
+    let style = app.theme.firing().add_modifier(Modifier::REVERSED);
+    frame.render_widget(Line::styled(" … more below ", style).right_aligned(), last);
 }
 
-/// Draws height and force over time, and those of the samples. Where only one of both has room, the samples stand.
-fn draw_charts(app: &App, history: [Chart; 2], sampled: Option<&SampledShot>, frame: &mut Frame, area: Rect) {
-    if area.height < LEAST_CHART {
-        return;
+/// Draws height and force over time, and below them those of the shots, in order of size.
+fn draw_charts(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
+    let mut rows = vec![charts::history(&app.case, &judged.checked.history, &app.case.shots[app.selected])];
+    if area.height >= 2 * limit_chart::TITLED {
+        rows.extend(judged.sampled.known().map(|sampled| charts::samples(&app.case, sampled)));
     }
-    let rows = match sampled.map(|sampled| charts::samples(&app.case, sampled)) {
-        None => vec![history.to_vec()],
-        Some(samples) if area.height >= TWO_ROWS => vec![history.to_vec(), samples.to_vec()],
-        Some(samples) if area.width >= FOUR_CHARTS => vec![[history, samples].concat()],
-        Some(samples) => vec![samples.to_vec()],
-    };
-    let areas = Layout::vertical(vec![Constraint::Fill(1); rows.len()]).split(area);
-    for (row, area) in rows.iter().zip(areas.iter()) {
-        let areas = Layout::horizontal(vec![Constraint::Fill(1); row.len()]).spacing(1).split(*area);
-        for (chart, area) in row.iter().zip(areas.iter()) {
-            chart::draw(app, chart, None, frame, *area);
+    let heights = vec![Constraint::Max(HIGHEST_CHART); rows.len()];
+    for (charts, area) in rows.iter().zip(Layout::vertical(heights).split(area).iter()) {
+        let areas: [Rect; 2] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(*area);
+        for ((chart, name), area) in charts.iter().zip(["height", "force"]).zip(areas) {
+            limit_chart::draw(app, chart, name, frame, area);
         }
     }
 }
@@ -122,15 +140,29 @@ fn is_listed(app: &App) -> bool {
     app.studies.remedy_list.is_some_and(|list| list.option == app.selected)
 }
 
-/// The changes with which the selected option would pass, the selected one marked; or how far their study is.
-fn remedy_lines<'a>(app: &App) -> Vec<Line<'a>> {
+/// Draws why the option does not pass, and the list of changes with which it would; the selected change is always seen.
+fn draw_remedies(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
+    let fails = six_lines(app, judged, area.width).into_iter().take(1);
+    let (changes, selected) = remedy_lines(app);
+    let lines: Vec<Line<'_>> = fails.chain(changes).collect();
+    let until_selected = wrapped(&lines[..(selected + 2).min(lines.len())], area.width);
+    let scroll = until_selected.saturating_sub(area.height);
+    let is_longer = wrapped(&lines, area.width) > area.height + scroll;
+    frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }).scroll((scroll, 0)), area);
+    if is_longer {
+        mark_more(app, frame, area);
+    }
+}
+
+/// The changes with which the selected option would pass, the selected one marked, or how far their study is; and the line selected.
+fn remedy_lines<'a>(app: &App) -> (Vec<Line<'a>>, usize) {
     let (case, theme) = (&app.case, app.theme);
     let Some((remedies, selected)) = app.open_remedies() else {
         let text = match app.studies.state(StudyKind::Remedies) {
             StudyState::Failed(failed) => no_result::message(failed),
             state => format!("looking for changes with which it would pass… {state}"),
         };
-        return vec![Line::styled(text, theme.firing())];
+        return (vec![Line::styled(text, theme.firing())], 0);
     };
     let mut lines = Vec::new();
     if remedies.passing().next().is_some() {
@@ -138,79 +170,11 @@ fn remedy_lines<'a>(app: &App) -> Vec<Line<'a>> {
         let head = format!("it would pass with any one of these changes; {enter} makes the selected one:");
         lines.push(Line::styled(head, theme.title()));
     }
+    let selected_line = lines.len() + selected;
     lines.extend(remedies.passing().enumerate().map(|(n, passing)| {
         let (mark, style) = if n == selected { ("> ", theme.selected()) } else { ("· ", theme.base()) };
         Line::styled(format!("{mark}{}", sentence(case, passing)), style)
     }));
     lines.extend(without_pass(&app.case, remedies).into_iter().map(|line| Line::styled(line, theme.muted())));
-    lines
-}
-
-fn fact_lines<'a>(app: &App, judged: &Judgement) -> Vec<Line<'a>> {
-    let (case, theme, checked) = (&app.case, app.theme, &judged.checked);
-    // As long as samples come, how many there are says more than that they do not suffice.
-    let open = app.options[app.selected].is_sampling()
-        && judgement::verdict_of_both(Verdict::Pass, judged.sampled.map(SampledShot::verdict))
-            == Verdict::Undecided;
-    let reasons = judged.reasons().into_iter().filter(|why| !open || matches!(why, Reason::AsPlanned(_)));
-    let mut lines: Vec<Line> = reasons
-        .map(|why| {
-            let sign = theme::label(why.verdict()).chars().next().unwrap_or(' ');
-            let text = format!("{sign} {}", reasons::sentence(case, judged, &why));
-            Line::styled(text, theme.verdict(why.verdict()))
-        })
-        .collect();
-    if !checked.broken.is_empty() {
-        lines.push(Line::styled(broken(case.scene(), checked), theme.limit()));
-    }
-    if is_listed(app) {
-        lines.extend(remedy_lines(app));
-    }
-    // What was seen of earlier shots speaks against every verdict of the plan.
-    let contradiction = app.contradiction();
-    let passes = judged.verdict() == Verdict::Pass && contradiction.is_empty();
-    if let Some(sampled) = judged.sampled.known().filter(|_| passes) {
-        let text = format!("✓ {}", reasons::pass(sampled));
-        lines.push(Line::styled(text, theme.verdict(Verdict::Pass)));
-    }
-    lines.splice(
-        0..0,
-        contradiction.into_iter().map(|sentence| Line::styled(format!("! {sentence}"), theme.limit())),
-    );
-    let warnings = warnings::of_option(case, app.selected, judged);
-    lines.extend(warnings.into_iter().map(|warning| Line::styled(format!("! {warning}"), theme.firing())));
-    let sampled = judged.sampled.known();
-    if open {
-        let samples = sampled.map_or(0, |sampled| sampled.samples.len());
-        lines.push(Line::styled(format!("? {samples} samples so far, more come"), theme.firing()));
-    }
-    let next_tires = next_tires(case, judged).into_iter();
-    lines.extend(next_tires.map(|text| Line::styled(format!("! {text}"), theme.firing())));
-    lines.extend(dud_of(case, judged).map(Line::from));
-    lines.extend(app.holds(app.selected).map(Line::from));
-    let shares = sampled.and_then(|sampled| input_shares(sampled, &case.limits));
-    let decided = shares.as_deref().map(|shares| format!("decided by {}", inputs(shares)));
-    let measure = shares.as_deref().and_then(measure_first).map(str::to_owned);
-    let launch = launch_limit(&case.shots[app.selected], judged);
-    let launch = launch.map(|launch| format!("as planned it {launch}"));
-    let decided: Vec<String> = launch.into_iter().chain(decided).chain(measure).collect();
-    if !decided.is_empty() {
-        lines.push(Line::from(decided.join(" · ")));
-    }
-    lines.push(Line::from(format!("as planned: {}", peaks(case.scene(), checked))));
-    lines.extend(sampled.and_then(|sampled| bands(case, sampled)).map(Line::from));
-    let how = format!(
-        "step {} · {} runs in {} · energy residual {:.0e} · {} {}",
-        units::milliseconds(checked.step),
-        checked.runs,
-        units::milliseconds(checked.total_wall.as_secs_f64()),
-        checked.energy_residual,
-        match checked.end.reason {
-            EndReason::AtRest => "at rest after",
-            EndReason::TimeLimit => "followed for",
-        },
-        units::seconds(checked.end.time),
-    );
-    lines.push(Line::styled(how, theme.muted()));
-    lines
+    (lines, selected_line)
 }

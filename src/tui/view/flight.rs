@@ -15,17 +15,17 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::canvas::{Canvas, Context, Line as Stroke, Points};
+use ratatui::widgets::canvas::{Canvas, Line as Stroke, Points};
 use ratatui::widgets::{Block, Borders, Paragraph, Wrap};
 
 use super::chart::{self, Mark};
 use super::compare::verdict_words;
-use super::map_numbers;
+use super::from_above::{FromAbove, draw_cable};
 use super::widgets::color;
 use crate::jobs::StudyKind;
 use crate::outcome::{Outcome, Peak};
-use crate::plan;
 use crate::report::words::no_result;
+use crate::scene::fire_at_s;
 use crate::study::flight::Flight;
 use crate::study::judgement::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
@@ -39,8 +39,8 @@ const FLASH: f64 = 0.03;
 const GROUND: f32 = 1e-4;
 /// Relative difference below which two values are alike: displacements are recorded in single precision.
 const ALIKE: f64 = 1e-4;
-/// Distance between the dots of a slack cable [finest dots].
-const DOTTED: f64 = 4.0;
+/// Difference between two times that are the same but for rounding [s].
+const SAME_TIME: f64 = 1e-9;
 /// Signs for heights of one to eight eighths of the limit.
 const LEVELS: [&str; 8] = ["▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"];
 
@@ -106,46 +106,17 @@ fn draw_above(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, are
     let around = block.inner(area);
     frame.render_widget(block, area);
     let around = draw_legend(app, frame, around);
-    let inside = map_numbers::map_area(scene, around);
-    let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
-    let (columns, rows) = (f64::from(inside.width), f64::from(inside.height));
-    if columns < 2.0 || rows < 1.0 {
-        return;
-    }
-    // A cell of a terminal is about twice as high as wide.
-    let width =
-        ((right - left) / (columns - 1.0)).max((top - bottom) / (2.0 * (rows - 1.0).max(1.0))).max(1e-9);
-    let width = even_width(&app.case.plan.layout, width);
-    let position = |tire: usize| (scene.position[tire].x, scene.position[tire].y);
-    let ends = |cable: usize| scene.cables[cable].ends.map(position);
-    let dot = [0.5 * width; 2];
-    let canvas = Canvas::default()
-        .background_color(theme.base().bg.unwrap_or(Color::Reset))
-        .marker(Marker::Braille)
-        .x_bounds([left - 0.5 * width, left + (columns - 0.5) * width])
-        .y_bounds([top - (2.0 * rows - 1.0) * width, top + width])
-        .paint(|context| {
-            draw_cable(app, 0.0, ends(flight.outcome.force.index), dot, context);
-            for (cable, &force) in forces.iter().enumerate().filter(|(_, force)| **force > 0.0) {
-                draw_cable(app, force, ends(cable), dot, context);
-            }
-        });
-    frame.render_widget(canvas, inside);
+    let Some(map) = FromAbove::fit(app, around) else { return };
+    map.draw_cables(app, forces, flight.outcome.force.index, frame);
     let mut firing = vec![None; scene.tire_count()];
     for fire in app.case.shots.get(app.selected).map_or(&[][..], |shot| &shot.firings) {
         if (fire.time..fire.time + FLASH).contains(&time) {
             firing[fire.tire] = Some(arrow(fire.launch.xy()));
         }
     }
-    let cell = |[x, y]: [f64; 2]| {
-        let x = ((x - left) / width).round().min(columns - 1.0) as u16;
-        let y = ((top - y) / (2.0 * width)).round().min(rows - 1.0) as u16;
-        (inside.x + x, inside.y + y)
-    };
-    map_numbers::draw(scene, inside, around, cell, theme.muted(), frame.buffer_mut());
     let mut highest: HashMap<(u16, u16), (f32, Option<&str>)> = HashMap::new();
     for (tire, u) in flight.at(time).iter().enumerate() {
-        let cell = highest.entry(cell(position(tire).into())).or_insert((f32::MIN, None));
+        let cell = highest.entry(map.cell_of(tire)).or_insert((f32::MIN, None));
         let is_top = tire == flight.outcome.height.index && u[2] > GROUND;
         *cell = (cell.0.max(u[2]), firing[tire].or(cell.1).or(is_top.then_some("^")));
     }
@@ -188,41 +159,6 @@ fn draw_legend(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     let [view, last] = Layout::vertical([Constraint::Min(0), Constraint::Length(1)]).areas(area);
     frame.render_widget(Line::styled(legend, app.theme.muted()), last);
     view
-}
-
-/// Draws a cable: dotted where it is slack, twofold where its force is over the limit, so that colours are not all that tells;
-/// `dot` is how wide and high the finest dot is [m].
-fn draw_cable(
-    app: &App,
-    force: f64,
-    [(x1, y1), (x2, y2)]: [(f64, f64); 2],
-    dot: [f64; 2],
-    context: &mut Context<'_>,
-) {
-    if force == 0.0 {
-        let count = (((x2 - x1) / dot[0]).abs().max(((y2 - y1) / dot[1]).abs()) / DOTTED).ceil();
-        let dot_place = |n: usize| (x1 + (x2 - x1) * n as f64 / count, y1 + (y2 - y1) * n as f64 / count);
-        let coords: Vec<(f64, f64)> = (1..count as usize).map(dot_place).collect();
-        return context.draw(&Points { coords: &coords, color: color(app.theme.muted()) });
-    }
-    let color = color(cable_style(app, force));
-    context.draw(&Stroke { x1, y1, x2, y2, color });
-    if force > app.case.limits.force {
-        let is_steep = ((y2 - y1) / dot[1]).abs() > ((x2 - x1) / dot[0]).abs();
-        let [right, up] = if is_steep { [dot[0], 0.0] } else { [0.0, dot[1]] };
-        context.draw(&Stroke { x1: x1 + right, y1: y1 + up, x2: x2 + right, y2: y2 + up, color });
-    }
-}
-
-/// Style of a cable that pulls, by its share of the limit: over it, over four fifths of it, or less.
-fn cable_style(app: &App, force: f64) -> Style {
-    let share = force / app.case.limits.force;
-    let verdict = match share {
-        _ if share > 1.0 => Verdict::Fail,
-        _ if share > 0.8 => Verdict::Undecided,
-        _ => Verdict::Pass,
-    };
-    app.theme.verdict(verdict)
 }
 
 /// The direction of a vector seen from above, x to the right and y up; a star where it has none.
@@ -268,7 +204,8 @@ fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area
     let scale = units::rounded(higher, if higher < 10.0 { 1 } else { 0 });
     let count = |least: f64| forces.iter().filter(|force| **force > least).count();
     let (taut, over) = (count(0.0), count(app.case.limits.force));
-    let title = format!("{seen}, heights x {scale}: {taut} taut");
+    let taut = if taut == 0 { "no cable pulls".to_owned() } else { format!("{taut} taut") };
+    let title = format!("{seen}, {taut}, heights drawn {scale} times");
     let with_over = format!("{title}, {over} over the limit (double lines)");
     let has_room = Span::raw(&with_over).width() + 2 <= usize::from(area.width);
     let title = if over > 0 && has_room { with_over } else { title };
@@ -293,18 +230,10 @@ fn draw_side(app: &App, flight: &Flight, forces: &[f64], frame: &mut Frame, area
             context.draw(&Points { coords: &tires, color: color(theme.curve()) });
             context.layer();
             context.draw(&stroke((from, limit), (to, limit), color(theme.limit())));
-            let label = format!("limit {} m", units::value(limit, Unit::Metre));
+            let label = format!("limit {} m", units::significant(limit, Unit::Metre, 3));
             context.print(from, limit, Span::styled(label, theme.limit()));
         });
     frame.render_widget(canvas, area);
-}
-
-/// The width of a cell [m], at least `least`, with which the columns of a grid stand evenly: so many whole cells apart.
-fn even_width(layout: &plan::Layout, least: f64) -> f64 {
-    let plan::Layout::Grid(mesh) = layout else { return least };
-    let spacing = mesh.column_spacing_m;
-    let cells = (spacing / least).floor();
-    if cells >= 1.0 { spacing / cells } else { least }
 }
 
 /// The highest tire and the hardest pulled cable at the time shown, and those of the whole flight where the width [cells] has room:
@@ -327,26 +256,53 @@ fn now_line<'l>(app: &App, flight: &Flight, forces: &[f64], width: u16) -> Line<
     let tire = peak(height).or_else(|| greatest(&heights)).map_or(
         "no tire in the air".to_owned(),
         |(tire, height)| {
-            let value = units::value(height, Unit::Metre);
+            let value = units::significant(height, Unit::Metre, 3);
             format!("tire {} {value} m, {}", scene.tire_ids[tire], share(height, limits.height))
         },
     );
     let cable =
         peak(force).or_else(|| greatest(forces)).map_or("no cable taut".to_owned(), |(cable, force)| {
-            let value = units::value(force, Unit::Kilonewton);
+            let value = units::significant(force, Unit::Kilonewton, 3);
             format!("cable {} {value} kN, {}", scene.cable_name(cable), share(force, limits.force))
         });
-    let pulled =
-        format!("{} kN at {}", units::value(force.value, Unit::Kilonewton), scene.cable_name(force.index));
-    let both = format!(" · most: ^ {} m, {pulled}", units::value(height.value, Unit::Metre));
+    let pulled = format!(
+        "{} kN at {}",
+        units::significant(force.value, Unit::Kilonewton, 3),
+        scene.cable_name(force.index)
+    );
+    let both = format!(" · most: ^ {} m, {pulled}", units::significant(height.value, Unit::Metre, 3));
     let force_alone = format!(" · most: {pulled}");
-    let mut line = Line::from(Span::styled(format!(" now: {tire} · {cable}"), app.theme.title()));
+    let name =
+        stop_name(app, flight).map_or("now".to_owned(), |stop| format!("{stop} {}", units::seconds(time)));
+    let mut line = Line::from(Span::styled(format!(" {name}: {tire} · {cable}"), app.theme.title()));
     let marks =
         [both, force_alone, " · ^ highest".to_owned()].map(|words| Span::styled(words, app.theme.muted()));
     if let Some(marks) = marks.into_iter().find(|marks| line.width() + marks.width() <= usize::from(width)) {
         line.push_span(marks);
     }
     line
+}
+
+/// What happens at the time shown, where the flight stops there.
+fn stop_name(app: &App, flight: &Flight) -> Option<String> {
+    let (case, time) = (&app.case, app.player.time);
+    let is_now = |at: f64| (at - time).abs() < SAME_TIME;
+    let Outcome { height, force, .. } = &flight.outcome;
+    if is_now(force.time) && force.value > 0.0 {
+        return Some("WORST FORCE".to_owned());
+    }
+    if is_now(height.time) && height.value > 0.0 {
+        return Some("HIGHEST".to_owned());
+    }
+    let times = fire_at_s(&case.plan.delays[app.selected].timing);
+    let rows = case.plan.blast_rows.iter().zip(times).filter(|(_, at)| is_now(*at));
+    let rows: Vec<&str> = rows.map(|(row, _)| row.name.as_str()).collect();
+    let fires = case.shots[app.selected].times().into_iter().any(is_now);
+    match rows[..] {
+        [] => fires.then(|| "a hole fires".to_owned()),
+        [row] => Some(format!("row {row} fires")),
+        _ => Some(format!("rows {} fire", rows.join(", "))),
+    }
 }
 
 /// Draws the time shown, as text and on a bar that takes clicks.

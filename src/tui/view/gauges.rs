@@ -1,7 +1,7 @@
 //! Gauges of one line: how likely an option fails, how much of a limit its shots use, and a quantity over time with its limit.
 //!
 //! ```text
-//! ━━━━┊         risk on a scale from 0.01 to 100 %, logarithmic; ┊ is the accepted risk
+//! ━━━━┊         risk on a scale from 0.01 to 100 %, logarithmic; ┊ is the accepted risk, ┿ where the bar lies across it
 //! ██████▒▒▒┃    planned shot and one in a hundred, ┃ is the limit
 //! ▃▅▅▅▅▃▁       over time; a full cell is past the limit
 //! ```
@@ -10,12 +10,32 @@ use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
 use crate::report::spark::{BARS, resample};
+use crate::units;
 
 /// Least risk of the scale; the greatest is 1.
 const LEAST_RISK: f64 = 1e-4;
 
 /// Cells of a gauge of limits beyond its limit.
 const BEYOND: usize = 2;
+
+/// The scale above gauges of risk of this width: its ends, and the accepted risk, as far as they have room.
+pub fn risk_scale(accepted: f64, width: usize) -> String {
+    let (low, high) = (".01", "100");
+    let accepted_label = format!("{}%", units::short(1e2 * accepted));
+    let start = risk_cell(accepted, width).saturating_sub(accepted_label.len() / 2);
+    let end = width.saturating_sub(high.len());
+    if low.len() < start && start + accepted_label.len() < end {
+        format!("{low:start$}{accepted_label:0$}{high}", end - start)
+    } else {
+        accepted_label
+    }
+}
+
+/// The cell of a risk on a scale of `width` cells.
+fn risk_cell(risk: f64, width: usize) -> usize {
+    let part = 1.0 - risk.max(LEAST_RISK).log10() / LEAST_RISK.log10();
+    ((part * width as f64) as usize).min(width.saturating_sub(1))
+}
 
 /// A failure probability between two bounds, on a logarithmic scale of `width` cells with a mark at the accepted one.
 pub fn risk(
@@ -24,14 +44,12 @@ pub fn risk(
     width: usize,
     [bar, scale]: [Style; 2],
 ) -> Line<'static> {
-    let decades = -LEAST_RISK.log10();
-    let cell = |risk: f64| {
-        let part = 1.0 + risk.max(LEAST_RISK).log10() / decades;
-        ((part * width as f64) as usize).min(width.saturating_sub(1))
-    };
+    let cell = |risk: f64| risk_cell(risk, width);
     let mark = cell(accepted);
     let span = |n: usize| match interval {
-        Some([low, high]) if (cell(low)..=cell(high)).contains(&n) => Span::styled("━", bar),
+        Some([low, high]) if (cell(low)..=cell(high)).contains(&n) => {
+            Span::styled(if n == mark { "┿" } else { "━" }, bar)
+        }
         _ if n == mark => Span::styled("┊", scale),
         _ => Span::raw(" "),
     };
@@ -91,8 +109,16 @@ mod tests {
         assert_eq!(of(None), "    ┊   ");
         assert_eq!(of(Some([0.0, 0.005])), "━━━━┊   ");
         assert_eq!(of(Some([0.05, 0.2])), "    ┊━━ ");
-        assert_eq!(of(Some([0.002, 0.03])), "  ━━━   ");
+        assert_eq!(of(Some([0.002, 0.03])), "  ━━┿   ");
         assert_eq!(of(Some([1.0, 1.0])), "    ┊  ━");
+    }
+
+    #[test]
+    fn the_scale_of_risk_names_what_has_room() {
+        assert_eq!(risk_scale(0.01, 16), ".01    1%    100");
+        assert_eq!(risk_scale(0.01, 11), ".01 1%  100");
+        assert_eq!(risk_scale(0.01, 6), "1%");
+        assert_eq!(risk_scale(0.5, 11), "50%");
     }
 
     #[test]

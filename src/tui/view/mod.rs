@@ -3,44 +3,46 @@
 //!
 //! ```text
 //! 1 Plan  2 Compare  3 Flight  4 Studies  5 Accuracy  ? Help    tabs
-//! title · plan                                    state         header
-//! limits · method · accuracy
+//! the answer, or title and plan                   state         header
+//! badges: what a PASS leaves open
 //! contents of the screen                                        body
 //! keys, or the line being typed                                 footer
 //! ```
 
 mod accuracy;
 mod chart;
+mod columns;
 mod command_palette;
 mod compare;
 mod detail;
 mod fields;
 mod flight;
+mod from_above;
 mod gauges;
+mod hardest_cables;
+mod header;
 mod help;
+mod limit_chart;
 mod map_numbers;
 mod plan;
 pub(super) mod report;
+mod sentences;
+mod six_lines;
 mod studies;
 mod widgets;
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Position, Rect};
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, Clear, Paragraph, Wrap};
-use unicode_width::UnicodeWidthStr;
+use ratatui::widgets::{Block, Paragraph, Wrap};
+use tui_input::Input;
 
 use self::widgets::draw_row;
 use super::app::{App, Areas, ClickTarget};
-use super::compare::OptionState;
 use super::keymap::{Action, BINDINGS, Binding};
 use super::prompt::{Prompt, Purpose};
 use super::screen::Screen;
-use crate::report::words::limits::limits_in_short;
-use crate::report::words::option_sentences::compute_label;
-use crate::report::words::warnings;
 use crate::study::judgement::Judgement;
-use crate::units;
 use crate::verdict::Verdict;
 
 /// Least width and height of a screen that holds everything.
@@ -64,7 +66,7 @@ pub fn draw(app: &App, frame: &mut Frame) -> Areas {
     ])
     .areas(area);
     draw_tabs(app, frame, tabs, &mut areas);
-    draw_header(app, frame, header);
+    header::draw(app, frame, header);
     match app.screen {
         Screen::Plan => plan::draw(app, frame, body, &mut areas),
         Screen::Compare => draw_options(app, frame, body, &mut areas),
@@ -72,21 +74,28 @@ pub fn draw(app: &App, frame: &mut Frame) -> Areas {
         Screen::Studies => studies::draw(app, frame, body, &mut areas),
         Screen::Accuracy => accuracy::draw(app, frame, body),
     }
-    match &app.prompt {
-        Some(prompt) => draw_prompt(app, prompt, frame, footer),
-        None => draw_footer(app, frame, footer, &mut areas),
+    match (&app.prompt, &app.editor.input) {
+        (Some(prompt), _) => draw_prompt(app, prompt, frame, footer),
+        (None, Some(input)) if app.screen == Screen::Compare => draw_new_times(app, input, frame, footer),
+        _ => draw_footer(app, frame, footer, &mut areas),
     }
-    draw_long_notice(app, frame, header.union(body));
+    header::draw_long_notice(app, frame, header.union(body));
     if app.help {
         help::draw(app, frame, area, &mut areas);
     }
     areas
 }
 
+/// Least height of the detail: its rule, six lines and a chart.
+const DETAIL: u16 = 7 + limit_chart::LEAST_SIZE.1;
+/// Options that are shown in any case.
+const OPTIONS: u16 = 6;
+
 /// Draws the table of options with the selected option below, or the selected option alone.
 fn draw_options(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
-    let rows = app.listed().len().max(1) as u16 + 1;
-    let table = if app.zoom { 0 } else { rows.min(area.height / 2) };
+    let rows = app.listed().len().max(1) as u16 + compare::HEAD_LINES;
+    let most = area.height.saturating_sub(DETAIL).max(OPTIONS + compare::HEAD_LINES);
+    let table = if app.zoom { 0 } else { rows.min(most) };
     let [list, rest] = Layout::vertical([Constraint::Length(table), Constraint::Min(0)]).areas(area);
     if !app.zoom {
         compare::draw(app, frame, list, areas);
@@ -108,114 +117,6 @@ fn draw_tabs(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     });
     let help = (tab(app.keymap.first_key(Action::Help), "Help", app.help), ClickTarget::Act(Action::Help));
     draw_row(screens.chain([help]), frame, area, areas);
-}
-
-fn draw_header(app: &App, frame: &mut Frame, area: Rect) {
-    let (case, theme) = (&app.case, app.theme);
-    let mut about = format!("limits: {}", limits_in_short(case));
-    about += &format!(", risk {} %", units::short(case.plan.limits.accepted_risk_percent));
-    if case.plan.uncertainty.assumed {
-        about += " · inputs assumed";
-    }
-    about += &format!(" · {}", compute_label(&app.compute));
-    let size = format!(" · {} tires, {} cables", case.scene().tire_count(), case.scene().cables.len());
-    if Span::raw(&about).width() + Span::raw(&size).width() <= usize::from(area.width) {
-        about += &size;
-    }
-    let unsaved = if app.editor.unsaved() { " *not saved*" } else { "" };
-    let title = Line::from(vec![
-        Span::styled(case.title(), theme.title()),
-        Span::styled(unsaved, theme.limit()),
-        Span::styled(format!("  {}", case.source.path), theme.muted()),
-    ]);
-    let state = Line::from(summary(app)).right_aligned().style(theme.title());
-    let [first, second] = Layout::vertical([Constraint::Length(1); 2]).areas(area);
-    let [left, right] =
-        Layout::horizontal([Constraint::Min(0), Constraint::Length(state.width() as u16 + 1)]).areas(first);
-    frame.render_widget(title, left);
-    frame.render_widget(state, right);
-    let filter = if app.screen == Screen::Studies { &app.studies.filter } else { &app.listing.filter };
-    let line = match &app.notice {
-        Some(notice) => Line::styled(notice.as_str(), theme.limit()),
-        None if !filter.is_empty() => {
-            let what = if app.screen == Screen::Studies { "lines" } else { "options" };
-            Line::styled(format!("only {what} with '{filter}' are shown; Esc shows all"), theme.limit())
-        }
-        None => {
-            let warnings = warnings::of_plan(case);
-            let warning = match (warnings.as_slice(), app.screen) {
-                ([], _) => String::new(),
-                // The Plan screen lists them.
-                (all, Screen::Plan) if all.len() > 1 => format!("! {} warnings, below · ", all.len()),
-                ([only], _) => format!("! {only} · "),
-                (all, _) => format!("! {} warnings: see Plan · ", all.len()),
-            };
-            // What was seen of earlier shots speaks against every verdict of the plan.
-            let contradiction = if app.contradiction().is_empty() {
-                ""
-            } else if !app.is_compared_with_seen() {
-                "! what was seen is not compared with this plan · "
-            } else {
-                "! what was seen contradicts this plan: see Compare · "
-            };
-            let answer = answer(app).filter(|_| app.screen == Screen::Compare);
-            let mut spans = vec![
-                Span::styled(contradiction, theme.limit()),
-                Span::styled(warning, theme.limit()),
-                Span::styled(about, theme.muted()),
-            ];
-            spans.splice(0..0, answer);
-            Line::from(spans)
-        }
-    };
-    frame.render_widget(line, second);
-}
-
-/// The answer, before all else on Compare: which option passes and is the safest, or HOLD where what was seen contradicts the plan.
-fn answer(app: &App) -> Option<Span<'static>> {
-    let (best, text) = app.answer.as_ref()?;
-    let theme = app.theme;
-    Some(match best {
-        _ if !app.contradiction().is_empty() => Span::styled("HOLD · ", theme.limit()),
-        Some(_) => Span::styled(format!("✓ {text} · "), theme.verdict(Verdict::Pass)),
-        None => {
-            let why = app.keymap.hint(Action::Why);
-            Span::styled(
-                format!("✗ {text}; {why}: what would make one pass · "),
-                theme.verdict(Verdict::Fail),
-            )
-        }
-    })
-}
-
-/// Lines that a notice may cover.
-const NOTICE_LINES: u16 = 4;
-
-/// Draws a notice that is wider than its line of the header over the lines below.
-fn draw_long_notice(app: &App, frame: &mut Frame, area: Rect) {
-    let Some(notice) = app.notice.as_ref().filter(|notice| notice.width() > usize::from(area.width)) else {
-        return;
-    };
-    // Broken at words, a line is filled to four fifths at least.
-    let lines = notice.width().div_ceil(usize::from(area.width) * 4 / 5) as u16;
-    let place = Rect { y: area.y + 1, height: lines.min(NOTICE_LINES), ..area }.intersection(area);
-    let style = app.theme.base().patch(app.theme.limit());
-    frame.render_widget(Clear, place);
-    frame.render_widget(Paragraph::new(notice.as_str()).style(style).wrap(Wrap { trim: true }), place);
-}
-
-/// State of the whole plan: options checked as planned, options that need more samples, or options that pass.
-fn summary(app: &App) -> String {
-    let count = |has: fn(&OptionState) -> bool| app.options.iter().filter(|state| has(state)).count();
-    let all = app.options.len();
-    if app.checking() {
-        format!("computing {}/{all}", count(|state| !state.is_computing()))
-    } else if app.sampling() {
-        format!("sampling: {} of {all} open", count(|state| state.verdict() == Verdict::Undecided))
-    } else {
-        let against = if app.contradiction().is_empty() { "" } else { ", contradicted" };
-        format!("{} of {all} pass{against}", count(|state| state.verdict() == Verdict::Pass))
-    }
 }
 
 /// Draws keys and labels: first the keys of the screen, then the keys of all screens, as many as fit; help and quit always.
@@ -271,13 +172,31 @@ fn draw_prompt(app: &App, prompt: &Prompt, frame: &mut Frame, area: Rect) {
     if prompt.purpose == Purpose::Palette {
         command_palette::draw(app, prompt, frame, area);
     }
-    let wide = Span::raw(head).width();
+    draw_typed(app, head, &prompt.input, frame, area);
+}
+
+/// Draws the interval of a new option, or its firing times, being typed; a mistake stands before it.
+fn draw_new_times(app: &App, input: &Input, frame: &mut Frame, area: Rect) {
+    let option = app.case.plan.delays.get(app.selected).map_or("", |delay| delay.name.as_str());
+    let option = compare::cut(option, LONGEST_NAME);
+    let label = app.editor.field().map_or("", |field| field.path.key.name);
+    let head = match &app.editor.problem {
+        Some(problem) => format!(" {problem}: "),
+        None => format!(" {label} of the copy “{option}” (Enter takes it, Esc leaves it): "),
+    };
+    draw_typed(app, &head, input, frame, area);
+}
+
+/// Draws a line being typed behind `head`, with the cursor; typing has a third of the line at least.
+fn draw_typed(app: &App, head: &str, input: &Input, frame: &mut Frame, area: Rect) {
+    let head: String = head.chars().take(usize::from(area.width) * 2 / 3).collect();
+    let wide = Span::raw(&head).width();
     let room = usize::from(area.width).saturating_sub(wide + 1);
-    let scroll = prompt.input.visual_scroll(room);
-    let typed: String = prompt.input.value().chars().skip(scroll).collect();
+    let scroll = input.visual_scroll(room);
+    let typed: String = input.value().chars().skip(scroll).collect();
     let line = Line::from(vec![Span::styled(head, app.theme.title()), Span::raw(typed)]);
     frame.render_widget(line, area);
-    let column = wide + prompt.input.visual_cursor().saturating_sub(scroll);
+    let column = wide + input.visual_cursor().saturating_sub(scroll);
     let x = area.x + (column as u16).min(area.width.saturating_sub(1));
     frame.set_cursor_position(Position::new(x, area.y));
 }

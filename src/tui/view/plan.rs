@@ -25,7 +25,7 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     // Each warning takes two lines of a screen of 80 columns; they are worth more than the last values.
     let lines = lines + (3 * warnings.len() as u16).min(area.height / 2);
     let [list, message] = Layout::vertical([Constraint::Min(0), Constraint::Length(lines)]).areas(left);
-    let options = (app.listed().len() as u16 + 1).min(right.height / 3);
+    let options = (app.listed().len() as u16 + compare::HEAD_LINES).min(right.height / 3);
     let [shelter, verdicts] =
         Layout::vertical([Constraint::Min(0), Constraint::Length(options)]).areas(right);
     draw_shelter(app, frame, shelter);

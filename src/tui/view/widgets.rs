@@ -55,6 +55,11 @@ pub fn draw_message(app: &App, frame: &mut Frame, area: Rect, question: Line<'_>
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }), area);
 }
 
+/// Number of lines that `lines` take where they are broken at a width.
+pub fn wrapped(lines: &[Line<'_>], width: u16) -> u16 {
+    lines.iter().map(|line| (line.width() as u16).div_ceil(width.max(1)).max(1)).sum()
+}
+
 /// Foreground colour of a style, for canvases, which take no style.
 pub fn color(style: Style) -> Color {
     style.fg.unwrap_or(Color::Reset)

@@ -1,0 +1,122 @@
+//! The columns of digits in the table of delay options, the most telling first.
+
+use crate::study::as_planned::check::CheckedShot;
+use crate::study::judgement::{Evidence, Judgement};
+use crate::tui::app::App;
+use crate::tui::compare::SortBy;
+use crate::units::{self, Unit};
+use crate::verdict::{Estimate, Quantity};
+
+/// A column of digits: both lines of its head, and its width.
+pub struct CompareColumn {
+    pub head: [&'static str; 2],
+    pub sort: SortBy,
+    pub width: u16,
+    pub cell: fn(&App, usize, &Judgement) -> String,
+}
+
+/// Significant digits of a value, and of a band.
+const DIGITS: i32 = 3;
+const BAND_DIGITS: i32 = 2;
+
+pub const COLUMNS: &[CompareColumn] = &[
+    CompareColumn { head: ["fail", "of tried"], sort: SortBy::Risk, width: 9, cell: failed_of_tried },
+    CompareColumn {
+        head: ["height", "worst"],
+        sort: SortBy::Height,
+        width: 6,
+        cell: |app, _, judged| share_of_limit(app, judged, Quantity::Height),
+    },
+    CompareColumn {
+        head: ["force", "worst"],
+        sort: SortBy::Force,
+        width: 6,
+        cell: |app, _, judged| share_of_limit(app, judged, Quantity::Force),
+    },
+    CompareColumn {
+        head: ["height", "plan, m"],
+        sort: SortBy::Height,
+        width: 8,
+        cell: |app, option, _| value_or_difference(app, option, |checked| checked.height, Unit::Metre),
+    },
+    CompareColumn {
+        head: ["force", "plan, kN"],
+        sort: SortBy::Force,
+        width: 8,
+        cell: |app, option, _| value_or_difference(app, option, |checked| checked.force, Unit::Kilonewton),
+    },
+    CompareColumn {
+        head: ["safety", "factor"],
+        sort: SortBy::Force,
+        width: 6,
+        cell: |_, _, judged| units::factor(judged.checked.safety_factor),
+    },
+    CompareColumn {
+        head: ["drift", "plan, m"],
+        sort: SortBy::Drift,
+        width: 8,
+        cell: |app, option, _| value_or_difference(app, option, |checked| checked.drift, Unit::Metre),
+    },
+    CompareColumn {
+        head: ["height, m", "90 % of shots"],
+        sort: SortBy::Height,
+        width: 13,
+        cell: |_, _, judged| band(judged, Quantity::Height, Unit::Metre),
+    },
+    CompareColumn {
+        head: ["force, kN", "90 % of shots"],
+        sort: SortBy::Force,
+        width: 13,
+        cell: |_, _, judged| band(judged, Quantity::Force, Unit::Kilonewton),
+    },
+];
+
+/// Shots that fail of those tried: `9/200`; dots as long as more come.
+fn failed_of_tried(app: &App, option: usize, judged: &Judgement) -> String {
+    let more = if app.options[option].is_sampling() { "…" } else { "" };
+    match &judged.sampled {
+        Evidence::NotAsked => String::new(),
+        Evidence::NoneDrawn => format!("0{more}"),
+        Evidence::Known(sampled) => format!("{}/{}{more}", sampled.bounds.failures, sampled.samples.len()),
+    }
+}
+
+/// The share of its limit that all but the accepted share of the shots use at most. The shot as planned counts where it uses more.
+/// Empty as long as few shots were tried: the shot as planned alone would flatter the option.
+fn share_of_limit(app: &App, judged: &Judgement, quantity: Quantity) -> String {
+    let limits = &app.case.limits;
+    let share = || {
+        let value = judged.sampled.known()?.value_at_risk(quantity)?;
+        let as_planned = judged.checked.share_of_limit(quantity, limits)?;
+        Some(as_planned.max(value / limits.get(quantity)?))
+    };
+    share().map_or_else(String::new, |share| units::percent(share, 0))
+}
+
+/// 5th and 95th percentile of a quantity.
+fn band(judged: &Judgement, quantity: Quantity, unit: Unit) -> String {
+    let band = judged.sampled.known().and_then(|sampled| sampled.band(quantity));
+    band.map_or_else(String::new, |[low, _, high, _]| {
+        [low, high].map(|value| units::significant(value, unit, BAND_DIGITS)).join(" to ")
+    })
+}
+
+/// A quantity of the shot as planned, or its difference from the baseline.
+fn value_or_difference(
+    app: &App,
+    option: usize,
+    quantity: fn(&CheckedShot) -> Estimate,
+    unit: Unit,
+) -> String {
+    let Some(mine) = app.judgement(option).map(|judged| quantity(&judged.checked).value) else {
+        return String::new();
+    };
+    match app.baseline() {
+        Some((other, base)) if other != option => {
+            let difference = mine - quantity(&base.checked).value;
+            let sign = if difference >= 0.0 { "+" } else { "" };
+            format!("{sign}{}", units::significant(difference, unit, BAND_DIGITS))
+        }
+        _ => units::significant(mine, unit, DIGITS),
+    }
+}

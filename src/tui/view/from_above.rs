@@ -1,0 +1,133 @@
+//! The shelter from above: the cell of every place, and the cables by their force.
+
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::style::{Color, Style};
+use ratatui::symbols::Marker;
+use ratatui::widgets::canvas::{Canvas, Context, Line as Stroke, Points};
+
+use super::map_numbers;
+use super::widgets::color;
+use crate::plan;
+use crate::scene::Scene;
+use crate::tui::app::App;
+use crate::verdict::Verdict;
+
+/// Distance between the dots of a slack cable [finest dots].
+const DOTTED: f64 = 4.0;
+
+/// The shelter from above, fitted into an area of the screen.
+pub struct FromAbove<'s> {
+    scene: &'s Scene,
+    /// The area with the numbers of rows and columns.
+    around: Rect,
+    /// The area of the tires.
+    inside: Rect,
+    /// Place of the first cell [m].
+    left: f64,
+    top: f64,
+    /// Width of a cell [m]; a cell of a terminal is about twice as high.
+    width: f64,
+}
+
+impl<'s> FromAbove<'s> {
+    /// Fits the shelter of the plan into an area; `None` where the area is too small.
+    pub fn fit(app: &'s App, around: Rect) -> Option<Self> {
+        let scene = app.case.scene();
+        let inside = map_numbers::map_area(scene, around);
+        let [[left, right], [bottom, top]] = [scene.extent(0), scene.extent(1)];
+        let (columns, rows) = (f64::from(inside.width), f64::from(inside.height));
+        if columns < 2.0 || rows < 1.0 {
+            return None;
+        }
+        let width =
+            ((right - left) / (columns - 1.0)).max((top - bottom) / (2.0 * (rows - 1.0).max(1.0))).max(1e-9);
+        let width = even_width(&app.case.plan.layout, width);
+        Some(Self { scene, around, inside, left, top, width })
+    }
+
+    /// The cell of a tire at rest.
+    pub fn cell_of(&self, tire: usize) -> (u16, u16) {
+        let position = self.scene.position[tire];
+        self.cell([position.x, position.y])
+    }
+
+    /// The cell of a place [m].
+    fn cell(&self, [x, y]: [f64; 2]) -> (u16, u16) {
+        let Self { inside, left, top, width, .. } = self;
+        let x = ((x - left) / width).round().min(f64::from(inside.width) - 1.0) as u16;
+        let y = ((top - y) / (2.0 * width)).round().min(f64::from(inside.height) - 1.0) as u16;
+        (inside.x + x, inside.y + y)
+    }
+
+    /// Draws the cables that pull by their forces [N] (`n_cables`), the cable `marked` in any case, and the numbers of rows and
+    /// columns.
+    pub fn draw_cables(&self, app: &App, forces: &[f64], marked: usize, frame: &mut Frame) {
+        let Self { scene, around, inside, left, top, width } = self;
+        let (columns, rows) = (f64::from(inside.width), f64::from(inside.height));
+        let place = |tire: usize| (scene.position[tire].x, scene.position[tire].y);
+        let ends = |cable: usize| scene.cables.get(cable).map(|cable| cable.ends.map(place));
+        let dot = [0.5 * width; 2];
+        let canvas = Canvas::default()
+            .background_color(app.theme.base().bg.unwrap_or(Color::Reset))
+            .marker(Marker::Braille)
+            .x_bounds([left - 0.5 * width, left + (columns - 0.5) * width])
+            .y_bounds([top - (2.0 * rows - 1.0) * width, top + width])
+            .paint(|context| {
+                let pulled = forces.iter().copied().enumerate().filter(|(_, force)| *force > 0.0);
+                for (cable, force) in [(marked, 0.0)].into_iter().chain(pulled) {
+                    if let Some(ends) = ends(cable) {
+                        draw_cable(app, force, ends, dot, context);
+                    }
+                }
+            });
+        frame.render_widget(canvas, *inside);
+        let cell = |at: [f64; 2]| self.cell(at);
+        map_numbers::draw(scene, *inside, *around, cell, app.theme.muted(), frame.buffer_mut());
+    }
+}
+
+/// Draws a cable: dotted where it is slack, twofold where its force is over the limit, so that colours are not all that tells;
+/// `dot` is how wide and high the finest dot is [m].
+pub fn draw_cable(
+    app: &App,
+    force: f64,
+    [(x1, y1), (x2, y2)]: [(f64, f64); 2],
+    dot: [f64; 2],
+    context: &mut Context<'_>,
+) {
+    if force == 0.0 {
+        let count = (((x2 - x1) / dot[0]).abs().max(((y2 - y1) / dot[1]).abs()) / DOTTED).ceil();
+        let dot_place = |n: usize| (x1 + (x2 - x1) * n as f64 / count, y1 + (y2 - y1) * n as f64 / count);
+        let coords: Vec<(f64, f64)> = (1..count as usize).map(dot_place).collect();
+        return context.draw(&Points { coords: &coords, color: color(app.theme.muted()) });
+    }
+    let color = color(cable_style(app, force));
+    context.draw(&Stroke { x1, y1, x2, y2, color });
+    if force > app.case.limits.force {
+        let is_steep = ((y2 - y1) / dot[1]).abs() > ((x2 - x1) / dot[0]).abs();
+        let [right, up] = if is_steep { [dot[0], 0.0] } else { [0.0, dot[1]] };
+        context.draw(&Stroke { x1: x1 + right, y1: y1 + up, x2: x2 + right, y2: y2 + up, color });
+    }
+}
+
+/// Style of a cable that pulls, by its share of the limit: over it, over four fifths of it, or less.
+fn cable_style(app: &App, force: f64) -> Style {
+    let share = force / app.case.limits.force;
+    let verdict = match share {
+        _ if share > 1.0 => Verdict::Fail,
+        _ if share > 0.8 => Verdict::Undecided,
+        _ => Verdict::Pass,
+    };
+    app.theme.verdict(verdict)
+}
+
+/// The width of a cell [m], at least `least`, with which the columns of a grid stand evenly: so many whole cells apart, and an even
+/// number where there are several, because a cell is twice as high as wide.
+fn even_width(layout: &plan::Layout, least: f64) -> f64 {
+    let plan::Layout::Grid(mesh) = layout else { return least };
+    let spacing = mesh.column_spacing_m;
+    let cells = (spacing / least).floor();
+    let cells = if cells > 2.0 { 2.0 * (0.5 * cells).floor() } else { cells };
+    if cells >= 1.0 { spacing / cells } else { least }
+}

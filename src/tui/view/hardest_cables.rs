@@ -1,0 +1,63 @@
+//! Which cable to strengthen: the shelter from above with the cables that are pulled hardest in a shot, by the force in them.
+//!
+//! ```text
+//! ─ cables pulled hardest in 500 shots ─
+//! 4 o───o───o───o
+//!   │   ║   │   │
+//! 3 ●───●───◉───●
+//! ● hole  ◉ highest  ━ over 80 %  ═ over the limit
+//! ```
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, Borders};
+
+use super::from_above::FromAbove;
+use crate::study::judgement::Judgement;
+use crate::tui::app::App;
+
+/// Draws the map of the selected option: of the shots tried, or of the shot as planned as long as there is none.
+pub fn draw(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect) {
+    let (scene, theme, checked) = (app.case.scene(), app.theme, &judged.checked);
+    let (title, forces) = match judged.sampled.known() {
+        Some(sampled) => (
+            format!(" cables pulled hardest in {} shots ", sampled.samples.len()),
+            sampled.forces_where_hardest(scene.cables.len()),
+        ),
+        None => {
+            let mut forces = vec![0.0; scene.cables.len()];
+            if let Some(force) = forces.get_mut(checked.force.index) {
+                *force = checked.force.value;
+            }
+            (" cable pulled hardest as planned ".to_owned(), forces)
+        }
+    };
+    let block = Block::new()
+        .borders(Borders::TOP)
+        .border_style(theme.muted())
+        .title(Line::styled(title, theme.title()));
+    let inside = block.inner(area);
+    frame.render_widget(block, area);
+    let [view, legend] = Layout::vertical([Constraint::Min(0), Constraint::Length(1)]).areas(inside);
+    let Some(map) = FromAbove::fit(app, view) else { return };
+    map.draw_cables(app, &forces, checked.force.index, frame);
+    let holes = app.case.shots[app.selected].firings.iter().map(|firing| (firing.tire, "●", theme.firing()));
+    let highest = (checked.height.value > 0.0).then_some((checked.height.index, "◉", theme.title()));
+    let tires = (0..scene.tire_count()).map(|tire| (tire, "o", theme.muted()));
+    let signs = tires.chain(holes).chain(highest);
+    for (tire, sign, style) in signs {
+        let (x, y) = map.cell_of(tire);
+        frame.buffer_mut().set_string(x, y, sign, style);
+    }
+    let entries = [
+        ("●", theme.firing(), " hole  "),
+        ("◉", theme.title(), " highest  "),
+        ("━", theme.firing(), " over 80 %  "),
+        ("═", theme.limit(), " over the limit"),
+    ];
+    let entries = entries
+        .into_iter()
+        .flat_map(|(sign, style, words)| [Span::styled(sign, style), Span::styled(words, theme.muted())]);
+    frame.render_widget(Line::from_iter(entries), legend);
+}

@@ -1,0 +1,195 @@
+//! The header: the answer on its first line, and badges of what stays open on its second.
+//!
+//! ```text
+//! ✓ 42 ms passes, the safest of 7: surely fewer than 1 in 100 …   1 of 7 pass
+//! ! slide is not judged: 1 in 20 end beyond 3.14 m · all inputs assumed
+//! ```
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Clear, Paragraph, Wrap};
+use unicode_width::UnicodeWidthStr;
+
+use crate::report::words::limits::limits_in_short;
+use crate::report::words::option_sentences::compute_label;
+use crate::report::words::warnings;
+use crate::study::judgement::Judgement;
+use crate::tui::app::App;
+use crate::tui::compare::OptionState;
+use crate::tui::keymap::Action;
+use crate::tui::screen::Screen;
+use crate::units::{self, Unit};
+use crate::verdict::{Quantity, Verdict};
+
+/// Draws the header.
+pub fn draw(app: &App, frame: &mut Frame, area: Rect) {
+    let [first, second] = Layout::vertical([Constraint::Length(1); 2]).areas(area);
+    let state = Line::from(summary(app)).right_aligned().style(app.theme.title());
+    let [left, right] =
+        Layout::horizontal([Constraint::Min(0), Constraint::Length(state.width() as u16 + 1)]).areas(first);
+    frame.render_widget(state, right);
+    frame.render_widget(title(app, left.width), left);
+    frame.render_widget(notes(app, second.width), second);
+}
+
+/// The answer on Compare once there is one, else the title of the plan with its file.
+fn title(app: &App, width: u16) -> Line<'_> {
+    let theme = app.theme;
+    let unsaved = if app.editor.unsaved() { "*not saved* " } else { "" };
+    let unsaved = Span::styled(unsaved, theme.limit());
+    let room = usize::from(width).saturating_sub(unsaved.width());
+    if let Some(answer) = answer(app, room).filter(|_| app.screen == Screen::Compare) {
+        return Line::from(vec![unsaved, answer]);
+    }
+    Line::from(vec![
+        unsaved,
+        Span::styled(app.case.title(), theme.title()),
+        Span::styled(format!("  {}", app.case.source.path), theme.muted()),
+    ])
+}
+
+/// The answer: which option passes and is the safest, or HOLD where observations contradict the plan. Without room for the whole
+/// sentence its first clause stands.
+fn answer(app: &App, room: usize) -> Option<Span<'static>> {
+    let (best, text) = app.answer.as_ref()?;
+    let theme = app.theme;
+    let (text, style) = match best {
+        _ if !app.contradiction().is_empty() => {
+            ("! HOLD: fire nothing before observations and plan agree".to_owned(), theme.limit())
+        }
+        Some(_) => (format!("✓ {text}"), theme.verdict(Verdict::Pass)),
+        None => {
+            let why = app.keymap.first_key(Action::Why);
+            (format!("✗ {text}: {why} tells what would make one pass"), theme.verdict(Verdict::Fail))
+        }
+    };
+    let clause = || text.rsplit_once(": ").map_or(text.as_str(), |(clause, _)| clause).to_owned();
+    let text = if text.width() <= room { text } else { clause() };
+    Some(Span::styled(text, style))
+}
+
+/// A notice, the filter, or the badges with limits and method behind them where those have room.
+fn notes(app: &App, width: u16) -> Line<'_> {
+    let theme = app.theme;
+    let (what, filter) = match app.screen {
+        Screen::Studies => ("lines", &app.studies.filter),
+        _ => ("options", &app.listing.filter),
+    };
+    if let Some(notice) = &app.notice {
+        return Line::styled(notice.as_str(), theme.limit());
+    }
+    if !filter.is_empty() {
+        return Line::styled(format!("only {what} with '{filter}' are shown; Esc shows all"), theme.limit());
+    }
+    let badges = fitting(&badges(app), width.into());
+    let case = &app.case;
+    let risk = units::short(case.plan.limits.accepted_risk_percent);
+    let limits = format!("limits: {}", limits_in_short(case));
+    let all = format!("{limits}, risk {risk} % · {}", compute_label(&app.compute));
+    let behind = if badges.is_empty() { "" } else { " · " };
+    let room = usize::from(width).saturating_sub(badges.width() + behind.width());
+    let about = [all, limits].into_iter().find(|about| about.width() <= room);
+    // The table of options has its limits above it.
+    let about = about.filter(|_| app.screen != Screen::Compare);
+    let about = about.map_or_else(String::new, |about| format!("{behind}{about}"));
+    Line::from(vec![Span::styled(badges, theme.limit()), Span::styled(about, theme.muted())])
+}
+
+/// What stays true until it is mended: from the longest wording to the shortest.
+type Badge = [String; 3];
+
+/// The badges in a line: all of them, the last ones in fewer words where they have no room.
+fn fitting(badges: &[Badge], width: usize) -> String {
+    let line = |lengths: &[usize]| {
+        let words: Vec<&str> = badges.iter().zip(lengths).map(|(badge, &n)| badge[n].as_str()).collect();
+        if words.is_empty() { String::new() } else { format!("! {}", words.join(" · ")) }
+    };
+    let mut lengths = vec![0; badges.len()];
+    for shorter in [1, 2] {
+        for n in (0..badges.len()).rev() {
+            if line(&lengths).width() > width {
+                lengths[n] = shorter;
+            }
+        }
+    }
+    line(&lengths)
+}
+
+fn badges(app: &App) -> Vec<Badge> {
+    let (case, judged) = (&app.case, app.judgement(app.selected));
+    let badge = |long: &str, short: &str, shortest: &str| [long, short, shortest].map(str::to_owned);
+    let mut badges = Vec::new();
+    if !app.contradiction().is_empty() {
+        badges.push(match app.is_compared_with_seen() {
+            true => badge("observations contradict this plan", "contradicted", "contradicted"),
+            false => badge("observations are not compared with this plan", "not compared", "not compared"),
+        });
+    }
+    if case.limits.drift.is_none() {
+        let far = judged.and_then(|judged| judged.sampled.known()?.band(Quantity::Drift));
+        let far = far.map_or_else(String::new, |[_, _, p95, _]| {
+            format!(": 1 in 20 end beyond {} m", units::significant(p95, Unit::Metre, 2))
+        });
+        badges.push(badge(&format!("slide is not judged{far}"), "slide is not judged", "no slide limit"));
+    }
+    let uncertainty = &case.plan.uncertainty;
+    if uncertainty.assumed {
+        badges.push(badge("all inputs assumed", "inputs assumed", "assumed"));
+    } else if uncertainty.incomplete {
+        badges.push(badge("some inputs are defaults", "some defaults", "defaults"));
+    }
+    let dud = judged.and_then(|judged| judged.one_dud).filter(|dud| dud.not_passing > 0);
+    badges.extend(dud.map(|dud| {
+        let long = format!("one dud exceeds a limit at {} of {} holes", dud.not_passing, dud.places);
+        badge(&long, "a dud exceeds a limit", "dud")
+    }));
+    let of_plan = warnings::of_plan(case).len();
+    if of_plan > 0 {
+        let plan = app.keymap.first_key(Action::Show(Screen::Plan));
+        badges.push(badge(&format!("warnings: {of_plan} ({plan} Plan)"), "warnings: see Plan", "warnings"));
+    }
+    let of_option = judged.filter(|_| app.screen == Screen::Compare);
+    let of_option = of_option.map_or(0, |judged| warnings_of_option(app, judged));
+    if of_option > 0 {
+        let open = app.keymap.hint(Action::Open);
+        badges.push(badge(&format!("{open}: {of_option} on this option"), &format!("see {open}"), "more"));
+    }
+    badges
+}
+
+/// Number of warnings of the selected option that no badge says.
+fn warnings_of_option(app: &App, judged: &Judgement) -> usize {
+    let all = warnings::swaps_and_cover(&app.case, app.selected, judged).count();
+    all + judged.next_tires.len()
+}
+
+/// Lines that a notice may cover.
+const NOTICE_LINES: u16 = 4;
+
+/// Draws a notice that is wider than its line of the header over the lines below.
+pub fn draw_long_notice(app: &App, frame: &mut Frame, area: Rect) {
+    let Some(notice) = app.notice.as_ref().filter(|notice| notice.width() > usize::from(area.width)) else {
+        return;
+    };
+    // Broken at words, a line is filled to four fifths at least.
+    let lines = notice.width().div_ceil(usize::from(area.width) * 4 / 5) as u16;
+    let place = Rect { y: area.y + 1, height: lines.min(NOTICE_LINES), ..area }.intersection(area);
+    let style = app.theme.base().patch(app.theme.limit());
+    frame.render_widget(Clear, place);
+    frame.render_widget(Paragraph::new(notice.as_str()).style(style).wrap(Wrap { trim: true }), place);
+}
+
+/// State of the whole plan: options checked as planned, options that need more samples, or options that pass.
+fn summary(app: &App) -> String {
+    let count = |has: fn(&OptionState) -> bool| app.options.iter().filter(|state| has(state)).count();
+    let all = app.options.len();
+    if app.checking() {
+        format!("computing {}/{all}", count(|state| !state.is_computing()))
+    } else if app.sampling() {
+        format!("sampling: {} of {all} open", count(|state| state.verdict() == Verdict::Undecided))
+    } else {
+        let against = if app.contradiction().is_empty() { "" } else { ", contradicted" };
+        format!("{} of {all} pass{against}", count(|state| state.verdict() == Verdict::Pass))
+    }
+}

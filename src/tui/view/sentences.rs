@@ -1,0 +1,69 @@
+//! The selected option in whole sentences, as `check` says them: why it does not pass, what it stands on, what decides it.
+
+use ratatui::text::Line;
+
+use crate::report::words::option_sentences::{
+    bands, broken, dud_of, inputs, launch_limit, measure_first, next_tires,
+};
+use crate::report::words::reasons;
+use crate::report::words::warnings;
+use crate::study::judgement::{self, Judgement};
+use crate::study::reasons::Reason;
+use crate::study::samples::influence::input_shares;
+use crate::study::samples::sampled_shot::SampledShot;
+use crate::tui::app::App;
+use crate::tui::theme;
+use crate::verdict::Verdict;
+
+/// The sentences, the most important first.
+pub fn sentences(app: &App, judged: &Judgement) -> Vec<Line<'static>> {
+    let (case, theme, checked) = (&app.case, app.theme, &judged.checked);
+    // As long as samples come, how many there are says more than that they do not suffice.
+    let open = app.options[app.selected].is_sampling()
+        && judgement::verdict_of_both(Verdict::Pass, judged.sampled.map(SampledShot::verdict))
+            == Verdict::Undecided;
+    let reasons = judged.reasons().into_iter().filter(|why| !open || matches!(why, Reason::AsPlanned(_)));
+    let mut lines: Vec<Line> = reasons
+        .map(|why| {
+            let sign = theme::label(why.verdict()).chars().next().unwrap_or(' ');
+            let text = format!("{sign} {}", reasons::sentence(case, judged, &why));
+            Line::styled(text, theme.verdict(why.verdict()))
+        })
+        .collect();
+    if !checked.broken.is_empty() {
+        lines.push(Line::styled(broken(case.scene(), checked), theme.limit()));
+    }
+    // What was seen of earlier shots speaks against every verdict of the plan.
+    let contradiction = app.contradiction();
+    let passes = judged.verdict() == Verdict::Pass && contradiction.is_empty();
+    if let Some(sampled) = judged.sampled.known().filter(|_| passes) {
+        let text = format!("✓ {}", reasons::pass(sampled));
+        lines.push(Line::styled(text, theme.verdict(Verdict::Pass)));
+    }
+    lines.splice(
+        0..0,
+        contradiction.into_iter().map(|sentence| Line::styled(format!("! {sentence}"), theme.limit())),
+    );
+    let warnings = warnings::of_option(case, app.selected, judged);
+    lines.extend(warnings.into_iter().map(|warning| Line::styled(format!("! {warning}"), theme.firing())));
+    let sampled = judged.sampled.known();
+    if open {
+        let samples = sampled.map_or(0, |sampled| sampled.samples.len());
+        lines.push(Line::styled(format!("? {samples} samples so far, more come"), theme.firing()));
+    }
+    let next_tires = next_tires(case, judged).into_iter();
+    lines.extend(next_tires.map(|text| Line::styled(format!("! {text}"), theme.firing())));
+    lines.extend(dud_of(case, judged).map(Line::from));
+    lines.extend(app.holds(app.selected).map(Line::from));
+    let shares = sampled.and_then(|sampled| input_shares(sampled, &case.limits));
+    let decided = shares.as_deref().map(|shares| format!("decided by {}", inputs(shares)));
+    let measure = shares.as_deref().and_then(measure_first).map(str::to_owned);
+    let launch = launch_limit(&case.shots[app.selected], judged);
+    let launch = launch.map(|launch| format!("as planned it {launch}"));
+    let decided: Vec<String> = launch.into_iter().chain(decided).chain(measure).collect();
+    if !decided.is_empty() {
+        lines.push(Line::from(decided.join(" · ")));
+    }
+    lines.extend(sampled.and_then(|sampled| bands(case, sampled)).map(Line::from));
+    lines
+}

@@ -1,0 +1,258 @@
+//! The selected option in at most six short lines, each with a label and a place of its own. A line without news is left out.
+//!
+//! ```text
+//!  fails    0 of 500 shots tried; 1 in 100 accepted
+//!  highest  tire 1:1       1.67 m planned   2.23 of 100  limit 2.35
+//!  hardest  cable 3:1-4:1  53.0 kN planned  77.1 of 100  limit 84.0
+//!  holds    until all launches tilt by 2.6° (assumed 1°)
+//!  depends  on launch speed (60 %): film a test tire (4 Fit)
+//!  next     P: page to sign
+//! ```
+
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+use unicode_width::UnicodeWidthStr;
+
+use crate::report::remedies::words;
+use crate::report::words::assumption_words;
+use crate::report::words::option_sentences::quantity_name;
+use crate::study::as_planned::margin::LaunchMargin;
+use crate::study::judgement::{self, Judgement};
+use crate::study::reasons::Reason;
+use crate::study::reasons::risk::RiskReason;
+use crate::study::reasons::shot::ShotReason;
+use crate::study::samples::influence::input_shares;
+use crate::study::samples::random_shot::Input;
+use crate::study::samples::sampled_shot::SampledShot;
+use crate::tui::app::App;
+use crate::tui::keymap::Action;
+use crate::tui::screen::Screen;
+use crate::units::{self, Unit};
+use crate::verdict::{Quantity, Verdict};
+
+/// Width of a label with the spaces around it.
+const LABEL: usize = 10;
+/// Significant digits.
+const DIGITS: i32 = 3;
+/// Share of the variance from which an input is worth a measurement.
+const DECIDES: f64 = 0.3;
+
+/// The lines of the selected option, none wider than `width`.
+pub fn six_lines(app: &App, judged: &Judgement, width: u16) -> Vec<Line<'static>> {
+    let room = usize::from(width).saturating_sub(LABEL);
+    let verdict = judged.verdict();
+    let [highest, hardest] = peaks(app, judged, room);
+    let (stands, margin) = margin(app, judged);
+    let plain = app.theme.base();
+    let lines = [
+        ("fails", fitting(fails(app, judged), " · ", room), app.theme.verdict(verdict)),
+        ("highest", highest, plain),
+        ("hardest", hardest, plain),
+        (stands, fitting(margin, ", ", room), plain),
+        ("depends", fitting(depends(app, judged), "", room), plain),
+        ("next", fitting(next(app, judged), "", room), app.theme.title()),
+    ];
+    let lines = lines.into_iter().filter(|(_, text, _)| !text.is_empty());
+    lines.map(|(label, text, style)| line(app, label, text, style)).collect()
+}
+
+/// A label and what it says.
+fn line(app: &App, label: &str, text: String, style: Style) -> Line<'static> {
+    let label = format!(" {label:0$}", LABEL - 1);
+    Line::from(vec![Span::styled(label, app.theme.muted()), Span::styled(text, style)])
+}
+
+/// As many of `parts` as have room, in their order; a part without room is left out.
+fn fitting(parts: Vec<String>, between: &str, room: usize) -> String {
+    parts.into_iter().fold(String::new(), |line, part| {
+        let longer = if line.is_empty() { part } else { format!("{line}{between}{part}") };
+        if longer.width() <= room { longer } else { line }
+    })
+}
+
+/// How many shots fail of those tried, and what else keeps the option from a pass.
+fn fails(app: &App, judged: &Judgement) -> Vec<String> {
+    let is_open = app.options[app.selected].is_sampling()
+        && judgement::verdict_of_both(Verdict::Pass, judged.sampled.map(SampledShot::verdict))
+            == Verdict::Undecided;
+    // As long as samples come, how many there are says more than that they do not suffice.
+    let reasons = judged.reasons().into_iter().filter(|why| !is_open || matches!(why, Reason::AsPlanned(_)));
+    let mut parts: Vec<String> = reasons.filter_map(|why| reason_words(app, judged, &why)).collect();
+    let counts = judged.sampled.known().map(|sampled| &sampled.bounds);
+    parts.extend(counts.map(|bounds| {
+        let of_shots = format!("{} of {} shots", bounds.failures, bounds.samples);
+        match (is_open, parts.is_empty()) {
+            (true, _) => format!("{of_shots} so far, more come"),
+            (_, true) => {
+                format!("{of_shots} tried; 1 in {} accepted", units::one_in(app.case.limits.accepted_risk))
+            }
+            (_, false) => format!("{of_shots} fail"),
+        }
+    }));
+    if is_open && counts.is_none() {
+        parts.push("no shot tried so far, the first come".to_owned());
+    }
+    parts
+}
+
+/// Why an option does not pass; `None` for a reason that the count of shots says.
+fn reason_words(app: &App, judged: &Judgement, reason: &Reason) -> Option<String> {
+    let finer = app.keymap.hint(Action::Finer);
+    Some(match reason {
+        Reason::AsPlanned(ShotReason::Limit { quantity, verdict: Verdict::Fail, .. }) => {
+            format!("planned {} exceeds its limit", quantity_name(*quantity).0)
+        }
+        Reason::AsPlanned(ShotReason::Limit { quantity, .. } | ShotReason::NotSure { quantity, .. }) => {
+            format!("planned {} too near its limit", quantity_name(*quantity).0)
+        }
+        Reason::AsPlanned(ShotReason::Broken(1)) => "a cable breaks as planned".to_owned(),
+        Reason::AsPlanned(ShotReason::Broken(count)) => format!("{count} cables break as planned"),
+        Reason::AsPlanned(ShotReason::HolesTogether { holes, limit }) => {
+            format!("{holes} holes fire within 8 ms, limit {limit}")
+        }
+        Reason::AsPlanned(ShotReason::ChargeTogether { charge, limit }) => {
+            format!("{} kg fire within 8 ms, limit {limit} kg", units::short(*charge))
+        }
+        Reason::AsPlanned(ShotReason::EnergyResidual(_)) => format!("step too long: {finer} finer accuracy"),
+        Reason::AsPlanned(ShotReason::EndsEarly { .. }) => {
+            "the run ends too early: longer duration_s".to_owned()
+        }
+        Reason::NoSamples => "no shot was tried: ended early".to_owned(),
+        Reason::Samples(RiskReason::TooManyFail | RiskReason::NotSure) => return None,
+        Reason::Samples(RiskReason::PlannedExceedsSamples | RiskReason::Contradicted) => {
+            format!("finer runs contradict: {finer} finer accuracy")
+        }
+        Reason::Samples(RiskReason::FewAudited) => "too few shots run at a finer step".to_owned(),
+        Reason::Samples(RiskReason::UndecidedSamples) => {
+            format!("{} shots undecided", judged.sampled.known()?.bounds.undecided)
+        }
+        Reason::OneDud(Verdict::Fail) => "one dud exceeds a limit".to_owned(),
+        Reason::OneDud(_) => "one dud: not known yet".to_owned(),
+        Reason::NotConfirmed { failures, samples } => {
+            format!("not confirmed: {failures} of {samples} new shots fail")
+        }
+        Reason::AwaitsConfirmation => "new shots are to confirm it".to_owned(),
+    })
+}
+
+/// The highest tire and the hardest pulled cable: planned, worst of the accepted number of shots, and the limit.
+fn peaks(app: &App, judged: &Judgement, room: usize) -> [String; 2] {
+    let (scene, checked) = (app.case.scene(), &judged.checked);
+    let one_in = units::one_in(app.case.limits.accepted_risk);
+    let row = |place: String, quantity: Quantity, unit: Unit| {
+        let digits = |value| units::significant(value, unit, DIGITS);
+        let worst = judged.sampled.known().and_then(|sampled| sampled.value_at_risk(quantity));
+        let limit = app.case.limits.get(quantity);
+        [
+            place,
+            format!("{} {} planned", digits(checked.get(quantity).value), unit.symbol()),
+            worst.map_or_else(String::new, |worst| format!("{} of {one_in}", digits(worst))),
+            limit.map_or_else(String::new, |limit| format!("limit {}", digits(limit))),
+        ]
+    };
+    let highest = match checked.height.value > 0.0 {
+        true => format!("tire {}", scene.tire_ids[checked.height.index]),
+        false => "no tire lifts".to_owned(),
+    };
+    let hardest = match checked.force.value > 0.0 {
+        true => format!("cable {}", scene.cable_name(checked.force.index)),
+        false => "no cable pulls".to_owned(),
+    };
+    let rows = [row(highest, Quantity::Height, Unit::Metre), row(hardest, Quantity::Force, Unit::Kilonewton)];
+    let [mut above, mut below] = [String::new(), String::new()];
+    for (column, (a, b)) in rows[0].iter().zip(&rows[1]).enumerate() {
+        let gap = if column == 0 { 0 } else { 2 };
+        let start = above.width().max(below.width()) + gap;
+        let fits = start + a.width().max(b.width()) <= room;
+        for (line, text) in [(&mut above, a), (&mut below, b)] {
+            if fits && !text.is_empty() {
+                *line += &" ".repeat(start - line.width());
+                *line += text;
+            }
+        }
+    }
+    [above, below]
+}
+
+/// What a pass stands on, or how much faster the tires may leave; and what one dud does.
+fn margin(app: &App, judged: &Judgement) -> (&'static str, Vec<String>) {
+    let assumptions = app.assumptions.get(app.selected).and_then(Option::as_deref);
+    let passes = judged.verdict() == Verdict::Pass;
+    let dud = judged.one_dud.filter(|_| judged.checked.verdict == Verdict::Pass).map(|dud| match dud {
+        dud if dud.not_passing == 0 => format!("one dud: within limits at all {} holes", dud.places),
+        dud => format!("one dud exceeds a limit at {} of {} holes", dud.not_passing, dud.places),
+    });
+    if let Some(found) = assumptions.filter(|_| passes) {
+        let nearest = assumption_words::nearest(found);
+        let parts = match (found.pass_as_stated(), nearest.is_empty()) {
+            (false, _) => {
+                vec![format!("not with all as stated: {} of {} fail", found.failing, found.samples)]
+            }
+            (true, true) => vec!["at every value tried of what it stands on".to_owned()],
+            (true, false) => nearest.into_iter().map(|happens| format!("until {happens}")).collect(),
+        };
+        return ("holds", parts.into_iter().chain(dud).collect());
+    }
+    let launch = judged.launch_margin.and_then(|margin| match margin {
+        LaunchMargin::NotPassing => None,
+        LaunchMargin::UpTo { rise, above } => {
+            let becomes = if above == Verdict::Fail { "fails" } else { "unproven" };
+            Some(format!("{becomes} if tires leave {} faster", units::percent(rise + 0.01, 0)))
+        }
+        LaunchMargin::BeyondTried => Some("passes at twice the launch speed".to_owned()),
+    });
+    ("margin", launch.into_iter().chain(dud).collect())
+}
+
+/// The input that decides how a shot turns out, and how it is measured on site.
+fn depends(app: &App, judged: &Judgement) -> Vec<String> {
+    let shares = judged.sampled.known().and_then(|sampled| input_shares(sampled, &app.case.limits));
+    let Some(&(input, share)) = shares.as_deref().and_then(<[_]>::first) else { return Vec::new() };
+    if share < DECIDES {
+        return vec!["on chance differences between holes".to_owned()];
+    }
+    let fit = format!("({} Fit)", app.keymap.first_key(Action::Show(Screen::Studies)));
+    let (name, measure) = match input {
+        Input::LaunchCommon => ("launch speed", format!("film a test tire {fit}")),
+        Input::LaunchBetweenShots => ("launch from shot to shot", format!("film five shots {fit}")),
+        Input::Friction => ("friction", "drag a tire with a spring scale".to_owned()),
+        Input::Slack => ("slack", "measure laid cables".to_owned()),
+        Input::AxialStiffness => ("rope stiffness", "pull test, or ask its maker".to_owned()),
+        Input::MassExponent => ("tire mass", "launch tires of other mass".to_owned()),
+        Input::CommonSlopeX | Input::CommonSlopeY => ("tilt of launches", "film from two sides".to_owned()),
+        Input::OffsetX | Input::OffsetY => ("offset of the shelter", "measure two corners".to_owned()),
+        Input::Duds => ("duds", "test every detonator".to_owned()),
+    };
+    vec![format!("on {name} ({}): ", units::percent(share, 0)), measure]
+}
+
+/// What to do now.
+fn next(app: &App, judged: &Judgement) -> Vec<String> {
+    let key = |action| app.keymap.first_key(action);
+    let best = app.answer.as_ref().and_then(|(best, _)| *best);
+    let text = match judged.verdict() {
+        _ if !app.contradiction().is_empty() => {
+            format!("observations contradict the plan: {} Fit", key(Action::Show(Screen::Studies)))
+        }
+        _ if app.options[app.selected].is_sampling() => return Vec::new(),
+        Verdict::Pass if best.is_none_or(|best| best == app.selected) => {
+            format!("{}: write the page to sign", key(Action::WritePage))
+        }
+        Verdict::Pass => {
+            let safest = best.map_or("", |best| app.case.plan.delays[best].name.as_str());
+            return vec!["a safer option passes".to_owned(), format!(": {safest}")];
+        }
+        Verdict::Fail | Verdict::Undecided => {
+            let why = key(Action::Why);
+            let found = app.studies.remedies(app.selected, &app.compute);
+            let first = found.and_then(|found| found.passing().next());
+            return match first {
+                Some(first) => {
+                    vec![format!("{why}: it passes"), format!(" with {}", words(&app.case, &first.change))]
+                }
+                None => vec![format!("{why}: what would make it pass")],
+            };
+        }
+    };
+    vec![text]
+}
