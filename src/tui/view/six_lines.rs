@@ -75,8 +75,10 @@ fn fails(app: &App, judged: &Judgement) -> Vec<String> {
     let is_open = app.options[app.selected].is_sampling()
         && judgement::verdict_of_both(Verdict::Pass, judged.sampled.map(SampledShot::verdict))
             == Verdict::Undecided;
-    // As long as samples come, how many there are says more than that they do not suffice.
-    let reasons = judged.reasons().into_iter().filter(|why| !is_open || matches!(why, Reason::AsPlanned(_)));
+    // A fail needs no word of what is still open. As long as samples come, how many there are says more than that they do not suffice.
+    let decides = |why: &Reason| why.verdict() == judged.verdict();
+    let reasons = judged.reasons().into_iter().filter(decides);
+    let reasons = reasons.filter(|why| !is_open || matches!(why, Reason::AsPlanned(_)));
     let mut parts: Vec<String> = reasons.filter_map(|why| reason_words(app, judged, &why)).collect();
     let counts = judged.sampled.known().map(|sampled| &sampled.bounds);
     parts.extend(counts.map(|bounds| {
