@@ -299,7 +299,7 @@ mod tests {
             Report { blocks: vec![Block::Table(table)], warnings: vec![sentence], ..Report::default() };
         let drawn = |width| text(&report, Style { width: Some(width), ..Style::default() });
         let rows = [35, 30, 25, 18].map(|width| drawn(width).lines().nth(1).expect("a row").to_owned());
-        let bars = |count| "▅".repeat(count);
+        let bars = |count| "▄".repeat(count);
         let expected = [
             format!("a       12345  6789  {}", bars(14)),
             format!("a       12345  6789  {}", bars(9)),

@@ -32,6 +32,7 @@ struct Damped<'a> {
     length2_change: Aligned,
     /// Force N at the last evaluation and at the evaluation before [N]. The latter is infinite where the force has a kink or the
     /// cable became taut since then, so that no parabola is laid through that, and negative infinite where the force jumped.
+    /// A register whose cables are all slack keeps such a mark also as its last force.
     force: [Aligned; 2],
 }
 
@@ -101,7 +102,10 @@ impl<'a> CableForceMemory<'a> {
                 let force = |length| self.blocks.cable_in(block, slot).force(length);
                 self.length(block, slot).map_or(0.0, force)
             }
-            _ => self.damped.force[0][block.first_element + slot],
+            _ => {
+                let force = self.damped.force[0][block.first_element + slot];
+                if force.is_finite() { force } else { 0.0 }
+            }
         }
     }
 
