@@ -1,4 +1,4 @@
-//! Names that the documents and the docs of the source give exist: tests, keys, functions.
+//! Names that the documents and the docs of the source give exist: tests, keys, functions, and the files of a release.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -138,4 +138,85 @@ fn no_comment_has_the_name_of_a_type_for_a_word() {
             assert!(in_example || is_target || odd.is_empty(), "{}: {odd:?} in “{line}”", path.display());
         }
     }
+}
+
+/// Cargo.toml as a table.
+fn manifest() -> toml::Table {
+    read(Path::new(ROOT).join("Cargo.toml")).parse().expect("TOML")
+}
+
+/// Whether a package leaves a file out: patterns that name it, a folder above it, or a folder and an ending.
+fn is_excluded(path: &str) -> bool {
+    let patterns = manifest()["package"]["exclude"].clone().try_into::<Vec<String>>().expect("texts");
+    patterns.iter().any(|pattern| match pattern.split_once('*') {
+        Some((folder, ending)) => path.strip_prefix(folder).is_some_and(|rest| rest.ends_with(ending)),
+        None => path == pattern || path.starts_with(&format!("{pattern}/")),
+    })
+}
+
+/// What the README shows and links to is there, and in the package, too.
+#[test]
+fn links_of_the_readme_lead_to_files_of_the_package() {
+    let readme = read(Path::new(ROOT).join("README.md"));
+    let linked = readme.split("](").skip(1).filter_map(|rest| Some(rest.split_once(')')?.0));
+    let files: Vec<&str> = linked.filter(|link| !link.starts_with("https://")).collect();
+    assert!(files.contains(&"examples/record/compare.svg"), "links are found");
+    for file in files {
+        assert!(Path::new(ROOT).join(file).exists(), "{file}");
+        assert!(!is_excluded(file), "{file} is not in the package");
+    }
+    assert!(is_excluded("examples/record/walk.cast") && is_excluded("tests/suite/main.rs"));
+}
+
+/// `cargo binstall` asks for the archives that a release has, and for the program where it lies in them.
+#[test]
+fn binstall_asks_for_the_archives_of_a_release() {
+    let script = read(Path::new(ROOT).join(".ci/release"));
+    for line in [
+        "name=shelter-$version-$target",
+        "*windows*) archive=$name.zip && ",
+        "*) archive=$name.tar.gz && ",
+        "into=$archives/$name",
+        "cp \"$built\" README.md",
+    ] {
+        assert!(script.contains(line), "an archive has another name: {line}");
+    }
+    let workflow = read(Path::new(ROOT).join(".github/workflows/release.yml"));
+    let targets: Vec<&str> = workflow
+        .split("target: ")
+        .skip(1)
+        .filter_map(|rest| rest.split_once(" }"))
+        .map(|(target, _)| target)
+        .filter(|target| !target.contains('$'))
+        .collect();
+    assert_eq!(targets.len(), 4, "{targets:?}");
+    let package = &manifest()["package"];
+    let binstall = &package["metadata"]["binstall"];
+    let repo = package["repository"].as_str().expect("an address");
+    for target in targets {
+        let own = binstall["overrides"].get(target);
+        let key = |name: &str| {
+            let text = own.and_then(|own| own.get(name)).unwrap_or_else(|| &binstall[name]);
+            let text = text.as_str().expect("a text").replace("{ target }", target);
+            text.replace("{ version }", "1.2.3").replace("{ repo }", repo)
+        };
+        let (format, ending) = if target.contains("windows") { ("zip", "zip") } else { ("tgz", "tar.gz") };
+        let folder = format!("shelter-1.2.3-{target}");
+        assert_eq!(key("pkg-url"), format!("{repo}/releases/download/v1.2.3/{folder}.{ending}"));
+        assert_eq!(key("pkg-fmt"), format);
+        assert_eq!(key("bin-dir"), format!("{folder}/{{ bin }}{{ binary-ext }}"));
+    }
+}
+
+/// Every bench runs in the CI for seconds.
+#[test]
+fn every_bench_has_a_short_run() {
+    let script = read(Path::new(ROOT).join(".ci/benches"));
+    let benches = manifest()["bench"].clone().try_into::<Vec<toml::Table>>().expect("benches");
+    assert!(benches.len() > 4);
+    for bench in benches {
+        let name = bench["name"].as_str().expect("a name");
+        assert!(script.contains(&format!("\nbench {name} -- ")), "{name}");
+    }
+    assert!(script.contains("benches/peers/run.py"));
 }
