@@ -1,5 +1,6 @@
 //! How long a person waits for a key: from the key to the screen that shows what it did, while ten options of a 50×50
-//! shelter compute in the background; and what the program costs while nothing happens. `cargo bench --bench keys`.
+//! shelter compute in the background; and what the program costs while nothing happens. `cargo bench --bench keys`, of fewer keys
+//! `cargo bench --bench keys -- 20`.
 
 #[cfg(unix)]
 fn main() {
@@ -20,6 +21,7 @@ mod unix {
 
     use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
 
+    /// Keys pressed, where no other number is given.
     const KEYS: usize = 400;
     const OPTIONS: usize = 10;
 
@@ -66,6 +68,7 @@ mod unix {
     }
 
     pub fn main() {
+        let keys = std::env::args().filter_map(|argument| argument.parse().ok()).next().unwrap_or(KEYS);
         // Steps so fine that the options compute all the while.
         let mut busy = open(&["plans/large-50x50.toml", "--dt", "2e-6"]);
         thread::sleep(Duration::from_secs(2));
@@ -76,7 +79,7 @@ mod unix {
             .collect();
         assert_eq!(names.len(), OPTIONS);
         let mut waits = Vec::new();
-        for n in 0..KEYS {
+        for n in 0..keys {
             // Down the list and up again.
             let place = (n + 1) % (2 * OPTIONS - 2);
             let (key, option) = if place < OPTIONS { (b'j', place) } else { (b'k', 2 * OPTIONS - 2 - place) };
@@ -93,7 +96,7 @@ mod unix {
         waits.sort();
         let at = |share: f64| waits[((waits.len() - 1) as f64 * share) as usize].as_secs_f64() * 1e3;
         println!(
-            "key to repaint, {KEYS} keys, ten 50x50 options computing: median {:.2} ms, 95 % {:.2} ms, most {:.2} ms",
+            "key to repaint, {keys} keys, ten 50x50 options computing: median {:.2} ms, 95 % {:.2} ms, most {:.2} ms",
             at(0.5),
             at(0.95),
             at(1.0)

@@ -152,7 +152,7 @@ def run_shelter(binary, case, step_ms, repeats):
         plan = plan.replace(key, text)
     for number in range(1, repeats):
         plan += f'\n[[delay]]\nname = "again {number}"\ninterval_ms = 20\n'
-    command = [binary, "check", "-", "--dt", repr(step_ms / 1000), "--threads", "1", "--format", "json"]
+    command = [binary, "check", "-", "--nominal", "--dt", repr(step_ms / 1000), "--threads", "1", "--format", "json"]
     done = subprocess.run(command, env=ONE_THREAD, input=plan, capture_output=True, text=True)
     if done.returncode not in (0, 1) or not done.stdout:  # 1: limits are exceeded, which does not matter here
         return None
