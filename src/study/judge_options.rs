@@ -207,11 +207,15 @@ pub fn find_duds(
     watch: OnEvent<'_>,
 ) -> ComputeResult<()> {
     let judged = checked_options(results);
-    let options: Vec<CaseOption> = judged.iter().map(|(at, _)| *at).collect();
-    let found = run_batch(&options, control, |&at| {
+    // What fails already fails with duds, too, however often.
+    let options: Vec<(CaseOption, bool)> = judged
+        .iter()
+        .map(|(at, judgement)| (*at, judgement.verdict_before_confirmation() == Verdict::Fail))
+        .collect();
+    let found = run_batch(&options, control, |&(at, fails)| {
         let (case, compute) = &cases[at.case];
-        let (shot, sampling) =
-            (&case.shots[at.option], case.plan.limits.withstands_one_dud.then_some(sampling));
+        let is_sampled = case.plan.limits.withstands_one_dud && !fails;
+        let (shot, sampling) = (&case.shots[at.option], is_sampled.then_some(sampling));
         let both = catch_panic(|| {
             let one_dud = judge_one_dud(case, shot, sampling, compute, control)?;
             Ok((one_dud, judge_next_tires(case, shot, compute, control)?))

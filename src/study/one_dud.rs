@@ -2,7 +2,7 @@
 //!
 //! Holes that are each other's images in a mirror plane of shelter and shot are judged once, and so are holes that take the same
 //! others along. Nothing else varies. Where the plan asks for more (`withstands_one_dud`), the [`SAMPLED_PLACES`] worst places are
-//! sampled, too.
+//! sampled, too, unless the worst fails as planned.
 
 use std::collections::BTreeMap;
 
@@ -34,7 +34,8 @@ pub struct OneDud {
     pub not_passing: usize,
     /// All places: the number of holes.
     pub places: usize,
-    /// What the samples of the worst places tell, of the worst of them; `None` where the plan does not ask for it.
+    /// What the samples of the worst places tell, of the worst of them; `None` where the plan does not ask for it, or the option fails
+    /// without them.
     pub sampled: Option<RiskSummary>,
 }
 
@@ -79,7 +80,7 @@ fn places(case: &Case, shot: &Shot) -> Vec<(usize, usize)> {
     counts.into_values().sorted().collect()
 }
 
-/// Judges a shot with any one hole left out; with a `sampling` the worst places are sampled, too. `None` where the time was up, or
+/// Judges a shot with any one hole left out; with a `sampling` the worst places are sampled, too, unless the shot fails without. `None` where the time was up, or
 /// the shot has no hole.
 pub fn judge_one_dud(
     case: &Case,
@@ -104,7 +105,7 @@ pub fn judge_one_dud(
         planned => planned?,
     };
     let mut sampled = None;
-    if let Some(sampling) = sampling {
+    if let Some(sampling) = sampling.filter(|_| planned.verdict != Verdict::Fail) {
         let holes = places.iter().take(SAMPLED_PLACES).map(|&((hole, _), planned)| (hole, planned));
         sampled = sample_worst(case, shot, holes, compute, sampling, control)?;
         if sampled.is_none() {
