@@ -170,12 +170,17 @@ fn the_option_to_be_fired_heads_the_page_with_all_its_verdict_rests_on() {
     assert!(fact("Risk").ends_with("accepted 1 %"));
     let rise = 100.0 * found["launch_margin"].as_f64().expect("a margin") + 1.0;
     let from = format!("from +{rise:.0} % launch, {} m/s", ((1.0 + rise / 100.0) * 600.0).round() / 100.0);
-    assert!(fact("Launch margin").ends_with(&from), "{} is not {from}", fact("Launch margin"));
+    assert!(fact("Spare launch speed").ends_with(&from), "{} is not {from}", fact("Spare launch speed"));
     assert!(fact("What decides").contains("launch ") && fact("What decides").ends_with(" %"));
     assert_eq!(fact("Within any 8 ms"), "1 hole, 25 kg fire, as planned");
     let height = found["flight_height_m"]["value"].as_f64().expect("a height");
-    assert!(fact("Utilization as planned").starts_with(&format!("height {:.0} %", 100.0 * height / 1.8)));
-    assert!(fact("Possible shots").contains("5 to 95 % of"));
+    let share = 100.0 * found["flight_height_m"]["p95"].as_f64().expect("a band") / 1.8;
+    assert!(fact("Height").starts_with(&format!("{height:.2}")[..3]), "{}", fact("Height"));
+    assert!(
+        fact("Height").ends_with(&format!(" m, {share:.0} % of the limit; limit 1.800 m")),
+        "{}",
+        fact("Height")
+    );
     for reason in found["reasons"].as_array().expect("reasons") {
         assert!(words(head).contains(reason.as_str().expect("words")), "{reason}");
     }
@@ -283,7 +288,10 @@ fn only_the_plan_as_planned_says_so_at_the_head() {
 #[test]
 fn the_plan_stands_there_letter_by_letter() {
     let page = parse(&FIRED);
-    let plan = words(section(&page, "The plan, word for word").last_element_child().expect("its text"));
+    let summary =
+        page.descendants().find(|node| node.has_tag_name("summary") && words(*node).starts_with("The plan"));
+    let details = summary.and_then(|summary| summary.parent()).expect("the plan");
+    let plan = words(details.last_element_child().expect("its text"));
     // A reader of HTML drops the first line end of the element.
     assert_eq!(plan, format!("\n{PLAN}"));
     assert!(!words(page.root()).to_lowercase().contains("not saved"));
@@ -381,7 +389,7 @@ fn the_words_of_the_page_are_explained() {
     let glossary = section(&page, "The words of this page");
     let explained: Vec<String> =
         glossary.descendants().filter(|node| node.has_tag_name("dt")).map(words).collect();
-    for word in ["Verdict", "Risk", "Launch margin", "Utilization", "Slack", "Drift", "Energy residual"] {
+    for word in ["Verdict", "Risk", "Spare launch speed", "Slack", "Drift", "Energy residual"] {
         assert!(explained.iter().any(|known| known == word), "{word}");
     }
     let meanings = glossary.descendants().filter(|node| node.has_tag_name("dd")).map(words);
@@ -395,18 +403,32 @@ fn what_the_law_asks_and_no_program_knows_is_blank_and_there_is_room_to_sign() {
     for asked in [
         "Site",
         "Date and time of the shot",
-        "Author",
         "Blaster in charge",
+        "Crew",
+        "Cover: layers, overlap",
         "Explosive",
         "Stemming",
         "Initiation system",
         "Weather",
         "Guards posted",
         "Distance and direction to what is protected",
+        "misfires, flyrock",
+        "To be kept until",
     ] {
         assert!(blanks.contains(asked), "{asked}");
     }
-    let signed = words(of_class(&page, "signatures").expect("lines to sign"));
+    let sheet = of_class(&page, "sheet").expect("the first sheet");
+    assert!(sheet.descendants().any(|node| node.has_tag_name("svg")), "the drawing");
+    assert!(
+        of_class(&page, "fired").is_some_and(|answer| sheet.range().contains(&answer.range().start)),
+        "the answer"
+    );
+    let signatures = of_class(&page, "signatures").expect("lines to sign");
+    assert!(
+        sheet.range().contains(&signatures.range().start),
+        "who signs reads the answer on the same sheet"
+    );
+    let signed = words(signatures);
     assert_eq!(signed.matches("signature").count(), 2);
     assert!(signed.contains("To be fired: option “<b>”, "), "what is signed: {signed}");
 }

@@ -89,7 +89,10 @@ pub fn only_planned(page: &Page<'_>) -> &'static str {
 
 /// What the verdict rests on, each with its name.
 fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str, String)> {
-    let mut facts = vec![("Risk", risk(case, judged)), ("Launch margin", launch_margin(shot, judged))];
+    let mut facts = vec![("Risk", risk(case, judged))];
+    let names = ["Height", "Force", "Drift"].into_iter().zip(Quantity::ALL);
+    facts.extend(names.filter_map(|(name, quantity)| Some((name, against_limit(case, judged, quantity)?))));
+    facts.push(("Spare launch speed", launch_margin(shot, judged)));
     if let Some(sampled) = judged.sampled.known() {
         let shares = input_shares(sampled, &case.limits);
         let inputs = shares.map(|shares| option_sentences::inputs(&shares));
@@ -99,10 +102,6 @@ fn judgement(case: &Case, shot: &Shot, judged: &Judgement) -> Vec<(&'static str,
         option_sentences::next_tires(case, judged).into_iter().map(|text| ("Hole between tires", text)),
     );
     facts.extend(option_sentences::dud_of(case, judged).map(|text| ("One dud", text)));
-    facts.push(("As planned", option_sentences::peaks(case.scene(), &judged.checked)));
-    facts.push(("Utilization as planned", utilization(case, judged)));
-    let bands = judged.sampled.known().and_then(|sampled| option_sentences::bands(case, sampled));
-    facts.extend(bands.map(|bands| ("Possible shots", bands)));
     facts
 }
 
@@ -135,12 +134,35 @@ fn launch_margin(shot: &Shot, judged: &Judgement) -> String {
     option_sentences::launch_limit(shot, judged).map_or_else(none, |limit| format!("as planned it {limit}"))
 }
 
-/// The share of each limit that the shot as planned takes.
-fn utilization(case: &Case, judged: &Judgement) -> String {
-    let names = ["height", "force", "drift"].into_iter().zip(Quantity::ALL);
-    let share = |(name, quantity): (&str, Quantity)| {
-        let share = judged.checked.share_of_limit(quantity, &case.limits)?;
-        Some(format!("{name} {}", units::percent(share, 0)))
-    };
-    format!("{} of the limit", names.filter_map(share).collect::<Vec<_>>().join(" · "))
+/// A quantity as planned and in most possible shots, beside its limit; `None` where the plan has none.
+fn against_limit(case: &Case, judged: &Judgement, quantity: Quantity) -> Option<String> {
+    let limit = case.limits.get(quantity)?;
+    let unit = option_sentences::quantity_name(quantity).1;
+    let value = |value: f64| format!("{} {}", units::value(value, unit), unit.symbol());
+    let band = judged.sampled.known().and_then(|sampled| sampled.band(quantity));
+    let possible = band.map(|[_, _, high, _]| {
+        format!(
+            "; in 95 of 100 shots at most {}, {} of the limit",
+            value(high),
+            units::percent(high / limit, 0)
+        )
+    });
+    let planned = judged.checked.get(quantity);
+    Some(format!(
+        "{} as planned{}; limit {}",
+        value(planned.value),
+        possible.unwrap_or_default(),
+        value(limit)
+    ))
+}
+
+/// The greatest values of the option with their errors, places and times, and those of its samples.
+pub fn peaks(case: &Case, judged: &Judgement) -> Markup {
+    let bands = judged.sampled.known().and_then(|sampled| option_sentences::bands(case, sampled));
+    html! {
+        table.facts {
+            tr { th { "As planned" } td { (option_sentences::peaks(case.scene(), &judged.checked)) } }
+            @if let Some(bands) = bands { tr { th { "Possible shots" } td { (bands) } } }
+        }
+    }
 }

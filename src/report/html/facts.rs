@@ -4,10 +4,13 @@ use maud::{Markup, html};
 
 use crate::choice::OnOverload;
 use crate::plan::{
-    CableSpec, DelayScatter, GroundSpec, Hole, Launch, LaunchTargets, Layout, Plan, Uncertainty,
+    CableSpec, DelayScatter, GroundSpec, Hole, Launch, LaunchTargets, Layout, Mesh, Plan, Uncertainty,
 };
 use crate::report::words::limits::limits;
+use crate::report::words::option_sentences;
 use crate::ropes::catalogue;
+use crate::scene::Scene;
+use crate::study::eight_ms::WithinEightMs;
 use crate::study::judge_options::OptionResults;
 use crate::study::samples::sample_count::Sampling;
 use crate::study::{Case, ComputeSettings};
@@ -21,17 +24,48 @@ pub fn shelter(case: &Case, to_be_fired: Option<usize>) -> Markup {
         OnOverload::Report => "",
     };
     html! {
-        table.facts {
-            tr { th { "Tires" } td { (scene.tire_count()) " of " (plan.tire.mass_kg) " kg, " (layout(plan)) ", " (rims(plan.tire.outer_diameter_m)) } }
-            tr { th { "Cables" } td { (scene.cables.len()) ", slack " (plan.cable.slack_percent) " %" (gone) } }
-            @for (name, text) in rope(&plan.cable) { tr { th { (name) } td { (text) } } }
-            tr { th { "Ground" } td { (ground(&plan.ground)) } }
-            tr { th { "Limits" } td { (limits(case)) } }
+        dl.pairs {
+            div { dt { "Tires" } dd { (scene.tire_count()) " of " (plan.tire.mass_kg) " kg, " (layout(plan)) ", " (rims(plan.tire.outer_diameter_m)) } }
+            div { dt { "Cover" } dd { (cover(plan, scene)) } }
+            @if let Some(charge) = to_be_fired.and_then(|option| charge(case, option)) {
+                div { dt { "Charge" } dd { (charge) } }
+            }
+            div { dt { "Cables" } dd { (scene.cables.len()) ", slack " (plan.cable.slack_percent) " %" (gone) } }
+            @for (name, text) in rope(&plan.cable) { div { dt { (name) } dd { (text) } } }
+            div { dt { "Ground" } dd { (ground(&plan.ground)) } }
+            div { dt { "Limits" } dd { (limits(case)) } }
             @for (n, row) in plan.blast_rows.iter().enumerate() {
-                tr { th { "Blast row " (row.name) } td { (launched(&row.targets)) (fires_at(case, to_be_fired, n)) } }
+                div { dt { "Blast row " (row.name) } dd { (launched(&row.targets)) (fires_at(case, to_be_fired, n)) } }
             }
         }
     }
+}
+
+/// What the tires weigh, and per area of the ground where they lie in a mesh.
+fn cover(plan: &Plan, scene: &Scene) -> String {
+    let whole = format!("{} kg of tires", units::rounded(scene.mass.iter().sum(), 0));
+    let per_cell = |mesh: &Mesh, tires: f64| {
+        let area = mesh.row_spacing_m * mesh.column_spacing_m;
+        format!("{whole}, {} kg on each square metre", units::short(tires * plan.tire.mass_kg / area))
+    };
+    match &plan.layout {
+        Layout::Grid(mesh) => per_cell(mesh, 1.0),
+        Layout::Quincunx(mesh) => per_cell(mesh, 2.0),
+        Layout::List { .. } => whole,
+    }
+}
+
+/// What all holes of an option are charged with, and what a distance is divided by for the scaled distance; `None` where the plan
+/// names no charges.
+fn charge(case: &Case, option: usize) -> Option<String> {
+    let shot = &case.shots[option];
+    let within = WithinEightMs::of(case, shot).charge?;
+    let all: f64 = shot.firings.iter().map(|firing| firing.charge).sum();
+    let [all, heaviest] = [all, within].map(option_sentences::grams);
+    Some(format!(
+        "{all} kg in all holes, {heaviest} kg within any 8 ms; scaled distance = distance in m / {}",
+        units::short(heaviest.sqrt())
+    ))
 }
 
 /// The rope, its termination and the breaking force that they leave, each with its name.
@@ -142,7 +176,7 @@ pub fn uncertainty(unknown: &Uncertainty) -> Markup {
             format!("coefficient of variation {} %", unknown.breaking_force_cv_percent),
         ),
     ];
-    html! { table.facts { @for (name, text) in rows { tr { th { (name) } td { (text) } } } } }
+    html! { dl.pairs { @for (name, text) in rows { div { dt { (name) } dd { (text) } } } } }
 }
 
 fn layout(plan: &Plan) -> String {

@@ -100,13 +100,20 @@ pub fn page(page: &Page<'_>) -> String {
                     p { strong { "Not saved: " } "the plan that was computed is not the one in its file. Its text stands at the end of this page." }
                 }
                 @if page.partial { p { strong { "Ended early, before all was computed." } } }
-                (chosen_option::head(page, &at_head))
-                @if to_be_fired.is_none() { (conclusion(&report)) }
-                section {
-                    h2 { "The shelter from above" }
-                    div.view { (PreEscaped(top_view(case, to_be_fired, checked))) }
+                div.sheet {
+                    (chosen_option::head(page, &at_head))
+                    @if to_be_fired.is_none() { (conclusion(&report)) }
+                    section {
+                        h2 { "The shelter from above" }
+                        div.view { (PreEscaped(top_view(case, to_be_fired, checked))) }
+                    }
+                    (record::signatures(page))
                 }
-                section {
+                @if let Some((option, judged)) = fired_judged {
+                    (over_time(page, option))
+                    (chosen_option::peaks(case, judged))
+                }
+                section.shelter {
                     h2 { "Shelter" }
                     (facts::shelter(case, to_be_fired))
                 }
@@ -114,10 +121,8 @@ pub fn page(page: &Page<'_>) -> String {
                     h2 { "Delay options" }
                     // Without the verdict on them: readers would take it for that of the option to be fired.
                     @if let (Some(_), Some(conclusion)) = (to_be_fired, &report.conclusion) { p { "All options: " (conclusion.text) } }
-                    @for fact in &report.facts { p.quiet { (fact) } }
                     @if let Some(Sampling { most, seed, .. }) = sampling {
                         p.quiet { "At most " (most) " possible shots of each option, drawn from seed " (seed) }
-                        ul { @for meaning in option_sentences::VERDICTS { li { (meaning) } } }
                     } @else {
                         p { "The plan's own numbers only, nothing varied: other shots that may come of this plan can fail." }
                     }
@@ -127,7 +132,9 @@ pub fn page(page: &Page<'_>) -> String {
                     @for warning in others { p { strong { "Warning: " } (warning) } }
                 }
                 @if let Some(sweep) = page.sweep { (intervals(page, sweep)) }
-                @for option in in_turn(page) { (over_time(page, option)) }
+                @if to_be_fired.is_none() { @for option in 0..results.len() { (over_time(page, option)) } }
+                @if !page.observed.is_empty() { (seen(page)) }
+                (record::blanks())
                 @if sampling.is_some() {
                     section {
                         h2 { "What is not known" }
@@ -138,8 +145,6 @@ pub fn page(page: &Page<'_>) -> String {
                     h2 { "What the model assumes" }
                     ul { @for assumption in words::ASSUMPTIONS { li { (assumption) } } }
                 }
-                @if !page.observed.is_empty() { (seen(page)) }
-                (record::record(page))
                 section {
                     h2 { "The words of this page" }
                     (words::glossary())
@@ -151,12 +156,7 @@ pub fn page(page: &Page<'_>) -> String {
                     @if page.partial { p { "Ended early, before all was computed: the same command computes more." } }
                     p.quiet { "SHA-256 of the plan: " code { (hash) } }
                 }
-                @if !case.source.text.is_empty() {
-                    section {
-                        h2 { "The plan, word for word" @if page.unsaved { " (not saved)" } }
-                        (verbatim(&case.source.text))
-                    }
-                }
+                (on_screen(page))
             }
         }
     };
@@ -192,11 +192,18 @@ fn conclusion(report: &Report) -> Markup {
     }
 }
 
-/// The options, that to be fired first.
-fn in_turn(page: &Page<'_>) -> Vec<usize> {
-    let mut options: Vec<usize> = (0..page.results.len()).collect();
-    options.sort_by_key(|option| Some(*option) != page.to_be_fired);
-    options
+/// What the file of the page holds and paper does not, but for a plan that no file has: the other options over time, and the plan.
+fn on_screen(page: &Page<'_>) -> Markup {
+    let Page { case, results, to_be_fired, unsaved, .. } = *page;
+    let others = (0..results.len()).filter(|option| to_be_fired.is_some_and(|fired| fired != *option));
+    let plan = html! { @if !case.source.text.is_empty() { (verbatim(&case.source.text)) } };
+    html! {
+        @if unsaved { section { h2 { "The plan, word for word (not saved)" } (plan) } }
+        @if to_be_fired.is_some() && results.len() > 1 {
+            details { summary { "The other options over time" } @for option in others { (over_time(page, option)) } }
+        }
+        @if !unsaved { details { summary { "The plan, word for word" } (plan) } }
+    }
 }
 
 /// Height and force of an option over time; nothing where it has no result.

@@ -1,6 +1,7 @@
 //! What a record of a blast asks for and the program cannot know: blanks to fill in by hand, and lines to sign.
 //!
-//! The list follows the records of 30 CFR 816.68 and of state rules like it; other countries ask for more or less.
+//! The list follows the records of 30 CFR 816.68 and state rules like it, the Swedish sprängjournal (AMA) and annex 10 of the Russian
+//! order 494 of 2020; other places ask for more or less.
 
 use maud::{Markup, html};
 
@@ -14,28 +15,34 @@ use crate::verdict::Verdict;
 const HALF: &[&str] = &[
     "Site, and place of the shot on it",
     "Date and time of the shot",
-    "Author of this page",
     "Blaster in charge, number of the licence",
+    "Crew",
     "Explosive: product, amount in each hole and in all",
     "Stemming: material and length",
-    "Initiation system: product, detonators",
     "Holes: diameter, depth, burden, spacing; rock",
+    "Specific charge, kg/m³",
+    "Initiation system: product, detonators",
+    "Cover: layers, overlap, what lies under the tires",
     "Weather: sky, wind, lightning",
     "Guards posted: names and places",
 ];
 
 /// A blank of the whole width.
 const WIDE: &[(&str, bool)] = &[
-    ("Distance and direction to what is protected: nearest dwelling, road, line", false),
+    ("Distance and direction to what is protected: nearest dwelling, road, line; scaled distance", false),
     ("Shelter as laid: what differs from the plan, who looked at ropes and terminations", false),
-    ("After the shot: what was seen, greatest height, broken cables, misfires", true),
+    (
+        "After the shot: greatest height seen, broken cables, tires moved, misfires, flyrock and where it came down",
+        true,
+    ),
+    ("To be kept until", false),
 ];
 
 /// Who signs.
 const SIGNERS: [&str; 2] = ["Author: name, date, signature", "Blaster in charge: name, date, signature"];
 
-/// The blanks and the lines to sign.
-pub fn record(page: &Page<'_>) -> Markup {
+/// What is filled in by hand.
+pub fn blanks() -> Markup {
     html! {
         section {
             h2 { "To be filled in by hand" }
@@ -44,10 +51,16 @@ pub fn record(page: &Page<'_>) -> Markup {
                 @for name in HALF { div.blank { (name) } }
                 @for (name, tall) in WIDE { div.blank.wide.tall[*tall] { (name) } }
             }
-            div.signatures {
-                div { p { (signed(page)) } div.signature { (SIGNERS[0]) } }
-                div { p { "The limits, launch velocities and ranges of the plan are those of this site." } div.signature { (SIGNERS[1]) } }
-            }
+        }
+    }
+}
+
+/// The lines to sign.
+pub fn signatures(page: &Page<'_>) -> Markup {
+    html! {
+        div.signatures {
+            div { p { (signed(page)) } div.signature { (SIGNERS[0]) } }
+            div { p { "The limits, launch velocities and ranges of the plan are those of this site." } div.signature { (SIGNERS[1]) } }
         }
     }
 }

@@ -20,17 +20,19 @@ th::first-letter { text-transform: uppercase } .pass, .fail, .undecided { font-w
 .charts svg, .view svg { display: block; width: 100%; height: auto; margin: 0 auto }
 div.fired { border: 2px solid #111; padding: 3mm 4mm; margin: 4mm 0 }
 .what { font-size: 13pt; font-weight: 600; margin: 0 } .large { font-size: 30pt; line-height: 1.2; margin: 1mm 0 }
-.blanks { display: grid; grid-template-columns: 1fr 1fr; gap: 0 6mm }
-.blank { border-bottom: 1px solid #111; min-height: 13mm; padding-top: 1mm; font-size: 8.5pt; color: #333 }
-.blank.wide { grid-column: 1 / -1 } .blank.tall { min-height: 24mm }
-.signatures { display: grid; grid-template-columns: 1fr 1fr; gap: 0 6mm; margin-top: 3mm; align-items: end }
-.signature { border-top: 1px solid #111; margin-top: 15mm; padding-top: 1mm; font-size: 8.5pt; color: #333 }
-dl { margin: 0; columns: 2; column-gap: 8mm } dt { font-weight: 600 } dd { margin: 0 0 1.5mm }
+.blanks { display: flex; flex-wrap: wrap; gap: 0 6mm }
+.blank { border-bottom: 1px solid #111; min-height: 9mm; padding-top: 1mm; font-size: 8.5pt; color: #333; flex: 1 1 40% }
+.blank.wide { flex-basis: 100% } .blank.tall { min-height: 24mm }
+.signatures { display: flex; gap: 6mm; margin-top: 3mm; align-items: end; break-inside: avoid } .signatures > div { flex: 1 }
+.signature { border-top: 1px solid #111; margin-top: 12mm; padding-top: 1mm; font-size: 8.5pt; color: #333 }
+dl { margin: 0; columns: 2; column-gap: 8mm; font-size: 8.5pt } dt { font-weight: 600 } dd { margin: 0 0 1.5mm }
+dl.pairs div { margin-bottom: 1mm; break-inside: avoid } .pairs dt, .pairs dd { display: inline } .pairs dd { margin-left: 1ex }
+details { margin-top: 6mm } summary { font-size: 12pt; font-weight: bold }
 tr, li, dt, dd, .charts, .view, .blank, .signatures, div.fired, section.whole { break-inside: avoid } dt { break-after: avoid }
 @media print {
-  body { max-width: none; padding: 0 } .scroll { overflow: visible } .options { font-size: 7.5pt }
-  h2 { margin-top: 4mm } p { margin: 1mm 0 } .charts svg { width: auto; max-width: 100%; max-height: 43mm }
-  .view svg { width: auto; max-width: 100%; max-height: 92mm } .options td:nth-child(2) { min-width: 15mm }
+  body { max-width: none; padding: 0; font-size: 8.5pt } details { display: none } .sheet { break-after: page } .scroll { overflow: visible } .options { font-size: 7pt } .options td, .options th { padding: 0.6mm 0.8mm } .options td.n, .options th.n { white-space: normal } table.facts td, table.facts th { padding: 0.6mm 2mm } dl, ul, .blank { font-size: 7.5pt; line-height: 1.25 } dl { columns: 3; column-gap: 5mm } .shelter dl, ul { columns: 2; column-gap: 5mm } dd { margin-bottom: 0.8mm }
+  h2 { margin: 3mm 0 1mm } p, ul { margin: 1mm 0 } h1 { font-size: 14pt } .large { font-size: 24pt } .charts svg { width: auto; max-width: 100%; max-height: 43mm }
+  .view svg { width: auto; max-width: 100%; max-height: 70mm } .options td:nth-child(2) { min-width: 15mm }
 }
 @media screen and (max-width: 600px) {
   body { padding: 4mm 3mm } .charts, .blanks, .signatures { display: block } dl { columns: 1 } .view { overflow-x: auto } .view svg { min-width: 620px }

@@ -22,7 +22,8 @@ pub fn table(table: &Table, to_be_fired: Option<usize>) -> Markup {
                         @for &n in &seen[..known] { td class=[number(n)] { (cell(&row.cells[n])) } }
                         @if let Some(missing) = &row.missing { td colspan=(seen.len() - known) { (missing) } }
                     }
-                    @for detail in &row.details {
+                    // Beside an option to be fired, of the others only what speaks against them.
+                    @for detail in row.details.iter().filter(|detail| to_be_fired.is_none() || detail.verdict != Verdict::Pass) {
                         tr { td {} td.quiet colspan=(seen.len() - 1) { (detail.text) } }
                     }
                 }

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 /// What stands under the results, whatever the plan.
 pub const ASSUMPTIONS: &[&str] = &[
     "Tires are point masses that do not turn; the ground is a hard plane. It is level, and a landing does not rebound, where the plan says nothing else.",
-    "Cables are elastic, without mass and damping; they only pull, and their fastenings hold.",
+    "Cables are elastic and without mass, and without damping where the plan says nothing else; they only pull, and their fastenings hold.",
     "Each hole gives its tire the launch velocity written in the plan, varied in the possible shots as [uncertainty] says; it does not follow from charge, stemming or gas: charges only count within 8 ms.",
     "Friction on the ground is Coulomb's, with one coefficient.",
     "The error stated with a value of the shot as planned is that of the computation; what the plan's own numbers leave open is in the bands and the risk.",
@@ -29,10 +29,9 @@ const WORDS: &[(&str, &str)] = &[
     ),
     ("Accepted risk", "The greatest share of the possible shots that the plan allows to go past a limit."),
     (
-        "Launch margin",
+        "Spare launch speed",
         "How much faster than planned all tires may leave the ground before the shot as planned no longer passes.",
     ),
-    ("Utilization", "The greatest value of a quantity over its limit: above 100 % the shot fails."),
     ("Factor", "The breaking force of rope and termination over the greatest cable force."),
     (
         "Slack",
