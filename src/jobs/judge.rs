@@ -50,6 +50,9 @@ impl Job {
                         self.send(News::Sampled { option, sampled: Box::new(sampled.clone()), more });
                     }
                 }
+                JudgeEvent::Deciding(run) => {
+                    self.send(News::Deciding { option, run: Box::new(run.clone()) });
+                }
                 JudgeEvent::Margin(margin) => self.send(News::Margin { option, margin }),
                 JudgeEvent::Dud(judged) => self.send(News::Dud { option, judged: Box::new(judged.clone()) }),
                 JudgeEvent::Confirmed(&confirmation) => {

@@ -111,6 +111,7 @@ fn the_newest_request_of_a_kind_wins() {
                 News::Studied { compute, result, .. } => studies.push((compute, result.is_ok())),
                 News::Checking { .. }
                 | News::Sampled { .. }
+                | News::Deciding { .. }
                 | News::Margin { .. }
                 | News::Dud { .. }
                 | News::Assumptions { .. }

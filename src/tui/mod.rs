@@ -33,6 +33,7 @@ pub mod player;
 pub mod prompt;
 pub mod recovery;
 pub mod screen;
+pub mod shown_shot;
 pub mod start;
 pub mod studies;
 pub mod theme;
@@ -245,6 +246,10 @@ impl Session {
                 };
                 let request = self.app.take_observed_file(&path, text);
                 self.carry_out(request);
+            }
+            Request::Study(StudyKind::Flight) => {
+                let App { case, selected, compute, .. } = &self.app;
+                self.jobs.flight(case, *selected, self.app.shown_sample(*selected), *compute);
             }
             Request::Study(kind) => {
                 self.jobs.study(kind, &self.app.case, self.app.selected, self.app.compute);

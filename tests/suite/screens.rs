@@ -368,7 +368,7 @@ fn every_screen_in_every_theme() {
             study_ends(&mut app, StudyKind::Accuracy, Ok(measured()));
             let flight = recorded(&app, 4);
             study_ends(&mut app, StudyKind::Flight, Ok(flight));
-            app.player.show_option(4);
+            app.player.show(4, app.shown_sample(4));
             // The second row fires; the first is in the air.
             app.player.time = 0.05;
             let mut plain = draw(&app, width, height);
