@@ -52,7 +52,7 @@ pub enum News {
         /// Whether more samples come.
         more: bool,
     },
-    /// The sample that decides has run.
+    /// The sample that decides, of those drawn so far, has run.
     Deciding {
         /// Index of the option.
         option: usize,

@@ -25,9 +25,11 @@ use crate::report::words::assumption_words::holds;
 use crate::report::words::headline::headline;
 use crate::study::as_planned::step_error;
 use crate::study::assumptions::Assumptions;
+use crate::study::deciding_shot::deciding_sample;
 use crate::study::flight::Flight;
 use crate::study::judgement::{Evidence, Judgement};
 use crate::study::recommend::recommended;
+use crate::study::trace::DrawnSample;
 use crate::study::{Case, ComputeSettings};
 use crate::verdict::Verdict;
 
@@ -216,10 +218,13 @@ impl App {
         }
     }
 
-    /// Asks for the recording that the flight screen needs, once per option and shot.
+    /// Asks for the recording that the flight screen needs, once per option and shot. A sample that decides goes on while others come.
     pub fn request_flight(&mut self) -> Request {
         let sample = self.shown_sample(self.selected);
-        if self.screen != Screen::Flight || self.player.recorded == Some((self.selected, sample)) {
+        let is_shown = |(option, recorded): (usize, Option<DrawnSample>)| {
+            option == self.selected && recorded.is_some() == sample.is_some()
+        };
+        if self.screen != Screen::Flight || self.player.recorded.is_some_and(is_shown) {
             return Request::None;
         }
         self.player.show(self.selected, sample);
@@ -416,7 +421,10 @@ impl App {
                 }
             }
             News::Deciding { option, run } => {
-                if let Some(OptionState::Judged { judgement, .. }) = self.options.get_mut(option) {
+                if let Some(OptionState::Judged { judgement, .. }) = self.options.get_mut(option)
+                    && judgement.sampled.known().and_then(|sampled| deciding_sample(sampled, run.sample.seed))
+                        == Some(run.sample)
+                {
                     judgement.deciding = Some(*run);
                 }
             }

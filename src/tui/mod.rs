@@ -248,8 +248,10 @@ impl Session {
                 self.carry_out(request);
             }
             Request::Study(StudyKind::Flight) => {
-                let App { case, selected, compute, .. } = &self.app;
-                self.jobs.flight(case, *selected, self.app.shown_sample(*selected), *compute);
+                let App { case, compute, player, .. } = &self.app;
+                if let Some((option, sample)) = player.recorded {
+                    self.jobs.flight(case, option, sample, *compute);
+                }
             }
             Request::Study(kind) => {
                 self.jobs.study(kind, &self.app.case, self.app.selected, self.app.compute);

@@ -25,10 +25,10 @@ impl App {
         self.deciding(option).map(|deciding| deciding.sample)
     }
 
-    /// The motion of the shot shown of the selected option, once it is recorded.
+    /// The motion of the selected option that was asked for last, once it is recorded.
     pub fn flight(&self) -> Option<&Flight> {
         let flight = self.studies.flight(self.selected)?;
-        Some(flight).filter(|flight| flight.sample == self.shown_sample(self.selected))
+        Some(flight).filter(|flight| self.player.recorded == Some((flight.option, flight.sample)))
     }
 
     /// The shot shown of an option over time, and behind it the shot as planned where that is another; nothing without a result.

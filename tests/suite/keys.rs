@@ -197,7 +197,6 @@ fn m_switches_between_the_shot_that_decides_and_the_planned_one() {
         assert_eq!(flight.sample.map(|sample| sample.number), sample);
         assert_eq!(app.player.time, flight.outcome.force.time, "it opens at the worst moment");
         press(&mut app, "m");
-        assert!(app.flight().is_none(), "the other shot is not recorded yet");
     }
 }
 

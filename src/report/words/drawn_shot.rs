@@ -19,6 +19,6 @@ pub fn shot_words(limits: &Limits, decides: bool) -> String {
 pub fn deciding_sample(limits: &Limits, deciding: &DecidingShot) -> String {
     let (one_in, number) = (units::one_in(limits.accepted_risk), deciding.sample.number);
     format!(
-        "Worst of {one_in}: sample {number}, since 1 in {one_in} uses more of a limit (`shelter trace --sample {number}`)"
+        "Worst of {one_in}: sample {number}; 1 in {one_in} uses more of a limit. `shelter trace --sample {number}` tells its motion"
     )
 }

@@ -39,7 +39,10 @@ impl App {
 
     /// Shows the flight at `time` [s], on whatever screen that was asked for.
     pub(super) fn show_time(&mut self, time: f64) {
-        self.screen = Screen::Flight;
+        if self.screen != Screen::Flight {
+            self.forget_old_flight();
+            self.screen = Screen::Flight;
+        }
         match self.flight() {
             Some(flight) => {
                 let end = flight.end();
@@ -47,6 +50,12 @@ impl App {
             }
             None => self.player.open_at = Some(time),
         }
+    }
+
+    /// Forgets a recording of a shot that no longer decides.
+    pub(super) fn forget_old_flight(&mut self) {
+        let shown = (self.selected, self.shown_sample(self.selected));
+        self.player.recorded = self.player.recorded.filter(|recorded| *recorded == shown);
     }
 
     /// The nearest stop of the flight after `time` [s], or before; the end or the beginning where there is none.

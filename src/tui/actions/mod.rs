@@ -130,6 +130,9 @@ impl App {
         if screen == Screen::Plan && self.screen != Screen::Plan {
             self.editor.select_option(self.selected);
         }
+        if screen == Screen::Flight && self.screen != Screen::Flight {
+            self.forget_old_flight();
+        }
         self.screen = screen;
     }
 

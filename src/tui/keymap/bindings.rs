@@ -170,7 +170,7 @@ pub const BINDINGS: &[Binding] = &[
         "other-shot",
         &["m"],
         "plan",
-        "draw the shot as planned, or the worst of so many that decides",
+        "draw the shot as planned, or the worst, which decides",
         DRAWN,
     ),
     bind(

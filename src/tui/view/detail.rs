@@ -86,17 +86,16 @@ fn draw_rule(app: &App, frame: &mut Frame, area: Rect) -> Rect {
     let times = Span::styled(format!("· rows fire at {} ", firing_times(delay)), app.theme.muted());
     let one_in = units::one_in(app.case.limits.accepted_risk);
     let legend = Span::styled(format!(" █ planned ▒ worst of {one_in} ┃ limit "), app.theme.muted());
+    let short = Span::styled(" █ planned ▒ worst ", app.theme.muted());
     let mut room = usize::from(area.width).saturating_sub(name.width() + verdict.width() + 2);
     let mut fits = |span: &Span<'_>| {
         let fits = span.width() < room;
         room -= if fits { span.width() } else { 0 };
         fits
     };
-    let (with_times, with_legend) = (fits(&times), fits(&legend));
-    let times = if with_times { times } else { Span::default() };
-    let title = Line::from(vec![name, verdict, times]);
-    let rule = rule.title(title);
-    let rule = if with_legend { rule.title(Line::from(legend).right_aligned()) } else { rule };
+    let times = if fits(&times) { times } else { Span::default() };
+    let legend = [legend, short].into_iter().find(|legend| fits(legend)).unwrap_or_default();
+    let rule = rule.title(Line::from(vec![name, verdict, times])).title(Line::from(legend).right_aligned());
     frame.render_widget(rule, area);
     inside
 }
@@ -133,7 +132,7 @@ fn draw_charts(app: &App, judged: &Judgement, frame: &mut Frame, area: Rect, are
         let halves: [Rect; 2] = Layout::horizontal([Constraint::Fill(1); 2]).spacing(1).areas(*area);
         let is_in_time = row == 0;
         for ((chart, name), half) in charts.iter().zip(["height", "force"]).zip(halves) {
-            let labels = [name, if is_in_time { which } else { "" }];
+            let labels = [name, if is_in_time { which } else { "of shots" }];
             let drawn = limit_chart::draw(app, chart, labels, None, frame, half);
             let in_time = drawn.filter(|_| is_in_time);
             areas.extend(in_time.map(|drawn| (drawn.area, ClickTarget::Time(drawn.end))));

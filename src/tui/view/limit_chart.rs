@@ -20,6 +20,8 @@ use crate::units;
 pub const LEAST_SIZE: (u16, u16) = (24, 3);
 /// Least height of a chart with a title of its own.
 pub const TITLED: u16 = 6;
+/// Least height of the bars with room for the shot as planned before the one that decides, and for rows above the limit.
+const TWO_SHOTS: u16 = 5;
 /// Width of the labels at the left.
 const LABELS: u16 = 8;
 /// Parts of a cell, from empty to full.
@@ -57,12 +59,13 @@ pub fn draw(
     let titled = if whole.width() <= usize::from(area.width) { whole } else { Line::raw(labels.join(" ")) };
     frame.render_widget(titled.style(theme.muted()).centered(), title);
     let [left, bars] = Layout::horizontal([Constraint::Length(LABELS), Constraint::Min(0)]).areas(body);
-    let shares: Vec<Shares> = shares(chart, limit, bars.width.into());
+    let shares = shares(chart, limit, bars.width.into(), bars.height >= TWO_SHOTS);
     let most = shares.iter().flat_map(|shares| [shares.filled, shares.shaded]).fold(1.0, f64::max);
     // Rows above the limit, and below it; its own row stands between.
     let rows = body.height - 1;
     let above = (f64::from(rows) * (1.0 - 1.0 / most)).ceil() as u16;
-    let above = above.min(rows / 2);
+    // With few rows the row of the limit alone tells what goes beyond.
+    let above = if bars.height >= TWO_SHOTS { above.min(rows / 2) } else { 0 };
     let below = rows - above;
     let unit = chart.y.unit;
     let limit_label = format!("{} {}", units::significant(limit, unit, 3), unit.symbol());
@@ -154,14 +157,14 @@ impl Shares {
     }
 }
 
-/// The greatest shares of the limit in each of `width` columns.
-fn shares(chart: &Chart, limit: f64, width: usize) -> Vec<Shares> {
+/// The greatest shares of the limit in each of `width` columns; `with_planned`: those of the shot as planned, too.
+fn shares(chart: &Chart, limit: f64, width: usize, with_planned: bool) -> Vec<Shares> {
     let of = |kind: SeriesKind| {
         let series = chart.series.iter().find(|series| series.kind == kind);
         series.map(|series| columns(&series.points, chart.x.range[1], width))
     };
     let shown = of(SeriesKind::Curve).unwrap_or_default();
-    let planned = of(SeriesKind::Planned);
+    let planned = of(SeriesKind::Planned).filter(|_| with_planned);
     let column = |(n, &value): (usize, &f64)| match planned.as_ref().map(|planned| planned[n]) {
         Some(planned) => Shares { filled: planned / limit, shaded: value / limit },
         None => Shares { filled: value / limit, shaded: 0.0 },

@@ -109,7 +109,10 @@ pub fn judgement(case: &Case, option: usize) -> Judgement {
 /// A shot that decides, higher and harder than the shot as planned; past the limit of force where that fails.
 pub fn deciding(case: &Case, option: usize) -> DecidingShot {
     let History { width, height, force } = checked(Verdict::Pass).history;
-    let harder = |values: Vec<f64>, factor: f64| values.into_iter().map(|value| factor * value).collect();
+    let harder = |values: Vec<f64>, factor: f64| {
+        let fades = |(n, value): (usize, f64)| factor * value * (1.0 - n as f64 / 400.0);
+        values.into_iter().enumerate().map(fades).collect()
+    };
     DecidingShot {
         sample: DrawnSample { seed: Sampling::OF_VERDICT.seed, number: 7, step_halvings: 0 },
         shot: case.shots[option].clone(),
