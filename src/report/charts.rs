@@ -64,8 +64,7 @@ pub fn history(case: &Case, shown: Course<'_>, planned: Option<Course<'_>>) -> [
         chart.title = format!("{name} in time, {which}");
         chart.firings = shown.shot.times();
         if let Some(points) = behind {
-            let most = points.iter().map(|(_, value)| *value * HEADROOM);
-            chart.y.range[1] = most.fold(chart.y.range[1], f64::max);
+            chart.y.range[1] = top_of(&points, limit).max(chart.y.range[1]);
             chart.series[0].name = "that decides";
             chart.series.insert(0, Series { name: AS_PLANNED, kind: SeriesKind::Planned, points });
         }
@@ -128,9 +127,15 @@ pub fn front(case: &Case, front: &[FrontPoint]) -> Chart {
     quantity_chart(duration, ("failing share", Unit::Percent), points, accepted)
 }
 
+/// Top of an axis: the limit, or some room above the greatest value where that is past it.
+fn top_of(points: &[(f64, f64)], limit: f64) -> f64 {
+    let most = points.iter().map(|(_, value)| *value).fold(0.0, f64::max);
+    if most > limit { most * HEADROOM } else { limit }
+}
+
 /// A quantity with its limit.
 fn quantity_chart(x: Axis, (name, unit): (&'static str, Unit), points: Vec<(f64, f64)>, limit: f64) -> Chart {
-    let top = points.iter().map(|(_, value)| *value).fold(limit, f64::max) * HEADROOM;
+    let top = top_of(&points, limit);
     Chart {
         title: format!("{name} against {}", x.name),
         x,
