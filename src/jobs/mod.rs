@@ -17,9 +17,11 @@ use crate::plan::observations::Observations;
 use crate::study::as_planned::check::CheckedShot;
 use crate::study::as_planned::margin::LaunchMargin;
 use crate::study::assumptions::Assumptions;
+use crate::study::deciding_shot::DecidingShot;
 use crate::study::judgement::Judgement;
 use crate::study::samples::risk_summary::RiskSummary;
 use crate::study::samples::sampled_shot::SampledShot;
+use crate::study::trace::DrawnSample;
 use crate::study::{Case, ComputeSettings, NoResult, StudyControl, catch_panic, thread_pool};
 
 /// News of a job.
@@ -49,6 +51,13 @@ pub enum News {
         sampled: Box<SampledShot>,
         /// Whether more samples come.
         more: bool,
+    },
+    /// The sample that decides, of those drawn so far, has run.
+    Deciding {
+        /// Index of the option.
+        option: usize,
+        /// The run.
+        run: Box<DecidingShot>,
     },
     /// How much faster than planned the tires may leave.
     Margin {
@@ -115,6 +124,8 @@ struct Job {
     compute: ComputeSettings,
     /// What was seen of earlier shots, for [`StudyKind::Fit`].
     observed: Vec<Observations>,
+    /// The sample to be seen, for [`StudyKind::Flight`]; `None` for the shot as planned.
+    sample: Option<DrawnSample>,
     control: Arc<StudyControl>,
     sender: Sender<(Arc<StudyControl>, News)>,
 }
@@ -148,6 +159,17 @@ impl Jobs {
     /// Begins [`StudyKind::Fit`] to what was seen of earlier shots.
     pub fn fit(&mut self, case: &Arc<Case>, observed: Vec<Observations>, compute: ComputeSettings) {
         self.begin(StudyKind::Fit, 0, Job { observed, ..self.job(case, compute) });
+    }
+
+    /// Begins [`StudyKind::Flight`] of an option, as planned or as one of its samples.
+    pub fn flight(
+        &mut self,
+        case: &Arc<Case>,
+        option: usize,
+        sample: Option<DrawnSample>,
+        compute: ComputeSettings,
+    ) {
+        self.begin(StudyKind::Flight, option, Job { sample, ..self.job(case, compute) });
     }
 
     fn begin(&mut self, kind: StudyKind, option: usize, job: Job) {
@@ -187,7 +209,7 @@ impl Jobs {
 
     fn job(&self, case: &Arc<Case>, compute: ComputeSettings) -> Job {
         let (case, sender) = (Arc::clone(case), self.sender.clone());
-        Job { case, compute, observed: Vec::new(), control: Arc::default(), sender }
+        Job { case, compute, observed: Vec::new(), sample: None, control: Arc::default(), sender }
     }
 }
 

@@ -177,7 +177,7 @@ impl Job {
                 let found = find_assumptions(case, option, sampling, Extent::All, compute, control)?;
                 Ok(StudyResult::Assumptions(found))
             }
-            StudyKind::Flight => record(case, option, compute, control).map(StudyResult::Flight),
+            StudyKind::Flight => record(case, option, self.sample, compute, control).map(StudyResult::Flight),
             StudyKind::Accuracy => Ok(StudyResult::Accuracy(
                 accuracy::measure(case, option, LONGEST_RUN, control)?.expect_complete(),
             )),

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use super::as_planned::check::{CheckProgress, CheckedShot, check_as_planned};
 use super::as_planned::margin::{LaunchMargin, launch_margin};
 use super::beside_tire::judge_next_tires;
+use super::deciding_shot::{DecidingShot, deciding_sample};
 use super::judgement::{Evidence, Judgement};
 use super::one_dud::judge_one_dud;
 use super::samples::risk_summary::RiskSummary;
@@ -43,6 +44,8 @@ pub enum JudgeEvent<'r> {
         /// Whether more samples come.
         more: bool,
     },
+    /// The sample that decides has run.
+    Deciding(&'r DecidingShot),
     /// The launch margin is known.
     Margin(LaunchMargin),
     /// The option is judged with any one hole left out.
@@ -170,6 +173,36 @@ fn shot_to_sample<'c>(
     let fails = planned.verdict == Verdict::Fail;
     let sampling = if fails { sampling.least_only() } else { *sampling };
     ShotToSample::new(case, &case.shots[option], compute, sampling).with_planned(*planned)
+}
+
+/// Runs the shot that decides of every option that was sampled with `seed`, one run each. An option whose run fails has none.
+pub fn find_deciding_shots(
+    cases: &[(&Case, ComputeSettings)],
+    results: &mut [OptionResults],
+    seed: u64,
+    control: &StudyControl,
+    watch: OnEvent<'_>,
+) -> ComputeResult<()> {
+    let judged = checked_options(results).into_iter().filter_map(|(at, judgement)| {
+        let sample = deciding_sample(judgement.sampled.known()?, seed)?;
+        Some(((at, sample), judgement))
+    });
+    let (jobs, judgements): (Vec<_>, Vec<_>) = judged.unzip();
+    let runs = run_batch(&jobs, control, |&(at, sample)| {
+        let (case, compute) = &cases[at.case];
+        match catch_panic(|| DecidingShot::run(case, at.option, sample, compute, control)) {
+            // The verdicts stand without it.
+            Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(None),
+            run => run.map(Some).inspect(|run| {
+                run.iter().for_each(|run| watch(at, JudgeEvent::Deciding(run)));
+            }),
+        }
+    })?;
+    let partial = runs.contains(&None);
+    for (judgement, run) in judgements.into_iter().zip(runs) {
+        judgement.deciding = run.flatten();
+    }
+    Ok(Computed { value: (), partial })
 }
 
 /// Finds the launch margin of every option of every case that has a result.

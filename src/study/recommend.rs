@@ -13,7 +13,8 @@ use itertools::Itertools;
 
 use super::as_planned::margin::LaunchMargin;
 use super::judge_options::{
-    CaseOption, JudgeEvent, OnEvent, OptionResults, UNWATCHED, find_duds, find_launch_margins, judge_all,
+    CaseOption, JudgeEvent, OnEvent, OptionResults, UNWATCHED, find_deciding_shots, find_duds,
+    find_launch_margins, judge_all,
 };
 use super::judgement::{Evidence, Judgement};
 use super::samples::risk_summary::RiskSummary;
@@ -40,7 +41,7 @@ impl Case {
     }
 }
 
-/// Like [`judge_all`], with the launch margin of every option, and with fresh draws for the options that pass where a plan has several:
+/// Like [`judge_all`], with the run of the sample that decides and the launch margin of every option, and with fresh draws for the options that pass where a plan has several:
 /// what `check` with samples, the page and the terminal show.
 pub fn judge_and_confirm(
     cases: &[(&Case, ComputeSettings)],
@@ -70,9 +71,12 @@ fn judge_with_margins(
     control: &StudyControl,
     watch: OnEvent<'_>,
 ) -> ComputeResult<Vec<OptionResults>> {
-    let Computed { value: mut results, partial } = judge_all(cases, sampling, control, watch)?;
+    let Computed { value: mut results, mut partial } = judge_all(cases, sampling, control, watch)?;
+    if let Some(Sampling { seed, .. }) = sampling {
+        partial |= find_deciding_shots(cases, &mut results, *seed, control, watch)?.partial;
+    }
     let margins = find_launch_margins(cases, &mut results, control, watch)?;
-    let mut partial = partial || margins.partial;
+    partial |= margins.partial;
     let Some(sampling) = sampling else { return Ok(Computed { value: results, partial }) };
     partial |= find_duds(cases, &mut results, sampling, control, watch)?.partial;
     for ((case, _), results) in cases.iter().zip(&mut results) {

@@ -92,11 +92,14 @@ fn svg(app: &App) -> Result<String, String> {
             vec![html::top_view(&app.case, Some(app.selected), checked)]
         }
         Screen::Compare => {
-            let judged = app.judgement(app.selected).ok_or("the selected option has no result yet")?;
-            let shot = &app.case.shots[app.selected];
-            let history = charts::history(&app.case, &judged.checked.history, shot);
-            let samples =
-                judged.sampled.known().into_iter().flat_map(|sampled| charts::samples(&app.case, sampled));
+            let judged = app.judgement(app.selected);
+            let (shown, planned) =
+                app.courses(app.selected).ok_or("the selected option has no result yet")?;
+            let history = charts::history(&app.case, shown, planned);
+            let samples = judged
+                .and_then(|judged| judged.sampled.known())
+                .into_iter()
+                .flat_map(|sampled| charts::samples(&app.case, sampled));
             history
                 .iter()
                 .filter_map(html::svg)

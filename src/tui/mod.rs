@@ -33,6 +33,7 @@ pub mod player;
 pub mod prompt;
 pub mod recovery;
 pub mod screen;
+pub mod shown_shot;
 pub mod start;
 pub mod studies;
 pub mod theme;
@@ -245,6 +246,12 @@ impl Session {
                 };
                 let request = self.app.take_observed_file(&path, text);
                 self.carry_out(request);
+            }
+            Request::Study(StudyKind::Flight) => {
+                let App { case, compute, player, .. } = &self.app;
+                if let Some((option, sample)) = player.recorded {
+                    self.jobs.flight(case, option, sample, *compute);
+                }
             }
             Request::Study(kind) => {
                 self.jobs.study(kind, &self.app.case, self.app.selected, self.app.compute);

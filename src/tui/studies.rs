@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::jobs::{ComparedWithSeen, StudyKind, StudyResult};
 use crate::plan::observations::Observations;
+use crate::report::charts::Course;
 use crate::report::observed::{self, ObservedRow, observed_rows};
 use crate::report::parts::{Block, Report};
 use crate::report::{self, charts};
@@ -74,11 +75,10 @@ impl ShownStudy {
             }
             StudyResult::Accuracy(study) => report::accuracy::report(case, study, &[]),
             StudyResult::Flight(flight) => {
-                let history = &flight.outcome.history;
+                let (history, decides) = (&flight.outcome.history, flight.sample.is_some());
                 let mut report = report::trace::history(history);
-                report
-                    .blocks
-                    .extend(charts::history(case, history, &case.shots[flight.option]).map(Block::Picture));
+                let course = Course { history, shot: &flight.shot, decides };
+                report.blocks.extend(charts::history(case, course, None).map(Block::Picture));
                 report
             }
         };

@@ -12,7 +12,7 @@ use shelter::study::fit::observation_bands::predict_observations;
 use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::{FitRequest, fit};
 use shelter::study::{NoResult, StudyControl};
-use shelter::tui::app::{App, Request};
+use shelter::tui::app::{App, ClickTarget, Request};
 use shelter::tui::compare::{OptionState, SortBy};
 use shelter::tui::config::Config;
 use shelter::tui::dispatch;
@@ -149,7 +149,7 @@ fn a_flight_is_asked_for_once_and_played() {
     assert!(text(&draw(&app, 100, 30)).contains("recording"));
     let flight = recorded(&app, 0);
     study_ends(&mut app, StudyKind::Flight, Ok(flight));
-    let worst = app.studies.flight(0).expect("a flight").outcome.force.time;
+    let worst = app.flight().expect("a flight").outcome.force.time;
     assert_eq!(app.player.time, worst, "it opens at the worst moment");
     let says = |app: &App, words: &str| text(&draw(app, 120, 36)).contains(words);
     assert!(says(&app, "WORST FORCE"), "{}", text(&draw(&app, 120, 36)));
@@ -167,6 +167,75 @@ fn a_flight_is_asked_for_once_and_played() {
     assert_eq!(app.player.time, 0.0, "the left end of the bar");
     press(&mut app, "j");
     assert_eq!((app.selected, app.request_flight()), (1, Request::Study(StudyKind::Flight)));
+}
+
+/// On Compare and on Flight `m` draws the other shot, and both say which is drawn.
+#[test]
+fn m_switches_between_the_shot_that_decides_and_the_planned_one() {
+    let mut app = finished();
+    let row = |app: &App| -> [String; 2] {
+        let screen = text(&draw(app, 80, 24));
+        let starts = [" option", "▸all at once"];
+        starts.map(|start| screen.lines().find(|line| line.starts_with(start)).expect(start).to_owned())
+    };
+    let [head, deciding] = row(&app);
+    assert_eq!((head.matches("worst  ").count(), head.matches("planned").count()), (2, 0), "{head}");
+    assert!(text(&draw(&app, 80, 24)).contains("m plan"), "{}", text(&draw(&app, 80, 24)));
+    press(&mut app, "m");
+    let [head, planned] = row(&app);
+    assert_eq!((head.matches("worst  ").count(), head.matches("planned").count()), (0, 2), "{head}");
+    assert_ne!(deciding, planned);
+    assert!(!text(&draw(&app, 120, 36)).contains("in time, worst of 100"));
+    assert!(text(&draw(&app, 120, 36)).contains("cable force in time, as planned"));
+    press(&mut app, "3");
+    for (words, sample) in [("FAIL, as planned", None), ("FAIL, one in 100", Some(7))] {
+        assert_eq!(app.request_flight(), Request::Study(StudyKind::Flight));
+        let flight = recorded(&app, 0);
+        study_ends(&mut app, StudyKind::Flight, Ok(flight));
+        assert!(text(&draw(&app, 80, 24)).contains(words), "{}", text(&draw(&app, 80, 24)));
+        let flight = app.flight().expect("a flight");
+        assert_eq!(flight.sample.map(|sample| sample.number), sample);
+        assert_eq!(app.player.time, flight.outcome.force.time, "it opens at the worst moment");
+        press(&mut app, "m");
+    }
+}
+
+/// Without its own run among shots that decide, an option draws nothing: its planned shot would flatter it.
+#[test]
+fn no_planned_shot_stands_among_those_that_decide() {
+    let mut app = finished();
+    let OptionState::Judged { judgement, .. } = &mut app.options[1] else { panic!("judged") };
+    judgement.deciding = None;
+    let screen = text(&draw(&app, 80, 24));
+    let row = screen.lines().find(|line| line.starts_with(" 9 ms")).expect("its row");
+    assert_eq!(row.matches("not run").count(), 2, "{row}");
+}
+
+/// A click on a chart of Compare opens the flight at that time; one on a chart of Flight goes there.
+#[test]
+fn clicks_on_charts_show_their_time() {
+    let mut app = finished();
+    let charts = |app: &App| -> Vec<_> {
+        let areas = draw_areas(app, 120, 36).into_iter();
+        let time = |target| if let ClickTarget::Time(end) = target { Some(end) } else { None };
+        areas.filter_map(|(area, target)| Some(area).zip(time(target))).collect()
+    };
+    let right_end = |app: &mut App, n: usize| {
+        let (area, end) = charts(app)[n];
+        app.areas = draw_areas(app, 120, 36);
+        app.click(Position::new(area.right() - 1, area.y));
+        end
+    };
+    assert_eq!(charts(&app).len(), 2);
+    let end = right_end(&mut app, 1);
+    assert_eq!((app.screen, app.request_flight()), (Screen::Flight, Request::Study(StudyKind::Flight)));
+    let flight = recorded(&app, 0);
+    study_ends(&mut app, StudyKind::Flight, Ok(flight));
+    assert_eq!(app.player.time, end.min(app.flight().expect("a flight").end()));
+    key(&mut app, KeyCode::Home);
+    assert_eq!(charts(&app).len(), 3, "the bar and two charts");
+    right_end(&mut app, 2);
+    assert_eq!(app.player.time, app.flight().expect("a flight").end());
 }
 
 #[test]

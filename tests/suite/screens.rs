@@ -24,8 +24,8 @@ use shelter::verdict::Verdict;
 
 use super::support::Edited;
 use super::support::stage::{
-    app, checked, done, draw, finished, judgement, key, measured, recorded, samples, spreads, study_ends,
-    swept, text,
+    app, checked, deciding, done, draw, finished, judgement, key, measured, recorded, samples, spreads,
+    study_ends, swept, text,
 };
 
 #[test]
@@ -90,6 +90,25 @@ fn samples_stream_in_and_decide() {
     assert!(screen.contains("fails if tires leave 5 % faster"), "{screen}");
     app.take_news(News::Checked { option: 0, result: Err(NoResult::OutOfTime) });
     assert!(matches!(app.options[0], OptionState::Failed(NoResult::OutOfTime)));
+}
+
+/// A run of a sample that no longer decides is not drawn.
+#[test]
+fn only_the_sample_that_decides_now_is_drawn() {
+    let mut app = app();
+    app.take_news(News::Checked { option: 1, result: Ok(Box::new(checked(Verdict::Pass))) });
+    let sampled = samples(&app.case, 500, false);
+    // Of 500, five are left out at 1 %; the later a sample, the higher it flies.
+    assert_eq!(sampled.deciding_sample(), Some(494));
+    app.take_news(News::Sampled { option: 1, sampled: Box::new(sampled), more: true });
+    let head = |app: &App| text(&draw(app, 80, 24)).lines().nth(4).expect("the heads").to_owned();
+    for (number, drawn) in [(7, "planned"), (494, "worst"), (7, "worst")] {
+        let mut run = deciding(&app.case, 1);
+        run.sample.number = number;
+        app.take_news(News::Deciding { option: 1, run: Box::new(run) });
+        assert!(head(&app).contains(drawn), "{number}: {}", head(&app));
+        assert_eq!(app.shown_sample(1).map(|sample| sample.number), (drawn == "worst").then_some(494));
+    }
 }
 
 #[test]
@@ -368,7 +387,7 @@ fn every_screen_in_every_theme() {
             study_ends(&mut app, StudyKind::Accuracy, Ok(measured()));
             let flight = recorded(&app, 4);
             study_ends(&mut app, StudyKind::Flight, Ok(flight));
-            app.player.show_option(4);
+            app.player.show(4, app.shown_sample(4));
             // The second row fires; the first is in the air.
             app.player.time = 0.05;
             let mut plain = draw(&app, width, height);

@@ -13,6 +13,7 @@
 
 pub mod assumption_words;
 mod cell_words;
+pub mod drawn_shot;
 pub mod headline;
 pub mod limits;
 pub mod no_result;

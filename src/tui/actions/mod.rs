@@ -82,7 +82,7 @@ impl App {
             ClickTarget::Offer(n) => self.studies.selected = n,
             ClickTarget::Time(end) => {
                 let share = f64::from(at.x - area.x) / f64::from(area.width.saturating_sub(1).max(1));
-                self.player.seek(share * end, end);
+                self.show_time(share * end);
             }
         }
         Request::None
@@ -109,6 +109,7 @@ impl App {
             Action::Export => return self.name_export(),
             Action::WritePage => return self.name_page(),
             Action::Copy => return Request::Copy,
+            Action::OtherShot => self.shown_shot = self.shown_shot.other(),
             Action::Theme => self.theme = self.theme.next(),
             Action::Help => {
                 self.help = !self.help;
@@ -128,6 +129,9 @@ impl App {
     fn show(&mut self, screen: Screen) {
         if screen == Screen::Plan && self.screen != Screen::Plan {
             self.editor.select_option(self.selected);
+        }
+        if screen == Screen::Flight && self.screen != Screen::Flight {
+            self.forget_old_flight();
         }
         self.screen = screen;
     }
@@ -236,7 +240,7 @@ impl App {
         self.compute.accuracy = accuracy;
         self.studies.remedy_list = None;
         self.options.fill(OptionState::Waiting);
-        self.player.option = None;
+        self.player.recorded = None;
         Request::Judge
     }
 }

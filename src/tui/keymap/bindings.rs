@@ -53,6 +53,8 @@ pub enum Action {
     Faster,
     /// Play slower.
     Slower,
+    /// Draw the shot as planned, or the one that decides.
+    OtherShot,
     /// Show the flight from the other side.
     Turn,
     /// End the study shown.
@@ -147,6 +149,8 @@ const OPTIONS: &[Screen] = &[Screen::Plan, Screen::Compare];
 
 const FLIGHT: &[Screen] = &[Screen::Flight];
 
+const DRAWN: &[Screen] = &[Screen::Compare, Screen::Flight];
+
 const SIDEWAYS: &[Screen] = &[Screen::Plan, Screen::Flight, Screen::Studies];
 
 const STUDIES: &[Screen] = &[Screen::Studies];
@@ -161,6 +165,14 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::NextEvent, "next", &["n", "]"], "next", "to the next firing or peak", FLIGHT),
     bind(Action::PreviousEvent, "previous", &["p", "["], "", "to the firing or peak before", FLIGHT),
     bind(Action::Turn, "turn", &["v"], "turn", "side view along the rows, or across them", FLIGHT),
+    bind(
+        Action::OtherShot,
+        "other-shot",
+        &["m"],
+        "plan",
+        "draw the shot as planned, or the worst, which decides",
+        DRAWN,
+    ),
     bind(
         Action::Open,
         "open",
@@ -200,6 +212,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Redo, "redo", &["U", "ctrl-r"], "", "make it again", ALL),
     bind(Action::Save, "save", &["s", "ctrl-s"], "save", "save the plan; comments and formatting stay", ALL),
     bind(Action::SaveAs, "save-as", &["W"], "", "save the plan under another name", ALL),
+    bind(Action::Why, "why", &["w"], "why", "what would make the option pass; Enter makes a change", COMPARE),
     bind(Action::Sort, "sort", &["o"], "sort", "sort by the next column", COMPARE),
     bind(Action::Reverse, "reverse", &["O"], "", "turn the sorting round", COMPARE),
     bind(
@@ -210,7 +223,6 @@ pub const BINDINGS: &[Binding] = &[
         "show differences from the selected option",
         COMPARE,
     ),
-    bind(Action::Why, "why", &["w"], "why", "what would make the option pass; Enter makes a change", COMPARE),
     bind(Action::Finer, "finer", &["+", "="], "finer", "finer accuracy: draft, field, reference", ALL),
     bind(Action::Coarser, "coarser", &["-"], "coarser", "coarser accuracy", ALL),
     bind(Action::Rerun, "rerun", &["r"], "", "compute again", ALL),
