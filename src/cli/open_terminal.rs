@@ -94,7 +94,7 @@ fn screen(config: &Config, look: &LookArguments) -> tui::ScreenStyle {
 }
 
 fn show(
-    app: App,
+    mut app: App,
     file: Option<&Path>,
     config: &Config,
     compute: &ComputeArguments,
@@ -102,6 +102,7 @@ fn show(
 ) -> io::Result<Status> {
     let threads = compute.threads.unwrap_or(0).into();
     let jobs = Jobs::new(threads);
+    app.threads = jobs.threads();
     tui::run(app, jobs, screen(config, look), file).map(|exit| status(&exit))
 }
 

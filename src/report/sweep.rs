@@ -120,6 +120,7 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
     let sampled: Vec<&Point> = sweep.points.iter().filter(|point| point.is_sampled()).collect();
     let has_risk = sweep.has_risk();
     let mut lines = recommended(sweep, has_risk);
+    lines.extend(why_not(case, sweep));
     if has_risk {
         let risk = format!("{} %", case.plan.limits.accepted_risk_percent);
         let accepted: Vec<&&Point> = sampled.iter().filter(|point| point.is_accepted()).collect();
@@ -194,6 +195,34 @@ fn recommended(sweep: &Sweep, has_risk: bool) -> Vec<String> {
         lines.push(format!("{none} pass their full verdict: {}", sweep.failed_full_verdict));
     }
     lines
+}
+
+/// Why the intervals of the plan that pass are not the recommended one, a sentence each: Compare may recommend one of them.
+fn why_not(case: &Case, sweep: &Sweep) -> Vec<String> {
+    let Some(best) = sweep.recommended else { return Vec::new() };
+    let of_plan = case.intervals();
+    let others = sweep.points.iter().filter(|point| {
+        point.interval != best.interval
+            && of_plan.contains(&point.interval)
+            && point.planned.verdict == Verdict::Pass
+    });
+    let sentence = |point: &Point| {
+        let name = units::exact_milliseconds(point.interval);
+        let window = sweep.windows.iter().find(|[from, to]| (*from..=*to).contains(&point.interval));
+        match window {
+            Some([from, to]) => {
+                let room = (point.interval - from).min(to - point.interval);
+                format!(
+                    "why not {name} of the plan: it has {} of room to where shots fail, {} has {}; Compare chooses among the plan's options alone, the one that fails least",
+                    units::exact_milliseconds(rounded_down(room)),
+                    units::exact_milliseconds(best.interval),
+                    units::exact_milliseconds(rounded_down(best.room)),
+                )
+            }
+            None => format!("why not {name} of the plan: it lies in no window worth a check"),
+        }
+    };
+    others.map(sentence).collect()
 }
 
 fn wide(windows: &[[f64; 2]]) -> Vec<[f64; 2]> {

@@ -35,6 +35,7 @@ pub mod recovery;
 pub mod screen;
 pub mod start;
 pub mod studies;
+pub mod study_answer;
 pub mod theme;
 pub mod view;
 

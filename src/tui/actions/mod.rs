@@ -77,7 +77,10 @@ impl App {
                 return self.select_field(field as isize - self.editor.selected as isize);
             }
             ClickTarget::Lines(_) => {}
-            ClickTarget::Study(kind) => self.studies.show(kind),
+            ClickTarget::Study(kind) if kind == self.studies.shown && !self.studies.open => {
+                return self.act(Action::Open);
+            }
+            ClickTarget::Study(kind) => self.studies.select(kind),
             ClickTarget::Offer(n) if n == self.studies.selected => return self.act(Action::Open),
             ClickTarget::Offer(n) => self.studies.selected = n,
             ClickTarget::Time(end) => {
@@ -177,6 +180,8 @@ impl App {
             return self.cancel_study(kind);
         } else if self.screen == Screen::Compare && self.studies.remedy_list.take().is_some() {
             return Request::None;
+        } else if self.screen == Screen::Studies && self.studies.open {
+            self.studies.open = false;
         } else if !self.listing.filter.is_empty() || !self.studies.filter.is_empty() {
             self.listing.filter.clear();
             self.studies.filter.clear();
