@@ -54,7 +54,7 @@ pub fn start(compute: &ComputeArguments, look: &LookArguments) -> io::Result<Sta
         Err(exit) => return Ok(status(&exit)),
         Ok(Opened::File(path)) => return self::plan(&path, compute, look),
         Ok(Opened::Example(name, text)) => (name, text.to_owned(), true),
-        Ok(Opened::New(text)) => ("new plan", text, false),
+        Ok(Opened::New(text)) => (tui::NEW_PLAN, text, false),
     };
     match Case::parse(PlanSource { path: name.to_owned(), text }) {
         Ok(case) => {

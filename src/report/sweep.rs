@@ -120,7 +120,6 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
     let sampled: Vec<&Point> = sweep.points.iter().filter(|point| point.is_sampled()).collect();
     let has_risk = sweep.has_risk();
     let mut lines = recommended(sweep, has_risk);
-    lines.extend(why_not(case, sweep));
     if has_risk {
         let risk = format!("{} %", case.plan.limits.accepted_risk_percent);
         let accepted: Vec<&&Point> = sampled.iter().filter(|point| point.is_accepted()).collect();
@@ -159,6 +158,7 @@ fn windows(case: &Case, sweep: &Sweep, partial: bool) -> Vec<String> {
     if !has_risk {
         lines.push("judged: the shots as planned only, nothing varied".to_owned());
     }
+    lines.extend(why_not(case, sweep));
     lines
 }
 
@@ -197,32 +197,28 @@ fn recommended(sweep: &Sweep, has_risk: bool) -> Vec<String> {
     lines
 }
 
-/// Why the intervals of the plan that pass are not the recommended one, a sentence each: Compare may recommend one of them.
-fn why_not(case: &Case, sweep: &Sweep) -> Vec<String> {
-    let Some(best) = sweep.recommended else { return Vec::new() };
+/// Why the intervals of the plan that pass as planned are not the recommended one: Compare may recommend one of them.
+fn why_not(case: &Case, sweep: &Sweep) -> Option<String> {
+    let best = sweep.recommended?;
     let of_plan = case.intervals();
-    let others = sweep.points.iter().filter(|point| {
-        point.interval != best.interval
-            && of_plan.contains(&point.interval)
-            && point.planned.verdict == Verdict::Pass
-    });
-    let sentence = |point: &Point| {
-        let name = units::exact_milliseconds(point.interval);
-        let window = sweep.windows.iter().find(|[from, to]| (*from..=*to).contains(&point.interval));
-        match window {
-            Some([from, to]) => {
-                let room = (point.interval - from).min(to - point.interval);
-                format!(
-                    "why not {name} of the plan: it has {} of room to where shots fail, {} has {}; Compare chooses among the plan's options alone, the one that fails least",
-                    units::exact_milliseconds(rounded_down(room)),
-                    units::exact_milliseconds(best.interval),
-                    units::exact_milliseconds(rounded_down(best.room)),
-                )
-            }
-            None => format!("why not {name} of the plan: it lies in no window worth a check"),
-        }
+    let is_other = |point: &&Point| {
+        let passes = point.planned.verdict == Verdict::Pass;
+        passes && point.interval != best.interval && of_plan.contains(&point.interval)
     };
-    others.map(sentence).collect()
+    let room = |point: &Point| {
+        let around = sweep.windows.iter().find(|[from, to]| (*from..=*to).contains(&point.interval));
+        let room = around.map_or(0.0, |[from, to]| (point.interval - from).min(to - point.interval));
+        let [name, room] = [point.interval, rounded_down(room)].map(units::exact_milliseconds);
+        format!("{name} has {room}")
+    };
+    let others: Vec<String> = sweep.points.iter().filter(is_other).map(room).collect();
+    let own = units::exact_milliseconds(rounded_down(best.room));
+    (!others.is_empty()).then(|| {
+        format!(
+            "why no interval of the plan: of room to where a window ends {}, the recommended one {own}; Compare chooses among the plan's options alone, the one that fails least",
+            others.join(", ")
+        )
+    })
 }
 
 fn wide(windows: &[[f64; 2]]) -> Vec<[f64; 2]> {

@@ -70,7 +70,7 @@ struct Shares {
     duds: f64,
 }
 
-const SHARES: Shares = Shares { judging: 0.6, margins: 0.3, duds: 0.5 };
+const SHARES: Shares = Shares { judging: 0.5, margins: 0.25, duds: 0.5 };
 
 fn judge_with_margins(
     cases: &[(&Case, ComputeSettings)],

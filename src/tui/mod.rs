@@ -47,6 +47,7 @@ use std::time::{Duration, Instant};
 use crossterm::clipboard::CopyToClipboard;
 use crossterm::{ExecutableCommand, event};
 
+pub use self::actions::NEW_PLAN;
 pub use self::actions::dispatch::dispatch;
 use self::app::{App, Areas, Request};
 use self::config::Config;

@@ -34,7 +34,7 @@ const FIRST_OF_ALL: usize = 16;
 const MOST_REPORTED: usize = 10;
 /// Shares of what is left that looking for schedules takes, where not all are tried, and screening those that were found.
 const SHARE_OF_EXPLORING: f64 = 0.4;
-const SHARE_OF_SCREENING: f64 = 0.5;
+const SHARE_OF_SCREENING: f64 = 0.2;
 /// Schedules with a full verdict.
 const JUDGED_IN_FULL: usize = 12;
 /// A schedule with fewer samples is left out of the front of risk against duration.

@@ -173,7 +173,7 @@ struct SizingTask<'q> {
 }
 
 /// Share of sizing with samples that the shots as planned take.
-const SHARE_AS_PLANNED: f64 = 0.4;
+const SHARE_AS_PLANNED: f64 = 0.3;
 
 /// The part of the work that one of `left` like ones takes; one less is left.
 fn next_part<'q>(task: &SizingTask<'q>, left: &mut usize) -> Part<'q> {

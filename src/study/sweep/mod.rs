@@ -110,7 +110,7 @@ const MOST_SAMPLED_GAP: f64 = 1e-3;
 pub const DEFAULT_INTERVALS: Intervals = Intervals { from: 0.0, to: 0.5, step: GAP };
 
 /// Share of a sweep with samples that the shots as planned take, and shares of what is left of it that its rounds take.
-const SHARE_AS_PLANNED: f64 = 0.35;
+const SHARE_AS_PLANNED: f64 = 0.15;
 const SHARE_OF_FIRST_ROUND: f64 = 0.7;
 const SHARE_OF_ROUND: f64 = 0.4;
 

@@ -27,6 +27,10 @@ pub enum Action {
     Left,
     /// Go right, or a step up.
     Right,
+    /// Set the interval to the common delay time below.
+    CommonBelow,
+    /// Set the interval to the common delay time above.
+    CommonAbove,
     /// Open, edit or start the selected thing.
     Open,
     /// Compute everything again.
@@ -143,6 +147,8 @@ const ALL: &[Screen] = &[];
 
 const COMPARE: &[Screen] = &[Screen::Compare];
 
+const PLAN: &[Screen] = &[Screen::Plan];
+
 const OPTIONS: &[Screen] = &[Screen::Plan, Screen::Compare];
 
 const FLIGHT: &[Screen] = &[Screen::Flight];
@@ -171,6 +177,22 @@ pub const BINDINGS: &[Binding] = &[
     ),
     bind(Action::Left, "left", &["left", "h"], "", "smaller value, study before, back in time", SIDEWAYS),
     bind(Action::Right, "right", &["right", "l"], "step", "larger value, next study, on in time", SIDEWAYS),
+    bind(
+        Action::CommonAbove,
+        "common-above",
+        &["shift-right"],
+        "common ms",
+        "interval: the next common delay time, as 17, 25, 42",
+        PLAN,
+    ),
+    bind(
+        Action::CommonBelow,
+        "common-below",
+        &["shift-left"],
+        "",
+        "interval: the common delay time before",
+        PLAN,
+    ),
     bind(Action::Cancel, "cancel", &["x"], "cancel", "end what computes here", ASKED),
     bind(
         Action::UseEstimates,

@@ -5,13 +5,30 @@ use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Clear, List, ListState};
 
+use crate::plan::DelayOption;
 use crate::plan::edit::fields::EditField;
+use crate::plan::keys::{limits, plan};
+use crate::report::words::option_sentences::firing_times;
 use crate::ropes::catalogue;
+use crate::study::Case;
+use crate::study::judgement::Judgement;
 use crate::tui::app::{App, Areas, ClickTarget};
 use crate::tui::keymap::Action;
 use crate::tui::name_list::NameList;
 use crate::tui::order_editor::OrderEditor;
+use crate::tui::theme;
 
+/// Labels in a line of a group, where they are shorter.
+const SHORT: [(&str, &str); 6] = [
+    ("limit of flight height", "height"),
+    ("cable safety factor", "safety"),
+    ("tire mass", "mass"),
+    ("outer diameter", "diameter"),
+    ("shelter rows", "rows"),
+    ("shelter columns", "columns"),
+];
+/// Width of the name of a group.
+const GROUP: usize = 13;
 /// Most names of a list shown at once.
 const MOST_NAMES: u16 = 12;
 
@@ -25,13 +42,19 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         .title(Span::styled(title, app.theme.title()));
     let width = editor.fields.iter().map(|field| field.label.chars().count()).max().unwrap_or(0);
     let width = width.min(usize::from(area.width) / 2);
-    // A line for each value, and one for each heading: no index.
+    // A line for each group; of the group of the selected value a heading, which has no index, and a line for each value.
     let mut lines: Vec<(Option<usize>, Line<'_>)> = Vec::new();
-    for (n, field) in editor.fields.iter().enumerate() {
-        if n == 0 || editor.fields[n - 1].group != field.group {
-            lines.push((None, Line::styled(field.group.as_str(), app.theme.title())));
+    let mut first = 0;
+    for group in editor.fields.chunk_by(|a, b| a.group == b.group) {
+        let numbers = first..first + group.len();
+        if numbers.contains(&editor.selected) {
+            lines.push((None, Line::styled(group[0].group.as_str(), app.theme.title())));
+            let values = numbers.zip(group).map(|(n, field)| (Some(n), value_line(app, n, field, width)));
+            lines.extend(values);
+        } else {
+            lines.push((Some(editor.place_in_group(first)), group_line(app, group, usize::from(area.width))));
         }
-        lines.push((Some(n), value_line(app, n, field, width)));
+        first += group.len();
     }
     let selected = lines.iter().position(|(n, _)| *n == Some(editor.selected));
     let inside = block.inner(area);
@@ -56,6 +79,83 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
         if let Some(names) = &editor.names {
             draw_names(app, names, frame, row);
         }
+    }
+}
+
+/// A group in one line: a delay option with its verdict, or the values that the plan states.
+fn group_line<'l>(app: &App, group: &[EditField], width: usize) -> Line<'l> {
+    let heading = &group[0].group;
+    let mark = if group.iter().any(|field| app.editor.is_changed(field)) { "*" } else { " " };
+    let option = group[0].path.index.filter(|_| group[0].path.section == plan::DELAY.name);
+    let (name, verdict, values) =
+        match option.and_then(|option| Some((option, app.case.plan.delays.get(option)?))) {
+            Some((option, delay)) => {
+                let verdict = app.judgement(option).map(Judgement::verdict);
+                (
+                    delay.name.clone(),
+                    verdict,
+                    format!("{}  {}", firing_times(delay).replace('/', " "), order(&app.case, delay)),
+                )
+            }
+            None => (heading.clone(), None, fitting(&in_short(group), width.saturating_sub(GROUP + 4))),
+        };
+    let name = format!("{:GROUP$}", super::compare::cut(&name, GROUP));
+    let (sign, style) = match verdict {
+        Some(verdict) => (theme::mark(verdict), app.theme.verdict(verdict)),
+        None => (" ", app.theme.base()),
+    };
+    let name_style = if option.is_some() { app.theme.base() } else { app.theme.title() };
+    Line::from(vec![
+        Span::styled(mark, app.theme.limit()),
+        Span::styled(name, name_style),
+        Span::styled(format!(" {sign} "), style),
+        Span::styled(values, app.theme.muted()),
+    ])
+}
+
+/// The blast rows from the first to the last that fires: `1-2-3`, `1+2-3` where two fire together.
+fn order(case: &Case, delay: &DelayOption) -> String {
+    let times = delay.timing.fire_at_ms();
+    let mut rows: Vec<usize> = (0..times.len()).collect();
+    rows.sort_by(|&a, &b| times[a].total_cmp(&times[b]));
+    let name = |row: usize| case.plan.blast_rows[row].name.as_str();
+    let mut order = rows.first().map_or_else(String::new, |&row| name(row).to_owned());
+    for pair in rows.windows(2) {
+        let sign = if times[pair[0]] == times[pair[1]] { '+' } else { '-' };
+        order.push(sign);
+        order += name(pair[1]);
+    }
+    order
+}
+
+/// As many of the values as have room, with a cue for more.
+fn fitting(values: &[String], width: usize) -> String {
+    let joined = |count: usize| {
+        let more = if count < values.len() { " …" } else { "" };
+        format!("{}{more}", values[..count].join(" · "))
+    };
+    let fits = (1..=values.len()).rev().map(joined).find(|line| Span::raw(line).width() <= width);
+    fits.unwrap_or_else(|| super::compare::cut(&joined(values.len().min(1)), width))
+}
+
+/// The values that a group states, each with its label; of the limits also that the slide is not judged.
+fn in_short(group: &[EditField]) -> Vec<String> {
+    let stated = group.iter().filter(|field| !field.value.is_empty());
+    let value = |field: &EditField| {
+        let (label, unit) = field.label.split_once(", ").unwrap_or((field.label, ""));
+        let short = SHORT.iter().find(|(long, _)| *long == label).map_or(label, |(_, short)| short);
+        let label = short.strip_prefix("limit of ").unwrap_or(short);
+        format!("{label} {} {unit}", field.value.trim_matches('"')).trim_end().to_owned()
+    };
+    let values = stated.map(value);
+    let section = group[0].path.section;
+    let is_drift = |field: &&EditField| field.path.key.name == limits::DRIFT_M.name && field.value.is_empty();
+    let unjudged = group.iter().find(is_drift).map(|_| "slide not judged".to_owned());
+    let values: Vec<String> = unjudged.into_iter().chain(values).collect();
+    match values.is_empty() {
+        true if section == plan::UNCERTAINTY.name => vec!["all of it ASSUMED".to_owned()],
+        true => vec!["as by default".to_owned()],
+        false => values,
     }
 }
 
