@@ -13,7 +13,7 @@ use crate::study::{Case, assumptions, effects, orders, search};
 /// Samples that a full verdict with its fresh draws usually takes.
 const OF_VERDICT: usize = 1200;
 /// Runs of a sweep before its verdicts: as planned, and the first look at the intervals that pass.
-const OF_SWEEP: usize = 10_000;
+const OF_SWEEP: usize = 20_000;
 /// Samples that a schedule of a search takes on average.
 const OF_SCHEDULE: usize = 40;
 /// Schedules that a search judges in full.

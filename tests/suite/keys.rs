@@ -623,3 +623,22 @@ fn the_plan_has_a_line_for_each_option() {
     assert_eq!((field.path.index, field.path.key.name), (Some(1), "interval_ms"));
     assert_eq!(app.selected, 1);
 }
+
+/// A page is offered while other options compute; its name says that more is to come, and a plan in no file gives its title.
+#[test]
+fn a_page_does_not_wait_for_other_options() {
+    let mut app = finished();
+    app.options[6] = OptionState::Waiting;
+    app.selected = 0;
+    let Request::NamePage(name) = press(&mut app, "P") else { panic!("a page is offered") };
+    assert!(name.ends_with("-all-at-once-fails"), "{name}");
+    let mut case = (*app.case).clone();
+    case.source.path = shelter::tui::NEW_PLAN.to_owned();
+    app.case = std::sync::Arc::new(case);
+    app.selected = 2;
+    app.options[2] = app.options[1].clone();
+    let Request::NamePage(name) = press(&mut app, "P") else { panic!("a page is offered") };
+    assert_eq!(name, "Three-rows-village-side-ballasted-20-ms-open-so-far");
+    app.selected = 6;
+    assert_eq!(press(&mut app, "P"), Request::None, "no result yet");
+}

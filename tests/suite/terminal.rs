@@ -379,7 +379,7 @@ fn a_walk_through_everything() {
     watched.press("5\r");
     watched.until("times draft");
     watched.press("1");
-    watched.until("limit of flight height");
+    watched.until("hole interval, ms");
     watched.press("/rope\r");
     watched.press("\x1b[C");
     watched.until("GOST 2688-80 15");

@@ -131,6 +131,9 @@ pub fn sweep(
     let trying = control.part(if sampling.is_some() { SHARE_AS_PLANNED } else { 1.0 });
     let as_planned = sweep_as_planned(case, order, intervals, compute, control)?;
     drop(trying);
+    if let Some(deepest) = as_planned.value.recommended {
+        control.note_best(format!("{} ms as planned", nanoseconds(deepest.interval) as f64 / 1e6));
+    }
     let Some(sampling) = sampling else { return Ok(as_planned) };
     let planned = plan_intervals(case, order).into_iter().map(nanoseconds).collect();
     accepted::add_risk(case, as_planned, &planned, sampling, compute, control)

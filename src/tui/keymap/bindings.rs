@@ -118,7 +118,7 @@ impl Binding {
             (Action::Open, Screen::Plan) => "edit",
             (Action::Open, Screen::Compare) => "enlarge",
             (Action::Open, Screen::Flight) => "back",
-            (Action::Open, Screen::Studies) => "start, use",
+            (Action::Open, Screen::Studies) => "start, show",
             (Action::Open, Screen::Accuracy) => "start",
             (Action::Right, Screen::Flight) => "on",
             (Action::Right, Screen::Studies) => "next",

@@ -6,7 +6,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Clear, List, ListState};
 
 use crate::plan::DelayOption;
-use crate::plan::edit::fields::EditField;
+use crate::plan::edit::fields::{EditField, Path};
 use crate::plan::keys::{limits, plan};
 use crate::report::words::option_sentences::firing_times;
 use crate::ropes::catalogue;
@@ -17,6 +17,8 @@ use crate::tui::keymap::Action;
 use crate::tui::name_list::NameList;
 use crate::tui::order_editor::OrderEditor;
 use crate::tui::theme;
+use crate::verdict::Verdict;
+use unicode_width::UnicodeWidthStr;
 
 /// Labels in a line of a group, where they are shorter.
 const SHORT: [(&str, &str); 6] = [
@@ -27,8 +29,9 @@ const SHORT: [(&str, &str); 6] = [
     ("shelter rows", "rows"),
     ("shelter columns", "columns"),
 ];
-/// Width of the name of a group.
-const GROUP: usize = 13;
+/// Width of the name of an option, and of another group.
+const OPTION: usize = 13;
+const GROUP: usize = 8;
 /// Most names of a list shown at once.
 const MOST_NAMES: u16 = 12;
 
@@ -82,34 +85,36 @@ pub fn draw(app: &App, frame: &mut Frame, area: Rect, areas: &mut Areas) {
     }
 }
 
-/// A group in one line: a delay option with its verdict, or the values that the plan states.
+/// A group in one line: the values that the plan states.
 fn group_line<'l>(app: &App, group: &[EditField], width: usize) -> Line<'l> {
-    let heading = &group[0].group;
+    let Path { section, index, .. } = group[0].path;
     let mark = if group.iter().any(|field| app.editor.is_changed(field)) { "*" } else { " " };
-    let option = group[0].path.index.filter(|_| group[0].path.section == plan::DELAY.name);
-    let (name, verdict, values) =
-        match option.and_then(|option| Some((option, app.case.plan.delays.get(option)?))) {
-            Some((option, delay)) => {
-                let verdict = app.judgement(option).map(Judgement::verdict);
-                (
-                    delay.name.clone(),
-                    verdict,
-                    format!("{}  {}", firing_times(delay).replace('/', " "), order(&app.case, delay)),
-                )
-            }
-            None => (heading.clone(), None, fitting(&in_short(group), width.saturating_sub(GROUP + 4))),
-        };
-    let name = format!("{:GROUP$}", super::compare::cut(&name, GROUP));
+    let mark = Span::styled(mark, app.theme.limit());
+    let option = index.filter(|_| section == plan::DELAY.name);
+    if let Some((option, delay)) = option.and_then(|n| Some((n, app.case.plan.delays.get(n)?))) {
+        return option_line(app, option, delay, mark);
+    }
+    let name = format!("{:GROUP$} ", group[0].group);
+    let values = fitting(&in_short(group), width.saturating_sub(1 + name.width()));
+    Line::from(vec![mark, Span::styled(name, app.theme.title()), Span::styled(values, app.theme.muted())])
+}
+
+/// A delay option in one line: its name, the sign of its verdict, its firing times and the order of its rows.
+fn option_line<'l>(app: &App, option: usize, delay: &DelayOption, mark: Span<'l>) -> Line<'l> {
+    let verdict = app.judgement(option).map(Judgement::verdict);
+    let is_contradicted = !app.contradiction().is_empty();
     let (sign, style) = match verdict {
+        Some(Verdict::Pass) if is_contradicted => ("!", app.theme.limit()),
         Some(verdict) => (theme::mark(verdict), app.theme.verdict(verdict)),
-        None => (" ", app.theme.base()),
+        None => ("…", app.theme.muted()),
     };
-    let name_style = if option.is_some() { app.theme.base() } else { app.theme.title() };
+    let name = format!("{:OPTION$}", super::compare::cut(&delay.name, OPTION));
+    let times = format!("{}  {}", firing_times(delay).replace('/', " "), order(&app.case, delay));
     Line::from(vec![
-        Span::styled(mark, app.theme.limit()),
-        Span::styled(name, name_style),
+        mark,
+        Span::styled(name, app.theme.base()),
         Span::styled(format!(" {sign} "), style),
-        Span::styled(values, app.theme.muted()),
+        Span::styled(times, app.theme.muted()),
     ])
 }
 
@@ -132,13 +137,13 @@ fn order(case: &Case, delay: &DelayOption) -> String {
 fn fitting(values: &[String], width: usize) -> String {
     let joined = |count: usize| {
         let more = if count < values.len() { " …" } else { "" };
-        format!("{}{more}", values[..count].join(" · "))
+        format!("{}{more}", values[..count].join(", "))
     };
     let fits = (1..=values.len()).rev().map(joined).find(|line| Span::raw(line).width() <= width);
     fits.unwrap_or_else(|| super::compare::cut(&joined(values.len().min(1)), width))
 }
 
-/// The values that a group states, each with its label; of the limits also that the slide is not judged.
+/// The values that a group states, each with its label; of the limits first that the slide has none.
 fn in_short(group: &[EditField]) -> Vec<String> {
     let stated = group.iter().filter(|field| !field.value.is_empty());
     let value = |field: &EditField| {
@@ -150,7 +155,7 @@ fn in_short(group: &[EditField]) -> Vec<String> {
     let values = stated.map(value);
     let section = group[0].path.section;
     let is_drift = |field: &&EditField| field.path.key.name == limits::DRIFT_M.name && field.value.is_empty();
-    let unjudged = group.iter().find(is_drift).map(|_| "slide not judged".to_owned());
+    let unjudged = group.iter().find(is_drift).map(|_| "slide —".to_owned());
     let values: Vec<String> = unjudged.into_iter().chain(values).collect();
     match values.is_empty() {
         true if section == plan::UNCERTAINTY.name => vec!["all of it ASSUMED".to_owned()],
