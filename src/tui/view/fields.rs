@@ -31,7 +31,7 @@ const SHORT: [(&str, &str); 6] = [
 ];
 /// Width of the name of an option, and of another group.
 const OPTION: usize = 13;
-const GROUP: usize = 8;
+const GROUP: usize = 7;
 /// Most names of a list shown at once.
 const MOST_NAMES: u16 = 12;
 
